@@ -17,6 +17,7 @@ struct MasterCurve {
   std::vector<ShiftFactor> free_factors;  // one free value for each temperature
   std::string form;                       // of the factors taken: arrhenius, wlf, smooth or free
   bool has_vertical_shift = false;        // ShiftFactor::ln_b
+  // Relative rms of the residuals with the factors taken and with the free ones, equal terms.
   double residual = 0.0, free_residual = 0.0;  // relative rms, taken and free, equal terms
   std::vector<std::string> left_out;           // isotherms with the reason
   ShiftLaws laws;

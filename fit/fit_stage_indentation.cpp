@@ -1,5 +1,6 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/spectral_fit.h"
+#include "fit/assembly/stage_specimen.h"
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/stage_model.h"
 #include "fit/fit_indentation.h"
@@ -7,7 +8,6 @@
 #include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
-#include "models/material/retardation_spectrum.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -214,7 +214,6 @@ Preparation prepared(const IndentationData& data, const FitOptions& options) {
 }
 
 ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options) {
-  const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
   const Preparation prepared_for = prepared(data, options);
   const StageModel model(data, prepared_for.start, prepared_for.noise, options);
   const SpectralFit fit =
@@ -224,18 +223,8 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   FitResult& result = out.result;
   result.kind = FitKind::kIndentation;
   result.is_stiffness = !data.contact;
-  const SeriesFromState stage_series = relaxation_series_of(model, options.is_liquid);
-  const auto series_from_state = [&](const SpectralState& state) {
-    PronySeries series = specimen_series(stage_series(state), data.frame_stiffness_N_m);
-    series.equilibrium_modulus_Pa /= factor_m;
-    for (MaxwellTerm& term : series.terms) term.modulus_Pa /= factor_m;
-    return series;
-  };
-  fill_result(model, fit, series_from_state, result);
-  const double share = data.frame_stiffness_N_m > 0.0
-                           ? factor_m * result.E0_Pa / data.frame_stiffness_N_m
-                           : 0.0;  // stiffness of the specimen over that of the frame
-  result.gain_drift_relative = (1.0 + share) * gain_drift_relative_u(model, fit, data);
+  fill_result(model, fit, specimen_series_of(model, data, options.is_liquid), result);
+  result.gain_drift_relative = gain_drift_of_moduli(model, fit, data, result.E0_Pa);
   add_common_uncertainty(result.gain_drift_relative, result);
   result.noise.sigma = prepared_for.noise.resting_N;
   result.contact_position_m = fit.state.nuisance[contact_nuisance(data)];
@@ -276,20 +265,6 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
   }
   add_left_out(fit.result, left_out::kLifted, data.time_s.size() - kept.time_s.size());
   return fit.result;
-}
-
-PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_stiffness_N_m) {
-  if (!(frame_stiffness_N_m > 0.0)) return stage_series_N_m;
-  RetardationSpectrum compliance = retardation_from_relaxation(stage_series_N_m);
-  compliance.instantaneous_compliance_1_Pa -= 1.0 / frame_stiffness_N_m;
-  if (!(compliance.instantaneous_compliance_1_Pa > 0.0)) {
-    throw std::runtime_error("the frame stiffness of " + text_of(frame_stiffness_N_m) +
-                             " N/m is below the measured stiffness (" +
-                             text_of(instantaneous_modulus_Pa(stage_series_N_m)) +
-                             " N/m): nothing is left for the specimen. Measure it again: viscard "
-                             "calibrate --compliance");
-  }
-  return relaxation_from_retardation(compliance);
 }
 
 }  // namespace viscard

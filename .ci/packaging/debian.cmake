@@ -59,6 +59,7 @@ if(TARGET viscard_python)
     "${about}\n.\nThis package has the Python module, whose arrays are those of numpy.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "viscard")  # the files of its examples
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, viscard-doc")
 endif()
 include(CPack)

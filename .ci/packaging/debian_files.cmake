@@ -40,6 +40,11 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   foreach(page ${pages})
     run(sed -i "s# data/# /usr/share/viscard/#g" ${page})  # examples name files of the source tree
   endforeach()
+  # Of docstrings too.
+  file(GLOB pages ${root}/usr/lib/python3/dist-packages/viscard/*.py)
+  foreach(page ${pages})
+    run(sed -i "s#\\([\"'=]\\)data/#\\1/usr/share/viscard/#g" ${page})
+  endforeach()
   file(GLOB pages ${root}/usr/share/man/man*/*.[1-9] ${doc}/changelog ${doc}/changelog.Debian)
   foreach(page ${pages})
     run(gzip -9n ${page})

@@ -6,6 +6,8 @@ set(VISCARD_DOORS
     io/materials/material_file.h io/basics/atomic_file.h                            # material files
     io/flow/predict_file.h models/pillar/validate_material.h                        # what a material does
     io/flow/card_material.h io/cards/card.h io/cards/targets/card_targets.h         # solver cards
+    io/flow/large_strain/large_strain_words.h io/materials/hyperelastic_file.h      # tests at large strain
+    io/cards/hyperelastic/rubber_file_card.h                                        # and cards of their laws
     io/scenes/scene_file.h models/scene/plan.h models/scene/simulate.h              # scenes
     io/cost/study_cost.h)
 

@@ -14,6 +14,8 @@ target_link_options(viscard PRIVATE -Wl,-z,relro -Wl,-z,now)
 foreach(folder demo materials protocols scenes)
   install(DIRECTORY data/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime)
 endforeach()
+install(DIRECTORY data/reference DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime
+        FILES_MATCHING PATTERN "treloar_*.csv")  # tests at large strain, of the examples in Python
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY data/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT runtime)
 install(DIRECTORY io/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime

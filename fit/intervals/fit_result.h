@@ -28,6 +28,7 @@ struct FittedTerm {
   Interval modulus_Pa_95, g_95, tau_s_95;
 };
 
+// Noise of one sample about the fit.
 struct NoiseEstimate {
   double sigma = 0.0;      // standard deviation of one sample, in the unit of the fitted column
   double inflation = 1.0;  // variance factor for autocorrelation and misfit
@@ -72,7 +73,7 @@ struct TwoPointModulus {
 struct FitEvidence {
   double rss = 0.0;        // weighted
   double n_samples = 0.0;  // rows of the fit; storage and loss count as two
-  double inflation = 1.0;
+  double inflation = 1.0;  // variance factor, as in NoiseEstimate
   int n_parameters = 0;
 };
 
@@ -80,8 +81,8 @@ struct FitEvidence {
 struct FitCurves {
   std::vector<double> time_s;    // frequency_Hz for kDma
   std::vector<double> measured;  // unit of the fitted column
-  std::vector<double> fitted;
-  std::vector<double> sigma;  // standard deviation of each binned value
+  std::vector<double> fitted;    // the fit at the same times, same unit
+  std::vector<double> sigma;     // standard deviation of each binned value
   // The loss modulus of each row beside the storage modulus; empty for other kinds.
   std::vector<double> loss_measured, loss_fitted, loss_sigma;
   std::string unit;  // "N", "Pa", "1/Pa"
@@ -89,12 +90,16 @@ struct FitCurves {
   // there. Empty: at 0 only. All time_s lie after the first of them.
   std::vector<double> motion_start_s;
 
+  // A value at a time (or frequency), of_fit that of the fit there, deviation its standard deviation, all
+  // in the unit of the column.
   void add(double at, double value, double of_fit, double deviation) {
     time_s.push_back(at);
     measured.push_back(value);
     fitted.push_back(of_fit);
     sigma.push_back(deviation);
   }
+  // The loss modulus beside the storage modulus that add() took last: value, of_fit and deviation as
+  // there.
   void add_loss(double value, double of_fit, double deviation) {
     loss_measured.push_back(value);
     loss_fitted.push_back(of_fit);
@@ -113,7 +118,7 @@ struct LeftOutRows {
 struct ProfileCurve {
   std::string parameter;      // "E_inf", "ln_tau_1" ...
   std::vector<double> value;  // ascending; Pa, or ln s
-  std::vector<double> rise;
+  std::vector<double> rise;   // at each value; a pure number
   Interval interval_95;
 };
 
@@ -129,7 +134,7 @@ struct FittedTest {
   double from_s = 0.0, to_s = 0.0;
   // Its values over those of the material: free for a stiffness, uncertain where the geometry is.
   bool has_scale = false;
-  double scale = 1.0;
+  double scale = 1.0;  // a pure number
   Interval scale_95;
   // Its own fit, without the other tests.
   int own_terms = 0;
@@ -140,7 +145,7 @@ struct FittedTest {
   // its values, the largest departure in its window, and the probability of so much by chance.
   double difference = 0.0, worst = 0.0;
   Interval difference_95;
-  double p_value = 1.0;
+  double p_value = 1.0;    // that probability
   int freedom = 0;         // of the test; 0: nothing to compare it with
   bool disagrees = false;  // by more than chance and 0.5 %
   FitCurves curves;
@@ -148,6 +153,7 @@ struct FittedTest {
 
 struct KeptRows;
 
+// What a fit of one kind of test gives. Moduli are in Pa, or stiffnesses in N/m if is_stiffness.
 struct FitResult {
   FitKind kind = FitKind::kIndentation;
   bool is_stiffness = false;
@@ -181,7 +187,7 @@ struct FitResult {
   std::optional<double> contact_position_m;
   // True speed of the stage over the commanded one, for captures. The errors above include its own.
   std::optional<double> stage_speed;
-  double stage_speed_se = 0.0;
+  double stage_speed_se = 0.0;  // standard error, a pure number too
   // Viscosity of a dashpot in parallel to the series, for kDma: relaxation far faster than the
   // measured frequencies. E0 and the terms do not contain it.
   std::optional<double> dashpot_Pa_s;

@@ -13,6 +13,7 @@ namespace viscard {
 // One parameter of a law; the name has the unit: "tau_s", "c_Pa_s_alpha".
 struct LawParameter {
   std::string name;
+  // Value and standard error, in the unit that the name states.
   double value = 0.0, se = 0.0;
   Interval interval_95;  // of times and quasi-moduli symmetric in the logarithm
 };
@@ -31,7 +32,7 @@ struct FittedLaw {
   // series_error (relative) for t_min_s <= t <= t_max_s, and the complex modulus (or compliance) at
   // the angular frequencies 1/t.
   PronySeries series;
-  double series_error = 0.0;
+  double series_error = 0.0;  // relative
   double t_min_s = 0.0, t_max_s = 0.0;
   // Of E_inf, the E_i and the ln tau_i of the series.
   Eigen::MatrixXd series_covariance;

@@ -26,6 +26,7 @@ struct KnownModulus {
   double value_Pa = 0.0, se_Pa = 0.0;
 };
 
+// Which laws are fitted, and how stresses count.
 struct LargeStrainOptions {
   std::vector<HyperelasticForm> forms = hyperelastic_forms();
   StressWeight weight = StressWeight::kEqual;

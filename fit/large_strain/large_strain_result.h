@@ -39,6 +39,7 @@ struct RubberTestSummary {
   double rms_Pa = 0.0;  // of its residuals
 };
 
+// All laws, the chosen one, and what the tests show.
 struct LargeStrainResult {
   std::vector<FittedRubber> laws;  // in the order of the options
   std::size_t chosen = 0;

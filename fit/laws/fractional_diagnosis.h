@@ -14,10 +14,10 @@ namespace viscard {
 //   BIC difference = (chi^2 - chi^2_series)/inflation + (4 - 1 - 2N) ln(n/inflation)
 // It is negative if the fractional model is the better description.
 struct FractionalDiagnosis {
-  FractionalZenerModel model;  // moduli in the unit of the fitted column
-  double chi_square = 0.0;
-  double series_chi_square = 0.0;
-  double bic_difference = 0.0;
+  FractionalZenerModel model;      // moduli in the unit of the fitted column
+  double chi_square = 0.0;         // of the fractional model
+  double series_chi_square = 0.0;  // of the Prony series
+  double bic_difference = 0.0;     // as above
 };
 
 // Returns nothing for tests other than relaxation after a step, and for fewer than five averages.

@@ -7,6 +7,7 @@
 
 namespace viscard {
 
+// Which laws in the mixing ratio are compared.
 struct MixingOptions {
   // Candidate laws: E0 up to this degree, in these variables.
   int max_degree = 2;  // degree 2 needs at least four ratios

@@ -18,6 +18,7 @@ struct ShiftFactor {
   double ln_b_se = 0.0;
 };
 
+// The laws of the shift that the factors of a master curve support.
 struct ShiftLaws {
   std::optional<TemperatureShift> wlf, arrhenius;  // with 95 % intervals; none: not determined
   double wlf_chi2 = 0.0, arrhenius_chi2 = 0.0;     // weighted by the covariance of the factors

@@ -73,6 +73,7 @@ struct MasterData {
 // fit/assembly/constraints.h.
 struct ParameterConstraint {
   std::string name;
+  // Bounds, in the unit of the parameter.
   double low = 0.0, high = 0.0;
 };
 
@@ -86,6 +87,7 @@ enum class TableDrift {
 // Factors on the moduli of the isotherms of a master curve.
 enum class VerticalShift { kAuto, kOff, kOn };
 
+// What a user can choose about a fit; the defaults leave every choice to the data.
 struct FitOptions {
   std::optional<int> n_terms;  // this order instead of a chosen one
   // They need n_terms. Available for relaxation, storage and loss, and tables of indentation.

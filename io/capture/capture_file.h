@@ -21,6 +21,7 @@ namespace viscard {
 //   all records before the last event.
 // The file of an unfinished run can be read as well; its status shows that it is unfinished.
 
+// How a capture file is written.
 struct CaptureOptions {
   bool overwrite = false;
   double commit_interval_s = 0.05;

@@ -65,7 +65,7 @@ struct CardOptions {
 Card write_card(const Material& material, const CardTarget& target,
                 const CardOptions& options = {});
 
-// "exact", "approximated", "dropped".
+// "exact", "approximated" or "dropped", as `mapping` says.
 inline std::string to_word(Mapping mapping) {
   if (mapping == Mapping::kExact) return "exact";
   return mapping == Mapping::kApproximated ? "approximated" : "dropped";

@@ -166,18 +166,22 @@ struct HeaderMatch {
   bool is_same = false;
 };
 
-HeaderMatch match_of(const HeaderLine& wanted, const std::vector<HeaderLine>& found,
+// A key that viscard writes once must say the same wherever it stands.
+HeaderMatch match_of(const HeaderLine& wanted, const std::vector<HeaderLine>& found, bool is_only,
                      bool has_reference) {
   // Columns may have rounded the numbers that were read from the card.
   const double tolerance = has_reference ? 1e-6 : 2e-4;
   HeaderMatch match;
+  int lines = 0, same = 0;
   for (const HeaderLine& one : found) {
     if (one.key != wanted.key) continue;
-    match.line = &one;
-    match.is_same =
-        match.is_same || has_same_words(comparable_text(one, has_reference),
+    const bool is_same = has_same_words(comparable_text(one, has_reference),
                                         comparable_text(wanted, has_reference), tolerance);
+    if (match.line == nullptr || !is_same) match.line = &one;
+    ++lines;
+    same += is_same ? 1 : 0;
   }
+  match.is_same = same > 0 && (!is_only || same == lines);
   return match;
 }
 
@@ -198,7 +202,10 @@ std::vector<CardFinding> compare_headers(const std::vector<HeaderLine>& found,
   for (const HeaderLine& line : wanted) {
     if (!has_reference && !follows_from_card(line.key)) continue;
     if (skips_terms && (line.key == "terms" || line.key == "total")) continue;
-    const HeaderMatch match = match_of(line, found, has_reference);
+    const bool is_only = std::count_if(wanted.begin(), wanted.end(), [&](const HeaderLine& other) {
+                           return other.key == line.key;
+                         }) == 1;
+    const HeaderMatch match = match_of(line, found, is_only, has_reference);
     if (match.is_same) continue;
     const std::string right = "' where viscard writes '" + line.text + "'";
     if (match.line != nullptr && !differs) {

@@ -19,8 +19,8 @@ struct ReadCard;
 
 // A number of a card that states no whole material, with its name for messages.
 struct CardValue {
-  std::string name;  // "E", "row 3: loss modulus"
-  double value = 0.0;
+  std::string name;    // "E", "row 3: loss modulus"
+  double value = 0.0;  // in the unit of the card
 };
 
 // A solver that cards are written for. Four conventions decide whether a card is right: is the
@@ -36,20 +36,24 @@ enum class ElasticForm {
   kPoissonOnly,   // nu; Young's modulus is the sum of the shares of the overlaid materials
 };
 
+// Whether the modulus of a card is that of fast or of slow loading.
 enum class ModulusAt { kInstantaneous, kLongTerm };
 
+// The number by which a card states a branch.
 enum class BranchNumber {
   kRelative,       // g_i, of the instantaneous modulus
   kAbsoluteShear,  // G_i = g_i G_0
   kAbsoluteYoung,  // E_i = g_i E_0, at the Poisson ratio of the whole
 };
 
+// The number by which a card states the time of a branch.
 enum class TimeNumber {
   kTau,
   kBeta,     // 1/tau
   kNortonA,  // 1/(3 G tau), the linear creep law of a Maxwell element
 };
 
+// How a format states the relaxation of the bulk modulus.
 enum class BulkRule {
   kOwnNumbers,       // k_i stand in the card
   kConstantBulk,     // K does not relax

@@ -5,6 +5,7 @@
 #include "io/cards/one_element.h"
 #include "io/cards/unit_system.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,8 @@ struct DeckInput {
   const Card& card;
   const ElementTest& test;
   const UnitSystem& units;
+  // Of the whole model, for a card with a shift; else the reference temperature of the shift.
+  std::optional<double> temperature_C = std::nullopt;
 
   bool is_creep() const { return test.kind == ElementTestKind::kCreep; }
   double time(double time_s) const { return to_card(time_s, units.time_exponent); }

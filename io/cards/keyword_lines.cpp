@@ -81,8 +81,7 @@ void check_single_material(const std::vector<KeywordBlock>& blocks, ReadCard& ca
   for (const KeywordBlock& block : blocks) {
     if (block.keyword.substr(1) != "MATERIAL") continue;
     if (first != nullptr) {
-      card.add("several-materials",
-               at_line(block.line, "a second material begins; check a file with one of them"));
+      card.add_second_material(block.line);
       return;
     }
     first = &block;

@@ -13,12 +13,14 @@ namespace viscard {
 // no branch ever relaxes to zero. All have closed answers.
 enum class ElementTestKind { kRelaxation, kCreep };
 
+// A part of the test with increments of one length.
 struct TimeBlock {
   double end_s = 0.0;
   int increments = 0;  // of equal length
   double load = 1.0;   // at the end of the block, in amplitudes; linear in time within it
 };
 
+// Loads of the test over time.
 struct ElementTest {
   ElementTestKind kind = ElementTestKind::kRelaxation;
   double amplitude = 1e-6;  // strain after the ramp; in creep stress after it over E0
@@ -28,9 +30,10 @@ struct ElementTest {
   double end_s() const { return blocks.back().end_s; }
 };
 
+// From which the test of a material is made.
 struct ElementTestOptions {
   ElementTestKind kind = ElementTestKind::kRelaxation;
-  double amplitude = 1e-6;
+  double amplitude = 1e-6;   // as in ElementTest
   int steps_per_tau = 40;    // in the shortest relaxation time
   double ramp_in_tau = 0.5;  // length of the ramp in the shortest relaxation time
   bool rises = false;        // every block adds the load of the ramp instead of holding it

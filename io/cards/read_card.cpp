@@ -1,5 +1,7 @@
 #include "io/cards/read_card.h"
 
+#include "io/cards/card_lines.h"
+
 #include <stdexcept>
 
 namespace viscard {
@@ -23,6 +25,11 @@ bool has_negative_branch(ReadCard& card) {
 }
 
 }  // namespace
+
+void ReadCard::add_second_material(const CardLine& line) {
+  add("several-materials",
+      at_line(line, "a second material begins; check a file with one of them"));
+}
 
 std::string stated_unit_system(const std::string& text) {
   const std::size_t at = text.find("units: ");

@@ -7,6 +7,8 @@
 
 namespace viscard {
 
+struct CardLine;
+
 // Relative; a number typed by hand may have few digits.
 inline constexpr double kHandTyped = 2e-3;
 
@@ -33,6 +35,8 @@ struct ReadCard {
   void add(const char* finding, const std::string& text, bool is_mistake = true) {
     findings.push_back({finding, text, is_mistake});
   }
+  // Solvers take one of two materials of a file, which one depends on the solver.
+  void add_second_material(const CardLine& line);
 };
 
 // The unit system in "units: mm-t-s (...)" of a header, or "".

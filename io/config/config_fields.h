@@ -49,6 +49,11 @@ class FieldVisitor {
   virtual void quantities(const QuantityField& field, std::vector<double>& values) = 0;
   // A section [key] with the fields that body shows.
   virtual void section(const char* key, const std::function<void(FieldVisitor&)>& body) = 0;
+  // The same, or a word in its place, which leaves the fields as they are.
+  virtual void section_or_word(const char* key, const char* /*word*/,
+                               const std::function<void(FieldVisitor&)>& body) {
+    section(key, body);
+  }
   // A list of sections [[key]]: on reading, resize(n) is called with the number of entries; body
   // shows the fields of entry i.
   virtual void list(const char* key, std::size_t size,

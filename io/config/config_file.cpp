@@ -3,6 +3,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/config_fields.h"
 #include "io/config/config_show.h"
+#include "io/config/performance_file.h"
 #include "io/config/sensible_bounds.h"
 #include "models/experiment/converter.h"
 #include "models/experiment/test_phases.h"
@@ -94,12 +95,19 @@ void check_truth(EmulatedTruth& truth) {
   validate_solid(truth.material);
 }
 
+// The section [performance] is not part of a rig; performance_from_toml() reads it.
+void show_rig_file(FieldVisitor& fields, RigConfig& rig) {
+  show_rig(fields, rig);
+  RigPerformance performance;
+  fields.section("performance", [&](FieldVisitor& inner) { show_performance(inner, performance); });
+}
+
 }  // namespace
 
 RigConfig rig_from_toml(const std::string& text, const std::string& name) {
   RigConfig unset;
   unset.load_cell.volts_per_count = kVoltsPerCount;
-  return config_from_toml<RigConfig>(text, name, unset, show_rig, check_rig);
+  return config_from_toml<RigConfig>(text, name, unset, show_rig_file, check_rig);
 }
 
 TestPlan test_from_toml(const std::string& text, const std::string& name) {

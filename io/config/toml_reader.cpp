@@ -113,6 +113,17 @@ class TomlReader final : public FieldVisitor {
     inner.refuse_unknown_keys();
   }
 
+  void section_or_word(const char* key, const char* word,
+                       const std::function<void(FieldVisitor&)>& body) override {
+    const toml::node* node = find(key, false, "");
+    if (node == nullptr || node->is_table()) return section(key, body);
+    const auto text = node->value<std::string>();
+    if (!node->is_string() || *text != word) {
+      fail(*node, key,
+           std::string("expected \"") + word + "\" or a section [" + prefix_ + key + "]");
+    }
+  }
+
   void list(const char* key, std::size_t, const std::function<void(std::size_t)>& resize,
             const std::function<void(FieldVisitor&, std::size_t)>& body) override {
     const toml::node* node = find(key, false, "");

@@ -30,6 +30,7 @@ struct CostRow {
 // A row that did not fit into the budget, as the model of cost predicts it.
 struct PredictedRow {
   std::string discretisation, effects;
+  // Number of unknowns, processor time and memory.
   double unknowns = 0.0, cpu_s = 0.0, memory_B = 0.0;
 };
 
@@ -42,9 +43,9 @@ struct CostAdvice {
 
 // Processor time of one kind of elements, cpu_s = seconds * unknowns^exponent.
 struct CostLaw {
-  std::string kind;  // "h1", "h2", "p", "graded p"
-  double seconds = 0.0;
-  double exponent = 0.0;
+  std::string kind;       // "h1", "h2", "p", "graded p"
+  double seconds = 0.0;   // of a system with one unknown
+  double exponent = 0.0;  // of the number of unknowns
 };
 
 // Error against time over discretisations.
@@ -74,7 +75,7 @@ struct CostOptions {
 // it. Between and beyond the h1 rows the time is read off the straight line through the nearest two
 // in log error against log time, as errors fall with a power of the mesh size.
 struct LinearFactor {
-  double error = 0.0;
+  double error = 0.0;            // relative, to which both are compared
   double factor = 0.0;           // of processor times
   bool is_extrapolated = false;  // finer linear meshes than any that were run
   std::string quickest;          // discretisation it is compared with

@@ -27,14 +27,17 @@ struct PredictFileRequest {
 
 // Measured values of one predicted curve, and how far the prediction is from them.
 struct Agreement {
-  std::string name;                  // "modulus_Pa"
+  std::string name;  // "modulus_Pa"
+  // Time or frequency of the rows that can be compared, and their values in the unit of the name.
   std::vector<double> at, measured;  // the rows that can be compared
   std::vector<std::size_t> index;    // of each row in the prediction
   std::size_t n_left_out = 0;        // rows before the test begins
   std::size_t n_inside_window = 0;
+  // Of predicted - measured, in the unit of the name; relative to the rms measured.
   double rms = 0.0, rms_relative = 0.0;  // of predicted - measured; relative to the rms measured
   double rms_inside_window = 0.0;        // NaN if no row is inside
-  double worst = 0.0, worst_at = 0.0;    // predicted - measured, largest magnitude
+  // Largest magnitude of predicted - measured, and where.
+  double worst = 0.0, worst_at = 0.0;  // predicted - measured, largest magnitude
   // Share of the rows inside the 95 % band of the curve; NaN without a band.
   double share_inside_band = 0.0;
   // The same with the noise of the measurement added in quadrature, where at least 20 rows show it.

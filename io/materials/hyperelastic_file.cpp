@@ -72,8 +72,12 @@ bool looks_like_hyperelastic_file(const std::filesystem::path& path) {
 }
 
 HyperelasticFile read_hyperelastic(const std::filesystem::path& path) {
+  return hyperelastic_from_json(read_file(path), path.string());
+}
+
+HyperelasticFile hyperelastic_from_json(const std::string& text, const std::string& name) {
   try {
-    const RubberJson json = RubberJson::parse(read_file(path));
+    const RubberJson json = RubberJson::parse(text);
     const RubberJson& law = chosen_law(json);
     HyperelasticFile file;
     file.law = law_from(law);
@@ -82,10 +86,10 @@ HyperelasticFile read_hyperelastic(const std::filesystem::path& path) {
     add_tests(json, file);
     return file;
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(path.string() +
+    throw std::runtime_error(name +
                              ": is not a law of rubber as viscard fit writes it: " + error.what());
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(path.string() + ": " + error.what());
+    throw std::runtime_error(name + ": " + error.what());
   }
 }
 

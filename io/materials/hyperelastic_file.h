@@ -21,6 +21,7 @@ struct HyperelasticFile {
     double low = 1.0, high = 1.0;
   };
   std::array<std::optional<Range>, 3> measured;
+  // A table that was fitted.
   struct RawFile {
     std::string file, sha256;
   };
@@ -32,5 +33,7 @@ bool looks_like_hyperelastic_file(const std::filesystem::path& path);
 
 // Throws std::runtime_error naming the file and the key.
 HyperelasticFile read_hyperelastic(const std::filesystem::path& path);
+// The same from text; messages show name in place of the file.
+HyperelasticFile hyperelastic_from_json(const std::string& text, const std::string& name);
 
 }  // namespace viscard

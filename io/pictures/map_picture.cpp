@@ -35,18 +35,41 @@ MapRange map_range_of(const SceneMap& map) {
   return range;
 }
 
+// The array with the film near its pillars: a wide film would leave them no room.
+SceneArray near_pillars(SceneArray array) {
+  constexpr double kMargin = 0.25;  // of the array's width
+  double left_m = HUGE_VAL, right_m = -HUGE_VAL, low_m = HUGE_VAL, high_m = -HUGE_VAL;
+  for (const ScenePillar& one : array.pillars) {
+    left_m = std::min(left_m, one.x_m - 0.5 * one.diameter_m);
+    right_m = std::max(right_m, one.x_m + 0.5 * one.diameter_m);
+    low_m = std::min(low_m, one.y_m - 0.5 * one.diameter_m);
+    high_m = std::max(high_m, one.y_m + 0.5 * one.diameter_m);
+  }
+  const double margin_m = std::max(kMargin * std::max(right_m - left_m, high_m - low_m),
+                                   2.0 * std::max(array.cell_x_m, array.cell_y_m));
+  array.left_m = std::max(array.left_m, left_m - margin_m);
+  array.right_m = std::min(array.right_m, right_m + margin_m);
+  array.low_m = std::max(array.low_m, low_m - margin_m);
+  array.high_m = std::min(array.high_m, high_m + margin_m);
+  return array;
+}
+
 class MapDrawing {
  public:
-  MapDrawing(const SceneArray& array, const SceneMap& map)
-      : array_(array), map_(map), range_(map_range_of(map)), value_of_(array.pillars.size(), -1) {
+  MapDrawing(const SceneArray& whole, const SceneMap& map)
+      : array_(near_pillars(whole)),
+        is_cut_(array_.left_m > whole.left_m || array_.low_m > whole.low_m),
+        map_(map),
+        range_(map_range_of(map)),
+        value_of_(whole.pillars.size(), -1) {
     for (std::size_t at = 0; at < map.pillar.size(); ++at) {
       value_of_[map.pillar[at]] = static_cast<int>(at);
     }
     const double room_x = kMapWidth_px - kMapLeft_px - kMapRight_px;
     const double room_y = kMapHeight_px - kAboveMap_px - kBelowMap_px;
-    scale_ =
-        std::min(room_x / (array.right_m - array.left_m), room_y / (array.high_m - array.low_m));
-    left_px_ = kMapLeft_px + 0.5 * (room_x - scale_ * (array.right_m - array.left_m));
+    scale_ = std::min(room_x / (array_.right_m - array_.left_m),
+                      room_y / (array_.high_m - array_.low_m));
+    left_px_ = kMapLeft_px + 0.5 * (room_x - scale_ * (array_.right_m - array_.left_m));
   }
 
   std::string document(const std::string& title) {
@@ -190,11 +213,13 @@ class MapDrawing {
   std::string legend() const {
     std::string words = is_grid() ? "one cell for each pillar" : "discs: pillars to scale";
     if (!all_loaded()) words += "; dark rim: loaded";
+    if (is_cut_) words += "; the film is wider";
     if (has_hollow_) words += "; empty: no value";
     return words;
   }
 
-  const SceneArray& array_;
+  SceneArray array_;
+  bool is_cut_ = false;  // the film is wider than what is drawn
   const SceneMap& map_;
   MapRange range_;
   std::vector<int> value_of_;  // by pillar; -1: none

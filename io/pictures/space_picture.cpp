@@ -63,7 +63,8 @@ void draw_pillars(SceneDrawing& d, const SpaceScene& scene) {
 }
 
 // So many pillars that a picture has no room for each: their field, and the loaded ones if they are few.
-void draw_field(SceneDrawing& d, const SpaceScene& scene, const FilmExtent& film) {
+void draw_field(SceneDrawing& d, const SpaceScene& scene) {
+  const FilmExtent film = film_extent(scene);
   const std::vector<bool> loaded = is_loaded(scene);
   const auto count = static_cast<std::size_t>(std::count(loaded.begin(), loaded.end(), true));
   const double edge_m = scene.film_edge_m;
@@ -75,6 +76,18 @@ void draw_field(SceneDrawing& d, const SpaceScene& scene, const FilmExtent& film
   }
 }
 
+// The film near the pillars: a wide one would leave them no room.
+FilmExtent film_near_pillars(const SpaceScene& scene) {
+  constexpr double kMargin = 0.25;  // of the array's width
+  FilmExtent film = film_extent(scene);
+  const double edge_m = scene.film_edge_m;
+  const double width_m =
+      std::max(film.right_m - film.left_m, film.high_m - film.low_m) - 2.0 * edge_m;
+  const double cut_m =
+      edge_m - std::min(edge_m, std::max(kMargin * width_m, 2.0 * smallest_pitch_m(scene)));
+  return {film.left_m + cut_m, film.right_m - cut_m, film.low_m + cut_m, film.high_m - cut_m};
+}
+
 std::string words_of_array(const SpaceScene& scene) {
   std::string words =
       fmt::format("pillars d {}, l {}", micrometres(scene.diameter_m), micrometres(scene.length_m));
@@ -82,8 +95,11 @@ std::string words_of_array(const SpaceScene& scene) {
     words += ", smallest gap " + micrometres(smallest_gap_m(scene));
   }
   if (!scene.others.empty()) words += fmt::format(", {} other classes", scene.others.size());
-  return words + fmt::format("; film t {}, edge {}", micrometres(scene.film_thickness_m),
-                             micrometres(scene.film_edge_m));
+  words += fmt::format("; film t {}, edge {}", micrometres(scene.film_thickness_m),
+                       micrometres(scene.film_edge_m));
+  if (!scene.backing) return words;
+  return words +
+         fmt::format(", on a half-space of {:.3g} MPa", 1e-6 * scene.backing->young_modulus_Pa);
 }
 
 std::string words_of_loads(const SpaceScene& scene) {
@@ -120,10 +136,10 @@ std::string words_of_press(const ShapePress& press) {
 }
 
 std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
-  const FilmExtent film = film_extent(scene);
+  const FilmExtent film = film_near_pillars(scene);
   SceneDrawing d(film.left_m, film.right_m, film.low_m, film.high_m, kPlanWidth_px);
   d.box(film.left_m, film.right_m, film.low_m, film.high_m, R"(fill="#e6c88a" stroke="#7a5c1e")");
-  scene.pillars.size() > kMostDrawn ? draw_field(d, scene, film) : draw_pillars(d, scene);
+  scene.pillars.size() > kMostDrawn ? draw_field(d, scene) : draw_pillars(d, scene);
   const double low_px = d.y(film.low_m);
   const double bar_m = scale_length_m(film.right_m - film.left_m);
   d.length_mark(film.left_m, film.left_m + bar_m, low_px + 30.0, micrometres(bar_m));

@@ -21,6 +21,7 @@ constexpr Ink ink_of_series(std::size_t index) {
   return kOrder[index % 6];
 }
 
+// How a series is drawn.
 enum class Mark {
   kLine,       // y over x; a value that is not finite breaks the line
   kPoints,     // one dot each
@@ -28,6 +29,7 @@ enum class Mark {
   kErrorBars,  // a dot with bars y_low..y_high and, when given, x_low..x_high
 };
 
+// Points, a line or a band, in the units of the axes.
 struct PlotSeries {
   Mark mark = Mark::kLine;
   std::string label;  // empty: not in the legend
@@ -46,6 +48,7 @@ struct PlotSeries {
   double size = 1.0;       // factor on the line width or on the diameter of the dot
 };
 
+// One axis of a panel.
 struct PlotAxis {
   std::string label;  // with its unit, "force (N)"
   bool is_log = false;
@@ -60,6 +63,7 @@ struct PlotNote {
   std::string text;
 };
 
+// Series on common axes.
 struct PlotPanel {
   std::string title;
   PlotAxis x, y;
@@ -69,6 +73,7 @@ struct PlotPanel {
   bool shares_x_with_below = false;  // no tick labels and no axis label at the bottom
 };
 
+// Panels beside or below each other.
 struct Plot {
   std::string title;              // for screen readers, and as tooltip
   std::string description;        // one or two sentences for screen readers

@@ -50,6 +50,7 @@ PYBIND11_MODULE(_core, module) {
   viscard::python::add_errors(module);
   viscard::python::add_tables(module);
   viscard::python::add_fits(module);
+  viscard::python::add_rubber(module);
   viscard::python::add_materials(module);
   viscard::python::add_scenes(module);
   viscard::python::add_rig(module);

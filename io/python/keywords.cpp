@@ -113,6 +113,20 @@ FitWords fit_words_from(const py::dict& keywords) {
   return words;
 }
 
+LargeStrainWords large_strain_words_from(const py::dict& keywords) {
+  LargeStrainWords words;
+  const std::pair<const char*, OptionalText*> texts[] = {{"model", &words.model},
+                                                         {"weight", &words.weight},
+                                                         {"youngs_modulus", &words.youngs_modulus},
+                                                         {"cycle", &words.cycle},
+                                                         {"sheet", &words.sheet}};
+  for (const auto& [name, text] : texts) {
+    if (keywords.contains(name)) *text = text_from(name, keywords[name]);
+  }
+  take_texts(keywords, "column", words.column);
+  return words;
+}
+
 PredictWords predict_words_from(const py::dict& keywords) {
   PredictWords words;
   const std::pair<const char*, OptionalText*> texts[] = {{"test", &words.test},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/flow/large_strain/large_strain_words.h"
 #include "io/flow/words/fit_words.h"
 #include "io/flow/words/predict_words.h"
 
@@ -13,6 +14,7 @@ namespace viscard::python {
 // Keyword arguments as the options of commands. Quantities are texts or numbers in SI. All throw TypeError
 // naming the keyword if a value has another type.
 FitWords fit_words_from(const pybind11::dict& keywords);
+LargeStrainWords large_strain_words_from(const pybind11::dict& keywords);
 PredictWords predict_words_from(const pybind11::dict& keywords);
 
 // A number is written so that it reads back exactly; nothing for None.

@@ -96,8 +96,8 @@ ShownUnit shown_unit(const std::string& base, const std::vector<double>& values_
     const Prefix& prefix = prefix_for(1.0 / largest);
     return {prefix.factor, "1/" + std::string(prefix.text) + "Pa"};
   }
-  const bool takes_prefix =
-      base == "Pa" || base == "N" || base == "N/m" || base == "V" || base == "m" || base == "s";
+  const bool takes_prefix = base == "Pa" || base == "N" || base == "N/m" || base == "V" ||
+                            base == "V/m" || base == "V/Pa" || base == "m" || base == "s";
   if (!takes_prefix || largest == 0.0) return {1.0, base};
   const Prefix& prefix = prefix_for(largest);
   if (prefix.factor > 1.0 && (base == "s" || base == "m")) return {1.0, base};

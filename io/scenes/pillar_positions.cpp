@@ -3,6 +3,7 @@
 #include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/tables/csv_table.h"
+#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cctype>
@@ -108,6 +109,20 @@ HeightTable read_heights(const std::filesystem::path& path) {
                              std::to_string(z_m.size()) + " heights; the grid must be full");
   }
   return table;
+}
+
+std::vector<std::pair<int, int>> places_of(const std::string& key,
+                                           const std::vector<std::pair<double, double>>& pairs) {
+  std::vector<std::pair<int, int>> places;
+  for (const auto& [row, column] : pairs) {
+    for (const double number : {row, column}) {
+      if (number != std::floor(number) || number < 1.0 || number > 1e6) {
+        throw SceneMistake(key, "are rows and columns of pillars, such as [[3, 7]], from 1");
+      }
+    }
+    places.emplace_back(static_cast<int>(row), static_cast<int>(column));
+  }
+  return places;
 }
 
 }  // namespace viscard

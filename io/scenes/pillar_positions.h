@@ -3,6 +3,7 @@
 #include "models/array/contact/rigid_shape.h"
 
 #include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,5 +17,9 @@ std::vector<std::pair<double, double>> read_positions(const std::filesystem::pat
 // place of a rectangular grid in any order. Heights are counted from the lowest. Throws as above, and if
 // a place is missing or given twice.
 HeightTable read_heights(const std::filesystem::path& path);
+
+// Rows and columns of pillars, whole numbers from 1. Throws SceneMistake with the key for others.
+std::vector<std::pair<int, int>> places_of(const std::string& key,
+                                           const std::vector<std::pair<double, double>>& pairs);
 
 }  // namespace viscard

@@ -28,7 +28,8 @@ struct RawSpace {
   Pairs dead;
   std::vector<RawClass> classes;
   double film_thickness_m = 0.0, film_edge_m = 100e-6;
-  std::string film_material, film_bottom = "fixed", poling = "+z";
+  std::string film_material, film_bottom, poling = "+z";  // bottom: as if "fixed"
+  double backing_E_Pa = 0.0, backing_nu = -1.0;           // E = 0: rigid
   std::string electrode_face = "bottom", electrode_kind = "sampled";
   double electrode_radius_m = 0.0;
   bool quadrants = false;
@@ -77,6 +78,10 @@ void show_geometry(FieldVisitor& v, RawSpace& s) {
     f.quantity({.key = "edge", .unit = "m", .range = Range::kNotNegative}, s.film_edge_m);
     f.text({"material", "pvdf", true}, s.film_material);
     f.text({"bottom", "fixed"}, s.film_bottom);
+    f.section_or_word("backing", "rigid", [&](FieldVisitor& b) {
+      b.quantity({.key = "E", .unit = "Pa", .range = Range::kPositive}, s.backing_E_Pa);
+      b.quantity({.key = "nu", .range = Range::kNotNegative}, s.backing_nu);
+    });
   });
   v.section("electrode", [&](FieldVisitor& e) {
     e.text({"face", "bottom"}, s.electrode_face);
@@ -121,20 +126,6 @@ void show_space(FieldVisitor& v, RawSpace& s) {
     w.texts({"quantities", "mean_voltage"}, s.quantities);
   });
   show_printed(v, s.printed);
-}
-
-// Rows and columns, whole numbers from 1.
-std::vector<RowColumn> places_of(const std::string& key, const Pairs& pairs) {
-  std::vector<RowColumn> places;
-  for (const auto& [row, column] : pairs) {
-    for (const double number : {row, column}) {
-      if (number != std::floor(number) || number < 1.0 || number > 1e6) {
-        throw SceneMistake(key, "are rows and columns of pillars, such as [[3, 7]], from 1");
-      }
-    }
-    places.emplace_back(static_cast<int>(row), static_cast<int>(column));
-  }
-  return places;
 }
 
 void place_lattice(const RawSpace& raw, SpaceScene& scene) {
@@ -249,6 +240,19 @@ void fill_analysis(const RawSpace& raw, SpaceScene& scene) {
   scene.loaded = places_of("analysis.load.pillars", raw.loaded);
 }
 
+void fill_base(const RawSpace& raw, SpaceScene& scene) {
+  const bool has_E = raw.backing_E_Pa > 0.0, has_bottom = !raw.film_bottom.empty();
+  if (has_bottom) choice<bool>("geometry.film.bottom", raw.film_bottom, {{"fixed", true}});
+  if (has_E != (raw.backing_nu >= 0.0)) {
+    throw SceneMistake("geometry.film.backing",
+                       "needs E and nu of the half-space under the film, such as { E = \"4 GPa\", "
+                       "nu = 0.38 }, or \"rigid\"");
+  }
+  if (has_E) scene.backing = Backing{raw.backing_E_Pa, raw.backing_nu};
+  if (!has_E || !has_bottom) return;
+  throw SceneMistake("geometry.film.bottom", "cannot stand beside film.backing; leave one out");
+}
+
 SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) {
   SpaceScene scene;
   scene.tolerance = raw.tolerance;
@@ -257,7 +261,7 @@ SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) 
   scene.pillar = pillar_material(raw.pillar, folder);
   place_pillars(raw, folder, scene);
   fill_classes(raw, folder, scene);
-  choice<bool>("geometry.film.bottom", raw.film_bottom, {{"fixed", true}});
+  fill_base(raw, scene);
   scene.film = film_medium("materials." + raw.film_material, raw.film, folder).medium;
   if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {
     scene.film = with_reversed_poling(scene.film);

@@ -28,8 +28,8 @@ ColumnMap column_map_from_words(const std::vector<std::string>& words);
 // The column of a quantity. Value in SI = factor * value in the table + offset.
 struct ColumnUse {
   std::size_t index = 0;
-  double factor = 1.0;
-  double offset = 0.0;
+  double factor = 1.0;      // SI unit per unit of the table
+  double offset = 0.0;      // in the SI unit
   std::string description;  // "force_N: column 2 'Force [nN]' x 1e-09"
 };
 

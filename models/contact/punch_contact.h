@@ -2,6 +2,7 @@
 
 namespace viscard {
 
+// Shape of the tip.
 enum class TipShape { kFlat, kSphere, kCone };
 
 // A rigid tip that is pressed into a specimen.
@@ -26,8 +27,8 @@ struct PunchContact {
   // Standard uncertainties of the inputs. They scale all moduli together, and no time.
   double punch_radius_u_m = 0.0;
   double layer_thickness_u_m = 0.0;
-  double poisson_ratio_u = 0.0;
-  double half_angle_u_rad = 0.0;
+  double poisson_ratio_u = 0.0;   // a pure number
+  double half_angle_u_rad = 0.0;  // of a cone
 };
 
 // Throws std::invalid_argument on a radius that is not positive, a negative thickness, a Poisson
@@ -40,8 +41,8 @@ double layer_factor(const PunchContact& contact);
 
 // F = factor * E * depth^power for an elastic specimen; factor in m^(2 - power).
 struct DepthLaw {
-  double factor = 0.0;
-  double power = 1.0;
+  double factor = 0.0;  // m^(2 - power)
+  double power = 1.0;   // 1 for a punch, 3/2 for a sphere, 2 for a cone
 };
 DepthLaw depth_law(const PunchContact& contact);
 
@@ -53,6 +54,7 @@ double relative_uncertainty(const PunchContact& contact);
 
 // kappa(a/H, nu): the force of a flat punch of radius a on a layer of thickness H bonded to a rigid
 // base, over its force 2 a E h/(1 - nu^2) on a half-space   (eq. 9). Dimensionless; 1 for a/H -> 0.
+// radius_over_thickness is a/H.
 //
 // The punch is frictionless. The dual integral equations of Hayes, Keer, Herrmann & Mockros, J.
 // Biomech. 5 (1972) 541, are reduced to a Fredholm equation of the second kind and solved by
@@ -62,8 +64,8 @@ double relative_uncertainty(const PunchContact& contact);
 // as many points). Takes about 0.5 ms.
 double layer_factor(double radius_over_thickness, double poisson_ratio);
 
-// The same for a punch that sticks to the layer (no slip), also over the force of a frictionless
-// punch on a half-space   (eq. 29). Pressure and radial shear are solved for by Galerkin's method
+// The same for a punch that sticks to the layer (no slip), of radius_over_thickness a/H, also over the
+// force of a frictionless punch on a half-space   (eq. 29). Pressure and radial shear are solved for by Galerkin's method
 // in Hankel space. On the half-space the result is Mossakovskii's (1 - nu) ln(3 - 4 nu)/(1 - 2 nu),
 // Appl. Math. Mech. (PMM) 18 (1954) 187 and 27 (1963) 418; Spence, Proc. R. Soc. A 305 (1968) 55.
 // Throws likewise. Relative error below 2e-6 for a/H up to 2 and below 2e-5 up to 10 (tests).

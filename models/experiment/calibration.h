@@ -45,6 +45,7 @@ std::string calibration_trouble(const LoadCellCalibration& calibration, const st
 // Throws std::invalid_argument unless the gain is finite and not zero, and the capacity positive.
 void validate(const LoadCellCalibration& calibration);
 
+// The force at a voltage of the cell in volts, and the voltage at a force.
 double force_N_from_volts(const LoadCellCalibration& calibration, double volts);
 double volts_from_force_N(const LoadCellCalibration& calibration, double force_N);
 

@@ -19,6 +19,7 @@ struct StageMove {
 // Throws std::invalid_argument unless speed and acceleration are positive and all values finite.
 void validate(const StageMove& move);
 
+// Time from the start of the move to its end.
 double duration_s(const StageMove& move);
 
 // Position at any time: from_m before the start, to_m after the end.

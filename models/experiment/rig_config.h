@@ -8,6 +8,7 @@ namespace viscard {
 
 // The contents of rig.toml (data/demo/01_rig.toml is the commented example). SI.
 
+// The stage and how it is connected.
 struct StageConfig {
   std::string driver = "grbl";  // "grbl" | "zaber"
   std::string port;             // path; prefer /dev/serial/by-id/...
@@ -23,6 +24,7 @@ struct StageConfig {
   int axis_number = 1;
 };
 
+// The load cell and how it is connected.
 struct LoadCellConfig {
   // "hx711" | "adc" | "adc-frames" | "scpi" | "mark10" | "mark10-continuous" | "sauter"
   std::string driver = "hx711";
@@ -35,7 +37,7 @@ struct LoadCellConfig {
   // Instead of volts_per_count: the converter's name (models/experiment/converter.h), its gain and
   // its reference.
   std::string converter;
-  double gain = 0.0;
+  double gain = 0.0;  // of the converter, a pure number
   double reference_V = 0.0;
   std::string frame;  // of "adc-frames": the fields of a frame (rig/protocols/binary_frame.h)
   bool compression_is_positive = true;
@@ -71,9 +73,11 @@ struct ThermometerConfig {
   double drift_limit_K = 1.0;        // a run that spans more is flagged
 };
 
+// True if anything measures the temperature.
 inline bool has_thermometer(const ThermometerConfig& config) {
   return config.driver != "none" && !config.driver.empty();
 }
+// True for a thermometer that is connected by itself.
 inline bool has_own_port(const ThermometerConfig& config) {
   return has_thermometer(config) && config.driver != "load-cell";
 }
@@ -93,12 +97,14 @@ struct FrameConfig {
   std::string file;                   // of the record; empty after it has been read
 };
 
+// Forces at which a run is stopped, as shares of the capacity of the cell.
 struct SafetyConfig {
   double warn_fraction = 0.70;  // of the cell's capacity
   double soft_fraction = 0.80;  // decelerating stop
   double hard_fraction = 0.95;  // immediate stop
 };
 
+// The whole rig.
 struct RigConfig {
   std::string name;
   StageConfig stage;

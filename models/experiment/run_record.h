@@ -14,6 +14,7 @@ namespace viscard {
 // host_time_s is CLOCK_MONOTONIC at the receive call, in s since the run began, times the declared
 // speed of an emulated clock (1 on a real rig).
 
+// The devices of a rig.
 enum class Device { kStage = 0, kLoadCell = 1, kThermometer = 2 };
 
 // The word for a device in captures and tables.
@@ -76,6 +77,7 @@ struct RunEvent {
   std::string text;  // a sentence for a person
 };
 
+// Any record.
 using RunRecord =
     std::variant<RawBytes, LoadSample, StageReport, CommandedMove, RunEvent, TemperatureSample>;
 

@@ -44,13 +44,16 @@ const std::vector<HyperelasticForm>& hyperelastic_forms();
 // W is linear in the moduli and not in the shapes (alpha_i, s_m, J_m).
 std::vector<std::string> modulus_names(HyperelasticForm form);
 std::vector<std::string> shape_names(HyperelasticForm form);
+// Number of moduli of a form.
 inline Eigen::Index n_moduli(HyperelasticForm form) {
   return static_cast<Eigen::Index>(modulus_names(form).size());
 }
+// Number of shapes of a form.
 inline Eigen::Index n_shapes(HyperelasticForm form) {
   return static_cast<Eigen::Index>(shape_names(form).size());
 }
 
+// A form with its parameters.
 struct HyperelasticLaw {
   HyperelasticForm form = HyperelasticForm::kNeoHooke;
   Eigen::VectorXd moduli_Pa;  // in the order of modulus_names()
@@ -83,6 +86,7 @@ struct StressColumns {
   Eigen::VectorXd values;
   Eigen::MatrixXd shape_slopes;
 };
+// At one stretch.
 StressColumns stress_columns(HyperelasticForm form, const Eigen::VectorXd& shapes,
                              Deformation deformation, double stretch);
 

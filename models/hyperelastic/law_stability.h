@@ -6,9 +6,10 @@ namespace viscard {
 
 // Range of measured stretches about 1 in which a law is stable.
 struct StableRange {
-  double low = 0.0, high = 0.0;
+  double low = 0.0, high = 0.0;  // stretches
   // The law may hold beyond: the search ended there.
   bool low_is_open = false, high_is_open = false;
+  // True for a stretch within the range.
   bool contains(double stretch) const {
     return (low_is_open || stretch >= low) && (high_is_open || stretch <= high);
   }

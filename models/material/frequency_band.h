@@ -29,6 +29,7 @@ struct DynamicModuli {
 
   double loss_factor() const { return young_Pa.imag() / young_Pa.real(); }
 };
+// Storage and loss moduli of the material at a frequency.
 DynamicModuli dynamic_moduli(const Material& material, double frequency_Hz);
 
 // The largest deviation of a reduced loss factor from the material's.

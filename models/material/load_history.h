@@ -29,7 +29,7 @@ LoadHistory with_corners_at(const LoadHistory& history, std::vector<double> time
 // One motion of the input to `target` within duration_s (0: a jump).
 struct LoadStep {
   double duration_s = 0.0;
-  double target = 0.0;
+  double target = 0.0;  // strain, or stress in Pa
 };
 // The history from zero at t = 0. A motion from and to one value is a hold, whose corners are
 // evenly spaced in the logarithm of the time since it began, from first_s on; other motions have

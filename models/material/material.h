@@ -55,11 +55,13 @@ struct MaterialFlag {
 // True for a flag that makes the whole fit untrustworthy. Cards refuse it like a flagged term.
 bool is_defect(const std::string& flag_name);
 
+// A file of measured data.
 struct RawFile {
   std::string path;
   std::string sha256;
 };
 
+// Where a material comes from.
 struct Provenance {
   std::string created_by;  // "viscard 0.1.0"
   std::string created_at;  // ISO 8601, empty in reproducible mode
@@ -70,6 +72,7 @@ struct Provenance {
   std::string bulk_origin = "assumed";
 };
 
+// A linear viscoelastic solid or liquid: instantaneous modulus, Poisson ratio and Prony terms.
 struct Material {
   std::string name;
   double E0_Pa = 0.0;
@@ -126,9 +129,12 @@ struct RelaxationTimes {
 };
 RelaxationTimes relaxation_times(const std::vector<MaterialTerm>& terms);
 
+// Moduli in the Laplace domain over the instantaneous ones.
 struct RelativeModuli {
+  // Pure numbers.
   std::complex<double> shear, bulk;
 };
+// Both by relative_modulus() at s in 1/s.
 RelativeModuli relative_moduli(const std::vector<MaterialTerm>& terms, std::complex<double> s);
 
 }  // namespace viscard

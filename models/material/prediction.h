@@ -12,8 +12,10 @@ namespace viscard {
 // What a material does in a test: the curve with its 95 % band, and where it leaves the window of
 // the fit.
 
+// Kinds of tests that can be predicted.
 enum class PredictedTest { kRelaxation, kCreep, kRecovery, kCycles, kOscillation, kHistory };
 
+// The test whose answer is asked for.
 struct PredictionRequest {
   PredictedTest test = PredictedTest::kRelaxation;
   // Size of the input: strain, or stress in Pa. Relaxation and creep without one are ideal steps and
@@ -38,6 +40,7 @@ struct PredictedCurve {
   BandedCurve curve;
 };
 
+// Input and predicted curves of a test.
 struct TestPrediction {
   PredictedTest test = PredictedTest::kRelaxation;
   std::string argument;                // "time_s" or "frequency_Hz"

@@ -12,6 +12,7 @@ struct MaxwellTerm {
   double relaxation_time_s = 0.0;
 };
 
+// E(t) = E_inf + sum of modulus_Pa exp(-t/relaxation_time_s).
 struct PronySeries {
   double equilibrium_modulus_Pa = 0.0;  // E_inf; 0 for a liquid
   std::vector<MaxwellTerm> terms;       // any order

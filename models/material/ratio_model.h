@@ -22,6 +22,7 @@ enum class RatioVariable {
 
 constexpr int kPerRatio = -1;  // a value of its own at each measured ratio
 
+// How the parameters depend on the mixing ratio.
 struct RatioForm {
   RatioVariable variable = RatioVariable::kLogRatio;
   int E0_degree = 1;              // of ln E0 in the variable, or kPerRatio
@@ -61,8 +62,8 @@ struct RatioModel {
 
 // Polynomials of (variable - middle)/half, -1 to 1 over the measured range, are well conditioned.
 struct ScaledVariable {
-  double middle = 0.0;
-  double half = 1.0;
+  double middle = 0.0;  // in the unit of the variable
+  double half = 1.0;    // likewise
 };
 ScaledVariable scale_of(const RatioModel& model);
 
@@ -85,6 +86,7 @@ struct RatioBand {
 struct RatioComparison {
   RatioForm form;
   int n_parameters = 0;
+  // Natural logarithm of the largest likelihood; Bayesian information criterion.
   double log_likelihood = 0.0, bic = 0.0;
 };
 struct RatioSpecimen {  // one record
@@ -95,6 +97,7 @@ struct RatioSpecimen {  // one record
   int specimen = 0;       // from 1; records with the same number are touches on one specimen
   int touch = 1;
 };
+// What a joint fit over mixing ratios gives.
 struct RatioFit {
   RatioModel best, law;                // of all forms by BIC, and of those that are laws
   std::vector<RatioComparison> forms;  // ascending BIC

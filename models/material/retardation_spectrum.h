@@ -13,6 +13,7 @@ struct RetardationTerm {
   double retardation_time_s = 0.0;
 };
 
+// J(t) as above.
 struct RetardationSpectrum {
   double instantaneous_compliance_1_Pa = 0.0;  // J_g = 1/E_0
   std::vector<RetardationTerm> terms;          // ascending retardation time

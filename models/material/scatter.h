@@ -8,11 +8,12 @@ namespace viscard {
 
 // Scatter at one level of a campaign, as a standard deviation.
 struct ScatterLevel {
-  double deviation = 0.0;
+  double deviation = 0.0;  // in the unit of the quantity
   Interval interval_95;
   int degrees_of_freedom = 0;  // 0: these records cannot identify the level
   std::string note;            // why it cannot be identified, or which other scatter it includes
 };
+// True if the records can identify the level.
 inline bool is_identified(const ScatterLevel& level) {
   return level.degrees_of_freedom > 0;
 }

@@ -10,6 +10,7 @@ namespace viscard {
 // Any curve that follows from the relaxation series of E: a modulus over time, a strain history.
 using CurveOfSeries = std::function<std::vector<double>(const PronySeries&)>;
 
+// A curve and its band, in the unit of the quantity.
 struct BandedCurve {
   std::vector<double> value, low_95, high_95;  // no band: the last two are empty
 };

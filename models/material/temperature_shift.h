@@ -12,12 +12,13 @@ namespace viscard {
 // Properties of Polymers (1980), ch. 11.
 enum class ShiftLaw { kWlf, kArrhenius };
 
+// One of these laws with its reference.
 struct TemperatureShift {
   ShiftLaw law = ShiftLaw::kWlf;
   double T_ref_C = 0.0;
-  double C1 = 0.0;    // WLF, dimensionless
-  double C2_K = 0.0;  // WLF
-  double activation_J_mol = 0.0;
+  double C1 = 0.0;                               // WLF, dimensionless
+  double C2_K = 0.0;                             // WLF
+  double activation_J_mol = 0.0;                 // Arrhenius
   Interval C1_95, C2_K_95, activation_J_mol_95;  // 0, 0: not known
   double T_min_C = 0.0, T_max_C = 0.0;           // range of the data; both 0: unknown
 };

@@ -31,9 +31,10 @@ struct GeneralizedMaxwellModel {  // a liquid when its equilibrium modulus is 0
 // E(t) = E_inf + E_1 E_alpha(-(t/tau)^alpha): a power law between two plateaus. alpha = 1 is the
 // standard linear solid.
 struct FractionalZenerModel {
-  double equilibrium_Pa = 0.0, branch_Pa = 0.0, tau_s = 0.0, alpha = 1.0;
+  double equilibrium_Pa = 0.0, branch_Pa = 0.0, tau_s = 0.0, alpha = 1.0;  // alpha: a pure number
 };
 
+// Any of these models.
 using ViscoelasticModel =
     std::variant<ElasticModel, MaxwellModel, KelvinVoigtModel, StandardLinearSolid,
                  GeneralizedMaxwellModel, FractionalZenerModel>;

@@ -21,10 +21,12 @@ class Cholesky {
   // of those before it. Infinite for an empty matrix.
   double smallest_pivot() const;
   double log_determinant() const;
+  // A^-1 right, for one right-hand side or for each column.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+  // The same for each column.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
-  Eigen::VectorXd solve_lower(const Eigen::VectorXd& right) const;  // L^-1 right
-  Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& right) const;
+  Eigen::VectorXd solve_lower(const Eigen::VectorXd& right) const;   // L^-1 right
+  Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& right) const;   // the same for each column
   Eigen::MatrixXd over_upper(const Eigen::MatrixXd& columns) const;  // columns L^-T
 
  private:
@@ -37,7 +39,9 @@ class SymmetricFactor {
   explicit SymmetricFactor(const Eigen::MatrixXd& matrix);
 
   double log_determinant() const;
+  // A^-1 right, for one right-hand side or for each column.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+  // The same for each column.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
 
  private:
@@ -65,6 +69,7 @@ class PivotedQr {
   explicit PivotedQr(const Eigen::MatrixXd& matrix);
 
   Eigen::Index rank() const;
+  // A^-1 right, for one right-hand side or for each column.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;      // least squares
   Eigen::MatrixXd basis() const;                                  // rank() orthonormal columns
   Eigen::MatrixXd rotated(const Eigen::MatrixXd& vectors) const;  // Q^T vectors
@@ -77,25 +82,31 @@ class PivotedQr {
 class LuFactor {
  public:
   explicit LuFactor(const Eigen::MatrixXd& matrix);
+  // A^-1 right, for one right-hand side or for each column.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+  // The same for each column.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
 
  private:
   Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
 };
 
+// P A = L U of a square complex matrix.
 class ComplexLuFactor {
  public:
   explicit ComplexLuFactor(const Eigen::MatrixXcd& matrix);
   Eigen::Index size() const { return factor_.rows(); }
+  // A^-1 right.
   Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const;
+  // The same for each column.
   Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const;
-  Eigen::VectorXcd solve_adjoint(const Eigen::VectorXcd& right) const;
+  Eigen::VectorXcd solve_adjoint(const Eigen::VectorXcd& right) const;  // (A^H)^-1 right
 
  private:
   Eigen::PartialPivLU<Eigen::MatrixXcd> factor_;
 };
 
+// Eigenvalues and eigenvectors.
 struct EigenSystem {
   Eigen::VectorXd values;   // ascending
   Eigen::MatrixXd vectors;  // columns

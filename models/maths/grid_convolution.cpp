@@ -81,14 +81,44 @@ GridConvolution::GridConvolution(const Eigen::MatrixXd& kernel)
       around(r, c) = around(up, c) = around(r, left) = around(up, left) = kernel(r, c);
     }
   }
-  spectrum_ = forward(around, rows, columns).real();
+  spectrum_ = forward(around, rows, columns);
+}
+
+GridConvolution GridConvolution::of_all_offsets(const Eigen::MatrixXd& kernel) {
+  require(kernel.rows() % 2 == 1 && kernel.cols() % 2 == 1,
+          "a kernel of all offsets has an odd number of rows and columns");
+  GridConvolution sums((kernel.rows() + 1) / 2, (kernel.cols() + 1) / 2);
+  require(sums.rows_ > 1, "a convolution needs a grid of at least two points");
+  const Eigen::Index rows = padded(sums.rows_);
+  const Eigen::Index columns = padded(sums.columns_);
+  Eigen::MatrixXd around = Eigen::MatrixXd::Zero(rows, columns);
+  for (Eigen::Index c = 0; c < kernel.cols(); ++c) {
+    for (Eigen::Index r = 0; r < kernel.rows(); ++r) {
+      around((r - sums.rows_ + 1 + rows) % rows, (c - sums.columns_ + 1 + columns) % columns) =
+          kernel(r, c);
+    }
+  }
+  sums.spectrum_ = forward(around, rows, columns);
+  return sums;
+}
+
+Eigen::MatrixXcd GridConvolution::waves_of(const Eigen::MatrixXd& values) const {
+  return forward(values, padded(rows_), padded(columns_));
+}
+
+void GridConvolution::add_product(const Eigen::MatrixXcd& waves, Eigen::MatrixXcd& sum) const {
+  if (sum.size() == 0) sum = Eigen::MatrixXcd::Zero(waves.rows(), waves.cols());
+  sum.array() += waves.array() * spectrum_.array();
+}
+
+Eigen::MatrixXd GridConvolution::values_of(const Eigen::MatrixXcd& waves) const {
+  return backward(waves, padded(rows_), rows_, columns_);
 }
 
 Eigen::MatrixXd GridConvolution::apply(const Eigen::MatrixXd& values) const {
-  const Eigen::Index rows = padded(rows_);
-  Eigen::MatrixXcd waves = forward(values, rows, padded(columns_));
-  waves.array() *= spectrum_.array();
-  return backward(std::move(waves), rows, rows_, columns_);
+  Eigen::MatrixXcd sum;
+  add_product(waves_of(values), sum);
+  return values_of(sum);
 }
 
 }  // namespace viscard

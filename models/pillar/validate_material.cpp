@@ -85,7 +85,7 @@ ValidationResult validate_material(const Material& material, const ValidateOptio
         "strain, pressure and tolerance of the validation must be positive");
   }
   const ViscoelasticPillar pillar(options.geometry, options.discretisation, material,
-                                  TopLoad::kRigidPlate);
+                                  TopCondition::kRigidPlate);
   const ViscoelasticSystem& system = pillar.system();
   const ExactAnswer exact = exact_answer(material, system);
   const double end_s = options.end_time_s > 0.0 ? options.end_time_s : end_of_creep_s(material);

@@ -13,7 +13,7 @@ namespace viscard {
 struct ValidationCurve {
   std::vector<double> time_s;
   std::vector<double> solver;  // relaxation: stress in Pa; creep: shortening in m
-  std::vector<double> exact;
+  std::vector<double> exact;   // in the same unit
   double largest_relative_error = 0.0;
   double at_time_s = 0.0;              // time of the largest error
   double solver_error_estimate = 0.0;  // the solver's own estimate of its step error, relative
@@ -24,6 +24,7 @@ struct ValidationCurve {
 struct ValidationResult {
   ValidationCurve relaxation;  // shortening of strain * length held from t = 0
   ValidationCurve creep;       // pressure held from t = 0
+  // Of the relaxation test, a pure number.
   double strain = 0.0;
   double pressure_Pa = 0.0;
   double diameter_m = 0.0, length_m = 0.0;
@@ -38,6 +39,7 @@ struct ValidationResult {
 struct ValidateOptions {
   PillarGeometry geometry;  // 40 um x 120 um on a fixed base
   Discretisation discretisation;
+  // Of the relaxation test, a pure number.
   double strain = 0.01;
   double pressure_Pa = 1e4;
   double tolerance = 1e-6;

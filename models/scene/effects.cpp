@@ -44,6 +44,13 @@ const std::vector<Effect>& effects() {
        "potentials among the displacements",
        {Pillar{piezo_coupling_estimate, leave_out_piezo_coupling},
         Row{piezo_coupling_estimate, leave_out_piezo_coupling}, Space{piezo_coupling_estimate}}},
+      {"backing",
+       "what lies under the film yields",
+       "a table to all distances, sums by FFT",
+       {Pillar{
+            [](const PillarScene&) -> EffectEstimate { return {.reason = "the base is rigid"}; }},
+        Row{[](const ArrayScene&) -> EffectEstimate { return {.reason = "the base is rigid"}; }},
+        Space{backing_estimate, [](SpaceScene& scene) { scene.feels_backing = false; }}}},
       {"leakage",
        "charge leaves the electrode",
        "a time constant",

@@ -22,6 +22,7 @@ SceneCommon& common(Scene& scene);
 const SceneCommon& common(const Scene& scene);
 
 const char* kind_of(const Scene& scene);  // "pillar", "array", "layer"
+// The tolerances that the kind of scene supports.
 const ToleranceRange& tolerances_of(const Scene& scene);
 
 // Throws std::invalid_argument, mostly SceneMistake, naming what is missing or contradictory.

@@ -47,5 +47,6 @@ EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene);
 EffectEstimate adhesion_estimate(const SpaceScene& scene);
 EffectEstimate finite_strain_estimate(const SpaceScene& scene);
 EffectEstimate contact_estimate(const SpaceScene& scene);
+EffectEstimate backing_estimate(const SpaceScene& scene);
 
 }  // namespace viscard

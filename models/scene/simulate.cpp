@@ -47,6 +47,7 @@ SceneAnswer solve_on(const LayerScene& scene, const Discretisation& mesh) {
 }  // namespace
 
 SceneAnswer simulate(const Scene& scene) {
+  if (common(scene).progress) common(scene).progress(0.0, "which effects count");
   const ScenePlan plan = plan_effects(scene);
   refuse_buckling_in_creep(scene);  // the plan may leave relaxation out
   SceneAnswer answer = std::visit([](const auto& body) { return solve(body); }, plan.reduced);

@@ -16,12 +16,14 @@ namespace viscard {
 // buckling, std::runtime_error with the reason if the finest mesh does not meet the tolerance.
 SceneAnswer simulate(const Scene& scene);
 
-// The scene as it stands, with no plan, on one mesh and without mesh errors.
+// The scene as it stands, with no plan, on one mesh and without mesh errors. Throws SceneMistake for a
+// scene that contradicts itself.
 SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh);
 
 // The solution on a mesh, with the plan's effects, for pictures. Static: displacement (m), axial
 // stress (Pa), with electrodes the potential (V). Modal: the shapes of every family, largest
-// displacement 1. Other analyses and rows of pillars have none. The scene is solved anew.
+// displacement 1. Other analyses and rows of pillars have none. The scene is solved anew. Throws as
+// plan_effects() does.
 std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisation& mesh);
 
 // Answers all `points` on all cores; done(i, answer) is called for one at a time, in the order in

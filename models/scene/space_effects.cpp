@@ -91,7 +91,10 @@ EffectEstimate crosstalk_estimate(const SpaceScene& scene) {
   EffectEstimate estimate{EffectRole::kOptional,
                           neighbour_influence(x, scene.film_thickness_m / scene.diameter_m),
                           "gap over film thickness", x, "neighbours load the film"};
-  if (has_crosstalk(scene) && asks_for_map(scene, "crosstalk_percent")) {
+  if (scene.backing && scene.feels_backing) {
+    estimate.role = EffectRole::kNeeded;
+    estimate.reason = "the film stretches under all pillars on its backing";
+  } else if (has_crosstalk(scene) && asks_for_map(scene, "crosstalk_percent")) {
     estimate.role = EffectRole::kNeeded;
     estimate.reason = "the influence of the neighbours is asked for";
   } else if (is_sheared(scene)) {
@@ -165,8 +168,42 @@ EffectEstimate contact_estimate(const SpaceScene& scene) {
   const FoundationPress pressed = foundation_press(scene);
   EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap over overlap",
                           pressed.lift, "tops that the shape does not touch are not pulled"};
-  if (!pressed.covers_all) estimate.role = EffectRole::kNeeded;
+  if (!pressed.covers_all || scene.backing) estimate.role = EffectRole::kNeeded;
   return estimate;
+}
+
+// The film's reading of waves from the width of a foot to the extent of the array (eq. S1), and how far the
+// backing sinks under all pillars, (1 - nu^2) p D/E of a half-space, over their shortening: Johnson, Contact
+// Mechanics (1985), 3.4.
+EffectEstimate backing_estimate(const SpaceScene& scene) {
+  if (!scene.backing) return {.reason = "the base is rigid"};
+  constexpr int kWaves = 8, kDegree = 6;
+  SpaceArray array = array_of(scene);
+  array.film.backing = scene.backing;
+  LayeredFilm held = array.film;
+  held.backing.reset();
+  const double shortest_1_m = 2.0 / scene.diameter_m;
+  const double extent_m = array_diagonal_m(array) + scene.diameter_m;
+  const FilmWaves on_backing(array.film, 0.0, shortest_1_m, kDegree);
+  const FilmWaves on_rigid(held, 0.0, shortest_1_m, kDegree);
+  double change = 0.0;
+  for (int i = 0; i < kWaves; ++i) {
+    const double k_1_m =
+        shortest_1_m * std::pow(2.0 / (extent_m * shortest_1_m), i / (kWaves - 1.0));
+    const double rigid = on_rigid.reading(k_1_m)[2];
+    change = std::max(change, std::abs(on_backing.reading(k_1_m)[2] / rigid - 1.0));
+  }
+  const double shares = largest_over_classes(scene, [&](const SpaceClass& one) {
+    const double cover = 0.25 * std::numbers::pi * one.diameter_m * one.diameter_m *
+                         static_cast<double>(scene.pillars.size()) / (extent_m * extent_m);
+    const double nu = scene.backing->poisson_ratio;
+    return (1.0 - nu * nu) * cover * extent_m * one.material.E0_Pa /
+           (scene.backing->young_modulus_Pa * one.length_m);
+  });
+  if (scene.press) change = std::max(change, shares);
+  return {EffectRole::kOptional, change, "film's E over backing's",
+          elasticity_of(scene.film).young_Pa / scene.backing->young_modulus_Pa,
+          "the film bends and stretches on its backing"};
 }
 
 }  // namespace viscard

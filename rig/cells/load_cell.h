@@ -47,6 +47,7 @@ class LoadCell {
   std::int64_t n_restarts() const { return n_restarts_; }
   // Reads what has arrived and passes each reading to the sink, then to the listener. Call often.
   virtual void service() = 0;
+  // The function that is called with each reading.
   void set_listener(std::function<void(const LoadSample&)> listener) {
     listener_ = std::move(listener);
   }
@@ -83,6 +84,7 @@ class LoadCell {
   LoadCell(Transport& transport, const LoadCellConfig& config, const RigClock& clock,
            RecordSink sink);
 
+  // True for a line that the function for other lines takes.
   bool is_other_line(const ReceivedLine& line) const { return takes_other_ && takes_other_(line); }
   // Writes words to the instrument and records them.
   void send(const std::string& words);

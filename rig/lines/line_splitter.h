@@ -8,6 +8,7 @@
 
 namespace viscard {
 
+// One line and when it arrived.
 struct ReceivedLine {
   std::string text;     // without its terminator
   double time_s = 0.0;  // latest rig time at which its last byte can have arrived; ascending

@@ -25,6 +25,7 @@ struct Preflight {
   std::vector<std::string> problems;  // the test must not start if there is one
   std::vector<std::string> warnings;
 
+  // Travel of the stage to that depth.
   double stage_travel_of(double depth_m) const { return depth_m * travel_per_depth; }
 };
 

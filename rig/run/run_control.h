@@ -82,9 +82,11 @@ class ProgressReport {
 
   // planned_rest_s: how long this phase and all later ones should take.
   void begin_phase(const std::string& name, double planned_rest_s);
+  // From now on depths are counted from that position.
   void set_contact_m(double contact_m) { contact_m_ = contact_m; }
   bool has_contact() const { return contact_m_.has_value(); }
 
+  // Passes on a reading at that position, unless the last report is younger than a tenth of a second.
   void report(double force_N, double position_m);
   // While the stage moves, the depth of a reading is that at the last position report: the position is
   // older than the reading, and the difference would look like a jump.

@@ -86,7 +86,7 @@ void bench_creep() {
   double last_m = 0.0;
   const double spent_s = best_of(10, [&] {
     const ViscoelasticPillar pillar(on_film(), {.degree = 4, .layers = 2}, material,
-                                    TopLoad::kPressure, media().film);
+                                    TopCondition::kPressure, media().film);
     ViscoelasticStepper stepper(pillar.system());
     const double force_N = 1e4 * pillar.top_area_m2();
     stepper.advance(0.0, Control::kForce, force_N);

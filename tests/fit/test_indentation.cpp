@@ -1,3 +1,4 @@
+#include "fit/assembly/stage_specimen.h"
 #include "fit/fit_indentation.h"
 #include "fit/fit_relaxation.h"
 #include "models/material/retardation_spectrum.h"

@@ -173,7 +173,9 @@ TEST_CASE("what x.h declares is defined in x.cpp or in a file of that room witho
   };
   int checked = 0;
   for (const auto& [path, file] : tree().files) {
-    if (!has_suffix(path, ".cpp") || has_suffix(path, "/main.cpp")) continue;
+    // What the system and Python call by name: main() and PYBIND11_MODULE.
+    const bool is_entry = has_suffix(path, "/main.cpp") || path == "io/python/core.cpp";
+    if (!has_suffix(path, ".cpp") || is_entry) continue;
     CAPTURE(path);
     const std::string& source = path;  // clang 14 captures no structured bindings
     const Definitions found = definitions_in(file.text);

@@ -9,8 +9,10 @@
 //   ansys     Ogden's own mu_i/alpha_i; NEO takes the shear modulus 2 C10; d = 2/K, 0 is incompressible.
 //             Source: Mechanical APDL Structural Analysis Guide, TB,HYPER (OGDEN and NEO with examples);
 //             order of BOYCE, GENT and YEOH: Material Reference 4.6.
+// frontistr, lsdyna and openradioss: rubber_rows.cpp.
 #include "io/cards/hyperelastic/rubber_card.h"
 
+#include "io/cards/hyperelastic/rubber_rows.h"
 #include "io/cards/keyword_lines.h"
 #include "io/cards/unit_system.h"
 #include "models/maths/require.h"
@@ -24,25 +26,6 @@ namespace {
 
 using Form = HyperelasticForm;
 using Numbers = std::vector<double>;
-
-bool is_ogden(Form form) {
-  return form == Form::kOgden1 || form == Form::kOgden2 || form == Form::kOgden3;
-}
-
-// Moduli in the stress unit of the card, shapes, and K (0: incompressible).
-struct RubberNumbers {
-  Form form = Form::kNeoHooke;
-  Numbers moduli, shapes;
-  double bulk = 0.0;
-
-  double d() const { return bulk > 0.0 ? 2.0 / bulk : 0.0; }
-};
-
-[[noreturn]] void refuse(const RubberNumbers& law, const std::string& target) {
-  throw std::invalid_argument(target + " has no " + name_of(law.form) +
-                              " law; fit another with viscard fit --model, such as arruda-boyce or "
-                              "yeoh");
-}
 
 std::string row(const Numbers& numbers) {
   std::string text;
@@ -62,19 +45,10 @@ std::string rows_of_eight(const Numbers& numbers) {
   return text;
 }
 
-Numbers pairs_of(const RubberNumbers& law) {
-  Numbers out;
-  for (std::size_t i = 0; i < law.moduli.size(); ++i) {
-    out.push_back(law.moduli[i]);
-    out.push_back(law.shapes[i]);
-  }
-  return out;
-}
-
 // abaqus and calculix.
 std::string keyword_card(const RubberNumbers& law, const std::string& target,
                          const std::string& material) {
-  if (law.form == Form::kGent) refuse(law, target);
+  if (law.form == Form::kGent) refuse_law(law, target);
   // calculix takes a smaller D for a missing one.
   constexpr double kLeast = 1e-10;
   require(target != "calculix" || law.d() >= kLeast,
@@ -122,7 +96,7 @@ std::string febio_card(const RubberNumbers& law, const std::string& material) {
     type = "Yeoh";
     for (std::size_t i = 0; i < n; ++i) body += tag(fmt::format("c{}", i + 1), law.moduli[i]);
   } else if (law.form == Form::kGent) {
-    refuse(law, "febio");
+    refuse_law(law, "febio");
   } else {  // Neo-Hooke is Mooney-Rivlin without its second constant
     type = "Mooney-Rivlin";
     body = tag("c1", law.moduli[0]) + tag("c2", n > 1 ? law.moduli[1] : 0.0);
@@ -164,16 +138,24 @@ std::string ansys_card(const RubberNumbers& law) {
 }
 
 RubberNumbers numbers_of(const HyperelasticLaw& law, const RubberCardOptions& options) {
-  const int exponent = unit_system(options.units).stress_exponent;
-  RubberNumbers out{law.form, {}, {law.shapes.begin(), law.shapes.end()}, 0.0};
-  for (const double modulus_Pa : law.moduli_Pa) out.moduli.push_back(to_card(modulus_Pa, exponent));
+  const UnitSystem& units = unit_system(options.units);
+  RubberNumbers out;
+  out.form = law.form;
+  out.shapes.assign(law.shapes.begin(), law.shapes.end());
+  out.units = &units;
+  for (const double modulus_Pa : law.moduli_Pa)
+    out.moduli.push_back(to_card(modulus_Pa, units.stress_exponent));
   const bool may_be_incompressible = options.target == "abaqus" || options.target == "ansys";
   constexpr double kUsual = 1000.0;
   if (options.bulk_Pa) {
     require_positive("the bulk modulus", *options.bulk_Pa, "Pa");
-    out.bulk = to_card(*options.bulk_Pa, exponent);
+    out.bulk = to_card(*options.bulk_Pa, units.stress_exponent);
   } else if (!may_be_incompressible) {
-    out.bulk = to_card(kUsual * youngs_modulus_Pa(law) / 3.0, exponent);
+    out.bulk = to_card(kUsual * youngs_modulus_Pa(law) / 3.0, units.stress_exponent);
+  }
+  if (options.density_kg_m3) {
+    require_positive("the density", *options.density_kg_m3, "kg/m3");
+    out.density = to_card(*options.density_kg_m3, units.density_exponent);
   }
   return out;
 }
@@ -181,7 +163,8 @@ RubberNumbers numbers_of(const HyperelasticLaw& law, const RubberCardOptions& op
 }  // namespace
 
 const std::vector<std::string>& rubber_card_targets() {
-  static const std::vector<std::string> kTargets{"abaqus", "ansys", "calculix", "febio"};
+  static const std::vector<std::string> kTargets{"abaqus",    "ansys",  "calculix",   "febio",
+                                                 "frontistr", "lsdyna", "openradioss"};
   return kTargets;
 }
 
@@ -193,8 +176,12 @@ std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& opt
   }
   if (options.target == "febio") return febio_card(numbers, options.material_name);
   if (options.target == "ansys") return ansys_card(numbers);
+  if (options.target == "frontistr") return frontistr_rubber(numbers, options.material_name);
+  if (options.target == "lsdyna") return lsdyna_rubber(numbers, options.material_name);
+  if (options.target == "openradioss") return openradioss_rubber(numbers, options.material_name);
   throw std::invalid_argument("there is no card of rubber for '" + options.target +
-                              "'; use abaqus, ansys, calculix or febio");
+                              "'; use abaqus, ansys, calculix, febio, frontistr, lsdyna or "
+                              "openradioss");
 }
 
 }  // namespace viscard

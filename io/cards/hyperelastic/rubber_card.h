@@ -8,9 +8,11 @@
 
 namespace viscard {
 
-// Solvers that a law of rubber is written for: abaqus, ansys, calculix, febio.
+// Solvers that a law of rubber is written for: abaqus, ansys, calculix, febio, frontistr,
+// lsdyna, openradioss.
 const std::vector<std::string>& rubber_card_targets();
 
+// Solver, units and what the law does not state.
 struct RubberCardOptions {
   std::string target;
   std::string units = "SI";
@@ -18,11 +20,14 @@ struct RubberCardOptions {
   // None: incompressible for abaqus and ansys (their D or d = 0), and a thousand times the initial
   // shear modulus for the others, which need a number.
   std::optional<double> bulk_Pa;
+  std::optional<double> density_kg_m3;  // needed by lsdyna and openradioss
+  bool accepts_flags = false;           // write a law that is not to be trusted
 };
 
 // The card of a law. Each solver's convention, with its source, stands in rubber_card.cpp and in the
-// README. Throws std::invalid_argument for a target without this law (gent in abaqus, calculix and
-// febio), a bulk modulus that is not positive, and numbers that calculix would replace silently.
+// README. Throws std::invalid_argument for a target without this law (gent in abaqus, for instance), a
+// missing density, a bulk modulus or density that is not positive, and numbers that calculix or
+// frontistr would replace silently.
 std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& options);
 
 }  // namespace viscard

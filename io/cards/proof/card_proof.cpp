@@ -4,6 +4,7 @@
 #include "io/cards/card_numbers.h"
 #include "io/cards/one_element.h"
 #include "io/cards/targets/card_targets.h"
+#include "models/material/series_band.h"
 
 #include <fmt/format.h>
 
@@ -99,6 +100,18 @@ void note_terms(const Material& material, const ElementTest& test, const StepErr
   }
 }
 
+// A run, and the material that the card should be at the temperature of the run.
+struct PlannedTest {
+  ElementTest test;
+  Material material;
+  std::optional<double> at_C = std::nullopt;  // besides the reference temperature of the shift
+
+  const char* name() const {
+    if (at_C) return "temperature";
+    return test.kind == ElementTestKind::kCreep ? "creep" : "relaxation";
+  }
+};
+
 // What all runs of one proof have in common.
 struct Proving {
   const std::string& card_text;
@@ -109,31 +122,47 @@ struct Proving {
   Card card(const std::string& text) const {
     return {.name = read.name, .text = text, .written = material};
   }
-  std::vector<SolverTask> tasks(const Card& of, const std::vector<ElementTest>& tests) const {
+  std::vector<SolverTask> tasks(const Card& of, const std::vector<PlannedTest>& tests) const {
     std::vector<SolverTask> out;
-    for (const ElementTest& test : tests) out.push_back({{of, test, read.units}, read.material});
+    for (const PlannedTest& planned : tests) {
+      out.push_back({{of, planned.test, read.units, planned.at_C}, read.material});
+    }
     return out;
+  }
+  // Whether the solver reads the shift from the card.
+  bool runs_shift() const {
+    return material.shift && !found.solver.targets.empty() &&
+           takes_shift(read.understood, material);
   }
 };
 
-// Both tests, each at its three steps.
-std::vector<ElementTest> tests_of(const Proving& proving, int steps_per_tau) {
-  std::vector<ElementTest> out;
-  for (const ElementTestKind kind : {ElementTestKind::kRelaxation, ElementTestKind::kCreep}) {
-    ElementTestOptions options = proving.found.solver.test;
-    options.kind = kind;
-    if (steps_per_tau > 0) options.steps_per_tau = steps_per_tau;
-    ElementTest test = element_test(proving.material, options);
-    for (int i = 0; i < kSteps; ++i) {
-      out.push_back(test);
-      for (TimeBlock& block : test.blocks) block.increments *= 2;
-    }
+// A test at its three steps.
+void plan(PlannedTest planned, std::vector<PlannedTest>& out) {
+  for (int i = 0; i < kSteps; ++i) {
+    out.push_back(planned);
+    for (TimeBlock& block : planned.test.blocks) block.increments *= 2;
   }
+}
+
+std::vector<PlannedTest> tests_of(const Proving& proving, int steps_per_tau) {
+  std::vector<PlannedTest> out;
+  ElementTestOptions options = proving.found.solver.test;
+  if (steps_per_tau > 0) options.steps_per_tau = steps_per_tau;
+  for (const ElementTestKind kind : {ElementTestKind::kRelaxation, ElementTestKind::kCreep}) {
+    options.kind = kind;
+    plan({element_test(proving.material, options), proving.material}, out);
+  }
+  if (!proving.runs_shift()) return out;
+  constexpr double kWarmer_K = 10.0;  // changes the times of a polymer severalfold
+  const double at_C = proving.material.shift->T_ref_C + kWarmer_K;
+  const Material warm = material_at_temperature(proving.material, at_C);
+  options.kind = ElementTestKind::kRelaxation;
+  plan({element_test(warm, options), warm, at_C}, out);
   return out;
 }
 
 // Whether the card that viscard writes for the material runs to the end of the same test.
-bool does_right_card_run(const Proving& proving, const ElementTest& test) {
+bool does_right_card_run(const Proving& proving, const PlannedTest& test) {
   try {
     const Card right = write_card(
         proving.material, proving.read.understood,
@@ -145,12 +174,8 @@ bool does_right_card_run(const Proving& proving, const ElementTest& test) {
   }
 }
 
-const char* name_of(const ElementTest& test) {
-  return test.kind == ElementTestKind::kCreep ? "creep" : "relaxation";
-}
-
 // The models at the coarsest step, in a folder for each test.
-void note_models(const Proving& proving, const Card& card, const std::vector<ElementTest>& tests,
+void note_models(const Proving& proving, const Card& card, const std::vector<PlannedTest>& tests,
                  CardProof& proof) {
   const std::vector<SolverTask> tasks = proving.tasks(card, tests);
   const Solver& solver = proving.found.solver;
@@ -160,7 +185,7 @@ void note_models(const Proving& proving, const Card& card, const std::vector<Ele
   }
   for (std::size_t i = 0; i < tasks.size(); i += kSteps) {
     for (DeckFile& file : solver.model({tasks[i]})) {
-      file.name = std::string(name_of(tests[i])) + "/" + file.name;
+      file.name = std::string(tests[i].name()) + "/" + file.name;
       proof.models.push_back(std::move(file));
     }
   }
@@ -216,23 +241,28 @@ CardProof prove_card(const std::string& card_text, const ReadCard& read, const M
                      const FoundSolver& found, int steps_per_tau) {
   const Proving proving{card_text, read, material, found};
   const Card card = proving.card(card_text);
-  const std::vector<ElementTest> tests = tests_of(proving, steps_per_tau);
-  CardProof proof{.end_s = tests.front().end_s()};
+  const std::vector<PlannedTest> tests = tests_of(proving, steps_per_tau);
+  CardProof proof{.end_s = tests.front().test.end_s()};
   note_models(proving, card, tests, proof);
   const std::vector<SolverRun> runs = run_solver(found, proving.tasks(card, tests));
   proof.increments = static_cast<int>(runs.front().samples.size());
   if (runs.back().diverged) {
-    const ElementTest& test = tests[runs.size() - 1];
+    const PlannedTest& test = tests[runs.size() - 1];
     const auto& samples = runs.back().samples;
-    proof.divergence = SolverDivergence{.test = name_of(test),
+    proof.divergence = SolverDivergence{.test = test.name(),
                                         .reached_s = samples.empty() ? 0.0 : samples.back().time_s,
                                         .is_card_blamed = does_right_card_run(proving, test)};
     return proof;
   }
   for (std::size_t i = 0; i < tests.size(); i += kSteps) {
-    const StepError error = compare(&runs[i], material, tests[i], found.solver);
-    (tests[i].kind == ElementTestKind::kCreep ? proof.creep : proof.relaxation) = error;
-    note_terms(material, tests[i], error, proof);
+    const PlannedTest& planned = tests[i];
+    const StepError error = compare(&runs[i], planned.material, planned.test, found.solver);
+    if (planned.at_C) {
+      proof.temperature = TemperatureProof{*planned.at_C, error};
+      continue;
+    }
+    (planned.test.kind == ElementTestKind::kCreep ? proof.creep : proof.relaxation) = error;
+    note_terms(material, planned.test, error, proof);
   }
   return proof;
 }

@@ -35,8 +35,14 @@ struct TermProof {
   bool is_exercised = false;  // that change is at least twice what the test resolves
 };
 
+// Relaxation at another temperature than the reference of the card's shift.
+struct TemperatureProof {
+  double at_C = 0.0;
+  StepError error;
+};
+
 struct SolverDivergence {
-  std::string test;  // "relaxation" or "creep"
+  std::string test;  // "relaxation", "creep" or "temperature"
   double reached_s = 0.0;
   // The same test of the card that viscard writes for this material runs to the end, so the numbers
   // of the given card are to blame. Otherwise it is a limit of the solver, and nothing is known.
@@ -45,6 +51,8 @@ struct SolverDivergence {
 
 struct CardProof {
   StepError relaxation, creep;
+  // Absent if the material has no shift, or the solver does not read it from the card.
+  std::optional<TemperatureProof> temperature;
   std::vector<TermProof> terms;
   std::optional<SolverDivergence> divergence;  // if set, the errors above are not filled
   double end_s = 0.0;                          // end of the tests
@@ -52,7 +60,8 @@ struct CardProof {
   std::vector<DeckFile> models;                // as run at the coarsest step, by test
 
   bool agrees() const {
-    return !divergence && relaxation.vanishes_with_step() && creep.vanishes_with_step();
+    return !divergence && relaxation.vanishes_with_step() && creep.vanishes_with_step() &&
+           (!temperature || temperature->error.vanishes_with_step());
   }
   bool exercises_all_terms() const;
   bool holds() const { return agrees() && exercises_all_terms(); }
@@ -63,7 +72,7 @@ struct CardProof {
 double backward_euler_error(const Material& material, const ElementTest& test);
 
 // Runs both tests at three steps: steps_per_tau in the shortest relaxation time (0: as many as the
-// solver's test has), twice and four times as many. `material` is what the card should be, under
+// solver's test has), twice and four times as many; a card with a shift also 10 K warmer. `material` is what the card should be, under
 // the bulk rule of the card. Throws what run_solver() throws.
 CardProof prove_card(const std::string& card_text, const ReadCard& read, const Material& material,
                      const FoundSolver& found, int steps_per_tau = 0);

@@ -146,8 +146,13 @@ std::string certificate_text(const CertificateRequest& request, const CardChain&
             {"created_at", now_iso8601()},
             {"relaxation", json_of(proof.relaxation)},
             {"creep", json_of(proof.creep)},
+            {"temperature", nullptr},
             {"end_s", proof.end_s},
             {"increments", proof.increments}};
+  if (const auto& temperature = proof.temperature) {
+    json["temperature"] = json_of(temperature->error);
+    json["temperature"]["at_C"] = temperature->at_C;
+  }
   add_terms(proof, json);
   json["holds"] = proof.holds();
   json["chain"] = json_of(chain);

@@ -59,10 +59,12 @@ struct FoundSolver {
 };
 
 // Runs the tests in temporary folders, up to the first that diverges. Throws std::runtime_error with
-// one line if the program is missing, stops, takes longer than ten minutes, or prints nothing.
+// one line if the program is missing, stops, takes more than ten minutes of processor time, or prints
+// nothing.
 std::vector<SolverRun> run_solver(const FoundSolver& found, const std::vector<SolverTask>& tasks);
 
-// What the program prints for these arguments, in at most ten seconds; "" if it cannot be run.
+// What the program prints for these arguments, in at most 30 s of processor time; "" if it cannot be
+// run.
 std::string printed_by(const std::string& program, const std::vector<std::string>& words);
 
 }  // namespace viscard

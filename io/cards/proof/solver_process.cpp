@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,8 +21,14 @@
 namespace viscard {
 namespace {
 
-constexpr auto kLongestRun = std::chrono::minutes(10);
-constexpr auto kLongestVersion = std::chrono::seconds(10);
+// Processor time ends a run that computes for too long, however busy the computer is; the clock ends
+// one that waits for something.
+struct RunLimits {
+  rlim_t processor_s = 0;
+  std::chrono::seconds clock{0};
+};
+constexpr RunLimits kRunLimits{600, std::chrono::hours(2)};
+constexpr RunLimits kVersionLimits{30, std::chrono::minutes(2)};
 
 // Removed with its files by the destructor.
 class TemporaryFolder {
@@ -49,7 +56,7 @@ class TemporaryFolder {
 
 // Runs in the child process and never returns. Everything printed is added to the file "log".
 [[noreturn]] void become(const std::vector<std::string>& command,
-                         const std::filesystem::path& folder) {
+                         const std::filesystem::path& folder, const RunLimits& limits) {
   if (::chdir(folder.c_str()) != 0) ::_exit(126);
   const int log = ::open("log", O_WRONLY | O_CREAT | O_APPEND, 0644);
   const int nothing = ::open("/dev/null", O_RDONLY);
@@ -57,6 +64,8 @@ class TemporaryFolder {
   ::dup2(log, STDOUT_FILENO);
   ::dup2(log, STDERR_FILENO);
   ::setenv("OMP_NUM_THREADS", "1", 1);
+  const rlimit processor{limits.processor_s, limits.processor_s + 1};
+  ::setrlimit(RLIMIT_CPU, &processor);
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
@@ -66,21 +75,21 @@ class TemporaryFolder {
 
 // The status of waitpid, or nothing if it took too long and was stopped.
 std::optional<int> status_of(const std::vector<std::string>& command,
-                             const std::filesystem::path& folder,
-                             std::chrono::steady_clock::duration longest) {
+                             const std::filesystem::path& folder, const RunLimits& limits) {
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("cannot start " + command[0] + ": no process left");
-  if (child == 0) become(command, folder);
+  if (child == 0) become(command, folder, limits);
   int status = 0;
   const auto started = std::chrono::steady_clock::now();
   while (::waitpid(child, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() - started > longest) {
+    if (std::chrono::steady_clock::now() - started > limits.clock) {
       ::kill(child, SIGKILL);
       ::waitpid(child, &status, 0);
       return std::nullopt;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return std::nullopt;
   return status;
 }
 
@@ -98,8 +107,10 @@ std::string end_of(const std::string& log, const char* mark) {
 bool run_commands(const FoundSolver& found, const std::filesystem::path& folder) {
   const Solver& solver = found.solver;
   for (const std::vector<std::string>& command : solver.commands(found.program)) {
-    const std::optional<int> status = status_of(command, folder, kLongestRun);
-    if (!status) throw std::runtime_error(command[0] + " did not finish in 10 minutes");
+    const std::optional<int> status = status_of(command, folder, kRunLimits);
+    if (!status) {
+      throw std::runtime_error(command[0] + " did not finish in 10 minutes of processor time");
+    }
     if (WIFEXITED(*status) && WEXITSTATUS(*status) == 127) {
       throw std::runtime_error("cannot run " + command[0] + "; " + solver.install);
     }
@@ -153,7 +164,7 @@ std::string printed_by(const std::string& program, const std::vector<std::string
   const TemporaryFolder folder;
   std::vector<std::string> command{program};
   command.insert(command.end(), words.begin(), words.end());
-  const std::optional<int> status = status_of(command, folder.path(), kLongestVersion);
+  const std::optional<int> status = status_of(command, folder.path(), kVersionLimits);
   const bool has_run = status && WIFEXITED(*status) && WEXITSTATUS(*status) != 127;
   return has_run ? read_file(folder.path() / "log") : "";
 }

@@ -108,7 +108,7 @@ void read_comsol(const std::string& text, ReadCard& card) {
   card.units = unit_system("SI");  // each expression carries its own
   card.units_were_stated = true;
   std::map<int, CardBranch> branches;
-  std::set<std::string> prefixes;
+  std::set<std::string> prefixes, names;
   bool has_young = false;
   const char* row = "^\\s*(\\w+)\\s+([-+.\\deE]+)(?:\\[([^\\]]*)\\])?(?:\\s.*)?$";
   const char* suffix = "^(.*_)?(Einf|E_inf|nuinf|nu|rho|Tref|C1|C2|Q|G\\d+|tau\\d+)$";
@@ -126,6 +126,9 @@ void read_comsol(const std::string& text, ReadCard& card) {
       card.add("parameter-not-known", at_line(line, name + " is no parameter of these cards"),
                false);
       continue;
+    }
+    if (!names.insert(name).second) {
+      card.add("second-element", at_line(line, name + " stands in the card twice; keep one"));
     }
     if (prefixes.insert(role->group[1]).second && prefixes.size() > 1) {
       card.add("prefix-differs",

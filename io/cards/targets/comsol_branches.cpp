@@ -1,7 +1,8 @@
 // The branch table of COMSOL's Viscoelasticity (generalized Maxwell), a file for its Load from File:
-// three columns, number, shear modulus in Pa and relaxation time in s. Source: public
-// documentation of the table; that its cells take expressions with a unit as those of Parameters do
-// is from general knowledge. COMSOL has not run it here.
+// three columns, number, shear modulus in Pa and relaxation time in s. Source: COMSOL 5.3 Structural
+// Mechanics Module User's Guide, Viscoelasticity. That its cells take expressions with a unit as
+// those of Parameters do was found in no public text, and the card says so. COMSOL has not run it
+// here.
 #include "io/basics/patterns.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/card_values.h"
@@ -98,7 +99,8 @@ CardTarget comsol_branches_target() {
           .evidence_note = "public documentation; not run",
           .advice =
               "Viscoelasticity > Generalized Maxwell > Load from File. E, nu (both long-term) "
-              "and density as in card comsol.",
+              "and density as in card comsol. NOT CHECKED: that the file may have units beside its "
+              "numbers; with --units SI it has none.",
           .harmonic = "exact: Frequency Domain studies take the branches",
           .cannot_represent =
               "E, nu and the density (set the long-term ones in the model), and "

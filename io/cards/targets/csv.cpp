@@ -62,11 +62,16 @@ double csv_difference(const std::string& text, const Material& reference) {
   }
   const UnitSystem& units = system_of(names[0].substr(5), names[1].substr(8));
   const PronySeries series = young_series(reference);
-  double largest = 0.0;
+  double largest = 0.0, time_before_s = -1.0;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     if (trimmed(lines[i].text).empty()) continue;
     const auto row = cells(lines[i].text, ',');
     const double time_s = from_card(cell_number(row, 0, lines[i], "time"), units.time_exponent);
+    // A relaxed material has the same E(t) at many times, so the modulus alone says nothing of them.
+    if (!(time_s > time_before_s)) {
+      throw std::runtime_error(at_line(lines[i], "the times of the table do not increase"));
+    }
+    time_before_s = time_s;
     const double found_Pa =
         from_card(cell_number(row, 1, lines[i], "modulus"), units.stress_exponent);
     largest = std::max(largest, std::abs(found_Pa / relaxation_modulus_Pa(series, time_s) - 1.0));

@@ -149,6 +149,8 @@ void read_febio(const std::string& commented, ReadCard& card) {
   (void)card_lines(commented, "\n");  // refuses lines that are too long to match
   const std::string whole = without_xml_comments(commented);
   check_nesting(whole);
+  check_single_element(whole, "<material\\s[^>]*type\\s*=\\s*[\"'](uncoupled )?viscoelastic[\"']",
+                       "<material> of a viscoelastic type", card);
   std::string text = viscoelastic_material(whole);
   const auto type = first_match(text, "<material\\s[^>]*type\\s*=\\s*[\"']([^\"']*)[\"']");
   if (!type) throw std::runtime_error("the card has no <material type=\"...\">");

@@ -81,7 +81,7 @@ std::string frontistr_mesh(const DeckInput& input) {
     temperature = fmt::format(
         "!NGROUP, NGRP=NALL\n 1, 2, 3, 4, 5, 6, 7, 8\n"
         "!INITIAL CONDITION, TYPE=TEMPERATURE\n NALL, {}\n",
-        shift->T_ref_C);
+        input.temperature_C.value_or(shift->T_ref_C));
   }
   return out +
          "!ELEMENT, TYPE=361, EGRP=E\n 1, 1, 2, 3, 4, 5, 6, 7, 8\n"
@@ -131,7 +131,8 @@ std::string frontistr_control(const DeckInput& input) {
   }
   // As in FrontISTR's own tests of !TRS: the temperature is a load beside the initial condition.
   if (const auto& shift = input.card.written.shift) {
-    out += fmt::format("!TEMPERATURE, GRPID=2\n NALL, {}\n", shift->T_ref_C);
+    out += fmt::format("!TEMPERATURE, GRPID=2\n NALL, {}\n",
+                       input.temperature_C.value_or(shift->T_ref_C));
   }
   return out + frontistr_steps(input) +
          "!SOLVER, METHOD=DIRECT\n 10000, 1\n 1.0E-12, 1.0, 0.0\n!END\n";

@@ -1,8 +1,10 @@
 // Tables over frequency for ANSYS and COMSOL. Sources: ANSYS command reference, TBFIELD (type FREQ,
 // for TB,ELASTIC and TB,SDAMP in full harmonic analyses); theory reference, section 14.3: TB,SDAMP
 // adds an imaginary stiffness. That the coefficient of TBOPT=STRU multiplies the stiffness itself,
-// and so is E''/E', is from general knowledge. COMSOL, Structural Mechanics Module, viscoelastic
-// damping: G* = G' + i G''. Neither solver has run these cards here.
+// and so is E''/E', was found in no public text; the command reference of release 18.2 (DMPSTR) says
+// that DMPSTR adds g K and MP,DMPR 2 g K. The card says so. COMSOL 5.5 and 6.2, Structural Mechanics
+// Module User's Guide, viscoelastic damping, Viscoelasticity (User defined): G* = G' + i G''. Neither
+// solver has run these cards here.
 #include "io/cards/card_values.h"
 #include "io/cards/keyword_lines.h"
 #include "io/cards/targets/card_targets.h"
@@ -197,32 +199,34 @@ void read_comsol_table(const std::string& text, ReadCard& card) {
 }  // namespace
 
 CardTarget ansys_table_target() {
-  return {.name = "ansys-table",
-          .code = "ANSYS MAPDL, full harmonic analysis with tables over frequency",
-          .extension = ".mac",
-          .comment = "!",
-          .write = write_ansys_table,
-          .read = read_ansys_table,
-          .bulk = BulkRule::kConstantPoisson,
-          .is_case_sensitive = false,
-          .takes_incompressible = true,
-          .evidence = Evidence::kDocumentation,
-          .evidence_note =
-              "public command reference; the factor of TB,SDAMP from general "
-              "knowledge; not run",
-          .advice =
-              "ANTYPE,HARMIC with HROPT,FULL. Without prestress TB,PRONY of card ansys does "
-              "the same exactly; a prestressed harmonic analysis drops it, and then needs "
-              "this card. Near nu = .5 set KEYOPT(6)=1 of SOLID185 to 187.",
-          .cannot_represent =
-              "time-domain tests, frequencies outside the table, and a loss factor "
-              "of K other than that of G",
-          .conventions =
-              "E' and nu by TB,ELASTIC, loss factor E''/E' by TB,SDAMP with STRU, both "
-              "over the frequency in cycles per time",
-          .values = ansys_table_values,
-          .rows_per_decade = 20,
-          .band_note = table_note};
+  return {
+      .name = "ansys-table",
+      .code = "ANSYS MAPDL, full harmonic analysis with tables over frequency",
+      .extension = ".mac",
+      .comment = "!",
+      .write = write_ansys_table,
+      .read = read_ansys_table,
+      .bulk = BulkRule::kConstantPoisson,
+      .is_case_sensitive = false,
+      .takes_incompressible = true,
+      .evidence = Evidence::kDocumentation,
+      .evidence_note = "public command reference; the factor of TB,SDAMP not checked; not run",
+      .advice =
+          "ANTYPE,HARMIC with HROPT,FULL. Without prestress TB,PRONY of card ansys does "
+          "the same exactly; a prestressed harmonic analysis drops it, and then needs "
+          "this card. Near nu = .5 set KEYOPT(6)=1 of SOLID185 to 187. NOT CHECKED: no public "
+          "text says that the coefficient of TB,SDAMP with STRU multiplies the stiffness once, "
+          "as here, and not twice, as that of MP,DMPR does; the stress of one element must lead "
+          "its strain by atan(loss factor).",
+      .cannot_represent =
+          "time-domain tests, frequencies outside the table, and a loss factor "
+          "of K other than that of G",
+      .conventions =
+          "E' and nu by TB,ELASTIC, loss factor E''/E' by TB,SDAMP with STRU, both "
+          "over the frequency in cycles per time",
+      .values = ansys_table_values,
+      .rows_per_decade = 20,
+      .band_note = table_note};
 }
 
 CardTarget comsol_table_target() {

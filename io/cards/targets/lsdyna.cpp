@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
@@ -17,8 +16,7 @@
 namespace viscard {
 namespace {
 
-// Nine of the ten columns if that costs no more than 1e-7 of the number: then neighbours do not
-// touch and people can read them.
+// Nine of the ten columns, so that neighbours do not touch, if that costs at most 1e-7 of the number.
 std::string field(double value) {
   const std::string nine = nearest_number(value, 9);
   const bool is_near =
@@ -42,15 +40,15 @@ std::string write_076(const CardBody& body) {
         "$ Arrhenius shift (manual, not run: compare one warm run): time is multiplied by\n"
         "$ exp(-A (1/T - 1/TREF)), A = E_a/R, T in K\n";
   }
-  out += "$      MID        RO      BULK       PCF        EF      TREF         A         B\n";
-  out += first_fields(numbers);
+  out += "$      MID        RO      BULK       PCF        EF      TREF         A         B\n" +
+         first_fields(numbers);
   if (numbers.shift) {
     out += right("", 20) + field(numbers.shift->T_ref_C - kAbsoluteZero_C) +
            field(numbers.shift->activation_J_mol / kGasConstant_J_mol_K) + field(0.0);
   }
-  out += "\n";
-  out += "$     LCID        NT    BSTART     TRAMP     LCIDK       NTK   BSTARTK    TRAMPK\n\n";
-  out += "$       GI     BETAI        KI    BETAKI\n";
+  out +=
+      "\n$     LCID        NT    BSTART     TRAMP     LCIDK       NTK   BSTARTK    TRAMPK\n\n"
+      "$       GI     BETAI        KI    BETAKI\n";
   out += field(numbers.equilibrium) + field(0.0) + "\n";
   for (const CardBranch& branch : numbers.branches) {
     out += field(branch.shear) + field(branch.time) + "\n";
@@ -78,14 +76,16 @@ KeywordCards material_cards(const std::string& text, const std::string& long_nam
                             const std::string& short_name, ReadCard& card) {
   KeywordCards cards;
   bool inside = false, wants_title = false, is_long_deck = false;
+  int materials = 0;
   for (const CardLine& line : card_lines(text, "$")) {
     const std::string word = upper(trimmed(line.text));
     if (!word.empty() && word[0] == '*') {
-      if (inside) break;
       if (word.rfind("*KEYWORD", 0) == 0) is_long_deck = word.find("LONG=Y") != std::string::npos;
-      inside = word.rfind(long_name, 0) == 0 || word.rfind(short_name, 0) == 0;
+      const bool begins = word.rfind(long_name, 0) == 0 || word.rfind(short_name, 0) == 0;
+      inside = begins && ++materials == 1;
+      if (begins && !inside) card.add_second_material(line);
       wants_title = inside && word.find("_TITLE") != std::string::npos;
-      if (is_long_deck || word.back() == '+') cards.width = 20;
+      if (inside && (is_long_deck || word.back() == '+')) cards.width = 20;
     } else if (inside && wants_title) {
       card.name = trimmed(line.text);
       wants_title = false;

@@ -111,6 +111,9 @@ void read_gallery(const std::string& text, ReadCard& card) {
   card.understood = gallery_target();
   const NamedNumbers named = named_lists(
       text, "@MaterialProperty\\s*<\\s*constant\\s*>\\s*['\"]([^'\"]*)['\"]\\s*([^;]*);");
+  if (all_matches(text, "@MaterialProperty").size() > named.size()) {
+    card.add("second-element", "a property stands in the card twice, or is not constant");
+  }
   card.numbers.bulk = one_of(named, "BulkModulus");
   card.numbers.shear = one_of(named, "ShearModulus");
   for (std::size_t i = 0;; ++i) {
@@ -152,7 +155,9 @@ void check_program(const std::string& text, const NamedNumbers& named, std::size
     card.add("array-size", "Nt is not the number of relaxation times, " + std::to_string(count));
   }
   for (const char* name : {"E0", "nu0", "g", "k", "tau"}) {
-    const bool is_array = named.at(name).size() > 1;
+    check_single_element(text, std::string("@Parameter\\s+\\w+\\s+") + name + "\\b", name, card);
+    const auto found = named.find(name);
+    const bool is_array = found != named.end() && found->second.size() > 1;
     const std::string mark =
         std::string("@Parameterreal") + name + (is_array ? "\\[Nt\\]=\\{[^{};]*\\};" : "=[^{};]*;");
     if (!first_match(program, mark)) {

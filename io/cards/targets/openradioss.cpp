@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace viscard {
@@ -69,7 +70,9 @@ void read_openradioss(const std::string& text, ReadCard& card) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string word = upper(trimmed(lines[i].text));
     if (word.rfind("/UNIT/", 0) == 0) read_units(lines, i, card);
-    if (word.rfind("/MAT/LAW40", 0) == 0 || word.rfind("/MAT/KELVINMAX", 0) == 0) at = i;
+    if (word.rfind("/MAT/LAW40", 0) != 0 && word.rfind("/MAT/KELVINMAX", 0) != 0) continue;
+    if (at != lines.size()) card.add_second_material(lines[i]);
+    at = std::min(at, i);
   }
   if (at + 5 >= lines.size()) {
     throw std::runtime_error(

@@ -72,8 +72,20 @@ std::string text_of(const CardChain& chain) {
   return "  chain: not complete: " + missing + "\n";
 }
 
-void print_proof(const CardWords& words, const FoundSolver& found, const CardProof& proof,
-                 const CardChain& chain, std::ostream& out) {
+// The temperatures of the tests, for a material whose times change with temperature.
+std::string temperature_of(const Material& material, const FoundSolver& found,
+                           const CardProof& proof) {
+  if (!material.shift || proof.divergence) return "";
+  if (proof.temperature) {
+    return row_of(fmt::format("at {:g} C", proof.temperature->at_C).c_str(),
+                  proof.temperature->error);
+  }
+  return fmt::format("  temperature: {} ran the numbers of {:g} C alone; the shift is not proven\n",
+                     found.solver.code, material.shift->T_ref_C);
+}
+
+void print_proof(const CardWords& words, const FoundSolver& found, const Material& material,
+                 const CardProof& proof, const CardChain& chain, std::ostream& out) {
   out << fmt::format(
       "{}: {} {} on one element, {} increments to {:g} s, against the exact answer "
       "of {}\n",
@@ -82,8 +94,8 @@ void print_proof(const CardWords& words, const FoundSolver& found, const CardPro
   if (proof.divergence) {
     out << text_of(*proof.divergence, found.solver.code);
   } else {
-    out << row_of("relaxation", proof.relaxation) << row_of("creep", proof.creep) << terms_of(proof)
-        << verdict_of(proof);
+    out << row_of("relaxation", proof.relaxation) << row_of("creep", proof.creep)
+        << temperature_of(material, found, proof) << terms_of(proof) << verdict_of(proof);
   }
   if (found.solver.targets.empty()) {
     out << "  " << found.solver.code
@@ -127,7 +139,7 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   const CardProof proof = prove_card(request.card_text, read, material, found);
   const CardChain chain = chain_of(request);
   const std::string certificate = certificate_text(request, chain, found, proof);
-  if (!words.json) print_proof(words, found, proof, chain, FittedText(streams));
+  if (!words.json) print_proof(words, found, material, proof, chain, FittedText(streams));
   write_file(path, certificate, words.force);
   if (words.json) {
     Words inputs{words.prove};

@@ -73,6 +73,8 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "card of one temperature, such as 37 or \"37 degC\": the material's shift moves its times");
   add("bulk-modulus", po::value<std::string>()->value_name("K"),
       "of a law of rubber, such as \"2 GPa\"; without it incompressible where the solver can be");
+  add("density", po::value<std::string>()->value_name("RHO"),
+      "of a law of rubber, such as \"1.1 g/cm3\"; LS-DYNA and OpenRadioss need it");
   add("bound", po::value(&words.bound)->value_name("END"),
       "lower or upper: the card at that end of the 95 % intervals of E0 and E_inf");
   add("elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
@@ -191,6 +193,7 @@ int run_card(const Words& words, Streams& streams) {
   card.material = given(*values, "material").value_or("");
   card.temperature_C = given_quantity(*values, "at-temperature", "degC");
   card.bulk_Pa = given_quantity(*values, "bulk-modulus", "Pa");
+  card.density_kg_m3 = given_quantity(*values, "density", "kg/m3");
   card.json = values->count("json") > 0;
   if (const auto terms = given(*values, "terms")) card.terms = number_of_terms(*terms);
   if (const auto band = given(*values, "band")) card.band = band_from_text(*band);
@@ -201,7 +204,9 @@ int run_card(const Words& words, Streams& streams) {
   if (!card.prove.empty()) return prove_card_file(card, streams);
   if (!card.deck.empty()) return write_deck_files(card, streams);
   if (is_rubber(card)) return write_rubber_card(card, streams);
-  if (card.bulk_Pa) throw UsageError("--bulk-modulus is for laws of rubber; omit it");
+  if (card.bulk_Pa || card.density_kg_m3) {
+    throw UsageError("--bulk-modulus and --density are for laws of rubber; omit them");
+  }
   return write_card_file(card, streams);
 }
 

@@ -1,6 +1,7 @@
 #include "fit/intervals/flags.h"
 #include "io/basics/atomic_file.h"
 #include "io/cli/fit/fit_command.h"
+#include "io/cli/fit/fit_next.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
@@ -126,6 +127,7 @@ CommandSyntax fit_syntax() {
   add("own-terms", "with --joint: each mixing ratio keeps its own number of terms");
   add("share", po::value<Words>()->composing(),
       "with --joint: E0, g, tau or one of them (tau_1) is the same at all ratios (repeatable)");
+  add_next_option(syntax.options);
   add_large_strain_options(syntax.options);
   add("out", po::value<std::string>(), "material file to write (one input file, or several tests)");
   add("force", "replace an existing material file");
@@ -167,9 +169,12 @@ void print_as_text(const std::vector<FileOutcome>& outcomes, std::ostream& out) 
 }
 
 // One file has its keys at the top, several stand in a list.
-void print_as_json(const std::vector<FileOutcome>& outcomes, const Words& files, Streams& streams) {
+void print_as_json(const std::vector<FileOutcome>& outcomes, const Words& files,
+                   const NextMeasurements& next, Streams& streams) {
   if (outcomes.size() == 1) {
-    print_json({"viscard-fit/1", files}, json_of(outcomes.front()), streams);
+    nlohmann::ordered_json json = json_of(outcomes.front());
+    if (next) json["next"] = json_from_next(*next);
+    print_json({"viscard-fit/1", files}, json, streams);
     return;
   }
   nlohmann::ordered_json json;
@@ -229,6 +234,7 @@ int run_fit(const Words& words, Streams& streams) {
     return run_large_strain(large, *values, streams);
   }
   const FitWords options = fit_words(*values);
+  const Words want = next_words(*values, files);
   const auto out = given(*values, "out");
   const std::string command = quoted_command_line("fit", words);
   std::vector<TestFile> tests;
@@ -265,14 +271,16 @@ int run_fit(const Words& words, Streams& streams) {
   }
   progress.clear();
   require_one(outcomes);
+  const NextMeasurements next = next_of(outcomes.front(), want);
   const bool as_json = values->count("json") > 0;
   if (!as_json) print_as_text(outcomes, FittedText(streams));
+  if (!as_json && next) streams.out << "next: " << text_of_next(*next) << "\n";
   if (out) {
     Material material = material_from_fitted(*outcomes.front().fitted, about);
     if (!options.ratio.empty()) material.mixing_ratio = options.ratio.front();
     write_file(*out, json_from_material(material), overwrite);
   }
-  if (as_json) print_as_json(outcomes, files, streams);
+  if (as_json) print_as_json(outcomes, files, next, streams);
   return report_defects(outcomes, streams.err);
 }
 

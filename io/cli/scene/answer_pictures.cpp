@@ -41,17 +41,28 @@ std::vector<double> times(std::vector<double> values, double factor) {
   return values;
 }
 
+// The abscissa of a curve: "wavelength_m" is "wavelength" in m.
+struct Abscissa {
+  std::string name, unit;
+};
+Abscissa abscissa_of(const SceneCurve& curve) {
+  const std::size_t end = curve.x_name.rfind('_');
+  return {curve.x_name.substr(0, end), curve.x_name.substr(end + 1)};
+}
+
 PlotPanel panel_of(const SceneCurve& curve) {
-  const bool in_time = curve.x_name == "time_s";
+  const Abscissa x = abscissa_of(curve);
+  const bool is_frequency = x.unit == "Hz";
   const bool is_size = curve.name.ends_with("_magnitude") || curve.name.ends_with("_spectrum");
   const bool is_log = is_size && spans_decades(curve.value);
-  // Logarithmic axes stay in the base unit; linear ones get a prefix.
-  const ShownUnit x_unit = in_time ? shown_unit("s", curve.x) : ShownUnit{1.0, "Hz"};
+  // Frequencies stay in Hz and logarithmic sizes in the base unit; the rest get a prefix.
+  const ShownUnit x_unit = is_frequency ? ShownUnit{1.0, "Hz"} : shown_unit(x.unit, curve.x);
   const ShownUnit y_unit =
       is_log ? ShownUnit{1.0, curve.unit} : shown_unit(curve.unit, curve.value);
   PlotPanel panel;
-  panel.x = {.label = in_time ? "time (" + x_unit.text + ")" : "frequency (Hz)",
-             .is_log = !in_time && spans_decades(curve.x)};
+  // Waves are shown over their logarithm; times and places start at, or are on both sides of, 0.
+  panel.x = {.label = x.name + " (" + x_unit.text + ")",
+             .is_log = (is_frequency || x.name == "wavelength") && spans_decades(curve.x)};
   panel.y = {.label = label_of(curve, y_unit.text), .is_log = is_log};
   PlotSeries line;
   line.x = times(curve.x, x_unit.per_si);

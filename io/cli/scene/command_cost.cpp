@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/cli/scene/cost_of_tests.h"
 #include "io/cli/scene/cost_output.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
@@ -21,15 +22,19 @@ namespace {
 
 CommandSyntax cost_syntax() {
   CommandSyntax syntax{
-      "viscard cost SCENE.toml [OPTIONS]",
+      "viscard cost SCENE.toml [OPTIONS] | viscard cost --rig RIG.toml --specimen SPECIMEN.toml "
+      "--want QUANTITY=TOLERANCE [OPTIONS]",
       "Shows what accuracy costs: error against processor time, memory and unknowns "
       "over discretisations and effects, and the cheapest for each tolerance. Rows "
-      "that the budget leaves out are predicted.",
+      "that the budget leaves out are predicted. With --rig: error against time at the rig over "
+      "tests of a specimen, and the test file to use.",
       "viscard cost data/scenes/pillar_modal.toml --budget 20s"};
   syntax.options.add_options()("budget", po::value<std::string>()->default_value("60s"),
                                "wall time to spend, such as 60s or 5min")(
-      "out", po::value<std::string>(), "folder for cost.csv, cost.json and cost.svg")(
+      "out", po::value<std::string>(),
+      "folder for cost.csv, cost.json and cost.svg; with --rig also test.toml")(
       "force", "overwrite existing files");
+  add_test_options(syntax.options);
   syntax.positional = {"scene"};
   return syntax;
 }
@@ -40,6 +45,9 @@ int run_cost(const Words& words, Streams& streams) {
   CommandSyntax syntax = cost_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
+  if (values->count("rig") > 0) {
+    return run_cost_of_tests(*values, syntax, quoted_command_line("cost", words), streams);
+  }
   const auto path = required(*values, "scene", syntax);
   CostOptions options{.budget_s = *given_quantity(*values, "budget", "s")};
   if (!(options.budget_s > 0.0)) throw UsageError("--budget must be positive, such as 60s");

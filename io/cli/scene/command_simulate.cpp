@@ -28,13 +28,18 @@ namespace {
 
 SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   Progress progress(streams, "simulate");
-  common(scene).progress = [&](double done) { progress.show(done, ""); };
+  common(scene).progress = [&](double done, const std::string& what) {
+    progress.announce(done, what);
+  };
   return simulate_file(scene, path);
 }
 
 // Pictures and ParaView files of the solution on the mesh that met the tolerance, and results over
 // the numbers of the pillars.
-void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutput& output) {
+void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutput& output,
+                 Streams& streams) {
+  Progress progress(streams, "simulate");
+  progress.announce(1.0, "pictures");
   const std::filesystem::path in = output.folder;
   for (const SectionGrid& grid : solution_fields(scene, answer.discretisation)) {
     write_file(in / (grid.name + ".vtu"), vtu_from_grid(grid), output.overwrite);
@@ -117,7 +122,7 @@ int run_simulate(const Words& words, Streams& streams) {
   if (uncertainty) object["uncertainty"] = json_from_uncertainty(*uncertainty);
   if (!folder.empty()) {
     write_files(answer, object, folder, output.command, output.overwrite);
-    if (!is_sweep) write_looks(file.scene, answer, output);
+    if (!is_sweep) write_looks(file.scene, answer, output, streams);
     if (uncertainty) write_uncertainty(*uncertainty, folder, output.command, output.overwrite);
   }
   if (print_json(*values, head, object, streams)) return kDone;

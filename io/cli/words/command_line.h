@@ -1,28 +1,14 @@
 #pragma once
 
+#include "io/cli/words/command_syntax.h"
 #include "io/cli/words/streams.h"
 
 #include <boost/program_options.hpp>
 
-#include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace viscard {
-
-// The syntax of one command, for parsing and for --help.
-struct CommandSyntax {
-  const char* usage;        // "viscard fit FILE... [OPTIONS]"
-  const char* description;  // one or two sentences; --help breaks them into lines
-  const char* example;      // a command line that works as printed
-  boost::program_options::options_description options{"Options", 96};
-  // Names of positional words in order; a repeatable last one takes all remaining words.
-  std::vector<std::string> positional;
-  bool last_is_repeatable = false;
-  // The values that an option or a positional word may have, for help and completion.
-  std::map<std::string, std::vector<std::string>> choices;
-};
 
 // Parses the words. If --help is among them, prints the help and returns nothing. Adds --json, --color
 // and --help to every command. Throws UsageError for an unknown option (with the nearest known one), a

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/cli/words/command_line.h"
+#include "io/cli/words/command_syntax.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -38,6 +38,11 @@ void Progress::show(double fraction, const std::string& note) {
   is_drawn_ = true;
 }
 
+void Progress::announce(double fraction, const std::string& note) {
+  last_drawn_ = started_ - std::chrono::seconds(1);
+  show(fraction, note);
+}
+
 void Progress::clear() {
   if (!is_drawn_) return;
   streams_.err << "\r\033[K" << std::flush;

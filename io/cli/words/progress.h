@@ -18,6 +18,8 @@ class Progress {
 
   // fraction in [0, 1]; note is printed after the bar (a live reading, a file name).
   void show(double fraction, const std::string& note);
+  // The same at once, for a note on what follows and may take long.
+  void announce(double fraction, const std::string& note);
   // Clears the line; the destructor does it too.
   void clear();
 

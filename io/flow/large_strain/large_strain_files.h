@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct LargeStrainFile {
 // beside tests at large strain, and for a test without a file.
 std::vector<LargeStrainFile> large_strain_from_words(const std::vector<std::string>& words);
 
+// What to fit, and how.
 struct LargeStrainRequest {
   std::vector<LargeStrainFile> files;
   ColumnMap columns;
@@ -42,6 +44,7 @@ struct CycleChoice {
   std::optional<double> softening;           // fit/large_strain/load_cycles.h
 };
 
+// Tests and fitted laws.
 struct FittedLargeStrain {
   std::vector<LargeStrainFile> files;
   std::vector<LargeStrainTest> tests;  // one for each file, with the fitted rows
@@ -58,6 +61,9 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request);
 
 // The object of `viscard fit --json` and of --out: laws with intervals, tests, flags.
 nlohmann::ordered_json json_from_large_strain(const FittedLargeStrain& fitted);
+
+// Prints tests, laws and the parameters of the chosen one.
+void print_large_strain(const FittedLargeStrain& fitted, std::ostream& out);
 
 // Stress against stretch: readings, the chosen law with its 95 % band, dashed where no test measured.
 Plot plot_of_large_strain(const FittedLargeStrain& fitted);

@@ -32,7 +32,7 @@ SceneAnswer answer_scene(const SceneFile& file, const std::string& path,
     return solve_sweep(file, store, progress);
   }
   Scene scene = file.scene;
-  if (progress) common(scene).progress = [&](double done) { progress(done, ""); };
+  if (progress) common(scene).progress = progress;
   SceneAnswer answer = simulate_file(scene, path);
   keep_wanted(common(scene).wanted, answer);
   return answer;

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -90,6 +91,69 @@ void SweepStore::remove() {
   if (!path_.empty()) std::filesystem::remove(path_);
 }
 
+namespace {
+
+// The deviation at one spacing, against the limit.
+struct Deviation {
+  double spacing_m = 0.0;
+  double percent = 0.0, error = 0.0;
+};
+
+// Spacings of a table against a limit that their deviations fall below.
+class SpacingLimit {
+ public:
+  SpacingLimit(std::vector<Deviation> all, double limit_percent)
+      : all_(std::move(all)), limit_percent_(limit_percent) {}
+
+  // Adds the first spacing below the limit and, where a larger one lies above it again, the one from
+  // which on all lie below.
+  void add_to(SceneAnswer& answer, const std::string& at) const {
+    const auto first = static_cast<std::size_t>(
+        std::find_if(all_.begin(), all_.end(), [&](const Deviation& d) { return is_below(d); }) -
+        all_.begin());
+    if (first == all_.size()) return;
+    answer.results.push_back(
+        {"first_spacing" + at, all_[first].spacing_m, "m", uncertainty_m(first)});
+    std::size_t settled = all_.size();
+    while (settled > first && is_below(all_[settled - 1])) --settled;
+    if (settled == first) return;
+    const Deviation& again = all_[settled - 1];
+    std::string note = fmt::format(
+        "the deviation{} is below {:g} % at {:.4g} um only because it changes sign there; it is "
+        "{:.2g} "
+        "% at {:.4g} um",
+        at, limit_percent_, 1e6 * all_[first].spacing_m, again.percent, 1e6 * again.spacing_m);
+    if (settled == all_.size()) {
+      note += ", and no spacing of the sweep is known to be wide enough";
+    } else {
+      note += fmt::format(", and stays below from {:.4g} um on", 1e6 * all_[settled].spacing_m);
+      answer.results.push_back(
+          {"settled_spacing" + at, all_[settled].spacing_m, "m", uncertainty_m(settled)});
+    }
+    answer.notes.push_back(note);
+  }
+
+ private:
+  bool is_below(const Deviation& d) const { return std::abs(d.percent) < limit_percent_; }
+  // Down to the next smaller spacing that lies above the limit whatever the errors, because the
+  // limit is crossed between; up to the next larger one that lies below it whatever they are.
+  double uncertainty_m(std::size_t i) const {
+    const auto is_sure = [&](const Deviation& d) {
+      return std::abs(std::abs(d.percent) - limit_percent_) > d.error;
+    };
+    std::size_t low = i, high = i;
+    while (low > 0 && !(is_sure(all_[low - 1]) && !is_below(all_[low - 1]))) --low;
+    while (high + 1 < all_.size() && !(is_sure(all_[high]) && is_below(all_[high]))) ++high;
+    const double lower_m = low > 0 ? all_[low - 1].spacing_m : 0.0;
+    return std::max(all_[i].spacing_m - lower_m, all_[high].spacing_m - all_[i].spacing_m);
+  }
+
+  std::vector<Deviation> all_;
+  double limit_percent_;
+};
+
+}  // namespace
+
 SceneAnswer solve_sweep(const SceneFile& file, SweepStore& store,
                         const std::function<void(double, const std::string&)>& progress) {
   const auto& scene = std::get<ArrayScene>(file.scene);
@@ -114,7 +178,9 @@ SceneAnswer solve_sweep(const SceneFile& file, SweepStore& store,
     const double done = static_cast<double>(store.done().size());
     if (progress) progress(done / static_cast<double>(points.size()), points[number[i]].label);
   });
-  sum.results = joined(file.sweep, points, store.done()).results;
+  SceneAnswer all = joined(file.sweep, points, store.done());
+  sum.results = std::move(all.results);
+  sum.notes = std::move(all.notes);
   return sum;
 }
 
@@ -130,21 +196,18 @@ SceneAnswer joined(const ArraySweep& sweep, const std::vector<SweepPoint>& point
   }
   if (!(sweep.limit_percent > 0.0)) return answer;
   for (std::size_t line = 0; line < points.size(); line += per_line) {
+    std::vector<Deviation> all;
     for (std::size_t i = line; i < line + per_line; ++i) {
-      const auto deviation = std::find_if(rows.at(i).begin(), rows.at(i).end(), [](const auto& r) {
-        return r.name.starts_with("deviation_percent");
-      });
-      if (deviation == rows.at(i).end() || std::abs(deviation->value) >= sweep.limit_percent) {
-        continue;
+      for (const SceneResult& r : rows.at(i)) {
+        if (!r.name.starts_with("deviation_percent")) continue;
+        all.push_back({points[i].scene.geometry.spacing_m, r.value, r.error_estimate});
+        break;
       }
-      const std::string& label = points[i].label;
-      const std::size_t end = label.rfind(", spacing");
-      answer.results.push_back(
-          {"first_spacing" +
-               (end == std::string::npos ? std::string() : " at " + label.substr(0, end)),
-           points[i].scene.geometry.spacing_m, "m", 0.0});
-      break;
     }
+    const std::string& label = points[line].label;
+    const std::size_t end = label.rfind(", spacing");
+    SpacingLimit(all, sweep.limit_percent)
+        .add_to(answer, end == std::string::npos ? "" : " at " + label.substr(0, end));
   }
   return answer;
 }

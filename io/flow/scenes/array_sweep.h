@@ -39,7 +39,10 @@ SceneAnswer solve_sweep(const SceneFile& file, SweepStore& store,
 
 // One answer of the whole sweep: every result as "name at label", and, with a limit, for each
 // combination of the other parameters the first spacing whose deviation lies below it:
-// "first_spacing at diameter 40 um" (none, no result).
+// "first_spacing at diameter 40 um" (none, no result). Its error reaches to the spacings that lie
+// above and below the limit for certain. Where the deviation exceeds the limit again at a larger
+// spacing, because it changes its sign, a note says so, and "settled_spacing" is the one from which
+// on it stays below.
 SceneAnswer joined(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
                    const std::map<std::size_t, SweepRow>& rows);
 

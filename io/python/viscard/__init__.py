@@ -16,14 +16,15 @@ from ._card import Card, card_targets
 from ._error import DoubtWarning, Error
 from ._fit import FitResult, Flag, JointFit, fit
 from ._material import Material, Prediction, predict
+from ._rubber import Parameter, RubberCard, RubberFit
 from ._scene import Answer, Cost, Field, Plan, Value, cost, plan, simulate
 from ._table import Capture, Table, read_capture, read_table
 
 __version__: str = _core.version
 
 __all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "DoubtWarning", "Error", "Field", "FitResult",
-           "Flag", "JointFit", "Material", "Plan", "Prediction", "Table", "Value", "capture", "card_targets", "cost",
-           "fit", "plan", "predict", "read_capture", "read_table", "simulate"]
+           "Flag", "JointFit", "Material", "Parameter", "Plan", "Prediction", "RubberCard", "RubberFit", "Table",
+           "Value", "capture", "card_targets", "cost", "fit", "plan", "predict", "read_capture", "read_table", "simulate"]
 
 
 def _end_jobs() -> None:

@@ -81,3 +81,10 @@ def pair(interval) -> "tuple[float, float]":
 def column(rows, key) -> np.ndarray:
     """One number of each row; null becomes NaN."""
     return np.array([np.nan if key(row) is None else key(row) for row in rows], dtype=float)
+
+
+def with_head(schema: str, inputs: "list[str]", found: dict) -> dict:
+    """The object of ``--json`` with what every one begins with."""
+    from ._core import version
+
+    return {"schema": schema, "version": version, "inputs": inputs, **found}

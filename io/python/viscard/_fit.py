@@ -72,7 +72,7 @@ class FitResult:
     """
 
     def __init__(self, found: Dict[str, Any]) -> None:
-        self.json: Dict[str, Any] = found["json"]
+        self.json: Dict[str, Any] = _arrays.with_head("viscard-fit/1", found["inputs"], found["json"])
         self.file: str = found["file"]
         self.covariance: np.ndarray = found["covariance"]
         self.covariance_parameters: List[str] = found["covariance_parameters"]
@@ -256,11 +256,17 @@ def _paths(data, name: str = "data") -> "list[str]":
     return [one.file if isinstance(one, Capture) else _arrays.path_of(one, name) for one in data]
 
 
-def _warn(result: FitResult) -> None:
+def _file_of(word: str) -> str:
+    """The file of "creep=a.csv"."""
+    kind, sign, file = word.partition("=")
+    return file if sign and not os.path.exists(word) else word
+
+
+def _warn(result, name: str) -> None:
     if result.is_trustworthy:
         return
     causes = "; ".join(flag.text for flag in result.flags) or "no flag names the cause"
-    warnings.warn(f"{result.file}: the result is not to be trusted: {causes}", DoubtWarning, stacklevel=4)
+    warnings.warn(f"{name}: the result is not to be trusted: {causes}", DoubtWarning, stacklevel=4)
 
 
 def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
@@ -277,14 +283,16 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
         reference_temperature: Quantity = None, vertical_shift: Optional[str] = None,
         density: Quantity = None, ratio: Union[float, Sequence[float], None] = None,
         joint: bool = False, specimen_id: Texts = None, own_terms: bool = False,
-        share: Texts = None, errors: str = "raise", progress: Progress = None):
+        share: Texts = None, weight: Optional[str] = None, youngs_modulus: Quantity = None,
+        cycle: Union[int, str, None] = None, errors: str = "raise", progress: Progress = None):
     """Fit the instantaneous modulus and a Prony series, with 95 % intervals.
 
     Parameters
     ----------
     data : path, Capture, Table, dict of arrays, or list of paths
         A list gives a list of results, fitted on all cores. "relaxation=a.csv", "creep=b.csv", ... in a list are
-        tests of one material, fitted together into one result. A dict has arrays of shape (rows,) by header with
+        tests of one material, fitted together into one result; "uniaxial=a.csv", "compression=b.csv", "planar=c.csv",
+        "equibiaxial=d.csv" are tests of rubber at large strain. A dict has arrays of shape (rows,) by header with
         unit: ``{"time_s": t, "modulus_Pa": E}``, ``{"Time [ms]": t, "Force [mN]": F}``; a message about
         "arrays:7" means row 7, from 1.
     errors : "raise" or "return"
@@ -296,7 +304,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
 
     Returns
     -------
-    FitResult, list of FitResult, or JointFit with joint=True
+    FitResult, list of FitResult, JointFit with joint=True, or RubberFit of tests at large strain
 
     Examples
     --------
@@ -316,21 +324,52 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
         raise Error(f"errors is {errors!r}; use 'raise' or 'return'", "usage")
     command = "viscard.fit(" + ", ".join(f"{k}={v!r}" for k, v in keywords.items() if v is not False) + ")"
     if isinstance(data, _Mapping) or hasattr(data, "keys"):  # a DataFrame of pandas has keys
+        _refuse_rubber_options(keywords)
         return _fit_arrays(data, keywords, command, progress)
     paths = _paths(data)
     if not paths:
         raise Error("there is nothing to fit: the list is empty", "usage")
+    if _core.is_large_strain(paths):
+        return _fit_rubber(paths, keywords)
+    _refuse_rubber_options(keywords)
     if joint:
         return JointFit(_core.fit_ratios(paths, keywords, command, progress))
-    return _results(data, _core.fit_paths(paths, keywords, command, progress), errors)
+    found = _core.fit_paths(paths, keywords, command, progress)
+    inputs = [[one["file"]] for one in found] if len(found) == len(paths) else [[_file_of(path) for path in paths]]
+    return _results(data, [{"inputs": of_one, **one} for of_one, one in zip(inputs, found)], errors)
+
+
+_RUBBER_ONLY = ("weight", "youngs_modulus", "cycle")
+
+
+def _refuse_rubber_options(keywords) -> None:
+    for name in _RUBBER_ONLY:
+        if name in keywords:
+            raise Error(f'{name} is for tests at large strain ("uniaxial=FILE"); omit it', "usage")
+
+
+def _fit_rubber(paths, keywords):
+    from ._rubber import RubberFit
+
+    for name, value in keywords.items():
+        if name not in _RUBBER_ONLY + ("model", "column", "sheet") and value is not False:
+            raise Error(f"{name} does not belong to tests at large strain; omit it", "usage")
+    if isinstance(keywords.get("cycle"), int):
+        keywords["cycle"] = str(keywords["cycle"])
+    found = _core.fit_rubber(paths, keywords)
+    result = RubberFit(found["json_text"], " + ".join(_file_of(path) for path in paths), found["text"],
+                       found["tests"])
+    _warn(result, result._name)
+    return result
 
 
 def _fit_arrays(data, keywords, command, progress):
     name = data.file if isinstance(data, Table) else "arrays"
     numbers = {key: data[key] for key in data.keys() if not (isinstance(data, Table) and isinstance(data[key], list))}
     arrays = _arrays.table(numbers, name)
-    result = FitResult(_core.fit_arrays(arrays, name, keywords, command, progress)[0])
-    _warn(result)
+    found = _core.fit_arrays(arrays, name, keywords, command, progress)[0]
+    result = FitResult({"inputs": [name], **found})
+    _warn(result, result.file)
     return result
 
 
@@ -347,7 +386,7 @@ def _results(data, found, errors):
             results.append(failure)
             continue
         results.append(FitResult(one))
-        _warn(results[-1])
+        _warn(results[-1], results[-1].file)
     return results[0] if is_one else results
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -278,4 +279,5 @@ def predict(material, *, test: Optional[str] = None, strain: Quantity = None, st
     given = dict(locals())
     keywords = {name: value for name, value in given.items() if name != "material" and value is not None}
     one = material if isinstance(material, Material) else Material.load(material)
-    return Prediction(_core.predict(one._core, keywords))
+    inputs = [os.fspath(path) for path in (material, history, against) if isinstance(path, (str, os.PathLike))]
+    return Prediction(_arrays.with_head("viscard-predict/1", inputs, _core.predict(one._core, keywords)))

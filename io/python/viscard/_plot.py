@@ -54,3 +54,24 @@ def plot_fit(result, ax, style):
     if ax.get_legend_handles_labels()[1]:
         ax.legend(frameon=False)
     return ax
+
+
+def plot_rubber(rubber, ax):
+    import numpy as np
+
+    ax = _axes(ax)
+    for i, test in enumerate(rubber["tests"]):
+        color = ax._get_lines.get_next_color()
+        at = np.linspace(*test["stretch"], 200)
+        stress = rubber.stress(at, test["deformation"])
+        if i == 0:
+            factor, unit = _scale("Pa", float(np.nanmax(np.abs(stress))))
+        ax.plot(at, stress * factor, "-", color=color, label=f"{rubber.law}, {test['name']}")
+        if rubber.tests:
+            stretch, measured = rubber.tests[i]
+            ax.plot(stretch, measured * factor, ".", color=color, alpha=0.5, markeredgewidth=0)
+    ax.set_xlabel("stretch")
+    ax.set_ylabel(f"nominal stress ({unit})")
+    ax.grid(True, which="major", alpha=0.3)
+    ax.legend(frameon=False)
+    return ax

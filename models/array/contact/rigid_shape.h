@@ -4,6 +4,7 @@
 
 namespace viscard {
 
+// Kinds of rigid surfaces.
 enum class ShapeKind {
   kPlane,
   kCylinder,  // its axis along the direction

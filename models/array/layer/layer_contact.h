@@ -14,6 +14,7 @@ struct LayerGrid {
   double width_m = 0.0;
   int count = 0;  // of cells along each axis
   double cell_m() const { return width_m / count; }
+  // Middle of cell i of an axis along which the middle of the part is at middle_m.
   double place_m(double middle_m, Eigen::Index i) const {
     return middle_m + (static_cast<double>(i) + 0.5) * cell_m() - 0.5 * width_m;
   }

@@ -1,6 +1,6 @@
 #include "models/array/layer/layer_readings.h"
 
-#include "models/array/space/disc_charge.h"
+#include "models/array/film/disc_charge.h"
 #include "models/array/space/potential_spectrum.h"
 #include "models/maths/gauss_legendre.h"
 

@@ -10,6 +10,7 @@
 
 namespace viscard {
 
+// In how many dimensions a layer is answered.
 enum class LayerModel {
   kSpace,        // a face in x and y
   kPlaneStrain,  // a section in x and z, endless along y; forces are per length

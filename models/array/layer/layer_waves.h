@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/array/space/layered_film.h"
+#include "models/array/film/layered_film.h"
 
 #include <array>
 #include <vector>
@@ -20,6 +20,7 @@ class LayerWaves {
   // The stack is the film and one isotropic layer on it. In a plane, waves run along axis 1 only.
   LayerWaves(const LayeredFilm& stack, bool is_plane);
 
+  // The answer at a wave number up to the largest.
   LayerAnswer at(double k_1_m) const;
   double largest_k_1_m() const { return breaks_1_m_.back(); }
   double thickness_m() const { return thickness_m_; }        // of the layer

@@ -1,6 +1,7 @@
 #include "models/array/layer/simulate_layer.h"
 
 #include "models/array/layer/layer_readings.h"
+#include "models/array/layer/layer_transfer.h"
 #include "models/array/layer/layer_window.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -21,6 +22,7 @@ constexpr int kProfilePoints = 61;
 constexpr double kProfileReach = 0.75;  // half of the profile over the width of the window
 constexpr const char* kPressureProfile = "pressure_profile";
 constexpr const char* kVoltageProfile = "voltage_profile";
+constexpr const char* kGapProfile = "gap_profile";
 
 const char* area_name(const LayerScene& scene) {
   return scene.is_plane() ? "contact_width" : "contact_area";
@@ -78,6 +80,7 @@ class LayerSolver {
     answer.step_error = waves_.error();
     set_results(pressed, answer);
     set_profiles(pressed, answer);
+    add_transfer(*scene_, waves_, answer);
     last_ = std::move(pressed);
     return answer;
   }
@@ -99,6 +102,7 @@ class LayerSolver {
   }
   void set_results(const LayerPressure& pressed, SceneAnswer& answer) const;
   void set_profiles(const LayerPressure& pressed, SceneAnswer& answer) const;
+  void add_gap(const LayerPressure& pressed, SceneAnswer& answer) const;
 
   const LayerScene* scene_;
   LayerWaves waves_;
@@ -150,6 +154,31 @@ void LayerSolver::set_profiles(const LayerPressure& pressed, SceneAnswer& answer
   }
   if (asks_for(*scene_, kPressureProfile)) answer.curves.push_back(std::move(pressure));
   if (has_voltage) answer.curves.push_back(std::move(voltage));
+  if (asks_for(*scene_, kGapProfile)) add_gap(pressed, answer);
+}
+
+// How far the face stays below the shape, along x within the grid and under the shape.
+void LayerSolver::add_gap(const LayerPressure& pressed, SceneAnswer& answer) const {
+  const LayerGrid& grid = pressed.grid;
+  const Eigen::Index middle = pressed.pressure_Pa.cols() / 2;
+  const GridConvolution sums(kernel_.sinking_m_Pa(grid.count, grid.cell_m()));
+  const Eigen::VectorXd sinking_m = sums.apply(pressed.pressure_Pa).col(middle);
+  SceneCurve gap = profile(kGapProfile, "m");
+  gap.is_watched = false;
+  for (int i = 0; i < kProfilePoints; ++i) {
+    const double x_m =
+        grid.x_m + (static_cast<double>(i) / (kProfilePoints - 1) - 0.5) * grid.width_m;
+    if (scene_->width_m > 0.0 && std::abs(x_m) >= 0.5 * scene_->width_m) continue;
+    const auto cell = std::clamp<Eigen::Index>(
+        static_cast<Eigen::Index>(std::floor((x_m - grid.x_m) / grid.cell_m() + 0.5 * grid.count)),
+        0, grid.count - 1);
+    const double height = height_m(scene_->press.shape, grid.place_m(grid.x_m, cell),
+                                   scene_->is_plane() ? 0.0 : grid.place_m(grid.y_m, middle));
+    if (!std::isfinite(height)) continue;
+    gap.x.push_back(x_m);
+    gap.value.push_back(std::max(height - pressed.depth_m + sinking_m[cell], 0.0));
+  }
+  answer.curves.push_back(std::move(gap));
 }
 
 // The steepest rise of the shape over the touched cells, and if they reach the shape's end.
@@ -216,9 +245,11 @@ std::vector<Discretisation> layer_meshes(const LayerScene& scene) {
 std::vector<std::string> result_names(const LayerScene& scene) {
   std::vector<std::string> names = voltage_names(scene);
   for (const char* const name : {"contact_force", area_name(scene), "depth", "largest_pressure",
-                                 kPressureProfile, kVoltageProfile}) {
+                                 kPressureProfile, kVoltageProfile, kGapProfile}) {
     names.emplace_back(name);
   }
+  const std::vector<std::string> of_waves = transfer_names(scene);
+  names.insert(names.end(), of_waves.begin(), of_waves.end());
   return names;
 }
 

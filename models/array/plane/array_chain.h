@@ -19,6 +19,7 @@ class ArrayChain {
   ArrayChain(std::vector<const CondensedPiece*> pieces, FilmEnds ends);
 
   int port_count() const { return first_port_.back(); }
+  // Number of the first port of a piece; those of the others follow.
   int first_port(std::size_t piece) const { return first_port_[piece]; }
   // Readings of all ports (rows) under unit loads on the given ports (columns).
   Eigen::MatrixXd compliance(const std::vector<int>& loaded_ports) const;

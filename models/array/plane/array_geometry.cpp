@@ -1,6 +1,7 @@
 #include "models/array/plane/array_geometry.h"
 
 #include "models/maths/require.h"
+#include "models/pillar/mesh/film_mesh.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
@@ -73,22 +74,28 @@ void validate(const ArrayGeometry& g, const ArrayElectrodes& e) {
 std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double reach_m,
                                    double largest_m, int layers, double ratio) {
   std::vector<double> breaks;
+  // Layers toward a mark; 0: it is not singular. A full single one still sets the length there.
+  const auto layers_to = [&](const MeshMark& mark) {
+    const int left = layers - mark.fewer_layers;
+    return mark.is_singular && (mark.fewer_layers == 0 || left > 1) ? left : 0;
+  };
   for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
     const double a = marks[i].x;
     const double b = marks[i + 1].x;
-    const int singular_ends = (marks[i].is_singular ? 1 : 0) + (marks[i + 1].is_singular ? 1 : 0);
+    const int to_a = layers_to(marks[i]);
+    const int to_b = layers_to(marks[i + 1]);
+    const int singular_ends = (to_a > 0 ? 1 : 0) + (to_b > 0 ? 1 : 0);
     double reach = singular_ends == 0 ? 0.0 : reach_m;
     // If little would remain between the graded parts, they fill the whole interval.
     if (singular_ends > 0 && b - a < 1.5 * singular_ends * reach_m) reach = (b - a) / singular_ends;
-    const double left = a + (marks[i].is_singular ? reach : 0.0);
-    const double right = b - (marks[i + 1].is_singular ? reach : 0.0);
-    if (marks[i].is_singular) append_breaks(breaks, graded_breaks(a, left, layers, ratio, false));
+    const double left = a + (to_a > 0 ? reach : 0.0);
+    const double right = b - (to_b > 0 ? reach : 0.0);
+    if (to_a > 0) append_breaks(breaks, graded_breaks(a, left, to_a, ratio, false));
     if (right - left > 1e-9 * (b - a)) {
       const int n = std::max(1, static_cast<int>(std::ceil((right - left) / largest_m - 1e-9)));
       append_breaks(breaks, graded_breaks(left, right, n, 1.0, true));
     }
-    if (marks[i + 1].is_singular)
-      append_breaks(breaks, graded_breaks(right, b, layers, ratio, true));
+    if (to_b > 0) append_breaks(breaks, graded_breaks(right, b, to_b, ratio, true));
   }
   return breaks;
 }
@@ -135,13 +142,29 @@ class Lines {
   double reach_m_;
 };
 
-CellMesh cell_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, double left_m, double right_m,
-                   const Lines& lines) {
+// Ends of a cell: how far they lie beyond pillar and electrode, and whether the film ends there.
+struct CellEnd {
+  double beyond_m = 0.0;
+  bool is_film_end = false;
+};
+
+// Where the film ends its held bottom is a corner: fewer layers there than at the rims of pillars,
+// because less is felt of it with its distance from them.
+MeshMark film_end(double x, double beyond_m, double thickness_m) {
+  return {x, true, layers_not_felt(beyond_m, thickness_m)};
+}
+
+CellMesh cell_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const CellEnd& on_left,
+                   const CellEnd& on_right, const Lines& lines) {
   const double R = 0.5 * g.diameter_m;
   const double half_width = electrode_half_width_m(g, e);
   const double half_load = std::max(R, half_width);
-  std::vector<MeshMark> marks{{-half_load - left_m, left_m == 0.0},
-                              {half_load + right_m, right_m == 0.0}};
+  const auto end = [&](double side, const CellEnd& at) {
+    const double x = side * (half_load + at.beyond_m);
+    return at.is_film_end ? film_end(x, at.beyond_m, g.film_thickness_m)
+                          : MeshMark{x, at.beyond_m == 0.0};
+  };
+  std::vector<MeshMark> marks{end(-1.0, on_left), end(1.0, on_right)};
   const auto add_pair = [&](double x, bool is_singular) {
     for (const double mark : {-x, x}) {
       const bool is_inside =
@@ -168,28 +191,36 @@ ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Dis
   const double t = g.film_thickness_m;
   const Lines lines(g, d);
   const FilmBeside beside = film_beside(g, e);
-  const auto cell = [&](double left_m, double right_m) {
-    return cell_mesh(g, e, left_m, right_m, lines);
-  };
-  ArrayMesh mesh;
-  mesh.ends_differ = g.count > 1 && beside.inside_m != beside.outside_m;
-  const double in_row_m = g.count > 1 ? beside.inside_m : beside.outside_m;
-  mesh.cell = cell(in_row_m, in_row_m);
-  mesh.first_cell = mesh.ends_differ ? cell(beside.outside_m, in_row_m) : mesh.cell;
-  mesh.last_cell = mesh.ends_differ ? cell(in_row_m, beside.outside_m) : mesh.cell;
   const double half_load = std::max(R, electrode_half_width_m(g, e));
-  const double gap = g.spacing_m - 2.0 * (half_load - R + in_row_m);
-  const bool gap_at_rim = in_row_m == 0.0;
-  if (g.count > 1) mesh.gap_x = lines.between({{0.0, gap_at_rim}, {gap, gap_at_rim}});
-  const double edge = g.ends == FilmEnds::kMirror ? 0.5 * g.spacing_m : g.film_edge_m;
+  const bool is_cut = g.ends == FilmEnds::kFree;
+  const double edge = is_cut ? g.film_edge_m : 0.5 * g.spacing_m;
   const double rest = edge - (half_load - R + beside.outside_m);
-  if (rest > kShortestPiece * R) {
-    mesh.edge_x = lines.between({{0.0, beside.outside_m == 0.0}, {rest, false}});
+  const bool has_edge = rest > kShortestPiece * R;
+  const CellEnd inside{beside.inside_m};
+  const CellEnd outside{beside.outside_m, is_cut && !has_edge && beside.outside_m > 0.0};
+  ArrayMesh mesh;
+  mesh.ends_differ = g.count > 1 && (inside.beyond_m != outside.beyond_m || outside.is_film_end);
+  const CellEnd in_row = g.count > 1 ? inside : outside;
+  const auto cell = [&](const CellEnd& left, const CellEnd& right) {
+    return cell_mesh(g, e, left, right, lines);
+  };
+  mesh.cell = cell(in_row, in_row);
+  mesh.first_cell = mesh.ends_differ ? cell(outside, in_row) : mesh.cell;
+  mesh.last_cell = mesh.ends_differ ? cell(in_row, outside) : mesh.cell;
+  const double gap = g.spacing_m - 2.0 * (half_load - R + in_row.beyond_m);
+  const bool gap_at_rim = in_row.beyond_m == 0.0;
+  if (g.count > 1) mesh.gap_x = lines.between({{0.0, gap_at_rim}, {gap, gap_at_rim}});
+  const double beyond_load_m = edge - (half_load - R);
+  if (has_edge) {
+    mesh.edge_x = lines.between({{0.0, outside.beyond_m == 0.0},
+                                 is_cut ? film_end(rest, beyond_load_m, t) : MeshMark{rest}});
   }
-  // Singular at the bottom: an electrode's edge, and the held corner of a film that ends nearby.
+  // Singular at the bottom: an electrode's edge, and the held corner where the film ends.
   const bool bottom_electrode = e.is_equipotential && e.grounded == FilmFace::kTop;
-  const bool bottom_corner = g.ends == FilmEnds::kFree && edge < t;
-  mesh.film_z = lines.between({{-t, bottom_electrode || bottom_corner}, {0.0, true}});
+  const MeshMark bottom = bottom_electrode ? MeshMark{-t, true}
+                          : is_cut         ? film_end(-t, beyond_load_m, t)
+                                           : MeshMark{-t};
+  mesh.film_z = lines.between({bottom, {0.0, true}});
   const std::vector<MeshMark> shaft = {{0.0, true}, {g.length_m, false}};
   mesh.pillar_z = d.uniform_m > 0.0 ? lines.between(shaft)
                                     : breaks_between(shaft, 2.0 * R, 4.0 * R / d.shaft_elements,

@@ -35,6 +35,7 @@ struct ArrayElectrodes {
 // Throws SceneMistake naming the wrong length, or electrodes that overlap or leave the film.
 void validate(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
 
+// Half the width of an electrode, for the default that of the pillar.
 double electrode_half_width_m(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
 // The same pillar alone, on a film so wide that its ends are not felt.
 ArrayGeometry lone(ArrayGeometry geometry);
@@ -43,9 +44,11 @@ ArrayGeometry lone(ArrayGeometry geometry);
 struct MeshMark {
   double x = 0.0;
   bool is_singular = false;
+  int fewer_layers = 0;  // than elsewhere, where little is felt of what happens here
 };
 // Breaks from the first mark to the last: `layers` elements shrink by `ratio` over `reach_m` toward
-// each singular mark, others are no longer than `largest_m`. Marks ascend.
+// each singular mark that has two or more of them left, others are no longer than `largest_m`. Marks
+// ascend.
 std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double reach_m,
                                    double largest_m, int layers, double ratio);
 

@@ -72,12 +72,14 @@ struct CondensedPiece {
   int port_count() const { return static_cast<int>(matrix.rows()) - 2 * end_size; }
 };
 
+// A length of film before it is condensed.
 struct FilmPiece {
   CellMesh mesh;  // its pillar's columns mean nothing without a pillar
   std::vector<PotentialReading> readings;
   const CondensedPillar* pillar = nullptr;
   double electrode_half_width_m = 0.0;  // of an equipotential electrode around x = 0; 0: none
 };
+// The piece condensed with elements of that degree; one face of the film is grounded.
 CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
                               const ArrayMedia& media, FilmFace grounded, int degree);
 // The piece mirrored across x. Its ports must be symmetric, as readings of the potential are.

@@ -13,22 +13,27 @@ namespace viscard {
 // What is done to a row of pillars: one alternative for each analysis (array_analysis.h). The load
 // itself, its pillars and its direction are in ArrayScene.
 
+// A load at rest.
 struct RowStatic {};
 
+// Free vibration.
 struct RowModal {
   int modes = 3;  // clusters of each family
 };
 
+// Steady oscillation at each of the frequencies.
 struct RowHarmonic {
   std::vector<double> frequencies_Hz;  // ascending
 };
 
+// A load in time with inertia.
 struct RowTransient {
   std::vector<HistoryPoint> history;  // load in Pa
   double end_time_s = 0.0;
   int outputs = 1000;  // equal intervals
 };
 
+// One of these.
 using RowDrive = std::variant<RowStatic, RowModal, RowHarmonic, RowTransient>;
 
 // A row of pillars, what is done to it, and the accuracy of the answer. The tolerance refers
@@ -62,6 +67,7 @@ bool is_electric(const ArrayScene& scene);  // the film has a permittivity
 // One pillar of the row, a strip on a rigid base, without load.
 PillarScene single_pillar(const ArrayScene& scene);
 
+// The media of pillars and film.
 ArrayMedia media_of(const ArrayScene& scene);
 
 }  // namespace viscard

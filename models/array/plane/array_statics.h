@@ -64,6 +64,7 @@ class ArrayModel {
   int unknowns_ = 0;
 };
 
+// Direction of the traction on the tops.
 enum class ArrayLoad { kPressure, kShear };  // on the whole top
 
 // All values of a row under loads on its pillars in Pa, as those of ArrayResponse. Takes time and

@@ -1,3 +1,4 @@
+#include "models/array/space/neighbours.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
 #include "models/maths/text_of_number.h"
@@ -11,6 +12,8 @@
 
 namespace viscard {
 namespace {
+
+constexpr double kSoftestBacking = 0.1;  // over the softest pillar
 
 std::string name_of(RowColumn place) {
   return "[" + std::to_string(place.first) + ", " + std::to_string(place.second) + "]";
@@ -103,6 +106,32 @@ void check_buckling(const SpaceScene& scene) {
   }
 }
 
+void check_backing(const SpaceScene& scene) {
+  if (!scene.backing) return;
+  const Backing& backing = *scene.backing;
+  if (!(backing.young_modulus_Pa > 0.0) || !std::isfinite(backing.young_modulus_Pa)) {
+    throw SceneMistake("geometry.film.backing.E", "the backing's modulus must be positive");
+  }
+  if (!(backing.poisson_ratio >= 0.0 && backing.poisson_ratio < 0.5)) {
+    throw SceneMistake(
+        "geometry.film.backing.nu",
+        "the backing's Poisson ratio must lie between 0 and 0.5; say 0.499 for rubber");
+  }
+  double softest_Pa = HUGE_VAL;
+  for (const SpaceClass& one : classes_of(scene)) {
+    softest_Pa = std::min(softest_Pa, one.material.E0_Pa);
+  }
+  if (backing.young_modulus_Pa < kSoftestBacking * softest_Pa) {
+    throw SceneMistake(
+        "geometry.film.backing.E",
+        "the backing is softer than a tenth of the pillars, on which the film floats; "
+        "take a stiffer one");
+  }
+  if (scene.press && !scene.feels_contact) {
+    throw SceneMistake("effects.contact", "cannot be off on a backing; a shape only pushes there");
+  }
+}
+
 void check_film(const SpaceScene& scene) {
   if (!scene.film.has_permittivity() || !scene.film.is_piezoelectric()) {
     throw SceneMistake("geometry.film.material",
@@ -132,7 +161,53 @@ void check_film(const SpaceScene& scene) {
   }
 }
 
+double widest_m(const PillarGeometry& pillar) {
+  return pillar.diameter_m + 2.0 * std::max({0.0, pillar.foot.width_m, pillar.tip.width_m});
+}
+
 }  // namespace
+
+void validate(const SpaceArray& array) {
+  if (array.pillars.empty()) throw SceneMistake("geometry", "the array has no pillars");
+  for (const PillarClass& one : array.classes) validate(one.geometry);
+  validate(array.film);
+  if (!(array.electrode_radius_m > 0.0)) {
+    throw SceneMistake("geometry.electrode.radius", "the electrode's radius must be positive");
+  }
+  double widest = 2.0 * array.electrode_radius_m;
+  for (const PillarClass& one : array.classes)
+    widest = std::max(widest, 1.1 * widest_m(one.geometry));
+  if (array.film.backing && !OffsetSums::can_sum(sources_of(array))) {
+    throw SceneMistake(
+        "geometry.film.backing",
+        "lets all pillars feel each other, which is answered for lattices (also with "
+        "dead pillars) of any size and for at most 500 pillars elsewhere; place the "
+        "pillars on a lattice, or say backing = \"rigid\"");
+  }
+  const Neighbours near(array.pillars, widest);
+  for (std::size_t i = 0; i < array.pillars.size(); ++i) {
+    const PlacedPillar& one = array.pillars[i];
+    near.visit(one.x_m, one.y_m, [&](std::size_t j) {
+      if (j <= i) return;
+      const PlacedPillar& other = array.pillars[j];
+      const double distance_m = std::hypot(other.x_m - one.x_m, other.y_m - one.y_m);
+      const double width_m =
+          0.5 * (widest_m(array.classes[static_cast<std::size_t>(one.of_class)].geometry) +
+                 widest_m(array.classes[static_cast<std::size_t>(other.of_class)].geometry));
+      const std::string pair = "pillars " + std::to_string(i + 1) + " and " + std::to_string(j + 1);
+      if (distance_m < 1.1 * width_m) {
+        throw SceneMistake("geometry.spacing",
+                           "the gap between " + pair + " is " + micrometres(distance_m - width_m) +
+                               "; it must be at least a tenth of their diameter, because feet that "
+                               "nearly touch change each other's traction");
+      }
+      if (distance_m < 2.0 * array.electrode_radius_m) {
+        throw SceneMistake("geometry.electrode.radius",
+                           "the electrodes of " + pair + " overlap; make them smaller");
+      }
+    });
+  }
+}
 
 void validate(const SpaceScene& scene) {
   check_tolerance(scene.tolerance, SpaceScene::kTolerances);
@@ -141,6 +216,7 @@ void validate(const SpaceScene& scene) {
     at_key("geometry.classes", [&] { validate(one.material); });
   }
   check_film(scene);
+  check_backing(scene);
   at_key("geometry", [&] { validate(array_of(scene)); });
   if (!(scene.surface_energy_J_m2 > 0.0)) {
     throw SceneMistake("materials.surface_energy", "the surface energy must be positive");

@@ -155,6 +155,41 @@ void note_table(const SpaceScene& scene, std::vector<std::string>& notes) {
                   " pillars lie outside the table of heights, where nothing presses on them");
 }
 
+constexpr const char* kPressureProfile = "pressure_profile";
+constexpr const char* kGapProfile = "gap_profile";
+
+// The pressure on each top and the gap over its middle, along the row that is nearest to the shape's point.
+void add_profiles(const SpaceScene& scene, const SpaceContact& contact, SceneAnswer& answer) {
+  const RigidShape& shape = scene.press->shape;
+  const auto nearest = std::min_element(
+      scene.pillars.begin(), scene.pillars.end(), [&](const SpacePillar& a, const SpacePillar& b) {
+        return std::abs(a.y_m - shape.y_m) < std::abs(b.y_m - shape.y_m);
+      });
+  SceneCurve pressure{.name = kPressureProfile, .unit = "Pa", .x_name = "x_m", .is_watched = false};
+  SceneCurve gap{.name = kGapProfile, .unit = "m", .x_name = "x_m", .is_watched = false};
+  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+    const SpacePillar& one = scene.pillars[i];
+    if (one.row != nearest->row) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    pressure.x.push_back(one.x_m);
+    pressure.value.push_back(contact.loads_Pa(at, kPressureColumn));
+    pressure.error.push_back(std::abs(contact.change_Pa(at, kPressureColumn)) +
+                             contact.stiffness_error * std::abs(pressure.value.back()));
+    const double height = height_m(shape, one.x_m, one.y_m);
+    if (!std::isfinite(height)) continue;
+    const SpaceClass kind = class_of(scene, one);
+    // A top that is touched everywhere has no gap; the others are as high as they were.
+    const double above_m = kind.length_m - scene.length_m;
+    const bool is_touched = contact.pressed.tops[i].share > 0.0;
+    gap.x.push_back(one.x_m);
+    gap.value.push_back(is_touched ? 0.0
+                                   : std::max(height - contact.pressed.depth_m - above_m, 0.0));
+  }
+  if (asks_for(scene, kPressureProfile)) answer.curves.push_back(std::move(pressure));
+  // A backing sinks beside the contact too, which is known under the touched pillars only.
+  if (asks_for(scene, kGapProfile) && !scene.backing) answer.curves.push_back(std::move(gap));
+}
+
 }  // namespace
 
 std::vector<std::string> contact_maps() {
@@ -164,7 +199,7 @@ std::vector<std::string> contact_maps() {
 }
 
 std::vector<std::string> contact_results() {
-  return {"contact_force", "contacts", "depth", "largest_pressure"};
+  return {"contact_force", "contacts", "depth", "largest_pressure", kPressureProfile, kGapProfile};
 }
 
 double contact_error(const SpaceContact& contact) {
@@ -188,6 +223,7 @@ void add_contact(const SpaceScene& scene, const SpaceContact& contact, SceneAnsw
     map.is_watched = map.unit != "%";
     answer.maps.push_back(std::move(map));
   }
+  if (scene.columns > 1 && !scene.wanted.empty()) add_profiles(scene, contact, answer);
   const auto add = [&](const char* name, double value, const char* unit, double error) {
     if (asks_for(scene, name)) answer.results.push_back({name, value, unit, error});
   };

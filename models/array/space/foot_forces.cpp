@@ -1,5 +1,6 @@
 #include "models/array/space/foot_forces.h"
 
+#include "models/array/space/foot_on_film.h"
 #include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"
 #include "models/maths/require.h"
@@ -44,7 +45,7 @@ class FootPoints {
     from_nodes_ = Cholesky(mass).solve(Eigen::MatrixXd(weights.transpose())).transpose();
   }
   const std::vector<double>& radius_m() const { return radius_m_; }
-  Eigen::VectorXd from_nodes(const Eigen::VectorXd& forces) const { return from_nodes_ * forces; }
+  const Eigen::MatrixXd& from_nodes() const { return from_nodes_; }  // points x nodes
 
  private:
   std::vector<double> radius_m_;
@@ -93,18 +94,50 @@ class HeldPillar {
     return answer;
   }
 
+  std::vector<int> foot_nodes() const {
+    const PillarMesh& mesh = held_.mesh();
+    return nodes_on_break(mesh.section, mesh.bond_row, 0, mesh.pillar_columns);
+  }
+
+  // The unknowns of the foot, and the forces on the base that their motions take away.
+  std::vector<FootUnknown> foot_unknowns() const {
+    const DofMap& dofs = free_.system().dofs();
+    const std::vector<int> nodes = foot_nodes();
+    std::vector<FootUnknown> unknowns;
+    for (int field = 0; field < dofs.field_count(); ++field) {
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const int dof = dofs.dof(field, nodes[i]);
+        if (dof >= 0) unknowns.push_back({field, static_cast<int>(i), dof});
+      }
+    }
+    return unknowns;
+  }
+  Eigen::MatrixXd foot_stiffness(const std::vector<FootUnknown>& unknowns) const {
+    const auto count = static_cast<Eigen::Index>(unknowns.size());
+    Eigen::MatrixXd stiffness(count, count);
+    for (Eigen::Index column = 0; column < count; ++column) {
+      const Eigen::VectorXd unit = Eigen::VectorXd::Unit(
+          free_.system().dofs().count(), unknowns[static_cast<std::size_t>(column)].dof);
+      const Eigen::VectorXd motion =
+          unit + on_free(factor_.solve(on_held(-times(stiffness_, unit))));
+      const Eigen::VectorXd forces = times(stiffness_, motion);
+      for (Eigen::Index row = 0; row < count; ++row) {
+        stiffness(row, column) = forces[unknowns[static_cast<std::size_t>(row)].dof];
+      }
+    }
+    return stiffness;
+  }
+
   // The base forces along one field as forces at points of the foot (see the header).
   Eigen::VectorXd at_points(const FootPoints& points, const Eigen::VectorXd& forces,
                             int field) const {
-    const PillarMesh& mesh = held_.mesh();
-    const std::vector<int> nodes =
-        nodes_on_break(mesh.section, mesh.bond_row, 0, mesh.pillar_columns);
+    const std::vector<int> nodes = foot_nodes();
     Eigen::VectorXd of_nodes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const int dof = free_.system().dofs().dof(field, nodes[i]);
       if (dof >= 0) of_nodes[static_cast<Eigen::Index>(i)] = forces[dof];
     }
-    return points.from_nodes(of_nodes);
+    return points.from_nodes() * of_nodes;
   }
 
  private:
@@ -128,6 +161,19 @@ class HeldPillar {
     return values;
   }
 
+  Eigen::VectorXd on_held(const Eigen::VectorXd& free) const {
+    const DofMap& from = free_.system().dofs();
+    const DofMap& to = held_.system().dofs();
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(to.count());
+    for (int node = 0; node < held_.mesh().section.node_count(); ++node) {
+      for (int field = 0; field < to.field_count(); ++field) {
+        const int at = to.dof(field, node);
+        if (at >= 0 && from.dof(field, node) >= 0) values[at] = free[from.dof(field, node)];
+      }
+    }
+    return values;
+  }
+
   PillarModel held_;
   PillarModel free_;
   SymmetricSparse stiffness_;
@@ -138,14 +184,20 @@ class HeldPillar {
 }  // namespace
 
 FootForces foot_forces(const PillarGeometry& geometry, const Medium& medium,
-                       const Discretisation& mesh, double largest_k_1_m) {
+                       const Discretisation& mesh, double largest_k_1_m, const FilmTable* on_film) {
   require(!geometry.film, "the foot of a pillar is found on a rigid base, without a film");
   FootForces foot;
   const HeldPillar axial(geometry, medium, mesh, Motion::kLongitudinal);
   const FootPoints points(axial.model(), largest_k_1_m);
   foot.radius_m = points.radius_m();
   const Eigen::VectorXd pull = axial.top_load(1, 0);
-  const HeldPillar::Answer pressed = axial.solve(-pull);
+  HeldPillar::Answer pressed = axial.solve(-pull);
+  const auto on = [&](const HeldPillar& pillar, bool is_axial) {
+    const std::vector<FootUnknown> unknowns = pillar.foot_unknowns();
+    return FootOnFilm(*on_film, {points.radius_m(), points.from_nodes(), unknowns, is_axial},
+                      pillar.foot_stiffness(unknowns));
+  };
+  if (on_film) on(axial, true).correct(pressed.base_forces);
   foot.pressure = {axial.at_points(points, pressed.base_forces, 0),
                    axial.at_points(points, pressed.base_forces, 1)};
   foot.sinking_m_Pa = -pull.dot(pressed.motion) / pull.sum();
@@ -153,8 +205,13 @@ FootForces foot_forces(const PillarGeometry& geometry, const Medium& medium,
   const HeldPillar sideways(geometry, medium, mesh, Motion::kLateral);
   const Eigen::VectorXd shear = sideways.top_load(1, 0);  // field b carries u_x
   const Eigen::VectorXd tilt = sideways.top_load(2, 1);
-  const HeldPillar::Answer sheared = sideways.solve(shear);
-  const HeldPillar::Answer tilted = sideways.solve(tilt);
+  HeldPillar::Answer sheared = sideways.solve(shear);
+  HeldPillar::Answer tilted = sideways.solve(tilt);
+  if (on_film) {
+    const FootOnFilm corrected = on(sideways, false);
+    corrected.correct(sheared.base_forces);
+    corrected.correct(tilted.base_forces);
+  }
   const auto at_points = [&](const HeldPillar::Answer& answer) -> FootForces::Sideways {
     return {sideways.at_points(points, answer.base_forces, 0),
             sideways.at_points(points, answer.base_forces, 1),

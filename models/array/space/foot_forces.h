@@ -9,6 +9,8 @@
 
 namespace viscard {
 
+class FilmTable;
+
 // Loads on the top of a pillar, each 1 Pa: pressure down, shear along x or y, and a traction
 // t_z = x/R or y/R that tilts it (R the radius of the top).
 enum class TopLoad { kPressure, kShearX, kShearY, kTiltX, kTiltY };
@@ -21,9 +23,11 @@ constexpr int kTopLoads = 5;
 // changes voltages by some 1e-5 (eq. S3).
 struct FootForces {
   std::vector<double> radius_m;
+  // Forces on the circles of radius_m under pressure.
   struct Axial {  // under pressure: along r and z
     Eigen::VectorXd r, z;
   } pressure;
+  // Forces on the circles of radius_m under sideways loads.
   struct Sideways {  // conjugate to the fields a, b, w of eq. 12
     Eigen::VectorXd a, b, w;
   } shear, tilt;
@@ -37,25 +41,34 @@ struct FootForces {
   int unknowns = 0;  // of the larger system
 };
 
-// With points close enough for waves up to the largest k. Throws std::invalid_argument for a geometry
-// that PillarModel refuses or that has a film.
+// With points close enough for waves up to the largest k. With a film, the foot's traction is the one on
+// that film and its backing (eq. S11); the motions of the top remain those on a rigid base. Throws
+// std::invalid_argument for a geometry that PillarModel refuses or that has a film.
 FootForces foot_forces(const PillarGeometry& pillar, const Medium& medium,
-                       const Discretisation& mesh, double largest_k_1_m = 0.0);
+                       const Discretisation& mesh, double largest_k_1_m = 0.0,
+                       const FilmTable* on_film = nullptr);
 
 // Fourier transforms of the foot's traction at the wave number k, Pa m^2 per Pa (eq. S3). Under
 // pressure it is (tau_x, 0, t_z) at every angle theta of the wave. Under a sideways load along x it is
 // -2 i (along cos theta, -across sin theta, normal cos theta).
 struct AxialTransform {
   double tau_x = 0.0;
+  // Along the axis, Pa m^2 per Pa.
   double t_z = 0.0;
 };
+// The same under a sideways load.
 struct SidewaysTransform {
+  // Parts of the traction, Pa m^2 per Pa.
   double along = 0.0;
+  // As along.
   double across = 0.0;
+  // As along.
   double normal = 0.0;
 };
+// The transform at a wave number of forces on circles of these radii.
 AxialTransform transform(const FootForces::Axial& forces, const std::vector<double>& radius_m,
                          double k_1_m);
+// The same of forces under a sideways load.
 SidewaysTransform transform(const FootForces::Sideways& forces, const std::vector<double>& radius_m,
                             double k_1_m);
 

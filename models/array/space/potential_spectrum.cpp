@@ -11,8 +11,6 @@ namespace viscard {
 namespace {
 
 constexpr int kWavePoints = 8;        // Gauss points per panel of k
-constexpr double kWavePhase = 5.0;    // largest radius times a panel of k
-constexpr double kWaveStep = 0.7;     // panel of k times the thickness of the film
 constexpr double kShortWaves = 16.0;  // times the thickness: the faces are apart by exp(-16)
 constexpr double kCutFrom = 0.5;      // of the largest k, where cut() begins
 constexpr double kOwnPhase = 4.0;     // radius of the foot times a panel of k, on its own axis
@@ -21,13 +19,6 @@ double thickness_m(const LayeredFilm& film) {
   double sum = 0.0;
   for (const FilmLayer& layer : film.layers) sum += layer.thickness_m;
   return sum;
-}
-
-// Share of waves, by their k over the largest, that is left to add_own(): rises smoothly from 0 to 1, so
-// that what neighbours miss of the short waves falls off with the distance faster than any power.
-double cut(double of_largest) {
-  const double s = std::clamp((of_largest - kCutFrom) / (1.0 - kCutFrom), 0.0, 1.0);
-  return s * s * s * s * (35.0 - s * (84.0 - s * (70.0 - 20.0 * s)));
 }
 
 // The film's reading per traction over the angle: sums over l of (x, z) cos(2 l theta) and
@@ -61,27 +52,6 @@ double odd_part(const Eigen::VectorXd& even, Eigen::Index j, double sign) {
   return (j == 0 ? even[0] : 0.5 * even[j]) + 0.5 * sign * even[j + 1];
 }
 
-// Amplitude of each harmonic of the potential of one wave number, for every load: eq. S4.
-Eigen::MatrixXd harmonics_of(const AngularReading& g, const FootForces& foot, double k_1_m) {
-  const AxialTransform pressure = transform(foot.pressure, foot.radius_m, k_1_m);
-  const SidewaysTransform shear = transform(foot.shear, foot.radius_m, k_1_m);
-  const SidewaysTransform tilt = transform(foot.tilt, foot.radius_m, k_1_m);
-  const Eigen::Index count = g.x.size() - 1;
-  Eigen::MatrixXd amplitude(count, kTopLoads);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const double sign = j % 2 == 0 ? 1.0 : -1.0;  // i^(2 j)
-    // Potential of a sideways load along x (direction = 1) or y (-1); -2 i times i^(2 j + 1).
-    const auto sideways = [&](const SidewaysTransform& t, double direction) {
-      return 2.0 * sign *
-             (odd_part(g.x, j, direction) * t.along + odd_part(g.z, j, direction) * t.normal +
-              0.5 * (g.y[j] - direction * g.y[j + 1]) * t.across);
-    };
-    amplitude.row(j) << sign * (g.x[j] * pressure.tau_x + g.z[j] * pressure.t_z),
-        sideways(shear, 1.0), sideways(shear, -1.0), sideways(tilt, 1.0), sideways(tilt, -1.0);
-  }
-  return amplitude;
-}
-
 // Solves the film under waves of one length in L + 1 directions.
 class Directions {
  public:
@@ -91,10 +61,10 @@ class Directions {
                           accuracy.film_degree);
     }
   }
-  AngularReading at(double k_1_m) const {
+  std::vector<Eigen::Vector4d> at(double k_1_m) const {
     std::vector<Eigen::Vector4d> values;
     for (const FilmWaves& direction : waves_) values.push_back(direction.reading(k_1_m));
-    return angular(values);
+    return values;
   }
 
  private:
@@ -115,6 +85,35 @@ void each_wave(double from_1_m, double to_1_m, double longest_1_m, const With& w
   }
 }
 
+}  // namespace
+
+double cut(double of_largest) {
+  const double s = std::clamp((of_largest - kCutFrom) / (1.0 - kCutFrom), 0.0, 1.0);
+  return s * s * s * s * (35.0 - s * (84.0 - s * (70.0 - 20.0 * s)));
+}
+
+Eigen::MatrixXd harmonics_of(const std::vector<Eigen::Vector4d>& at_angles, const FootForces& foot,
+                             double k_1_m) {
+  const AngularReading g = angular(at_angles);
+  const AxialTransform pressure = transform(foot.pressure, foot.radius_m, k_1_m);
+  const SidewaysTransform shear = transform(foot.shear, foot.radius_m, k_1_m);
+  const SidewaysTransform tilt = transform(foot.tilt, foot.radius_m, k_1_m);
+  const Eigen::Index count = g.x.size() - 1;
+  Eigen::MatrixXd amplitude(count, kTopLoads);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const double sign = j % 2 == 0 ? 1.0 : -1.0;  // i^(2 j)
+    // Potential of a sideways load along x (direction = 1) or y (-1); -2 i times i^(2 j + 1).
+    const auto sideways = [&](const SidewaysTransform& t, double direction) {
+      return 2.0 * sign *
+             (odd_part(g.x, j, direction) * t.along + odd_part(g.z, j, direction) * t.normal +
+              0.5 * (g.y[j] - direction * g.y[j + 1]) * t.across);
+    };
+    amplitude.row(j) << sign * (g.x[j] * pressure.tau_x + g.z[j] * pressure.t_z),
+        sideways(shear, 1.0), sideways(shear, -1.0), sideways(tilt, 1.0), sideways(tilt, -1.0);
+  }
+  return amplitude;
+}
+
 // Beyond kShortWaves the faces no longer feel each other and the reading goes as 1/k (eq. S6).
 std::vector<PotentialSpectrum::OwnWave> own_waves(const LayeredFilm& film, const FootForces& foot,
                                                   const PotentialAccuracy& accuracy) {
@@ -125,11 +124,11 @@ std::vector<PotentialSpectrum::OwnWave> own_waves(const LayeredFilm& film, const
   if (!(to_1_m > from_1_m)) return own;
   const double short_1_m = std::max(from_1_m, kShortWaves / t_m);
   const Directions directions(film, accuracy, short_1_m);
-  const AngularReading limit = directions.at(short_1_m);
+  const AngularReading limit = angular(directions.at(short_1_m));
   const double widest_m = *std::max_element(foot.radius_m.begin(), foot.radius_m.end());
   each_wave(
       from_1_m, to_1_m, kOwnPhase / std::max(t_m, widest_m), [&](double k_1_m, double weight) {
-        const AngularReading g = k_1_m < short_1_m ? directions.at(k_1_m) : limit;
+        const AngularReading g = k_1_m < short_1_m ? angular(directions.at(k_1_m)) : limit;
         const double share =
             std::min(1.0, short_1_m / k_1_m) * cut(k_1_m * t_m / accuracy.largest_kt);
         const AxialTransform pressure = transform(foot.pressure, foot.radius_m, k_1_m);
@@ -137,8 +136,6 @@ std::vector<PotentialSpectrum::OwnWave> own_waves(const LayeredFilm& film, const
       });
   return own;
 }
-
-}  // namespace
 
 PotentialSpectrum potential_spectrum(const LayeredFilm& film, const FootForces& foot,
                                      const PotentialAccuracy& accuracy) {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "models/array/space/disc_charge.h"
+#include "models/array/film/disc_charge.h"
+#include "models/array/film/layered_film.h"
 #include "models/array/space/foot_forces.h"
-#include "models/array/space/layered_film.h"
 
 #include <Eigen/Core>
 
@@ -18,12 +18,14 @@ struct PotentialAccuracy {
   double own_kt = 0.0;       // on the load's own axis: waves up to this; 0: no more than elsewhere
   int harmonics = 2;         // L: the film's answer over the angle has the harmonics 0, 2, ... 2 L
   double reach_m = 0.0;      // farthest point from the pillar's axis that is asked for
+  double far_m = 0.0;        // on a backing, farthest pillar that is asked for (wide_table.h)
 };
 
 // The potential that one loaded pillar leaves on the face of the film that is read, in Fourier space
 // (eq. S4): phi(r, alpha) = sum over waves and harmonics of amplitude J_m(k r) cos(m alpha), or
 // sin(m alpha) for loads along y; m = 2 j under pressure, 2 j + 1 under the other loads.
 struct PotentialSpectrum {
+  // The amplitudes at one wave number.
   struct Wave {
     double k_1_m = 0.0;
     double weight_1_m2 = 0.0;   // k dk/(2 pi) of the quadrature
@@ -33,13 +35,27 @@ struct PotentialSpectrum {
   // Shorter waves that only matter on the load's own axis, where pressure alone gives a potential.
   struct OwnWave {
     double k_1_m = 0.0;
-    double amplitude = 0.0;
+    double amplitude = 0.0;  // V/Pa, weight included
   };
   std::vector<OwnWave> own;
 };
 
+// The spectrum of a pillar with these forces at its foot, with waves as short as the accuracy takes.
 PotentialSpectrum potential_spectrum(const LayeredFilm& film, const FootForces& foot,
                                      const PotentialAccuracy& accuracy);
+// The waves that only matter on the load's own axis, beyond those of the other spectrum (eq. S6).
+std::vector<PotentialSpectrum::OwnWave> own_waves(const LayeredFilm& film, const FootForces& foot,
+                                                  const PotentialAccuracy& accuracy);
+
+constexpr double kWavePhase = 5.0;  // largest radius times a panel of k
+constexpr double kWaveStep = 0.7;   // panel of k times the thickness of the film
+// Share of waves, by their k over the largest, that fades out: rises smoothly from 0 to 1, so that what
+// neighbours miss of the short waves falls off with the distance.
+double cut(double of_largest);
+// Amplitude of each harmonic of the potential of one wave number, for every load (eq. S4), from what is
+// read per unit (tau_x, tau_y, t_z) along the directions j pi/(2 L), j = 0 to L.
+Eigen::MatrixXd harmonics_of(const std::vector<Eigen::Vector4d>& at_angles, const FootForces& foot,
+                             double k_1_m);
 
 // The part of the spectrum that comes from the charge which the pillar's own open electrode gains
 // without a net charge (eq. S5); amplitudes by wave, j x loads.

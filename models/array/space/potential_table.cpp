@@ -59,14 +59,15 @@ AxialReading disc_mean(double radius_m) {
 
 PotentialTable::PotentialTable(const PotentialSpectrum& spectrum,
                                const std::vector<Eigen::MatrixXd>& induced, double reach_m,
-                               const std::vector<AxialReading>& readings)
-    : reach_m_(reach_m),
+                               const std::vector<AxialReading>& readings, double from_m)
+    : from_m_(from_m),
+      reach_m_(reach_m),
       harmonics_(spectrum.waves.front().amplitude.rows()),
       own_V_(readings.size(), 0.0) {
   const double largest_k_1_m = spectrum.waves.back().k_1_m;
-  const int panels =
-      std::max(1, static_cast<int>(std::ceil(0.5 * largest_k_1_m * reach_m_ / kTablePhase)));
-  panel_m_ = reach_m_ / panels;
+  const int panels = std::max(
+      1, static_cast<int>(std::ceil(0.5 * largest_k_1_m * (reach_m_ - from_m_) / kTablePhase)));
+  panel_m_ = (reach_m_ - from_m_) / panels;
   values_.assign(readings.size(),
                  Eigen::MatrixXd::Zero(panels * kTablePoints, kTopLoads * harmonics_));
   for (std::size_t i = 0; i < spectrum.waves.size(); ++i) {
@@ -95,7 +96,7 @@ void PotentialTable::add_wave(const Eigen::MatrixXd& amplitude, double k_1_m,
   for (Eigen::Index at = 0; at < values_.front().rows(); ++at) {
     const Eigen::Index panel = at / kTablePoints;
     const double within = 0.5 * (1.0 + table_point(static_cast<int>(at % kTablePoints)));
-    bessel(k_1_m * panel_m_ * (static_cast<double>(panel) + within), J);
+    bessel(k_1_m * (from_m_ + panel_m_ * (static_cast<double>(panel) + within)), J);
     for (Eigen::Index load = 0; load < kTopLoads; ++load) {
       for (Eigen::Index j = 0; j < harmonics_; ++j) {
         row[load * harmonics_ + j] = amplitude(j, load) * J[2 * j + (load == 0 ? 0 : 1)];
@@ -111,8 +112,8 @@ PotentialByLoad PotentialTable::at(double x_m, double y_m, std::size_t reading) 
   const Eigen::MatrixXd& values = values_.at(reading);
   const Eigen::Index panels = values.rows() / kTablePoints;
   const auto panel =
-      std::min(panels - 1, static_cast<Eigen::Index>(std::floor(radius_m / panel_m_)));
-  const double within = 2.0 * (radius_m / panel_m_ - static_cast<double>(panel)) - 1.0;
+      std::min(panels - 1, static_cast<Eigen::Index>(std::floor((radius_m - from_m_) / panel_m_)));
+  const double within = 2.0 * ((radius_m - from_m_) / panel_m_ - static_cast<double>(panel)) - 1.0;
   const Eigen::RowVectorXd radial =
       table_weights(within).transpose() * values.middleRows(panel * kTablePoints, kTablePoints);
   const double angle = std::atan2(y_m, x_m);

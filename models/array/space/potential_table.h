@@ -22,9 +22,11 @@ AxialReading disc_mean(double radius_m);  // 2 J_1(k a)/(k a)
 // y are those of the film.
 class PotentialTable {
  public:
-  // `induced` (potential_spectrum.h) is read by all but the pillar itself; empty: no electrode.
+  // `induced` (potential_spectrum.h) is read by all but the pillar itself; empty: no electrode. The table
+  // covers the distances from `from_m` to `reach_m`.
   PotentialTable(const PotentialSpectrum& spectrum, const std::vector<Eigen::MatrixXd>& induced,
-                 double reach_m, const std::vector<AxialReading>& readings = {point_reading()});
+                 double reach_m, const std::vector<AxialReading>& readings = {point_reading()},
+                 double from_m = 0.0);
 
   // One of the readings at a point (x, y) from the pillar's axis. Zero beyond the reach.
   PotentialByLoad at(double x_m, double y_m, std::size_t reading = 0) const;
@@ -33,7 +35,7 @@ class PotentialTable {
  private:
   void add_wave(const Eigen::MatrixXd& amplitude, double k_1_m, const std::vector<double>& factors);
 
-  double reach_m_ = 0.0;
+  double from_m_ = 0.0, reach_m_ = 0.0;
   double panel_m_ = 0.0;
   Eigen::Index harmonics_ = 0;
   // By reading: Chebyshev points of each panel, one below the other; a column per load (slowest) and

@@ -75,6 +75,32 @@ double largest_constant_error(const SpaceScene& scene, const ConstantErrors& err
                                    kCrosstalkScale);
 }
 
+// A voltage differs by more than this from that on a rigid base: the film reads its stretching.
+constexpr double kStretchingFrom = 0.1;
+
+std::string stretching_note(const SpaceScene& scene, const BackingEffect& effect) {
+  const SpacePillar& one = scene.pillars[effect.pillar];
+  const double percent = 100.0 * (effect.voltage_V - effect.rigid_V) / std::abs(effect.rigid_V);
+  return "stretching: pillar [" + std::to_string(one.row) + ", " + std::to_string(one.column) +
+         "] reads " + text_of(effect.voltage_V, 4) + " V, on a rigid base " +
+         text_of(effect.rigid_V, 4) + " V (" + text_of(percent, 3) +
+         " %): on this backing the film reads how it is stretched by all pillars, not the pressure "
+         "on "
+         "one; take a stiffer backing";
+}
+
+// The film's edge on a backing; throws SceneMistake where it lies too near.
+void check_edge(const SpaceScene& scene, const BackingEffect& effect, double other_errors) {
+  if (effect.edge + other_errors <= (1.0 - kShareOfAccuracy) * scene.tolerance) return;
+  throw SceneMistake("geometry.film.edge",
+                     "the film is solved without its edge, " + micrometres(scene.film_edge_m, 4) +
+                         " from the outer pillars, but on this backing it is stretched as far as "
+                         "that. That leaves a relative error of about " +
+                         text_of(effect.edge + other_errors, 2) + ", too much for a tolerance of " +
+                         text_of(scene.tolerance, 2) +
+                         "; ask for a larger one, for a wider film, or for a stiffer backing");
+}
+
 [[noreturn]] void refuse(const SpaceScene& scene, double error, const ConstantErrors& parts) {
   const std::string size = " of about " + text_of(error, 2) + ", too much for a tolerance of " +
                            text_of(scene.tolerance, 2) + "; ask for a larger one, or for a ";
@@ -105,6 +131,9 @@ std::vector<std::string> result_names(const SpaceScene& scene) {
     names.push_back(reading + "_voltage");
   }
   if (has_crosstalk(scene)) names.emplace_back(kCrosstalk);
+  if (square_pitch_m(scene) > 0.0 && !scene.backing) {
+    names.insert(names.end(), {"voltage_per_pressure", "voltage_per_height"});
+  }
   if (!scene.press) return names;
   for (const auto& of_contact : {contact_maps(), contact_results()}) {
     names.insert(names.end(), of_contact.begin(), of_contact.end());
@@ -148,6 +177,7 @@ SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
   answer.maps = maps_of(scene, response, loads_Pa);
   if (scene.feels_neighbours) answer.step_error = beyond_reach(scene, response, loads_Pa, answer);
   set_results(scene, answer);
+  add_transfer(scene, response, accuracy.potential.reach_m, answer);
   return answer;
 }
 
@@ -194,26 +224,35 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   const double constant = largest_constant_error(scene, parts);
   if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance) refuse(scene, constant, parts);
   std::optional<SpaceContact> contact;
-  if (scene.press) contact = settled_contact(scene);
+  if (scene.press) {
+    if (scene.progress) scene.progress(0.0, "which tops touch");
+    contact = settled_contact(scene);
+  }
   const TopLoads loads_Pa = contact ? contact->loads_Pa : loads_of(scene);
   const double of_contact = contact ? contact_error(*contact) : 0.0;
-  const double left =
-      std::max(scene.tolerance - constant - of_contact, 0.5 * kShareOfAccuracy * scene.tolerance);
+  BackingEffect backing;
+  if (scene.backing && scene.feels_backing) backing = backing_effect(scene, loads_Pa);
+  check_edge(scene, backing, constant);
+  const double left = std::max(scene.tolerance - constant - of_contact - backing.edge,
+                               0.5 * kShareOfAccuracy * scene.tolerance);
   SceneAnswer answer =
       answer_within({left, space_meshes(scene), scene.progress},
                     [&](const Discretisation& mesh) { return voltages_on(scene, loads_Pa, mesh); });
   if (contact) add_change_of_loads(scene, *contact, answer);
   for (SceneMap& map : answer.maps) {
-    const double of_all = common_error_of(map, parts);
+    const double of_all = common_error_of(map, parts) + backing.edge * edge_size_of(map);
     const double edge_size = edge_size_of(map);
     for (std::size_t at = 0; at < map.value.size(); ++at) {
       map.error[at] += of_all + edge_size * parts.edge[map.pillar[at]];
     }
   }
-  answer.largest_relative_error += constant + of_contact;
+  answer.largest_relative_error += constant + of_contact + backing.edge;
   if (contact) add_contact(scene, *contact, answer);
   set_results(scene, answer);
   if (contact) answer.notes = contact_notes(scene, *contact);
+  if (std::abs(backing.voltage_V - backing.rigid_V) > kStretchingFrom * std::abs(backing.rigid_V)) {
+    answer.notes.push_back(stretching_note(scene, backing));
+  }
   return answer;
 }
 

@@ -38,6 +38,15 @@ double rigid_foot_error(const SpaceScene& scene);
 // Relative error of each pillar's voltages because the film is solved without end (eq. S8).
 std::vector<double> film_edge_errors(const SpaceScene& scene);
 
+// What a backing changes in the voltages under the loads (eq. S12).
+struct BackingEffect {
+  double edge = 0.0;       // relative error, because the film is solved without end
+  std::size_t pillar = 0;  // with the largest voltage
+  double voltage_V = 0.0;  // its first reading, and on a rigid base
+  double rigid_V = 0.0;
+};
+BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa);
+
 // Relative error of the voltages of equipotential electrodes that influence each other (eq. S5).
 double electrode_error(const SpaceScene& scene);
 

@@ -2,10 +2,9 @@
 
 #include "models/array/space/neighbours.h"
 #include "models/maths/gauss_legendre.h"
-#include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -19,14 +18,15 @@ namespace {
 constexpr std::size_t kCentre = 0;  // readings of the tables; or the electrode alone
 constexpr std::size_t kMean = 1;
 constexpr int kQuadrantPoints = 7;  // Gauss points along the radius and the angle of a quarter
+constexpr int kFarPoints = 3;       // of a quarter beyond the reach of the near table
 
 struct WeightedPoint {
   double x_m, y_m, weight;
 };
 
 // Quadrature of the mean over one quarter of a disc, quadrant 0 to 3.
-std::vector<WeightedPoint> quarter(double radius_m, int quadrant) {
-  const QuadratureRule rule = gauss_legendre(kQuadrantPoints);
+std::vector<WeightedPoint> quarter(double radius_m, int quadrant, int count) {
+  const QuadratureRule rule = gauss_legendre(count);
   std::vector<WeightedPoint> points;
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
     for (std::size_t j = 0; j < rule.points.size(); ++j) {
@@ -47,45 +47,47 @@ double largest_diameter_m(const SpaceArray& array) {
   return largest_m;
 }
 
-double widest_m(const PillarGeometry& pillar) {
-  return pillar.diameter_m + 2.0 * std::max({0.0, pillar.foot.width_m, pillar.tip.width_m});
+// What a mirrored place does to the readings of a pillar under some of the loads: quarters change
+// places, and loads along the axis turn round.
+std::array<KernelMirror, 2> mirrors_of(Eigen::Index readings, const std::vector<int>& loads) {
+  constexpr std::array<std::array<int, 6>, 2> kQuarters = {
+      {{0, 1, 3, 2, 5, 4}, {0, 1, 5, 4, 3, 2}}};
+  constexpr std::array<std::array<TopLoad, 2>, 2> kTurned = {
+      {{TopLoad::kShearX, TopLoad::kTiltX}, {TopLoad::kShearY, TopLoad::kTiltY}}};
+  std::array<KernelMirror, 2> mirrors;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    mirrors[axis].reading.assign(kQuarters[axis].begin(), kQuarters[axis].begin() + readings);
+    mirrors[axis].reading_sign = Eigen::VectorXd::Ones(readings);
+    mirrors[axis].load_sign = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(loads.size()));
+    for (std::size_t l = 0; l < loads.size(); ++l) {
+      for (const TopLoad turned : kTurned[axis]) {
+        if (loads[l] == static_cast<int>(turned)) {
+          mirrors[axis].load_sign[static_cast<Eigen::Index>(l)] = -1.0;
+        }
+      }
+    }
+  }
+  return mirrors;
 }
 
 }  // namespace
 
-void validate(const SpaceArray& array) {
-  if (array.pillars.empty()) throw SceneMistake("geometry", "the array has no pillars");
-  for (const PillarClass& one : array.classes) validate(one.geometry);
-  validate(array.film);
-  if (!(array.electrode_radius_m > 0.0)) {
-    throw SceneMistake("geometry.electrode.radius", "the electrode's radius must be positive");
+std::vector<SourcePoint> sources_of(const SpaceArray& array) {
+  std::vector<SourcePoint> points;
+  points.reserve(array.pillars.size());
+  for (const PlacedPillar& one : array.pillars) points.push_back({one.x_m, one.y_m, one.of_class});
+  return points;
+}
+
+double array_diagonal_m(const SpaceArray& array) {
+  double left_m = HUGE_VAL, right_m = -HUGE_VAL, low_m = HUGE_VAL, high_m = -HUGE_VAL;
+  for (const PlacedPillar& one : array.pillars) {
+    left_m = std::min(left_m, one.x_m);
+    right_m = std::max(right_m, one.x_m);
+    low_m = std::min(low_m, one.y_m);
+    high_m = std::max(high_m, one.y_m);
   }
-  double widest = 2.0 * array.electrode_radius_m;
-  for (const PillarClass& one : array.classes)
-    widest = std::max(widest, 1.1 * widest_m(one.geometry));
-  const Neighbours near(array.pillars, widest);
-  for (std::size_t i = 0; i < array.pillars.size(); ++i) {
-    const PlacedPillar& one = array.pillars[i];
-    near.visit(one.x_m, one.y_m, [&](std::size_t j) {
-      if (j <= i) return;
-      const PlacedPillar& other = array.pillars[j];
-      const double distance_m = std::hypot(other.x_m - one.x_m, other.y_m - one.y_m);
-      const double width_m =
-          0.5 * (widest_m(array.classes[static_cast<std::size_t>(one.of_class)].geometry) +
-                 widest_m(array.classes[static_cast<std::size_t>(other.of_class)].geometry));
-      const std::string pair = "pillars " + std::to_string(i + 1) + " and " + std::to_string(j + 1);
-      if (distance_m < 1.1 * width_m) {
-        throw SceneMistake("geometry.spacing",
-                           "the gap between " + pair + " is " + micrometres(distance_m - width_m) +
-                               "; it must be at least a tenth of their diameter, because feet that "
-                               "nearly touch change each other's traction");
-      }
-      if (distance_m < 2.0 * array.electrode_radius_m) {
-        throw SceneMistake("geometry.electrode.radius",
-                           "the electrodes of " + pair + " overlap; make them smaller");
-      }
-    });
-  }
+  return std::hypot(right_m - left_m, high_m - low_m);
 }
 
 std::vector<std::string> reading_names(SpaceElectrode electrode) {
@@ -115,13 +117,18 @@ std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
       one.potential.own_kt = 5.0 * std::pow(2.0, degree - 1);
     // What lies beyond decays as exp(-0.92 x/t) (eq. A4).
     one.potential.reach_m = 2.0 * radius_m + (3.0 + 1.5 * degree) * t_m;
+    if (array.film.backing) {
+      one.potential.far_m = array_diagonal_m(array) + 2.0 * array.electrode_radius_m;
+    }
     all.push_back(one);
   }
   return all;
 }
 
 SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accuracy)
-    : array_(&array), reach_m_(accuracy.potential.reach_m - array.electrode_radius_m) {
+    : array_(&array),
+      reach_m_(accuracy.potential.reach_m - array.electrode_radius_m),
+      is_wide_(accuracy.potential.far_m > 0.0) {
   std::vector<AxialReading> readings = {point_reading(), disc_mean(array.electrode_radius_m)};
   std::optional<DiscCharge> charge;
   if (array.electrode == SpaceElectrode::kEquipotential) {
@@ -130,30 +137,57 @@ SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accur
     capacitance_F_ = charge->capacitance_F();
     readings = {[&](double k_1_m) { return charge->weight(k_1_m); }};
   }
-  const double largest_k_1_m = std::max(accuracy.potential.largest_kt, accuracy.potential.own_kt) /
-                               array.film.layers.front().thickness_m;
+  std::optional<FilmTable> film;
+  if (array.film.backing) {
+    const PotentialAccuracy& potential = accuracy.potential;
+    film.emplace(array.film, potential.largest_kt, potential.harmonics, potential.film_degree,
+                 std::max(potential.reach_m, potential.far_m));
+  }
   for (const PillarClass& one : array.classes) {
-    feet_.push_back(foot_forces(one.geometry, one.medium, accuracy.foot, largest_k_1_m));
-    unknowns_ = std::max(unknowns_, feet_.back().unknowns);
-    const PotentialSpectrum spectrum =
-        potential_spectrum(array.film, feet_.back(), accuracy.potential);
-    std::vector<Eigen::MatrixXd> induced;
-    if (charge) induced = induced_amplitudes(spectrum, array.film, *charge, accuracy.potential);
-    tables_.emplace_back(spectrum, induced, accuracy.potential.reach_m, readings);
+    add_class(one, accuracy, film ? &*film : nullptr, charge, readings);
+  }
+}
+
+void SpaceResponse::add_class(const PillarClass& one, const SpaceAccuracy& accuracy,
+                              const FilmTable* film, const std::optional<DiscCharge>& charge,
+                              const std::vector<AxialReading>& readings) {
+  const PotentialAccuracy& potential = accuracy.potential;
+  const double t_m = array_->film.layers.front().thickness_m;
+  const double largest_k_1_m = std::max(potential.largest_kt, potential.own_kt) / t_m;
+  feet_.push_back(foot_forces(one.geometry, one.medium, accuracy.foot, largest_k_1_m, film));
+  const FootForces& foot = feet_.back();
+  unknowns_ = std::max(unknowns_, foot.unknowns);
+  PotentialSpectrum spectrum;
+  if (film) {
+    spectrum = graded_spectrum(*film, potential_reading(*film), foot, film->largest_k_1_m(),
+                               std::min(kWavePhase / potential.reach_m, kWaveStep / t_m),
+                               potential.own_kt > 0.0);
+    spectrum.own = own_waves(array_->film, foot, potential);
+  } else {
+    spectrum = potential_spectrum(array_->film, foot, potential);
+  }
+  std::vector<Eigen::MatrixXd> induced;
+  if (charge) induced = induced_amplitudes(spectrum, array_->film, *charge, potential);
+  PotentialTable near(spectrum, induced, potential.reach_m, readings);
+  if (film && potential.far_m > 0.0) {
+    tables_.emplace_back(std::move(near), *film, potential_reading(*film), foot, readings);
+  } else {
+    tables_.emplace_back(std::move(near));
   }
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> SpaceResponse::kernel(int of_class, double x_m,
                                                                        double y_m) const {
-  const PotentialTable& table = tables_[static_cast<std::size_t>(of_class)];
+  const WideTable& table = tables_[static_cast<std::size_t>(of_class)];
   const bool has_quadrants = array_->electrode == SpaceElectrode::kQuadrants;
   Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(
       static_cast<Eigen::Index>(reading_names(array_->electrode).size()), kTopLoads);
   kernel.row(0) = table.at(x_m, y_m, kCentre).transpose();
   if (kernel.rows() > 1) kernel.row(1) = table.at(x_m, y_m, kMean).transpose();
+  const int points = std::hypot(x_m, y_m) > reach_m_ ? kFarPoints : kQuadrantPoints;
   for (int quadrant = 0; quadrant < 4 && has_quadrants; ++quadrant) {
     PotentialByLoad mean = PotentialByLoad::Zero();
-    for (const WeightedPoint& point : quarter(array_->electrode_radius_m, quadrant)) {
+    for (const WeightedPoint& point : quarter(array_->electrode_radius_m, quadrant, points)) {
       mean += point.weight * table.at(x_m + point.x_m, y_m + point.y_m, kCentre);
     }
     kernel.row(2 + quadrant) = mean.transpose();
@@ -161,7 +195,42 @@ Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> SpaceResponse::kernel(int of_cl
   return kernel;
 }
 
+Eigen::MatrixXd SpaceResponse::sums_on_backing_V(const TopLoads& loads_Pa) const {
+  std::vector<int> active;
+  for (int load = 0; load < kTopLoads; ++load) {
+    if (!loads_Pa.col(load).isZero(0.0)) active.push_back(load);
+  }
+  const auto readings = static_cast<Eigen::Index>(reading_names(array_->electrode).size());
+  const auto count = static_cast<Eigen::Index>(active.size());
+  if (count == 0) return Eigen::MatrixXd::Zero(loads_Pa.rows(), readings);
+  const auto of_active = [&](const auto& by_load) {
+    Eigen::MatrixXd columns(by_load.rows(), count);
+    for (Eigen::Index l = 0; l < count; ++l) {
+      columns.col(l) = by_load.col(active[static_cast<std::size_t>(l)]);
+    }
+    return columns;
+  };
+  const OffsetSums sums(
+      sources_of(*array_), static_cast<int>(array_->classes.size()),
+      [&](int of_class, double x_m, double y_m) { return of_active(kernel(of_class, x_m, y_m)); },
+      mirrors_of(readings, active));
+  return sums.apply(of_active(loads_Pa));
+}
+
+double SpaceResponse::voltage_at_V(double x_m, double y_m, const TopLoads& loads_Pa) const {
+  double voltage_V = 0.0;
+  for (std::size_t j = 0; j < array_->pillars.size(); ++j) {
+    const PlacedPillar& one = array_->pillars[j];
+    const auto load = loads_Pa.row(static_cast<Eigen::Index>(j));
+    if (load.isZero(0.0)) continue;
+    const WideTable& table = tables_[static_cast<std::size_t>(one.of_class)];
+    voltage_V += load.dot(table.at(x_m - one.x_m, y_m - one.y_m, 0));
+  }
+  return voltage_V;
+}
+
 Eigen::MatrixXd SpaceResponse::voltages_V(const TopLoads& loads_Pa) const {
+  if (is_wide_) return sums_on_backing_V(loads_Pa);
   const std::vector<PlacedPillar>& pillars = array_->pillars;
   const Neighbours near(pillars, reach_m_);
   // Equal offsets, which a lattice repeats, are read once.
@@ -192,18 +261,14 @@ Eigen::VectorXd SpaceResponse::beyond_reach_V(const TopLoads& loads_Pa) const {
   constexpr int kDirections = 16;
   const auto readings = static_cast<Eigen::Index>(reading_names(array_->electrode).size());
   Eigen::VectorXd largest_V = Eigen::VectorXd::Zero(readings);
-  double left_m = HUGE_VAL, right_m = -HUGE_VAL, low_m = HUGE_VAL, high_m = -HUGE_VAL;
+  if (is_wide_) return largest_V;
   std::vector<TopLoads> of_class(feet_.size(), TopLoads::Zero(1, kTopLoads));  // largest of each
   for (std::size_t i = 0; i < array_->pillars.size(); ++i) {
     const PlacedPillar& one = array_->pillars[i];
-    left_m = std::min(left_m, one.x_m);
-    right_m = std::max(right_m, one.x_m);
-    low_m = std::min(low_m, one.y_m);
-    high_m = std::max(high_m, one.y_m);
     TopLoads& most = of_class[static_cast<std::size_t>(one.of_class)];
     most = most.cwiseMax(loads_Pa.row(static_cast<Eigen::Index>(i)).cwiseAbs());
   }
-  if (std::hypot(right_m - left_m, high_m - low_m) <= reach_m_) return largest_V;
+  if (array_diagonal_m(*array_) <= reach_m_) return largest_V;
   for (std::size_t c = 0; c < of_class.size(); ++c) {
     if (of_class[c].isZero(0.0)) continue;
     for (int d = 0; d < kDirections; ++d) {

@@ -1,9 +1,11 @@
 #pragma once
 
-#include "models/array/space/potential_table.h"
+#include "models/array/space/wide_table.h"
+#include "models/maths/offset_sums.h"
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,7 @@ struct PillarClass {
   Medium medium;
 };
 
+// Where a pillar stands, and of which class it is.
 struct PlacedPillar {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -36,6 +39,10 @@ struct SpaceArray {
   SpaceElectrode electrode = SpaceElectrode::kSampled;
   double electrode_radius_m = 0.0;
 };
+
+std::vector<SourcePoint> sources_of(const SpaceArray& array);
+// Largest distance of two pillars, at most: the diagonal of the rectangle around their axes.
+double array_diagonal_m(const SpaceArray& array);
 
 // Throws SceneMistake naming what is wrong: no pillars, tops or feet that overlap or nearly touch
 // (gaps below a tenth of the diameter change the traction under a foot), electrodes that overlap.
@@ -73,16 +80,26 @@ class SpaceResponse {
   // reading at that distance, since it decays within a pitch. 0 if no two pillars are so far apart.
   Eigen::VectorXd beyond_reach_V(const TopLoads& loads_Pa) const;
 
+  // What a point of the film far from all pillars reads, V; without an electrode.
+  double voltage_at_V(double x_m, double y_m, const TopLoads& loads_Pa) const;
+
+  // Forces at the feet of the pillars of a class.
   const FootForces& foot(int of_class) const { return feet_[static_cast<std::size_t>(of_class)]; }
   double capacitance_F() const { return capacitance_F_; }  // of one electrode; 0 if sampled
   int unknowns() const { return unknowns_; }
 
  private:
+  void add_class(const PillarClass& one, const SpaceAccuracy& accuracy, const FilmTable* film,
+                 const std::optional<DiscCharge>& charge,
+                 const std::vector<AxialReading>& readings);
+  Eigen::MatrixXd sums_on_backing_V(const TopLoads& loads_Pa) const;
+
   const SpaceArray* array_;
   double capacitance_F_ = 0.0;
   double reach_m_ = 0.0;  // between axes
+  bool is_wide_ = false;  // a backing carries readings beyond the reach
   std::vector<FootForces> feet_;
-  std::vector<PotentialTable> tables_;
+  std::vector<WideTable> tables_;
   int unknowns_ = 0;
 };
 

@@ -1,11 +1,13 @@
 #include "models/array/space/space_contact.h"
 
+#include "models/array/space/foot_motion.h"
 #include "models/maths/gauss_legendre.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace viscard {
@@ -43,18 +45,30 @@ class Presser {
       const FootForces foot = foot_forces(one.geometry, one.medium, kStiffnessMesh);
       const double R_m = 0.5 * one.geometry.diameter_m;
       const double area_m2 = disc_m2(R_m);
-      const double settling_m_Pa = foot_settling_m_Pa(array_.film, foot);
+      // On a backing the film's motion under all feet is solved (FootMotion); its own on a rigid base
+      // serves for the error.
+      LayeredFilm held = array_.film;
+      held.backing.reset();
+      const double settling_m_Pa = foot_settling_m_Pa(held, foot);
       const double coarser_m_Pa = foot_forces(one.geometry, one.medium, kCoarserMesh).sinking_m_Pa;
-      sinking_m_N_.push_back((foot.sinking_m_Pa + settling_m_Pa) / area_m2);
+      const double of_base_m_Pa = array_.film.backing ? 0.0 : settling_m_Pa;
+      sinking_m_N_.push_back((foot.sinking_m_Pa + of_base_m_Pa) / area_m2);
       error_ = std::max(error_,
                         (std::abs(foot.sinking_m_Pa - coarser_m_Pa) + kOfSettling * settling_m_Pa) /
                             foot.sinking_m_Pa);
       turning_rad_Nm_.push_back(foot.tilt_by_tilt_1_Pa / (0.25 * area_m2 * R_m));
       sideways_m_Pa_.push_back(std::abs(foot.sideways_by_tilt_m_Pa));
     }
+    if (!array_.film.backing) return;
+    base_.emplace(array_);
+    on_base_.emplace(pillars_, scene.press->shape, [this](const std::vector<std::size_t>& pillars) {
+      return base_->under(pillars);
+    });
   }
+  Presser(const Presser&) = delete;
+  Presser& operator=(const Presser&) = delete;
 
-  SpaceContact on(int grid) const {
+  SpaceContact on(int grid) {
     std::vector<TopContact> classes;
     for (std::size_t i = 0; i < array_.classes.size(); ++i) {
       const PillarClass& one = array_.classes[i];
@@ -66,6 +80,13 @@ class Presser {
     const ShapePress& press = *scene_->press;
     const TopBond bond = scene_->feels_contact ? TopBond::kPushed : TopBond::kFollows;
     SpaceContact contact;
+    if (on_base_) {
+      contact.pressed = press.force_N > 0.0 ? on_base_->with_force(classes, press.force_N)
+                                            : on_base_->to_depth(classes, press.depth_m);
+      set_loads(contact);
+      contact.stiffness_error = error_;
+      return contact;
+    }
     contact.pressed = press.force_N > 0.0
                           ? press_with_force(pillars_, classes, press.shape, press.force_N, bond)
                           : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond);
@@ -98,6 +119,8 @@ class Presser {
   const SpaceScene* scene_;
   SpaceArray array_;
   std::vector<TouchedPillar> pillars_;
+  std::optional<FootMotion> base_;  // of a film on a backing
+  std::optional<PressOnBase> on_base_;
   double error_ = 0.0;                                                // relative, of the stiffness
   std::vector<double> sinking_m_N_, turning_rad_Nm_, sideways_m_Pa_;  // by class
 };
@@ -129,7 +152,7 @@ SpaceContact contact_on(const SpaceScene& scene, int grid) {
 }
 
 SpaceContact contact_within(const SpaceScene& scene, double tolerance) {
-  const Presser presser(scene);
+  Presser presser(scene);
   SpaceContact contact = presser.on(0);
   for (int grid = 1; grid < kContactGrids; ++grid) {
     SpaceContact finer = presser.on(grid);

@@ -1,5 +1,5 @@
 // Errors that no accuracy of an array in the plane reduces.
-#include "models/array/space/disc_charge.h"
+#include "models/array/film/disc_charge.h"
 #include "models/array/space/potential_spectrum.h"
 #include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/analysis.h"
@@ -55,6 +55,37 @@ std::vector<double> film_edge_errors(const SpaceScene& scene) {
     one = way < 2.0 ? 2.0 : std::exp(-0.9215 * way);
   }
   return to_edge_m;
+}
+
+// The film carries stress to its edge that a free edge does not bear. Relieving it changes the voltages by
+// at most about what the film without end reads there, with a factor from finite films (eq. S12).
+BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa) {
+  constexpr double kOfEdge = 1.0;
+  BackingEffect effect;
+  SpaceArray array = array_of(scene);
+  const FilmExtent film = film_extent(scene);
+  SpaceAccuracy accuracy = space_accuracies(array)[1];
+  accuracy.potential.far_m = std::hypot(film.right_m - film.left_m, film.high_m - film.low_m);
+  const SpaceResponse response(array, accuracy);
+  const Eigen::VectorXd voltages_V = response.voltages_V(loads_Pa).col(0);
+  Eigen::Index largest = 0;
+  const double largest_V = voltages_V.cwiseAbs().maxCoeff(&largest);
+  if (!(largest_V > 0.0)) return effect;
+  const double x_m = 0.5 * (film.left_m + film.right_m), y_m = 0.5 * (film.low_m + film.high_m);
+  for (const double x : {film.left_m, x_m, film.right_m}) {
+    for (const double y : {film.low_m, y_m, film.high_m}) {
+      if (x == x_m && y == y_m) continue;
+      effect.edge = std::max(effect.edge, std::abs(response.voltage_at_V(x, y, loads_Pa)));
+    }
+  }
+  effect.edge *= kOfEdge / largest_V;
+  array.film.backing.reset();
+  const Eigen::VectorXd rigid_V =
+      SpaceResponse(array, space_accuracies(array)[1]).voltages_V(loads_Pa).col(0);
+  effect.pillar = static_cast<std::size_t>(largest);
+  effect.voltage_V = voltages_V[largest];
+  effect.rigid_V = rigid_V[largest];
+  return effect;
 }
 
 }  // namespace viscard

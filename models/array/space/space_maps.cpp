@@ -1,9 +1,13 @@
 #include "models/array/space/space_maps.h"
 
+#include "models/array/space/space_contact.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <numbers>
+#include <string>
 #include <utility>
 
 namespace viscard {
@@ -47,6 +51,15 @@ void add_result(const SceneMap& map, std::size_t at, const std::string& ending,
   const double error = map.error.empty() ? 0.0 : map.error[at];
   answer.results.push_back(
       {map.name + ending, map.value[at], map.unit, error, size_of(map), map.is_watched});
+}
+
+constexpr const char* kPerPressure = "voltage_per_pressure";
+constexpr const char* kPerHeight = "voltage_per_height";
+
+// Of a top under a uniform pressure, with the film.
+double sinking_m_Pa(const SpaceScene& scene, const SpaceResponse& response) {
+  const FootForces& foot = response.foot(0);
+  return foot.sinking_m_Pa + foot_settling_m_Pa(array_of(scene).film, foot);
 }
 
 }  // namespace
@@ -146,6 +159,56 @@ void set_results(const SpaceScene& scene, SceneAnswer& answer) {
                                       map.name + ending) != scene.wanted.end();
       if (is_named || is_small) add_result(map, at, ending, answer);
     }
+  }
+}
+
+double square_pitch_m(const SpaceScene& scene) {
+  if (scene.rows < 2 || scene.columns < 2 || !scene.others.empty()) return 0.0;
+  const auto count = static_cast<std::size_t>(scene.rows) * static_cast<std::size_t>(scene.columns);
+  if (scene.pillars.size() != count) return 0.0;
+  const double pitch_m = scene.pillars[1].x_m - scene.pillars[0].x_m;
+  for (const SpacePillar& one : scene.pillars) {
+    const double x_m = scene.pillars[0].x_m + (one.column - 1) * pitch_m;
+    const double y_m = scene.pillars[0].y_m + (one.row - 1) * pitch_m;
+    if (std::hypot(one.x_m - x_m, one.y_m - y_m) > 1e-6 * pitch_m) return 0.0;
+  }
+  return pitch_m;
+}
+
+void add_transfer(const SpaceScene& scene, const SpaceResponse& response, double reach_m,
+                  SceneAnswer& answer) {
+  constexpr int kWaves = 49;
+  constexpr double kLongestWave = 64.0;  // over the pitch; the shortest is 2
+  const double pitch_m = square_pitch_m(scene);
+  const int most = static_cast<int>(std::ceil(reach_m / pitch_m));
+  const double R_m = 0.5 * scene.diameter_m;
+  for (const char* const name : {kPerPressure, kPerHeight}) {
+    if (std::find(scene.wanted.begin(), scene.wanted.end(), name) == scene.wanted.end()) continue;
+    const bool is_pressure = name == std::string(kPerPressure);
+    SceneCurve curve;
+    curve.name = name;
+    curve.unit = is_pressure ? "V/Pa" : "V/m";
+    curve.x_name = "wavelength_m";
+    for (int i = 0; i < kWaves; ++i) {
+      const double wavelength_m = 2.0 * pitch_m * std::pow(0.5 * kLongestWave, i / (kWaves - 1.0));
+      const double k_1_m = 2.0 * std::numbers::pi / wavelength_m;
+      double sum_V_Pa = 0.0;
+      for (int column = -most; column <= most; ++column) {
+        for (int row = -most; row <= most; ++row) {
+          sum_V_Pa += std::cos(k_1_m * column * pitch_m) *
+                      response.kernel(0, column * pitch_m, row * pitch_m)(
+                          disc_reading(scene).row, static_cast<int>(TopLoad::kPressure));
+        }
+      }
+      const double half = 0.5 * k_1_m * pitch_m;
+      const double on_top =
+          pitch_m * pitch_m / (std::numbers::pi * R_m * R_m) * std::sin(half) / half;
+      const double of_height =
+          2.0 * ::j1(k_1_m * R_m) / (k_1_m * R_m) / sinking_m_Pa(scene, response);
+      curve.x.push_back(wavelength_m);
+      curve.value.push_back(sum_V_Pa * (is_pressure ? on_top : of_height));
+    }
+    answer.curves.push_back(std::move(curve));
   }
 }
 

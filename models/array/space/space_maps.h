@@ -25,6 +25,16 @@ SceneArray array_of_answer(const SpaceScene& scene, const TopLoads& loads_Pa);
 std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& response,
                               const TopLoads& loads_Pa);
 
+// The side of the cells of a square lattice of like pillars without gaps; 0 for other arrays.
+double square_pitch_m(const SpaceScene& scene);
+
+// Curves over the wavelength of a wave along x on an endless square lattice, if the scene asks for them by
+// name (eq. S13): voltage_per_pressure (of the mean pressure on the cells) and voltage_per_height (of a
+// rigid surface that touches all tops), of the disc or electrode under a pillar, with neighbours up to
+// `reach_m` away.
+void add_transfer(const SpaceScene& scene, const SpaceResponse& response, double reach_m,
+                  SceneAnswer& answer);
+
 // Results name single pillars where there are at most this many.
 constexpr std::size_t kMostNamedPillars = 25;
 

@@ -88,6 +88,7 @@ SpaceArray array_of(const SpaceScene& scene) {
   }
   array.film.layers = {{scene.film, scene.film_thickness_m}};
   array.film.grounded = scene.grounded;
+  if (scene.feels_backing) array.film.backing = scene.backing;
   array.electrode = scene.electrode;
   array.electrode_radius_m = electrode_radius_m(scene);
   return array;

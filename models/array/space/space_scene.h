@@ -24,6 +24,7 @@ struct SpacePillar {
 // Row and column of a pillar, from 1.
 using RowColumn = std::pair<int, int>;
 
+// How the pillars of an array stand.
 enum class SpaceLattice { kSquare, kHexagonal };
 
 // Places around the middle of the array, row by row. The pitch is the distance of nearest axes; in a
@@ -58,7 +59,8 @@ struct SpaceScene : SceneCommon {
 
   Medium film;
   double film_thickness_m = 25e-6;
-  double film_edge_m = 100e-6;  // film beyond the outer pillars' faces
+  double film_edge_m = 100e-6;     // film beyond the outer pillars' faces
+  std::optional<Backing> backing;  // an elastic half-space under the film; nothing: rigid
   FilmFace grounded = FilmFace::kTop;
   SpaceElectrode electrode = SpaceElectrode::kSampled;
   double electrode_radius_m = 0.0;  // 0: that of the usual pillars
@@ -74,6 +76,8 @@ struct SpaceScene : SceneCommon {
 
   // Set by the plan (models/scene/plan.h): each pillar as if it stood alone.
   bool feels_neighbours = true;
+  // Set by the plan: the film lies on its backing instead of a rigid base.
+  bool feels_backing = true;
   // Set by the plan: a shape only pushes. If not, all tops follow it, also where they must be pulled.
   bool feels_contact = true;
 
@@ -87,8 +91,10 @@ struct SpaceScene : SceneCommon {
 // Index into scene.pillars; nothing if no pillar stands there.
 std::optional<std::size_t> index_of(const SpaceScene& scene, RowColumn place);
 
+// Shape and material of a pillar.
 SpaceClass class_of(const SpaceScene& scene, const SpacePillar& pillar);
 std::vector<SpaceClass> classes_of(const SpaceScene& scene);  // of_class is the index
+// Radius of the electrodes, for the default that of the usual pillars.
 double electrode_radius_m(const SpaceScene& scene);
 
 // The array as it is solved, and its loads: pillars x TopLoad.

@@ -7,7 +7,9 @@
 #include "models/pillar/analyses/top_load.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/mesh/scene_mistake.h"
+#include "models/pillar/time/modal_response.h"
 #include "models/pillar/time/model_reduction.h"
+#include "models/pillar/time/motion_peak.h"
 #include "models/pillar/time/transient_run.h"
 
 #include <algorithm>
@@ -16,6 +18,8 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -81,39 +85,61 @@ double reach_rad_s(const PillarScene& scene, double first_rad_s) {
   return omega;
 }
 
-// Largest value, with its sign. If both extremes are equal within the tolerance, it is the one on
-// the side of the first, so that ringing without damping has a unique answer.
-double peak_of(const std::vector<double>& values, double tolerance) {
-  const double size = largest_size(values);
-  const auto first = std::find_if(values.begin(), values.end(), [&](double value) {
-    return std::abs(value) >= (1.0 - 4.0 * tolerance) * size;
-  });
-  if (first == values.end()) return 0.0;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return *first < 0.0 ? *low : *high;
-}
+// An output of a motion at the outputs and between them.
+struct OutputCurve {
+  std::string name, unit;
+  std::vector<double> time_s;  // of the motion
+  Eigen::VectorXd values, rates;
+};
 
-// A curve, its spectrum, its peak and its end. The curve is judged over a period of the first
-// resonance, the spectrum over half the distance between two modes of a rod.
-void add_curve(const std::string& name, const std::string& unit, double tolerance, double first_Hz,
-               const std::vector<double>& time_s, const std::vector<double>& values,
+// A curve at `outputs` + 1 equal times, its spectrum, its peak and its end. The curve is judged over
+// a period of the first resonance, the spectrum over half the distance between two modes of a rod.
+void add_curve(const OutputCurve& of, const std::vector<double>& time_s,
+               const std::vector<double>& values, double tolerance, double first_Hz,
                SceneAnswer& answer) {
-  const double peak = peak_of(values, tolerance);
-  const auto at = std::find(values.begin(), values.end(), peak);
-  const double peak_at_s =
-      at == values.end() ? 0.0 : time_s[static_cast<std::size_t>(at - values.begin())];
-  answer.results.push_back(
-      {.name = name + "_peak", .value = peak, .unit = unit, .curve = name, .x = peak_at_s});
-  answer.results.push_back({.name = name + "_end",
+  const MotionPeak peak = peak_of_motion(of.time_s, of.values, of.rates, tolerance);
+  answer.results.push_back({.name = of.name + "_peak",
+                            .value = peak.value,
+                            .unit = of.unit,
+                            .curve = of.name,
+                            .x = peak.time_s,
+                            .left_out = peak.error});
+  answer.results.push_back({.name = of.name + "_end",
                             .value = values.back(),
-                            .unit = unit,
-                            .scale = std::abs(peak),
-                            .curve = name,
+                            .unit = of.unit,
+                            .scale = std::abs(peak.value),
+                            .curve = of.name,
                             .x = time_s.back()});
-  answer.curves.push_back({name, unit, time_s, values});
+  answer.curves.push_back({of.name, of.unit, time_s, values});
   answer.curves.back().span = 1.0 / first_Hz;
   answer.curves.push_back(spectrum_of(answer.curves.back()));
   answer.curves.back().span = first_Hz;
+}
+
+// Runs at more times than the outputs, as many times more as the peaks between them need to be known
+// to a tenth of the tolerance, or as time allows.
+TransientResult run_to_peaks(const ViscoelasticSystem& small, TransientRequest request,
+                             const Eigen::MatrixXd& observers, double tolerance) {
+  constexpr double kMostWork = 4e9;  // multiplications
+  constexpr double kMostTimes = 1e6;
+  const auto states =
+      static_cast<double>(small.mass.rows()) * (2.0 + static_cast<double>(small.terms.size()));
+  const double most =
+      std::min(kMostTimes, kMostWork / (relaxes_alike(small) ? states : states * states));
+  for (;;) {
+    TransientResult run = run_transient(small, request, observers);
+    double error = 0.0;
+    for (Eigen::Index row = 0; row < observers.rows(); ++row) {
+      const MotionPeak peak = peak_of_motion(run.motion.time_s, run.motion.values.row(row),
+                                             run.motion.rates.row(row), tolerance);
+      if (peak.value != 0.0) error = std::max(error, peak.error / std::abs(peak.value));
+    }
+    int finer = 1;  // the error falls as the fourth power
+    while (finer < 16 && error > 0.1 * tolerance * std::pow(finer, 4)) finer *= 2;
+    while (finer > 1 && request.outputs * static_cast<double>(finer) > most) finer /= 2;
+    if (finer == 1) return run;
+    request.outputs *= finer;
+  }
 }
 
 // Displacement under the largest load at rest, over the largest that was found.
@@ -162,6 +188,40 @@ void check_transient(const PillarScene& scene) {
   check_sideways_in_time(scene);
 }
 
+// The times of the outputs among those of the run.
+std::vector<double> at_outputs(const std::vector<double>& all, int outputs) {
+  const std::size_t every = (all.size() - 1) / static_cast<std::size_t>(outputs);
+  std::vector<double> kept;
+  for (std::size_t i = 0; i < all.size(); i += every) kept.push_back(all[i]);
+  return kept;
+}
+
+void add_curves(const PillarScene& scene, const SceneBody& body, const TransientResult& run,
+                double first_Hz, SceneAnswer& answer) {
+  const int outputs = transient_drive(scene).outputs;
+  const std::vector<double> time_s = at_outputs(run.time_s, outputs);
+  for (std::size_t i = 0; i < body.outputs.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const bool is_from_base = load_place(scene) == LoadPlace::kBase && i == 0;
+    const Eigen::VectorXd at_run = run.values.row(row);
+    OutputCurve curve{is_from_base ? "top_displacement_from_base" : body.outputs[i].name,
+                      body.outputs[i].unit, run.motion.time_s, run.motion.values.row(row),
+                      run.motion.rates.row(row)};
+    const std::vector<double> values(at_run.begin(), at_run.end());
+    add_curve(curve, time_s, at_outputs(values, outputs), scene.tolerance, first_Hz, answer);
+    if (i != 1 || !scene.readout) continue;
+    const ReadoutFilter filter = readout_of(scene, body, answer);
+    const std::vector<double> open_V(curve.values.begin(), curve.values.end());
+    const std::vector<double> reading = reading_of(filter, curve.time_s, open_V);
+    curve.values = Eigen::VectorXd::Map(reading.data(), std::ssize(reading));
+    curve.rates = filter.gain * curve.rates - curve.values / filter.time_constant_s;  // eq. 23
+    curve.name = "reading";
+    curve.unit = "V";
+    const std::vector<double> at_times = reading_of(filter, run.time_s, values);
+    add_curve(curve, time_s, at_outputs(at_times, outputs), scene.tolerance, first_Hz, answer);
+  }
+}
+
 void run_transient_analysis(const PillarScene& scene, SceneAnswer& answer) {
   const TransientDrive& drive = transient_drive(scene);
   const bool is_axial = !is_lateral(scene);
@@ -197,26 +257,14 @@ void run_transient_analysis(const PillarScene& scene, SceneAnswer& answer) {
   for (std::size_t i = 0; i < body.outputs.size(); ++i) {
     observers.row(static_cast<Eigen::Index>(i)) = reduced.output(body.outputs[i].of).transpose();
   }
-  const TransientResult run = run_transient(reduced.system, request, observers);
+  const TransientResult run = run_to_peaks(reduced.system, request, observers, scene.tolerance);
   const double static_share =
       static_over_peak(reduced, request, observers.row(0).transpose(), run.values.row(0));
   const double tail = static_share * tail_beyond(reach, first_rad_s, roughness);
   refuse_sudden_load(scene, first_rad_s, reach, tail, static_share);
   answer.step_error = run.converged ? run.error_estimate + reduced.error + tail
                                     : std::numeric_limits<double>::infinity();
-  const double first_Hz = first_rad_s / (2.0 * std::numbers::pi);
-  for (std::size_t i = 0; i < body.outputs.size(); ++i) {
-    const Eigen::VectorXd row = run.values.row(static_cast<Eigen::Index>(i));
-    const std::string name =
-        is_base && i == 0 ? "top_displacement_from_base" : body.outputs[i].name;
-    const std::vector<double> values(row.begin(), row.end());
-    add_curve(name, body.outputs[i].unit, scene.tolerance, first_Hz, run.time_s, values, answer);
-    if (i == 1 && scene.readout) {
-      const ReadoutFilter filter = readout_of(scene, body, answer);
-      add_curve("reading", "V", scene.tolerance, first_Hz, run.time_s,
-                reading_of(filter, run.time_s, values), answer);
-    }
-  }
+  add_curves(scene, body, run, first_rad_s / (2.0 * std::numbers::pi), answer);
 }
 
 std::vector<std::string> transient_names(const PillarScene& scene) {

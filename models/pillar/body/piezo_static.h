@@ -9,9 +9,11 @@ namespace viscard {
 // Relative errors that the solutions themselves show (solution_rest.h), of answers per unit force
 // or voltage. The charge per force is also the displacement per volt.
 struct PiezoRest {
+  // Relative errors, pure numbers.
   double voltage = 0.0, charge = 0.0, capacitance = 0.0, displacement = 0.0;
 };
 
+// The answer of one pillar on a film.
 struct PiezoAnswer {
   double voltage_V = 0.0;             // electrode open (no charge flows)
   double charge_C = 0.0;              // electrode shorted to ground: charge that flows onto it
@@ -36,11 +38,13 @@ PiezoAnswer piezo_answer(const StiffnessFactor& factor, const Eigen::VectorXd& t
 struct PiezoSolutions {
   Eigen::VectorXd open, charged, dual;
 };
+// Their errors; work is that of the unit load on the solution, N m, to which the errors are relative.
 PiezoRest piezo_rest(const PillarModel& model, const PiezoSolutions& solutions, double work);
 
 // Solution with a charge-free face instead of an electrode; potential_at_V() reads it.
 PillarState piezo_sampled(const PillarModel& model, double pressure_Pa);
 double potential_at_V(const PillarModel& model, const PillarState& state, double x, double z);
+// The same in the element that contains the point.
 double potential_in_V(const PillarModel& model, const PillarState& state,
                       const SectionElement& element, double x, double z);
 // Mean potential over the disc (half-width in the plane) x <= radius of the film at height z.

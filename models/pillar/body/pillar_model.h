@@ -15,6 +15,7 @@ namespace viscard {
 // iterations, not the solution. Larger values would add rounding errors of nearly rigid motions.
 constexpr double kPenaltyOverShear = 10.0;
 
+// Strain or stress that is zero across a strip.
 enum class PlaneState { kStrain, kStress };  // of the plane motions
 
 // Faces of the film: z = -thickness (bottom) and z = 0 (top).
@@ -32,6 +33,7 @@ struct ElectrodeOptions {
 PillarGeometry with_electrode_edge(PillarGeometry geometry,
                                    const std::optional<ElectrodeOptions>& electrodes);
 
+// Which motion of the pillar is computed, and how it is held.
 struct ModelOptions {
   Motion motion = Motion::kLongitudinal;
   PlaneState plane = PlaneState::kStrain;
@@ -46,6 +48,7 @@ struct ModelOptions {
   double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio; always at 0.5
 };
 
+// The media of a pillar and its film.
 struct PillarMedia {
   Medium pillar;
   std::optional<Medium> film;  // present exactly when the geometry has a film
@@ -57,6 +60,7 @@ struct PillarState {
   Eigen::VectorXd pressure_source;  // its projected divergence gives the pressure, StiffnessFactor
 };
 
+// The state times a pure number, the factor.
 PillarState operator*(double factor, PillarState state);
 
 // Mesh, unknowns and matrices of one pillar in one family of motion. Cannot be moved or copied.
@@ -71,6 +75,7 @@ class PillarModel {
 
   const PillarMesh& mesh() const { return mesh_; }
   const DiscreteSystem& system() const { return *system_; }
+  // Medium of a region of the section.
   const Medium& medium(int region) const { return media_[static_cast<std::size_t>(region)]; }
   const ModelOptions& options() const { return options_; }
   double radius_m() const { return 0.5 * geometry_.diameter_m; }
@@ -99,6 +104,7 @@ class PillarModel {
   // Mean of one stress component over the disc x <= radius at height z, evaluated in `region`.
   double mean_stress(const PillarState& state, int component, double z, int region,
                      double radius_m) const;
+  // The element of a region that contains the point.
   const SectionElement& element_at(double x, double z, int region) const;
   // Mean of the moduli of the six strains as they enter the stiffness, without condensed pressures.
   double mean_modulus_Pa(int region) const;

@@ -18,6 +18,7 @@ struct SectionField {
   std::vector<std::array<double, 3>> value;  // per point
 };
 
+// Points and quadrilaterals of a section with fields on them.
 struct SectionGrid {
   std::string name;  // name of the field, such as "static" or "lateral"
   bool is_round = true;
@@ -33,6 +34,7 @@ struct SectionGrid {
 // Displacement of a field at an angle, with its scalar, in Cartesian axes.
 std::array<double, 3> displacement_at(const SectionGrid& grid, const SectionField& field,
                                       std::size_t point, double theta);
+// A field without direction at an angle.
 double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t point,
                  double theta);
 
@@ -47,6 +49,7 @@ Sampling sampling_of(const PillarModel& model);
 SectionField displacement_field(const PillarModel& model, const Sampling& at,
                                 const std::string& name, const Eigen::VectorXd& solution);
 SectionField stress_field(const PillarModel& model, const Sampling& at, const PillarState& state);
+// The potential of the film, V.
 SectionField potential_field(const PillarModel& model, const Sampling& at,
                              const PillarState& state);
 

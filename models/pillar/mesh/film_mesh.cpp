@@ -88,10 +88,14 @@ std::vector<double> film_heights(const FilmGeometry& film, double bond_radius_m,
   return breaks;
 }
 
+int layers_not_felt(double from_load_m, double thickness_m) {
+  const double skipped = kSkippedPerThickness * from_load_m / thickness_m;
+  return static_cast<int>(std::lround(std::min(skipped, 100.0)));
+}
+
 int film_rim_layers(const FilmGeometry& film, double bond_radius_m, const Discretisation& d) {
   const double loaded_m = std::max(bond_radius_m, film.electrode_radius_m);
-  const double skipped = kSkippedPerThickness * (film.radius_m - loaded_m) / film.thickness_m;
-  return std::max(1, d.layers - static_cast<int>(std::lround(std::min(skipped, 100.0))));
+  return std::max(1, d.layers - layers_not_felt(film.radius_m - loaded_m, film.thickness_m));
 }
 
 void grade_film(const FilmGeometry& film, double bond_radius_m, const Discretisation& d,

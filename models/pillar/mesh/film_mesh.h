@@ -14,6 +14,9 @@ std::vector<double> film_radii(const FilmGeometry& film, double bond_radius_m,
 std::vector<double> film_heights(const FilmGeometry& film, double bond_radius_m,
                                  const Discretisation& d);
 
+// Layers toward the held corner where a film ends that can be left out, so far from what loads it.
+int layers_not_felt(double from_load_m, double thickness_m);
+
 // Layers of a graded mesh toward the film's own rim, where its held bottom ends: at least 1, which
 // means none. Fewer than at the rim of the bond if the film is wide, because what happens under the
 // pillar and its electrode decays toward the rim.

@@ -25,9 +25,9 @@ Eigen::MatrixXd legendre_values(int degree, const std::vector<double>& points);
 // (toward a if toward_end is false).
 std::vector<double> graded_breaks(double a, double b, int n, double ratio, bool toward_end);
 
-// Appends the breaks that lie beyond the last one.
+// Appends those of `more` to `breaks` that lie beyond the last one, m.
 void append_breaks(std::vector<double>& breaks, const std::vector<double>& more);
-// Inserts a break and returns true, unless one is there already.
+// Inserts a break `at` that place among the breaks (m) and returns true, unless one is there already.
 bool insert_break(std::vector<double>& breaks, double at);
 
 // Elements of degree p on the intervals between breaks: one direction of a tensor-product mesh.
@@ -42,7 +42,7 @@ class LineMesh {
   int node_count() const { return element_count() * degree_ + 1; }
   const std::vector<double>& breaks() const { return breaks_; }
   const std::vector<double>& nodes() const { return nodes_; }
-  double length(int element) const;
+  double length(int element) const;  // of an element, m
 
   // int x^power N_i^(di) N_j^(dj) dx over one element, (p + 1) x (p + 1). Exact for power >= 0. For
   // power -1 it is exact if both functions vanish at x = 0, and correct to rounding if the element
@@ -60,6 +60,7 @@ class LineMesh {
     Eigen::MatrixXd value;       // points x (p + 1)
     Eigen::MatrixXd derivative;  // per m
   };
+  // The rule of an element.
   ElementRule rule(int element) const;
 
   // Element that contains x. At a break: the one before it if prefer_left, else the one after it.

@@ -23,6 +23,7 @@ struct Flare {
   double height_m = 0.0;
 };
 
+// Lengths of a pillar, with the film under it.
 struct PillarGeometry {
   double diameter_m = 40e-6;  // of the shaft
   double length_m = 120e-6;

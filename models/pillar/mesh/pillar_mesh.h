@@ -8,6 +8,7 @@
 namespace viscard {
 
 double radius_at_m(const PillarGeometry& geometry, double z_m);  // z = 0 at the foot
+// Radius of the foot.
 double bond_radius_m(const PillarGeometry& geometry);
 
 constexpr int kPillarRegion = 0;

@@ -12,10 +12,11 @@ namespace viscard {
 // Kronecker products of one-dimensional matrices (models/pillar/README.md, eq. 13). Where a
 // region's outline is not straight, its cells are stretched along x: x = scale(z) x_grid.
 struct Stretch {
-  double scale = 1.0;
+  double scale = 1.0;      // a pure number
   double slope_1_m = 0.0;  // d scale/dz
 };
 
+// A cell that is filled, with the numbers of its nodes.
 struct SectionElement {
   int column = 0;
   int row = 0;
@@ -23,6 +24,7 @@ struct SectionElement {
   std::vector<int> nodes;  // (p + 1)^2, x fastest
 };
 
+// The elements and nodes of a section.
 class Section {
  public:
   static constexpr int kEmpty = -1;
@@ -36,13 +38,17 @@ class Section {
   int degree() const { return x_.degree(); }
   int node_count() const { return static_cast<int>(node_x_.size()); }
   const std::vector<SectionElement>& elements() const { return elements_; }
+  // Place of a node, m.
   double node_x(int node) const { return node_x_[static_cast<std::size_t>(node)]; }
+  // Place of a node, m.
   double node_z(int node) const { return node_z_[static_cast<std::size_t>(node)]; }
 
-  // Stretches one region. Throws std::invalid_argument if the scale is not positive at a break or a
+  // Stretches one region by `of_height`, a function of z in m. Throws std::invalid_argument if the scale is not positive at a break or a
   // node, because elements there would be turned inside out.
   void stretch(int region, std::function<Stretch(double z)> of_height);
+  // True for the region that stretch() was called for.
   bool is_stretched(int region) const { return region == stretched_region_; }
+  // The stretch of a region at a height; none if it was not stretched.
   Stretch stretch_at(int region, double z) const {
     return is_stretched(region) ? stretch_(z) : Stretch{};
   }

@@ -12,6 +12,7 @@ namespace viscard {
 
 // Where and which way a load acts: on the top, or as an acceleration of the base.
 enum class LoadPlace { kTop, kBase };
+// Along the axis or sideways.
 enum class LoadDirection { kAxial, kLateral };
 
 // A load at rest on the top, and a voltage on the electrode.
@@ -33,10 +34,12 @@ struct BucklingDrive {
   bool plate_on_top = false;  // pressed by a rigid frictionless plate that stays level
 };
 
+// A shortening in time without inertia.
 struct RelaxationDrive {
   std::vector<HistoryPoint> history;  // shortening, m
 };
 
+// A pressure in time without inertia.
 struct CreepDrive {
   std::vector<HistoryPoint> history;  // pressure on the top, Pa
 };
@@ -59,6 +62,7 @@ struct TransientDrive {
   int outputs = 1000;  // equal intervals
 };
 
+// One of these.
 using PillarDrive = std::variant<StaticDrive, ModalDrive, BucklingDrive, RelaxationDrive,
                                  CreepDrive, HarmonicDrive, TransientDrive>;
 

@@ -24,6 +24,7 @@ struct BlockOrder {
   std::vector<int> position;  // unknown -> place in the order
   std::vector<ColumnBlock> blocks;
 };
+// The order for a matrix whose lower triangle is `lower`.
 BlockOrder block_order(const Eigen::SparseMatrix<double>& lower);
 
 }  // namespace viscard

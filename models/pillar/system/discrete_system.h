@@ -32,7 +32,7 @@ class DiscreteSystem {
   SymmetricSparse form(const std::vector<OperatorRow>& rows,
                        const std::vector<Eigen::MatrixXd>& per_region) const;
 
-  // factor * int (div u)(div v) per region. With a projection, div u enters as its L2 projection on
+  // factor * int (div u)(div v), the factor of each region in per_region. With a projection, div u enters as its L2 projection on
   // discontinuous Q_(p-2); this is a pressure of that space, condensed per element (eq. 14). Degree
   // 1 projects on constants. Source: Stenberg & Suri, Math. Comp. 65 (1996) 1.
   SymmetricSparse volume_form(const std::vector<double>& per_region, bool projected) const;

@@ -10,12 +10,15 @@ namespace viscard {
 class DofMap {
  public:
   DofMap(int field_count, int node_count);
+  // Holds a field at a node at zero.
   void fix(int field, int node);
   // Ties one field at several nodes to one unknown; returns a handle for tied_dof().
   int tie(int field, const std::vector<int>& nodes);
   void number();  // call once, after all other changes
 
+  // Number of the unknown of a field at a node, or -1.
   int dof(int field, int node) const { return dof_[index(field, node)]; }
+  // Number of the unknown of tie()'s handle.
   int tied_dof(int handle) const { return tied_[static_cast<std::size_t>(handle)]; }
   int count() const { return count_; }
   int field_count() const { return field_count_; }

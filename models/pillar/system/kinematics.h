@@ -8,11 +8,12 @@ namespace viscard {
 //  factor * x^-inverse_x * d^dx d^dz (field).
 struct OperatorTerm {
   int field = 0;
-  int inverse_x = 0;  // 0 or 1
-  int dx = 0;         // 0 or 1
-  int dz = 0;         // 0 or 1
-  double factor = 1.0;
+  int inverse_x = 0;    // 0 or 1
+  int dx = 0;           // 0 or 1
+  int dz = 0;           // 0 or 1
+  double factor = 1.0;  // a pure number
 };
+// The sum of its terms.
 using OperatorRow = std::vector<OperatorTerm>;
 
 // How the unknown fields of a family of motion form displacement, strain and electric field. Every

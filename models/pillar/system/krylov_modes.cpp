@@ -75,12 +75,27 @@ class LanczosSearch {
     lanczos.compute(Spectra::SortRule::LargestAlge, checks, tolerance,
                     Spectra::SortRule::LargestAlge);
     if (lanczos.info() != Spectra::CompInfo::Successful) {
-      return {scale_ * lanczos.rough_values(), {}, false};
+      return leading_pairs(scale_ * lanczos.rough_values(), lanczos.eigenvectors(), tolerance);
     }
-    return {scale_ * lanczos.eigenvalues(), lanczos.eigenvectors(), true};
+    return {scale_ * lanczos.eigenvalues(), lanczos.eigenvectors(), true, count};
   }
 
  private:
+  // What has converged of a search that has not, by its residual: the last restart may have changed
+  // the order.
+  EigenPairs leading_pairs(Eigen::VectorXd values, const Eigen::MatrixXd& vectors,
+                           double tolerance) const {
+    EigenPairs pairs{std::move(values), {}, false};
+    for (; pairs.leading < vectors.cols(); ++pairs.leading) {
+      const Eigen::VectorXd v = vectors.col(pairs.leading);
+      const double value = pairs.values[pairs.leading];
+      const Eigen::VectorXd rest = op_(v, B_.B(v)) - value * v;
+      if (!(std::sqrt(std::abs(rest.dot(B_.B(rest)))) <= tolerance * std::abs(value))) break;
+    }
+    pairs.vectors = vectors.leftCols(pairs.leading);
+    return pairs;
+  }
+
   const PencilMap& op_;
   InnerProduct B_;
   Eigen::VectorXd image_;
@@ -107,7 +122,7 @@ EigenPairs all_eigenpairs(const PencilMap& op, const LinearMap& B, int size) {
   const Eigen::MatrixXd R = scale.asDiagonal() * root.vectors.rightCols(rank).transpose();
   const EigenSystem all = symmetric_eigen(R * images * R_inverse);
 
-  EigenPairs pairs{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size), true};
+  EigenPairs pairs{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size), true, size};
   pairs.values.head(rank) = all.values.reverse();
   pairs.vectors.leftCols(rank) = (R_inverse * all.vectors).rowwise().reverse();
   return pairs;
@@ -124,16 +139,18 @@ EigenPairs largest_eigenpairs(const PencilMap& op, const LinearMap& B, int size,
   if (count == size) return all_eigenpairs(op, B, size);
   const LanczosSearch search(op, B, size);
   EigenPairs pairs = search.in_space(2 * count + 4, 6, count, options.tolerance);
-  if (pairs.converged) return pairs;
+  if (pairs.converged || options.is_quick) return pairs;
   const int largest = options.largest_space;
   pairs = search.in_space(largest, 1, count, options.tolerance);
   if (pairs.converged) return pairs;
   pairs = search.in_space(largest, 1, count, kSettledResidual);
-  if (!pairs.converged) return pairs;
-  const EigenPairs before = search.in_space(largest - largest / 4, 1, count, kSettledResidual);
-  pairs.converged = before.converged && ((pairs.values - before.values).array().abs() <=
-                                         kSettledChange * pairs.values.array().abs())
-                                            .all();
+  if (pairs.converged) {
+    const EigenPairs before = search.in_space(largest - largest / 4, 1, count, kSettledResidual);
+    pairs.converged = before.converged && ((pairs.values - before.values).array().abs() <=
+                                           kSettledChange * pairs.values.array().abs())
+                                              .all();
+  }
+  if (!pairs.converged) pairs.leading = 0;  // not certain
   return pairs;
 }
 

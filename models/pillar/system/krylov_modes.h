@@ -12,8 +12,9 @@ namespace viscard {
 // Source: Calvetti, Reichel & Sorensen, Electron. Trans. Numer. Anal. 2 (1994) 1.
 struct EigenPairs {
   Eigen::VectorXd values;   // descending; approximate if not converged
-  Eigen::MatrixXd vectors;  // columns, v'Bv = 1; empty if not converged
+  Eigen::MatrixXd vectors;  // columns, v'Bv = 1; if not converged, those of the leading values
   bool converged = false;
+  int leading = 0;  // values from the first one on that have converged
 };
 
 using LinearMap = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
@@ -24,6 +25,7 @@ using PencilMap =
 struct KrylovOptions {
   double tolerance = 1e-8;  // residual over eigenvalue; the error of the eigenvalue is its square
   int largest_space = 400;  // vectors kept at a time
+  bool is_quick = false;    // ends after a small space, with what has converged there
 };
 
 // Throws std::invalid_argument for count < 1 or > size.

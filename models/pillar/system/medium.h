@@ -4,6 +4,7 @@
 
 namespace viscard {
 
+// A matrix between stresses and strains.
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // Voigt order xx yy zz yz xz xy with engineering shears throughout (eq. 15).
@@ -22,6 +23,7 @@ Eigen::MatrixXd plane_stress_moduli(const Eigen::MatrixXd& moduli);
 // alone become wrong through locking.
 constexpr double kNearlyIncompressible = 0.45;
 
+// A matrix between strains and electric displacement.
 using PiezoMatrix = Eigen::Matrix<double, 3, 6>;
 
 // A linear elastic or piezoelectric medium:

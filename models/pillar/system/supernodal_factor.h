@@ -19,8 +19,9 @@ class SupernodalFactor {
  public:
   // Chooses the order and the blocks from the pattern of the lower triangle.
   void analyse(const Eigen::SparseMatrix<double>& lower);
-  // Factors a matrix of the analysed pattern; returns false if a pivot is zero or not finite.
+  // Factors a matrix of the analysed pattern, `lower` its lower triangle; returns false if a pivot is zero or not finite.
   bool factor(const Eigen::SparseMatrix<double>& lower);
+  // A^-1 right_side.
   Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
 
   // L^-1 P B for many right-hand sides at once, with rows in elimination order, as in pivots(). If

@@ -12,7 +12,7 @@ namespace viscard {
 // Value against time, linear between points; two points at the same time are a jump.
 struct HistoryPoint {
   double time_s = 0.0;
-  double value = 0.0;
+  double value = 0.0;  // in the unit of the load
 };
 
 // Throws SceneMistake with the key of the first wrong point, such as "analysis.history.3". Values
@@ -23,6 +23,7 @@ void validate(const std::vector<HistoryPoint>& history);
 // value after the last one.
 double value_at(const std::vector<HistoryPoint>& history, double time_s, bool after = true);
 
+// Accuracy and outputs of a run through a history.
 struct HistoryOptions {
   double tolerance = 1e-8;       // target for the relative error
   double relative_floor = 1e-3;  // errors are relative to max(|value|, floor * largest |value|)
@@ -34,6 +35,7 @@ struct HistoryOptions {
   std::function<void(double)> progress;    // called with the completed fraction; may be empty
 };
 
+// What a run through a history gives.
 struct HistoryResult {
   std::vector<double> time_s;                 // a jump has the same time twice
   std::vector<double> force;                  // multiple of the unit load

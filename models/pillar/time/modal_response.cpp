@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -140,6 +141,15 @@ double RelaxingMode::displacement() const {
   return q;
 }
 
+// The load's own part vanishes: the residues add up to 0, because D grows as s^2.
+double RelaxingMode::velocity() const {
+  double rate = 0.0;
+  for (std::size_t i = 0; i < convolved_.size(); ++i) {
+    rate += (residue_[i] * root_1_s_[i] * convolved_[i]).real();
+  }
+  return rate;
+}
+
 bool relaxes_alike(const ViscoelasticSystem& small) {
   const double elastic = small.elastic.coeffs().cwiseAbs().sum();
   const double bulk = small.bulk.coeffs().cwiseAbs().sum();
@@ -160,19 +170,22 @@ TransientResult run_by_modes(const ViscoelasticSystem& small, const TransientReq
   for (Eigen::Index k = 0; k < n; ++k) {
     modes.emplace_back(std::sqrt(std::max(pairs.values[k], 0.0)), small.terms);
   }
-  TransientResult result = empty_result(r, observers.rows());
-  Eigen::VectorXd q(n);
-  Eigen::Index output = 0;
-  for (const TransientPiece& piece : pieces_of(r)) {
+  const std::vector<TransientPiece> pieces = pieces_of(r);
+  TransientMotion motion = empty_motion(pieces, observers.rows());
+  Eigen::VectorXd q(n), rate(n);
+  Eigen::Index end = 0;
+  for (const TransientPiece& piece : pieces) {
     for (Eigen::Index k = 0; k < n; ++k) {
-      modes[static_cast<std::size_t>(k)].advance(piece.length_s, push[k] * piece.first,
-                                                 push[k] * piece.last);
+      RelaxingMode& mode = modes[static_cast<std::size_t>(k)];
+      mode.advance(piece.length_s, push[k] * piece.first, push[k] * piece.last);
+      q[k] = mode.displacement();
+      rate[k] = mode.velocity();
     }
-    ++result.steps;
-    if (!piece.ends_with_output) continue;
-    for (Eigen::Index k = 0; k < n; ++k) q[k] = modes[static_cast<std::size_t>(k)].displacement();
-    result.values.col(++output) = seen * q;
+    motion.values.col(++end) = seen * q;
+    motion.rates.col(end) = seen * rate;
   }
+  TransientResult result = result_of(r, pieces, std::move(motion));
+  result.steps = static_cast<int>(pieces.size());
   result.converged = true;
   return result;
 }

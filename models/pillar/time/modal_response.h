@@ -23,6 +23,7 @@ class RelaxingMode {
   // No load until now, then a load that varies linearly from `first` to `last` over length_s.
   void advance(double length_s, double first, double last);
   double displacement() const;
+  double velocity() const;
 
   const std::vector<std::complex<double>>& roots_1_s() const { return root_1_s_; }
 

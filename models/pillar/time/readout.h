@@ -15,6 +15,7 @@ namespace viscard {
 // Specialties, Piezo Film Sensors Technical Manual (1999); Horowitz & Hill, The Art of Electronics.
 enum class ReadoutKind { kVoltage, kCharge };
 
+// Kind and components of the circuit.
 struct Readout {
   ReadoutKind kind = ReadoutKind::kVoltage;
   double resistance_Ohm = std::numeric_limits<double>::infinity();  // input, or feedback
@@ -25,10 +26,12 @@ struct Readout {
 // Throws std::invalid_argument for a value that is not positive or a charge amplifier without C_f.
 void validate(const Readout& readout);
 
+// The circuit as the filter of eq. 23.
 struct ReadoutFilter {
   double gain = 1.0;  // a
   double time_constant_s = std::numeric_limits<double>::infinity();
 };
+// The filter of a circuit behind a film of that capacitance.
 ReadoutFilter readout_filter(const Readout& readout, double film_capacitance_F);
 
 // Reading over open-circuit voltage at one frequency.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -20,7 +21,8 @@ constexpr double kShortestRelaxation = 1e-3;
 // grows, so that rounding stays rounding (Moler & Van Loan, SIAM Rev. 45 (2003) 3).
 struct StateSpace {
   Eigen::MatrixXd rate_1_s;
-  Eigen::MatrixXd seen;  // observers x modes
+  Eigen::MatrixXd seen;   // observers x modes
+  Eigen::MatrixXd rates;  // of v: the rates of the observers
   double load_size = 0.0;
   Eigen::Index modes = 0;
 };
@@ -54,6 +56,7 @@ StateSpace state_space_of(const ViscoelasticSystem& small, const TransientReques
   space.modes = n;
   space.load_size = std::max(push.norm(), 1e-300);
   space.seen = stiffness.solve_lower(Eigen::MatrixXd(observers.transpose())).transpose() * V;
+  space.rates = space.seen * W.asDiagonal();
   // After the modes and their relaxed parts, the load and its growth over one output interval.
   const Eigen::Index load = n * static_cast<Eigen::Index>(2 + terms.size());
   Eigen::MatrixXd& A = space.rate_1_s;
@@ -84,17 +87,19 @@ TransientResult run_exactly(const ViscoelasticSystem& small, const TransientRequ
     return p.length_s == spacing_s;
   });
   const StateTransition transition(space.rate_1_s, spacing_s, is_regular);
-  TransientResult result = empty_result(r, observers.rows());
+  TransientMotion motion = empty_motion(pieces, observers.rows());
   Eigen::VectorXd x = Eigen::VectorXd::Zero(space.rate_1_s.rows());
   const Eigen::Index load = x.size() - 2;
-  Eigen::Index output = 0;
+  Eigen::Index end = 0;
   for (const TransientPiece& piece : pieces) {
     x[load] = space.load_size * piece.first;
     x[load + 1] = space.load_size * (piece.last - piece.first) * (spacing_s / piece.length_s);
     transition.advance(std::min(piece.length_s, spacing_s), x);
-    ++result.steps;
-    if (piece.ends_with_output) result.values.col(++output) = space.seen * x.head(space.modes);
+    motion.values.col(++end) = space.seen * x.head(space.modes);
+    motion.rates.col(end) = space.rates * x.segment(space.modes, space.modes);
   }
+  TransientResult result = result_of(r, pieces, std::move(motion));
+  result.steps = static_cast<int>(pieces.size());
   result.converged = true;
   return result;
 }

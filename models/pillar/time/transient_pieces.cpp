@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -46,10 +47,29 @@ std::vector<TransientPiece> pieces_of(const TransientRequest& r) {
   return pieces;
 }
 
-TransientResult empty_result(const TransientRequest& r, Eigen::Index observers) {
+TransientMotion empty_motion(const std::vector<TransientPiece>& pieces, Eigen::Index observers) {
+  TransientMotion motion;
+  motion.time_s.push_back(0.0);
+  for (const TransientPiece& piece : pieces) {
+    motion.time_s.push_back(motion.time_s.back() + piece.length_s);
+  }
+  motion.values = Eigen::MatrixXd::Zero(observers, std::ssize(motion.time_s));
+  motion.rates = motion.values;
+  return motion;
+}
+
+TransientResult result_of(const TransientRequest& r, const std::vector<TransientPiece>& pieces,
+                          TransientMotion motion) {
   TransientResult result;
-  result.values = Eigen::MatrixXd::Zero(observers, r.outputs + 1);
+  result.values = Eigen::MatrixXd::Zero(motion.values.rows(), r.outputs + 1);
   for (int i = 0; i <= r.outputs; ++i) result.time_s.push_back(r.spacing_s() * i);
+  Eigen::Index output = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (!pieces[i].ends_with_output) continue;
+    motion.time_s[i + 1] = result.time_s[static_cast<std::size_t>(++output)];  // without rounding
+    result.values.col(output) = motion.values.col(static_cast<Eigen::Index>(i + 1));
+  }
+  result.motion = std::move(motion);
   return result;
 }
 

@@ -32,15 +32,25 @@ struct TransientPiece {
 // Pieces from 0 to the end. They end at the outputs and at the corners of the load.
 std::vector<TransientPiece> pieces_of(const TransientRequest& request);
 
+// Outputs and their rates at the ends of all pieces, from 0: at outputs and corners of the load.
+struct TransientMotion {
+  std::vector<double> time_s;
+  Eigen::MatrixXd values, rates;  // observers x times
+};
+
 struct TransientResult {
-  std::vector<double> time_s;   // outputs + 1 equal steps from 0
-  Eigen::MatrixXd values;       // observers x times
+  std::vector<double> time_s;  // outputs + 1 equal steps from 0
+  Eigen::MatrixXd values;      // observers x times
+  TransientMotion motion;
   double error_estimate = 0.0;  // relative to the largest value of each output
   bool converged = false;
   int steps = 0;  // all levels together
 };
-// A result with the times of the outputs, all values 0.
-TransientResult empty_result(const TransientRequest& request, Eigen::Index observers);
+// A motion with the times of the pieces, all values 0.
+TransientMotion empty_motion(const std::vector<TransientPiece>& pieces, Eigen::Index observers);
+// Takes the values at the outputs from the motion.
+TransientResult result_of(const TransientRequest& request,
+                          const std::vector<TransientPiece>& pieces, TransientMotion motion);
 
 // Runs from rest. Rows of `observers` are linear outputs. A body whose whole stiffness relaxes with
 // one relative modulus is solved by its modes (modal_response.h), any other by the exponential of

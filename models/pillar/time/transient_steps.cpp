@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -12,12 +13,12 @@ namespace {
 // The exponential takes about 50 states^3 operations: a minute for this many.
 constexpr Eigen::Index kMostStates = 2000;
 
-Eigen::MatrixXd run_once(const ViscoelasticSystem& small, const TransientRequest& r,
+TransientMotion run_once(const ViscoelasticSystem& small, const TransientRequest& r,
                          const std::vector<TransientPiece>& pieces,
                          const Eigen::MatrixXd& observers, int refinement, int& steps) {
   InertialStepper stepper(small);
-  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(observers.rows(), r.outputs + 1);
-  Eigen::Index output = 0;
+  TransientMotion motion = empty_motion(pieces, observers.rows());
+  Eigen::Index end = 0;
   for (const TransientPiece& piece : pieces) {
     const int n =
         refinement * std::max(1, static_cast<int>(std::ceil(piece.length_s / r.first_step_s)));
@@ -28,9 +29,10 @@ Eigen::MatrixXd run_once(const ViscoelasticSystem& small, const TransientRequest
       stepper.advance(a * r.load, b * r.load);
     }
     steps += n;
-    if (piece.ends_with_output) values.col(++output) = observers * stepper.displacement();
+    motion.values.col(++end) = observers * stepper.displacement();
+    motion.rates.col(end) = observers * stepper.velocity();
   }
-  return values;
+  return motion;
 }
 
 double largest_change(const Eigen::MatrixXd& now, const Eigen::MatrixXd& before) {
@@ -63,22 +65,30 @@ TransientResult run_transient(const ViscoelasticSystem& small, const TransientRe
 TransientResult run_by_steps(const ViscoelasticSystem& small, const TransientRequest& r,
                              const Eigen::MatrixXd& observers) {
   const std::vector<TransientPiece> pieces = pieces_of(r);
-  TransientResult result = empty_result(r, observers.rows());
-  Eigen::MatrixXd last;
+  TransientMotion last, better = empty_motion(pieces, observers.rows());
+  double error_estimate = 0.0;
+  bool converged = false;
+  int steps = 0;
   int refinement = 1;
-  for (int level = 0; !result.converged; ++level, refinement *= 2) {
-    const Eigen::MatrixXd run = run_once(small, r, pieces, observers, refinement, result.steps);
+  for (int level = 0; !converged; ++level, refinement *= 2) {
+    TransientMotion run = run_once(small, r, pieces, observers, refinement, steps);
     if (level > 0) {
-      const Eigen::MatrixXd better = (4.0 * run - last) / 3.0;
+      const Eigen::MatrixXd values = (4.0 * run.values - last.values) / 3.0;
       if (level > 1) {
-        result.error_estimate = largest_change(better, result.values);
-        result.converged = result.error_estimate <= r.tolerance;
+        error_estimate = largest_change(values, better.values);
+        converged = error_estimate <= r.tolerance;
       }
-      result.values = better;
+      better = run;
+      better.values = values;
+      better.rates = (4.0 * run.rates - last.rates) / 3.0;
     }
-    last = run;
-    if (!result.converged && 3 * result.steps > r.most_steps) break;
+    last = std::move(run);
+    if (!converged && 3 * steps > r.most_steps) break;
   }
+  TransientResult result = result_of(r, pieces, std::move(better));
+  result.error_estimate = error_estimate;
+  result.converged = converged;
+  result.steps = steps;
   return result;
 }
 

@@ -41,13 +41,13 @@ ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material&
 
 ViscoelasticPillar::ViscoelasticPillar(const PillarGeometry& geometry,
                                        const Discretisation& discretisation,
-                                       const Material& material, TopLoad top,
+                                       const Material& material, TopCondition top,
                                        const std::optional<Medium>& film) {
   validate_solid(material);
   model_ = std::make_unique<PillarModel>(
       geometry, discretisation,
       PillarMedia{isotropic_medium(material.E0_Pa, material.nu, material.rho_kg_m3), film},
-      ModelOptions{.rigid_top = top == TopLoad::kRigidPlate});
+      ModelOptions{.rigid_top = top == TopCondition::kRigidPlate});
   system_ = viscoelastic_system(*model_, material, /*with_mass=*/false);
   const Eigen::VectorXd traction = model_->top_traction();
   top_area_m2_ = traction.sum();

@@ -17,8 +17,8 @@ namespace viscard {
 ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material& material,
                                        bool with_mass);
 
-// The kind of axial load on the top of the pillar.
-enum class TopLoad {
+// What loads the top of the pillar along its axis.
+enum class TopCondition {
   kRigidPlate,  // a rigid frictionless plate: one displacement
   kPressure     // uniform pressure, free top: load.u is the mean displacement
 };
@@ -30,7 +30,7 @@ class ViscoelasticPillar {
   // `film` must be given if and only if the geometry has a film. Throws std::invalid_argument for a
   // bad geometry or material. Near nu = 0.5 (from 0.45) pressures are condensed, see volume_form().
   ViscoelasticPillar(const PillarGeometry& geometry, const Discretisation& discretisation,
-                     const Material& material, TopLoad top,
+                     const Material& material, TopCondition top,
                      const std::optional<Medium>& film = std::nullopt);
 
   const ViscoelasticSystem& system() const { return system_; }

@@ -27,6 +27,7 @@ struct ViscoelasticSystem {
 SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_factor,
                              double bulk_factor);
 
+// What a step prescribes.
 enum class Control { kForce, kDisplacement };
 
 // Steps the body with internal variables d_i = int exp(-(t-s)/tau_i) du(s). The recursion
@@ -41,7 +42,7 @@ class ViscoelasticStepper {
   // The system must outlive the stepper.
   explicit ViscoelasticStepper(const ViscoelasticSystem& system, int order = 1);
 
-  // A step of dt_s >= 0 to the given multiple of the unit load, or to the given load.u; dt_s = 0 is
+  // A step of dt_s >= 0 to `value`, a multiple of the unit load or load.u; dt_s = 0 is
   // a jump. Factors the matrix again only if dt_s differs from that of the last step. Throws
   // std::invalid_argument if dt_s is negative or not finite.
   void advance(double dt_s, Control control, double value);

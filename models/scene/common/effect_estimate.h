@@ -30,11 +30,13 @@ struct EffectEstimate {
   std::string reason;  // one clause
 };
 
+// The estimate of one effect.
 struct NamedEstimate {
   std::string name;
   EffectEstimate estimate;
 };
 
+// Which effects are taken, and what leaving out the others costs.
 struct EffectDecisions {
   std::vector<SceneEffect> effects;  // in the order of the estimates
   double left_out = 0.0;             // sum of the estimates of effects left out

@@ -20,7 +20,7 @@ struct Number {
   double size = 0.0;
   double* error = nullptr;
   double unresolved = 0.0;  // relative to the value
-  double left_out = 0.0;    // of a point of a curve
+  double left_out = 0.0;    // in the unit
 };
 
 // All numbers of an answer, and where those of each curve begin.
@@ -74,8 +74,8 @@ Numbers numbers_of(SceneAnswer& answer) {
   for (SceneResult& r : answer.results) {
     if (!r.is_wanted) continue;
     if (!r.curve.empty()) numbers.read_off.emplace_back(&r, numbers.all.size());
-    numbers.all.push_back(
-        {r.name, r.value, std::max(std::abs(r.value), r.scale), &r.error_estimate, r.unresolved});
+    numbers.all.push_back({r.name, r.value, std::max(std::abs(r.value), r.scale), &r.error_estimate,
+                           r.unresolved, r.left_out});
   }
   for (SceneMode& m : answer.modes) {
     numbers.all.push_back(
@@ -196,13 +196,17 @@ SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_
   SceneAnswer answer;
   double done = 0.0;
   for (const Discretisation& mesh : control.meshes) {
+    if (control.progress) {
+      control.progress(
+          done++ / static_cast<double>(control.meshes.size()),
+          "degree " + std::to_string(mesh.degree) + ", " + std::to_string(mesh.layers) + " layers");
+    }
     try {
       answer = answer_on(mesh);
       tracker.compare(answer);
     } catch (const MeshTooCoarse&) {
       if (&mesh == &control.meshes.back()) throw;
     }
-    if (control.progress) control.progress(++done / static_cast<double>(control.meshes.size()));
     if (tracker.compared_twice() && answer.largest_relative_error <= control.tolerance) {
       return answer;
     }

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -20,7 +21,8 @@ class MeshTooCoarse : public std::runtime_error {
 struct ErrorControl {
   double tolerance = 1e-3;  // relative, of every result, frequency and point of a curve
   std::vector<Discretisation> meshes;
-  std::function<void(double)> progress;  // fraction of the meshes done; may be empty
+  // Called with the fraction of the meshes done and the next one; may be empty.
+  std::function<void(double, const std::string&)> progress;
   // Least share of the last change that is assumed to remain if the mesh gained a layer at the rim.
   double share_left = kShareLeft;
 

@@ -11,9 +11,10 @@
 
 namespace viscard {
 
+// One number that a scene gives.
 struct SceneResult {
   std::string name;
-  double value = 0.0;
+  double value = 0.0;  // in the unit
   std::string unit;
   double error_estimate = 0.0;  // absolute, in the unit
   double scale = 0.0;           // the error is relative to the larger of |value| and this
@@ -22,8 +23,10 @@ struct SceneResult {
   double unresolved = 0.0;
   std::string curve = {};  // that it is read off; its error is at least the curve's there
   double x = 0.0;          // where it is read off
+  double left_out = 0.0;   // what it lacks on every mesh, in the unit; part of the estimate
 };
 
+// One mode of vibration.
 struct SceneMode {
   std::string family;
   int harmonic = 0;
@@ -31,7 +34,7 @@ struct SceneMode {
   double error_estimate = 0.0;          // Hz
   double unresolved = 0.0;              // as that of a result
   std::optional<double> damping_ratio;  // of a material that relaxes; the error is absolute
-  double damping_error = 0.0;
+  double damping_error = 0.0;           // of damping_ratio, absolute
 };
 
 // Decision of the plan on one effect.
@@ -53,7 +56,7 @@ struct SceneCurve {
   std::string name;  // of the second column
   std::string unit;
   std::vector<double> x;
-  std::vector<double> value;
+  std::vector<double> value;  // at each x, in the unit
   std::string x_name = "time_s";
   std::vector<double> error;    // estimate at each point, in the unit
   std::vector<double> allowed;  // size at each point that the tolerance refers to; empty: the peak
@@ -85,12 +88,13 @@ struct SceneArray {
 struct SceneMap {
   std::string name, unit;
   std::vector<std::size_t> pillar;  // of each value, as index into SceneArray::pillars
-  std::vector<double> value;
-  std::vector<double> error;  // estimate of each value, in the unit
-  double scale = 0.0;         // errors are relative to the largest magnitude, or to this if larger
+  std::vector<double> value;        // in the unit
+  std::vector<double> error;        // estimate of each value, in the unit
+  double scale = 0.0;      // errors are relative to the largest magnitude, or to this if larger
   bool is_watched = true;  // false: its error has another source than the mesh, or does not count
 };
 
+// All that a scene gives.
 struct SceneAnswer {
   std::vector<SceneResult> results;
   std::vector<SceneMode> modes;
@@ -109,13 +113,17 @@ struct SceneAnswer {
 // Adds a complex amplitude over frequency: curves of its real and imaginary part, magnitude and
 // phase, and the magnitude at either end. `allowed` is the size that the tolerance refers to.
 struct Sweep {
+  // Amplitude at each frequency and the size that the tolerance refers to, in the unit.
   std::vector<std::complex<double>> value;
+  // As above.
   std::vector<double> allowed;
 };
+// Adds the curves of a sweep to the answer.
 void add_sweep(const std::string& name, const std::string& unit,
                const std::vector<double>& frequencies_Hz, const Sweep& sweep, SceneAnswer& answer);
 
-// Sets what a curve lacks, from those with a share of its modes or basis vectors each. A load with
+// Sets what a curve lacks, from `parts`, the curves with a share of its modes or basis vectors each, and
+// these `shares`. A load with
 // kinks excites what lies beyond N of them as 1/N: what is left out is as much as the second half
 // changed, a third of what the last three quarters did, and so on; the largest of these.
 void set_left_out(std::span<const double> shares, const std::vector<std::vector<double>>& parts,

@@ -16,7 +16,8 @@ struct SceneCommon {
   std::vector<std::string> wanted;  // names of results; empty: all
   EffectChoices effects;            // choices that the plan must respect
 
-  std::function<void(double)> progress;  // called with the fraction done; may be empty
+  // Called with the fraction done and what is done next; may be empty.
+  std::function<void(double, const std::string&)> progress;
 };
 
 // True when the scene asks for this result; a scene that names no results asks for all.
@@ -24,8 +25,9 @@ bool asks_for(const SceneCommon& scene, const std::string& result);
 
 // The tolerances that a kind of scene supports: from `least` to below 1.
 struct ToleranceRange {
-  double least = 0.0;
+  double least = 0.0;      // relative
   const char* words = "";  // for messages: "1e-9 and 1"
+  // True if scenes support the tolerance.
   bool contains(double tolerance) const { return tolerance >= least && tolerance < 1.0; }
 };
 

@@ -32,6 +32,10 @@ std::string joined_lines(const std::vector<std::string>& lines) {
   return out;
 }
 
+bool is_comment(const std::string& line, const std::string& comment) {
+  return !comment.empty() && line.rfind(comment, 0) == 0;
+}
+
 struct Place {
   std::size_t at = 0, size = 0;
 };
@@ -112,14 +116,13 @@ std::string with_swapped_numbers(const std::string& line, std::mt19937& random) 
 }  // namespace
 
 CardEdit random_edit(const std::string& text, const std::string& comment, const std::string& kind,
-                     std::mt19937& random) {
+                     std::mt19937& random, EditPlace where) {
   std::vector<std::string> lines = lines_of(text);
-  std::vector<std::size_t> body;
+  std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const bool is_comment = !comment.empty() && lines[i].rfind(comment, 0) == 0;
-    if (!is_comment) body.push_back(i);
+    if (is_comment(lines[i], comment) == (where == EditPlace::kHeader)) rows.push_back(i);
   }
-  const std::size_t row = body[pick(body.size(), random)];
+  const std::size_t row = rows[pick(rows.size(), random)];
   CardEdit edit{.kind = kind, .line = lines[row], .text = {}, .now = {}};
   const bool is_whole = pick(2, random) == 0;
   if (kind == "drop" && is_whole) {
@@ -141,6 +144,23 @@ CardEdit random_edit(const std::string& text, const std::string& comment, const 
   if (kind == "separator") lines[row] = with_separator(lines[row], random);
   edit.now = lines[row];
   edit.text = joined_lines(lines);
+  return edit;
+}
+
+CardEdit with_second_element(const std::string& text, const std::string& comment,
+                             std::mt19937& random) {
+  std::vector<std::string> body;
+  for (const std::string& line : lines_of(text)) {
+    if (!is_comment(line, comment)) body.push_back(line);
+  }
+  CardEdit edit{.kind = "second", .line = {}, .text = {}, .now = {}};
+  while (edit.line == edit.now) {
+    std::string& line = body[pick(body.size(), random)];
+    edit.line = line;
+    edit.now = with_number(line, "scale", random);
+    line = edit.now;
+  }
+  edit.text = text + joined_lines(body);
   return edit;
 }
 

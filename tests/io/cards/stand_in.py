@@ -118,7 +118,7 @@ def write_frontistr(step, time, strain, stress):
 def fistr1():
     if sys.argv[1:] == ["-v"]:
         return print("FrontISTR 5.6.0 (stand-in)")
-    rows, keyword, group = {}, "", "1"
+    rows, keyword, group, law = {}, "", "1", ""
     steps = []
     for line in open("deck.cnt"):
         if line.startswith("#"):
@@ -126,6 +126,7 @@ def fistr1():
         if line.startswith("!"):
             keyword = line.strip().split(",")[0]
             group = (re.findall(r"GRPID=(\d)", line) or ["1"])[0]
+            law = (re.findall(r"!TRS, *DEFINITION=(\w+)", line) or [law])[0]
             if keyword == "!STEP":
                 steps.append({"loads": []})
         elif keyword == "!STEP":
@@ -138,7 +139,13 @@ def fistr1():
             rows.setdefault((keyword, group), []).append([c.strip() for c in line.split(",")])
     young, nu = map(float, rows["!ELASTIC", "1"][0])
     prony = [tuple(map(float, r)) for r in rows["!VISCOELASTIC", "1"]]
-    bar = Bar(young, nu, [g for g, _ in prony], [0.0] * len(prony), [t for _, t in prony])
+    slower = 1.0  # the shift factor a_T at the temperature of the model
+    if law:
+        t_ref, a, b = map(float, rows["!TRS", "1"][0])
+        now = float(rows["!TEMPERATURE", "2"][0][1])
+        slower = 10 ** (-a * (now - t_ref) / (b + now - t_ref)) if law == "WLF" else math.exp(
+            a * (1 / (now - b) - 1 / (t_ref - b)))
+    bar = Bar(young, nu, [g for g, _ in prony], [0.0] * len(prony), [slower * t for _, t in prony])
     creep = ("!CLOAD", "1") in rows
     pulled = {grp: float(r[3]) for (key, grp), rs in rows.items() if key == "!BOUNDARY"
               for r in rs if r[0] == "Z1"}

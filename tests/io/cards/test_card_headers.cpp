@@ -97,6 +97,11 @@ TEST_CASE("a header that contradicts the card or the material is a mistake", "[c
     CAPTURE(from);
     CHECK(findings_of(replaced(text, from, to), target, nullptr) == "header-differs!");
   }
+  // Two lines that contradict each other.
+  const std::string second = "** units: SI (m, kg, s, N, Pa, kg/m3)\n";
+  const std::size_t below = text.find("** conventions: ");
+  CHECK_THAT(findings_of(std::string(text).insert(below, second), target, &material),
+             Contains("header-differs!"));
   const std::size_t valid = text.find("** valid: ");
   const std::string without = std::string(text).erase(valid, text.find('\n', valid) + 1 - valid);
   CHECK(findings_of(without, target, &material) == "header-incomplete");

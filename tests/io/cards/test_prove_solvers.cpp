@@ -56,6 +56,13 @@ Material random_material(std::mt19937& random, int most) {
   return material;
 }
 
+Material shifted(Material material, ShiftLaw law) {
+  material.T_ref_C = 23.0;
+  material.shift = TemperatureShift{
+      .law = law, .T_ref_C = 23.0, .C1 = 8.86, .C2_K = 101.6, .activation_J_mol = 5.2e4};
+  return material;
+}
+
 CardProof proof_of_card(const Material& material, const CardTarget& target, const char* units,
                         const FoundSolver& solver, int steps_per_tau = 0) {
   const Card card = write_card(material, target, {.units = units, .may_approximate = true});
@@ -204,6 +211,36 @@ TEST_CASE("models for FEBio, MTest and FrontISTR run and are read in the solvers
   }
 }
 
+TEST_CASE("the shift of a card is proven at another temperature", "[cards]") {
+  if (std::system("command -v python3 >/dev/null 2>&1") != 0) return;
+  const ScratchFolder folder;
+  const FoundSolver solver =
+      find_solver(solver_for("", "frontistr"), stand_in(folder.path(), "fistr1"));
+  const CardTarget& target = card_target("frontistr");
+  for (const ShiftLaw law : {ShiftLaw::kWlf, ShiftLaw::kArrhenius}) {
+    CAPTURE(law == ShiftLaw::kWlf);
+    const Material material = shifted(material_of_terms(2, 0.45), law);
+    const CardProof proof = proof_of_card(material, target, "mm-t-s", solver);
+    CHECK(proof.holds());
+    REQUIRE(proof.temperature);
+    CHECK(proof.temperature->at_C == 33.0);
+    CHECK(proof.temperature->error.remaining <= 1e-5);
+    CHECK(proof.models.back().name.rfind("temperature/", 0) == 0);
+    // At the reference temperature no answer depends on the shift.
+    Material wrong = material;
+    wrong.shift->C1 *= 1.02;
+    wrong.shift->activation_J_mol *= 1.02;
+    const Card card = write_card(wrong, target, {.units = "mm-t-s", .may_approximate = true});
+    const CardProof refused = prove_card(card.text, read_card(card.text, target, ""),
+                                         with_bulk_rule(material, target.bulk), solver);
+    CHECK(refused.relaxation.vanishes_with_step());
+    CHECK(refused.creep.vanishes_with_step());
+    REQUIRE(refused.temperature);
+    CHECK_FALSE(refused.temperature->error.vanishes_with_step());
+    CHECK_FALSE(refused.agrees());
+  }
+}
+
 TEST_CASE("a solver that stops early with status 0 proves nothing", "[cards]") {
   if (std::system("command -v python3 >/dev/null 2>&1") != 0) return;
   const ScratchFolder folder;
@@ -233,9 +270,15 @@ TEST_CASE("solvers that Debian lacks run ten random cards where they are install
     std::mt19937 random(11);
     static const char* kUnits[] = {"SI", "mm-t-s", "mm-kg-ms", "cgs"};
     for (std::size_t i = 0; i < 10; ++i) {
-      const Material material = random_material(random, 4);
+      Material material = random_material(random, 4);
+      // Every third card has no shift, the others one of the two laws.
+      if (target.takes_wlf && i % 3 != 0) {
+        material = shifted(material, i % 3 == 1 ? ShiftLaw::kWlf : ShiftLaw::kArrhenius);
+      }
       const CardProof proof = proof_of_card(material, target, kUnits[i % 4], *solver);
       CAPTURE(target_name, i, material.E0_Pa, material.nu, material.terms.size());
+      REQUIRE(proof.temperature.has_value() == material.shift.has_value());
+      if (proof.temperature) CHECK(proof.temperature->error.remaining <= 1e-5);
       CAPTURE(proof.relaxation.at_step, proof.relaxation.remaining, proof.relaxation.resolved);
       CAPTURE(proof.creep.at_step, proof.creep.remaining, proof.creep.resolved);
       CHECK(proof.holds());

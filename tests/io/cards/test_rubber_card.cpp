@@ -4,10 +4,12 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 using namespace viscard;
@@ -27,7 +29,8 @@ HyperelasticLaw law_of(HyperelasticForm form, std::vector<double> moduli_Pa,
 std::string card_for(const HyperelasticLaw& law, const std::string& target,
                      std::optional<double> bulk_Pa = std::nullopt,
                      const std::string& units = "mm-t-s") {
-  return rubber_card(law, {.target = target, .units = units, .bulk_Pa = bulk_Pa});
+  return rubber_card(
+      law, {.target = target, .units = units, .bulk_Pa = bulk_Pa, .density_kg_m3 = 1100.0});
 }
 
 const HyperelasticLaw kOgden =
@@ -79,7 +82,113 @@ double run_in_calculix(const std::string& deck) {
   return force;
 }
 
+// The numbers of the data lines of a card, in order.
+std::vector<double> numbers_in(const std::string& card) {
+  std::istringstream lines(card);
+  std::string line;
+  std::vector<double> out;
+  while (std::getline(lines, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    if (line.empty() || line.find_first_not_of(" +-.0123456789eE") != std::string::npos) continue;
+    std::istringstream cells(line);
+    for (double value = 0.0; cells >> value;) out.push_back(value);
+  }
+  return out;
+}
+
+// Nominal stress in tension of an incompressible body whose energy is written as a manual has it, by
+// central differences: an error of some 1e-9 of the stress.
+double tension(const std::function<double(double, double)>& energy, double stretch) {
+  const auto at = [&](double x) { return energy(x, 1.0 / std::sqrt(x)); };
+  const double step = 1e-5;
+  return (at(stretch + step) - at(stretch - step)) / (2.0 * step);
+}
+
+double I1(double axial, double side) {
+  return axial * axial + 2.0 * side * side;
+}
+
+double I2(double axial, double side) {
+  return 1.0 / (axial * axial) + 2.0 / (side * side);
+}
+
+double power_sum(double axial, double side, double alpha) {
+  return std::pow(axial, alpha) + 2.0 * std::pow(side, alpha) - 3.0;
+}
+
+// Arruda and Boyce (1993), eq. 24 of the five-term series.
+double boyce(double mu, double limit, double invariant) {
+  const double factors[] = {0.5, 1.0 / 20.0, 11.0 / 1050.0, 19.0 / 7000.0, 519.0 / 673750.0};
+  double sum = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    sum +=
+        factors[i] * (std::pow(invariant, i + 1) - std::pow(3.0, i + 1)) / std::pow(limit, 2 * i);
+  }
+  return mu * sum;
+}
+
 }  // namespace
+
+TEST_CASE(
+    "rubber cards: energies as the manuals write them, with the numbers of the card, give the "
+    "law's stress",
+    "[io]") {
+  const double stretch = 1.7;
+  const auto check = [&](const HyperelasticLaw& law, double precision,
+                         const std::function<double(double, double)>& energy) {
+    CAPTURE(name_of(law.form));
+    const double stress_MPa = 1e-6 * nominal_stress_Pa(law, Deformation::kUniaxial, stretch);
+    CHECK(tension(energy, stretch) == Approx(stress_MPa).epsilon(precision));
+  };
+  const HyperelasticLaw mooney = law_of(HyperelasticForm::kMooneyRivlin, {1.5e5, 2e4}, {});
+  const HyperelasticLaw yeoh = law_of(HyperelasticForm::kYeoh, {1.8e5, -1.4e3, 40.0}, {});
+  const HyperelasticLaw chains = law_of(HyperelasticForm::kArrudaBoyce, {2.7e5}, {3.2});
+  SECTION("FrontISTR: C10 (I1 - 3) + C01 (I2 - 3)") {
+    const auto c = numbers_in(card_for(mooney, "frontistr", 2e9));
+    REQUIRE(c.size() == 4);
+    check(mooney, 1e-8, [&](double a, double b) { return c[0] * I1(a, b) + c[1] * I2(a, b); });
+    CHECK(c[2] == Approx(2.0 / 2000.0));
+    CHECK(c[3] == Approx(1.1e-9));
+    const auto n = numbers_in(card_for(chains, "frontistr"));
+    REQUIRE(n.size() == 4);
+    check(chains, 1e-8, [&](double a, double b) { return boyce(n[0], n[1], I1(a, b)); });
+  }
+  SECTION("LS-DYNA: sum C_pq, or mu_i/alpha_i; ten columns hold six digits or more") {
+    const auto c = numbers_in(card_for(yeoh, "lsdyna"));
+    REQUIRE(c.size() == 10);
+    check(yeoh, 1e-6, [&](double a, double b) {
+      const double i = I1(a, b) - 3.0;
+      return c[4] * i + c[7] * i * i + c[9] * i * i * i;
+    });
+    CHECK(c[2] == Approx((3.0 * 1000.0 - 2.0) / (6.0 * 1000.0 + 2.0)).epsilon(1e-7));
+    const auto o = numbers_in(card_for(kOgden, "lsdyna"));
+    REQUIRE(o.size() == 20);
+    check(kOgden, 1e-6, [&](double a, double b) {
+      double sum = 0.0;
+      for (std::size_t i = 4; i < 12; ++i) {
+        if (o[i] != 0.0) sum += o[i] / o[i + 8] * power_sum(a, b, o[i + 8]);
+      }
+      return sum;
+    });
+  }
+  SECTION("OpenRadioss: LAW82 with 2 mu/alpha^2, LAW94, LAW92") {
+    const auto o = numbers_in(card_for(mooney, "openradioss"));
+    REQUIRE(o.size() == 9);  // density, N, nu, two mu, two alpha, two D
+    check(mooney, 1e-8, [&](double a, double b) {
+      return 2.0 * o[3] / (o[5] * o[5]) * power_sum(a, b, o[5]) +
+             2.0 * o[4] / (o[6] * o[6]) * power_sum(a, b, o[6]);
+    });
+    const auto y = numbers_in(card_for(yeoh, "openradioss"));
+    REQUIRE(y.size() == 7);
+    check(yeoh, 1e-8, [&](double a, double b) {
+      const double i = I1(a, b) - 3.0;
+      return y[1] * i + y[2] * i * i + y[3] * i * i * i;
+    });
+    const auto n = numbers_in(card_for(chains, "openradioss"));
+    REQUIRE(n.size() == 8);
+    check(chains, 1e-8, [&](double a, double b) { return boyce(n[1], n[3], I1(a, b)); });
+  }
+}
 
 TEST_CASE("rubber cards: CalculiX gives the nominal stress of the law in every deformation",
           "[io][golden]") {
@@ -136,4 +245,13 @@ TEST_CASE("rubber cards: what a solver cannot take is refused", "[io]") {
   CHECK_THROWS_WITH(card_for(kOgden, "calculix", 1e12, "SI"), Contains("below 1e-10"));
   CHECK_THROWS_WITH(card_for(kOgden, "comsol"), Contains("no card of rubber for 'comsol'"));
   CHECK_THROWS_WITH(card_for(kOgden, "febio", -1.0), Contains("the bulk modulus"));
+  CHECK_THROWS_WITH(card_for(kOgden, "frontistr"), Contains("frontistr has no ogden-3 law"));
+  CHECK_THROWS_WITH(
+      card_for(law_of(HyperelasticForm::kNeoHooke, {2e5}, {}), "frontistr", 3e12, "SI"),
+      Contains("up to 1e-12 for 1/D"));
+  CHECK_THROWS_WITH(card_for(law_of(HyperelasticForm::kArrudaBoyce, {2e5}, {3.0}), "lsdyna"),
+                    Contains("lsdyna has no arruda-boyce law"));
+  CHECK_THROWS_WITH(rubber_card(kOgden, {.target = "lsdyna"}), Contains("--density"));
+  CHECK_THROWS_WITH(rubber_card(kOgden, {.target = "openradioss", .density_kg_m3 = -1.0}),
+                    Contains("the density"));
 }

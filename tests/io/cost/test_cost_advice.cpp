@@ -3,6 +3,7 @@
 #include "io/cost/study_cost.h"
 #include "io/cost/study_trials.h"
 #include "io/scenes/scene_file.h"
+#include "models/array/layer/simulate_layer.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
@@ -29,17 +30,17 @@ Discretisation finest_mesh(const SpaceScene&) {
   return {.degree = 9, .layers = 4};
 }
 
+Discretisation finest_mesh(const LayerScene& scene) {
+  return layer_meshes(scene).back();
+}
+
+bool moves(const auto&) {
+  return false;
+}
+
 bool moves(const PillarScene& scene) {
   return std::holds_alternative<HarmonicDrive>(scene.drive) ||
          std::holds_alternative<TransientDrive>(scene.drive);
-}
-
-bool moves(const ArrayScene&) {
-  return false;
-}
-
-bool moves(const SpaceScene&) {
-  return false;
 }
 
 SceneAnswer independent_answer(const Scene& scene) {

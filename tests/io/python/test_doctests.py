@@ -1,7 +1,9 @@
 """Every example in a docstring runs, and every public name has one."""
 import doctest
 import importlib
+import pathlib
 import pkgutil
+import re
 
 import pytest
 
@@ -32,3 +34,9 @@ def test_every_public_name_has_an_example():
 def test_public_names_are_all():
     assert all(hasattr(viscard, name) for name in viscard.__all__)
     assert viscard.__all__ == sorted(viscard.__all__, key=str)
+
+
+def test_the_stubs_name_what_the_compiled_part_has():
+    stubs = pathlib.Path("io/python/viscard/_core.pyi").read_text()
+    stated = set(re.findall(r"^(?:def|class) (\w+)", stubs, re.M)) | {"version"}
+    assert stated == {name for name in dir(viscard._core) if not name.startswith("__")}

@@ -20,8 +20,9 @@ SIMULATE = "viscard.simulate('data/scenes/array_tap.toml')"  # half a minute
 
 
 def interrupted(call, after_s=1.5):
-    process = subprocess.Popen([sys.executable, "-c", LONG.format(call=call)], stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True)
+    # A shell starts background work with SIGINT ignored, which children would inherit.
+    process = subprocess.Popen([sys.executable, "-c", LONG.format(call=call)], stdout=subprocess.PIPE, text=True,
+                               stderr=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     assert process.stdout.readline() == "ready\n"
     time.sleep(after_s)
     assert process.poll() is None, process.stderr.read()  # still at work

@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 using namespace viscard;
@@ -87,6 +90,34 @@ TEST_CASE("a rough surface presses on a section of a layer", "[cli][scene][layer
   CHECK(layer_result(answer, "contact_width") > 50e-6);
   CHECK(layer_result(answer, "contact_width") < 950e-6);
   CHECK(std::abs(layer_result(answer, "depth")) < 1e-6);
+}
+
+TEST_CASE("curves of a layer are drawn over the place and over the wavelength",
+          "[cli][scene][layer]") {
+  const auto folder = std::filesystem::temp_directory_path() / "viscard_layer_curves";
+  std::filesystem::remove_all(folder);
+  const SceneText scene(layer_scene(
+      "model = \"plane-strain\"\nwidth = \"1 mm\"",
+      "kind = \"rough\"\nrms = \"0.25 um\"\ncorrelation_length = \"75 um\"\nforce = \"2 N\"",
+      "[want]\nquantities = [\"pressure_profile\", \"voltage_per_pressure\", \"blurring\", "
+      "\"half_wavelength\"]\n"));
+  const CommandOutcome outcome =
+      run_command({"simulate", scene.path(), "--out", folder.string(), "--json"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  // Of another program, nu = 0.33: wavelength in plane strain along the stretch.
+  const Json answer = Json::parse(outcome.out);
+  CHECK(layer_result(answer, "half_wavelength") == Approx(293.4e-6).epsilon(1e-3));
+  CHECK(layer_result(answer, "blurring") > 0.9);
+  CHECK(layer_result(answer, "blurring") < 1.0);
+  const auto text_of_file = [&](const std::string& name) {
+    std::ifstream file(folder / name);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  CHECK_THAT(text_of_file("pressure_profile.svg"), Catch::Contains("x (µm)"));
+  CHECK_THAT(text_of_file("voltage_per_pressure.svg"), Catch::Contains("wavelength ("));
+  CHECK_THAT(text_of_file("voltage_per_pressure.csv"), Catch::Contains("wavelength_m"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("the plan of a layer says what it takes into account", "[cli][scene][layer]") {

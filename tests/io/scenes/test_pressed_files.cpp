@@ -6,9 +6,12 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <vector>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -152,4 +155,68 @@ TEST_CASE("a rough surface is the same for the same seed", "[cli][scene][array]"
              Catch::Contains("shape.correlation_length"));
   CHECK_THAT(refusal_of("kind = \"plane\"\nrms = \"0.25 um\"\ndepth = \"1 um\"\n"),
              Catch::Contains("belongs to kind = \"rough\""));
+}
+
+TEST_CASE("pressures and gaps along the row under a shape are curves", "[cli][scene][array]") {
+  const SceneText scene(
+      pressed("kind = \"paraboloid\"\nradius = \"1 mm\"\ndepth = \"2 um\"\n[want]\n"
+              "quantities = [\"pressure_profile\", \"gap_profile\", \"contact_force\"]\n"));
+  const std::filesystem::path folder = scene.beside("out");
+  const CommandOutcome outcome = run_command({"simulate", scene.path(), "--out", folder.string()});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  const auto second_column = [&](const std::string& name) {
+    std::ifstream file(folder / name);
+    std::vector<double> values;
+    for (std::string line; std::getline(file, line);) {
+      const std::size_t comma = line.find(',');
+      const bool is_number = !line.empty() && (std::isdigit(line[0]) != 0 || line[0] == '-');
+      if (is_number && comma != std::string::npos)
+        values.push_back(std::stod(line.substr(comma + 1)));
+    }
+    return values;
+  };
+  // k (depth - a^2/(4 R)) over the area of the top, k = 19.0468 N/m; the others are 100 um away.
+  const std::vector<double> pressure_Pa = second_column("pressure_profile.csv");
+  REQUIRE(pressure_Pa.size() == 3);
+  CHECK(pressure_Pa[1] == Approx(19.0468 * (2e-6 - 1e-7) / 1.256637e-9).epsilon(1e-3));
+  CHECK(pressure_Pa[0] == 0.0);
+  const std::vector<double> gap_m = second_column("gap_profile.csv");
+  REQUIRE(gap_m.size() == 3);
+  CHECK(gap_m[0] == Approx(5e-6 - 2e-6).epsilon(1e-6));
+  CHECK(gap_m[1] == 0.0);
+}
+
+TEST_CASE("a backing of a scene file is a half-space under the film", "[cli][scene][array]") {
+  const std::string kShape = "kind = \"sphere\"\nradius = \"20 mm\"\ndepth = \"2 um\"\n";
+  const auto on = [&](const std::string& backing) {
+    std::string text = pressed(kShape);
+    text.replace(text.find("edge = \"200 um\""), 15, "edge = \"5 mm\", backing = " + backing);
+    return SceneText(text);
+  };
+  const auto force_on = [&](const std::string& backing) {
+    const SceneText scene = on(backing);
+    const CommandOutcome outcome = run_command({"simulate", scene.path(), "--json"});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return Json::parse(outcome.out);
+  };
+  const double rigid_N = result_of(force_on("\"rigid\""), "contact_force");
+  CHECK(rigid_N == Approx(result_of(answer_of(kShape), "contact_force")).epsilon(1e-9));
+  const double board_N = result_of(force_on("{ E = \"20 GPa\", nu = 0.3 }"), "contact_force");
+  const Json rubber = force_on("{ E = \"10 MPa\", nu = 0.45 }");
+  CHECK(board_N == Approx(rigid_N).epsilon(1e-3));
+  CHECK(result_of(rubber, "contact_force") < 0.99 * rigid_N);
+  const auto refuses = [&](const std::string& backing, const std::string& words) {
+    const SceneText scene = on(backing);
+    const CommandOutcome outcome = run_command({"simulate", scene.path()});
+    CAPTURE(backing);
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.err, Catch::Contains(words));
+  };
+  refuses("\"soft\"", "geometry.film.backing");
+  refuses("{ E = \"4 GPa\" }", "needs E and nu");
+  refuses("{ E = \"4 GPa\", nu = 0.5 }", "geometry.film.backing.nu");
+  refuses("{ E = \"10 kPa\", nu = 0.3 }", "geometry.film.backing.E");
+  refuses("{ E = \"4 GPa\", nu = 0.3 }, bottom = \"fixed\"", "geometry.film.bottom");
 }

@@ -106,7 +106,7 @@ def check_fit():
     if printed and printed["inputs"] != [str(relaxation)]:
         mistakes.append("viscard fit: inputs are not the files as named")
     run(["fit", relaxation, "--profiles", "--diagnose", "--bootstrap", "20"], "fit")
-    run(["fit", "run.viscap"], "fit")
+    run(["fit", "run.viscap", "--want", "E0=1%", "--want", "sum_g=5%"], "fit")
     run(["fit", relaxation, "missing.csv"], "fits", 1)
     material = data("materials/pdms_1to10_seed.json")
     for test in ("relaxation", "creep", "oscillation"):
@@ -127,6 +127,10 @@ def check_card():
     run(["card", "--list"], "card-list")
     run(["card", "--check", "card.inp"], "card-check")
     run(["card", material, "--check", "card.inp"], "card-check")
+    run(["card", material, "--for", "abaqus-table", "--out", "table.inp"], "card-write")
+    run(["card", material, "--check", "table.inp"], "card-check")
+    run(["card", material, "--for", "rayleigh", "--out", "rayleigh.txt"], "card-write")
+    run(["card", material, "--check", "rayleigh.txt"], "card-check")
     run(["card", material, "--for", "calculix", "--deck", "creep", "--out", "deck"], "card-deck")
     run(["card", material, "--prove", "card.inp"], "card-prove")
 
@@ -134,7 +138,8 @@ def check_card():
 def check_scenes():
     run(["validate", data("materials/pdms_1to10_seed.json")], "validate")
     run(["scene", "check", data("scenes/pillar_sensor.toml")], "scene")
-    for name in ("pillar_modal", "pillar_creep", "pillar_buckling", "array_voltages", "pillar_touch", "space_quadrants"):
+    for name in ("pillar_modal", "pillar_creep", "pillar_buckling", "array_voltages", "pillar_touch", "space_quadrants",
+                 "layer_rough", "space_backing"):
         scene = data(f"scenes/{name}.toml")
         run(["plan", scene], "plan")
         run(["simulate", scene, "--out", name], "simulate")
@@ -145,6 +150,10 @@ def check_scenes():
     run(["design", "--out", "limits"], "design")
     check_object("design.json", pathlib.Path("limits/design.json").read_text(), "viscard-design/1")
     run(["cost", data("scenes/pillar_modal.toml"), "--budget", "1s"], "cost")
+    bench = ["cost", "--rig", data("demo/01_rig.toml"), "--specimen", data("demo/03_pdms_1to10.toml")]
+    bench += ["--at-most", "2min", "--test", data("demo/02_test.toml")]
+    run([*bench, "--want", "E0=1%", "--want", "g_2=5%", "--out", "tests"], "cost-tests")
+    run([*bench, "--want", "E0"], "error", 2)
 
 
 def check_rest():

@@ -265,3 +265,36 @@ TEST_CASE("a film too soft or an edge too near is refused with the tolerance it 
   scene.pillar.E0_Pa = 1e8;
   CHECK_THROWS_WITH(simulate(scene), Catch::Contains("on a rigid base"));
 }
+
+TEST_CASE("the estimate of leaving out a backing covers what that changes",
+          "[models][array][space]") {
+  for (const double E_Pa : {4e9, 20e9, 200e9}) {
+    SpaceScene scene = array_of_the_thesis(5, 5);
+    scene.tolerance = 1e-3;
+    scene.film_edge_m = 5e-3;
+    const double rigid_V = value_at(simulate(scene), "mean_voltage", 3, 3);
+    scene.backing = Backing{E_Pa, 0.3};
+    const SceneAnswer answer = simulate(scene);
+    CAPTURE(E_Pa);
+    const SceneEffect& effect = effect_of(answer, "backing");
+    CHECK(effect.on);
+    const double change = std::abs(rigid_V / value_at(answer, "mean_voltage", 3, 3) - 1.0);
+    CHECK(effect.estimate >= change);
+    CHECK(effect.estimate <= 10.0 * change);
+  }
+}
+
+TEST_CASE("a film that ends near loads on a soft backing is refused with the way out",
+          "[models][array][space]") {
+  SpaceScene scene = array_of_the_thesis(5, 5);
+  scene.backing = Backing{1.8e6, 0.49};
+  CHECK_THROWS_WITH(simulate(scene),
+                    Catch::Contains("geometry.film.edge") || Catch::Contains("without its edge"));
+  scene.tolerance = 0.5;
+  const SceneAnswer answer = simulate(scene);
+  // All pillars under 1 kPa: the stretch of the film reads more than the pressure.
+  const bool says_so = std::any_of(answer.notes.begin(), answer.notes.end(), [](const auto& note) {
+    return note.find("stretching") != std::string::npos;
+  });
+  CHECK(says_so);
+}

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <random>
 #include <sstream>
 
@@ -16,6 +17,17 @@ using namespace viscard::test;
 using Catch::Contains;
 
 namespace {
+
+// The file reads back to the same law; what --json prints is the file, the version and the inputs.
+void check_read_back(const std::string& joint, const std::string& printed) {
+  std::ifstream file(joint);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CHECK(json_from_ratio_fit(read_ratio_fit(joint)) == text);
+  nlohmann::json object = nlohmann::json::parse(printed);
+  CHECK(object.erase("version") == 1);
+  CHECK(object.erase("inputs") == 1);
+  CHECK(object == nlohmann::json::parse(text));
+}
 
 // Relaxation tables of a material with E0 = 20 MPa/ratio, g = .2, tau = 3 s, and a second term at one
 // ratio if asked for; specimens differ by a few per cent, touches on one specimen by 1 %.
@@ -140,8 +152,7 @@ TEST_CASE(
     CHECK_THAT(none.err, Contains("--ratio R (10, 13, 20 were measured"));
   }
   SECTION("the file reads back to the same law") {
-    const RatioFit fit = read_ratio_fit(joint);
-    CHECK(json_from_ratio_fit(fit) == ran.out);
+    check_read_back(joint, ran.out);
   }
 }
 
@@ -171,7 +182,7 @@ TEST_CASE("repeats of a specimen are named on the command line or in a column of
     CHECK(E0["touch"]["interval_95"][0].get<double>() < 0.01);
     CHECK(E0["touch"]["interval_95"][1].get<double>() > 0.01);
     CHECK(json["scatter"]["sum_g"]["mean"].get<double>() == Approx(0.2).epsilon(0.01));
-    CHECK(json_from_ratio_fit(read_ratio_fit(joint)) == ran.out);
+    check_read_back(joint, ran.out);
     const CommandOutcome text = run_command(joined(words, {tables.specimen_ids}));
     CHECK_THAT(text.out, Contains("18 records of 9 specimens at 3 mixing ratios"));
     CHECK_THAT(text.out, Contains("scatter of E0") && Contains("touch, on one specimen") &&
@@ -245,7 +256,7 @@ TEST_CASE("with --own-terms each ratio keeps its number of terms, and cards of m
   const auto json = nlohmann::json::parse(ran.out);
   CHECK(json["law"]["own_terms"] == nlohmann::json({1, 2, 1}));
   CHECK(json["materials"][1]["terms"].size() == 2);
-  CHECK(json_from_ratio_fit(read_ratio_fit(joint)) == ran.out);
+  check_read_back(joint, ran.out);
   CHECK(run_command({"card", joint, "--ratio", "13", "--for", "json"}).status == kDone);
   const CommandOutcome between = run_command({"card", joint, "--ratio", "12", "--for", "json"});
   CHECK(between.status == kFailed);

@@ -55,8 +55,10 @@ TEST_CASE("the example of predict works as printed and finds the noise of the ex
   CHECK(found["share_inside_band"].is_null());
   CHECK(json["notes"].dump().find("no band") != std::string::npos);
   const auto help = run_command({"predict", "--help"});
-  CHECK_THAT(help.out, Contains("viscard predict data/materials/pdms_1to10_seed.json --against "
-                                "data/demo/example_relaxation.csv"));
+  // The files stand where this program finds its data.
+  CHECK_THAT(help.out, Contains("viscard predict ") &&
+                           Contains("materials/pdms_1to10_seed.json --against ") &&
+                           Contains("demo/example_relaxation.csv"));
 }
 
 TEST_CASE("a fitted material predicts its own data to the noise, with a band", "[cli]") {

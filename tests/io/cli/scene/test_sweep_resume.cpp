@@ -113,3 +113,52 @@ TEST_CASE("points of another sweep are not taken over", "[cli][scene][array]") {
   CHECK(outcome.status == 1);
   CHECK(outcome.err.find("another sweep") != std::string::npos);
 }
+
+TEST_CASE(
+    "the first spacing below a limit has the error of the table, and a note on a change of sign",
+    "[cli][scene][array]") {
+  const auto first_of = [](const std::vector<std::pair<double, double>>& deviations) {
+    ArraySweep sweep;
+    std::vector<SweepPoint> points;
+    std::map<std::size_t, SweepRow> rows;
+    for (const auto& [percent, error] : deviations) {
+      ArrayScene scene;
+      scene.geometry.spacing_m = 10e-6 * static_cast<double>(points.size() + 5);  // from 50 um
+      sweep.spacing_m.push_back(scene.geometry.spacing_m);
+      rows[points.size()] = {{"deviation_percent_1", percent, "%", error}};
+      points.push_back({scene, "spacing"});
+    }
+    sweep.limit_percent = 0.1;
+    return joined(sweep, points, rows);
+  };
+  const auto result = [](const SceneAnswer& answer, const std::string& name) {
+    const auto found = std::find_if(answer.results.begin(), answer.results.end(),
+                                    [&](const SceneResult& r) { return r.name == name; });
+    return found == answer.results.end() ? SceneResult{} : *found;
+  };
+  // Decays: the limit is crossed between 60 and 70 um.
+  const SceneAnswer decays = first_of({{.4, .01}, {.2, .01}, {.06, .01}, {.02, .01}});
+  CHECK(result(decays, "first_spacing").value == Approx(70e-6));
+  CHECK(result(decays, "first_spacing").error_estimate == Approx(10e-6));
+  CHECK(result(decays, "settled_spacing").name.empty());
+  CHECK(decays.notes.empty());
+  // 60 um may be below already and 70 um may not: it is 80 um at most.
+  const SceneAnswer close = first_of({{.4, .01}, {.101, .01}, {.099, .01}, {.02, .01}});
+  CHECK(result(close, "first_spacing").value == Approx(70e-6));
+  CHECK(result(close, "first_spacing").error_estimate == Approx(20e-6));
+  // Passes through 0 at about 60 um.
+  const SceneAnswer turns = first_of({{.4, .01}, {.03, .01}, {-.15, .01}, {-.05, .01}});
+  CHECK(result(turns, "first_spacing").value == Approx(60e-6));
+  CHECK(result(turns, "settled_spacing").value == Approx(80e-6));
+  REQUIRE(turns.notes.size() == 1);
+  CHECK(turns.notes[0].find("changes sign") != std::string::npos);
+  CHECK(turns.notes[0].find("-0.15 % at 70 um") != std::string::npos);
+  // Nothing of the table is wide enough.
+  const SceneAnswer never = first_of({{.4, .01}, {.03, .01}, {-.15, .01}});
+  CHECK(result(never, "settled_spacing").name.empty());
+  REQUIRE(never.notes.size() == 1);
+  CHECK(never.notes[0].find("no spacing of the sweep") != std::string::npos);
+  // Everything is: anywhere between 0 and 50 um.
+  CHECK(result(first_of({{.01, .001}, {.0, .001}}), "first_spacing").error_estimate ==
+        Approx(50e-6));
+}

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/array/space/layered_film.h"
+#include "models/array/film/layered_film.h"
 
 namespace viscard::test {
 

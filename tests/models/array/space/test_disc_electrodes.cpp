@@ -1,4 +1,4 @@
-#include "models/array/space/disc_charge.h"
+#include "models/array/film/disc_charge.h"
 #include "models/array/space/space_array.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 

@@ -1,4 +1,5 @@
 #include "models/array/space/space_array.h"
+#include "models/array/space/space_maps.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 
@@ -207,6 +208,34 @@ TEST_CASE("arrays that overlap are refused with the pillars at fault", "[models]
   CHECK_THROWS_WITH(validate(wide), Catch::Contains("electrodes of pillars 1 and 2 overlap"));
   CHECK_THROWS_WITH(validate(SpaceArray{}), Catch::Contains("no pillars"));
   CHECK_NOTHROW(validate(square_array(2, 5e-6, film_of_the_thesis())));
+}
+
+TEST_CASE("pillars of an endless lattice pass waves as an independent program finds", "[models]") {
+  // Fourier p-elements of another program: mean voltage per mean pressure and thickness 0.61110 V m/N for long
+  // waves, 1.01410 of it at 200 um besides sinc(pi/2); 29.20 mV per um of a top, of which the mean over a
+  // top leaves 0.95146 at 200 um and all pillars together 1 - 0.00354 for long waves.
+  SpaceScene scene;
+  scene.rows = scene.columns = 3;
+  scene.pillars = lattice_places(SpaceLattice::kSquare, 3, 3, 100e-6);
+  scene.pillar.E0_Pa = 1.8e6;
+  scene.pillar.nu = 0.33;
+  scene.pillar.rho_kg_m3 = 965.0;
+  scene.film = test::pvdf_of_the_thesis();
+  scene.wanted = {"voltage_per_pressure", "voltage_per_height"};
+  const SpaceArray array = array_of(scene);
+  SceneAnswer answer;
+  add_transfer(scene, SpaceResponse(array, space_accuracies(array)[3]),
+               space_accuracies(array)[3].potential.reach_m, answer);
+  REQUIRE(answer.curves.size() == 2);
+  const SceneCurve& pressure = answer.curves[0];
+  const SceneCurve& height = answer.curves[1];
+  CHECK(pressure.x.front() == Approx(200e-6).epsilon(1e-12));
+  const double long_waves = 0.61110 * 25e-6;
+  CHECK(std::abs(pressure.value.back()) == Approx(long_waves).epsilon(1e-3));
+  CHECK(std::abs(pressure.value.front()) == Approx(1.01410 * 0.63662 * long_waves).epsilon(2e-4));
+  const double per_height_V_m = 29.20e3 * (1.0 - 0.00354);
+  CHECK(std::abs(height.value.back()) == Approx(per_height_V_m).epsilon(1e-3));
+  CHECK(std::abs(height.value.front()) == Approx(1.01410 * 0.95146 * per_height_V_m).epsilon(5e-4));
 }
 
 }  // namespace

@@ -100,6 +100,19 @@ TEST_CASE("a small system gives all its modes, and a small space stops with too 
   CHECK(stopped.values[0] == Approx(1.0).epsilon(1e-3));  // rough
 }
 
+TEST_CASE("a quick search returns what has converged, from the first mode on", "[pillar]") {
+  Diagonal body = string_like(300);
+  for (int i = 1; i < 300; ++i) body.value[i] = 1.0 - 1e-6 * i;
+  body.value[0] = 3.0;
+  const EigenPairs pairs = body.largest(3, {.tolerance = 1e-8, .is_quick = true});
+  CHECK_FALSE(pairs.converged);
+  REQUIRE(pairs.leading == 1);
+  REQUIRE(pairs.vectors.cols() == 1);
+  CHECK(pairs.values[0] == Approx(3.0).epsilon(1e-13));
+  CHECK(std::abs(pairs.vectors(0, 0)) * std::sqrt(body.B[0]) == Approx(1.0).epsilon(1e-12));
+  CHECK(pairs.values[1] == Approx(1.0).epsilon(1e-2));  // rough
+}
+
 TEST_CASE("an operator of low rank gives its few modes", "[pillar]") {
   Diagonal body = string_like(120);
   body.value.tail(117).setZero();  // all starts lie in a space of three

@@ -31,7 +31,7 @@ ViscoelasticPillar pillar_on_film(const Material& material) {
   return {geometry,
           {.degree = 4, .layers = 1},
           material,
-          TopLoad::kPressure,
+          TopCondition::kPressure,
           isotropic_medium(2e9, 0.29, 1780.0)};
 }
 
@@ -59,7 +59,8 @@ TEST_CASE("reduced creep with a film and shear relaxation alone is the whole bod
 }
 
 TEST_CASE("with constant Poisson ratio and no film one vector is exact", "[pillar]") {
-  const ViscoelasticPillar pillar({}, {.degree = 3, .layers = 1}, soft(false), TopLoad::kPressure);
+  const ViscoelasticPillar pillar({}, {.degree = 3, .layers = 1}, soft(false),
+                                  TopCondition::kPressure);
   const ReducedBody reduced = reduce_quasi_static(pillar.system(), 1e-8);
   CHECK(reduced.basis.cols() == 1);
   CHECK(reduced.error <= 1e-8);

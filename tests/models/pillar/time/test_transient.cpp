@@ -2,6 +2,7 @@
 #include "models/pillar/time/inertial_stepper.h"
 #include "models/pillar/time/modal_response.h"
 #include "models/pillar/time/model_reduction.h"
+#include "models/pillar/time/motion_peak.h"
 #include "models/pillar/time/spectrum.h"
 #include "models/pillar/time/state_transition.h"
 #include "models/pillar/time/transient_run.h"
@@ -148,6 +149,30 @@ TEST_CASE("the matrix exponential of any part of a step is that of an oscillator
                   std::invalid_argument);
 }
 
+TEST_CASE("a peak between known times is within its error", "[pillar]") {
+  // A decaying sine, whose crests are known: tan(w t) = w/d.
+  const double w = 2.0 * std::numbers::pi, d = 0.7;
+  const int per_period = GENERATE(3, 5, 8, 20, 100);
+  std::vector<double> time_s;
+  Eigen::VectorXd y(3 * per_period + 1), rate(3 * per_period + 1);
+  for (int i = 0; i < y.size(); ++i) {
+    const double t = static_cast<double>(i) / per_period;
+    time_s.push_back(t);
+    y[i] = std::exp(-d * t) * std::sin(w * t);
+    rate[i] = std::exp(-d * t) * (w * std::cos(w * t) - d * std::sin(w * t));
+  }
+  const double at_s = std::atan2(w, d) / w;
+  const double crest = std::exp(-d * at_s) * std::sin(w * at_s);
+  const MotionPeak peak = peak_of_motion(time_s, y, rate, 1e-3);
+  CAPTURE(per_period, peak.value, crest);
+  CHECK(std::abs(peak.value - crest) <= peak.error);
+  CHECK(peak.error <= 30.0 * std::pow(per_period, -4));
+  if (per_period >= 20) CHECK(peak.time_s == Approx(at_s).epsilon(1e-2));
+  // Turned over, the same peak; at rest, none.
+  CHECK(peak_of_motion(time_s, -y, -rate, 1e-3).value == -peak.value);
+  CHECK(peak_of_motion(time_s, 0.0 * y, 0.0 * rate, 1e-3).value == 0.0);
+}
+
 TEST_CASE("exact modes and increasingly fine steps give one answer", "[pillar]") {
   // Under a jump, a ramp and a jump back, with two relaxation times near the resonance.
   const Body body(rod_material({{0.3, 0.3, 1e-6}, {0.2, 0.2, 2e-5}}));
@@ -166,6 +191,11 @@ TEST_CASE("exact modes and increasingly fine steps give one answer", "[pillar]")
   CHECK((modes.values - steps.values).cwiseAbs().maxCoeff() <= 2e-5 * size);  // of the steps
   const TransientResult exact = run_exactly(body.reduced.system, request, observer);
   CHECK((modes.values - exact.values).cwiseAbs().maxCoeff() <= 1e-9 * size);  // rounding
+  // Rates, and values at corners between the outputs.
+  REQUIRE(modes.motion.time_s.size() == 53);
+  const double rate = steps.motion.rates.cwiseAbs().maxCoeff();
+  CHECK((modes.motion.rates - exact.motion.rates).cwiseAbs().maxCoeff() <= 1e-9 * rate);
+  CHECK((modes.motion.values - steps.motion.values).cwiseAbs().maxCoeff() <= 2e-5 * size);
 }
 
 TEST_CASE("shear and bulk that relax apart take as many steps as there are outputs and corners",

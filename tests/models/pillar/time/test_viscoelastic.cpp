@@ -38,7 +38,7 @@ Material soft_material() {
 }
 
 ViscoelasticPillar coarse_pillar(const Material& material) {
-  return {{}, {.degree = 2, .layers = 1, .shaft_elements = 1}, material, TopLoad::kRigidPlate};
+  return {{}, {.degree = 2, .layers = 1, .shaft_elements = 1}, material, TopCondition::kRigidPlate};
 }
 
 // Creep of one constant-nu body under a force history by superposition of J(t); the mean of J over
@@ -214,7 +214,7 @@ TEST_CASE("a pillar on PVDF creeps under 10 kPa as tabulated, shear alone or bul
   PillarGeometry geometry;
   geometry.film = FilmGeometry{25e-6, 60e-6};
   const ViscoelasticPillar pillar(geometry, {.degree = 6, .layers = 3}, pdms_1to10(shear_only),
-                                  TopLoad::kPressure, isotropic_medium(2e9, 0.29, 1780.0));
+                                  TopCondition::kPressure, isotropic_medium(2e9, 0.29, 1780.0));
   HistoryOptions options;
   options.tolerance = 1e-7;
   options.output_times_s = {0.01, 0.1, 1.0, 3.0, 10.0};

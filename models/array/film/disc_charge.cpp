@@ -1,4 +1,4 @@
-#include "models/array/space/disc_charge.h"
+#include "models/array/film/disc_charge.h"
 
 #include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/array/space/layered_film.h"
+#include "models/array/film/layered_film.h"
 
 #include <Eigen/Core>
 
@@ -43,6 +43,7 @@ class DiscCharge {
 class ChargePotential {
  public:
   ChargePotential(const LayeredFilm& film, double largest_k_1_m, int film_degree);
+  // V m2/C at a wave number up to the largest.
   double at(double k_1_m) const;
 
  private:

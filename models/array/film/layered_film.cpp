@@ -1,4 +1,4 @@
-#include "models/array/space/layered_film.h"
+#include "models/array/film/layered_film.h"
 
 #include "models/maths/dense.h"
 #include "models/maths/require.h"

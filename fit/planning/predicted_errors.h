@@ -1,0 +1,68 @@
+#pragma once
+
+#include "fit/intervals/fit_result.h"
+#include "fit/planning/planned_run.h"
+#include "models/material/material.h"
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A quantity that a test is to determine, and how well.
+struct WantedQuantity {
+  std::string name;        // "E0", "E_inf", "sum_g", "E_i", "g_i" or "tau_i" of term i
+  double tolerance = 0.0;  // relative half-width of its 95 % interval
+  // Of any other quantity: its value, which must be positive, from the series. It may be called from
+  // several threads.
+  std::function<double(const PronySeries&)> value = {};
+};
+
+// Throws std::invalid_argument that lists the names, or that the series has no such term.
+double value_of(const WantedQuantity& wanted, const PronySeries& series);
+
+// Relative standard errors of a quantity by their causes. Noise also stands for what is fitted beside
+// the moduli: starts of moves, contact, speed of the stage, zero and creep of the cell. Only its part
+// and that of the touches fall with the number of touches.
+struct ErrorCauses {
+  double noise = 0.0;
+  double gain_drift = 0.0;   // of the load cell's gain since its calibration was checked
+  double frame = 0.0;        // stiffness of the frame
+  double calibration = 0.0;  // of the load cell
+  double geometry = 0.0;     // punch, layer, Poisson ratio
+
+  double total() const;
+  double half_width_95() const { return kNormal95 * total(); }
+  double without_systematic_95() const { return kNormal95 * std::hypot(noise, gain_drift); }
+  ErrorCauses of_touches(int n) const;  // of the mean of n runs on one specimen
+};
+
+// What one run of a test is expected to tell about a specimen of the guessed material: the result
+// that its fit would have, with the errors that the Fisher information of the fit's own model
+// (StageModel, with its nuisances and their priors) gives at the guess. The order is taken as known.
+struct PredictedFit {
+  FitResult result;      // parameters, covariance, systematic_relative, gain_drift_relative
+  double total_s = 0.0;  // at the rig
+  double peak_force_N = 0.0;
+  PronySeries series;          // of the guess, Pa
+  Eigen::MatrixXd covariance;  // of (E_inf, E_i, ln tau_i) from the noise alone
+  // The series if the frame is a little softer, or the cell's gain a little smaller: by this share of
+  // their standard uncertainties, so that their effect is to first order.
+  static constexpr double kSmallShare = 1e-3;
+  PronySeries softer_frame, larger_gain;
+  double geometry_relative = 0.0;
+};
+
+// Throws what planned_run() throws, and std::invalid_argument if the rig's noise is not known or the
+// guess has no modulus.
+PredictedFit predicted_fit(const TestPlan& plan, const Bench& bench, const Material& guess);
+
+// Fills softer_frame, larger_gain and geometry_relative of a fit whose series is known: what the fit
+// would find if the bench were a little off, because the stage sees the same.
+void add_systematic_parts(const Bench& bench, PredictedFit& fit);
+
+ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit);
+
+}  // namespace viscard

@@ -1,0 +1,78 @@
+#include "io/cards/hyperelastic/rubber_file_card.h"
+
+#include "io/cards/unit_system.h"
+#include "models/hyperelastic/law_stability.h"
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+// What is known about the law, one line each.
+std::vector<std::string> header_lines(const HyperelasticFile& file,
+                                      const RubberCardOptions& options) {
+  std::vector<std::string> lines{
+      "viscard card: " + name_of(file.law.form) + " for " + options.target + ", units " +
+          unit_system(options.units).description,
+      "elastic at any rate: the law has no relaxation. Young's modulus at rest " +
+          text_of(youngs_modulus_Pa(file.law), 5) + " Pa"};
+  if (options.bulk_Pa) {
+    lines.push_back("bulk modulus " + text_of(*options.bulk_Pa, 5) + " Pa");
+  } else if (options.target == "abaqus" || options.target == "ansys") {
+    lines.push_back("incompressible: use hybrid (mixed) elements, or --bulk-modulus");
+  } else {
+    lines.push_back(
+        "bulk modulus 1000 times the shear modulus at rest, chosen because the solver needs one");
+  }
+  for (std::size_t d = 0; d < file.measured.size(); ++d) {
+    const auto& measured = file.measured[d];
+    const StableRange stable = stable_range(file.law, static_cast<Deformation>(d));
+    lines.push_back(
+        fmt::format("{}: {}; stable {} to {}", deformation_names()[d],
+                    measured ? "stretches " + text_of(measured->low, 4) + " to " +
+                                   text_of(measured->high, 4) + " measured"
+                             : std::string("not measured"),
+                    text_of(stable.low, 3),
+                    text_of(stable.high, 3) + (stable.high_is_open ? " and more" : "")));
+  }
+  for (const auto& raw : file.raw_files) lines.push_back(raw.file + " sha256 " + raw.sha256);
+  return lines;
+}
+
+std::string comment_mark(const std::string& target) {
+  if (target == "ansys") return "! ";
+  if (target == "lsdyna") return "$ ";
+  return target == "openradioss" || target == "frontistr" ? "# " : "** ";
+}
+
+std::string with_header(const std::vector<std::string>& lines, const std::string& target,
+                        const std::string& card) {
+  std::string text;
+  for (const std::string& line : lines) {
+    if (target == "febio") {
+      text += "<!-- " + line + " -->\n";
+    } else {
+      text += comment_mark(target) + line + "\n";
+    }
+  }
+  return text + card;
+}
+
+}  // namespace
+
+std::string rubber_file_card(const HyperelasticFile& file, const std::string& name,
+                             const RubberCardOptions& options) {
+  if (!file.is_trustworthy && !options.accepts_flags) {
+    std::string why;
+    for (const std::string& text : file.defects) why += (why.empty() ? "" : "; ") + text;
+    throw std::runtime_error(name + ": the law is not to be trusted: " + why +
+                             ". --accept-flags writes it all the same");
+  }
+  return with_header(header_lines(file, options), options.target, rubber_card(file.law, options));
+}
+
+}  // namespace viscard

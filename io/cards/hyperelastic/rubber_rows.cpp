@@ -1,0 +1,168 @@
+// Conventions, beside the energies of models/hyperelastic/hyperelastic_law.h:
+//   frontistr    NEOHOOKE C10, D; MOONEY-RIVLIN C10, C01, D; ARRUDA-BOYCE mu, s_m, D; the energy of
+//                the volume is (J - 1)^2/D, D = 2/K. D up to 1e-12 is taken for 1/D. Source:
+//                fstr_ctrl_material.f90, Hyperelastic.f90 of FrontISTR 5.
+//   lsdyna       077_H: C10, C01, C11, C20, C02, C30; 077_O: Ogden's own mu_i/alpha_i, 2 mu/alpha of
+//                ours, eight of each; both take Poisson's ratio instead of K. 127 (Arruda-Boyce) takes a
+//                whole number of links only, so that it is refused. Source: Keyword User's Manual R13,
+//                vol. II; fields as in PyDYNA. Not run.
+//   openradioss  LAW82: mu_i, alpha_i of ours, nu = 0 and D_1 = 2/K; LAW94 (Yeoh) and LAW92
+//                (Arruda-Boyce) with the same D. Mooney-Rivlin is LAW82 with exponents 2 and -2, mu = 2 C.
+//                Source: Radioss Reference Guide 2021. Not run.
+#include "io/cards/hyperelastic/rubber_rows.h"
+
+#include "io/cards/column_fields.h"
+#include "io/cards/keyword_lines.h"
+#include "models/maths/require.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+using Law = HyperelasticForm;
+using Row = std::vector<double>;
+
+constexpr int kShort = 10, kWide = 20;
+
+std::string row_of(const Row& numbers, int width) {
+  std::string text;
+  for (const double number : numbers) text += real(number, width);
+  return text + "\n";
+}
+
+// Moduli mu_i and exponents alpha_i of the Ogden energy that equals the law.
+RubberNumbers as_ogden(const RubberNumbers& law) {
+  RubberNumbers out = law;
+  if (is_ogden(law.form)) return out;
+  for (double& modulus : out.moduli) modulus *= 2.0;  // C10, C01
+  out.shapes = {2.0};
+  if (law.moduli.size() > 1) out.shapes.push_back(-2.0);
+  return out;
+}
+
+// Shear modulus at rest, in the unit of the card.
+double shear_of(const RubberNumbers& law) {
+  if (is_ogden(law.form)) return std::accumulate(law.moduli.begin(), law.moduli.end(), 0.0);
+  if (law.form == Law::kYeoh) return 2.0 * law.moduli[0];
+  return 2.0 * std::accumulate(law.moduli.begin(), law.moduli.end(), 0.0);
+}
+
+double poisson_ratio_of(const RubberNumbers& law) {
+  const double shear = shear_of(law);
+  return (3.0 * law.bulk - 2.0 * shear) / (6.0 * law.bulk + 2.0 * shear);
+}
+
+void require_density(const RubberNumbers& law, const std::string& target) {
+  require(law.density > 0.0, target + " needs a density: --density \"1.1 g/cm3\"");
+}
+
+}  // namespace
+
+bool is_ogden(HyperelasticForm form) {
+  return form == Law::kOgden1 || form == Law::kOgden2 || form == Law::kOgden3;
+}
+
+std::vector<double> pairs_of(const RubberNumbers& law) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < law.moduli.size(); ++i) {
+    out.push_back(law.moduli[i]);
+    out.push_back(law.shapes[i]);
+  }
+  return out;
+}
+
+void refuse_law(const RubberNumbers& law, const std::string& target) {
+  throw std::invalid_argument(
+      target + " has no " + name_of(law.form) +
+      " law; fit another with viscard fit --model, such as mooney-rivlin or "
+      "yeoh");
+}
+
+std::string frontistr_rubber(const RubberNumbers& law, const std::string& material) {
+  constexpr double kLeast = 1e-12;
+  require(law.d() > kLeast,
+          "frontistr takes D = 2/K up to 1e-12 for 1/D; choose units with smaller numbers (--units "
+          "mm-t-s) or a smaller --bulk-modulus");
+  std::string type, numbers;
+  if (law.form == Law::kNeoHooke) {
+    type = "NEOHOOKE";
+  } else if (law.form == Law::kMooneyRivlin) {
+    type = "MOONEY-RIVLIN";
+  } else if (law.form == Law::kArrudaBoyce) {
+    type = "ARRUDA-BOYCE";
+  } else {
+    refuse_law(law, "frontistr");
+  }
+  for (const double modulus : law.moduli) numbers += number_of_20(modulus) + ", ";
+  for (const double shape : law.shapes) numbers += number_of_20(shape) + ", ";
+  std::string text = "!MATERIAL, NAME=" + material + "\n!HYPERELASTIC, TYPE=" + type + "\n" +
+                     numbers + number_of_20(law.d()) + "\n";
+  if (law.density > 0.0) text += "!DENSITY\n" + number_of_20(law.density) + "\n";
+  return text;
+}
+
+std::string lsdyna_rubber(const RubberNumbers& law, const std::string& material) {
+  require_density(law, "lsdyna");
+  if (law.form == Law::kGent || law.form == Law::kArrudaBoyce) refuse_law(law, "lsdyna");
+  const bool ogden = is_ogden(law.form);
+  std::string text =
+      fmt::format("*MAT_{}_RUBBER_TITLE\n{}\n", ogden ? "OGDEN" : "HYPERELASTIC", material);
+  text += "$      MID        RO        PR         N\n";
+  text += right("1", kShort) + real(law.density, kShort) + real(poisson_ratio_of(law), kShort) +
+          right("0", kShort) + "\n";
+  if (ogden) {
+    constexpr std::size_t kEight = 8;
+    Row mu(kEight, 0.0), alpha(kEight, 0.0);
+    for (std::size_t i = 0; i < law.moduli.size(); ++i) {
+      mu[i] = 2.0 * law.moduli[i] / law.shapes[i];
+      alpha[i] = law.shapes[i];
+    }
+    return text + "$     MU1 to MU8\n" + row_of(mu, kShort) + "$ ALPHA1 to ALPHA8\n" +
+           row_of(alpha, kShort);
+  }
+  const bool is_yeoh = law.form == Law::kYeoh;
+  const double C01 = law.form == Law::kMooneyRivlin ? law.moduli[1] : 0.0;
+  return text + "$      C10       C01       C11       C20       C02       C30\n" +
+         row_of({law.moduli[0], C01, 0.0, is_yeoh ? law.moduli[1] : 0.0, 0.0,
+                 is_yeoh ? law.moduli[2] : 0.0},
+                kShort);
+}
+
+std::string openradioss_rubber(const RubberNumbers& law, const std::string& material) {
+  require_density(law, "openradioss");
+  if (law.form == Law::kGent) refuse_law(law, "openradioss");
+  const bool is_yeoh = law.form == Law::kYeoh, is_boyce = law.form == Law::kArrudaBoyce;
+  std::string text = fmt::format("/UNIT/1\n{}\n", law.units->name) + right(law.units->mass, kWide) +
+                     right(law.units->length, kWide) + right(law.units->time, kWide) + "\n" +
+                     fmt::format("/MAT/LAW{}/1/1\n{}\n",
+                                 is_yeoh    ? 94
+                                 : is_boyce ? 92
+                                            : 82,
+                                 material) +
+                     "#              RHO_I\n" + row_of({law.density}, kWide);
+  if (is_yeoh) {
+    return text + "\n#                C10                 C20                 C30\n" +
+           row_of(law.moduli, kWide) +
+           "#                 D1                  D2                  D3\n" +
+           row_of({law.d(), 0.0, 0.0}, kWide);
+  }
+  if (is_boyce) {
+    return text + "#                 mu                   D            lambda_m\n" +
+           row_of({law.moduli[0], law.d(), law.shapes[0]}, kWide) +
+           "#    Itype    fct_ID                  nu              Fscale\n" + right("0", kShort) +
+           right("0", kShort) + row_of({0.0, 0.0}, kWide);
+  }
+  const RubberNumbers ogden = as_ogden(law);
+  Row d(ogden.moduli.size(), 0.0);
+  d[0] = law.d();
+  return text + "#        N                            nu\n" +
+         right(std::to_string(ogden.moduli.size()), kShort) + right("", kShort) + real(0.0, kWide) +
+         "\n# mu\n" + row_of(ogden.moduli, kWide) + "# alpha\n" + row_of(ogden.shapes, kWide) +
+         "# D\n" + row_of(d, kWide);
+}
+
+}  // namespace viscard

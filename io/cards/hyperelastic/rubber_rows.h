@@ -1,0 +1,36 @@
+#pragma once
+
+#include "io/cards/unit_system.h"
+#include "models/hyperelastic/hyperelastic_law.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A law in the units of its card: moduli and K (0: incompressible) in its unit of stress, shapes
+// without unit, the density (0: not known) in its own.
+struct RubberNumbers {
+  HyperelasticForm form = HyperelasticForm::kNeoHooke;
+  std::vector<double> moduli, shapes;
+  double bulk = 0.0;
+  double density = 0.0;
+  const UnitSystem* units = nullptr;
+
+  double d() const { return bulk > 0.0 ? 2.0 / bulk : 0.0; }
+};
+
+bool is_ogden(HyperelasticForm form);
+// mu_1, alpha_1, mu_2, alpha_2 ...
+std::vector<double> pairs_of(const RubberNumbers& law);
+// Throws std::invalid_argument "target has no ... law".
+[[noreturn]] void refuse_law(const RubberNumbers& law, const std::string& target);
+
+// Cards of solvers that take nothing else than rows of numbers. Conventions and sources stand in
+// rubber_rows.cpp. They throw std::invalid_argument for laws that the solver has not, for a density that
+// it needs, and for numbers that it would misread.
+std::string frontistr_rubber(const RubberNumbers& law, const std::string& material);
+std::string lsdyna_rubber(const RubberNumbers& law, const std::string& material);
+std::string openradioss_rubber(const RubberNumbers& law, const std::string& material);
+
+}  // namespace viscard

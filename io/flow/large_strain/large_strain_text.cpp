@@ -1,0 +1,86 @@
+#include "io/flow/large_strain/large_strain_files.h"
+#include "models/hyperelastic/law_stability.h"
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+namespace viscard {
+namespace {
+
+std::string stretches(const StableRange& range) {
+  const std::string low = range.low_is_open ? "" : text_of(range.low, 3);
+  const std::string high = range.high_is_open ? "" : text_of(range.high, 3);
+  if (low.empty() && high.empty()) return "all";
+  if (low.empty()) return "up to " + high;
+  return high.empty() ? "from " + low : low + " to " + high;
+}
+
+void print_tests(const FittedLargeStrain& fitted, std::ostream& out) {
+  const LargeStrainResult& result = fitted.result;
+  out << fmt::format("  {:<16} {:>8} {:>18} {:>16}\n", "test", "readings", "stretch",
+                     "left by law kPa");
+  for (const RubberTestSummary& test : result.tests) {
+    out << fmt::format("  {:<16} {:>8} {:>18} {:>16.3g}\n", test.name, test.n_readings,
+                       text_of(test.least_stretch, 4) + " to " + text_of(test.largest_stretch, 4),
+                       1e-3 * test.rms_Pa);
+  }
+  for (std::size_t i = 0; i < result.tests.size(); ++i) {
+    const CycleChoice& choice = fitted.cycles[i];
+    if (choice.fitted == 0) continue;
+    out << fmt::format("  {}: the loading of cycle {} of {} is fitted; {} left out (--cycle)\n",
+                       result.tests[i].name, choice.fitted, choice.n_cycles,
+                       counted(choice.n_left_out, "row"));
+  }
+}
+
+void print_laws(const LargeStrainResult& result, std::ostream& out) {
+  out << fmt::format("\n  {:<14} {:>10} {:>9} {:>10} {:>10} {:>22}   {}\n", "law", "parameters",
+                     "rms %", "BIC", "E0 kPa", "95 %", "stable stretches (uniaxial)");
+  for (std::size_t i = 0; i < result.laws.size(); ++i) {
+    const FittedRubber& law = result.laws[i];
+    out << fmt::format("{} {:<14} {:>10} {:>9.3g} {:>10.2f} {:>10.5g} {:>22}   {}{}\n",
+                       i == result.chosen ? "*" : " ", name_of(law.law.form), law.n_parameters,
+                       100.0 * law.rms_relative, law.bic, 1e-3 * law.E0_Pa,
+                       fmt::format("{:.5g} to {:.5g}", 1e-3 * law.E0_interval_95.low,
+                                   1e-3 * law.E0_interval_95.high),
+                       stretches(law.stable[0]), law.is_trustworthy ? "" : "   !");
+  }
+}
+
+void print_best(const LargeStrainResult& result, std::ostream& out) {
+  const FittedRubber& best = result.best();
+  out << "\n  " << name_of(best.law.form) << "\n";
+  for (const LawParameter& one : best.parameters) {
+    out << fmt::format("    {:<16} {:>14.6g}   95 % {:.6g} to {:.6g}\n", one.name, one.value,
+                       one.interval_95.low, one.interval_95.high);
+  }
+  if (best.inflation > 1.0) {
+    out << fmt::format(
+        "    (variances times {:.3g}: the law leaves a structure in the residuals)\n",
+        best.inflation);
+  }
+  for (std::size_t d = 0; d < best.stable.size(); ++d) {
+    out << fmt::format("    stable stretches, {:<12} {}\n", deformation_names()[d],
+                       stretches(best.stable[d]));
+  }
+  for (const MaterialFlag& flag : best.flags) out << "  " << flag.name << ": " << flag.text << "\n";
+  for (const MaterialFlag& flag : result.notes) {
+    out << "  " << flag.name << ": " << flag.text << "\n";
+  }
+}
+
+}  // namespace
+
+void print_large_strain(const FittedLargeStrain& fitted, std::ostream& out) {
+  std::size_t n_readings = 0;
+  for (const LargeStrainTest& test : fitted.tests) n_readings += test.stretch.size();
+  out << counted(fitted.tests.size(), "test") << " at large strain, "
+      << counted(n_readings, "reading") << "\n";
+  print_tests(fitted, out);
+  print_laws(fitted.result, out);
+  print_best(fitted.result, out);
+}
+
+}  // namespace viscard

@@ -1,0 +1,81 @@
+#include "io/flow/large_strain/large_strain_words.h"
+
+#include "io/basics/units.h"
+#include "io/basics/words.h"
+#include "io/flow/words/option_error.h"
+#include "models/maths/interval.h"
+#include "models/maths/text_of_number.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+std::vector<HyperelasticForm> forms_from(const LargeStrainWords& words) {
+  const auto& model = words.model;
+  if (!model) return hyperelastic_forms();
+  for (const HyperelasticForm form : hyperelastic_forms()) {
+    if (*model == name_of(form)) return {form};
+  }
+  throw OptionError("--model " + *model + " is no law of rubber" +
+                    did_you_mean(*model, hyperelastic_names()) + " Use " +
+                    listed(hyperelastic_names()));
+}
+
+StressWeight weight_from(const LargeStrainWords& words) {
+  const std::string word = words.weight.value_or("equal");
+  if (word == "equal") return StressWeight::kEqual;
+  if (word == "relative") return StressWeight::kRelative;
+  throw OptionError("--weight " + word + " is not known; use equal or relative");
+}
+
+// A number from 1, or "all".
+std::optional<int> cycle_from(const LargeStrainWords& words) {
+  const auto& word = words.cycle;
+  if (!word) return std::nullopt;
+  if (*word == "all") return 0;
+  const auto number = integer_from_text(*word);
+  if (number && *number >= 1 && *number <= 1000000) return static_cast<int>(*number);
+  throw OptionError("--cycle " + *word + " must be a number from 1, or all");
+}
+
+// "1.8 MPa" or "1.8 MPa +- 0.1 MPa".
+std::optional<KnownModulus> modulus_from(const LargeStrainWords& words) {
+  const auto& text = words.youngs_modulus;
+  if (!text) return std::nullopt;
+  try {
+    const std::size_t sign = text->find("+-");
+    KnownModulus known{si_from_text(trimmed(std::string_view(*text).substr(0, sign)), "Pa"), 0.0};
+    if (sign != std::string::npos) {
+      const double half = si_from_text(trimmed(std::string_view(*text).substr(sign + 2)), "Pa");
+      if (!(half > 0.0)) throw std::invalid_argument("the error must be positive");
+      known.se_Pa = half / kNormal95;
+    }
+    if (!(known.value_Pa > 0.0)) throw std::invalid_argument("a modulus must be positive");
+    return known;
+  } catch (const std::invalid_argument& error) {
+    throw OptionError("--youngs-modulus " + *text + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+LargeStrainRequest large_strain_request(const LargeStrainWords& words,
+                                        std::vector<LargeStrainFile> files) {
+  LargeStrainRequest request;
+  request.files = std::move(files);
+  try {
+    request.columns = column_map_from_words(words.column);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+  request.sheet = words.sheet.value_or("");
+  request.options.forms = forms_from(words);
+  request.options.weight = weight_from(words);
+  request.options.modulus = modulus_from(words);
+  request.cycle = cycle_from(words);
+  return request;
+}
+
+}  // namespace viscard

@@ -1,0 +1,90 @@
+#include "io/cards/hyperelastic/rubber_file_card.h"
+#include "io/flow/large_strain/large_strain_words.h"
+#include "io/flow/words/option_error.h"
+#include "io/python/job.h"
+#include "io/python/keywords.h"
+#include "io/python/parts.h"
+#include "io/python/values.h"
+#include "models/hyperelastic/hyperelastic_law.h"
+
+#include <nlohmann/json.hpp>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace viscard::python {
+namespace {
+
+namespace py = pybind11;
+
+std::vector<LargeStrainFile> large_strain_given(const std::vector<std::string>& words) {
+  try {
+    return large_strain_from_words(words);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+}
+
+py::dict fit_rubber(const std::vector<std::string>& files, const py::dict& keywords) {
+  const LargeStrainRequest request =
+      large_strain_request(large_strain_words_from(keywords), large_strain_given(files));
+  FittedLargeStrain fitted =
+      in_background({}, [=](Job&) { return fit_large_strain_files(request); });
+  std::ostringstream text;
+  print_large_strain(fitted, text);
+  py::dict out;
+  out["text"] = text.str();
+  out["json_text"] = json_from_large_strain(fitted).dump(2) + "\n";
+  py::list tests;
+  for (LargeStrainTest& test : fitted.tests) {
+    tests.append(py::make_tuple(array_of(std::move(test.stretch)),
+                                array_of(std::move(test.nominal_stress_Pa))));
+  }
+  out["tests"] = tests;
+  return out;
+}
+
+Deformation deformation_from(const std::string& name) {
+  const auto& names = deformation_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<Deformation>(found - names.begin());
+  throw OptionError("deformation is '" + name + "'; use " + names[0] + ", " + names[1] + " or " +
+                    names[2]);
+}
+
+py::array rubber_stress(const HyperelasticFile& rubber, const std::string& deformation,
+                        std::vector<double> stretch) {
+  const Deformation kind = deformation_from(deformation);
+  for (double& value : stretch) value = nominal_stress_Pa(rubber.law, kind, value);
+  return array_of(std::move(stretch));
+}
+
+std::string rubber_card_text(const HyperelasticFile& rubber, const std::string& name,
+                             const std::string& target, const std::string& units,
+                             std::optional<double> bulk_Pa, std::optional<double> density_kg_m3,
+                             bool accepts_flags) {
+  RubberCardOptions options;
+  options.target = target;
+  options.units = units;
+  options.bulk_Pa = bulk_Pa;
+  options.density_kg_m3 = density_kg_m3;
+  options.accepts_flags = accepts_flags;
+  return rubber_file_card(rubber, name, options);
+}
+
+}  // namespace
+
+void add_rubber(py::module_& module) {
+  py::class_<HyperelasticFile>(module, "Rubber");
+  module.def("is_large_strain", [](const std::vector<std::string>& words) {
+    return !large_strain_given(words).empty();
+  });
+  module.def("fit_rubber", &fit_rubber);
+  module.def("rubber_from_json", &hyperelastic_from_json);
+  module.def("rubber_stress", &rubber_stress);
+  module.def("rubber_card", &rubber_card_text);
+  module.def("rubber_card_targets", &rubber_card_targets);
+}
+
+}  // namespace viscard::python

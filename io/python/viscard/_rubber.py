@@ -1,0 +1,192 @@
+"""Laws of rubber from tests at large strain."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from . import _arrays, _core
+from ._error import Error
+from ._fit import Flag
+
+
+class Parameter(NamedTuple):
+    """A parameter of a law with its 95 % interval, in the unit that its name states.
+
+    Examples
+    --------
+    >>> viscard.Parameter("C10_Pa", 2e5, (1.9e5, 2.1e5)).value
+    200000.0
+    """
+
+    name: str
+    value: float
+    interval: Tuple[float, float]
+
+
+class RubberCard:
+    """The card of a law of rubber for a solver; ``print(card)`` shows it.
+
+    Attributes
+    ----------
+    text : str
+    target : str
+
+    Examples
+    --------
+    >>> rubber = viscard.fit(["uniaxial=data/reference/treloar_uniaxial.csv"], model="yeoh")
+    >>> "*HYPERELASTIC, YEOH" in rubber.card("abaqus", "mm-t-s").text
+    True
+    """
+
+    def __init__(self, text: str, target: str) -> None:
+        self.text = text
+        self.target = target
+
+    def save(self, path, *, overwrite: bool = False) -> None:
+        """Write the card; an existing file is kept unless `overwrite` is True."""
+        _core.write_file(_arrays.path_of(path, "path"), self.text, overwrite)
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return f"<viscard.RubberCard for {self.target}, {len(self.text.splitlines())} lines>"
+
+
+class RubberFit:
+    """The law of rubber that describes tests at large strain best, of ``fit(["uniaxial=a.csv", ...])``.
+
+    ``rubber["key"]`` gives every key of ``viscard fit --json``.
+
+    Attributes
+    ----------
+    law : str
+        Name of the chosen law, such as "yeoh".
+    E0_Pa : float
+        Young's modulus at rest.
+    E0_interval : (low, high)
+        95 %, Pa.
+    parameters : dict of Parameter
+        Of the chosen law, by name.
+    covariance : array, shape (parameters, parameters)
+        In the units of the parameters.
+    laws : dict of dict
+        All laws that were tried, by name, with their parameters, BIC and flags.
+    tests : list of (stretch, nominal_stress_Pa)
+        The fitted readings, arrays of shape (readings,); empty for a law that was loaded.
+    flags : list of Flag
+        Of the chosen law, and notes about the data.
+    is_trustworthy : bool
+    json : dict
+
+    Examples
+    --------
+    >>> rubber = viscard.fit(["uniaxial=data/reference/treloar_uniaxial.csv",
+    ...                       "planar=data/reference/treloar_planar.csv"], model="ogden-2")
+    >>> rubber.law, list(rubber.parameters)
+    ('ogden-2', ['mu_1_Pa', 'mu_2_Pa', 'alpha_1', 'alpha_2'])
+    >>> low, high = rubber.parameters["alpha_2"].interval
+    >>> bool(low < rubber.parameters["alpha_2"].value < high)
+    True
+    """
+
+    def __init__(self, text: str, name: str, summary: str, tests: "list[Tuple[np.ndarray, np.ndarray]]") -> None:
+        self._text, self._name, self._summary = text, name, summary
+        self.json: Dict[str, Any] = json.loads(text)
+        inputs = [test["file"] for test in self.json["tests"]]
+        self.json = _arrays.with_head(self.json["schema"], inputs, self.json)
+        self.tests = tests
+        self.law: str = self.json["law"]
+        self.laws: Dict[str, Dict[str, Any]] = {law["name"]: law for law in self.json["laws"]}
+        chosen = self.laws[self.law]
+        self.E0_Pa: float = chosen["E0_Pa"]
+        self.E0_interval = _arrays.pair(chosen["E0_interval_95"])
+        self.parameters = {one["name"]: Parameter(one["name"], one["value"], _arrays.pair(one["interval_95"]))
+                           for one in chosen["parameters"]}
+        self.covariance: np.ndarray = np.array(chosen["covariance"], dtype=float)
+        self.flags: List[Flag] = [Flag(f["name"], f.get("term", 0), f["text"])
+                                  for f in chosen["flags"] + self.json["flags"]]
+        self.is_trustworthy: bool = self.json["trustworthy"]
+
+    @classmethod
+    def load(cls, path) -> "RubberFit":
+        """The law of a file that `save` or ``viscard fit uniaxial=a.csv --out`` has written."""
+        name = _arrays.path_of(path, "path")
+        try:
+            with open(name, encoding="utf-8") as file:
+                text = file.read()
+        except OSError as failure:
+            raise Error(f"{name}: {failure.strerror}", "file", failure.strerror, name) from failure
+        _core.rubber_from_json(text, name)  # refuses what is no law
+        return cls(text, name, "", [])
+
+    @property
+    def _law(self):
+        """The compiled law; refused if a fit that is not to be trusted has no stiffness at rest."""
+        return _core.rubber_from_json(self._text, self._name)
+
+    def __getitem__(self, key: str) -> Any:
+        return self.json[key]
+
+    def stress(self, stretch, deformation: str = "uniaxial") -> np.ndarray:
+        """Nominal stress in Pa (force over area at rest) at these stretches, shape of `stretch`.
+
+        Parameters
+        ----------
+        stretch : array
+            Length over length at rest, above 0; NaN beyond the limit of a law that has one.
+        deformation : "uniaxial", "planar" or "equibiaxial"
+
+        Examples
+        --------
+        >>> rubber = viscard.fit(["uniaxial=data/reference/treloar_uniaxial.csv"], model="neo-hooke")
+        >>> C10 = rubber.parameters["C10_Pa"].value
+        >>> bool(abs(rubber.stress(2.0) - 2 * C10 * (2 - 1 / 2**2)) < 1e-6)
+        True
+        """
+        at = _arrays.numbers(stretch, "stretch")
+        if not np.all(at > 0.0):
+            raise Error("stretch must be above 0", "input")
+        return _core.rubber_stress(self._law, deformation, at.ravel()).reshape(at.shape)
+
+    def card(self, target: str, units: str = "SI", *, bulk_modulus_Pa: Optional[float] = None,
+             density_kg_m3: Optional[float] = None, accept_flags: bool = False) -> RubberCard:
+        """A card for a solver: "abaqus", "ansys", "calculix", "febio", "frontistr", "lsdyna" or "openradioss".
+
+        Parameters
+        ----------
+        target, units : str
+            Names of ``viscard card``.
+        bulk_modulus_Pa : float
+            Default: incompressible for abaqus and ansys, a thousand times the shear modulus for the others.
+        density_kg_m3 : float
+            LS-DYNA and OpenRadioss need it.
+        accept_flags : bool
+            Write a law that is not to be trusted too.
+        """
+        text = _core.rubber_card(self._law, self._name, target, units, bulk_modulus_Pa, density_kg_m3,
+                                 accept_flags)
+        return RubberCard(text, target)
+
+    def save(self, path, *, overwrite: bool = False) -> None:
+        """Write the file that ``viscard card`` reads; an existing one is kept unless `overwrite` is True."""
+        _core.write_file(_arrays.path_of(path, "path"), self._text, overwrite)
+
+    def summary(self) -> str:
+        """The text of ``viscard fit``: tests, laws, parameters, flags. Of a loaded law: one line."""
+        return self._summary or repr(self)
+
+    def plot(self, ax=None):
+        """Nominal stress against stretch: the readings and the law. Needs matplotlib. Returns the axes."""
+        from ._plot import plot_rubber
+
+        return plot_rubber(self, ax)
+
+    def __repr__(self) -> str:
+        low, high = self.E0_interval
+        doubt = "" if self.is_trustworthy else ", not to be trusted"
+        return (f"<viscard.RubberFit {self._name}: {self.law}, E0 {self.E0_Pa:.4g} Pa "
+                f"(95 % {low:.4g} to {high:.4g}){doubt}>")

@@ -1,0 +1,115 @@
+#include "models/array/film/film_table.h"
+
+#include "models/maths/gauss_legendre.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr int kSamplePoints = 12;  // per panel, which doubles k: 3e-8 of exp(-k t) up to k t = 10
+constexpr int kGradedPoints = 8;   // Gauss points per panel of k
+
+// Chebyshev points of the first kind over (-1, 1), and the weights of the polynomial through them.
+double sample_point(int i) {
+  return -std::cos(std::numbers::pi * (i + 0.5) / kSamplePoints);
+}
+Eigen::RowVectorXd sample_weights(double x) {
+  Eigen::RowVectorXd weights(kSamplePoints);
+  for (int i = 0; i < kSamplePoints; ++i) {
+    const double distance = x - sample_point(i);
+    if (distance == 0.0) return Eigen::RowVectorXd::Unit(kSamplePoints, i);
+    weights[i] = (i % 2 == 0 ? 1.0 : -1.0) *
+                 std::sin(std::numbers::pi * (i + 0.5) / kSamplePoints) / distance;
+  }
+  return weights / weights.sum();
+}
+
+double stack_thickness_m(const LayeredFilm& film) {
+  double sum_m = 0.0;
+  for (const FilmLayer& layer : film.layers) sum_m += layer.thickness_m;
+  return sum_m;
+}
+
+// Panels begin where the film has long shed its stretch to the backing, over t E_film/E, and where the
+// farthest pillar sees no phase.
+double first_break_1_m(const LayeredFilm& film, double far_m) {
+  constexpr double kOfPhase = 0.3, kOfStretch = 0.1;
+  double smallest_1_m = kOfPhase / far_m;
+  if (film.backing) {
+    const FilmLayer& own = film.layers.front();
+    smallest_1_m = std::min(smallest_1_m, kOfStretch * film.backing->young_modulus_Pa /
+                                              (own.medium.stiffness_Pa(2, 2) * own.thickness_m));
+  }
+  return smallest_1_m;
+}
+
+}  // namespace
+
+FilmTable::FilmTable(const LayeredFilm& film, double largest_kt, int harmonics, int degree,
+                     double far_m)
+    : far_m_(far_m) {
+  const double largest_1_m = largest_kt / stack_thickness_m(film);
+  for (int j = 0; j <= harmonics; ++j) {
+    directions_.emplace_back(film, 0.5 * std::numbers::pi * j / harmonics, largest_1_m, degree);
+  }
+  const double first_1_m = std::min(first_break_1_m(film, far_m), 0.5 * largest_1_m);
+  const int panels = static_cast<int>(std::ceil(std::log2(largest_1_m / first_1_m)));
+  for (int panel = panels; panel >= 0; --panel) {
+    breaks_1_m_.push_back(std::ldexp(largest_1_m, -panel));
+  }
+  for (int panel = 0; panel < panels; ++panel) {
+    const double low = breaks_1_m_[static_cast<std::size_t>(panel)];
+    Eigen::MatrixXd values(kSamplePoints, 16 * static_cast<Eigen::Index>(directions_.size()));
+    for (int i = 0; i < kSamplePoints; ++i) {
+      const double k_1_m = low * (1.5 + 0.5 * sample_point(i));
+      for (std::size_t j = 0; j < directions_.size(); ++j) {
+        const Eigen::Matrix4d response = directions_[j].response(k_1_m);
+        values.block<1, 16>(i, 16 * static_cast<Eigen::Index>(j)) =
+            Eigen::Map<const Eigen::RowVectorXd>(response.data(), 16);
+      }
+    }
+    samples_.push_back(std::move(values));
+  }
+}
+
+std::vector<Eigen::Matrix4d> FilmTable::at(double k_1_m) const {
+  std::vector<Eigen::Matrix4d> responses;
+  if (k_1_m < breaks_1_m_.front()) {
+    for (const FilmWaves& direction : directions_) responses.push_back(direction.response(k_1_m));
+    return responses;
+  }
+  const auto above = std::upper_bound(breaks_1_m_.begin() + 1, breaks_1_m_.end() - 1, k_1_m);
+  const auto panel = static_cast<std::size_t>(above - breaks_1_m_.begin() - 1);
+  const double low = breaks_1_m_[panel];
+  const Eigen::RowVectorXd values = sample_weights(2.0 * k_1_m / low - 3.0) * samples_[panel];
+  for (std::size_t j = 0; j < directions_.size(); ++j) {
+    responses.emplace_back(
+        Eigen::Map<const Eigen::Matrix4d>(values.data() + 16 * static_cast<Eigen::Index>(j)));
+  }
+  return responses;
+}
+
+void each_graded_wave(double smallest_1_m, double largest_1_m, double longest_1_m,
+                      const std::function<void(double k_1_m, double weight_1_m2)>& with) {
+  const QuadratureRule rule = gauss_legendre(kGradedPoints);
+  double from_1_m = 0.0;
+  double to_1_m = std::min({smallest_1_m, longest_1_m, largest_1_m});
+  while (from_1_m < largest_1_m * (1.0 - 1e-12)) {
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const double k_1_m = from_1_m + (to_1_m - from_1_m) * rule.points[q];
+      with(k_1_m, rule.weights[q] * (to_1_m - from_1_m) * k_1_m / (2.0 * std::numbers::pi));
+    }
+    from_1_m = to_1_m;
+    // The rest is shared evenly among panels as long as allowed.
+    const double rest_1_m = largest_1_m - from_1_m;
+    const double even_1_m = rest_1_m / std::max(1.0, std::ceil(rest_1_m / longest_1_m));
+    to_1_m = from_1_m + std::min({from_1_m, even_1_m, rest_1_m});
+  }
+}
+
+}  // namespace viscard

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "models/array/film/layered_film.h"
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <vector>
+
+namespace viscard {
+
+// The answers of a film on a backing to waves of any length, along L + 1 directions between 0 and 90
+// degrees: samples of FilmWaves on panels that halve toward long waves, and polynomials between them. A
+// soft backing lets the film bend and stretch over many times its thickness, so that long waves matter.
+class FilmTable {
+ public:
+  // Waves up to this over the thickness of all layers, for loads that are felt up to `far_m` away;
+  // harmonics L and degree as in PotentialAccuracy (models/array/space).
+  FilmTable(const LayeredFilm& film, double largest_kt, int harmonics, int degree, double far_m);
+
+  // FilmWaves::response by direction. Waves longer than the panels are solved.
+  std::vector<Eigen::Matrix4d> at(double k_1_m) const;
+  double smallest_k_1_m() const { return breaks_1_m_.front(); }
+  double largest_k_1_m() const { return breaks_1_m_.back(); }
+  double far_m() const { return far_m_; }
+
+ private:
+  std::vector<FilmWaves> directions_;
+  double far_m_ = 0.0;
+  std::vector<double> breaks_1_m_;
+  std::vector<Eigen::MatrixXd> samples_;  // by panel: points x 16 entries of each direction
+};
+
+// Calls with(k, weight of k dk/(2 pi)) for panels that double from the longest waves on, until they are
+// as long as `longest`.
+void each_graded_wave(double smallest_1_m, double largest_1_m, double longest_1_m,
+                      const std::function<void(double k_1_m, double weight_1_m2)>& with);
+
+}  // namespace viscard

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace viscard {
+
+// The largest value of a motion, with its sign.
+struct MotionPeak {
+  double value = 0.0;
+  double time_s = 0.0;
+  double error = 0.0;  // by what the motion may pass it between the known times
+};
+
+// Peak of a motion whose values and rates are known at some times, ascending: of the cubics between
+// them (Hermite's; the error is (h^4/384) y'''', de Boor, A Practical Guide to Splines (1978), ch. 4).
+// The error compares each value with the cubic that leaves it out. If both extremes are equal
+// within four times the tolerance, the peak is on the side of the first, so that ringing without
+// damping has a unique answer.
+MotionPeak peak_of_motion(const std::vector<double>& time_s, const Eigen::VectorXd& values,
+                          const Eigen::VectorXd& rates, double tolerance);
+
+}  // namespace viscard

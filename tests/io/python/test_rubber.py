@@ -1,0 +1,104 @@
+"""Tests at large strain: beside the command line, and stresses beside their closed forms."""
+import json
+import pathlib
+import subprocess
+
+import numpy as np
+import pytest
+
+import viscard
+
+FILES = {name: f"data/reference/treloar_{name}.csv" for name in ("uniaxial", "planar", "equibiaxial")}
+WORDS = [f"{name}={path}" for name, path in FILES.items()]
+
+
+@pytest.fixture(scope="module")
+def rubber():
+    return viscard.fit([f"{name}={pathlib.Path(path)}" for name, path in FILES.items()])
+
+
+def test_it_is_what_the_command_prints(program):
+    rubber = viscard.fit(WORDS, weight="relative", youngs_modulus="1.2 MPa +- 0.1 MPa")
+    options = ["--weight", "relative", "--youngs-modulus", "1.2 MPa +- 0.1 MPa"]
+    printed = json.loads(subprocess.run([program, "fit", *WORDS, *options, "--json"], capture_output=True).stdout)
+    assert rubber.json == printed
+    text = subprocess.run([program, "fit", *WORDS, *options], capture_output=True, text=True,
+                          env={"COLUMNS": ""}).stdout
+    assert rubber.summary() == text
+
+
+def test_the_least_squares_of_treloar(rubber):
+    # 0.2048079328 MPa^2 of ogden-3: tests/fit/large_strain, by SciPy.
+    assert rubber.law == "ogden-3" and rubber.is_trustworthy
+    assert rubber.laws["ogden-3"]["rss_Pa2"] == pytest.approx(0.2048079328e12, rel=1e-6)
+    residuals = [rubber.stress(stretch, name) - stress for name, (stretch, stress) in zip(FILES, rubber.tests)]
+    assert np.sum(np.concatenate(residuals) ** 2) == pytest.approx(0.2048079328e12, rel=1e-6)
+    assert rubber.covariance.shape == (6, 6) and len(rubber.parameters) == 6
+    low, high = rubber.E0_interval
+    assert low < rubber.E0_Pa < high
+
+
+def test_stresses_are_those_of_closed_forms():
+    rubber = viscard.fit(WORDS, model="mooney-rivlin")
+    C10, C01 = (rubber.parameters[name].value for name in ("C10_Pa", "C01_Pa"))
+    s = np.array([[0.7, 1.0], [1.5, 3.0]])
+    of_closed_form = {"uniaxial": 2 * (s - s**-2) * (C10 + C01 / s), "planar": 2 * (s - s**-3) * (C10 + C01),
+                      "equibiaxial": 2 * (s - s**-5) * (C10 + C01 * s**2)}
+    for name, expected in of_closed_form.items():
+        assert rubber.stress(s, name) == pytest.approx(expected, rel=1e-12, abs=1e-6)
+    with pytest.raises(viscard.Error, match="deformation is 'shear'; use uniaxial, planar or equibiaxial"):
+        rubber.stress(2.0, "shear")
+    with pytest.raises(viscard.Error, match="above 0"):
+        rubber.stress([1.0, 0.0])
+
+
+def test_file_and_cards_are_those_of_the_command(rubber, program, tmp_path):
+    rubber.save(tmp_path / "rubber.json")
+    with pytest.raises(viscard.Error, match="exists") as caught:
+        rubber.save(tmp_path / "rubber.json")
+    assert caught.value.code == "exists"
+    again = viscard.RubberFit.load(tmp_path / "rubber.json")
+    assert again.json == rubber.json and again.E0_interval == rubber.E0_interval
+    for target in ("abaqus", "ansys", "febio"):
+        card = subprocess.run([program, "card", "rubber.json", "--for", target, "--units", "mm-t-s",
+                               "--bulk-modulus", "1 GPa"], capture_output=True, text=True, cwd=tmp_path).stdout
+        assert again.card(target, "mm-t-s", bulk_modulus_Pa=1e9).text == card
+    with pytest.raises(viscard.Error, match="no card of rubber for 'mfront'"):
+        rubber.card("mfront")
+    with pytest.raises(viscard.Error, match="bulk"):
+        rubber.card("abaqus", bulk_modulus_Pa=-1.0)
+
+
+def test_a_cycle_is_chosen(tmp_path):
+    # Neo-Hooke of 0.4 MPa first, 0.2 MPa in the second cycle.
+    up = np.linspace(1.0, 2.0, 30)
+    stretch = np.concatenate([up, up[::-1], up, up[::-1]])
+    stress = np.where(np.arange(120) < 60, 4e5, 2e5) * (stretch - stretch**-2)
+    path = tmp_path / "cycles.csv"
+    np.savetxt(path, np.column_stack([stretch, stress]), delimiter=",", header="stretch,nominal_stress_Pa", comments="")
+    first, last = (viscard.fit([f"uniaxial={path}"], model="neo-hooke", cycle=cycle) for cycle in (1, None))
+    assert first.parameters["C10_Pa"].value == pytest.approx(2e5, rel=1e-6)
+    assert last.parameters["C10_Pa"].value == pytest.approx(1e5, rel=1e-6)
+    assert "mullins" in [flag.name for flag in first.flags]
+    with pytest.raises(viscard.Error, match="no cycle 5"):
+        viscard.fit([f"uniaxial={path}"], cycle=5)
+
+
+def test_options_that_do_not_belong_are_refused():
+    for keywords, words in (({"terms": 3}, "terms does not belong to tests at large strain"),
+                            ({"weight": "huge"}, "weight huge is not known"),
+                            ({"model": "yeo"}, "model yeo is no law of rubber"),
+                            ({"youngs_modulus": "1 m"}, "youngs_modulus 1 m")):
+        with pytest.raises(viscard.Error, match=words) as caught:
+            viscard.fit(WORDS[:1], **keywords)
+        assert caught.value.code == "usage"
+    with pytest.raises(viscard.Error, match="cycle is for tests at large strain"):
+        viscard.fit("data/demo/example_relaxation.csv", cycle=1)
+    with pytest.raises(viscard.Error, match="is no test at large strain, but others are"):
+        viscard.fit([WORDS[0], "data/demo/example_relaxation.csv"])
+
+
+def test_the_plot_shows_readings_and_law(rubber):
+    axes = rubber.plot()
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("stretch", "nominal stress (MPa)")
+    assert len(axes.lines) == 6
