@@ -46,7 +46,7 @@ TEST_CASE("voltages near a film's end lie within their estimates", "[array]") {
   // referee found the first mean voltage at 41 um off by 1.01 times its estimate.
   ArrayScene scene = seed_scene();
   scene.geometry.count = 3;
-  scene.geometry.film_edge_m = GENERATE(3e-6, 10e-6, 25e-6, 41e-6);
+  scene.geometry.film_edge_m = GENERATE(3e-6, 41e-6);
   scene.loaded = {1};
   scene.wanted = {"mean_voltage", "centre_voltage"};
   const SceneAnswer fine = array_answer_on(scene, {.degree = 9, .layers = 8});

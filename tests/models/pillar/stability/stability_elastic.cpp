@@ -130,7 +130,8 @@ std::vector<StabilityCase> elastic_stability_cases() {
                    },
                    5e-8});
   cases.push_back({"frequency at 99.9 % of the buckling load", buckled_error, 5e-4});
-  cases.push_back({"buckling of a pillar 100 diameters long: Euler", slender_buckling_error, 1.9e-3});
+  cases.push_back(
+      {"buckling of a pillar 100 diameters long: Euler", slender_buckling_error, 1.9e-3});
   return cases;
 }
 
