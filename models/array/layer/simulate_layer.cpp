@@ -176,7 +176,8 @@ void LayerSolver::add_gap(const LayerPressure& pressed, SceneAnswer& answer) con
                                    scene_->is_plane() ? 0.0 : grid.place_m(grid.y_m, middle));
     if (!std::isfinite(height)) continue;
     gap.x.push_back(x_m);
-    gap.value.push_back(std::max(height - pressed.depth_m + sinking_m[cell], 0.0));
+    const bool touches = pressed.pressure_Pa(cell, middle) != 0.0;
+    gap.value.push_back(touches ? 0.0 : height - pressed.depth_m + sinking_m[cell]);
   }
   answer.curves.push_back(std::move(gap));
 }
