@@ -131,6 +131,11 @@ void check_backing(const SpaceScene& scene) {
   if (scene.press && !scene.feels_contact) {
     throw SceneMistake("effects.contact", "cannot be off on a backing; a shape only pushes there");
   }
+  if (scene.touch) {
+    throw SceneMistake("analysis.kind",
+                       "relaxation and creep under a shape are answered on a rigid backing; remove "
+                       "geometry.film.backing, or make the analysis static");
+  }
 }
 
 void check_film(const SpaceScene& scene) {
