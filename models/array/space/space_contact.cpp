@@ -145,9 +145,9 @@ class Presser {
   const SpaceScene* scene_;
   SpaceArray array_;
   std::vector<TouchedPillar> pillars_;
-  std::optional<FootMotion> base_;  // of a film on a backing
+  std::optional<FootMotion> base_;              // of a film on a backing
   mutable std::optional<PressOnBase> on_base_;  // keeps what it has computed
-  double error_ = 0.0;  // relative, of the stiffness
+  double error_ = 0.0;                          // relative, of the stiffness
   double settling_share_ = 0.0;
   std::vector<double> sinking_m_N_, turning_rad_Nm_, sideways_m_Pa_;  // by class
 };
