@@ -14,7 +14,7 @@
 namespace viscard {
 namespace {
 
-constexpr int kModes = 6, kFilmDegree = 10;
+constexpr int kModes = 6, kSensedFilmDegree = 10;
 
 // At constant stress, eps^S + e c^-1 e^t, as pyroelectric coefficients are measured too.
 double free_permittivity_F_m(const Medium& film) {
@@ -39,7 +39,7 @@ ElectrodeWeight weight_of(const SpaceScene& scene, const SpaceArray& array,
   if (reading == "centre") return [](double) { return 1.0; };
   const double a_m = array.electrode_radius_m;
   if (scene.electrode == SpaceElectrode::kEquipotential) {
-    const auto charge = std::make_shared<const DiscCharge>(array.film, a_m, 1, kModes, kFilmDegree);
+    const auto charge = std::make_shared<const DiscCharge>(array.film, a_m, 1, kModes, kSensedFilmDegree);
     return [charge](double k_1_m) { return charge->weight(k_1_m); };
   }
   return [a_m](double k_1_m) {
@@ -123,7 +123,7 @@ class HeatResults {
 
 void add_noise(const SpaceScene& scene, double own_V_Pa, SceneAnswer& answer) {
   const SpaceArray array = array_of(scene);
-  const DiscCharge charge(array.film, array.electrode_radius_m, 1, kModes, kFilmDegree);
+  const DiscCharge charge(array.film, array.electrode_radius_m, 1, kModes, kSensedFilmDegree);
   const ThermalNoise noise =
       thermal_noise(*scene.noise, *scene.noise_readout, charge.capacitance_F());
   const double area_m2 = 0.25 * std::numbers::pi * scene.diameter_m * scene.diameter_m;
