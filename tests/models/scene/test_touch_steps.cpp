@@ -67,7 +67,7 @@ std::vector<SpringStep> stepped(const Springs& springs, int steps) {
   }
   return all;
 }
-const SpringStep& at(const std::vector<SpringStep>& steps, double time_s) {
+const SpringStep& step_at(const std::vector<SpringStep>& steps, double time_s) {
   const double dt_s = steps.front().time_s;
   return steps[static_cast<std::size_t>(std::lround(time_s / dt_s)) - 1];
 }
@@ -95,7 +95,7 @@ TEST_CASE("under a paraboloid with a force the contact grows", "[models][array][
   const SceneAnswer answer = simulate(scene);
   const std::vector<SpringStep> springs =
       stepped({mean_gaps_m(scene), 19.0468, kMost, true, scene.touch->history}, 8000);
-  const double ramp_depth_m = at(springs, 0.02).depth_m, depth_m = springs.back().depth_m;
+  const double ramp_depth_m = step_at(springs, 0.02).depth_m, depth_m = springs.back().depth_m;
   const std::vector<double>& force_N = springs.back().force_N;
   const SceneCurve& depth = curve_of(answer, "depth");
   CHECK(at(depth, 0.02) == Approx(ramp_depth_m).epsilon(2e-3));
@@ -167,7 +167,7 @@ TEST_CASE("contact that shrinks and comes back is followed step by step",
     const double largest_N = largest_size(curve_of(answer, "pillar_force_2_2").value);
     for (const double time_s : {0.05, 0.4, 0.45, 0.5, 0.6, 0.8, 0.9, 1.0}) {
       INFO(time_s << " s");
-      const SpringStep& spring = at(springs, time_s);
+      const SpringStep& spring = step_at(springs, time_s);
       CHECK(at(curve_of(answer, "depth"), time_s) ==
             Approx(spring.depth_m).margin(4e-3 * deepest_m));
       CHECK(at(curve_of(answer, "contact_force"), time_s) ==
