@@ -129,7 +129,7 @@ TEST_CASE("a second element that contradicts the first is a mistake", "[cards]")
   }
 }
 
-TEST_CASE("--band beside a card for another band is a mistake", "[cards]") {
+TEST_CASE("a card for another band than --band is a mistake", "[cards]") {
   for (const char* name : {"rayleigh", "mujoco", "abaqus-table"}) {
     const CardTarget& target = card_target(name);
     const Material material = material_for(target);
