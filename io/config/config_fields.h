@@ -15,8 +15,10 @@ namespace viscard {
 // reads TOML into the fields, another writes them as TOML, so that reading and writing cannot
 // differ.
 
+// What values of a quantity are allowed.
 enum class Range { kAny, kPositive, kNotNegative, kFraction };  // fraction: [0, 1]
 
+// A number with a unit, as a file has it: "40 um".
 struct QuantityField {
   const char* key;
   const char* unit = "1";  // SI
@@ -24,28 +26,35 @@ struct QuantityField {
   bool is_required = false;
   double written_per_value = 1.0;  // 2 for a radius that is written as a diameter
   const char* word = nullptr;      // a word that a file may use for word_value: "rigid"
-  double word_value = 0.0;
+  double word_value = 0.0;         // in SI
 };
 
+// A text; the example stands in messages.
 struct TextField {
   const char* key;
   const char* example;
   bool is_required = false;
 };
 
+// Reads or writes the fields of a struct.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
+  // key = "40 um"; the value is in the SI unit of the field.
   virtual void quantity(const QuantityField& field, double& value) = 0;
+  // key = "words".
   virtual void text(const TextField& field, std::string& value) = 0;
+  // key = 3, from low to high.
   virtual void integer(const char* key, std::int64_t low, std::int64_t high,
                        std::int64_t& value) = 0;
+  // key = true.
   virtual void boolean(const char* key, bool& value) = 0;
+  // key = ["a", "b"].
   virtual void texts(const TextField& field, std::vector<std::string>& values) = 0;
-  // key = [["0 s", "10 kPa"], ...]
+  // key = [["0 s", "10 kPa"], ...]; the values are in the SI units named.
   virtual void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
                               std::vector<std::pair<double, double>>& values) = 0;
-  // key = ["5 um", "10 um"]; every entry is read as by quantity().
+  // key = ["5 um", "10 um"]; every entry is read as by quantity(), values in SI.
   virtual void quantities(const QuantityField& field, std::vector<double>& values) = 0;
   // A section [key] with the fields that body shows.
   virtual void section(const char* key, const std::function<void(FieldVisitor&)>& body) = 0;
@@ -61,6 +70,7 @@ class FieldVisitor {
                     const std::function<void(FieldVisitor&, std::size_t)>& body) = 0;
 };
 
+// Shows all fields of a struct to a visitor.
 using ShowFields = std::function<void(FieldVisitor&)>;
 
 // A quantity that is not known exactly, as it stands in a file.
@@ -78,6 +88,7 @@ using ChooseValue = std::function<double(const UncertainField& field)>;
 void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
                       const ChooseValue& choose = {});
 
+// The fields as TOML, with their units.
 std::string toml_from_fields(const ShowFields& show);
 
 // Returns the line (from 1) of a key such as "geometry.film.radius" in a TOML text, or that of the

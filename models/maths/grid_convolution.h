@@ -21,7 +21,9 @@ class GridConvolution {
   // The same in steps, so that several sums share their transforms: waves of a load on the grid, waves of
   // the sum, and its values.
   Eigen::MatrixXcd waves_of(const Eigen::MatrixXd& values) const;
+  // Adds the waves of K * values.
   void add_product(const Eigen::MatrixXcd& waves, Eigen::MatrixXcd& sum) const;
+  // The sum on the grid.
   Eigen::MatrixXd values_of(const Eigen::MatrixXcd& waves) const;
 
  private:

@@ -2,6 +2,7 @@
 
 namespace viscard {
 
+// How a number is distributed.
 enum class Spread {
   kNormal,     // half_width is that of the 95 % interval
   kUniform,    // value - half_width to value + half_width, nothing beyond
@@ -10,8 +11,8 @@ enum class Spread {
 
 // A number that is not known exactly.
 struct UncertainNumber {
-  double value = 0.0;
-  double half_width = 0.0;
+  double value = 0.0;       // in the unit of its quantity
+  double half_width = 0.0;  // in the same unit
   Spread spread = Spread::kNormal;
 };
 

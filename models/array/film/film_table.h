@@ -14,7 +14,7 @@ namespace viscard {
 // soft backing lets the film bend and stretch over many times its thickness, so that long waves matter.
 class FilmTable {
  public:
-  // Waves up to this over the thickness of all layers, for loads that are felt up to `far_m` away;
+  // Waves k up to largest_kt over the thickness of all layers, for loads that are felt up to `far_m` away;
   // harmonics L and degree as in PotentialAccuracy (models/array/space).
   FilmTable(const LayeredFilm& film, double largest_kt, int harmonics, int degree, double far_m);
 

@@ -8,8 +8,8 @@ namespace viscard {
 
 // What conducts heat. Axis 3 of the film is z; it conducts alike in all directions.
 struct HeatConductor {
-  double conductivity_W_mK = 0.0;
-  double capacity_J_m3K = 0.0;  // density times specific heat
+  double conductivity_W_mK = 0.0;  // W/(m K)
+  double capacity_J_m3K = 0.0;     // J/(m3 K), density times specific heat
 };
 
 // One pillar on a pyroelectric film on a base that stays cold; its sides and the film beside it lose no heat.
@@ -34,7 +34,7 @@ struct DummyElectrode {
 struct HeatScene {
   double temperature_K = 0.0;  // of the tops above the base
   HeatConductor pillar, film;
-  double pyroelectric_C_m2K = 0.0;
+  double pyroelectric_C_m2K = 0.0;  // dD_z/dT, C/(m2 K)
   std::optional<DummyElectrode> dummy;
   double end_time_s = 0.0;  // of a curve after the top has become warm; 0: none
 };
@@ -44,8 +44,8 @@ using ElectrodeWeight = std::function<double(double k_1_m)>;
 
 // The steady state per kelvin at the top.
 struct SteadyHeat {
-  double foot_K_W = 0.0,
-         pillar_K_W = 0.0;  // thermal resistances: mean of the foot, and along the pillar
+  double foot_K_W = 0.0;    // thermal resistance, K/W: mean of the foot
+  double pillar_K_W = 0.0;  // and along the pillar, K/W
   double foot_K = 0.0;      // mean temperature of the foot
   double own_V = 0.0;       // reading under the pillar, per kelvin at its top
   // Relative, of the numbers above: the change from a coarser quadrature, and from heat that enters the film
@@ -62,6 +62,7 @@ struct HeatCurve {
   std::vector<double> value_V;
   double error_V = 0.0;
 };
+// At these times, s, all above 0.
 HeatCurve heat_step(const HeatPath& path, const ElectrodeWeight& weight,
                     const std::vector<double>& time_s);
 
@@ -74,6 +75,7 @@ double pillar_time_s(const HeatPath& path);
 
 // What a dummy leaves of 1 K of everything, and of the touch's own heat if it stands `distance_m` away.
 double drift_left_V(const HeatPath& path, const DummyElectrode& dummy);
+// V per 1 K at the top.
 double touch_left_V(const HeatPath& path, const ElectrodeWeight& weight,
                     const DummyElectrode& dummy, double distance_m);
 

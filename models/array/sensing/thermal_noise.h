@@ -12,6 +12,7 @@ struct NoiseBand {
   double amplifier_V_rtHz = 0.0;  // at its input, per root of 1 Hz
 };
 
+// V rms at the output, by cause.
 struct ThermalNoise {
   double bias_V = 0.0;  // of the resistance, input or feedback, and of the film's own leakage
   double loss_V = 0.0;  // of the film's dielectric loss
@@ -21,6 +22,7 @@ struct ThermalNoise {
   double total_V() const;
 };
 
+// The noise of one electrode with this capacitance behind this readout.
 ThermalNoise thermal_noise(const NoiseBand& band, const Readout& readout, double capacitance_F);
 
 // Throws std::invalid_argument naming the value that is wrong.

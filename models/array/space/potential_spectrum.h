@@ -49,7 +49,7 @@ std::vector<PotentialSpectrum::OwnWave> own_waves(const LayeredFilm& film, const
 
 constexpr double kWavePhase = 5.0;  // largest radius times a panel of k
 constexpr double kWaveStep = 0.7;   // panel of k times the thickness of the film
-// Share of waves, by their k over the largest, that fades out: rises smoothly from 0 to 1, so that what
+// Share of waves, by of_largest, their k over the largest, that fades out: rises smoothly from 0 to 1, so that what
 // neighbours miss of the short waves falls off with the distance.
 double cut(double of_largest);
 // Amplitude of each harmonic of the potential of one wave number, for every load (eq. S4), from what is

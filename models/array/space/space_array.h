@@ -40,6 +40,7 @@ struct SpaceArray {
   double electrode_radius_m = 0.0;
 };
 
+// Where the pillars stand, for sums over their distances.
 std::vector<SourcePoint> sources_of(const SpaceArray& array);
 // Largest distance of two pillars, at most: the diagonal of the rectangle around their axes.
 double array_diagonal_m(const SpaceArray& array);

@@ -29,6 +29,7 @@ class WideTable {
   WideTable(PotentialTable near, const FilmTable& film, const DirectionReading& reading,
             const FootForces& foot, const std::vector<AxialReading>& readings = {point_reading()});
 
+  // V per Pa of each load at this offset from the axis.
   PotentialByLoad at(double x_m, double y_m, std::size_t reading = 0) const;
 
  private:

@@ -16,7 +16,7 @@ except KeyboardInterrupt:
     print("interrupted", flush=True)
     raise
 """
-SIMULATE = "viscard.simulate('data/scenes/array_tap.toml')"  # half a minute
+SIMULATE = "viscard.simulate('data/scenes/array_tap.toml', tol=3e-3)"  # minutes
 
 
 def interrupted(call, after_s=1.5):
