@@ -39,7 +39,8 @@ ElectrodeWeight weight_of(const SpaceScene& scene, const SpaceArray& array,
   if (reading == "centre") return [](double) { return 1.0; };
   const double a_m = array.electrode_radius_m;
   if (scene.electrode == SpaceElectrode::kEquipotential) {
-    const auto charge = std::make_shared<const DiscCharge>(array.film, a_m, 1, kModes, kSensedFilmDegree);
+    const auto charge =
+        std::make_shared<const DiscCharge>(array.film, a_m, 1, kModes, kSensedFilmDegree);
     return [charge](double k_1_m) { return charge->weight(k_1_m); };
   }
   return [a_m](double k_1_m) {
