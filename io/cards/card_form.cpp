@@ -140,7 +140,7 @@ bool has_same_words(const std::string& one, const std::string& other, double tol
   }
 }
 
-// What a header says of the target, whatever the material is called: "... for Abaqus". Where nu is
+// What a header says of the target, for any name of the material: "... for Abaqus". Where nu is
 // from is known only with the material.
 std::string comparable_text(const HeaderLine& line, bool has_reference) {
   const bool is_title = line.key.rfind("viscard ", 0) == 0;

@@ -13,7 +13,7 @@ Texts = Union[str, Sequence[str], None]
 
 
 class Table(Mapping):
-    """A table of a file. ``table["force_N"]`` is a quantity in SI, whatever the file's headers and units are.
+    """A table of a file. ``table["force_N"]`` is a quantity in SI; the file may have other headers and units.
 
     It is a mapping of quantity to array of shape (rows,), float64; a cell that is no number is NaN.
     "segment" and "specimen" are lists of texts.
