@@ -135,8 +135,8 @@ class SpacingLimit {
 
  private:
   bool is_below(const Deviation& d) const { return std::abs(d.percent) < limit_percent_; }
-  // Down to the next smaller spacing that lies above the limit with any error within the estimates, because the
-  // limit is crossed between; up to the next larger one that lies below it likewise.
+  // Down to the next smaller spacing that lies above the limit with any error within the estimates,
+  // because the limit is crossed between; up to the next larger one that lies below it likewise.
   double uncertainty_m(std::size_t i) const {
     const auto is_sure = [&](const Deviation& d) {
       return std::abs(std::abs(d.percent) - limit_percent_) > d.error;
