@@ -203,6 +203,24 @@ TEST_CASE("a force on a wider tip stays the same force", "[pillar]") {
   CHECK(unit_top_force(model).sum() == Approx(1.0).epsilon(1e-12));
 }
 
+TEST_CASE("the buckling load under a thin rim claims no more than meshes agree on", "[pillar]") {
+  PillarScene scene = moved_pillar(-1e-6, .33);
+  scene.drive = BucklingDrive{};
+  scene.wanted = {};
+  scene.geometry.tip = {10e-6, 5e-6};
+  scene.tolerance = 3e-3;
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("in the buckling_pressure"));
+  scene.tolerance = 0.1;
+  const SceneAnswer thin = simulate_pillar(scene);
+  const double claimed_Pa = thin.results.at(0).error_estimate;
+  const SceneAnswer fine = pillar_answer_on(scene, {.degree = 10, .layers = 2});
+  CHECK(std::abs(fine.results.at(0).value - thin.results.at(0).value) < claimed_Pa);
+  CHECK(claimed_Pa < 0.1 * thin.results.at(0).value);
+  scene.geometry.tip = {10e-6, 7e-6};
+  scene.tolerance = 1e-3;
+  CHECK_NOTHROW(simulate_pillar(scene));
+}
+
 TEST_CASE("impossible displacements are refused with the reason", "[pillar]") {
   PillarScene scene = moved_pillar(-1e-6, .33);
   SECTION("beyond buckling between foot and plate") {
