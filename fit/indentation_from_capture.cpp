@@ -135,9 +135,8 @@ double free_again_s(const CapturedRun& run, IndentationData& data) {
   const CommandedMove* retract = first_move(run, "retract");
   if (retract == nullptr) return 1e300;
   data.contact_to_s = std::min(data.contact_to_s, retract->move.start_time_s - data.start_early_s);
-  // Recovery of the surface and the end of the motion leave some force: allow half a second.
   return retract->move.start_time_s + duration_s(retract->move) + retract->start_uncertainty_s +
-         data.start_early_s + 0.5;
+         data.start_early_s + kFreeAgain_s;
 }
 
 void take_moves_in_contact(const CapturedRun& run, IndentationData& data) {
@@ -214,9 +213,7 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
                              " saturated, " + std::to_string(data.n_glitch) +
                              " glitches). Check the amplifier, then repeat the run");
   }
-  // The clock line is early by the smallest delay of a message and may be tilted by the spread of
-  // delays. Both are unknown but short. Samples this close to an unmodelled motion are left out.
-  data.start_early_s = 0.02 * std::max(1.0, run.rig.clock_speed);
+  data.start_early_s = kStartEarly_s * std::max(1.0, run.rig.clock_speed);
   data.contact_from_s = ramp->move.start_time_s;
   data.first_reading_s = readings.time_s.front();
   data.contact_to_s = readings.time_s.back();

@@ -14,10 +14,8 @@ namespace {
 
 using Kind = TestPhase::Kind;
 
-// The fit does not use readings this close to a motion out of contact (indentation_from_capture).
-constexpr double kStartEarly_s = 0.02;
+// The fit takes what the run itself measured (start_uncertainty_s); assumed here.
 constexpr double kStartLate_s = 0.02;
-constexpr double kFreeAgain_s = 0.5;
 
 void require_planned(bool is_good, const std::string& text) {
   if (!is_good) throw std::invalid_argument(text);

@@ -10,6 +10,12 @@
 
 namespace viscard {
 
+// The clock line is early by the smallest delay of a message and may be tilted by the spread of
+// delays. Both are unknown but short: readings this close to a motion out of contact are left out.
+constexpr double kStartEarly_s = 0.02;
+// Recovery of the surface and the end of the motion leave some force for this long after contact.
+constexpr double kFreeAgain_s = 0.5;
+
 // Input of a fit, one struct per kind of test. Columns have equal length, SI units and any order of
 // time. Rows with values that are not finite are left out and counted.
 

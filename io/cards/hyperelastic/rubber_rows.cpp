@@ -4,7 +4,8 @@
 //                fstr_ctrl_material.f90, Hyperelastic.f90 of FrontISTR 5.
 //   lsdyna       077_H: C10, C01, C11, C20, C02, C30; 077_O: Ogden's own mu_i/alpha_i, 2 mu/alpha of
 //                ours, eight of each; both take Poisson's ratio instead of K. 127 (Arruda-Boyce) takes a
-//                whole number of links only, so that it is refused. Source: Keyword User's Manual R13,
+//                whole number of links only, so that it is refused. Ten columns round numbers; the card
+//                states by how much. Source: Keyword User's Manual R13,
 //                vol. II; fields as in PyDYNA. Not run.
 //   openradioss  LAW82: mu_i, alpha_i of ours, nu = 0 and D_1 = 2/K; LAW94 (Yeoh) and LAW92
 //                (Arruda-Boyce) with the same D. Mooney-Rivlin is LAW82 with exponents 2 and -2, mu = 2 C.
@@ -17,7 +18,9 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace viscard {
@@ -44,17 +47,23 @@ RubberNumbers as_ogden(const RubberNumbers& law) {
   return out;
 }
 
-// Shear modulus at rest, in the unit of the card.
-double shear_of(const RubberNumbers& law) {
-  if (is_ogden(law.form)) return std::accumulate(law.moduli.begin(), law.moduli.end(), 0.0);
-  if (law.form == Law::kYeoh) return 2.0 * law.moduli[0];
-  return 2.0 * std::accumulate(law.moduli.begin(), law.moduli.end(), 0.0);
+double poisson_ratio_of(const RubberNumbers& law) {
+  return (3.0 * law.bulk - 2.0 * law.shear) / (6.0 * law.bulk + 2.0 * law.shear);
 }
 
-double poisson_ratio_of(const RubberNumbers& law) {
-  const double shear = shear_of(law);
-  return (3.0 * law.bulk - 2.0 * shear) / (6.0 * law.bulk + 2.0 * shear);
-}
+// Rows of ten columns, and the largest relative change of a number in them.
+struct ShortRows {
+  double loss = 0.0;
+
+  std::string row(const Row& numbers) {
+    for (const double number : numbers) {
+      if (number == 0.0) continue;
+      const double written = std::strtod(real(number, kShort).c_str(), nullptr);
+      loss = std::max(loss, std::abs(written / number - 1.0));
+    }
+    return row_of(numbers, kShort);
+  }
+};
 
 void require_density(const RubberNumbers& law, const std::string& target) {
   require(law.density > 0.0, target + " needs a density: --density \"1.1 g/cm3\"");
@@ -109,11 +118,11 @@ std::string lsdyna_rubber(const RubberNumbers& law, const std::string& material)
   require_density(law, "lsdyna");
   if (law.form == Law::kGent || law.form == Law::kArrudaBoyce) refuse_law(law, "lsdyna");
   const bool ogden = is_ogden(law.form);
-  std::string text =
-      fmt::format("*MAT_{}_RUBBER_TITLE\n{}\n", ogden ? "OGDEN" : "HYPERELASTIC", material);
-  text += "$      MID        RO        PR         N\n";
-  text += right("1", kShort) + real(law.density, kShort) + real(poisson_ratio_of(law), kShort) +
-          right("0", kShort) + "\n";
+  ShortRows rows;
+  std::string first = rows.row({law.density, poisson_ratio_of(law)});
+  first.pop_back();  // the line goes on with N
+  std::string text = "$      MID        RO        PR         N\n" + right("1", kShort) + first +
+                     right("0", kShort) + "\n";
   if (ogden) {
     constexpr std::size_t kEight = 8;
     Row mu(kEight, 0.0), alpha(kEight, 0.0);
@@ -121,15 +130,18 @@ std::string lsdyna_rubber(const RubberNumbers& law, const std::string& material)
       mu[i] = 2.0 * law.moduli[i] / law.shapes[i];
       alpha[i] = law.shapes[i];
     }
-    return text + "$     MU1 to MU8\n" + row_of(mu, kShort) + "$ ALPHA1 to ALPHA8\n" +
-           row_of(alpha, kShort);
+    text += "$     MU1 to MU8\n" + rows.row(mu) + "$ ALPHA1 to ALPHA8\n" + rows.row(alpha);
+  } else {
+    const bool is_yeoh = law.form == Law::kYeoh;
+    const double C01 = law.form == Law::kMooneyRivlin ? law.moduli[1] : 0.0;
+    text += "$      C10       C01       C11       C20       C02       C30\n" +
+            rows.row({law.moduli[0], C01, 0.0, is_yeoh ? law.moduli[1] : 0.0, 0.0,
+                      is_yeoh ? law.moduli[2] : 0.0});
   }
-  const bool is_yeoh = law.form == Law::kYeoh;
-  const double C01 = law.form == Law::kMooneyRivlin ? law.moduli[1] : 0.0;
-  return text + "$      C10       C01       C11       C20       C02       C30\n" +
-         row_of({law.moduli[0], C01, 0.0, is_yeoh ? law.moduli[1] : 0.0, 0.0,
-                 is_yeoh ? law.moduli[2] : 0.0},
-                kShort);
+  return fmt::format(
+             "$ numbers: rounded to ten columns, by at most {:.1e}\n*MAT_{}_RUBBER_TITLE\n{}\n",
+             rows.loss, ogden ? "OGDEN" : "HYPERELASTIC", material) +
+         text;
 }
 
 std::string openradioss_rubber(const RubberNumbers& law, const std::string& material) {

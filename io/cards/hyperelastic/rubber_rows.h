@@ -14,6 +14,7 @@ struct RubberNumbers {
   HyperelasticForm form = HyperelasticForm::kNeoHooke;
   std::vector<double> moduli, shapes;
   double bulk = 0.0;
+  double shear = 0.0;  // modulus at rest, in the unit of stress
   double density = 0.0;
   const UnitSystem* units = nullptr;
 

@@ -153,7 +153,7 @@ TEST_CASE(
     REQUIRE(n.size() == 4);
     check(chains, 1e-8, [&](double a, double b) { return boyce(n[0], n[1], I1(a, b)); });
   }
-  SECTION("LS-DYNA: sum C_pq, or mu_i/alpha_i; ten columns hold six digits or more") {
+  SECTION("LS-DYNA: sum C_pq, or mu_i/alpha_i; and the card states what ten columns cut off") {
     const auto c = numbers_in(card_for(yeoh, "lsdyna"));
     REQUIRE(c.size() == 10);
     check(yeoh, 1e-6, [&](double a, double b) {
@@ -170,6 +170,25 @@ TEST_CASE(
       }
       return sum;
     });
+  }
+  SECTION("LS-DYNA: what ten columns cut off") {
+    const HyperelasticLaw law =
+        law_of(HyperelasticForm::kOgden3, {3.4512345e5, 6.2345678e3, 4.2345678},
+               {1.91234567, -2.2345678, 8.5123456});
+    const std::string card = card_for(law, "lsdyna");
+    const std::string words = "by at most ";
+    REQUIRE(card.find(words) != std::string::npos);
+    const double stated = std::stod(card.substr(card.find(words) + words.size()));
+    double largest = 0.0;
+    const auto numbers = numbers_in(card);
+    for (int i = 0; i < 3; ++i) {
+      const double mu_MPa = 2e-6 * law.moduli_Pa[i] / law.shapes[i];
+      const auto at = static_cast<std::size_t>(4 + i);
+      largest = std::max({largest, std::abs(numbers[at] / mu_MPa - 1.0),
+                          std::abs(numbers[at + 8] / law.shapes[i] - 1.0)});
+    }
+    CHECK(largest > 1e-6);
+    CHECK(stated == Approx(largest).epsilon(0.06));  // two digits
   }
   SECTION("OpenRadioss: LAW82 with 2 mu/alpha^2, LAW94, LAW92") {
     const auto o = numbers_in(card_for(mooney, "openradioss"));
