@@ -1,7 +1,10 @@
 #include "io/python/keywords.h"
 
+#include "io/flow/words/option_fields.h"
+
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -65,49 +68,36 @@ OptionalText text_from(const char* name, const py::handle& value) {
   refuse_type(name, "a text or a number", value);
 }
 
+namespace {
+
+// "punch-diameter" is punch_diameter in Python; "from" is a word of the language.
+std::string keyword_of(const char* option) {
+  std::string name = option;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name == "from" ? "from_" : name;
+}
+
+void take_options(const py::dict& keywords, const OptionFields& fields) {
+  for (const auto& [option, text] : fields.texts) {
+    const std::string name = keyword_of(option);
+    if (keywords.contains(name)) *text = text_from(name.c_str(), keywords[name.c_str()]);
+  }
+  for (const auto& [option, flag] : fields.flags) {
+    take(keywords, keyword_of(option).c_str(), "True or False", *flag);
+  }
+  for (const auto& [option, list] : fields.lists) {
+    take_texts(keywords, keyword_of(option).c_str(), *list);
+  }
+  for (const auto& [option, number] : fields.whole_numbers) {
+    take(keywords, keyword_of(option).c_str(), "a whole number", *number);
+  }
+}
+
+}  // namespace
+
 FitWords fit_words_from(const py::dict& keywords) {
   FitWords words;
-  const std::pair<const char*, OptionalText*> texts[] = {
-      {"kind", &words.kind},
-      {"noise", &words.noise},
-      {"model", &words.model},
-      {"constraints", &words.constraints},
-      {"vertical_shift", &words.vertical_shift},
-      {"sheet", &words.sheet},
-      {"time_zero", &words.time_zero},
-      {"from_", &words.from},
-      {"to", &words.to},
-      {"crop", &words.crop},
-      {"depth", &words.depth},
-      {"specimen", &words.specimen},
-      {"punch_diameter", &words.punch_diameter},
-      {"layer_thickness", &words.layer_thickness},
-      {"frame_stiffness", &words.frame_stiffness},
-      {"reference_temperature", &words.reference_temperature},
-      {"density", &words.density}};
-  for (const auto& [name, text] : texts) {
-    if (keywords.contains(name)) *text = text_from(name, keywords[name]);
-  }
-  const std::pair<const char*, bool*> flags[] = {{"liquid", &words.liquid},
-                                                 {"solid", &words.solid},
-                                                 {"allow_negative", &words.allow_negative},
-                                                 {"full_data", &words.full_data},
-                                                 {"profiles", &words.profiles},
-                                                 {"diagnose", &words.diagnose},
-                                                 {"joint", &words.joint},
-                                                 {"own_terms", &words.own_terms},
-                                                 {"drift", &words.drift},
-                                                 {"no_drift", &words.no_drift}};
-  for (const auto& [name, flag] : flags) take(keywords, name, "True or False", *flag);
-  const std::pair<const char*, Texts*> lists[] = {
-      {"fix", &words.fix},         {"bound", &words.bound}, {"column", &words.column},
-      {"segment", &words.segment}, {"share", &words.share}, {"specimen_id", &words.specimen_id}};
-  for (const auto& [name, list] : lists) take_texts(keywords, name, *list);
-  const std::pair<const char*, std::optional<int>*> numbers[] = {{"terms", &words.terms},
-                                                                 {"max_terms", &words.max_terms},
-                                                                 {"bootstrap", &words.bootstrap},
-                                                                 {"hold", &words.hold}};
-  for (const auto& [name, number] : numbers) take(keywords, name, "a whole number", *number);
+  take_options(keywords, option_fields(words));
   take(keywords, "poisson_ratio", "a number", words.poisson_ratio);
   take_numbers(keywords, "ratio", words.ratio);
   return words;
@@ -129,26 +119,7 @@ LargeStrainWords large_strain_words_from(const py::dict& keywords) {
 
 PredictWords predict_words_from(const py::dict& keywords) {
   PredictWords words;
-  const std::pair<const char*, OptionalText*> texts[] = {{"test", &words.test},
-                                                         {"strain", &words.strain},
-                                                         {"stress", &words.stress},
-                                                         {"ramp", &words.ramp},
-                                                         {"hold", &words.hold},
-                                                         {"recovery", &words.recovery},
-                                                         {"period", &words.period},
-                                                         {"from_", &words.from},
-                                                         {"to", &words.to},
-                                                         {"history", &words.history},
-                                                         {"driven_by", &words.driven_by},
-                                                         {"against", &words.against},
-                                                         {"time_zero", &words.time_zero},
-                                                         {"temperature", &words.temperature}};
-  for (const auto& [name, text] : texts) {
-    if (keywords.contains(name)) *text = text_from(name, keywords[name]);
-  }
-  take(keywords, "cycles", "a whole number", words.cycles);
-  take(keywords, "points", "a whole number", words.points);
-  take_texts(keywords, "column", words.column);
+  take_options(keywords, option_fields(words));
   return words;
 }
 

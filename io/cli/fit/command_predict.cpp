@@ -6,7 +6,6 @@
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/predict_file.h"
-#include "io/flow/words/predict_words.h"
 
 #include <nlohmann/json.hpp>
 
@@ -70,24 +69,7 @@ CommandSyntax predict_syntax() {
 
 PredictWords predict_words(const po::variables_map& values) {
   PredictWords words;
-  const std::pair<const char*, PredictWords::Text*> texts[] = {{"test", &words.test},
-                                                               {"strain", &words.strain},
-                                                               {"stress", &words.stress},
-                                                               {"ramp", &words.ramp},
-                                                               {"hold", &words.hold},
-                                                               {"recovery", &words.recovery},
-                                                               {"period", &words.period},
-                                                               {"from", &words.from},
-                                                               {"to", &words.to},
-                                                               {"history", &words.history},
-                                                               {"driven-by", &words.driven_by},
-                                                               {"against", &words.against},
-                                                               {"time-zero", &words.time_zero},
-                                                               {"temperature", &words.temperature}};
-  for (const auto& [name, text] : texts) *text = given(values, name);
-  words.cycles = given<int>(values, "cycles");
-  words.points = given<int>(values, "points");
-  words.column = given<Words>(values, "column").value_or(Words{});
+  take_options(values, option_fields(words));
   return words;
 }
 

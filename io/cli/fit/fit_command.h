@@ -3,7 +3,7 @@
 #include "io/cli/words/streams.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/large_strain/large_strain_files.h"
-#include "io/flow/words/fit_words.h"
+#include "io/flow/words/option_fields.h"
 
 #include <boost/program_options/options_description.hpp>
 #include <boost/program_options/variables_map.hpp>
@@ -32,6 +32,9 @@ std::vector<LargeStrainFile> large_strain_given(
 // and writes --out and --svg. Throws UsageError for options that do not belong to such tests.
 int run_large_strain(const std::vector<LargeStrainFile>& files,
                      const boost::program_options::variables_map& values, Streams& streams);
+
+// Fills options from the values.
+void take_options(const boost::program_options::variables_map& values, const OptionFields& fields);
 
 // The options of viscard fit among the values.
 FitWords fit_words(const boost::program_options::variables_map& values);
