@@ -8,7 +8,7 @@
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/left_out.h"
 #include "fit/joint_tests.h"
-#include "models/maths/f_distribution.h"
+#include "models/maths/distributions.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "fit/assembly/kramers_kronig.h"
 
 #include "fit/search/nnls.h"
-#include "models/material/ratio_model.h"
 #include "models/maths/dense.h"
+#include "models/maths/distributions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,7 +131,7 @@ std::optional<KramersKronigBreak> kramers_kronig_break(const DmaModel& model) {
   const double variance = std::max(apart.rss, kDigits * model.data().squaredNorm()) / apart.spare;
   // The 95 % point times 2.6 is five standard errors for many rows, and more for few.
   constexpr double kRanges = 2.6, kVisible = 0.02;
-  const double t_95 = student_t_975(static_cast<int>(std::min(apart.spare, 1e6)));
+  const double t_95 = student_t_975(apart.spare);
   const double share = apart.free_coefficient;
   const double error = std::sqrt(variance / best.length2);
   const double t = std::sqrt(std::max(0.0, together.rss - apart.rss) / variance);

@@ -2,7 +2,7 @@
 
 #include "fit/search/separable.h"
 #include "models/maths/dense.h"
-#include "models/maths/f_distribution.h"
+#include "models/maths/distributions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "fit/intervals/slow_noise.h"
 
+#include "models/maths/distributions.h"
+#include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -48,12 +50,6 @@ double largest_by_chance(double freedom) {
   return std::pow(1.0 - share + kDeviations * std::sqrt(share), 3);
 }
 
-// 97.5 % quantile of Student's t over that of the normal distribution, to 1 % from 4 degrees of
-// freedom on (Abramowitz & Stegun 1964, 26.7.5).
-double student_ratio(double freedom) {
-  return 1.0 + 1.21 / freedom + 1.44 / (freedom * freedom);
-}
-
 }  // namespace
 
 std::string memory_text(double memory, double independent) {
@@ -78,13 +74,11 @@ SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, dou
   const double inflation = noise.inflation();
   SlowNoise slow;
   const double independent = n_samples / inflation;
-  if (!noise.phi.empty()) {
-    const double freedom = std::max(kLeastFreedom, independent - n_parameters);
-    // The variance counts one sample for each parameter already.
-    const double counted = std::max(1.0, n_samples - n_parameters) / n_samples;
-    slow.widening =
-        std::max(1.0, counted * independent / freedom) * std::pow(student_ratio(freedom), 2);
-  }
+  const double freedom = std::max(kLeastFreedom, independent - n_parameters);
+  // The variance counts one sample for each parameter already.
+  const double counted = std::max(1.0, n_samples - n_parameters) / n_samples;
+  slow.widening =
+      std::max(1.0, counted * independent / freedom) * std::pow(student_t_975(freedom) / kNormal95, 2);
   const double memory = noise.memory() / n_samples;
   constexpr double kSlow = 5.0;  // less is not slow, and few values may be independent
   if (inflation > kSlow && (memory >= kLongMemory || independent < kFewIndependent)) {

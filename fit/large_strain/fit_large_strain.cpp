@@ -4,6 +4,8 @@
 #include "fit/large_strain/rubber_checks.h"
 #include "fit/samples/noise_model.h"
 #include "models/maths/dense.h"
+#include "models/maths/distributions.h"
+#include "models/maths/interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,6 +151,11 @@ FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
   const double freedom = static_cast<double>(rows.data().size()) - fitted.n_parameters;
   const double variance = freedom > 0.0 ? residual.squaredNorm() / freedom : 0.0;
   fitted.covariance = variance * fitted.inflation * inverse_normal(slopes, free);
+  // So few independent readings determine their own variance only with the error of Student's t.
+  constexpr double kLeastFreedom = 4.0;
+  const double independent = static_cast<double>(residual.size()) / fitted.inflation;
+  const double own = std::max(kLeastFreedom, independent - fitted.n_parameters);
+  fitted.covariance *= std::pow(student_t_975(own) / kNormal95, 2);
   const Index n = n_moduli(form);
   fitted.covariance.topRows(n) *= scale_Pa;
   fitted.covariance.leftCols(n) *= scale_Pa;

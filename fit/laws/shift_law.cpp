@@ -1,7 +1,8 @@
 #include "fit/laws/shift_law.h"
 
-#include "models/material/ratio_model.h"
 #include "models/maths/dense.h"
+#include "models/maths/distributions.h"
+#include "models/maths/interval.h"
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -48,7 +49,7 @@ Interval around(double value, double half) {
 // Student's t for the degrees of freedom.
 double half_width(double variance, double chi2, Index dof) {
   const double excess = dof > 0 ? std::max(1.0, chi2 / static_cast<double>(dof)) : 1.0;
-  const double quantile = dof > 0 ? student_t_975(static_cast<int>(dof)) : 1.959963984540054;
+  const double quantile = dof > 0 ? student_t_975(static_cast<double>(dof)) : kNormal95;
   return quantile * std::sqrt(variance * excess);
 }
 

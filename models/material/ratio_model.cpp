@@ -1,8 +1,8 @@
 #include "models/material/ratio_model.h"
 
+#include "models/maths/distributions.h"
 #include "models/maths/require.h"
 
-#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -286,11 +286,6 @@ RatioBand ratio_band(const RatioFit& fit, int count) {
     band.E0_high_Pa.push_back(std::exp(at.theta[0] + half));
   }
   return band;
-}
-
-double student_t_975(int degrees_of_freedom) {
-  require(degrees_of_freedom >= 1, "Student's t needs at least one degree of freedom");
-  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
 }
 
 }  // namespace viscard

@@ -120,7 +120,4 @@ RatioBand ratio_band(const RatioFit& fit, int count = 60);
 // number with the digits that its standard error allows.
 std::string law_in_words(const RatioFit& fit);
 
-// 97.5 % quantile of Student's t. Throws std::invalid_argument below one degree of freedom.
-double student_t_975(int degrees_of_freedom);
-
 }  // namespace viscard

@@ -1,4 +1,5 @@
 #include "fit/laws/fit_mixing_ratio.h"
+#include "models/maths/distributions.h"
 #include "tests/fit/laws/campaigns.h"
 #include "tests/support/error_text.h"
 

@@ -1,4 +1,4 @@
-#include "models/maths/f_distribution.h"
+#include "models/maths/distributions.h"
 
 #include <catch2/catch.hpp>
 
@@ -21,4 +21,13 @@ TEST_CASE("upper tail of the F distribution", "[maths]") {
   CHECK(f_upper_tail(2.228139 * 2.228139, 1.0, 10.0) == Approx(0.05).epsilon(1e-6));
   CHECK(f_upper_tail(3.841458820694124, 1.0, 1e9) == Approx(0.05).epsilon(1e-6));
   CHECK(f_upper_tail(0.0, 3.0, 5.0) == 1.0);
+}
+
+TEST_CASE("quantile of Student's t for degrees of freedom that need not be whole", "[maths]") {
+  CHECK(student_t_975(1.0) == Approx(std::tan(0.475 * 3.14159265358979323846)).epsilon(1e-12));
+  for (const double freedom : {1.5, 4.0, 7.25, 1e3, 1e8}) {
+    const double t = student_t_975(freedom);  // t squared has the F distribution
+    CHECK(f_upper_tail(t * t, 1.0, freedom) == Approx(0.05).epsilon(1e-9));
+  }
+  CHECK_THROWS_WITH(student_t_975(0.0), Catch::Contains("degrees of freedom"));
 }
