@@ -152,8 +152,17 @@ JointTests joint_tests(const std::vector<MaterialTest>& tests, const FitOptions&
     joint.ln_time.push_back(ln_times(time_s, rows));
     for (const int block : blocks_of_test(rows, time_s)) joint.blocks.push_back(n_blocks + block);
     n_blocks = joint.blocks.back() + 1;
-    joint.groups.push_back({first_row, member.model->n_rows(), member.model->row_begins(),
-                            member.model->n_samples(), 1.0, rows.noise, rows.slow});
+    joint.groups.push_back({first_row,
+                            member.model->n_rows(),
+                            member.model->row_begins(),
+                            member.model->n_samples(),
+                            1.0,
+                            rows.noise,
+                            rows.slow,
+                            {}});
+    if (rows.row_scale.size() == member.model->n_rows()) {
+      joint.groups.back().row_scale = rows.row_scale;
+    }
     first_row += member.model->n_rows();
     members.push_back(std::move(member));
   }

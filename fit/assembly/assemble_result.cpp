@@ -2,6 +2,7 @@
 
 #include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/level_noise.h"
 #include "fit/intervals/slow_noise.h"
 #include "fit/intervals/uncertainty.h"
 #include "fit/search/polish.h"
@@ -121,13 +122,21 @@ void add_profiles(const SpectralModel& model, const SpectralFit& fit,
   }
 }
 
+void take_level_noise(const SpectralModel& model, SpectralFit& fit) {
+  const LevelNoise level = level_noise(model, fit.state, fit.noise.inflation());
+  fit.row_scale = level.row_scale;
+  if (!level.note.empty()) fit.notes.push_back({"noise-grows", 0, level.note});
+}
+
 void widen_for_slow_noise(const SpectralModel& model, SpectralFit& fit) {
   fit.slow = slow_noise(model, fit.state, fit.variance, fit.noise);
   const SlowNoise& slow = fit.slow;
   const bool is_doubtful = !slow.doubt.empty();
-  fit.covariance = widened(
-      fit.covariance,
-      is_doubtful ? parameter_covariance(model, fit.state, fit.variance) : fit.covariance, slow);
+  fit.covariance =
+      widened(fit.covariance,
+              is_doubtful ? parameter_covariance(model, fit.state, fit.variance, {}, fit.row_scale)
+                          : fit.covariance,
+              slow);
   if (!slow.doubt.empty()) fit.notes.push_back({"slow-noise", 0, slow.doubt});
 }
 
@@ -179,7 +188,8 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
   // The quick search comes near the optimum and leaves little work for the slower ones.
   const SpectralState near = quick_search(model, fit.path[fit.scores.chosen], {.tolerance = 1e-10});
   take_optimum(model, polish(model, refine(model, near)), fit);
-  fit.covariance = parameter_covariance(model, fit.state, fit.variance, fit.noise);
+  take_level_noise(model, fit);
+  fit.covariance = parameter_covariance(model, fit.state, fit.variance, fit.noise, fit.row_scale);
   if (!options.white_noise) widen_for_slow_noise(model, fit);
   if (!options.constraints.empty()) constrain(model, options, fit);
   return fit;
@@ -189,6 +199,7 @@ void keep(KeptRows rows, const SpectralFit& fit, FitResult& result) {
   rows.variance = fit.variance;
   rows.noise = fit.noise;
   rows.slow = fit.slow;
+  rows.row_scale = fit.row_scale;
   rows.n_parameters = result.evidence.n_parameters;
   result.kept = std::make_shared<const KeptRows>(std::move(rows));
 }

@@ -20,6 +20,7 @@ struct SpectralFit {
   double variance = 1.0;  // of one weighted sample
   Autoregression noise;
   SlowNoise slow;
+  Eigen::VectorXd row_scale;        // as in LevelNoise
   Eigen::MatrixXd covariance;       // of all parameters of the state
   std::vector<MaterialFlag> notes;  // about the constraints that were applied
 };

@@ -46,7 +46,8 @@ std::vector<Eigen::MatrixXd> covariance_by_group(const Eigen::MatrixXd& rows_by_
                                                  const std::vector<NoiseGroup>& groups) {
   std::vector<Eigen::MatrixXd> parts;
   for (const NoiseGroup& group : groups) {
-    const Eigen::MatrixXd rows = rows_by_value.middleRows(group.first_row, group.n_rows);
+    const Eigen::MatrixXd rows =
+        scaled_rows(rows_by_value.middleRows(group.first_row, group.n_rows), group.row_scale);
     const Eigen::MatrixXd white = group.variance * rows.transpose() * rows;
     Eigen::MatrixXd part = white;
     if (!group.noise.phi.empty()) {

@@ -19,6 +19,7 @@ struct NoiseGroup {
   double variance = 1.0;  // of one sample, in the weight of the rows
   Autoregression noise;
   SlowNoise slow;
+  Eigen::VectorXd row_scale;  // standard deviation of each row over that of all; empty if alike
 };
 
 // Linear functions of the rows, x = W^T r, whose errors are wanted: W has one column for each. Returns

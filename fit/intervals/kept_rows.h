@@ -25,6 +25,7 @@ struct KeptRows {
   double variance = 1.0;  // of one weighted sample
   Autoregression noise{};
   SlowNoise slow{};
+  Eigen::VectorXd row_scale{};  // of the model's rows, as in LevelNoise
   int n_parameters = 0;
 };
 

@@ -77,8 +77,8 @@ SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, dou
   const double freedom = std::max(kLeastFreedom, independent - n_parameters);
   // The variance counts one sample for each parameter already.
   const double counted = std::max(1.0, n_samples - n_parameters) / n_samples;
-  slow.widening =
-      std::max(1.0, counted * independent / freedom) * std::pow(student_t_975(freedom) / kNormal95, 2);
+  slow.widening = std::max(1.0, counted * independent / freedom) *
+                  std::pow(student_t_975(freedom) / kNormal95, 2);
   const double memory = noise.memory() / n_samples;
   constexpr double kSlow = 5.0;  // less is not slow, and few values may be independent
   if (inflation > kSlow && (memory >= kLongMemory || independent < kFewIndependent)) {

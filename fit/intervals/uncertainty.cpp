@@ -108,13 +108,20 @@ void add_slow_part(Eigen::MatrixXd& covariance, const Eigen::VectorXd& white,
   }
 }
 
+Eigen::MatrixXd scaled_rows(const Eigen::MatrixXd& rows, const Eigen::VectorXd& row_scale) {
+  if (row_scale.size() == 0) return rows;
+  return row_scale.asDiagonal() * rows;
+}
+
 Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
-                                     double variance, const Autoregression& noise) {
-  return covariance_from_jacobian(model, full_jacobian(model, state), variance, noise);
+                                     double variance, const Autoregression& noise,
+                                     const Eigen::VectorXd& row_scale) {
+  return covariance_from_jacobian(model, full_jacobian(model, state), variance, noise, row_scale);
 }
 
 Eigen::MatrixXd covariance_from_jacobian(const SpectralModel& model, Eigen::MatrixXd jacobian,
-                                         double variance, const Autoregression& noise) {
+                                         double variance, const Autoregression& noise,
+                                         const Eigen::VectorXd& row_scale) {
   const Index count = jacobian.cols(), priors = model.n_nuisances();
   jacobian.conservativeResize(model.n_rows() + priors, Eigen::NoChange);
   jacobian.bottomRows(priors).setZero();
@@ -133,14 +140,17 @@ Eigen::MatrixXd covariance_from_jacobian(const SpectralModel& model, Eigen::Matr
   const HouseholderQr qr(scaled.leftCols(used));
   const Eigen::MatrixXd inverse = qr.upper_inverse();
   Eigen::MatrixXd part = variance * inverse * inverse.transpose();
-  if (!noise.phi.empty()) {
-    // (J^T J)^-1 J^T = R^-1 Q^T; the middle is Q^T C Q.
+  if (!noise.phi.empty() || row_scale.size() > 0) {
+    // (J^T J)^-1 J^T = R^-1 Q^T; the middle is Q^T S C S Q.
     const Eigen::MatrixXd q = qr.basis();
-    const Eigen::MatrixXd of_rows = q.topRows(model.n_rows()), of_priors = q.bottomRows(priors);
-    const Eigen::MatrixXd middle =
-        of_rows.transpose() * correlated_rows(of_rows, model.row_begins(), noise) +
-        of_priors.transpose() * of_priors;
-    const Eigen::VectorXd white = part.diagonal();
+    const Eigen::MatrixXd of_priors = q.bottomRows(priors);
+    const Eigen::MatrixXd of_rows = scaled_rows(q.topRows(model.n_rows()), row_scale);
+    Eigen::MatrixXd middle = of_rows.transpose() * of_rows + of_priors.transpose() * of_priors;
+    const Eigen::VectorXd white = (variance * inverse * middle * inverse.transpose()).diagonal();
+    if (!noise.phi.empty()) {
+      middle = of_rows.transpose() * correlated_rows(of_rows, model.row_begins(), noise) +
+               of_priors.transpose() * of_priors;
+    }
     part = variance * inverse * middle * inverse.transpose();
     add_slow_part(part, white, noise);
   }

@@ -20,17 +20,23 @@ namespace viscard {
 // implies. This is exact for least squares with such noise, for fast and slow terms. Computed by QR
 // of scaled columns. Parameters that do not influence the data (a zero column, a modulus at zero)
 // get an infinite variance.
+//   row_scale: standard deviation of each row over that of all (level_noise.h), empty if all are alike.
 Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
-                                     double variance, const Autoregression& noise = {});
+                                     double variance, const Autoregression& noise = {},
+                                     const Eigen::VectorXd& row_scale = {});
 
 // The same from the derivatives of the rows by any parameters, those by the model's nuisances last.
 Eigen::MatrixXd covariance_from_jacobian(const SpectralModel& model, Eigen::MatrixXd jacobian,
-                                         double variance, const Autoregression& noise);
+                                         double variance, const Autoregression& noise,
+                                         const Eigen::VectorXd& row_scale = {});
 
 // C x for every column x. C correlates the rows; a row is sqrt(n) times a mean of the samples from
 // begins[row] on.
 Eigen::MatrixXd correlated_rows(const Eigen::MatrixXd& x, const std::vector<std::size_t>& begins,
                                 const Autoregression& noise);
+
+// Each row times its standard deviation over that of all; the rows themselves if row_scale is empty.
+Eigen::MatrixXd scaled_rows(const Eigen::MatrixXd& rows, const Eigen::VectorXd& row_scale);
 
 // Widens variances for the part of the noise that is slower than the autoregression: each by its
 // share of the inflation, so that fast terms change little. Correlations stay. white: the variances

@@ -193,8 +193,8 @@ FittedLaw fitted_law(const SpectralModel& model, const SpectralFit& fit,
   // variance is that of the samples or that of the rows, the larger one.
   const double rows = static_cast<double>(model.n_rows());
   const double variance = std::max(rss / std::max(1.0, n - p), point.rss / std::max(1.0, rows - p));
-  const Eigen::MatrixXd covariance =
-      covariance_from_jacobian(model, law_jacobian(columns, search, point), variance, fit.noise);
+  const Eigen::MatrixXd covariance = covariance_from_jacobian(
+      model, law_jacobian(columns, search, point), variance, fit.noise, fit.row_scale);
   const UncertainLaw known =
       uncertain_law(numbers_of(kind, is_creep, search, point), search, covariance);
   if (!(point.amplitude() > 0.0)) return out;  // the law is not in these data at all
