@@ -54,10 +54,10 @@ bool is_angular(const std::string& name) {
                      [&](auto known) { return text == known; });
 }
 
-std::optional<UnitScale> scale_if_fits(const CsvColumn& column, const std::string& unit,
+std::optional<UnitScale> scale_if_fits(const std::string& name, const std::string& unit,
                                        const Quantity& quantity) {
   if (quantity.is_text) return UnitScale{};
-  if (std::string(quantity.si_unit) == "Hz" && is_angular(column.name)) {
+  if (std::string(quantity.si_unit) == "Hz" && is_angular(name)) {
     if (is_stated(unit) && unit != "rad/s" && unit != "1/s" && unit != "s-1") return std::nullopt;
     return UnitScale{0.5 / std::numbers::pi, 0.0};
   }
@@ -151,7 +151,7 @@ const Quantity& quantity_named(const std::string& name) {
 std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity& quantity) {
   if (column.name.empty()) return std::nullopt;
   if (column.header == quantity.name || column.name == quantity.name) {
-    const auto scale = scale_if_fits(column, column.unit, quantity);
+    const auto scale = scale_if_fits(column.name, column.unit, quantity);
     // A name that ends in one unit above a row with another contradicts itself, so the column is
     // not used unless --column names it.
     const bool names_unit = std::string(quantity.name) != quantity.base;
@@ -161,17 +161,23 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity&
   }
   const bool is_own_name = plain(column.name) == plain(quantity.base);
   if (is_own_name || has_alias(quantity, column.name)) {
-    const auto scale = scale_if_fits(column, column.unit, quantity);
+    const auto scale = scale_if_fits(column.name, column.unit, quantity);
     return scale ? std::optional(HeaderMatch{is_own_name ? 2 : 1, *scale}) : std::nullopt;
   }
+  if (quantity.is_text || is_stated(column.unit)) return std::nullopt;
   // force_mN, depth_um: the quantity's own name followed by another unit.
-  const std::string head = std::string(quantity.base) + "_";
-  if (quantity.is_text || is_stated(column.unit) || column.name.rfind(head, 0) != 0) {
-    return std::nullopt;
+  const std::string base = std::string(quantity.base) + "_";
+  if (column.name.rfind(base, 0) == 0) {
+    const auto scale = scale_if_fits(quantity.base, column.name.substr(base.size()), quantity);
+    return scale ? std::optional(HeaderMatch{2, *scale}) : std::nullopt;
   }
-  const auto scale = scale_if_fits(column, column.name.substr(head.size()), quantity);
-  if (!scale) return std::nullopt;
-  return HeaderMatch{2, *scale};
+  // storage_kPa, load_mN: another name of it.
+  const std::size_t at = column.name.rfind('_');
+  if (at == std::string::npos) return std::nullopt;
+  const std::string head = column.name.substr(0, at), unit = column.name.substr(at + 1);
+  if (!has_alias(quantity, head) || !is_stated(unit)) return std::nullopt;
+  const auto scale = scale_if_fits(head, unit, quantity);
+  return scale ? std::optional(HeaderMatch{1, *scale}) : std::nullopt;
 }
 
 bool is_stated(const std::string& unit) {

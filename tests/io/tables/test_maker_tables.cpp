@@ -215,6 +215,16 @@ TEST_CASE("title rows, unit rows with blank cells and separators at the end are 
   CHECK(column_SI(led, "force_N")[1] == Approx(4e-3).epsilon(1e-15));
 }
 
+TEST_CASE("any name of a quantity may be followed by its unit", "[io][csv]") {
+  const CsvTable sweep = read("omega_rad_s,storage_kPa,loss_kPa\n6.283185307179586,2,1\n10,3,1\n");
+  CHECK(column_SI(sweep, "frequency_Hz")[0] == Approx(1.0).epsilon(1e-15));
+  CHECK(column_SI(sweep, "storage_modulus_Pa")[1] == Approx(3e3).epsilon(1e-15));
+  CHECK(column_SI(sweep, "loss_modulus_Pa")[0] == Approx(1e3).epsilon(1e-15));
+  // A number or another quantity's unit behind the name is no unit of it.
+  const CsvTable other = read("t_s,F_1,load_mm\n0,2,1\n1,3,1\n");
+  CHECK_FALSE(find_column(other, "force_N", {}));
+}
+
 TEST_CASE("columns are shown with first values, and words that read them are proposed",
           "[io][csv]") {
   const CsvTable table = read("a,b\n0,5\n1,4\n2,3\n3,2\n");
