@@ -52,6 +52,16 @@ debian_package(documentation viscard-doc doc "documentation of viscard"
   "${about}\n.\nThis package has equations, file formats and recipes, a page for each folder of\nthe source, and the documentation of the library's headers.")
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 
+# io/cli/mpi installs its program as component mpi if it is built.
+if(TARGET viscard_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+  debian_package(mpi viscard-mpi science "viscard on many machines at once"
+    "${about}\n.\nThis package has viscard-mpi, which answers a scene at many values of its\nparameters on many machines by MPI.")
+  set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "openmpi-bin, viscard")  # mpirun, the scenes of its examples
+  set(CPACK_DEBIAN_MPI_PACKAGE_SUGGESTS "slurm-client, viscard-doc")
+endif()
+
 # io/python installs its module as component python if it is built.
 if(TARGET viscard_python)
   list(APPEND CPACK_COMPONENTS_ALL python)

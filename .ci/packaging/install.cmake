@@ -1,5 +1,5 @@
-# What `cmake --install` puts where, in four components: runtime, development, documentation and, from
-# io/python, python. ./run package makes a Debian package of each.
+# What `cmake --install` puts where, in components: runtime, development, documentation, from
+# io/cli/mpi mpi, and from io/python python. ./run package makes a Debian package of each.
 include(CMakePackageConfigHelpers)
 set(packaging ${CMAKE_CURRENT_LIST_DIR})
 
@@ -11,7 +11,7 @@ file(CREATE_LINK ${CMAKE_SOURCE_DIR}/data ${CMAKE_BINARY_DIR}/share/viscard SYMB
 install(TARGETS viscard RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 # Addresses of functions of other libraries are written once, at the start, and read-only from then on.
 target_link_options(viscard PRIVATE -Wl,-z,relro -Wl,-z,now)
-foreach(folder demo materials protocols scenes)
+foreach(folder demo materials protocols scenes studies)
   install(DIRECTORY data/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime)
 endforeach()
 install(DIRECTORY data/reference DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime
@@ -39,9 +39,16 @@ install(FILES ${completions}/_viscard COMPONENT runtime OPTIONAL
 install(FILES ${completions}/viscard.fish COMPONENT runtime OPTIONAL
         DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
+# --- mpi: a program of its own, since plain viscard needs no MPI -----------------------------------------
+if(TARGET viscard_mpi)
+  install(TARGETS viscard_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
+  target_link_options(viscard_mpi PRIVATE -Wl,-z,relro -Wl,-z,now)
+  install(FILES ${CMAKE_BINARY_DIR}/mpi/viscard-mpi.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT mpi OPTIONAL)
+endif()
+
 # --- development: one archive of all rooms, the headers, and how to find them -----------------------
 get_property(rooms GLOBAL PROPERTY VISCARD_ROOMS)
-list(FILTER rooms EXCLUDE REGEX "^viscard_io_python")  # part of a module of Python alone
+list(FILTER rooms EXCLUDE REGEX "^viscard_io_(python|cli_mpi)")  # of a module of Python, and of viscard-mpi, alone
 list(TRANSFORM rooms REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE room_objects)
 add_library(viscard_library STATIC ${room_objects})
 set_target_properties(viscard_library PROPERTIES OUTPUT_NAME viscard LINKER_LANGUAGE CXX)

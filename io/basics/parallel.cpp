@@ -1,5 +1,7 @@
 #include "io/basics/parallel.h"
 
+#include "models/maths/usable_cores.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -25,8 +27,8 @@ void for_each_in_parallel(std::size_t n, const std::function<void(std::size_t)>&
   };
   {
     std::vector<std::jthread> threads;
-    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-    for (std::size_t i = 1; i < std::min(cores, n); ++i) threads.emplace_back(run);
+    const std::size_t cores = std::min(usable_cores(), n);
+    for (std::size_t i = 1; i < cores; ++i) threads.emplace_back(run);
     run();
   }
   for (const std::exception_ptr& failure : failures) {

@@ -12,7 +12,7 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("the work was interrupted") {}
 };
 
-// Calls work(i) for i = 0 ... n - 1 on all cores and waits for all of them. If some calls throw,
+// Calls work(i) for i = 0 ... n - 1 on all cores that this process may use and waits for all of them. If some calls throw,
 // the exception of the smallest i is rethrown once all have ended. After Interrupted no further call
 // begins.
 void for_each_in_parallel(std::size_t n, const std::function<void(std::size_t)>& work);

@@ -126,9 +126,14 @@ const std::vector<Command>& commands() {
 }
 
 int run_viscard(const Words& words, Streams& streams) {
-  const std::string who = bold_red("viscard:", streams.is_err_coloured) + " ";
+  return with_exit_status("viscard", words, streams, [&] { return dispatch(words, streams); });
+}
+
+int with_exit_status(const char* program, const Words& words, Streams& streams,
+                     const std::function<int()>& work) {
+  const std::string who = bold_red(program + std::string(":"), streams.is_err_coloured) + " ";
   try {
-    return with_json_errors(words, streams, [&] { return dispatch(words, streams); });
+    return with_json_errors(words, streams, work);
   } catch (const UsageError& error) {
     streams.err << who << error.what() << "\n";
     return kBadWords;

@@ -2,6 +2,7 @@
 
 #include "io/cli/words/streams.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,10 @@ const std::vector<Command>& commands();
 
 // Runs `viscard WORDS...` and returns the exit status. Prints one line on stderr for any error.
 int run_viscard(const Words& words, Streams& streams);
+
+// Calls work() and returns its exit status. Prints one line on stderr for any exception, with the name
+// of the program in front, and with --json among the words its object.
+int with_exit_status(const char* program, const Words& words, Streams& streams,
+                     const std::function<int()>& work);
 
 }  // namespace viscard

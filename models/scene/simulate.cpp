@@ -3,6 +3,7 @@
 #include "models/array/layer/simulate_layer.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/array/space/simulate_space.h"
+#include "models/maths/usable_cores.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/scene/common/effect_estimate.h"
@@ -89,8 +90,8 @@ void simulate_all(const std::vector<Scene>& points,
   };
   {
     std::vector<std::jthread> threads;
-    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-    for (std::size_t k = 1; k < std::min(cores, points.size()); ++k) threads.emplace_back(work);
+    const std::size_t cores = std::min(usable_cores(), points.size());
+    for (std::size_t k = 1; k < cores; ++k) threads.emplace_back(work);
     work();
   }
   if (failure) std::rethrow_exception(failure);

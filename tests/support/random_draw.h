@@ -16,6 +16,11 @@ class Draw {
   double log_uniform(double low, double high) {
     return std::exp(uniform(std::log(low), std::log(high)));
   }
+  // Box & Muller, Ann. Math. Stat. 29 (1958) 610.
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(uniform(1e-300, 1.0)));
+    return radius * std::cos(6.283185307179586 * uniform(0.0, 1.0));
+  }
   bool chance(double p) { return uniform(0.0, 1.0) < p; }
   int below(int n) { return static_cast<int>(uniform(0.0, n)); }
 

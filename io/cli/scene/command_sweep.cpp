@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/scene_commands.h"
+#include "io/cli/scene/sweep_program.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
@@ -19,27 +20,32 @@ namespace po = boost::program_options;
 namespace viscard {
 namespace {
 
-CommandSyntax sweep_syntax() {
-  CommandSyntax syntax{
-      "viscard sweep STUDY.toml [OPTIONS]",
-      "Answers a scene at many values of its parameters, on all cores: every combination of lists "
-      "and "
-      "ranges, or points of a Sobol' sequence. Each point is kept as it ends, so that a sweep that "
-      "was "
-      "stopped, also by kill -9, continues where it was. Parts of a sweep may run on other "
-      "machines "
-      "(--shard) and be merged.",
-      "viscard sweep data/studies/pillar.toml --out study.sqlite --csv study.csv"};
-  syntax.options.add_options()("out", po::value<std::string>(),
-                               "SQLite file of the points; default: the study's name with .sqlite, "
-                               "in this folder")("csv", po::value<std::string>(),
-                                                 "write the points as a table, too")(
-      "shard", po::value<std::string>(), "answer one part of the points only, such as 3/64")(
-      "merge", po::value<std::vector<std::string>>()->composing(),
-      "take over the points of another part (repeat it for several); nothing is answered then")(
-      "force", "overwrite an existing table");
+CommandSyntax sweep_syntax(const SweepProgram& program) {
+  CommandSyntax syntax{program.usage, program.description, program.example};
+  auto add = syntax.options.add_options();
+  add("out", po::value<std::string>(),
+      "SQLite file of the points; default: the study's name with .sqlite, in this folder");
+  add("csv", po::value<std::string>(), "write the points as a table, too");
+  add("shard", po::value<std::string>(), "answer one part of the points only, such as 3/64");
+  add("merge", po::value<std::vector<std::string>>()->composing(),
+      "take over the points of another part (repeat it for several); nothing is answered then");
+  add("force", "overwrite an existing table");
+  if (program.add_options) program.add_options(syntax.options);
   syntax.positional = {"study"};
   return syntax;
+}
+
+const SweepProgram& on_all_cores() {
+  static const SweepProgram kProgram{
+      "viscard sweep STUDY.toml [OPTIONS]",
+      "Answers a scene at many values of its parameters, on all cores: every combination of lists "
+      "and ranges, or points of a Sobol' sequence. Each point is kept as it ends, so that a sweep "
+      "that was stopped, also by kill -9, continues where it was. Parts of a sweep may run on "
+      "other "
+      "machines (--shard) and be merged; viscard-mpi answers one on many machines at once.",
+      "viscard sweep data/studies/pillar.toml --out study.sqlite --csv study.csv", nullptr,
+      [](const SweepJob& job) { return run_study(job.study, job.shard, job.store, job.progress); }};
+  return kProgram;
 }
 
 std::string words_of(const StudyOutcome& outcome, const std::string& file, std::int64_t merged,
@@ -56,7 +62,11 @@ std::string words_of(const StudyOutcome& outcome, const std::string& file, std::
 }  // namespace
 
 int run_sweep_command(const Words& words, Streams& streams) {
-  CommandSyntax syntax = sweep_syntax();
+  return run_sweep_program(on_all_cores(), words, streams);
+}
+
+int run_sweep_program(const SweepProgram& program, const Words& words, Streams& streams) {
+  CommandSyntax syntax = sweep_syntax(program);
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   const auto path = required(*values, "study", syntax);
@@ -86,7 +96,8 @@ int run_sweep_command(const Words& words, Streams& streams) {
     for (const std::string& part : *parts) merged += store.merge(part, study);
   } else {
     Progress progress(streams, "sweep");
-    outcome = run_study(study, shard, store, [&](double done) { progress.show(done, ""); });
+    outcome =
+        program.run({study, shard, store, [&](double done) { progress.show(done, ""); }, *values});
   }
   if (table) write_file(*table, csv_from_study(store, study), values->count("force") > 0);
   const auto n_done = static_cast<std::int64_t>(store.done().size());

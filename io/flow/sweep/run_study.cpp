@@ -9,9 +9,8 @@
 #include <stdexcept>
 
 namespace viscard {
-namespace {
 
-StudyPoint answered(const Study& study, std::int64_t number) {
+StudyPoint answer_point(const Study& study, std::int64_t number) {
   StudyPoint point{.point = number, .values = values_at(study, number)};
   try {
     const SceneFile file = scene_from_toml(scene_text_with(study, point.values), study.scene_path);
@@ -21,8 +20,6 @@ StudyPoint answered(const Study& study, std::int64_t number) {
   }
   return point;
 }
-
-}  // namespace
 
 StudyShard shard_from(const std::string& text) {
   StudyShard shard;
@@ -39,9 +36,9 @@ StudyShard shard_from(const std::string& text) {
   return shard;
 }
 
-StudyOutcome run_study(const Study& study, const StudyShard& shard, StudyStore& store,
-                       const std::function<void(double)>& progress) {
-  StudyOutcome outcome{.n_points = count_points(study)};
+std::vector<std::int64_t> open_points(const Study& study, const StudyShard& shard,
+                                      StudyStore& store, StudyOutcome& outcome) {
+  outcome.n_points = count_points(study);
   const std::set<std::int64_t> done = store.done();
   std::vector<std::int64_t> open;
   for (std::int64_t point = shard.index - 1; point < outcome.n_points; point += shard.count) {
@@ -51,9 +48,16 @@ StudyOutcome run_study(const Study& study, const StudyShard& shard, StudyStore& 
       open.push_back(point);
     }
   }
+  return open;
+}
+
+StudyOutcome run_study(const Study& study, const StudyShard& shard, StudyStore& store,
+                       const std::function<void(double)>& progress) {
+  StudyOutcome outcome;
+  const std::vector<std::int64_t> open = open_points(study, shard, store, outcome);
   std::mutex mutex;
   for_each_in_parallel(open.size(), [&](std::size_t i) {
-    const StudyPoint point = answered(study, open[i]);
+    const StudyPoint point = answer_point(study, open[i]);
     const std::lock_guard<std::mutex> lock(mutex);
     store.add(point);
     ++outcome.n_answered;

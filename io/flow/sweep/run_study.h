@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -16,12 +17,21 @@ struct StudyShard {
 // "3/64". Throws std::invalid_argument for anything else.
 StudyShard shard_from(const std::string& text);
 
+// What the points of a shard have become.
 struct StudyOutcome {
   std::int64_t n_points = 0;    // of the study
   std::int64_t n_answered = 0;  // now
   std::int64_t n_before = 0;    // of this shard, done before
   std::int64_t n_failed = 0;    // of those answered now
 };
+
+// The scene's answer at one point, or the reason why there is none.
+StudyPoint answer_point(const Study& study, std::int64_t number);
+
+// The points of the shard that the store does not hold yet, ascending. Sets n_points and n_before of
+// the outcome.
+std::vector<std::int64_t> open_points(const Study& study, const StudyShard& shard,
+                                      StudyStore& store, StudyOutcome& outcome);
 
 // Answers the points of the shard that the store does not hold yet, on all cores, and keeps each as it
 // ends. A point without an answer is kept with the reason. progress: called with the fraction done; may

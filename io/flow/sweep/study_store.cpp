@@ -53,21 +53,25 @@ nlohmann::ordered_json json_from(const std::vector<NamedValue>& results) {
   return out;
 }
 
-StudyPoint point_from(const Statement& row) {
-  StudyPoint point{.point = row.integer(0), .failure = row.text(3)};
-  const auto values = nlohmann::ordered_json::parse(row.text(1));
+StudyPoint point_from(std::int64_t number, const nlohmann::ordered_json& values,
+                      const nlohmann::ordered_json& results, const std::string& failure) {
+  StudyPoint point{.point = number, .failure = failure};
   for (const auto& [key, value] : values.items()) {
     point.values.emplace_back(key, value.get<std::string>());
   }
-  const auto results = nlohmann::ordered_json::parse(row.text(2));
   for (const auto& [name, one] : results.items()) {
-    const auto number = [&](const char* key) {
+    const auto value_of = [&](const char* key) {
       return one.at(key).is_null() ? std::nan("") : one.at(key).get<double>();
     };
     point.results.push_back(
-        {name, number("value"), one.at("unit").get<std::string>(), number("error_estimate")});
+        {name, value_of("value"), one.at("unit").get<std::string>(), value_of("error_estimate")});
   }
   return point;
+}
+
+StudyPoint point_in(const Statement& row) {
+  return point_from(row.integer(0), nlohmann::ordered_json::parse(row.text(1)),
+                    nlohmann::ordered_json::parse(row.text(2)), row.text(3));
 }
 
 std::string quoted(std::string text) {
@@ -78,6 +82,22 @@ std::string quoted(std::string text) {
 }
 
 }  // namespace
+
+std::string bytes_from_point(const StudyPoint& point) {
+  const auto bytes = nlohmann::ordered_json::to_cbor(
+      {point.point, json_from(point.values), json_from(point.results), point.failure});
+  return {bytes.begin(), bytes.end()};
+}
+
+StudyPoint point_from_bytes(const std::string& bytes) {
+  try {
+    const auto parts = nlohmann::ordered_json::from_cbor(bytes);
+    return point_from(parts.at(0).get<std::int64_t>(), parts.at(1), parts.at(2),
+                      parts.at(3).get<std::string>());
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error("an answer of a point arrived damaged: " + std::string(error.what()));
+  }
+}
 
 StudyStore::StudyStore(const std::filesystem::path& path, const Study& study)
     : database_(opened(path, study)), insert_(database_.prepare(kInsert)) {}
@@ -94,6 +114,12 @@ void StudyStore::add(const StudyPoint& point) {
                     results = json_from(point.results).dump();
   insert_.run_with(point.point, std::string_view(values), std::string_view(results),
                    std::string_view(point.failure));
+}
+
+void StudyStore::add(const std::vector<StudyPoint>& points) {
+  database_.execute("BEGIN");
+  for (const StudyPoint& point : points) add(point);
+  database_.execute("COMMIT");
 }
 
 std::int64_t StudyStore::merge(const std::filesystem::path& other, const Study& study) {
@@ -114,7 +140,7 @@ std::int64_t StudyStore::merge(const std::filesystem::path& other, const Study& 
 void StudyStore::for_each(const std::function<void(const StudyPoint&)>& take) {
   Statement rows =
       database_.prepare("SELECT point, parameters, results, failure FROM points ORDER BY point");
-  while (rows.step()) take(point_from(rows));
+  while (rows.step()) take(point_in(rows));
 }
 
 std::string csv_from_study(StudyStore& store, const Study& study) {

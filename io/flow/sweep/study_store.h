@@ -20,6 +20,11 @@ struct StudyPoint {
   std::string failure;  // why there is no answer; empty: there is
 };
 
+// A point as bytes, for another process; the numbers are the same bit for bit.
+std::string bytes_from_point(const StudyPoint& point);
+// Throws std::runtime_error if these are not the bytes of a point.
+StudyPoint point_from_bytes(const std::string& bytes);
+
 // The points that are done, in an SQLite file: table `points`, one row for each, with the values of the
 // parameters and the results as JSON. A row is there as soon as add() returns, and survives kill -9; no
 // point is there twice.
@@ -30,6 +35,8 @@ class StudyStore {
 
   std::set<std::int64_t> done();
   void add(const StudyPoint& point);
+  // The same for several points at once, which costs little more than for one: all or none are there.
+  void add(const std::vector<StudyPoint>& points);
   // Takes over the points of another file of the same study that are not here yet; returns their number.
   std::int64_t merge(const std::filesystem::path& other, const Study& study);
   // All points in their order.

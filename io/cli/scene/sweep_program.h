@@ -1,0 +1,34 @@
+#pragma once
+
+#include "io/cli/words/streams.h"
+#include "io/flow/sweep/run_study.h"
+
+#include <boost/program_options.hpp>
+
+#include <functional>
+
+namespace viscard {
+
+// What a program that answers studies is asked to do.
+struct SweepJob {
+  const Study& study;
+  const StudyShard& shard;
+  StudyStore& store;
+  std::function<void(double)> progress;                 // called with the fraction done
+  const boost::program_options::variables_map& values;  // of the command line
+};
+
+// A program that answers studies: its words, and how the points of a job are answered.
+struct SweepProgram {
+  const char* usage;
+  const char* description;
+  const char* example;
+  std::function<void(boost::program_options::options_description&)> add_options;  // may be empty
+  std::function<StudyOutcome(const SweepJob&)> run;
+};
+
+// The command sweep of a program: reads words and study, opens the store, answers the points that it
+// does not hold yet or takes over those of other stores, and prints what was done.
+int run_sweep_program(const SweepProgram& program, const Words& words, Streams& streams);
+
+}  // namespace viscard
