@@ -2,10 +2,14 @@
 
 #include "io/basics/words.h"
 
+#include <iconv.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -78,6 +82,32 @@ std::optional<bool> is_big_endian_utf16(std::string_view bytes) {
   return even;
 }
 
+// In Chinese text bytes above 0x7f come in pairs, or in fours; in Latin-1 mostly one by one.
+bool has_pairs_only(std::string_view bytes) {
+  const auto is_high = [](char byte) { return static_cast<unsigned char>(byte) >= 0x80; };
+  for (auto at = bytes.begin(); at != bytes.end();) {
+    const auto first = std::find_if(at, bytes.end(), is_high);
+    at = std::find_if_not(first, bytes.end(), is_high);
+    if ((at - first) % 2 != 0) return false;
+  }
+  return true;
+}
+
+// Text in GB18030, which contains GB 2312 and GBK; nothing for other encodings.
+std::optional<std::string> from_chinese(std::string_view bytes) {
+  if (!has_pairs_only(bytes)) return std::nullopt;
+  const iconv_t converter = iconv_open("UTF-8", "GB18030");
+  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // not on this system
+  std::string in(bytes), out(2 * bytes.size() + 4, '\0');  // two bytes become three at most
+  char *from = in.data(), *to = out.data();
+  std::size_t left = in.size(), room = out.size();
+  const bool is_whole = iconv(converter, &from, &left, &to, &room) != static_cast<std::size_t>(-1);
+  iconv_close(converter);
+  if (!is_whole) return std::nullopt;
+  out.resize(out.size() - room);
+  return out;
+}
+
 }  // namespace
 
 std::string_view utf8_view(std::string_view bytes, const std::string& name,
@@ -93,6 +123,10 @@ std::string_view utf8_view(std::string_view bytes, const std::string& name,
                              ": is not a text table (it contains NUL bytes); export it as CSV");
   }
   if (is_utf8(bytes)) return bytes;
+  if (auto chinese = from_chinese(bytes)) {
+    converted = std::move(*chinese);
+    return converted;
+  }
   converted.clear();  // Latin-1, in which old instruments write the micro sign
   for (std::size_t i = 0; i < bytes.size(); ++i) append_utf8(converted, byte_at(bytes, i));
   return converted;

@@ -215,6 +215,20 @@ TEST_CASE("title rows, unit rows with blank cells and separators at the end are 
   CHECK(column_SI(led, "force_N")[1] == Approx(4e-3).epsilon(1e-15));
 }
 
+TEST_CASE("Chinese tables are read as instruments write them, in GB18030", "[io][csv]") {
+  // Time (s), load (mN), displacement (um); the bytes are those of glibc's iconv and of Python.
+  const CsvTable table =
+      read("\xca\xb1\xbc\xe4(s),\xd4\xd8\xba\xc9(mN),\xce\xbb\xd2\xc6(\xa6\xccm)\n0,1,2\n1,2,3\n");
+  CHECK(table.columns[1].name == "\u8f7d\u8377");
+  CHECK(column_SI(table, "time_s") == Numbers{0.0, 1.0});
+  CHECK(column_SI(table, "force_N")[1] == Approx(2e-3).epsilon(1e-15));
+  CHECK(column_SI(table, "depth_m")[0] == Approx(2e-6).epsilon(1e-15));
+  // Latin-1 stays what it was: its letters above 0x7f stand alone.
+  const CsvTable german = read("Zeit (s),Kraft (\xb5N),L\xe4nge (mm)\n0,1,2\n1,2,3\n");
+  CHECK(german.columns[2].name == "L\u00e4nge");
+  CHECK(column_SI(german, "force_N")[1] == Approx(2e-6).epsilon(1e-15));
+}
+
 TEST_CASE("any name of a quantity may be followed by its unit", "[io][csv]") {
   const CsvTable sweep = read("omega_rad_s,storage_kPa,loss_kPa\n6.283185307179586,2,1\n10,3,1\n");
   CHECK(column_SI(sweep, "frequency_Hz")[0] == Approx(1.0).epsilon(1e-15));
