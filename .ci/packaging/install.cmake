@@ -11,7 +11,7 @@ file(CREATE_LINK ${CMAKE_SOURCE_DIR}/data ${CMAKE_BINARY_DIR}/share/viscard SYMB
 install(TARGETS viscard RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 # Addresses of functions of other libraries are written once, at the start, and read-only from then on.
 target_link_options(viscard PRIVATE -Wl,-z,relro -Wl,-z,now)
-foreach(folder demo materials protocols scenes studies)
+foreach(folder demo designs materials protocols requirements scenes studies)
   install(DIRECTORY data/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime)
 endforeach()
 install(DIRECTORY data/reference DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime

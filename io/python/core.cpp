@@ -53,5 +53,6 @@ PYBIND11_MODULE(_core, module) {
   viscard::python::add_rubber(module);
   viscard::python::add_materials(module);
   viscard::python::add_scenes(module);
+  viscard::python::add_designs(module);
   viscard::python::add_rig(module);
 }

@@ -1,10 +1,13 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/words.h"
 #include "io/cli/scene/answer_pictures.h"
+#include "io/cli/scene/design_judge.h"
+#include "io/cli/scene/design_optimise.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
+#include "io/flow/optimise/design_spec.h"
 #include "models/sensor/sensor_design.h"
 
 #include <fmt/format.h>
@@ -60,10 +63,14 @@ std::vector<DesignOption> options_of(Design& d) {
 
 CommandSyntax design_syntax(Design& defaults) {
   CommandSyntax syntax{
-      "viscard design [OPTIONS]",
-      "Closed-form limits of a pillar sensor: buckling, matting, ground collapse, flaw "
-      "insensitivity, sensitivity, resolution, manufacture; the longest admissible pillar. Values "
-      "are in SI or carry their unit.",
+      "viscard design [SCENE.toml --require FILE | SPEC.toml] [OPTIONS]",
+      "With a scene: judges it by requirements, each against a computed quantity with its error; "
+      "fails unless all pass. With a specification of ranges, requirements and objectives: the "
+      "scene "
+      "that is best in one objective, or the front between two, confirmed by the solver. Without "
+      "both: closed-form limits of a pillar sensor: buckling, matting, "
+      "ground collapse, flaw insensitivity, sensitivity, resolution, manufacture; the longest "
+      "admissible pillar. Values are in SI or carry their unit.",
       "viscard design --diameter \"40 um\" --spacing \"60 um\" --length \"120 um\""};
   for (const DesignOption& option : options_of(defaults)) {
     const std::string what = fmt::format("{} ({:g}{}{})", option.what, *option.value,
@@ -73,10 +80,32 @@ CommandSyntax design_syntax(Design& defaults) {
   }
   syntax.options.add_options()("lattice", po::value<std::string>(),
                                "square, hexagonal or plain (square)")(
-      "out", po::value<std::string>(), "folder for design.json and pictures of the limits")(
+      "out", po::value<std::string>(),
+      "folder for design.json and pictures of the limits; of a scene, for judgement.json; of a "
+      "specification, for the scenes, design.json, designs.csv and front.svg")(
       "force", "overwrite existing files");
+  add_judge_options(syntax.options);
+  syntax.positional = {"scene"};
   syntax.choices["lattice"] = {"square", "hexagonal", "plain"};
   return syntax;
+}
+
+// A scene has its own geometry and material.
+void refuse_limit_options(const po::variables_map& values, Design& defaults) {
+  const auto refuse = [](const std::string& name) {
+    throw UsageError("--" + name +
+                     " belongs to the closed-form limits; a scene has its own values");
+  };
+  for (const DesignOption& option : options_of(defaults)) {
+    if (values.count(option.name) > 0) refuse(option.name);
+  }
+  if (values.count("lattice") > 0) refuse("lattice");
+}
+
+// A specification names its scene; a scene has its geometry.
+bool is_specification(const po::variables_map& values) {
+  const auto path = given(values, "scene");
+  return path && values.count("require") == 0 && is_design_spec(read_file(*path));
 }
 
 Lattice lattice_of(const std::string& word) {
@@ -167,6 +196,12 @@ int run_design(const Words& words, Streams& streams) {
   CommandSyntax syntax = design_syntax(defaults);
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
+  if (values->count("scene") + values->count("require") > 0) {
+    refuse_limit_options(*values, defaults);
+    return is_specification(*values) ? run_design_optimise(*values, words, streams)
+                                     : run_design_judge(*values, words, streams);
+  }
+  if (values->count("tol") > 0) throw UsageError("--tol belongs to a scene; name its file");
   const Design design = design_from(*values);
   const SensorGeometry& g = design.geometry;
   const std::vector<DesignLimit> limits = design_limits(g, design.material, design.requirements);

@@ -66,7 +66,7 @@ void UncertainScene::add_material() {
   if (!material.left_out.empty()) notes_.push_back(word + ": " + material.left_out);
 }
 
-Scene UncertainScene::reduced_at(const Eigen::VectorXd& deviates) const {
+Scene UncertainScene::scene_at(const Eigen::VectorXd& deviates) const {
   std::map<std::string, double> values;
   Eigen::Index next = 0;
   for (const UncertainField& one : file_.uncertain) {
@@ -75,9 +75,14 @@ Scene UncertainScene::reduced_at(const Eigen::VectorXd& deviates) const {
   Scene scene = scene_from_toml(text_, path_, values).scene;
   SceneCommon& parts = common(scene);
   parts.tolerance = common(file_.scene).tolerance;
-  parts.effects = choices_;
   parts.pillar = material_at(parts.pillar, file_.material_causes.causes,
                              deviates.tail(deviates.size() - next));
+  return scene;
+}
+
+Scene UncertainScene::reduced_at(const Eigen::VectorXd& deviates) const {
+  Scene scene = scene_at(deviates);
+  common(scene).effects = choices_;
   refuse_beyond_buckling(scene);
   return plan_effects(scene).reduced;
 }

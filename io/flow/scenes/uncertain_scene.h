@@ -24,6 +24,8 @@ class UncertainScene {
   const std::vector<std::string>& descriptions() const { return descriptions_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
+  // The scene at standard deviates, with the effects that the file states. Throws as scene_from_toml() does.
+  Scene scene_at(const Eigen::VectorXd& deviates) const;
   // The scene at standard deviates, which its plan reduces with the effects of `file`'s scene, also
   // where their estimates differ. Throws as scene_from_toml() and plan_effects() do.
   Scene reduced_at(const Eigen::VectorXd& deviates) const;

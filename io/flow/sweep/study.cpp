@@ -188,12 +188,16 @@ StudyValues values_at(const Study& study, std::int64_t point) {
 }
 
 std::string scene_text_with(const Study& study, const StudyValues& values) {
+  return scene_text_with(study.scene_text, study.scene_path, values);
+}
+
+std::string scene_text_with(const std::string& scene, const std::filesystem::path& path,
+                            const StudyValues& values) {
   toml::table table;
   try {
-    table = toml::parse(study.scene_text, study.scene_path.string());
+    table = toml::parse(scene, path.string());
   } catch (const toml::parse_error& error) {
-    throw std::runtime_error(study.scene_path.string() + ":" +
-                             std::to_string(error.source().begin.line) +
+    throw std::runtime_error(path.string() + ":" + std::to_string(error.source().begin.line) +
                              ": not TOML: " + std::string(error.description()));
   }
   for (const auto& [key, value] : values) set_key(table, key, value);

@@ -44,7 +44,11 @@ std::int64_t count_points(const Study& study);
 using StudyValues = std::vector<std::pair<std::string, std::string>>;
 StudyValues values_at(const Study& study, std::int64_t point);
 
-// The text of the scene with these values. Throws std::runtime_error if a key lies in no section of it.
+// The text of a scene with these values in the places of its own; messages show `path`. Throws
+// std::runtime_error if the text is not TOML or a key lies in no section of it.
+std::string scene_text_with(const std::string& scene, const std::filesystem::path& path,
+                            const StudyValues& values);
+// The same of the study's scene.
 std::string scene_text_with(const Study& study, const StudyValues& values);
 
 // Changes with everything that answers depend on: study, scene, version of viscard.

@@ -13,6 +13,7 @@ from __future__ import annotations
 from . import _core
 from ._capture import CaptureOutcome, capture
 from ._card import Card, card_targets
+from ._design import Designs, Judgement, design
 from ._error import DoubtWarning, Error
 from ._fit import FitResult, Flag, JointFit, fit
 from ._material import Material, Prediction, predict
@@ -22,9 +23,10 @@ from ._table import Capture, Table, read_capture, read_table
 
 __version__: str = _core.version
 
-__all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "DoubtWarning", "Error", "Field", "FitResult",
-           "Flag", "JointFit", "Material", "Parameter", "Plan", "Prediction", "RubberCard", "RubberFit", "Table",
-           "Value", "capture", "card_targets", "cost", "fit", "plan", "predict", "read_capture", "read_table", "simulate"]
+__all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "Designs", "DoubtWarning", "Error", "Field", "FitResult",
+           "Flag", "JointFit", "Judgement", "Material", "Parameter", "Plan", "Prediction", "RubberCard", "RubberFit", "Table",
+           "Value", "capture", "card_targets", "cost", "design", "fit", "plan", "predict", "read_capture", "read_table",
+           "simulate"]
 
 
 def _end_jobs() -> None:

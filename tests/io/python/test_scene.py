@@ -129,3 +129,15 @@ def test_other_threads_run_meanwhile_and_answers_do_not_mix():
         scene = copy.deepcopy(PRESS)
         scene["geometry"]["length"] = f"{um} um"
         assert viscard.simulate(scene)["top_force"] == force
+
+
+def test_a_judgement_equals_the_command_line(program):
+    scene, hand = "data/scenes/pillar_sensor.toml", "data/requirements/human_hand.toml"
+    done = subprocess.run([program, "design", scene, "--require", hand, "--json"], capture_output=True, text=True)
+    assert done.returncode == 1
+    judgement = viscard.design(scene, hand)
+    assert not judgement.passes and judgement.lines == json.loads(done.stdout)["lines"]
+    assert "not answered" in judgement.summary()
+    with pytest.raises(viscard.Error, match="crosstalk"):
+        viscard.design(PRESS, {"crosstalc": 0.1})
+    assert viscard.design(PRESS, {"largest_pressure": "10 kPa"}).passes

@@ -149,6 +149,11 @@ def check_scenes():
     run(["sweep", data("studies/pillar.toml"), "--out", "study.sqlite"], "sweep")
     run(["design", "--out", "limits"], "design")
     check_object("design.json", pathlib.Path("limits/design.json").read_text(), "viscard-design/1")
+    run(["design", data("scenes/pillar_sensor.toml"), "--require", data("requirements/human_hand.toml"), "--out", "judged"],
+        "design-judge", 1)
+    check_object("judgement.json", pathlib.Path("judged/judgement.json").read_text(), "viscard-design-judge/1")
+    run(["design", data("designs/longest_pillar.toml"), "--out", "longest"], "design-front")
+    check_object("design.json", pathlib.Path("longest/design.json").read_text(), "viscard-design-front/1")
     run(["cost", data("scenes/pillar_modal.toml"), "--budget", "1s"], "cost")
     bench = ["cost", "--rig", data("demo/01_rig.toml"), "--specimen", data("demo/03_pdms_1to10.toml")]
     bench += ["--at-most", "2min", "--test", data("demo/02_test.toml")]

@@ -1,7 +1,12 @@
+#include "io/basics/atomic_file.h"
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/run_command.h"
 
 #include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -40,4 +45,78 @@ TEST_CASE("a design that cannot be is refused in one line", "[cli][design]") {
   CHECK(outcome.status == 2);
   CHECK(outcome.out.empty());
   CHECK(outcome.err.find(c.what) != std::string::npos);
+}
+
+TEST_CASE("the command judges a scene, fails unless all pass, and keeps to 80 columns",
+          "[cli][design]") {
+  const std::string hand = VISCARD_SOURCE_DIR "/data/requirements/human_hand.toml";
+  const std::string scene = std::string(VISCARD_SOURCE_DIR "/data/scenes/pillar_sensor.toml");
+  const CommandOutcome outcome = run_command({"design", scene, "--require", hand});
+  CHECK(outcome.status == 1);
+  std::istringstream lines(outcome.out);
+  std::string line;
+  std::getline(lines, line);  // the file
+  while (std::getline(lines, line)) {
+    CAPTURE(line);
+    CHECK(line.size() <= 80);
+  }
+  CHECK(outcome.out.find("not answered") != std::string::npos);
+  const SceneText easy(
+      "[require]\nlargest_pressure = \"10 kPa\"\nvoltage_per_pressure = \"1 mV/kPa\"\n");
+  const CommandOutcome passed = run_command({"design", scene, "--require", easy.path(), "--json"});
+  CAPTURE(passed.out);
+  CHECK(passed.status == 0);
+  const auto object = nlohmann::json::parse(passed.out);
+  CHECK(object["passes"].get<bool>());
+  // Of the scene's own answer at 10 kPa.
+  const auto simulated = nlohmann::json::parse(run_command({"simulate", scene, "--json"}).out);
+  const double volts = std::abs(simulated["results"]["electrode_voltage"]["value"].get<double>());
+  CHECK(object["lines"][1]["value"].get<double>() == Approx(volts / 10e3).epsilon(2e-3));
+  CHECK(run_command({"design", scene}).status == 2);
+  CHECK(run_command({"design", "--require", hand}).status == 2);
+  CHECK(run_command({"design", scene, "--require", hand, "--length", "1 um"}).status == 2);
+  CHECK(run_command({"design", "--tol", "1e-3"}).status == 2);
+  CHECK(run_command({"design", scene, "--require", easy.path(), "--tol", "5"}).status == 2);
+  CHECK(run_command({"design", "/nowhere.toml", "--require", hand}).status == 1);
+}
+
+TEST_CASE("the command writes a front between two objectives that simulate reads",
+          "[cli][design]") {
+  const SceneText scene(R"(tolerance = 1e-2
+[geometry]
+diameter = "40 um"
+length = "120 um"
+[materials]
+pillar = { E = "1.8 MPa", nu = 0.33, rho = "965 kg/m3" }
+[analysis]
+kind = "buckling"
+)");
+  std::ofstream(scene.beside("spec.toml")) << R"(scene = "scene.toml"
+front = 4
+[require]
+collapse_margin = 1.5
+[[range]]
+key = "geometry.length"
+from = "100 um"
+to = "2000 um"
+[[objective]]
+quantity = "collapse_margin"
+goal = "largest"
+[[objective]]
+quantity = "geometry.length"
+goal = "largest"
+)";
+  const std::string out = scene.beside("designed");
+  const CommandOutcome outcome =
+      run_command({"design", scene.beside("spec.toml"), "--out", out, "--json"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  const auto designs = nlohmann::json::parse(outcome.out)["designs"];
+  REQUIRE(designs.size() == 4);
+  for (std::size_t i = 1; i < designs.size(); ++i) {
+    CHECK(designs[i]["objectives"][0]["value"] < designs[i - 1]["objectives"][0]["value"]);
+    CHECK(designs[i]["objectives"][1]["value"] > designs[i - 1]["objectives"][1]["value"]);
+  }
+  CHECK(run_command({"simulate", out + "/scene_1.toml"}).status == 0);
+  CHECK(read_file(out + "/front.svg").find("<svg") != std::string::npos);
 }

@@ -1,0 +1,60 @@
+#include "io/cli/scene/design_optimise.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/cli/words/command_line.h"
+#include "io/cli/words/json_output.h"
+#include "io/cli/words/progress.h"
+#include "io/flow/optimise/optimised_output.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <ostream>
+
+namespace viscard {
+namespace {
+
+// One scene for each design, and the picture of a front.
+void write_designs(const DesignSpec& spec, const DesignFront& front, const nlohmann::json& object,
+                   const std::filesystem::path& folder, bool overwrite) {
+  std::filesystem::create_directories(folder);
+  write_file(folder / "design.json", object.dump(2) + "\n", overwrite);
+  write_file(folder / "designs.csv", csv_from_front(spec, front), overwrite);
+  for (std::size_t i = 0; i < front.designs.size(); ++i) {
+    const std::string name =
+        front.designs.size() == 1 ? "scene.toml" : fmt::format("scene_{}.toml", i + 1);
+    write_file(folder / name, scene_for_folder(spec, front.designs[i], folder), overwrite);
+  }
+  if (front.designs.size() < 2) return;
+  write_file(folder / "front.svg", svg_from_plot(picture_of_front(spec, front), "front") + "\n",
+             overwrite);
+}
+
+}  // namespace
+
+int run_design_optimise(const boost::program_options::variables_map& values, const Words& words,
+                        Streams& streams) {
+  const std::string path = *given(values, "scene");
+  const DesignSpec spec = read_design_spec(path);
+  DesignFront front;
+  {
+    Progress progress(streams, "design");
+    front = design_front(
+        spec, [&](double done, const std::string& what) { progress.announce(done, what); });
+  }
+  const JsonHead head{"viscard-design-front/1", {path}};
+  const nlohmann::json object = with_head(head, json_from_front(spec, front));
+  if (const auto out = given(values, "out")) {
+    nlohmann::json stored = object;
+    stored["command"] = quoted_command_line("design", words);
+    stored["created_by"] = "viscard " VISCARD_VERSION;
+    write_designs(spec, front, stored, *out, values.count("force") > 0);
+  }
+  if (!print_json(values, head, object, streams)) {
+    streams.out << path << "\n" << text_from_front(spec, front);
+  }
+  return front.designs[0].is_feasible ? kDone : kFailed;
+}
+
+}  // namespace viscard

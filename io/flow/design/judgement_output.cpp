@@ -1,0 +1,132 @@
+#include "io/flow/design/judgement_output.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+// A number in a unit that a reader takes in at once.
+struct ShownUnit {
+  const char* si;
+  double factor;
+  const char* unit;
+};
+constexpr ShownUnit kShown[] = {{"m", 1e6, "um"}, {"Pa", 1e-3, "kPa"},     {"Pa/K", 1e-3, "kPa/K"},
+                                {"N", 1e3, "mN"}, {"V/Pa", 1e6, "mV/kPa"}, {"Hz", 1.0, "Hz"}};
+
+std::string shown(double value, const RequirementKind& kind, bool with_unit) {
+  // Shares are shown in per cent; counts and margins, which have lower limits, as they are.
+  if (std::string(kind.unit) == "1") {
+    return kind.is_upper ? fmt::format("{:.3g}{}", 100.0 * value, with_unit ? " %" : "")
+                         : fmt::format("{:.4g}", value);
+  }
+  for (const ShownUnit& one : kShown) {
+    if (kind.unit != std::string(one.si)) continue;
+    return fmt::format("{:.4g}{}{}", one.factor * value, with_unit ? " " : "",
+                       with_unit ? one.unit : "");
+  }
+  return fmt::format("{:.4g}{}{}", value, with_unit ? " " : "", with_unit ? kind.unit : "");
+}
+
+// Lines of at most 80 columns, the further ones indented like the first.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kColumns = 80;
+  const std::string indent = "      ";
+  std::string out, line = indent;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (line.size() > indent.size() && line.size() + 1 + word.size() > kColumns) {
+      out += line + "\n";
+      line = indent;
+    }
+    line += (line.size() > indent.size() ? " " : "") + word;
+    begin = end + 1;
+  }
+  return out + line + "\n";
+}
+
+std::string remedies_text(const JudgedLine& line) {
+  if (line.remedies.empty()) {
+    return "no single dimension within a factor of 4 would pass, others fixed";
+  }
+  std::string text = "would pass, others fixed: ";
+  for (std::size_t i = 0; i < line.remedies.size(); ++i) {
+    const Remedy& one = line.remedies[i];
+    text += fmt::format("{}{} {:.3g} um in the place of {:.3g} um", i > 0 ? "; or " : "",
+                        one.key.substr(one.key.find('.') + 1), 1e6 * one.to_m, 1e6 * one.from_m);
+  }
+  return text;
+}
+
+nlohmann::json number_or_null(bool exists, double value) {
+  return exists && std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json json_from_line(const JudgedLine& line) {
+  nlohmann::json remedies = nlohmann::json::array();
+  for (const Remedy& one : line.remedies) {
+    remedies.push_back({{"key", one.key},
+                        {"from_m", one.from_m},
+                        {"to_m", one.to_m},
+                        {"value", one.found.value},
+                        {"error_estimate", one.found.error_estimate}});
+  }
+  const bool has_value = line.found.is_answered;
+  return {{"requirement", line.kind->key},
+          {"quantity", line.kind->what},
+          {"unit", line.kind->unit},
+          {"is_upper", line.kind->is_upper},
+          {"limit", line.limit},
+          {"value", number_or_null(has_value, line.found.value)},
+          {"error_estimate", number_or_null(has_value, line.found.error_estimate)},
+          {"margin", number_or_null(has_value, line.margin)},
+          {"verdict", word_of(line.verdict)},
+          {"reason", line.found.how},
+          {"remedies", remedies}};
+}
+
+}  // namespace
+
+std::string text_from_judgement(const Judgement& judgement) {
+  std::string text = judgement.name.empty() ? "" : wrapped("Requirements: " + judgement.name);
+  text += fmt::format("  {:<20} {:>10} {:>9}    {:<12} {:>6}  {}\n", "requirement", "computed",
+                      "+-", "limit", "margin", "verdict");
+  for (const JudgedLine& line : judgement.lines) {
+    const RequirementKind& kind = *line.kind;
+    const bool has_value = line.found.is_answered;
+    text += fmt::format("  {:<20} {:>10} {:>9} {} {:<12} {:>6}  {}\n", kind.key,
+                        has_value ? shown(line.found.value, kind, false) : "-",
+                        has_value ? shown(line.found.error_estimate, kind, false) : "-",
+                        kind.is_upper ? "<=" : ">=", shown(line.limit, kind, true),
+                        has_value ? fmt::format("{:.3g}", line.margin) : "-",
+                        line.verdict == Verdict::kPass   ? "pass"
+                        : line.verdict == Verdict::kFail ? "FAIL"
+                                                         : word_of(line.verdict));
+    std::string note = std::string(kind.what) + ": ";
+    if (!has_value) note = "not answered: ";
+    if (line.verdict == Verdict::kUndecided) note = "undecided within its error; " + note;
+    text += wrapped(note + line.found.how);
+    if (line.verdict == Verdict::kFail) text += wrapped(remedies_text(line));
+  }
+  const auto count = [&](Verdict verdict) {
+    return std::count_if(judgement.lines.begin(), judgement.lines.end(),
+                         [&](const JudgedLine& line) { return line.verdict == verdict; });
+  };
+  return text + fmt::format("  {} pass, {} fail, {} undecided, {} not answered\n",
+                            count(Verdict::kPass), count(Verdict::kFail),
+                            count(Verdict::kUndecided), count(Verdict::kNotAnswered));
+}
+
+nlohmann::json json_from_judgement(const Judgement& judgement) {
+  nlohmann::json lines = nlohmann::json::array();
+  for (const JudgedLine& line : judgement.lines) lines.push_back(json_from_line(line));
+  return {{"name", judgement.name}, {"passes", judgement.passes()}, {"lines", lines}};
+}
+
+}  // namespace viscard

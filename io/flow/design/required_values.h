@@ -1,0 +1,31 @@
+#pragma once
+
+#include "io/flow/design/requirements.h"
+#include "models/scene/scene.h"
+
+namespace viscard {
+
+// The quantities that requirements limit, one function each, for any kind of scene; requirement_kinds()
+// is the table of them, README.md has the formulas. What a kind of scene cannot answer is a value that is
+// not answered, with the reason. They throw what simulate() throws.
+
+// Of the body (required_body.cpp).
+RequiredValue required_pillars_per_tactel(const Scene& scene, const Requirements& requirements);
+RequiredValue required_wavelength(const Scene& scene, const Requirements& requirements);
+RequiredValue required_pressure(const Scene& scene, const Requirements& requirements);
+RequiredValue required_force(const Scene& scene, const Requirements& requirements);
+RequiredValue required_bandwidth(const Scene& scene, const Requirements& requirements);
+RequiredValue required_hysteresis(const Scene& scene, const Requirements& requirements);
+RequiredValue required_nonlinearity(const Scene& scene, const Requirements& requirements);
+RequiredValue required_collapse_margin(const Scene& scene, const Requirements& requirements);
+
+// Of what electrodes read (required_readings.cpp).
+RequiredValue required_lowest_frequency(const Scene& scene, const Requirements& requirements);
+RequiredValue required_pressure_resolution(const Scene& scene, const Requirements& requirements);
+RequiredValue required_force_resolution(const Scene& scene, const Requirements& requirements);
+RequiredValue required_crosstalk(const Scene& scene, const Requirements& requirements);
+RequiredValue required_crosstalk_all(const Scene& scene, const Requirements& requirements);
+RequiredValue required_pressure_per_kelvin(const Scene& scene, const Requirements& requirements);
+RequiredValue required_voltage_per_pressure(const Scene& scene, const Requirements& requirements);
+
+}  // namespace viscard

@@ -1,0 +1,29 @@
+#include "io/flow/design/verdict.h"
+
+#include <cmath>
+
+namespace viscard {
+
+const char* word_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPass:
+      return "pass";
+    case Verdict::kFail:
+      return "fail";
+    case Verdict::kUndecided:
+      return "undecided";
+    case Verdict::kNotAnswered:
+      return "not answered";
+  }
+  return "not answered";
+}
+
+Verdict verdict_of(const RequiredValue& found, double limit, bool is_upper) {
+  if (!found.is_answered) return Verdict::kNotAnswered;
+  constexpr double kRounding = 1e-12;  // of exact values that equal their limit, which keep it
+  const double spare = (is_upper ? limit - found.value : found.value - limit) + kRounding * limit;
+  if (std::abs(spare) < found.error_estimate) return Verdict::kUndecided;
+  return spare >= 0.0 ? Verdict::kPass : Verdict::kFail;
+}
+
+}  // namespace viscard

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "io/flow/design/requirements.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A key of the scene that may vary, between two values with the same unit.
+struct DesignRange {
+  std::string key;              // "geometry.diameter", "materials.pillar.ratio"
+  std::string from, to;         // "20 um", "80 um"; without a unit for a ratio
+  std::string spacing = "log";  // of steps: "log" or "linear"
+};
+
+// What shall be as large or as small as possible: a requirement's quantity or a key with a range.
+struct DesignObjective {
+  std::string quantity;  // "voltage_per_pressure", "geometry.length"
+  std::string goal;      // "largest" or "smallest"
+  bool is_largest() const { return goal == "largest"; }
+};
+
+// What a specification says (README.md): a scene, what is required, ranges, one or two objectives.
+struct DesignSpec {
+  std::filesystem::path path, scene_path;
+  std::string scene_text;
+  Requirements requirements;
+  std::vector<DesignRange> ranges;
+  std::vector<DesignObjective> objectives;
+  double probability =
+      0.0;  // that each requirement holds under the scene's uncertainties; 0: not asked
+  std::int64_t seed = 1;          // of the search with the formulas
+  std::int64_t front_points = 7;  // between two objectives, ends included
+};
+
+// True for a text that names a scene or has ranges, as specifications do and scenes do not.
+bool is_design_spec(const std::string& text);
+
+// Throws std::runtime_error naming file, line, key and what is expected.
+DesignSpec read_design_spec(const std::filesystem::path& path);
+
+}  // namespace viscard

@@ -1,0 +1,128 @@
+#include "io/flow/optimise/optimised_output.h"
+
+#include "io/flow/design/judgement_output.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <toml++/toml.h>
+
+#include <sstream>
+
+namespace viscard {
+namespace {
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+nlohmann::json json_from_optimised(const OptimisedDesign& design) {
+  nlohmann::json values = nlohmann::json::object(), objectives = nlohmann::json::array();
+  for (const auto& [key, value] : design.values) values[key] = value;
+  for (const DesignedObjective& one : design.objectives) {
+    objectives.push_back({{"quantity", one.quantity},
+                          {"value", one.value},
+                          {"error_estimate", one.error_estimate},
+                          {"unit", one.unit}});
+  }
+  nlohmann::json judgement = json_from_judgement(design.judgement);
+  for (std::size_t k = 0; k < judgement["lines"].size(); ++k) {
+    nlohmann::json& line = judgement["lines"][k];
+    line["probability"] = k < design.probabilities.size() ? nlohmann::json(design.probabilities[k])
+                                                          : nlohmann::json(nullptr);
+    line.erase("remedies");
+  }
+  return {{"feasible", design.is_feasible}, {"values", values},
+          {"objectives", objectives},       {"active", design.active},
+          {"lines", judgement["lines"]},    {"scene", design.scene_text}};
+}
+
+void point_from(toml::table& table, const std::filesystem::path& scene_folder,
+                const std::filesystem::path& folder) {
+  for (auto&& [key, node] : table) {
+    if (toml::table* const inner = node.as_table()) point_from(*inner, scene_folder, folder);
+    if (key != "file" && key != "positions") continue;
+    const auto name = node.value<std::string>();
+    if (!name || std::filesystem::path(*name).is_absolute()) continue;
+    const std::filesystem::path there =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(scene_folder / *name));
+    const std::filesystem::path here =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(folder));
+    node.ref<std::string>() = there.lexically_relative(here).string();
+  }
+}
+
+}  // namespace
+
+std::string text_from_front(const DesignSpec&, const DesignFront& front) {
+  std::string text;
+  for (std::size_t i = 0; i < front.designs.size(); ++i) {
+    const OptimisedDesign& design = front.designs[i];
+    text += front.designs.size() > 1 ? fmt::format("design {}\n", i + 1) : "";
+    text += design.is_feasible
+                ? "  confirmed by the solver\n"
+                : "  INFEASIBLE: no design within the ranges keeps all limits; nearest:\n";
+    for (const auto& [key, value] : design.values) text += fmt::format("  {:<32} {}\n", key, value);
+    for (const DesignedObjective& one : design.objectives) {
+      text += fmt::format("  {:<32} {:.5g} +- {:.1g} {}\n", one.quantity, one.value,
+                          one.error_estimate, one.unit);
+    }
+    text += text_from_judgement(design.judgement);
+    for (std::size_t k = 0; k < design.probabilities.size(); ++k) {
+      text += fmt::format("  {:<32} holds with probability {:.3g}\n",
+                          design.judgement.lines[k].kind->key, design.probabilities[k]);
+    }
+    const std::string held = design.active.empty() ? "nothing" : list_of(design.active);
+    text += (design.is_feasible ? "  held by: " : "  stopped by: ") + held + "\n";
+  }
+  return text + fmt::format("  {} quantities solved\n", front.n_solved);
+}
+
+nlohmann::json json_from_front(const DesignSpec& spec, const DesignFront& front) {
+  nlohmann::json designs = nlohmann::json::array(), objectives = nlohmann::json::array();
+  for (const OptimisedDesign& design : front.designs)
+    designs.push_back(json_from_optimised(design));
+  for (const DesignObjective& one : spec.objectives) {
+    objectives.push_back({{"quantity", one.quantity}, {"goal", one.goal}});
+  }
+  return {{"feasible", front.designs[0].is_feasible},
+          {"objectives", objectives},
+          {"designs", designs},
+          {"quantities_solved", front.n_solved},
+          {"seed", spec.seed}};
+}
+
+std::string csv_from_front(const DesignSpec& spec, const DesignFront& front) {
+  std::string text;
+  for (const DesignRange& range : spec.ranges) text += range.key + ",";
+  for (const DesignedObjective& one : front.designs[0].objectives) {
+    text +=
+        one.quantity + " [" + (one.unit.empty() ? "1" : one.unit) + "]," + one.quantity + " error,";
+  }
+  for (const JudgedLine& line : front.designs[0].judgement.lines) {
+    text += std::string(line.kind->key) + " margin,";
+  }
+  text.back() = '\n';
+  for (const OptimisedDesign& design : front.designs) {
+    for (const auto& [key, value] : design.values) text += value + ",";
+    for (const DesignedObjective& one : design.objectives) {
+      text += fmt::format("{:.9g},{:.3g},", one.value, one.error_estimate);
+    }
+    for (const JudgedLine& line : design.judgement.lines)
+      text += fmt::format("{:.6g},", line.margin);
+    text.back() = '\n';
+  }
+  return text;
+}
+
+std::string scene_for_folder(const DesignSpec& spec, const OptimisedDesign& design,
+                             const std::filesystem::path& folder) {
+  toml::table scene = toml::parse(design.scene_text);
+  point_from(scene, spec.scene_path.parent_path(), folder);
+  std::ostringstream text;
+  text << "# A design of viscard, from " << spec.path.filename().string() << "\n" << scene << "\n";
+  return text.str();
+}
+
+}  // namespace viscard

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "io/flow/optimise/design_front.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace viscard {
+
+// The designs as text of at most 80 columns.
+std::string text_from_front(const DesignSpec& spec, const DesignFront& front);
+// The object of viscard design SPEC, without its head.
+nlohmann::json json_from_front(const DesignSpec& spec, const DesignFront& front);
+// One line for each design: ranges in their units, objectives and margins.
+std::string csv_from_front(const DesignSpec& spec, const DesignFront& front);
+
+// The scene of a design for a folder of its own: names of files are changed to lead there from `folder`.
+std::string scene_for_folder(const DesignSpec& spec, const OptimisedDesign& design,
+                             const std::filesystem::path& folder);
+
+}  // namespace viscard

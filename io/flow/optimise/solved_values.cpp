@@ -1,0 +1,99 @@
+#include "io/flow/optimise/solved_values.h"
+
+#include "io/basics/parallel.h"
+#include "io/flow/design/judge_scene.h"
+#include "io/flow/scenes/uncertain_scene.h"
+#include "models/uncertainty/linear_propagation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace viscard {
+
+SolvedValues::SolvedValues(const DesignSpec& spec, const DesignSpace& space)
+    : spec_(spec), space_(space) {
+  for (const RequirementKind& kind : requirement_kinds()) {
+    if (!std::isnan(spec.requirements.*kind.limit)) kinds_.push_back(&kind);
+  }
+  for (const RequirementKind& kind : requirement_kinds()) {
+    const bool is_objective =
+        std::any_of(spec.objectives.begin(), spec.objectives.end(),
+                    [&](const DesignObjective& one) { return one.quantity == kind.key; });
+    if (is_objective && std::isnan(spec.requirements.*kind.limit)) kinds_.push_back(&kind);
+  }
+}
+
+SolvedPoint SolvedValues::solve(const Scene& scene) const {
+  SolvedPoint point;
+  for (const RequirementKind* kind : kinds_) {
+    const RequiredValue found = computed(*kind, scene, spec_.requirements);
+    ++n_solved_;
+    if (!found.is_answered) {
+      point.why_not = std::string(kind->key) + " is not answered: " + found.how;
+      return point;
+    }
+    // A quantity that crosses zero is as small as its error.
+    const double size = std::max({std::abs(found.value), found.error_estimate, 1e-300});
+    point.log_value.push_back(std::log(size));
+    point.relative_error.push_back(found.error_estimate / size);
+  }
+  point.exists = true;
+  return point;
+}
+
+std::vector<SolvedPoint> SolvedValues::at(const std::vector<DesignPoint>& points) {
+  std::vector<DesignPoint> fresh;
+  for (const DesignPoint& one : points) {
+    if (known_.count(one) == 0 && std::find(fresh.begin(), fresh.end(), one) == fresh.end()) {
+      fresh.push_back(one);
+    }
+  }
+  std::vector<SolvedPoint> found(fresh.size());
+  for_each_in_parallel(fresh.size(), [&](std::size_t i) {
+    try {
+      found[i] = solve(space_.scene_at(fresh[i]));
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const std::exception& error) {
+      found[i].why_not = error.what();
+    }
+  });
+  for (std::size_t i = 0; i < fresh.size(); ++i) known_[fresh[i]] = found[i];
+  std::vector<SolvedPoint> out;
+  for (const DesignPoint& one : points) out.push_back(known_.at(one));
+  return out;
+}
+
+std::vector<double> SolvedValues::spread_at(const DesignPoint& point) const {
+  constexpr int kDigits = 9;
+  constexpr double kSlopes = 0.05;  // of the standard uncertainty
+  const std::string text = space_.text_at(point, kDigits);
+  const UncertainScene scene(scene_from_toml(text, spec_.scene_path), text, spec_.scene_path);
+  const auto n = static_cast<Eigen::Index>(kinds_.size());
+  const BatchFunction logs = [&](const Eigen::MatrixXd& deviates) {
+    Eigen::MatrixXd out =
+        Eigen::MatrixXd::Constant(deviates.rows(), n, std::numeric_limits<double>::quiet_NaN());
+    for_each_in_parallel(static_cast<std::size_t>(deviates.rows()), [&](std::size_t i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      try {
+        const SolvedPoint found = solve(scene.scene_at(deviates.row(row).transpose()));
+        for (Eigen::Index k = 0; found.exists && k < n; ++k) {
+          out(row, k) = found.log_value[static_cast<std::size_t>(k)];
+        }
+      } catch (const std::runtime_error&) {  // a point without an answer
+      }
+    });
+    return out;
+  };
+  const LinearAnswer linear = linear_answer(logs, scene.inputs(), kSlopes);
+  const Eigen::VectorXd deviation = standard_uncertainty(linear);
+  std::vector<double> spread;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    spread.push_back(std::hypot(deviation[k], linear.slope_error.row(k).norm()));
+  }
+  return spread;
+}
+
+}  // namespace viscard

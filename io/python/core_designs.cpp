@@ -1,0 +1,56 @@
+#include "io/basics/atomic_file.h"
+#include "io/flow/design/judge_scene.h"
+#include "io/flow/design/judgement_output.h"
+#include "io/flow/optimise/optimised_output.h"
+#include "io/python/job.h"
+#include "io/python/parts.h"
+
+#include <nlohmann/json.hpp>
+#include <pybind11/stl.h>
+
+namespace viscard::python {
+namespace {
+
+namespace py = pybind11;
+
+// The object of viscard design --require, as JSON, and its table.
+py::tuple design_scene(const std::optional<std::string>& text, const std::string& path,
+                       const std::optional<std::string>& require_text,
+                       const std::string& require_path, std::optional<double> tolerance,
+                       const py::object& progress) {
+  const Judgement found = in_background({.progress = progress}, [=](Job& job) {
+    const Requirements requirements = require_text
+                                          ? requirements_from_toml(*require_text, require_path)
+                                          : read_requirements(require_path);
+    JudgeOptions options;
+    options.tolerance = tolerance;
+    options.progress = [&](double done, const std::string& what) { job.report(done, what); };
+    return judge_scene(text ? *text : read_file(path), path, requirements, options);
+  });
+  return py::make_tuple(json_from_judgement(found).dump(), text_from_judgement(found));
+}
+
+// The object of viscard design SPEC, as JSON, and its text.
+py::tuple design_of_spec(const std::string& path, const py::object& progress) {
+  struct Found {
+    DesignSpec spec;
+    DesignFront front;
+  };
+  const Found found = in_background({.progress = progress}, [=](Job& job) {
+    const DesignSpec spec = read_design_spec(path);
+    return Found{spec, design_front(spec, [&](double done, const std::string& what) {
+                   job.report(done, what);
+                 })};
+  });
+  return py::make_tuple(json_from_front(found.spec, found.front).dump(),
+                        text_from_front(found.spec, found.front));
+}
+
+}  // namespace
+
+void add_designs(py::module_& module) {
+  module.def("design", &design_scene);
+  module.def("design_of_spec", &design_of_spec);
+}
+
+}  // namespace viscard::python

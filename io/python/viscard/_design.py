@@ -1,0 +1,117 @@
+"""A scene against what is required of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any, Dict, List, Optional, Union
+
+from . import _core
+from ._arrays import path_of
+from ._error import Error
+from ._scene import Progress, _scene_toml, _with_scene
+
+
+class Judgement:
+    """Requirements against the computed quantities of a scene. ``judgement["crosstalk"]`` is one line.
+
+    Attributes
+    ----------
+    name : str
+        Of the requirements.
+    passes : bool
+        Every requirement passes.
+    lines : list of dict
+        requirement, quantity, unit, is_upper, limit, value and error_estimate (None: not answered), margin (below 1 it
+        fails), verdict ("pass", "fail", "undecided" or "not answered"), reason, and remedies: single dimensions that
+        would pass, {"key", "from_m", "to_m", "value", "error_estimate"}, the smallest change first.
+
+    Examples
+    --------
+    >>> judgement = viscard.design("data/scenes/pillar_modal.toml", {"bandwidth": "1 kHz"})
+    >>> judgement["bandwidth"]["verdict"]
+    'pass'
+    """
+
+    def __init__(self, found: Dict[str, Any], text: str) -> None:
+        self.name: str = found["name"]
+        self.passes: bool = found["passes"]
+        self.lines: List[Dict[str, Any]] = found["lines"]
+        self._text = text
+
+    def __getitem__(self, requirement: str) -> Dict[str, Any]:
+        for line in self.lines:
+            if line["requirement"] == requirement:
+                return line
+        raise KeyError(f"'{requirement}' is not required; there are {', '.join(one['requirement'] for one in self.lines)}")
+
+    def summary(self) -> str:
+        """The table that viscard design prints."""
+        return self._text
+
+    def __repr__(self) -> str:
+        return "<viscard.Judgement " + ", ".join(f"{one['requirement']}: {one['verdict']}" for one in self.lines) + ">"
+
+
+class Designs:
+    """Designs of a specification, the best in its first objective first.
+
+    Attributes
+    ----------
+    feasible : bool
+        Whether there is one; if not, `designs` holds the nearest.
+    designs : list of dict
+        feasible, values {key: text}, objectives [{quantity, value, error_estimate, unit}], active (limits that hold it or
+        stop every design), lines (as in `Judgement`, with probability), scene (the text of its file).
+
+    Examples
+    --------
+    >>> designs = viscard.design("data/designs/longest_pillar.toml")
+    >>> designs.feasible, designs.designs[0]["active"]
+    (True, ['bandwidth'])
+    """
+
+    def __init__(self, found: Dict[str, Any], text: str) -> None:
+        self.feasible: bool = found["feasible"]
+        self.designs: List[Dict[str, Any]] = found["designs"]
+        self._text = text
+
+    def summary(self) -> str:
+        """The text that viscard design prints."""
+        return self._text
+
+    def __repr__(self) -> str:
+        return f"<viscard.Designs: {len(self.designs)}, {'feasible' if self.feasible else 'not feasible'}>"
+
+
+def _read(printed):
+    return json.loads(printed[0]), printed[1]
+
+
+def design(scene, require=None, *, tol: Optional[float] = None, folder=None,
+           progress: Progress = None) -> Union[Judgement, Designs]:
+    """Judge a scene by requirements, each against a computed quantity with its error; or design one.
+
+    Parameters
+    ----------
+    scene, tol, folder, progress
+        As in `simulate`; without `require` the file of a specification (data/designs), for `Designs`.
+    require : path or dict
+        A file with a table [require], or the contents of that table: data/requirements/human_hand.toml is an example.
+
+    Examples
+    --------
+    >>> print(viscard.design("data/scenes/array_voltages.toml", {"crosstalk": "0.1 %"})["crosstalk"]["verdict"])
+    pass
+    """
+    if require is None:
+        if tol is not None or folder is not None:
+            raise Error("tol and folder belong to a scene that is judged by require", "usage")
+        return Designs(*_read(_core.design_of_spec(path_of(scene, "scene"), progress)))
+    tolerance = None if tol is None else float(tol)
+    is_table = isinstance(require, Mapping)
+    table = _scene_toml({"require": dict(require)}, "") if is_table else None
+    name = "require" if is_table else path_of(require, "require")
+    printed, text = _with_scene(scene, folder, lambda scene_text, path: _core.design(
+        scene_text, path, table, name, tolerance, progress))
+    return Judgement(*_read((printed, text)))
