@@ -1,6 +1,7 @@
 #include "io/pictures/map_picture.h"
 
 #include "io/pictures/colour_scale.h"
+#include "io/pictures/force_arrows.h"
 #include "io/plots/plot_svg.h"
 
 #include <fmt/format.h>
@@ -72,6 +73,13 @@ class MapDrawing {
     left_px_ = kMapLeft_px + 0.5 * (room_x - scale_ * (array_.right_m - array_.left_m));
   }
 
+  // The shear of the pillars, over the map.
+  void set_arrows(const SceneMap& along_x, const SceneMap& along_y) {
+    const int most = std::max(array_.rows, array_.columns);
+    per_block_ = is_grid() ? (most + kMostDiscs - 1) / kMostDiscs : 1;
+    arrows_ = force_arrows(array_, along_x, along_y, per_block_);
+  }
+
   std::string document(const std::string& title) {
     body_ += fmt::format(
         R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="#f4efe4" stroke="#7a5c1e"/>)"
@@ -79,6 +87,7 @@ class MapDrawing {
         x(array_.left_m), y(array_.high_m), scale_ * (array_.right_m - array_.left_m),
         scale_ * (array_.high_m - array_.low_m));
     is_grid() ? draw_cells() : draw_discs();
+    draw_arrows();
     draw_numbers();
     draw_bar();
     return fmt::format(
@@ -166,6 +175,32 @@ class MapDrawing {
                        [](const ScenePillar& one) { return one.is_loaded(); });
   }
 
+  // The longest is as long as a pitch of the arrows.
+  void draw_arrows() {
+    for (const ForceArrow& one : arrows_) {
+      largest_N_ = std::max(largest_N_, std::hypot(one.force_x_N, one.force_y_N));
+    }
+    if (largest_N_ == 0.0) return;
+    const double cell_m = std::min(array_.cell_x_m, array_.cell_y_m);
+    const double px_N = 0.95 * scale_ * cell_m * per_block_ / largest_N_;
+    for (const ForceArrow& one : arrows_) {
+      const double dx = px_N * one.force_x_N, dy = -px_N * one.force_y_N;
+      const double length = std::hypot(dx, dy), head = std::min(0.4 * length, 7.0);
+      if (length < 1.0) continue;
+      const double ux = dx / length, uy = dy / length;
+      const double x0 = x(one.x_m) - 0.5 * dx, y0 = y(one.y_m) - 0.5 * dy;
+      const double x1 = x0 + dx, y1 = y0 + dy;
+      const std::string path =
+          fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}", x0,
+                      y0, x1, y1, x1 - head * (ux - 0.5 * uy), y1 - head * (uy + 0.5 * ux), x1, y1,
+                      x1 - head * (ux + 0.5 * uy), y1 - head * (uy - 0.5 * ux));
+      body_ += fmt::format(
+          "<path fill=\"none\" stroke=\"#fff\" stroke-width=\"3.6\" d=\"{0}\"/>"
+          "<path fill=\"none\" stroke=\"#000\" stroke-width=\"1.6\" d=\"{0}\"/>\n",
+          path);
+    }
+  }
+
   // Rows on the left and columns below, at most a dozen numbers each.
   void draw_numbers() {
     if (array_.columns < 2) return;
@@ -213,6 +248,13 @@ class MapDrawing {
   std::string legend() const {
     std::string words = is_grid() ? "one cell for each pillar" : "discs: pillars to scale";
     if (!all_loaded()) words += "; dark rim: loaded";
+    if (largest_N_ > 0.0) {
+      const BarUnit unit = bar_unit("N", largest_N_);
+      words += fmt::format(
+          "; arrows: shear{}, the longest {:.3g} {}",
+          per_block_ > 1 ? fmt::format(" (means of {0} x {0} pillars)", per_block_) : "",
+          unit.per_si * largest_N_, unit.text);
+    }
     if (is_cut_) words += "; the film is wider";
     if (has_hollow_) words += "; empty: no value";
     return words;
@@ -225,6 +267,9 @@ class MapDrawing {
   std::vector<int> value_of_;  // by pillar; -1: none
   double scale_ = 1.0, left_px_ = 0.0;
   bool has_hollow_ = false;
+  std::vector<ForceArrow> arrows_;
+  int per_block_ = 1;  // rows and columns of pillars that an arrow stands for
+  double largest_N_ = 0.0;
   std::string body_;
 };
 
@@ -232,6 +277,13 @@ class MapDrawing {
 
 std::string svg_from_map(const SceneArray& array, const SceneMap& map, const std::string& title) {
   return MapDrawing(array, map).document(title);
+}
+
+std::string svg_from_forces(const SceneArray& array, const ForceMaps& forces,
+                            const std::string& title) {
+  MapDrawing drawing(array, forces.normal);
+  drawing.set_arrows(forces.along_x, forces.along_y);
+  return drawing.document(title);
 }
 
 }  // namespace viscard

@@ -26,16 +26,25 @@ std::pair<std::string, std::string> name_and_unit(const CsvColumn& column) {
   return {name, unit};
 }
 
-std::vector<double> lengths_m(const CsvTable& table, const std::string& axis,
-                              const std::string& all = "x and y") {
+// A column of numbers in SI.
+struct WantedColumn {
+  const char* name;
+  const char* unit;     // SI; "1": a number
+  const char* example;  // of a header
+};
+std::vector<double> column_of(const CsvTable& table, const WantedColumn& wanted,
+                              const std::string& all) {
   std::vector<std::string> headers;
+  const bool has_unit = std::string(wanted.unit) != "1";
   for (const CsvColumn& column : table.columns) {
     headers.push_back("'" + column.header + "'");
-    const auto [name, unit] = name_and_unit(column);
-    if (name != axis) continue;
-    if (!is_unit_of(unit, "m")) {
-      throw std::runtime_error(table.file + ": column '" + column.header +
-                               "' needs a unit of length, such as '" + axis + " [um]'");
+    const auto [name, unit] =
+        has_unit ? name_and_unit(column) : std::pair{column.name, std::string()};
+    if (name != wanted.name) continue;
+    if (has_unit && !is_unit_of(unit, wanted.unit)) {
+      throw std::runtime_error(table.file + ": column '" + column.header + "' needs a unit of " +
+                               (std::string(wanted.unit) == "m" ? "length" : "voltage") +
+                               ", such as '" + wanted.example + "'");
     }
     if (column.first_bad_line > 0) {
       throw std::runtime_error(table.file + ":" + std::to_string(column.first_bad_line) +
@@ -43,12 +52,19 @@ std::vector<double> lengths_m(const CsvTable& table, const std::string& axis,
                                "' is not a finite number");
     }
     std::vector<double> values = column.values;
-    const double factor = scale_to_si(unit, "m").factor;
+    const double factor = has_unit ? scale_to_si(unit, wanted.unit).factor : 1.0;
     for (double& value : values) value *= factor;
     return values;
   }
-  throw std::runtime_error(table.file + ": needs the columns " + all +
-                           " with units, such as 'x [um]'; " + "it has " + listed(headers));
+  throw std::runtime_error(table.file + ": needs the columns " + all + "; it has " +
+                           listed(headers));
+}
+
+std::vector<double> lengths_m(const CsvTable& table, const std::string& axis,
+                              const std::string& all = "x and y") {
+  const std::string example = axis + " [um]";
+  return column_of(table, {axis.c_str(), "m", example.c_str()},
+                   all + " with units, such as 'x [um]'");
 }
 
 // The values in order, those that agree to 1e-9 of their range once.
@@ -109,6 +125,33 @@ HeightTable read_heights(const std::filesystem::path& path) {
                              std::to_string(z_m.size()) + " heights; the grid must be full");
   }
   return table;
+}
+
+std::vector<QuadrantVoltages> read_quadrant_voltages(const std::filesystem::path& path) {
+  const std::string all =
+      "row, column and quadrant_1_voltage to quadrant_4_voltage with units, such as "
+      "'quadrant_1_voltage [mV]'";
+  const CsvTable table = read_csv(path);
+  const std::vector<double> row = column_of(table, {"row", "1", "row"}, all);
+  const std::vector<double> column = column_of(table, {"column", "1", "column"}, all);
+  std::vector<QuadrantVoltages> voltages(row.size());
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    for (const double number : {row[i], column[i]}) {
+      if (number == std::floor(number) && number >= 1.0 && number <= 1e6) continue;
+      throw std::runtime_error(table.file + ": row " + std::to_string(i + 1) +
+                               ": 'row' and 'column' are numbers of a pillar, from 1");
+    }
+    voltages[i].row = static_cast<int>(row[i]);
+    voltages[i].column = static_cast<int>(column[i]);
+  }
+  for (std::size_t q = 0; q < 4; ++q) {
+    const std::string name = "quadrant_" + std::to_string(q + 1) + "_voltage";
+    const std::string example = name + " [mV]";
+    const std::vector<double> values_V =
+        column_of(table, {name.c_str(), "V", example.c_str()}, all);
+    for (std::size_t i = 0; i < row.size(); ++i) voltages[i].voltage_V.at(q) = values_V[i];
+  }
+  return voltages;
 }
 
 std::vector<std::pair<int, int>> places_of(const std::string& key,

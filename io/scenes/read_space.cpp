@@ -1,4 +1,5 @@
 #include "io/scenes/pillar_positions.h"
+#include "io/scenes/quadrants_section.h"
 #include "io/scenes/scene_words.h"
 #include "io/scenes/sensing_section.h"
 #include "io/scenes/shape_section.h"
@@ -44,6 +45,7 @@ struct RawSpace {
   RawShape shape;
   RawDrive drive;  // history and readout
   RawSensing sensing;
+  RawQuadrants of_quarters;
   std::map<std::string, std::string> effects;
   std::vector<std::string> quantities;
   std::vector<PrintedValue> printed;
@@ -126,6 +128,7 @@ void show_space(FieldVisitor& v, RawSpace& s) {
   v.section("shape", [&](FieldVisitor& one) { show_shape(one, s.shape); });
   v.section("readout", [&](FieldVisitor& r) { show_readout(r, s.drive); });
   v.section("heat", [&](FieldVisitor& h) { show_heat(h, s.sensing); });
+  v.section("quadrants", [&](FieldVisitor& q) { show_quadrants(q, s.of_quarters); });
   v.section("noise", [&](FieldVisitor& n) { show_noise(n, s.sensing); });
   v.section("effects", [&](FieldVisitor& e) {
     for (const Effect& effect : effects()) e.text({effect.name, "auto"}, s.effects[effect.name]);
@@ -220,17 +223,7 @@ void fill_classes(const RawSpace& raw, const std::filesystem::path& folder, Spac
 void fill_electrode(const RawSpace& raw, SpaceScene& scene) {
   scene.grounded = choice<FilmFace>("geometry.electrode.face", raw.electrode_face,
                                     {{"bottom", FilmFace::kTop}, {"top", FilmFace::kBottom}});
-  scene.electrode = choice<SpaceElectrode>(
-      "geometry.electrode.kind", raw.electrode_kind,
-      {{"sampled", SpaceElectrode::kSampled}, {"equipotential", SpaceElectrode::kEquipotential}});
-  if (raw.quadrants) {
-    if (scene.electrode == SpaceElectrode::kEquipotential) {
-      throw SceneMistake("geometry.electrode.kind",
-                         "quadrants of an array in the plane are read on a charge-free face; say "
-                         "kind = \"sampled\", or leave quadrants out");
-    }
-    scene.electrode = SpaceElectrode::kQuadrants;
-  }
+  scene.electrode = electrode_from(raw.electrode_kind, raw.quadrants);
   scene.electrode_radius_m = raw.electrode_radius_m;
 }
 
@@ -276,6 +269,7 @@ SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) 
   const FilmExtent film = film_extent(scene);
   scene.press = press_from(raw.shape, folder, {film.left_m, film.right_m, film.low_m, film.high_m});
   fill_sensing(raw.sensing, raw.drive, scene);
+  fill_quadrants(raw.of_quarters, folder, scene);
   fill_touch(raw.analysis, raw.drive, scene);
   scene.effects = choices_of(raw.effects);
   scene.wanted = raw.quantities;

@@ -16,7 +16,8 @@ namespace {
 
 // A shape turns tops, which bends the pillars as a shear does.
 bool is_sheared(const SpaceScene& scene) {
-  return scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press.has_value();
+  return scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press.has_value() ||
+         scene.quadrants.measured_V.size() > 0;
 }
 
 bool is_viscoelastic(const SpaceScene& scene) {

@@ -114,6 +114,19 @@ Pictures pictures_of_maps(const SceneAnswer& answer) {
     std::replace(title.begin(), title.end(), '_', ' ');
     pictures.emplace_back(map.name, svg_from_map(answer.array, map, title));
   }
+  const auto find = [&](const char* name) {
+    const auto found = std::find_if(answer.maps.begin(), answer.maps.end(),
+                                    [&](const SceneMap& map) { return map.name == name; });
+    return found == answer.maps.end() ? nullptr : &*found;
+  };
+  const SceneMap* const normal = find("sensed_normal_force");
+  const SceneMap* const along_x = find("sensed_shear_x_force");
+  const SceneMap* const along_y = find("sensed_shear_y_force");
+  if (normal && along_x && along_y) {
+    pictures.emplace_back("sensed_forces",
+                          svg_from_forces(answer.array, {*normal, *along_x, *along_y},
+                                          "sensed normal force, and shear as arrows"));
+  }
   return pictures;
 }
 

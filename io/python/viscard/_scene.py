@@ -293,6 +293,62 @@ def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, uncert
         text, path, tolerance, bool(fields), bool(uncertainty), None if samples is None else int(samples), progress)))
 
 
+def forces_from_voltages(scene, voltages, *, noise: Optional[float] = None, tol: Optional[float] = None, folder=None,
+                         progress: Progress = None) -> Answer:
+    """Forces in three directions on the pillars of an array, from the voltages of the quarters of their electrodes.
+
+    The maps "sensed_normal_force", "sensed_shear_x_force" and "sensed_shear_y_force" (N) of all pillars are found together, so that
+    no pillar takes its neighbour's shear for a pressure; their errors are those of the computation. "unexplained_voltage" shows
+    quarters that do not work.
+
+    Parameters
+    ----------
+    scene : dict
+        An array in the plane with electrodes in quarters, as in `simulate`; its load and shape are left out.
+    voltages : array, shape (rows, columns, 4), V
+        Of the quarters (+,+), (-,+), (-,-), (+,-) of each pillar, row 1 at the lowest y; NaN where none stands.
+    noise : float
+        V rms of each quarter, for the results "resolution_normal_force", "resolution_shear_x_force", ... (N).
+    tol, folder, progress
+        As in `simulate`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> array = {"geometry": {"kind": "array", "model": "space", "rows": 3, "columns": 3, "spacing": "60 um",
+    ...                       "diameter": "40 um", "length": "120 um",
+    ...                       "film": {"thickness": "25 um", "edge": "150 um", "material": "pvdf"},
+    ...                       "electrode": {"face": "bottom", "kind": "sampled", "quadrants": True}},
+    ...          "materials": {"pillar": {"E": "1.8 MPa", "nu": 0.33, "rho": "965 kg/m3"},
+    ...                        "pvdf": {"file": "data/materials/pvdf_seed.json"}},
+    ...          "analysis": {"kind": "static"}}
+    >>> voltages = np.zeros((3, 3, 4))
+    >>> voltages[1, 1] = [-9.71e-3, 5.86e-3, 5.86e-3, -9.71e-3]
+    >>> found = viscard.forces_from_voltages(array, voltages)
+    >>> f"{found.maps['sensed_shear_x_force']['value'][1, 1] * 1e6:.2f} uN"
+    '1.26 uN'
+    """
+    if not isinstance(scene, Mapping):
+        raise Error("forces_from_voltages needs the scene as a dict; a file names its voltages itself ([quadrants])", "usage")
+    values = np.asarray(voltages, dtype=float)
+    if values.ndim != 3 or values.shape[2] != 4:
+        raise Error(f"voltages have the shape {values.shape}; it must be (rows, columns, 4)", "input")
+    analysis = {key: value for key, value in dict(scene.get("analysis", {})).items() if key != "load"}
+    with tempfile.TemporaryDirectory(prefix="viscard-") as own:
+        table = os.path.join(own, "voltages.csv")
+        with open(table, "w", encoding="utf-8") as file:
+            file.write("row,column," + ",".join(f"quadrant_{q}_voltage_V" for q in range(1, 5)) + "\n")
+            for row, column in np.ndindex(values.shape[:2]):
+                if np.isfinite(values[row, column]).all():
+                    file.write(f"{row + 1},{column + 1}," + ",".join(repr(float(v)) for v in values[row, column]) + "\n")
+        quadrants = {**scene.get("quadrants", {}), "voltages": table}
+        if noise is not None:
+            quadrants["noise"] = float(noise)
+        whole = {key: value for key, value in scene.items() if key not in ("shape", "want")}
+        whole.update(analysis=analysis, quadrants=quadrants)
+        return simulate(whole, tol=tol, folder=folder, progress=progress)
+
+
 def plan(scene, *, tol: Optional[float] = None, folder=None) -> Plan:
     """Which effects a scene needs at its tolerance, the error of leaving each out, and what that saves.
 

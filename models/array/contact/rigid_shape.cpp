@@ -117,6 +117,34 @@ double least_height_m(const RigidShape& shape, double x_m, double y_m, double r_
   return -kNowhere;
 }
 
+double lowest_node_m(const RigidShape& shape, double x_m, double y_m, double r_m) {
+  double lowest_m = kNowhere;
+  if (shape.kind != ShapeKind::kTable) return lowest_m;
+  const std::vector<double>& xs = shape.table.x_m;
+  const std::vector<double>& ys = shape.table.y_m;
+  const auto first = [](const std::vector<double>& axis, double at) {
+    return static_cast<std::size_t>(std::lower_bound(axis.begin(), axis.end(), at) - axis.begin());
+  };
+  const double x = x_m - shape.x_m, y = y_m - shape.y_m;
+  for (std::size_t j = first(ys, y - r_m); j < ys.size() && ys[j] <= y + r_m; ++j) {
+    for (std::size_t i = first(xs, x - r_m); i < xs.size() && xs[i] <= x + r_m; ++i) {
+      if (std::hypot(xs[i] - x, ys[j] - y) > r_m) continue;
+      lowest_m = std::min(lowest_m, height_m(shape, shape.x_m + xs[i], shape.y_m + ys[j]));
+    }
+  }
+  return lowest_m;
+}
+
+double finest_step_m(const RigidShape& shape) {
+  double finest_m = kNowhere;
+  for (const auto* axis : {&shape.table.x_m, &shape.table.y_m}) {
+    for (std::size_t i = 1; i < axis->size(); ++i) {
+      finest_m = std::min(finest_m, (*axis)[i] - (*axis)[i - 1]);
+    }
+  }
+  return finest_m;
+}
+
 double largest_slope(const RigidShape& shape, double x_m, double y_m, double r_m) {
   constexpr int kDirections = 16;
   const double centre_m = height_m(shape, x_m, y_m);

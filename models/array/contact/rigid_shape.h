@@ -45,6 +45,11 @@ double height_m(const RigidShape& shape, double x_m, double y_m);
 // At most the smallest height within the distance r of a point, so that tops out of reach need no search.
 double least_height_m(const RigidShape& shape, double x_m, double y_m, double r_m);
 
+// Of a table: its lowest node within the distance r of a point, as height there; infinite if there is none.
+double lowest_node_m(const RigidShape& shape, double x_m, double y_m, double r_m);
+// Shortest distance of its places along an axis; infinite for other shapes.
+double finest_step_m(const RigidShape& shape);
+
 // Steepest rise that the shape has within the distance r of a point. Infinite at an edge.
 double largest_slope(const RigidShape& shape, double x_m, double y_m, double r_m);
 

@@ -1,5 +1,6 @@
 #include "models/array/film/film_table.h"
 
+#include "models/maths/chebyshev_panel.h"
 #include "models/maths/gauss_legendre.h"
 
 #include <algorithm>
@@ -13,21 +14,6 @@ namespace {
 
 constexpr int kSamplePoints = 12;  // per panel, which doubles k: 3e-8 of exp(-k t) up to k t = 10
 constexpr int kGradedPoints = 8;   // Gauss points per panel of k
-
-// Chebyshev points of the first kind over (-1, 1), and the weights of the polynomial through them.
-double sample_point(int i) {
-  return -std::cos(std::numbers::pi * (i + 0.5) / kSamplePoints);
-}
-Eigen::RowVectorXd sample_weights(double x) {
-  Eigen::RowVectorXd weights(kSamplePoints);
-  for (int i = 0; i < kSamplePoints; ++i) {
-    const double distance = x - sample_point(i);
-    if (distance == 0.0) return Eigen::RowVectorXd::Unit(kSamplePoints, i);
-    weights[i] = (i % 2 == 0 ? 1.0 : -1.0) *
-                 std::sin(std::numbers::pi * (i + 0.5) / kSamplePoints) / distance;
-  }
-  return weights / weights.sum();
-}
 
 double stack_thickness_m(const LayeredFilm& film) {
   double sum_m = 0.0;
@@ -66,7 +52,7 @@ FilmTable::FilmTable(const LayeredFilm& film, double largest_kt, int harmonics, 
     const double low = breaks_1_m_[static_cast<std::size_t>(panel)];
     Eigen::MatrixXd values(kSamplePoints, 16 * static_cast<Eigen::Index>(directions_.size()));
     for (int i = 0; i < kSamplePoints; ++i) {
-      const double k_1_m = low * (1.5 + 0.5 * sample_point(i));
+      const double k_1_m = low * (1.5 + 0.5 * chebyshev_point(i, kSamplePoints));
       for (std::size_t j = 0; j < directions_.size(); ++j) {
         const Eigen::Matrix4d response = directions_[j].response(k_1_m);
         values.block<1, 16>(i, 16 * static_cast<Eigen::Index>(j)) =
@@ -86,7 +72,8 @@ std::vector<Eigen::Matrix4d> FilmTable::at(double k_1_m) const {
   const auto above = std::upper_bound(breaks_1_m_.begin() + 1, breaks_1_m_.end() - 1, k_1_m);
   const auto panel = static_cast<std::size_t>(above - breaks_1_m_.begin() - 1);
   const double low = breaks_1_m_[panel];
-  const Eigen::RowVectorXd values = sample_weights(2.0 * k_1_m / low - 3.0) * samples_[panel];
+  const Eigen::RowVectorXd values =
+      chebyshev_weights(2.0 * k_1_m / low - 3.0, kSamplePoints) * samples_[panel];
   for (std::size_t j = 0; j < directions_.size(); ++j) {
     responses.emplace_back(
         Eigen::Map<const Eigen::Matrix4d>(values.data() + 16 * static_cast<Eigen::Index>(j)));

@@ -1,7 +1,8 @@
-#include "models/array/space/neighbours.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
+#include "models/array/space/space_maps.h"
 #include "models/array/space/touch_steps.h"
+#include "models/maths/neighbours.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -228,6 +229,8 @@ void validate(const SpaceScene& scene) {
     throw SceneMistake("materials.surface_energy", "the surface energy must be positive");
   }
   check_heat_and_noise(scene);
+  check_quadrants(scene);
+  if (scene.quadrants.measured_V.size() > 0) return;
   if (scene.press) {
     check_press(scene);
     check_touch(scene);

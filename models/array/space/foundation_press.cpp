@@ -1,10 +1,13 @@
 // The array under its shape as independent columns, before anything is solved.
 #include "models/array/space/space_contact.h"
+#include "models/maths/text_of_number.h"
+#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -77,6 +80,35 @@ double depth_of_force_m(const std::vector<Column>& columns, double force_N) {
 }
 
 }  // namespace
+
+void refuse_missed_tips(const SpaceScene& scene, double depth_m) {
+  constexpr int kRings = 48, kAngles = 128;  // of the finest grid (space_contact.cpp)
+  const RigidShape& shape = scene.press->shape;
+  const std::vector<SpaceClass> classes = classes_of(scene);
+  for (const SpacePillar& one : scene.pillars) {
+    const SpaceClass& kind = classes[static_cast<std::size_t>(one.of_class)];
+    const double R_m = 0.5 * kind.diameter_m, above_m = kind.length_m - scene.length_m;
+    if (finest_step_m(shape) > 4.0 * R_m / kRings) continue;
+    const double reach_m = depth_m + above_m - lowest_node_m(shape, one.x_m, one.y_m, R_m);
+    if (!(reach_m > 0.0)) continue;
+    double seen_m = -HUGE_VAL;
+    for (int ring = 1; ring <= kRings && seen_m < 0.5 * reach_m; ++ring) {
+      const double r_m = R_m * (ring - 0.5) / kRings;
+      for (int a = 0; a < kAngles; ++a) {
+        const double angle = 2.0 * std::numbers::pi * a / kAngles;
+        seen_m = std::max(seen_m, depth_m + above_m -
+                                      height_m(shape, one.x_m + r_m * std::cos(angle),
+                                               one.y_m + r_m * std::sin(angle)));
+      }
+    }
+    if (seen_m >= 0.5 * reach_m) continue;
+    throw SceneMistake("shape.file", "has a tip over pillar [" + std::to_string(one.row) + ", " +
+                                         std::to_string(one.column) +
+                                         "] that is narrower than the finest grid of its top, " +
+                                         micrometres(R_m / kRings, 2) +
+                                         "; give heights that are smooth over that length");
+  }
+}
 
 FoundationPress foundation_press(const SpaceScene& scene) {
   const std::vector<Column> columns = columns_under(scene);

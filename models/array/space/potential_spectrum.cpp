@@ -1,11 +1,14 @@
 #include "models/array/space/potential_spectrum.h"
 
+#include "models/maths/chebyshev_panel.h"
 #include "models/maths/gauss_legendre.h"
 #include "models/maths/require.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -13,6 +16,8 @@ namespace {
 constexpr int kWavePoints = 8;        // Gauss points per panel of k
 constexpr double kShortWaves = 16.0;  // times the thickness: the faces are apart by exp(-16)
 constexpr double kCutFrom = 0.5;      // of the largest k, where cut() begins
+constexpr int kPanelPoints = 14;      // of a panel of k on which the film is sampled
+constexpr double kPanelGrowth = 0.4;  // its length over where it begins
 constexpr double kOwnPhase = 4.0;     // radius of the foot times a panel of k, on its own axis
 
 double thickness_m(const LayeredFilm& film) {
@@ -52,23 +57,56 @@ double odd_part(const Eigen::VectorXd& even, Eigen::Index j, double sign) {
   return (j == 0 ? even[0] : 0.5 * even[j]) + 0.5 * sign * even[j + 1];
 }
 
-// Solves the film under waves of one length in L + 1 directions.
+// The film's reading of waves up to the largest in L + 1 directions: solved at the points of panels and a polynomial
+// between them. As a function of k t it has poles, the first at an imaginary part of 0.92 (eq. A4) and a real part
+// below 2; panels of 1, which grow beyond, keep them outside an ellipse of 3.9, and 3.9^-14 is 5e-9.
 class Directions {
  public:
   Directions(const LayeredFilm& film, const PotentialAccuracy& accuracy, double largest_k_1_m) {
+    std::vector<FilmWaves> waves;
     for (int j = 0; j <= accuracy.harmonics; ++j) {
-      waves_.emplace_back(film, 0.5 * std::numbers::pi * j / accuracy.harmonics, largest_k_1_m,
-                          accuracy.film_degree);
+      waves.emplace_back(film, 0.5 * std::numbers::pi * j / accuracy.harmonics, largest_k_1_m,
+                         accuracy.film_degree);
+    }
+    const double t_m = thickness_m(film);
+    while (breaks_1_m_.back() < largest_k_1_m) {
+      const double from_1_m = breaks_1_m_.back();
+      const double next_1_m = from_1_m + std::max(1.0 / t_m, kPanelGrowth * from_1_m);
+      // No short panel is left at the end.
+      const double to_1_m = next_1_m > 0.8 * largest_k_1_m && next_1_m < largest_k_1_m
+                                ? 0.5 * (from_1_m + largest_k_1_m)
+                                : std::min(next_1_m, largest_k_1_m);
+      samples_.push_back(sampled(waves, from_1_m, to_1_m));
+      breaks_1_m_.push_back(to_1_m);
     }
   }
+
   std::vector<Eigen::Vector4d> at(double k_1_m) const {
+    const auto above = std::upper_bound(breaks_1_m_.begin() + 1, breaks_1_m_.end() - 1, k_1_m);
+    const auto panel = static_cast<std::size_t>(above - breaks_1_m_.begin() - 1);
+    const double low = breaks_1_m_[panel], high = breaks_1_m_[panel + 1];
+    const double x = (2.0 * k_1_m - low - high) / (high - low);
+    const Eigen::RowVectorXd row = chebyshev_weights(x, kPanelPoints) * samples_[panel];
     std::vector<Eigen::Vector4d> values;
-    for (const FilmWaves& direction : waves_) values.push_back(direction.reading(k_1_m));
+    for (Eigen::Index j = 0; j < row.size(); j += 4) values.emplace_back(row.segment<4>(j));
     return values;
   }
 
  private:
-  std::vector<FilmWaves> waves_;
+  static Eigen::MatrixXd sampled(const std::vector<FilmWaves>& waves, double low, double high) {
+    Eigen::MatrixXd values(kPanelPoints, 4 * static_cast<Eigen::Index>(waves.size()));
+    for (int i = 0; i < kPanelPoints; ++i) {
+      const double k_1_m = 0.5 * (low + high + (high - low) * chebyshev_point(i, kPanelPoints));
+      for (std::size_t j = 0; j < waves.size(); ++j) {
+        values.block<1, 4>(i, 4 * static_cast<Eigen::Index>(j)) =
+            waves[j].reading(k_1_m).transpose();
+      }
+    }
+    return values;
+  }
+
+  std::vector<double> breaks_1_m_ = {0.0};
+  std::vector<Eigen::MatrixXd> samples_;  // by panel: points x 4 readings of each direction
 };
 
 // Calls with(k, weight) for the points of a quadrature of k dk/(2 pi).

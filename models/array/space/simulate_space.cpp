@@ -57,12 +57,12 @@ ConstantErrors constant_errors(const SpaceScene& scene) {
 // The part of a map's error, in its unit, that all pillars have, and that of the film's edge. A foot's
 // traction that is slightly wrong acts on the neighbours like its load, as a part of the field there.
 double common_error_of(const SceneMap& map, const ConstantErrors& errors) {
-  if (map.unit == "V") return (errors.foot + errors.electrodes) * size_of(map);
+  if (map.unit != "%") return (errors.foot + errors.electrodes) * size_of(map);
   return 100.0 * errors.electrodes + 200.0 * errors.foot * errors.neighbour;
 }
 // What the relative error at the film's edge is relative to, in the unit of the map.
 double edge_size_of(const SceneMap& map) {
-  return map.unit == "V" ? size_of(map) : 100.0;
+  return map.unit != "%" ? size_of(map) : 100.0;
 }
 
 // The largest of them relative to what the tolerance refers to.
@@ -74,32 +74,6 @@ double largest_constant_error(const SpaceScene& scene, const ConstantErrors& err
   return std::max(of_voltages, (common_error_of(crosstalk, errors) +
                                 errors.largest_edge * edge_size_of(crosstalk)) /
                                    kCrosstalkScale);
-}
-
-// A voltage differs by more than this from that on a rigid base: the film reads its stretching.
-constexpr double kStretchingFrom = 0.1;
-
-std::string stretching_note(const SpaceScene& scene, const BackingEffect& effect) {
-  const SpacePillar& one = scene.pillars[effect.pillar];
-  const double percent = 100.0 * (effect.voltage_V - effect.rigid_V) / std::abs(effect.rigid_V);
-  return "stretching: pillar [" + std::to_string(one.row) + ", " + std::to_string(one.column) +
-         "] reads " + text_of(effect.voltage_V, 4) + " V, on a rigid base " +
-         text_of(effect.rigid_V, 4) + " V (" + text_of(percent, 3) +
-         " %): on this backing the film reads how it is stretched by all pillars, not the pressure "
-         "on "
-         "one; take a stiffer backing";
-}
-
-// The film's edge on a backing; throws SceneMistake where it lies too near.
-void check_edge(const SpaceScene& scene, const BackingEffect& effect, double other_errors) {
-  if (effect.edge + other_errors <= (1.0 - kShareOfAccuracy) * scene.tolerance) return;
-  throw SceneMistake("geometry.film.edge",
-                     "the film is solved without its edge, " + micrometres(scene.film_edge_m, 4) +
-                         " from the outer pillars, but on this backing it is stretched as far as "
-                         "that. That leaves a relative error of about " +
-                         text_of(effect.edge + other_errors, 2) + ", too much for a tolerance of " +
-                         text_of(scene.tolerance, 2) +
-                         "; ask for a larger one, for a wider film, or for a stiffer backing");
 }
 
 [[noreturn]] void refuse(const SpaceScene& scene, double error, const ConstantErrors& parts) {
@@ -127,7 +101,9 @@ void check_edge(const SpaceScene& scene, const BackingEffect& effect, double oth
 }  // namespace
 
 std::vector<std::string> result_names(const SpaceScene& scene) {
-  std::vector<std::string> names;
+  std::vector<std::string> names = sensed_maps(scene);
+  for (const std::string& of_quarters : sensed_results(scene)) names.push_back(of_quarters);
+  if (scene.quadrants.measured_V.size() > 0) return names;
   for (const std::string& reading : reading_names(scene.electrode)) {
     names.push_back(reading + "_voltage");
   }
@@ -177,7 +153,13 @@ SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
   answer.discretisation = accuracy.foot;
   answer.unknowns = response.unknowns();
   answer.array = array_of_answer(scene, loads_Pa);
-  answer.maps = maps_of(scene, response, loads_Pa);
+  const bool is_measured = scene.quadrants.measured_V.size() > 0;
+  Eigen::MatrixXd readings_V;
+  if (!is_measured) {
+    readings_V = response.voltages_V(loads_Pa);
+    answer.maps = maps_of(scene, response, loads_Pa, readings_V);
+  }
+  if (senses_forces(scene)) add_sensed(scene, response, loads_Pa, readings_V, answer);
   if (course != nullptr) add_voltage_curves(scene, response, *course, answer);
   if (scene.feels_neighbours) answer.step_error = beyond_reach(scene, response, loads_Pa, answer);
   set_results(scene, answer);
@@ -212,6 +194,7 @@ void refuse_coarse_tops(const SpaceScene& scene, double error) {
 
 SpaceContact settled_contact(const SpaceScene& scene) {
   SpaceContact contact = contact_within(scene, kShareOfContact * scene.tolerance);
+  refuse_missed_tips(scene, contact.pressed.depth_m);
   refuse_coarse_tops(scene, contact_error(contact));
   return contact;
 }
@@ -258,12 +241,15 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   if (scene.press && scene.progress) scene.progress(0.0, "which tops touch");
   if (scene.touch) course = settled_course(scene);
   if (scene.press) contact = course ? course->shown : settled_contact(scene);
-  const TopLoads loads_Pa = contact ? contact->loads_Pa : loads_of(scene);
+  const bool is_measured = scene.quadrants.measured_V.size() > 0;
+  const TopLoads loads_Pa = contact       ? contact->loads_Pa
+                            : is_measured ? measured_loads_Pa(scene)
+                                          : loads_of(scene);
   double of_contact = contact ? contact_error(*contact) : 0.0;
   if (course) of_contact = std::max(of_contact, course->relative_error);
   BackingEffect backing;
   if (scene.backing && scene.feels_backing) backing = backing_effect(scene, loads_Pa);
-  check_edge(scene, backing, constant);
+  check_edge(scene, backing, constant, (1.0 - kShareOfAccuracy) * scene.tolerance);
   const double left = std::max(scene.tolerance - constant - of_contact - backing.edge,
                                0.5 * kShareOfAccuracy * scene.tolerance);
   SceneAnswer answer =
@@ -278,16 +264,24 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
       map.error[at] += of_all + edge_size * parts.edge[map.pillar[at]];
     }
   }
+  for (SceneMap& map : answer.maps) {
+    // What the voltages of this accuracy are wrong by, of which the change of the forces shows nothing.
+    if (!map.name.starts_with("sensed_") || is_measured) continue;
+    const double of_voltages = answer.largest_relative_error * size_of(map);
+    for (double& error : map.error) error += of_voltages;
+  }
   answer.largest_relative_error += constant + of_contact + backing.edge;
   if (contact) add_contact(scene, *contact, answer);
   set_results(scene, answer);
   if (course) finish_curves(scene, *course, constant, answer);
   add_heat_and_noise(scene, answer);
+  if (senses_forces(scene)) finish_sensed(scene, answer);
   if (contact) answer.notes = contact_notes(scene, course ? course->largest : *contact);
   if (course && course->has_shrunk) answer.notes.push_back(note_of_shrinking(*course));
-  if (std::abs(backing.voltage_V - backing.rigid_V) > kStretchingFrom * std::abs(backing.rigid_V)) {
-    answer.notes.push_back(stretching_note(scene, backing));
+  if (senses_forces(scene)) {
+    for (std::string& note : sensed_notes(scene)) answer.notes.push_back(std::move(note));
   }
+  add_stretching_note(scene, backing, answer);
   return answer;
 }
 

@@ -50,6 +50,11 @@ struct BackingEffect {
   double rigid_V = 0.0;
 };
 BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa);
+// Throws SceneMistake where the film's edge and other relative errors are more than `most`.
+void check_edge(const SpaceScene& scene, const BackingEffect& effect, double other_errors,
+                double most);
+// Remarks on a film that reads its stretching.
+void add_stretching_note(const SpaceScene& scene, const BackingEffect& effect, SceneAnswer& answer);
 
 // Relative error of the voltages of equipotential electrodes that influence each other (eq. S5).
 double electrode_error(const SpaceScene& scene);

@@ -1,15 +1,13 @@
 #include "models/array/space/space_array.h"
 
-#include "models/array/space/neighbours.h"
 #include "models/maths/gauss_legendre.h"
+#include "models/maths/near_sums.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace viscard {
@@ -49,7 +47,7 @@ double largest_diameter_m(const SpaceArray& array) {
 
 // What a mirrored place does to the readings of a pillar under some of the loads: quarters change
 // places, and loads along the axis turn round.
-std::array<KernelMirror, 2> mirrors_of(Eigen::Index readings, const std::vector<int>& loads) {
+std::array<KernelMirror, 2> mirrors_of(Eigen::Index readings, const std::vector<TopLoad>& loads) {
   constexpr std::array<std::array<int, 6>, 2> kQuarters = {
       {{0, 1, 3, 2, 5, 4}, {0, 1, 5, 4, 3, 2}}};
   constexpr std::array<std::array<TopLoad, 2>, 2> kTurned = {
@@ -61,7 +59,7 @@ std::array<KernelMirror, 2> mirrors_of(Eigen::Index readings, const std::vector<
     mirrors[axis].load_sign = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(loads.size()));
     for (std::size_t l = 0; l < loads.size(); ++l) {
       for (const TopLoad turned : kTurned[axis]) {
-        if (loads[l] == static_cast<int>(turned)) {
+        if (loads[l] == turned) {
           mirrors[axis].load_sign[static_cast<Eigen::Index>(l)] = -1.0;
         }
       }
@@ -195,26 +193,29 @@ Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> SpaceResponse::kernel(int of_cl
   return kernel;
 }
 
-Eigen::MatrixXd SpaceResponse::sums_on_backing_V(const TopLoads& loads_Pa) const {
-  std::vector<int> active;
-  for (int load = 0; load < kTopLoads; ++load) {
-    if (!loads_Pa.col(load).isZero(0.0)) active.push_back(load);
-  }
-  const auto readings = static_cast<Eigen::Index>(reading_names(array_->electrode).size());
-  const auto count = static_cast<Eigen::Index>(active.size());
-  if (count == 0) return Eigen::MatrixXd::Zero(loads_Pa.rows(), readings);
-  const auto of_active = [&](const auto& by_load) {
-    Eigen::MatrixXd columns(by_load.rows(), count);
-    for (Eigen::Index l = 0; l < count; ++l) {
-      columns.col(l) = by_load.col(active[static_cast<std::size_t>(l)]);
+PotentialByLoad SpaceResponse::potential(int of_class, double x_m, double y_m) const {
+  return tables_[static_cast<std::size_t>(of_class)].at(x_m, y_m, kCentre);
+}
+
+SpaceResponse::Sums SpaceResponse::sums_of(const std::vector<TopLoad>& loads,
+                                           const std::vector<bool>& acts) const {
+  const OffsetSums::Kernel of_loads = [this, loads](int of_class, double x_m, double y_m) {
+    const auto all = kernel(of_class, x_m, y_m);
+    Eigen::MatrixXd columns(all.rows(), static_cast<Eigen::Index>(loads.size()));
+    for (std::size_t l = 0; l < loads.size(); ++l) {
+      columns.col(static_cast<Eigen::Index>(l)) = all.col(static_cast<int>(loads[l]));
     }
     return columns;
   };
-  const OffsetSums sums(
-      sources_of(*array_), static_cast<int>(array_->classes.size()),
-      [&](int of_class, double x_m, double y_m) { return of_active(kernel(of_class, x_m, y_m)); },
-      mirrors_of(readings, active));
-  return sums.apply(of_active(loads_Pa));
+  if (!is_wide_) {
+    return [sums = NearSums(sources_of(*array_), acts, reach_m_, of_loads)](
+               const Eigen::MatrixXd& loads_Pa) { return sums.apply(loads_Pa); };
+  }
+  const auto readings = static_cast<Eigen::Index>(reading_names(array_->electrode).size());
+  return [sums = OffsetSums(sources_of(*array_), static_cast<int>(array_->classes.size()), of_loads,
+                            mirrors_of(readings, loads))](const Eigen::MatrixXd& loads_Pa) {
+    return sums.apply(loads_Pa);
+  };
 }
 
 double SpaceResponse::voltage_at_V(double x_m, double y_m, const TopLoads& loads_Pa) const {
@@ -230,31 +231,19 @@ double SpaceResponse::voltage_at_V(double x_m, double y_m, const TopLoads& loads
 }
 
 Eigen::MatrixXd SpaceResponse::voltages_V(const TopLoads& loads_Pa) const {
-  if (is_wide_) return sums_on_backing_V(loads_Pa);
-  const std::vector<PlacedPillar>& pillars = array_->pillars;
-  const Neighbours near(pillars, reach_m_);
-  // Equal offsets, which a lattice repeats, are read once.
-  using Key = std::tuple<int, long, long>;
-  const double unit_m = 1e-7 * largest_diameter_m(*array_);
-  std::map<Key, Eigen::Matrix<double, Eigen::Dynamic, kTopLoads>> kernels;
-  Eigen::MatrixXd voltages =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(pillars.size()),
-                            static_cast<Eigen::Index>(reading_names(array_->electrode).size()));
-  for (std::size_t j = 0; j < pillars.size(); ++j) {
-    const auto load = loads_Pa.row(static_cast<Eigen::Index>(j));
-    if (load.isZero(0.0)) continue;
-    near.visit(pillars[j].x_m, pillars[j].y_m, [&](std::size_t i) {
-      const double x_m = pillars[i].x_m - pillars[j].x_m;
-      const double y_m = pillars[i].y_m - pillars[j].y_m;
-      const Key key{pillars[j].of_class, std::lround(x_m / unit_m), std::lround(y_m / unit_m)};
-      auto found = kernels.find(key);
-      if (found == kernels.end()) {
-        found = kernels.emplace(key, kernel(pillars[j].of_class, x_m, y_m)).first;
-      }
-      voltages.row(static_cast<Eigen::Index>(i)) += (found->second * load.transpose()).transpose();
-    });
+  std::vector<TopLoad> active;
+  for (int load = 0; load < kTopLoads; ++load) {
+    if (!loads_Pa.col(load).isZero(0.0)) active.push_back(static_cast<TopLoad>(load));
   }
-  return voltages;
+  const auto readings = static_cast<Eigen::Index>(reading_names(array_->electrode).size());
+  if (active.empty()) return Eigen::MatrixXd::Zero(loads_Pa.rows(), readings);
+  Eigen::MatrixXd columns(loads_Pa.rows(), static_cast<Eigen::Index>(active.size()));
+  for (std::size_t l = 0; l < active.size(); ++l) {
+    columns.col(static_cast<Eigen::Index>(l)) = loads_Pa.col(static_cast<int>(active[l]));
+  }
+  std::vector<bool> acts;
+  for (Eigen::Index i = 0; i < loads_Pa.rows(); ++i) acts.push_back(!loads_Pa.row(i).isZero(0.0));
+  return sums_of(active, acts)(columns);
 }
 
 Eigen::VectorXd SpaceResponse::beyond_reach_V(const TopLoads& loads_Pa) const {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,9 +74,15 @@ class SpaceResponse {
 
   // V; pillars x readings.
   Eigen::MatrixXd voltages_V(const TopLoads& loads_Pa) const;
+  // The same for many loads of these kinds (pillars x loads, in their order), of pillars that act. The response must
+  // outlive it.
+  using Sums = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& loads_Pa)>;
+  Sums sums_of(const std::vector<TopLoad>& loads, const std::vector<bool>& acts) const;
   // Readings of a pillar at the offset (x, y) from a loaded one of the class, V/Pa: readings x loads.
   Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(int of_class, double x_m,
                                                           double y_m) const;
+  // The potential itself at the offset (x, y), V/Pa.
+  PotentialByLoad potential(int of_class, double x_m, double y_m) const;
 
   // At most about what pillars beyond the reach of the accuracy would add to each reading: the largest
   // reading at that distance, since it decays within a pitch. 0 if no two pillars are so far apart.
@@ -94,7 +101,6 @@ class SpaceResponse {
   void add_class(const PillarClass& one, const SpaceAccuracy& accuracy, const FilmTable* film,
                  const std::optional<DiscCharge>& charge,
                  const std::vector<AxialReading>& readings);
-  Eigen::MatrixXd sums_on_backing_V(const TopLoads& loads_Pa) const;
 
   const SpaceArray* array_;
   double capacitance_F_ = 0.0;

@@ -66,6 +66,10 @@ SpaceContact contact_within(const SpaceScene& scene, double tolerance);
 // traction on the film (eq. S9).
 double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot);
 
+// Throws SceneMistake where a table of heights has a tip that the finest grid of a top does not see: a node that
+// reaches below the top, with none of the grid's points half as deep.
+void refuse_missed_tips(const SpaceScene& scene, double depth_m);
+
 // The array as an elastic foundation of columns E A/l, a closed form for estimates before anything is
 // solved.
 struct FoundationPress {

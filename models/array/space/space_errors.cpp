@@ -2,11 +2,14 @@
 #include "models/array/film/disc_charge.h"
 #include "models/array/space/potential_spectrum.h"
 #include "models/array/space/simulate_space.h"
+#include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
+#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace viscard {
 
@@ -22,7 +25,8 @@ double rigid_foot_error(const SpaceScene& scene) {
   }
   constexpr double kPressed = 0.12, kSheared = 0.2;
   // A shape turns the tops, which bends the pillars as a shear does.
-  const bool is_sheared = scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press;
+  const bool is_sheared = scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press ||
+                          scene.quadrants.measured_V.size() > 0;
   return (is_sheared ? kSheared : kPressed) * stiffest_Pa / elasticity_of(scene.film).young_Pa;
 }
 
@@ -86,6 +90,33 @@ BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa) 
   effect.voltage_V = voltages_V[largest];
   effect.rigid_V = rigid_V[largest];
   return effect;
+}
+
+void check_edge(const SpaceScene& scene, const BackingEffect& effect, double other_errors,
+                double most) {
+  if (effect.edge + other_errors <= most) return;
+  throw SceneMistake("geometry.film.edge",
+                     "the film is solved without its edge, " + micrometres(scene.film_edge_m, 4) +
+                         " from the outer pillars, but on this backing it is stretched as far as "
+                         "that. That leaves a relative error of about " +
+                         text_of(effect.edge + other_errors, 2) + ", too much for a tolerance of " +
+                         text_of(scene.tolerance, 2) +
+                         "; ask for a larger one, for a wider film, or for a stiffer backing");
+}
+
+void add_stretching_note(const SpaceScene& scene, const BackingEffect& effect,
+                         SceneAnswer& answer) {
+  constexpr double kStretchingFrom = 0.1;  // of the voltage on a rigid base
+  const double change_V = effect.voltage_V - effect.rigid_V;
+  if (!(std::abs(change_V) > kStretchingFrom * std::abs(effect.rigid_V))) return;
+  const SpacePillar& one = scene.pillars[effect.pillar];
+  answer.notes.push_back(
+      "stretching: pillar [" + std::to_string(one.row) + ", " + std::to_string(one.column) +
+      "] reads " + text_of(effect.voltage_V, 4) + " V, on a rigid base " +
+      text_of(effect.rigid_V, 4) + " V (" +
+      text_of(100.0 * change_V / std::abs(effect.rigid_V), 3) +
+      " %): on this backing the film reads how it is stretched by all pillars, not the pressure on "
+      "one; take a stiffer backing");
 }
 
 }  // namespace viscard

@@ -109,14 +109,14 @@ SceneArray array_of_answer(const SpaceScene& scene, const TopLoads& loads_Pa) {
 }
 
 std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& response,
-                              const TopLoads& loads_Pa) {
-  const Eigen::MatrixXd voltages = response.voltages_V(loads_Pa);
+                              const TopLoads& loads_Pa, const Eigen::MatrixXd& voltages) {
   const DiscReading disc = disc_reading(scene);
   const double pressed_V =
       std::abs(response.kernel(0, 0.0, 0.0)(disc.row, static_cast<int>(TopLoad::kPressure))) *
       loads_Pa.cwiseAbs().maxCoeff();
   const std::vector<std::string> names = reading_names(scene.electrode);
   std::vector<SceneMap> maps;
+  const bool senses = senses_forces(scene);  // whose error is that of the voltages
   SceneMap mean;
   double largest_quarter_V = 0.0;
   for (std::size_t r = 0; r < names.size(); ++r) {
@@ -127,7 +127,8 @@ std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& resp
     }
     if (map.name == disc.map) mean = map;
     if (is_quarter(map)) largest_quarter_V = std::max(largest_quarter_V, size_of(map));
-    if (asks_for_map(scene, map.name)) maps.push_back(std::move(map));
+    if (asks_for_map(scene, map.name) || (senses && is_quarter(map)))
+      maps.push_back(std::move(map));
   }
   for (SceneMap& map : maps) {
     if (is_quarter(map)) map.scale = largest_quarter_V;

@@ -21,9 +21,10 @@ bool has_crosstalk(const SpaceScene& scene);
 // The pillars and the loads on their tops, as an answer shows them.
 SceneArray array_of_answer(const SpaceScene& scene, const TopLoads& loads_Pa);
 
-// The maps of voltages and of cross-talk that the scene asks for, without errors.
+// The maps of voltages and of cross-talk that the scene asks for, without errors. The readings are those of
+// SpaceResponse under the loads.
 std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& response,
-                              const TopLoads& loads_Pa);
+                              const TopLoads& loads_Pa, const Eigen::MatrixXd& readings_V);
 
 // The side of the cells of a square lattice of like pillars without gaps; 0 for other arrays.
 double square_pitch_m(const SpaceScene& scene);
@@ -34,6 +35,33 @@ double square_pitch_m(const SpaceScene& scene);
 // `reach_m` away.
 void add_transfer(const SpaceScene& scene, const SpaceResponse& response, double reach_m,
                   SceneAnswer& answer);
+// Forces of the pillars from the quarters of their electrodes (models/array/quadrants). The maps
+// sensed_normal_force (N, down), sensed_shear_x_force and sensed_shear_y_force; the results
+//   sensed_normal_deviation, ...  N, the largest difference from what the scene's loads put on a top
+//   without_neighbours_percent    largest error of pillars that are read by their own four voltages alone, over the
+//                                 largest force
+//   unexplained_voltage           V, the largest voltage of a quarter that the forces leave open
+//   gain_normal, ...              Pa/V, of quarter 1 of the usual pillars (eq. Q1)
+//   resolution_normal_force, ...  N rms, as large as the noise, of a pillar in the middle (eq. Q4)
+//   decoupling_condition          of the array, or of its middle
+std::vector<std::string> sensed_maps(const SpaceScene& scene);
+std::vector<std::string> sensed_results(const SpaceScene& scene);
+// True if the scene asks for any of them.
+bool senses_forces(const SpaceScene& scene);
+// Adds the maps and the results that depend on the voltages: readings as SpaceResponse gives them under the loads, or the
+// scene's measured ones.
+void add_sensed(const SpaceScene& scene, const SpaceResponse& response, const TopLoads& loads_Pa,
+                const Eigen::MatrixXd& readings_V, SceneAnswer& answer);
+// The other results, once, and what a reader must know.
+void finish_sensed(const SpaceScene& scene, SceneAnswer& answer);
+std::vector<std::string> sensed_notes(const SpaceScene& scene);
+// The loads behind the measured voltages, coarsely.
+TopLoads measured_loads_Pa(const SpaceScene& scene);
+// Throws SceneMistake naming what contradicts the quarters.
+void check_quadrants(const SpaceScene& scene);
+// Noise of the open voltage of a quarter, V rms: as stated, or that of the amplifier; 0 if neither is given.
+double quarter_noise_V(const SpaceScene& scene);
+
 // Results of heat and noise that the scene may ask for by name.
 std::vector<std::string> sensing_results(const SpaceScene& scene);
 

@@ -1,6 +1,6 @@
 #include "models/array/space/space_scene.h"
 
-#include "models/array/space/neighbours.h"
+#include "models/maths/neighbours.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/array/contact/rigid_shape.h"
+#include "models/array/quadrants/quadrant_gains.h"
 #include "models/array/sensing/heat_response.h"
 #include "models/array/sensing/thermal_noise.h"
 #include "models/array/space/space_array.h"
@@ -79,6 +80,8 @@ struct SpaceScene : SceneCommon {
   std::optional<HeatScene> heat;   // results of one of the usual pillars, beside those of the loads
   std::optional<NoiseBand> noise;  // of an electrode with this amplifier
   std::optional<Readout> noise_readout;
+
+  QuadrantSensing quadrants;  // of electrodes in quarters: how forces are found from voltages
 
   double surface_energy_J_m2 = 0.02;  // of the pillars, which may stick together; PDMS
 

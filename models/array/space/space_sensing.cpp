@@ -122,18 +122,24 @@ class HeatResults {
   SceneAnswer* answer_;
 };
 
+// Of one electrode; a quarter of it has a quarter of that, apart from what the gaps between quarters add.
+double noisy_capacitance_F(const SpaceScene& scene, const SpaceArray& array) {
+  const DiscCharge charge(array.film, array.electrode_radius_m, 1, kModes, kSensedFilmDegree);
+  return scene.electrode == SpaceElectrode::kQuadrants ? 0.25 * charge.capacitance_F()
+                                                       : charge.capacitance_F();
+}
+
 void add_noise(const SpaceScene& scene, double own_V_Pa, SceneAnswer& answer) {
   const SpaceArray array = array_of(scene);
-  const DiscCharge charge(array.film, array.electrode_radius_m, 1, kModes, kSensedFilmDegree);
-  const ThermalNoise noise =
-      thermal_noise(*scene.noise, *scene.noise_readout, charge.capacitance_F());
+  const double capacitance_F = noisy_capacitance_F(scene, array);
+  const ThermalNoise noise = thermal_noise(*scene.noise, *scene.noise_readout, capacitance_F);
   const double area_m2 = 0.25 * std::numbers::pi * scene.diameter_m * scene.diameter_m;
   const double signal_V_Pa = std::abs(noise.gain * own_V_Pa);
   const auto put = [&](const char* name, double value, const char* unit) {
     answer.results.push_back(
         {name, value, unit, answer.largest_relative_error * std::abs(value), 0.0, false});
   };
-  put("electrode_capacitance", charge.capacitance_F(), "F");
+  put("electrode_capacitance", capacitance_F, "F");
   put("noise_bias", noise.bias_V, "V");
   put("noise_loss", noise.loss_V, "V");
   put("noise_amplifier", noise.amplifier_V, "V");
@@ -197,12 +203,19 @@ void check_heat_and_noise(const SpaceScene& scene) {
   }
   if (!scene.noise) return;
   at_key("noise", [&] { validate(*scene.noise); });
-  if (!scene.noise_readout || scene.electrode != SpaceElectrode::kEquipotential) {
+  if (!scene.noise_readout || scene.electrode == SpaceElectrode::kSampled) {
     throw SceneMistake("noise",
                        "is that of an amplifier at an electrode: say electrode = { kind = "
-                       "\"equipotential\", ... } and [readout]");
+                       "\"equipotential\", ... } (or quadrants = true) and [readout]");
   }
   at_key("readout", [&] { validate(*scene.noise_readout); });
+}
+
+double quarter_noise_V(const SpaceScene& scene) {
+  if (!scene.noise) return scene.quadrants.noise_V;
+  const ThermalNoise noise = thermal_noise(*scene.noise, *scene.noise_readout,
+                                           noisy_capacitance_F(scene, array_of(scene)));
+  return noise.total_V() / noise.gain;
 }
 
 void add_heat_and_noise(const SpaceScene& scene, SceneAnswer& answer) {
@@ -221,7 +234,9 @@ void add_heat_and_noise(const SpaceScene& scene, SceneAnswer& answer) {
     }
   }
   if (scene.noise) {
-    add_noise(scene, kernel(0, static_cast<int>(TopLoad::kPressure)), answer);
+    const Eigen::Index own =
+        scene.electrode == SpaceElectrode::kQuadrants ? 2 : 0;  // a quarter, or the electrode
+    add_noise(scene, kernel(own, static_cast<int>(TopLoad::kPressure)), answer);
   }
 }
 

@@ -2,8 +2,8 @@
 #include "models/array/space/touch_readings.h"
 
 #include "models/array/film/disc_charge.h"
-#include "models/array/space/neighbours.h"
 #include "models/array/space/space_maps.h"
+#include "models/maths/neighbours.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,6 @@
 #include "tests/models/scene/random_arrays.h"
 
+#include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 #include "tests/support/random_draw.h"
@@ -83,7 +84,51 @@ void draw_press(Draw& draw, SpaceScene& scene) {
   scene.press = press;
 }
 
+void draw_electrode(Draw& draw, SpaceScene& scene) {
+  const double kind = draw.uniform(0.0, 1.0);
+  scene.electrode = kind < 0.4   ? SpaceElectrode::kSampled
+                    : kind < 0.7 ? SpaceElectrode::kQuadrants
+                                 : SpaceElectrode::kEquipotential;
+  if (scene.electrode == SpaceElectrode::kEquipotential && draw.chance(0.3)) {
+    scene.grounded = FilmFace::kBottom;
+  }
+}
+
+// Within what the answers state: a foot that the film holds (eq. S7), a film whose edge is not felt (eq. S8).
+void keep_limits(Draw& draw, SpaceScene& scene) {
+  const double film_Pa = elasticity_of(scene.film).young_Pa;
+  const double softer = std::min(1.0, scene.tolerance * film_Pa / scene.pillar.E0_Pa);
+  scene.pillar.E0_Pa *= softer;
+  for (SpaceClass& one : scene.others) one.material.E0_Pa *= softer;
+  scene.pressure_Pa *= softer;
+  scene.shear_x_Pa *= softer;
+  scene.shear_y_Pa *= softer;
+  scene.film_edge_m =
+      scene.film_thickness_m * (draw.uniform(1.0, 3.0) + 0.6 * std::log(10.0 / scene.tolerance));
+  if (!draw.chance(0.25)) return;
+  scene.backing = Backing{film_Pa * draw.log_uniform(2.0, 50.0), draw.uniform(0.2, 0.45)};
+  scene.tolerance = std::max(scene.tolerance, 2e-3);
+  scene.film_edge_m *= 10.0;
+}
+
 }  // namespace
+
+SpaceScene random_touch(std::mt19937_64& random) {
+  SpaceScene scene = random_array(random);
+  Draw draw(random);
+  const bool is_pressed = draw.chance(0.5);
+  scene.tolerance = is_pressed ? draw.log_uniform(2e-3, 1e-2) : draw.log_uniform(1e-4, 1e-2);
+  draw_electrode(draw, scene);
+  keep_limits(draw, scene);
+  if (!is_pressed) {
+    if (scene.pressure_Pa == 0.0 && scene.shear_x_Pa == 0.0) scene.pressure_Pa = 1e2;
+    return scene;
+  }
+  scene.pressure_Pa = scene.shear_x_Pa = scene.shear_y_Pa = 0.0;
+  scene.loaded.clear();
+  draw_press(draw, scene);
+  return scene;
+}
 
 SpaceScene random_pressed_array(std::mt19937_64& random) {
   SpaceScene scene = random_array(random);

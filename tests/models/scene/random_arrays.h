@@ -16,4 +16,9 @@ SpaceScene random_array(std::mt19937_64& random);
 // not, to a depth of up to half of what buckles a pillar; tolerances from 2e-3 to 3e-2.
 SpaceScene random_pressed_array(std::mt19937_64& random);
 
+// Arrays as above with all that an array in the plane may have, within the limits that it states: electrodes of all kinds,
+// some of them on the face under the pillars; films on a rigid base or on a backing at least twice as stiff; half of
+// them under a shape; tolerances from 1e-4 to 1e-2, under a shape from 2e-3.
+SpaceScene random_touch(std::mt19937_64& random);
+
 }  // namespace viscard::test

@@ -61,6 +61,27 @@ bool has_note(const SceneAnswer& answer, const std::string& part) {
 
 }  // namespace
 
+TEST_CASE("a tip between the points of a top is refused, not missed",
+          "[models][array][space][stability]") {
+  ShapePress press{.shape = {.kind = ShapeKind::kTable}, .depth_m = 1e-6};
+  const auto refused = [&](double half_width_m) {
+    HeightTable& table = press.shape.table;
+    table.x_m = table.y_m = {-200e-6, -half_width_m, 0.0, half_width_m, 200e-6};
+    table.height_m.assign(25, 2e-6);
+    table.height_m[12] = 0.0;
+    try {
+      simulate(pressed_array(1, 1, press));
+    } catch (const SceneMistake& mistake) {
+      return std::string(mistake.key());
+    } catch (const std::runtime_error&) {  // partial contact that no grid settles
+      return std::string("grid");
+    }
+    return std::string();
+  };
+  CHECK(refused(0.05e-6) == "shape.file");
+  CHECK(refused(10e-6) != "shape.file");
+}
+
 TEST_CASE("pillars under a paraboloid bear and read what the reference does",
           "[models][array][space]") {
   // k (delta - (r^2 + a^2/2)/(2 R)) with k = 19.0468 N/m of a graded mesh on this film.

@@ -119,6 +119,69 @@ void study_pressed_arrays(int count, unsigned long seed) {
   CHECK(honest >= 0.99 * answered);
 }
 
+// The finer answer of either kind: to a tenth of the tolerance, or on the finest mesh and grid of all.
+SceneAnswer finer_answer(const SpaceScene& scene) {
+  const auto all = std::get<SpaceScene>(plan_effects(with_all_effects_on(scene)).reduced);
+  if (!scene.press) return space_answer_on(all, space_meshes(all).back());
+  SpaceScene finer = scene;
+  finer.tolerance = std::max(0.1 * scene.tolerance, SpaceScene::kTolerances.least);
+  try {
+    return simulate(finer);
+  } catch (const std::runtime_error&) {
+    return space_answer_on(scene, space_meshes(scene).back());
+  }
+}
+
+Judged judged_touch(const SpaceScene& scene, const SceneAnswer& answer) {
+  const SceneAnswer fine = finer_answer(scene);
+  Judged verdict;
+  for (const SceneMap& map : answer.maps) {
+    const SceneMap& exact = map_of(fine, map.name);
+    const double size = size_of(exact);
+    for (std::size_t i = 0; i < map.value.size() && size > 0.0; ++i) {
+      const double error = std::abs(map.value[i] - exact.value[i]);
+      const double of_fine = exact.error.empty() ? 0.0 : exact.error[i];
+      if (map.is_watched) verdict.over = std::max(verdict.over, error / (scene.tolerance * size));
+      verdict.is_honest =
+          verdict.is_honest && error <= map.error[i] + of_fine + 0.02 * scene.tolerance * size;
+    }
+  }
+  return verdict;
+}
+
+// VISCARD_SHOW prints each scene that is refused, wrong or dishonest.
+void study_touch(int from, int count, unsigned long seed) {
+  int answered = 0, below = 0, honest = 0;
+  std::ostringstream worst;
+  for (int i = from; i < from + count; ++i) {
+    std::mt19937_64 random(1000UL * seed + static_cast<unsigned long>(i));
+    const SpaceScene scene = random_touch(random);
+    SceneAnswer answer;
+    try {
+      answer = simulate(scene);
+    } catch (const std::exception& error) {
+      worst << "scene " << i << " (tolerance " << scene.tolerance << "): " << error.what() << "\n";
+      continue;
+    }
+    ++answered;
+    const Judged verdict = judged_touch(scene, answer);
+    below += verdict.over <= 1.0 ? 1 : 0;
+    honest += verdict.is_honest ? 1 : 0;
+    if (verdict.over <= 1.0 && verdict.is_honest) continue;
+    worst << "scene " << i << ": error " << verdict.over << " of the tolerance " << scene.tolerance
+          << ", honest " << verdict.is_honest << "\n";
+  }
+  CAPTURE(count, answered, below, honest, worst.str());
+  if (std::getenv("VISCARD_SHOW") != nullptr) {
+    WARN("answered " << answered << ", below " << below << ", honest " << honest << " of " << count
+                     << "\n"
+                     << worst.str());
+  }
+  CHECK(answered >= 0.97 * count);
+  CHECK(below >= 0.99 * answered);
+  CHECK(honest >= 0.99 * answered);
+}
+
 }  // namespace
 
 TEST_CASE("random arrays meet their tolerance with honest estimates", "[models][array][space]") {
@@ -138,4 +201,32 @@ TEST_CASE("random arrays under a shape meet their tolerance with honest estimate
 TEST_CASE("many random arrays under a shape meet their tolerance with honest estimates",
           "[models][array][space][slow]") {
   study_pressed_arrays(60, 4);
+}
+
+// In parts, so that ctest can run them side by side.
+TEST_CASE("300 random touches are answered, within their tolerance and honest: the first hundred",
+          "[models][array][space][slow]") {
+  study_touch(0, 100, 5);
+}
+
+TEST_CASE("300 random touches are answered, within their tolerance and honest: the second hundred",
+          "[models][array][space][slow]") {
+  study_touch(100, 100, 5);
+}
+
+TEST_CASE("300 random touches are answered, within their tolerance and honest: the third hundred",
+          "[models][array][space][slow]") {
+  study_touch(200, 100, 5);
+}
+
+// A part of any size: VISCARD_TOUCHES="from count", for studies by hand.
+TEST_CASE("a part of the random touches that the environment names", "[models][array][space]") {
+  const char* const part = std::getenv("VISCARD_TOUCHES");
+  if (part == nullptr) {
+    study_touch(1000, 1, 5);
+    return;
+  }
+  int from = 0, count = 0;
+  std::istringstream(part) >> from >> count;
+  study_touch(from, count, 5);
 }

@@ -28,5 +28,6 @@ std::vector<StabilityCase> elastic_stability_cases();
 std::vector<StabilityCase> viscoelastic_stability_cases();
 std::vector<StabilityCase> electric_and_unit_stability_cases();
 std::vector<StabilityCase> answer_stability_cases();
+std::vector<StabilityCase> touch_stability_cases();
 
 }  // namespace viscard::test

@@ -22,7 +22,7 @@ const std::string kEnd = "<!-- end of the stability table -->\n";
 std::vector<StabilityCase> all_cases() {
   std::vector<StabilityCase> all = elastic_stability_cases();
   for (auto part : {viscoelastic_stability_cases(), electric_and_unit_stability_cases(),
-                    answer_stability_cases()}) {
+                    answer_stability_cases(), touch_stability_cases()}) {
     std::move(part.begin(), part.end(), std::back_inserter(all));
   }
   return all;

@@ -29,7 +29,8 @@ class Neighbours {
         const auto here = cells_.find(key(column, row));
         if (here == cells_.end()) continue;
         for (const Entry& entry : here->second) {
-          if (std::hypot(entry.x_m - x_m, entry.y_m - y_m) <= distance_m_) found(entry.index);
+          const double dx_m = entry.x_m - x_m, dy_m = entry.y_m - y_m;
+          if (dx_m * dx_m + dy_m * dy_m <= distance_m_ * distance_m_) found(entry.index);
         }
       }
     }

@@ -1,0 +1,154 @@
+// The thesis' chapter 8 and appendix A.1 as scenes of data/seed, each beside a number of another origin.
+#include "io/flow/scenes/answer_scene.h"
+#include "io/scenes/scene_file.h"
+#include "models/array/space/space_contact.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+using namespace viscard;
+
+namespace {
+
+struct SeedAnswer {
+  SceneFile file;
+  SceneAnswer answer;
+};
+SeedAnswer seed_answer(const std::string& name) {
+  const std::string path = std::string(VISCARD_SOURCE_DIR) + "/data/seed/" + name;
+  SeedAnswer seed{read_scene(path), {}};
+  seed.answer = answer_scene(seed.file, path, {});
+  return seed;
+}
+
+SceneResult seed_result(const SceneAnswer& answer, const std::string& name) {
+  for (const SceneResult& one : answer.results) {
+    if (one.name == name) return one;
+  }
+  throw std::runtime_error("no result " + name);
+}
+
+const std::vector<double>& values_of(const SceneAnswer& answer, const std::string& name) {
+  for (const SceneMap& map : answer.maps) {
+    if (map.name == name) return map.value;
+  }
+  throw std::runtime_error("no map " + name);
+}
+
+// k <depth - gap> of the round top at x, on a circle of 3650 um (paraboloid to second order, with the circle's next).
+double mean_gap_force_N(double x_m) {
+  const double radius_m = 3650e-6, R_m = 20e-6;
+  double sum_m = 0.0, weight = 0.0;
+  for (int i = 0; i < 400; ++i) {  // chords of the top
+    const double u = -1.0 + (i + 0.5) / 200.0;
+    const double chord = std::sqrt(1.0 - u * u), x = x_m + R_m * u;
+    sum_m += chord * (10e-6 - (radius_m - std::sqrt(radius_m * radius_m - x * x)));
+    weight += chord;
+  }
+  return 19.0468 * sum_m / weight;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto n = static_cast<double>(a.size());
+  const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n;
+  const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
+  double ab = 0.0, aa = 0.0, bb = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+  }
+  return ab / std::sqrt(aa * bb);
+}
+
+}  // namespace
+
+TEST_CASE("eight pillars under the thesis' profile bear their mean overlap",
+          "[seed][scene][array]") {
+  const SceneAnswer contact = seed_answer("array_cylinder.toml").answer;
+  const std::vector<double>& force_N = values_of(contact, "pillar_force");
+  REQUIRE(force_N.size() == 8);
+  CHECK(force_N[4] == Approx(mean_gap_force_N(50e-6)).epsilon(1e-3));
+  CHECK(force_N[5] == Approx(mean_gap_force_N(150e-6)).epsilon(1e-3));
+  // The far side of this top lifts: it bears more than its mean overlap says.
+  CHECK(force_N[6] > mean_gap_force_N(250e-6));
+  CHECK(force_N[6] < 1.3 * mean_gap_force_N(250e-6));
+  CHECK(force_N[7] == 0.0);
+  CHECK(seed_result(contact, "contacts").value == 6.0);
+  CHECK(std::any_of(contact.notes.begin(), contact.notes.end(), [](const std::string& note) {
+    return note.find("buckle") != std::string::npos;
+  }));
+}
+
+TEST_CASE("eight pillars that must follow the thesis' profile are pulled at the ends",
+          "[seed][scene][array]") {
+  const SceneAnswer answer = seed_answer("array_cylinder_prescribed.toml").answer;
+  const std::vector<double>& force_N = values_of(answer, "pillar_force");
+  for (int i = 0; i < 4; ++i) {
+    const double expected_N = mean_gap_force_N((50.0 + 100.0 * i) * 1e-6);
+    CHECK(force_N[static_cast<std::size_t>(4 + i)] == Approx(expected_N).epsilon(1e-3));
+    CHECK(force_N[static_cast<std::size_t>(3 - i)] == Approx(expected_N).epsilon(1e-3));
+  }
+  CHECK(force_N[7] == Approx(-130.156e-6).epsilon(5e-3));
+}
+
+TEST_CASE("a layer that must follow the thesis' profile reads as finite elements find",
+          "[seed][scene][layer]") {
+  const SceneAnswer answer = seed_answer("layer_cylinder_prescribed.toml").answer;
+  const SceneResult force = seed_result(answer, "contact_force");
+  CHECK(std::abs(force.value - 40.471) < std::max(force.error_estimate, 2e-3 * 40.471));
+  CHECK(seed_result(answer, "centre_voltage_1").value == Approx(-0.904513).epsilon(5e-3));
+  CHECK(seed_result(answer, "centre_voltage_2").value == Approx(-0.872768).epsilon(5e-3));
+}
+
+TEST_CASE("pillars follow the thesis' rough profile without blurring it", "[seed][scene][array]") {
+  const SeedAnswer seed = seed_answer("array_rough.toml");
+  const auto& scene = std::get<SpaceScene>(seed.file.scene);
+  std::vector<double> overlap_m;
+  for (const SpacePillar& one : scene.pillars) {
+    double sum_m = 0.0;
+    int count = 0;
+    for (int i = -10; i <= 10; ++i) {
+      for (int j = -10; j <= 10; ++j) {
+        if (i * i + j * j > 100) continue;
+        sum_m -= height_m(scene.press->shape, one.x_m + 2e-6 * i, one.y_m + 2e-6 * j);
+        ++count;
+      }
+    }
+    overlap_m.push_back(sum_m / count);
+  }
+  const std::vector<double>& mean_V = values_of(seed.answer, "mean_voltage");
+  CHECK(correlation(mean_V, overlap_m) < -0.999);  // pressed is negative
+  CHECK(seed_result(seed.answer, "contacts").value == 8.0);
+}
+
+TEST_CASE("quarters read by areas and by nodes give the numbers of the seed files",
+          "[seed][scene][array]") {
+  const double top_N = std::numbers::pi * 20e-6 * 20e-6 * 1e3;
+  const auto result = [](const std::string& file, const std::string& name) {
+    return seed_result(seed_answer(file).answer, name).value;
+  };
+  CHECK(result("quadrants_normal_area.toml", "quadrant_1_voltage_1_1") ==
+        Approx(-1.92665e-3).epsilon(1e-3));
+  CHECK(result("quadrants_normal_area.toml", "sensed_normal_force_1_1") ==
+        Approx(top_N).epsilon(1e-6));
+  CHECK(result("quadrants_normal_nodes.toml", "sensed_normal_force_1_1") ==
+        Approx(1.0517 * top_N).epsilon(1e-3));
+  CHECK(result("quadrants_shear_area.toml", "quadrant_1_voltage_1_1") ==
+        Approx(-7.78507e-3).epsilon(1e-3));
+  CHECK(result("quadrants_shear_area.toml", "sensed_shear_x_force_1_1") ==
+        Approx(top_N).epsilon(1e-6));
+  const SceneAnswer nodes = seed_answer("quadrants_shear_nodes.toml").answer;
+  CHECK(seed_result(nodes, "sensed_normal_force_1_1").value ==
+        Approx(-0.140 * top_N).margin(2e-3 * top_N));
+  CHECK(seed_result(nodes, "sensed_shear_x_force_1_1").value ==
+        Approx(0.870 * top_N).margin(2e-3 * top_N));
+  CHECK(seed_result(nodes, "sensed_shear_y_force_1_1").value ==
+        Approx(0.015 * top_N).margin(2e-3 * top_N));
+}
