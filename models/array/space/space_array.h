@@ -74,9 +74,9 @@ class SpaceResponse {
 
   // V; pillars x readings.
   Eigen::MatrixXd voltages_V(const TopLoads& loads_Pa) const;
-  // The same for many loads of these kinds (pillars x loads, in their order), of pillars that act. The response must
-  // outlive it.
+  // Sums over the array of many sets of loads: pillars x loads, Pa, to pillars x readings, V.
   using Sums = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& loads_Pa)>;
+  // The sums for loads of these kinds, in this order, of the pillars that act. The response must outlive them.
   Sums sums_of(const std::vector<TopLoad>& loads, const std::vector<bool>& acts) const;
   // Readings of a pillar at the offset (x, y) from a loaded one of the class, V/Pa: readings x loads.
   Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(int of_class, double x_m,

@@ -1,5 +1,6 @@
 #include "tests/models/scene/random_arrays.h"
 
+#include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
@@ -105,6 +106,14 @@ void keep_limits(Draw& draw, SpaceScene& scene) {
   scene.shear_y_Pa *= softer;
   scene.film_edge_m =
       scene.film_thickness_m * (draw.uniform(1.0, 3.0) + 0.6 * std::log(10.0 / scene.tolerance));
+  // Electrodes that influence each other less than the tolerance (eq. S5).
+  if (scene.electrode == SpaceElectrode::kEquipotential) {
+    for (int i = 0; i < 8 && electrode_error(scene) > 0.3 * scene.tolerance; ++i) {
+      scene.electrode_radius_m = 0.85 * electrode_radius_m(scene);
+    }
+    if (electrode_error(scene) > 0.3 * scene.tolerance) scene.electrode = SpaceElectrode::kSampled;
+  }
+  if (scene.electrode == SpaceElectrode::kSampled) scene.grounded = FilmFace::kTop;
   if (!draw.chance(0.25)) return;
   scene.backing = Backing{film_Pa * draw.log_uniform(2.0, 50.0), draw.uniform(0.2, 0.45)};
   scene.tolerance = std::max(scene.tolerance, 2e-3);
