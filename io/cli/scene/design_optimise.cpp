@@ -36,6 +36,10 @@ void write_designs(const DesignSpec& spec, const DesignFront& front, const nlohm
 int run_design_optimise(const boost::program_options::variables_map& values, const Words& words,
                         Streams& streams) {
   const std::string path = *given(values, "scene");
+  if (values.count("tol") > 0) {
+    throw UsageError(
+        "--tol belongs to a scene; the tolerance of a design stands in its scene file");
+  }
   const DesignSpec spec = read_design_spec(path);
   DesignFront front;
   {

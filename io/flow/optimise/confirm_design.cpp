@@ -31,7 +31,9 @@ DesignedObjective objective_at(const DesignSpec& spec, const DesignSpace& space,
                                const Scene& scene, const std::string& quantity) {
   for (std::size_t i = 0; i < spec.ranges.size(); ++i) {
     if (spec.ranges[i].key == quantity) {
-      return {quantity, space.unit_of(i), space.value_at(i, point[i]), 0.0};
+      // As it stands in the scene, rounded.
+      return {quantity, space.unit_of(i), std::stod(space.values_at(point, kFileDigits)[i].second),
+              0.0};
     }
   }
   DesignedObjective objective{quantity, "", 0.0, 0.0};

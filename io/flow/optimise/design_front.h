@@ -19,7 +19,7 @@ struct DesignFront {
 DesignFront design_front(const DesignSpec& spec,
                          const std::function<void(double, const std::string&)>& progress);
 
-// The second objective over the first, one dot for each design with its error.
+// The second objective over the first, one dot for each design.
 Plot picture_of_front(const DesignSpec& spec, const DesignFront& front);
 
 }  // namespace viscard

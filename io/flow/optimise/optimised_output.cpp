@@ -66,7 +66,7 @@ std::string text_from_front(const DesignSpec&, const DesignFront& front) {
     for (const auto& [key, value] : design.values) text += fmt::format("  {:<32} {}\n", key, value);
     for (const DesignedObjective& one : design.objectives) {
       text += fmt::format("  {:<32} {:.5g} +- {:.1g} {}\n", one.quantity, one.value,
-                          one.error_estimate, one.unit);
+                          one.error_estimate, one.unit == "1" ? "" : one.unit);
     }
     text += text_from_judgement(design.judgement);
     for (std::size_t k = 0; k < design.probabilities.size(); ++k) {

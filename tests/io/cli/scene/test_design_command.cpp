@@ -117,6 +117,7 @@ goal = "largest"
     CHECK(designs[i]["objectives"][0]["value"] < designs[i - 1]["objectives"][0]["value"]);
     CHECK(designs[i]["objectives"][1]["value"] > designs[i - 1]["objectives"][1]["value"]);
   }
+  CHECK(run_command({"design", scene.beside("spec.toml"), "--tol", "1e-3"}).status == 2);
   CHECK(run_command({"simulate", out + "/scene_1.toml"}).status == 0);
   CHECK(read_file(out + "/front.svg").find("<svg") != std::string::npos);
 }
