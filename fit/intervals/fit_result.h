@@ -218,6 +218,7 @@ struct ModulusIntervals {
   Interval E0_Pa, E_inf_Pa;
 };
 ModulusIntervals combined_intervals(const FitResult& fit);
+// Those of one term.
 struct TermIntervals {
   Interval modulus_Pa, g, tau_s;  // g is a pure number
 };

@@ -34,7 +34,7 @@ struct TermUncertainty {
 // together: a frame that is softer than believed raises E0 and all g. Relative changes, with their signs.
 struct SystematicPart {
   std::string cause;
-  double E0 = 0.0;
+  double E0 = 0.0;             // relative change
   std::vector<double> g, tau;  // as Material::terms; missing ones are 0
 };
 
