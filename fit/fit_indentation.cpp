@@ -1,6 +1,7 @@
 #include "fit/fit_indentation.h"
 
 #include "fit/assembly/assemble_result.h"
+#include "fit/assembly/bench_doubt.h"
 #include "fit/assembly/solid_or_liquid.h"
 #include "fit/assembly/table_drift.h"
 #include "fit/assembly/two_point_modulus.h"
@@ -15,6 +16,7 @@
 #include "fit/samples/contact_onset.h"
 #include "fit/samples/noise_model.h"
 #include "fit/search/separable.h"
+#include "models/material/systematic_parts.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -201,24 +203,23 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
       });
 }
 
-// Relative systematic uncertainty of E0 from frame stiffness, force gain and geometry. The frame's
-// deflection is subtracted from the depth, so the errors of frame and gain grow with its share.
-double systematic_share(const IndentationData& data, const FitResult& result) {
-  double square = std::pow(data.force_relative_u, 2);
-  if (data.contact) square += std::pow(relative_uncertainty(*data.contact), 2);
-  if (data.frame_stiffness_N_m > 0.0) {
-    const DepthLaw law = data.contact ? depth_law(*data.contact) : DepthLaw{1.0, 1.0};
-    // Stiffness of the contact at the largest depth.
-    const double depth_m =
-        law.power == 1.0 ? 1.0 : *std::max_element(data.depth_m.begin(), data.depth_m.end());
-    const double stiffness_N_m =
-        law.power * law.factor * std::pow(depth_m, law.power - 1.0) * result.E0_Pa;
-    const double share = stiffness_N_m / data.frame_stiffness_N_m;
-    square = std::pow(data.force_relative_u * (1.0 + share), 2) +
-             (square - std::pow(data.force_relative_u, 2)) +
-             std::pow(share * data.frame_stiffness_relative_u, 2);
+// What is believed of frame, load cell and geometry, and how it changes the result.
+void add_systematic_parts_to(const IndentationData& data, FitResult& result) {
+  BenchDoubt doubt{.frame_stiffness_N_m = data.frame_stiffness_N_m,
+                   .frame_relative_u = data.frame_stiffness_relative_u,
+                   .force_relative_u = data.force_relative_u};
+  if (data.contact) doubt.geometry_relative_u = relative_uncertainty(*data.contact);
+  const DepthLaw law = data.contact ? depth_law(*data.contact) : DepthLaw{1.0, 1.0};
+  // Stiffness of the contact per modulus at the largest depth.
+  const double depth_m =
+      law.power == 1.0 ? 1.0 : *std::max_element(data.depth_m.begin(), data.depth_m.end());
+  const double factor_m = law.power * law.factor * std::pow(depth_m, law.power - 1.0);
+  PronySeries stiffness_N_m{factor_m * result.E_inf_Pa, {}};
+  for (const FittedTerm& term : result.terms) {
+    stiffness_N_m.terms.push_back({factor_m * term.modulus_Pa, term.tau_s});
   }
-  return std::sqrt(square);
+  result.systematic_parts = systematic_parts_from(stiffness_N_m, doubt);
+  result.systematic_relative = systematic_u_of_E0(result.systematic_parts);
 }
 
 }  // namespace
@@ -232,7 +233,7 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
   FitResult result =
       data.moves.empty() ? fit_measured_depth(data, options) : fit_stage_indentation(data, options);
   result.kind = FitKind::kIndentation;
-  result.systematic_relative = systematic_share(data, result);
+  add_systematic_parts_to(data, result);
   add_left_out(result, left_out::kSaturated, data.n_saturated);
   add_left_out(result, left_out::kGlitch, data.n_glitch);
   flag_left_out(result);

@@ -1,5 +1,7 @@
 #include "fit/intervals/fit_result.h"
 
+#include "models/material/systematic_parts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,6 +14,22 @@ Interval combined_95(const Interval& interval, double value, double relative_u) 
                       value + std::hypot(std::max(0.0, interval.high - value), part)};
   // A lower end that was not negative stays so.
   return interval.low >= 0.0 ? Interval{std::max(0.0, wide.low), wide.high} : wide;
+}
+
+ModulusIntervals combined_intervals(const FitResult& fit) {
+  PronySeries series{fit.E_inf_Pa, {}};
+  for (const FittedTerm& term : fit.terms) series.terms.push_back({term.modulus_Pa, term.tau_s});
+  const double of_E_inf = systematic_u_of_E_inf(fit.systematic_parts, series);
+  return {combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative),
+          combined_95(fit.E_inf_interval_95, fit.E_inf_Pa, of_E_inf)};
+}
+
+TermIntervals combined_intervals(const FitResult& fit, std::size_t term) {
+  const FittedTerm& one = fit.terms[term];
+  const std::vector<SystematicPart>& parts = fit.systematic_parts;
+  return {combined_95(one.modulus_Pa_95, one.modulus_Pa, systematic_u_of_modulus(parts, term)),
+          combined_95(one.g_95, one.g, systematic_u_of_g(parts, term)),
+          combined_95(one.tau_s_95, one.tau_s, systematic_u_of_tau(parts, term))};
 }
 
 Material material_from_fit(const FitResult& fit, double nu, double rho_kg_m3) {
@@ -30,6 +48,7 @@ Material material_from_fit(const FitResult& fit, double nu, double rho_kg_m3) {
   uncertainty.covariance_parameters = fit.covariance_parameters;
   uncertainty.covariance = fit.covariance;
   uncertainty.systematic_relative = fit.systematic_relative;
+  uncertainty.systematic_parts = fit.systematic_parts;
   for (const FittedTerm& term : fit.terms) {
     material.terms.push_back({term.g, term.g, term.tau_s});
     uncertainty.terms.push_back(

@@ -175,7 +175,8 @@ struct FitResult {
   NoiseEstimate noise;
   std::vector<std::string> covariance_parameters;  // e.g. "E_inf_Pa", "E_1_Pa", ..., "ln_tau_1"
   Eigen::MatrixXd covariance;
-  double systematic_relative = 0.0;  // common to all moduli: geometry, calibration, frame
+  double systematic_relative = 0.0;  // of E0, by geometry, calibration and frame together
+  std::vector<SystematicPart> systematic_parts;  // its causes
   // Relative standard uncertainty, common to all moduli, of the load cell's gain: its possible
   // drift before contact according to the record itself. The errors and intervals above include it.
   double gain_drift_relative = 0.0;
@@ -211,6 +212,17 @@ struct FitResult {
 
 // Adds a relative standard uncertainty to both sides of a value's interval, in quadrature.
 Interval combined_95(const Interval& interval, double value, double relative_u);
+
+// 95 % intervals that include the systematic parts, in quadrature.
+struct ModulusIntervals {
+  Interval E0_Pa, E_inf_Pa;
+};
+ModulusIntervals combined_intervals(const FitResult& fit);
+// Those of one term.
+struct TermIntervals {
+  Interval modulus_Pa, g, tau_s;  // g is a pure number
+};
+TermIntervals combined_intervals(const FitResult& fit, std::size_t term);  // from 0
 
 // The material that a fit describes, without provenance. Throws std::invalid_argument if the fit is
 // of stiffnesses (no geometry was given).

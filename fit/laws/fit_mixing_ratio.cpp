@@ -136,11 +136,15 @@ Material common_of(const std::vector<Material>& specimens) {
     common.valid.t_min_s = std::max(common.valid.t_min_s, one.valid.t_min_s);
     common.valid.t_max_s = std::min(common.valid.t_max_s, one.valid.t_max_s);
     common.valid.strain_max = std::min(common.valid.strain_max, one.valid.strain_max);
-    double& systematic = common.uncertainty->systematic_relative;
-    systematic = std::max(systematic, one.uncertainty->systematic_relative);
+    // Every specimen was pressed on the same bench; the one that it matters most for counts.
+    MaterialUncertainty& all = *common.uncertainty;
+    if (one.uncertainty->systematic_relative > all.systematic_relative) {
+      all.systematic_relative = one.uncertainty->systematic_relative;
+      all.systematic_parts = one.uncertainty->systematic_parts;
+    }
     const auto& raw = one.provenance.raw_files;
-    auto& all = common.provenance.raw_files;
-    all.insert(all.end(), raw.begin(), raw.end());
+    auto& files = common.provenance.raw_files;
+    files.insert(files.end(), raw.begin(), raw.end());
   }
   common.nu = first.nu + of_others;
   common.E0_Pa = first.E0_Pa;

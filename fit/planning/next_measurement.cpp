@@ -166,7 +166,7 @@ PredictedFit known_fit(const FittedRun& run) {
   }
   known.covariance = run.fit.covariance;
   known.result.gain_drift_relative = 0.0;  // the covariance contains it
-  add_systematic_parts(run.bench, known);
+  known.systematic_parts = systematic_parts_on(run.bench, known.series);
   return known;
 }
 

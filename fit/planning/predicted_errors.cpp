@@ -1,8 +1,10 @@
 #include "fit/planning/predicted_errors.h"
 
+#include "fit/assembly/bench_doubt.h"
 #include "fit/assembly/stage_specimen.h"
 #include "fit/curves/stage_model.h"
 #include "models/contact/punch_contact.h"
+#include "models/material/systematic_parts.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -72,7 +74,7 @@ std::size_t term_number(const std::string& name, const std::string& kind) {
 }
 
 // E_inf, E_i, ln tau_i, as the rows of FitResult::covariance.
-PronySeries moved(PronySeries series, Index parameter, double relative) {
+PronySeries with_parameter(PronySeries series, Index parameter, double relative) {
   const auto n = static_cast<Index>(series.terms.size());
   if (parameter == 0) {
     series.equilibrium_modulus_Pa *= 1.0 + relative;
@@ -100,9 +102,9 @@ double relative_error(const WantedQuantity& wanted, const PronySeries& series,
   for (Index j = 0; j < gradient.size(); ++j) {
     const double scale = scale_of(series, j);
     if (!(scale > 0.0)) continue;
-    gradient[j] =
-        (value_of(wanted, moved(series, j, kStep)) - value_of(wanted, moved(series, j, -kStep))) /
-        (2.0 * kStep * scale * value);
+    gradient[j] = (value_of(wanted, with_parameter(series, j, kStep)) -
+                   value_of(wanted, with_parameter(series, j, -kStep))) /
+                  (2.0 * kStep * scale * value);
   }
   return std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
 }
@@ -167,22 +169,17 @@ PredictedFit predicted_fit(const TestPlan& plan, const Bench& bench, const Mater
   predicted.result.gain_drift_relative =
       gain_drift_of_moduli(model, fit, run.data, predicted.result.E0_Pa);
   add_common_uncertainty(predicted.result.gain_drift_relative, predicted.result);
-  add_systematic_parts(bench, predicted);
+  predicted.systematic_parts = systematic_parts_on(bench, predicted.series);
   return predicted;
 }
 
-void add_systematic_parts(const Bench& bench, PredictedFit& fit) {
-  const double factor_m = force_per_modulus_and_depth_m(bench.specimen.contact);
-  const double frame_N_m = bench.rig.frame.stiffness_N_m;
-  const PronySeries stage_N_m = stage_series(scaled(fit.series, factor_m), frame_N_m);
-  const auto specimen = [&](double force_factor, double frame_factor) {
-    return scaled(specimen_series(scaled(stage_N_m, force_factor), frame_factor * frame_N_m),
-                  1.0 / factor_m);
-  };
-  fit.softer_frame =
-      specimen(1.0, 1.0 - PredictedFit::kSmallShare * bench.rig.frame.stiffness_relative_u);
-  fit.larger_gain = specimen(1.0 + PredictedFit::kSmallShare * force_relative_u(bench.rig), 1.0);
-  fit.geometry_relative = relative_uncertainty(bench.specimen.contact);
+std::vector<SystematicPart> systematic_parts_on(const Bench& bench, const PronySeries& series) {
+  return systematic_parts_from(
+      scaled(series, force_per_modulus_and_depth_m(bench.specimen.contact)),
+      {.frame_stiffness_N_m = bench.rig.frame.stiffness_N_m,
+       .frame_relative_u = bench.rig.frame.stiffness_relative_u,
+       .force_relative_u = force_relative_u(bench.rig),
+       .geometry_relative_u = relative_uncertainty(bench.specimen.contact)});
 }
 
 ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit) {
@@ -193,9 +190,15 @@ ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit) {
   ErrorCauses causes;
   causes.noise = relative_error(wanted, fit.series, fit.covariance);
   causes.gain_drift = change(scaled(fit.series, 1.0 + fit.result.gain_drift_relative));
-  causes.frame = change(fit.softer_frame) / PredictedFit::kSmallShare;
-  causes.calibration = change(fit.larger_gain) / PredictedFit::kSmallShare;
-  causes.geometry = change(scaled(fit.series, 1.0 + fit.geometry_relative));
+  constexpr double kSmallShare =
+      1e-3;  // of a standard deviation, so that effects are to first order
+  for (const SystematicPart& part : fit.systematic_parts) {
+    double& cause = part.cause == kFrameCause      ? causes.frame
+                    : part.cause == kLoadCellCause ? causes.calibration
+                                                   : causes.geometry;
+    const PronySeries other = moved(fit.series, direction_of(fit.series, part), kSmallShare);
+    cause = change(other) / kSmallShare;
+  }
   return causes;
 }
 

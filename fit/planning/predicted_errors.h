@@ -46,22 +46,17 @@ struct PredictedFit {
   FitResult result;      // parameters, covariance, systematic_relative, gain_drift_relative
   double total_s = 0.0;  // at the rig
   double peak_force_N = 0.0;
-  PronySeries series;          // of the guess, Pa
-  Eigen::MatrixXd covariance;  // of (E_inf, E_i, ln tau_i) from the noise alone
-  // The series if the frame is a little softer, or the cell's gain a little smaller: by this share of
-  // their standard uncertainties, so that their effect is to first order.
-  static constexpr double kSmallShare = 1e-3;
-  PronySeries softer_frame, larger_gain;
-  double geometry_relative = 0.0;
+  PronySeries series;                            // of the guess, Pa
+  Eigen::MatrixXd covariance;                    // of (E_inf, E_i, ln tau_i) from the noise alone
+  std::vector<SystematicPart> systematic_parts;  // of the series
 };
 
 // Throws what planned_run() throws, and std::invalid_argument if the rig's noise is not known or the
 // guess has no modulus.
 PredictedFit predicted_fit(const TestPlan& plan, const Bench& bench, const Material& guess);
 
-// Fills softer_frame, larger_gain and geometry_relative of a fit whose series is known: what the fit
-// would find if the bench were a little off, because the stage sees the same.
-void add_systematic_parts(const Bench& bench, PredictedFit& fit);
+// What the doubts of the bench change in a series (Pa) that was fitted on it.
+std::vector<SystematicPart> systematic_parts_on(const Bench& bench, const PronySeries& series);
 
 ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit);
 

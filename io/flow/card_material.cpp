@@ -6,6 +6,7 @@
 #include "io/cards/targets/card_targets.h"
 #include "io/materials/material_file.h"
 #include "models/material/liquid.h"
+#include "models/material/material_bound.h"
 #include "models/material/series_band.h"
 #include "models/maths/text_of_number.h"
 
@@ -19,26 +20,13 @@
 namespace viscard {
 namespace {
 
-// E0 and E_inf at the same end of their own intervals, what lies between them shared among the
-// terms as fitted. Every modulus at its own end would be further out than any interval, because
+// Without a covariance: E0 and E_inf at the same end of their own intervals, what lies between them shared
+// among the terms as fitted. Every modulus at its own end would be further out than any interval, because
 // the moduli of one fit are correlated.
-void take_bound(const CardMaterialRequest& request, PreparedMaterial& prepared) {
+void take_both_ends(const CardMaterialRequest& request, IntervalEnd end,
+                    PreparedMaterial& prepared) {
   Material& material = prepared.material;
-  const bool is_lower = request.bound == "lower";
-  if (!material.uncertainty || !(material.uncertainty->E0_Pa_95.high > 0.0)) {
-    throw std::runtime_error(request.material +
-                             " states no intervals, so it has no bounds; fit it from data first");
-  }
-  const MaterialUncertainty& found = *material.uncertainty;
-  const auto end_Pa = [&](const Interval& interval) {
-    const double scale = 1.0 + (is_lower ? -1.0 : 1.0) * found.systematic_relative;
-    return (is_lower ? interval.low : interval.high) * scale;
-  };
-  const double E0_Pa = end_Pa(found.E0_Pa_95), E_inf_Pa = end_Pa(found.E_inf_Pa_95);
-  if (!(E0_Pa > 0.0) || !std::isfinite(E0_Pa)) {
-    throw std::runtime_error("the " + request.bound + " bound of E0 is no modulus (" +
-                             fmt::format("{:g}", E0_Pa) + " Pa); the data do not tell it");
-  }
+  const double E0_Pa = end_of_E0_Pa(material, end), E_inf_Pa = end_of_E_inf_Pa(material, end);
   const double sum_g = derived_moduli(material).sum_g;
   const double relaxing = 1.0 - E_inf_Pa / E0_Pa;  // share of E0
   const bool is_between = E_inf_Pa > 0.0 && relaxing > 0.0 && sum_g > 0.0;
@@ -50,9 +38,31 @@ void take_bound(const CardMaterialRequest& request, PreparedMaterial& prepared) 
   material.E0_Pa = E0_Pa;
   prepared.notes.push_back(fmt::format(
       "bound: E0 {}at the {} end of the 95 % interval{}{}", is_between ? "and E_inf " : "",
-      request.bound, found.systematic_relative > 0.0 ? ", systematic part included" : "",
+      request.bound,
+      material.uncertainty->systematic_relative > 0.0 ? ", systematic part included" : "",
       is_between ? "" : "; the shares g are as fitted"));
   material.uncertainty.reset();
+}
+
+void take_bound(const CardMaterialRequest& request, PreparedMaterial& prepared) {
+  Material& material = prepared.material;
+  const IntervalEnd end = request.bound == "lower" ? IntervalEnd::kLower : IntervalEnd::kUpper;
+  if (!material.uncertainty || !(material.uncertainty->E0_Pa_95.high > 0.0)) {
+    throw std::runtime_error(request.material +
+                             " states no intervals, so it has no bounds; fit it from data first");
+  }
+  const double E0_Pa = end_of_E0_Pa(material, end);
+  if (!(E0_Pa > 0.0) || !std::isfinite(E0_Pa)) {
+    throw std::runtime_error("the " + request.bound + " bound of E0 is no modulus (" +
+                             fmt::format("{:g}", E0_Pa) + " Pa); the data do not tell it");
+  }
+  if (!has_band(material)) return take_both_ends(request, end, prepared);
+  const bool has_systematic = material.uncertainty->systematic_relative > 0.0;
+  material = material_at_end(material, end);
+  prepared.notes.push_back(fmt::format(
+      "bound: E0 at the {} end of the 95 % interval{}; all other parameters follow by their "
+      "covariance with it",
+      request.bound, has_systematic ? ", systematic part included" : ""));
 }
 
 // The material at one temperature, without its shift.

@@ -26,6 +26,10 @@ Json terms_of(const FitResult& fit, const std::string& unit) {
     row["interval_95"][stem + unit] = json_from(term.modulus_Pa_95);
     row["interval_95"]["g"] = json_from(term.g_95);
     row["interval_95"]["tau_s"] = json_from(term.tau_s_95);
+    const TermIntervals combined = combined_intervals(fit, terms.size());
+    row["combined_interval_95"] = {{stem + unit, json_from(combined.modulus_Pa)},
+                                   {"g", json_from(combined.g)},
+                                   {"tau_s", json_from(combined.tau_s)}};
     terms.push_back(row);
   }
   return terms;
@@ -229,12 +233,14 @@ Json json_from_fit(const FittedFile& fitted) {
   json["flags"] = flags_of(fit);
   json["noise"] = {{"sigma", number(fit.noise.sigma)}, {"inflation", number(fit.noise.inflation)}};
   json["systematic_relative"] = number(fit.systematic_relative);
+  Json& parts = json["systematic_parts"] = Json::array();
+  for (const SystematicPart& p : fit.systematic_parts) {
+    parts.push_back({{"cause", p.cause}, {"E0", p.E0}, {"g", p.g}, {"tau_s", p.tau}});
+  }
   json["gain_drift_relative"] = number(fit.gain_drift_relative);
-  // Including the systematic part, in quadrature.
-  json[letter + "0_combined_interval_95"] =
-      json_from(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative));
-  json[letter + "_inf_combined_interval_95"] =
-      json_from(combined_95(fit.E_inf_interval_95, fit.E_inf_Pa, fit.systematic_relative));
+  const ModulusIntervals combined = combined_intervals(fit);
+  json[letter + "0_combined_interval_95"] = json_from(combined.E0_Pa);
+  json[letter + "_inf_combined_interval_95"] = json_from(combined.E_inf_Pa);
   if (fitted.temperature) {
     const RunTemperature& measured = *fitted.temperature;
     json["temperature"] = {{"mean_C", number(measured.mean_C)},
@@ -264,11 +270,11 @@ Json json_from_fit(const FittedFile& fitted) {
   if (fit.stage_speed) json["stage_speed_se"] = number(fit.stage_speed_se);
   if (fit.dashpot_Pa_s) json["dashpot_Pa_s"] = number(*fit.dashpot_Pa_s);
   if (fit.dashpot_Pa_s) json["dashpot_se_Pa_s"] = number(fit.dashpot_se_Pa_s);
-  if (fit.two_point) {
-    json["two_point"] = {{"modulus_Pa", number(fit.two_point->modulus_Pa)},
-                         {"se_Pa", number(fit.two_point->se_Pa)},
-                         {"half_space_modulus_Pa", number(fit.two_point->half_space_modulus_Pa)},
-                         {"bias", fit.two_point->bias}};
+  if (const auto& two = fit.two_point) {
+    json["two_point"] = {{"modulus_Pa", number(two->modulus_Pa)},
+                         {"se_Pa", number(two->se_Pa)},
+                         {"half_space_modulus_Pa", number(two->half_space_modulus_Pa)},
+                         {"bias", two->bias}};
   }
   if (fit.n_bootstrap > 0) json["n_bootstrap"] = fit.n_bootstrap;
   if (!fit.profiles.empty()) json["profiles"] = profiles_of(fit);

@@ -1,5 +1,7 @@
 #include "io/materials/material_json.h"
 
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -19,8 +21,9 @@ const std::set<std::string>& known_keys(const std::string& section) {
       {"interval_95", {"modulus_Pa", "g", "tau_s"}},
       {"valid", {"t_min_s", "t_max_s", "strain_max"}},
       {"uncertainty",
-       {"E0_interval_95", "E_inf_interval_95", "systematic_relative", "covariance_parameters",
-        "covariance"}},
+       {"E0_interval_95", "E_inf_interval_95", "systematic_relative", "systematic_parts",
+        "covariance_parameters", "covariance"}},
+      {"systematic_parts", {"cause", "E0", "g", "tau_s"}},
       {"flags", {"name", "term", "text"}},
       {"provenance",
        {"created_by", "created_at", "command", "raw_files", "fit_from_s", "fit_to_s", "nu_origin",
@@ -50,6 +53,21 @@ void carry_unknown(const Json& original, Json& fresh, const std::string& section
 }
 
 }  // namespace
+
+int whole_number(const Json& json) {
+  if (!json.is_number_integer()) throw std::runtime_error("expected a whole number");
+  const auto value = json.get<std::int64_t>();
+  constexpr std::int64_t kMost = 1'000'000'000;
+  if (value < -kMost || value > kMost) {
+    throw std::runtime_error("expected a whole number of at most nine digits");
+  }
+  return static_cast<int>(value);
+}
+
+Json json_from(const Interval& interval) {
+  const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+  return Json::array({bound(interval.low), bound(interval.high)});
+}
 
 Json parse_json(const std::string& text, const std::string& name) {
   std::vector<std::set<std::string>> keys;  // of the objects not yet closed

@@ -3,7 +3,6 @@
 #include "io/basics/words.h"
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -82,6 +81,13 @@ class Fields {
       if (!one.is_string()) fail(key, "expected a list of texts");
       values.push_back(one.get<std::string>());
     }
+  }
+  void numbers(const std::string& key, std::vector<double>& values) const {
+    if (out_ != nullptr && !values.empty()) (*out_)[key] = values;
+    if (!has(key)) return;
+    const Json& list = (*in_)[key];
+    if (!list.is_array()) fail(key, "expected a list of numbers");
+    for (const Json& one : list) values.push_back(as_number(one, key));
   }
   void square_matrix(const std::string& key, std::size_t size, Eigen::MatrixXd& matrix) const {
     if (out_ != nullptr) {
@@ -214,6 +220,14 @@ void show_uncertainty(const Fields& file, Material& material, MaterialUncertaint
     f.interval("E0_interval_95", uncertainty.E0_Pa_95);
     f.interval("E_inf_interval_95", uncertainty.E_inf_Pa_95);
     f.number("systematic_relative", uncertainty.systematic_relative);
+    const auto show_part = [](const Fields& part, SystematicPart& cause, std::size_t) {
+      part.text("cause", cause.cause);
+      part.number("E0", cause.E0);
+      part.numbers("g", cause.g);
+      part.numbers("tau_s", cause.tau);
+    };
+    std::vector<SystematicPart>& parts = uncertainty.systematic_parts;
+    if (f.is_reading() || !parts.empty()) f.objects("systematic_parts", parts, show_part);
     f.texts("covariance_parameters", uncertainty.covariance_parameters);
     const std::size_t size = uncertainty.covariance_parameters.size();
     if (size > 0) f.square_matrix("covariance", size, uncertainty.covariance);
@@ -267,21 +281,6 @@ void show_material(const Fields& file, Material& material) {
 }
 
 }  // namespace
-
-int whole_number(const Json& json) {
-  if (!json.is_number_integer()) throw std::runtime_error("expected a whole number");
-  const auto value = json.get<std::int64_t>();
-  constexpr std::int64_t kMost = 1'000'000'000;
-  if (value < -kMost || value > kMost) {
-    throw std::runtime_error("expected a whole number of at most nine digits");
-  }
-  return static_cast<int>(value);
-}
-
-Json json_from(const Interval& interval) {
-  const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
-  return Json::array({bound(interval.low), bound(interval.high)});
-}
 
 Material material_from(const Json& json, const std::string& name) {
   Material material;

@@ -1,5 +1,7 @@
 #include "io/report/report_estimates.h"
 
+#include "models/material/systematic_parts.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,6 +25,7 @@ void take_fit(const FitResult& fit, SpecimenEstimates& estimates) {
         {{term.modulus_Pa, term.modulus_Pa_95}, {term.g, term.g_95}, {term.tau_s, term.tau_s_95}});
   }
   estimates.systematic_relative = fit.systematic_relative;
+  estimates.systematic_parts = fit.systematic_parts;
   estimates.two_point = fit.two_point;
   estimates.flags = fit.flags;
   estimates.covariance_parameters = fit.covariance_parameters;
@@ -51,6 +54,7 @@ void take_material(const Material& material, SpecimenEstimates& estimates) {
     estimates.terms[i].tau_s.interval_95 = uncertainty.terms[i].tau_s_95;
   }
   estimates.systematic_relative = uncertainty.systematic_relative;
+  estimates.systematic_parts = systematic_parts_of(uncertainty);
   estimates.covariance_parameters = uncertainty.covariance_parameters;
   estimates.covariance = uncertainty.covariance;
 }
@@ -191,19 +195,25 @@ RelaxationBand relaxation_band(const SpecimenEstimates& estimates,
 std::vector<RecoveredParameter> recovered_parameters(const SpecimenEstimates& estimates,
                                                      const Material& truth) {
   const PronySeries series = young_series(truth);
-  const double systematic = estimates.systematic_relative;
+  MaterialUncertainty stated;
+  stated.systematic_relative = estimates.systematic_relative;
+  stated.systematic_parts = estimates.systematic_parts;
+  const std::vector<SystematicPart> parts = systematic_parts_of(stated);
   const Estimate none{kNaN, {}};
   std::vector<RecoveredParameter> rows;
-  rows.push_back(recovered("<i>E</i><sub>0</sub>", "Pa", truth.E0_Pa, estimates.E0_Pa, systematic));
+  rows.push_back(recovered("<i>E</i><sub>0</sub>", "Pa", truth.E0_Pa, estimates.E0_Pa,
+                           systematic_u_of_E0(parts)));
   rows.push_back(recovered("<i>E</i><sub>∞</sub>", "Pa", series.equilibrium_modulus_Pa,
-                           estimates.E_inf_Pa, systematic));
+                           estimates.E_inf_Pa,
+                           systematic_u_of_E_inf(parts, series_from_estimates(estimates))));
   const auto pairs = paired_terms(series.terms, estimates.terms);
   std::vector<bool> is_paired(estimates.terms.size(), false);
   const auto add_term = [&](std::size_t number, double g, double tau_s, const TermEstimate* term) {
+    const auto at = static_cast<std::size_t>(term == nullptr ? 0 : term - estimates.terms.data());
     rows.push_back(recovered(fmt::format("<i>g</i><sub>{}</sub>", number), "", g,
-                             term != nullptr ? term->g : none, 0.0));
+                             term != nullptr ? term->g : none, systematic_u_of_g(parts, at)));
     rows.push_back(recovered(fmt::format("<i>τ</i><sub>{}</sub>", number), "s", tau_s,
-                             term != nullptr ? term->tau_s : none, 0.0));
+                             term != nullptr ? term->tau_s : none, systematic_u_of_tau(parts, at)));
   };
   for (std::size_t i = 0; i < series.terms.size(); ++i) {
     if (pairs[i]) is_paired[*pairs[i]] = true;

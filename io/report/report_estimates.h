@@ -30,8 +30,9 @@ struct SpecimenEstimates {
   Estimate E0_Pa, E_inf_Pa;
   Estimate sum_g;  // 1 - E_inf/E0
   bool is_trustworthy = true;
-  std::vector<TermEstimate> terms;  // ascending tau
-  double systematic_relative = 0.0;
+  std::vector<TermEstimate> terms;               // ascending tau
+  double systematic_relative = 0.0;              // of E0
+  std::vector<SystematicPart> systematic_parts;  // its causes
   std::optional<TwoPointModulus> two_point;
   std::vector<MaterialFlag> flags;
   std::vector<std::string> covariance_parameters;
@@ -54,7 +55,7 @@ RelaxationBand relaxation_band(const SpecimenEstimates& estimates,
                                const std::vector<double>& time_s, bool is_relative);
 
 // One parameter whose true value is known. kInsideWithSystematic: the interval contains the truth
-// only after the systematic part, which scales all moduli together, is added in quadrature.
+// only after the systematic parts are added in quadrature.
 enum class Recovery { kInside, kInsideWithSystematic, kOutside, kNoInterval, kNotResolved };
 struct RecoveredParameter {
   std::string name_html;  // "<i>E</i><sub>0</sub>"

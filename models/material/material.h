@@ -30,13 +30,23 @@ struct TermUncertainty {
   Interval modulus_Pa_95, g_95, tau_s_95;
 };
 
+// What one standard deviation of one systematic cause (frame, load cell, geometry) changes, all of it
+// together: a frame that is softer than believed raises E0 and all g. Relative changes, with their signs.
+struct SystematicPart {
+  std::string cause;
+  double E0 = 0.0;             // relative change
+  std::vector<double> g, tau;  // as Material::terms; missing ones are 0
+};
+
 // Uncertainty of the material from the fit; absent for a material typed in by hand.
 struct MaterialUncertainty {
   Interval E0_Pa_95, E_inf_Pa_95;
   std::vector<TermUncertainty> terms;              // as Material::terms
   std::vector<std::string> covariance_parameters;  // of the rows: "E_inf_Pa", "E_1_Pa", "ln_tau_1"
   Eigen::MatrixXd covariance;                      // square, in the units that the names state
-  double systematic_relative = 0.0;  // scales all moduli together: geometry, calibration, frame
+  double systematic_relative = 0.0;  // of E0, by geometry, calibration and frame together
+  // Its causes, independent of each other. Empty: one that scales all moduli together.
+  std::vector<SystematicPart> systematic_parts;
 };
 
 // The range in which the data support the description.

@@ -1,6 +1,9 @@
 #include "models/material/material_causes.h"
 
 #include "models/material/series_band.h"
+#include "models/material/systematic_parts.h"
+
+#include <algorithm>
 
 namespace viscard {
 
@@ -19,9 +22,14 @@ MaterialCauses causes_of(const Material& material) {
                        : "shear and bulk of the material relax differently, and its covariance "
                          "describes E(t) alone; only its systematic part counts";
   }
-  if (uncertainty.systematic_relative > 0.0) {
-    out.causes.push_back({"systematic part",
-                          {common_scale(young_series(material), uncertainty.systematic_relative)}});
+  const PronySeries series = young_series(material);
+  for (const SystematicPart& part : systematic_parts_of(uncertainty)) {
+    // Terms of E(t) are those of the material only if its Poisson ratio is constant.
+    const SystematicPart scale{part.cause, part.E0, {}, {}};
+    const bool has_terms = has_constant_poisson_ratio(material);
+    const bool is_stated = !uncertainty.systematic_parts.empty();
+    out.causes.push_back({kSystematicPart + (is_stated ? ", " + part.cause : std::string()),
+                          {direction_of(series, has_terms ? part : scale)}});
   }
   return out;
 }

@@ -10,7 +10,7 @@
 namespace viscard {
 
 inline constexpr const char* kRandomPart = "random part";
-inline constexpr const char* kSystematicPart = "systematic part";
+inline constexpr const char* kSystematicPart = "systematic part";  // the cause follows
 
 // Why a material is not known exactly: directions that one cause moves it along, independent of each
 // other and of those of other causes.

@@ -251,10 +251,11 @@ Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapola
   }
   require(rest > 0.0, "at ratio " + text_of(ratio) +
                           " the law lets the whole modulus relax; it is not valid there");
-  const double systematic =
-      fit.common.uncertainty ? fit.common.uncertainty->systematic_relative : 0.0;
   material.uncertainty = uncertainty_of(from, n_terms, material.E0_Pa * rest);
-  material.uncertainty->systematic_relative = systematic;
+  if (fit.common.uncertainty) {
+    material.uncertainty->systematic_relative = fit.common.uncertainty->systematic_relative;
+    material.uncertainty->systematic_parts = fit.common.uncertainty->systematic_parts;
+  }
   material.name += (material.name.empty() ? "ratio " : " ") + text_of(ratio) + ":1";
   material.flags = fit.flags;
   std::string unknown;

@@ -1,6 +1,7 @@
 #include "models/material/series_band.h"
 
 #include "models/material/series_directions.h"
+#include "models/material/systematic_parts.h"
 #include "models/maths/require.h"
 
 #include <algorithm>
@@ -60,7 +61,9 @@ BandedCurve banded_curve(const Material& material, const CurveOfSeries& curve) {
   const MaterialUncertainty& uncertainty = *material.uncertainty;
   std::vector<SeriesDirection> directions =
       directions_of(uncertainty.covariance_parameters, uncertainty.covariance, series.terms.size());
-  directions.push_back(common_scale(series, uncertainty.systematic_relative));
+  for (const SystematicPart& part : systematic_parts_of(uncertainty)) {
+    directions.push_back(direction_of(series, part));
+  }
   std::vector<double> variance(out.value.size(), 0.0);
   for (const SeriesDirection& direction : directions) {
     const double step = step_along(series, direction);

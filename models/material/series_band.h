@@ -19,8 +19,8 @@ struct BandedCurve {
 bool has_band(const Material& material);
 
 // The curve of the material with its 95 % band, to first order in the parameters: the variance is
-// J C J', where J holds the derivatives of the curve by the moduli and ln tau. The systematic part,
-// which scales all moduli together, is included (in quadrature). J is taken along the eigenvectors
+// J C J', where J holds the derivatives of the curve by the moduli and ln tau. The systematic parts
+// are included (in quadrature). J is taken along the eigenvectors
 // of the correlation matrix, by central differences, so the variance cannot become negative.
 BandedCurve banded_curve(const Material& material, const CurveOfSeries& curve);
 

@@ -41,13 +41,13 @@ std::string errors_text(const ProtocolStudy& study, const ProtocolRow& row) {
 }
 
 // The largest of the parts that no test changes.
-struct SystematicPart {
+struct NamedHalfWidth {
   double half_width = 0.0;
   std::string cause, remedy;
 };
 
-SystematicPart largest_part(const ErrorCauses& causes) {
-  const SystematicPart parts[] = {{kNormal95 * causes.frame, "the frame's stiffness",
+NamedHalfWidth largest_part(const ErrorCauses& causes) {
+  const NamedHalfWidth parts[] = {{kNormal95 * causes.frame, "the frame's stiffness",
                                    "measure it better (viscard calibrate --compliance)"},
                                   {kNormal95 * causes.calibration, "the load cell's calibration",
                                    "calibrate it better (viscard calibrate)"},
@@ -55,7 +55,7 @@ SystematicPart largest_part(const ErrorCauses& causes) {
                                    "measure punch and layer better, or pour a thicker layer"}};
   return *std::max_element(
       std::begin(parts), std::end(parts),
-      [](const SystematicPart& a, const SystematicPart& b) { return a.half_width < b.half_width; });
+      [](const NamedHalfWidth& a, const NamedHalfWidth& b) { return a.half_width < b.half_width; });
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ std::vector<std::string> limits_of(const TestStudy& study) {
   std::vector<std::string> limits;
   for (std::size_t i = 0; i < protocols.wanted.size(); ++i) {
     if (!protocols.is_beyond_reach[i] || protocols.rows.empty()) continue;
-    const SystematicPart part = largest_part(protocols.rows.front().errors[i]);
+    const NamedHalfWidth part = largest_part(protocols.rows.front().errors[i]);
     limits.push_back(fmt::format(
         "{}: {} alone makes +- {}, so no test reaches {}; {}. The tests are compared without the "
         "systematic parts of {}",

@@ -21,6 +21,17 @@ EffectChoices chosen_effects(const Scene& scene) {
   return choices;
 }
 
+std::string description_of(const MaterialCause& cause, const Material& material) {
+  if (cause.name.rfind(kSystematicPart, 0) != 0) {
+    return "covariance of the moduli and relaxation times";
+  }
+  const PronySeries series = young_series(material);
+  const double E0_Pa = instantaneous_modulus_Pa(series);
+  const double moved_Pa = instantaneous_modulus_Pa(moved(series, cause.directions.front(), 1.0));
+  return fmt::format("E0 moves by {:.2g} %, the shares that relax with it",
+                     100.0 * std::abs(moved_Pa / E0_Pa - 1.0));
+}
+
 const char* material_word(const Scene& scene) {
   return std::holds_alternative<LayerScene>(scene) ? "materials.layer" : "materials.pillar";
 }
@@ -57,11 +68,7 @@ void UncertainScene::add_material() {
   for (const MaterialCause& cause : material.causes) {
     inputs_.push_back(
         {word + ": " + cause.name, static_cast<Eigen::Index>(cause.directions.size())});
-    descriptions_.push_back(
-        cause.name == kSystematicPart
-            ? fmt::format("all moduli together, standard uncertainty {:.2g} %",
-                          100.0 * common(file_.scene).pillar.uncertainty->systematic_relative)
-            : "covariance of the moduli and relaxation times");
+    descriptions_.push_back(description_of(cause, common(file_.scene).pillar));
   }
   if (!material.left_out.empty()) notes_.push_back(word + ": " + material.left_out);
 }

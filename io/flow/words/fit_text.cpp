@@ -50,6 +50,27 @@ void print_orders(const FitResult& fit, const std::string& unit, std::ostream& o
   }
 }
 
+// "frame 3.9 %, geometry 1.7 %"
+std::string words_of_parts(const FitResult& fit) {
+  std::string words;
+  for (const SystematicPart& part : fit.systematic_parts) {
+    words += fmt::format("{}{} {:.2g} %", words.empty() ? "" : ", ", part.cause,
+                         100.0 * std::abs(part.E0));
+  }
+  return words;
+}
+
+// What frame and load cell do to the shares that relax.
+void print_systematic_of_g(const FitResult& fit, std::ostream& out) {
+  std::string words;
+  for (std::size_t i = 0; i < fit.terms.size(); ++i) {
+    const Interval wide = combined_intervals(fit, i).g;
+    if (wide.high - wide.low < 1.01 * (fit.terms[i].g_95.high - fit.terms[i].g_95.low)) continue;
+    words += fmt::format("{}g_{} {}", words.empty() ? "" : ", ", i + 1, range(wide, 1.0, 4));
+  }
+  if (!words.empty()) out << "  including it, shares are " << words << "\n";
+}
+
 void print_fractional(const FractionalDiagnosis& fractional, std::ostream& out) {
   constexpr double kStrong = 6.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
   const double difference = fractional.bic_difference;
@@ -199,13 +220,12 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   }
   if (fit.systematic_relative > 0.0) {
     out << fmt::format(
-        "  systematic part, common to all moduli: +-{:.2g} % at 95 %, standard uncertainty {:.2g} "
-        "% "
-        "(geometry, calibration, frame); "
-        "including it, E0 is {} {}\n",
+        "  systematic part of E0: +-{:.2g} % at 95 %, standard uncertainty {:.2g} % ({}); "
+        "including "
+        "it, E0 is {} {}\n",
         100.0 * kNormal95 * fit.systematic_relative, 100.0 * fit.systematic_relative,
-        range(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative), shown.factor, 4),
-        shown.unit);
+        words_of_parts(fit), range(combined_intervals(fit).E0_Pa, shown.factor, 4), shown.unit);
+    print_systematic_of_g(fit, out);
   }
   if (fit.two_point) {
     out << fmt::format("  two points on the ramp: {:.5g} {} (half-space: {:.5g}); {}\n",

@@ -68,7 +68,7 @@ function showFit(fit) {
   const saved = fit.material_file ? ` The material is in ${fit.material_file}.`
     : fit.material_trouble ? ` The material was not saved: ${sentence(fit.material_trouble)}` : "";
   element("result-note").textContent =
-    `Intervals cover the scatter alone; geometry, calibration and frame add ${significant(100 * fit.systematic_relative, 2)} % to all moduli together.${saved}`;
+    `Intervals cover the scatter alone; geometry, calibration and frame add ${significant(100 * fit.systematic_relative, 2)} % to E0.${saved}`;
   list(element("result-flags"), fit.flags.map((flag) => sentence(flag.text)));
   const { time_s, measured, fitted, sigma } = fit.curves;
   show(element("result-body"), true);
