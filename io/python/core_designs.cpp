@@ -1,8 +1,10 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/units.h"
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/design/judgement_output.h"
 #include "io/flow/optimise/optimised_output.h"
 #include "io/python/job.h"
+#include "io/python/keywords.h"
 #include "io/python/parts.h"
 
 #include <nlohmann/json.hpp>
@@ -17,13 +19,16 @@ namespace py = pybind11;
 py::tuple design_scene(const std::optional<std::string>& text, const std::string& path,
                        const std::optional<std::string>& require_text,
                        const std::string& require_path, std::optional<double> tolerance,
-                       const py::object& progress) {
+                       const py::object& search_time, const py::object& progress) {
+  const double search_s = si_from_text(text_from("search_time", search_time).value_or("60"), "s");
+  if (search_s < 0.0) throw OptionError("--search-time must not be negative, such as 60s");
   const Judgement found = in_background({.progress = progress}, [=](Job& job) {
     const Requirements requirements = require_text
                                           ? requirements_from_toml(*require_text, require_path)
                                           : read_requirements(require_path);
     JudgeOptions options;
     options.tolerance = tolerance;
+    options.search_s = search_s;
     options.progress = [&](double done, const std::string& what) { job.report(done, what); };
     return judge_scene(text ? *text : read_file(path), path, requirements, options);
   });

@@ -23,6 +23,8 @@ Judgement judgement_of(const po::variables_map& values, const std::string& scene
   Progress progress(streams, "design");
   JudgeOptions options;
   options.tolerance = given<double>(values, "tol");
+  options.search_s = *given_quantity(values, "search-time", "s");
+  if (options.search_s < 0.0) throw UsageError("--search-time must not be negative, such as 60s");
   options.progress = [&](double done, const std::string& what) { progress.announce(done, what); };
   try {
     return judge_scene(read_file(scene), scene, requirements, options);
@@ -37,6 +39,8 @@ void add_judge_options(po::options_description& options) {
   options.add_options()("require", po::value<std::string>(),
                         "judge SCENE.toml: file with a table [require], such as "
                         "data/requirements/human_hand.toml");
+  options.add_options()("search-time", po::value<std::string>()->default_value("60s"),
+                        "processor time for the dimensions that would pass; 0s: none");
   add_tolerance_option(options);
 }
 

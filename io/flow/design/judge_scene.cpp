@@ -7,11 +7,17 @@
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <ctime>
 #include <stdexcept>
 
 namespace viscard {
 namespace {
+
+double processor_time_s() {
+  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+}
 
 // Seeks single dimensions that make one line pass.
 class LineRemedies {
@@ -24,24 +30,28 @@ class LineRemedies {
         tolerance_(tolerance),
         dimensions_(dimensions_of(text, path)) {}
 
-  std::vector<Remedy> of(const JudgedLine& line) const {
+  // Fills the remedies of a line within a processor time. A dimension whose search is cut off has none.
+  void add(JudgedLine& line, double search_s) const {
+    const double end_s = processor_time_s() + search_s;
+    std::atomic<bool> is_complete = true;
     std::vector<std::optional<Remedy>> found(dimensions_.size());
     for_each_in_parallel(dimensions_.size(), [&](std::size_t i) {
       const SceneDimension& dimension = dimensions_[i];
-      const QuantityAt quantity_at = [&](double value_m) {
-        return with_value(*line.kind, dimension.key, value_m);
+      const QuantityAt quantity_at = [&](double value_m) -> RequiredValue {
+        if (processor_time_s() < end_s) return with_value(*line.kind, dimension.key, value_m);
+        is_complete = false;
+        return {.how = "the time for the search is over"};
       };
       found[i] = seek_remedy(dimension.value_m, line.limit, line.kind->is_upper, quantity_at);
       if (found[i]) found[i]->key = dimension.key;
     });
-    std::vector<Remedy> remedies;
     for (auto& one : found) {
-      if (one) remedies.push_back(std::move(*one));
+      if (one) line.remedies.push_back(std::move(*one));
     }
-    std::sort(remedies.begin(), remedies.end(), [](const Remedy& a, const Remedy& b) {
+    std::sort(line.remedies.begin(), line.remedies.end(), [](const Remedy& a, const Remedy& b) {
       return std::abs(std::log(a.to_m / a.from_m)) < std::abs(std::log(b.to_m / b.from_m));
     });
-    return remedies;
+    line.is_search_complete = is_complete;
   }
 
  private:
@@ -110,18 +120,25 @@ Judgement judge_scene(const std::string& text, const std::filesystem::path& path
   }
   Judgement judgement;
   judgement.name = requirements.name;
+  // Half of the progress for the lines, half for the search.
+  const auto report = [&](std::size_t begun, std::size_t all, const std::string& what) {
+    const double share = static_cast<double>(begun) / static_cast<double>(2 * all);
+    if (options.progress) options.progress(share, what);
+  };
+  std::vector<JudgedLine*> failing;
+  judgement.lines.reserve(asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const auto report = [&](double part, const std::string& what) {
-      if (!options.progress) return;
-      options.progress((static_cast<double>(i) + part) / static_cast<double>(asked.size()), what);
-    };
-    report(0.0, asked[i]->key);
-    JudgedLine line = judged(*asked[i], file.scene, requirements);
-    if (line.verdict == Verdict::kFail && options.seeks_remedies) {
-      report(0.3, std::string(asked[i]->key) + ": dimensions that would pass");
-      line.remedies = remedies.of(line);
-    }
-    judgement.lines.push_back(std::move(line));
+    report(i, asked.size(), asked[i]->key);
+    judgement.lines.push_back(judged(*asked[i], file.scene, requirements));
+    if (judgement.lines.back().verdict == Verdict::kFail)
+      failing.push_back(&judgement.lines.back());
+  }
+  const double end_s = processor_time_s() + options.search_s;
+  for (std::size_t i = 0; i < failing.size(); ++i) {
+    report(failing.size() + i, failing.size(),
+           std::string(failing[i]->kind->key) + ": dimensions that would pass");
+    const double left_s = end_s - processor_time_s();  // what a line leaves is for those after it
+    remedies.add(*failing[i], left_s / static_cast<double>(failing.size() - i));
   }
   return judgement;
 }

@@ -19,7 +19,8 @@ struct JudgedLine {
   RequiredValue found;
   Verdict verdict = Verdict::kNotAnswered;
   double margin = 0.0;  // limit over value, or its inverse for a lower limit: below 1 it fails
-  std::vector<Remedy> remedies;  // of a line that fails: single dimensions, nearest first
+  std::vector<Remedy> remedies;    // of a line that fails: single dimensions, nearest first
+  bool is_search_complete = true;  // the time for them was enough
 };
 
 struct Judgement {
@@ -30,7 +31,8 @@ struct Judgement {
 
 struct JudgeOptions {
   std::optional<double> tolerance;  // instead of the scene's
-  bool seeks_remedies = true;
+  // Processor time for the dimensions that would pass, shared between the lines that fail; 0: none.
+  double search_s = 60.0;
   // Called with the fraction done and what is done next; may be empty.
   std::function<void(double, const std::string&)> progress;
 };

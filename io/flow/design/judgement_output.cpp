@@ -52,6 +52,10 @@ std::string wrapped(const std::string& text) {
 }
 
 std::string remedies_text(const JudgedLine& line) {
+  const std::string cut_off =
+      "the search for single dimensions that would pass was cut off; --search-time gives it more "
+      "time";
+  if (line.remedies.empty() && !line.is_search_complete) return cut_off;
   if (line.remedies.empty()) {
     return "no single dimension within a factor of 4 would pass, others fixed";
   }
@@ -61,7 +65,7 @@ std::string remedies_text(const JudgedLine& line) {
     text += fmt::format("{}{} {:.3g} um in the place of {:.3g} um", i > 0 ? "; or " : "",
                         one.key.substr(one.key.find('.') + 1), 1e6 * one.to_m, 1e6 * one.from_m);
   }
-  return text;
+  return line.is_search_complete ? text : text + "; " + cut_off;
 }
 
 nlohmann::json number_or_null(bool exists, double value) {
@@ -88,7 +92,8 @@ nlohmann::json json_from_line(const JudgedLine& line) {
           {"margin", number_or_null(has_value, line.margin)},
           {"verdict", word_of(line.verdict)},
           {"reason", line.found.how},
-          {"remedies", remedies}};
+          {"remedies", remedies},
+          {"search_is_complete", line.is_search_complete}};
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ OptimisedDesign confirmed_design(const DesignSpec& spec, const DesignSpace& spac
   design.values = space.values_at(point, kFileDigits);
   design.scene_text = space.text_at(point, kFileDigits);
   JudgeOptions options;
-  options.seeks_remedies = false;
+  options.search_s = 0.0;
   design.judgement = judge_scene(design.scene_text, spec.scene_path, spec.requirements, options);
   design.is_feasible = design.judgement.passes();
   const std::vector<double> spread =

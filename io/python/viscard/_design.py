@@ -24,7 +24,8 @@ class Judgement:
     lines : list of dict
         requirement, quantity, unit, is_upper, limit, value and error_estimate (None: not answered), margin (below 1 it
         fails), verdict ("pass", "fail", "undecided" or "not answered"), reason, and remedies: single dimensions that
-        would pass, {"key", "from_m", "to_m", "value", "error_estimate"}, the smallest change first.
+        would pass, {"key", "from_m", "to_m", "value", "error_estimate"}, the smallest change first; search_is_complete
+        is False where the time for them was not enough.
 
     Examples
     --------
@@ -88,14 +89,16 @@ def _read(printed):
     return json.loads(printed[0]), printed[1]
 
 
-def design(scene, require=None, *, tol: Optional[float] = None, folder=None,
-           progress: Progress = None) -> Union[Judgement, Designs]:
+def design(scene, require=None, *, tol: Optional[float] = None, search_time: Union[str, float] = 60.0,
+           folder=None, progress: Progress = None) -> Union[Judgement, Designs]:
     """Judge a scene by requirements, each against a computed quantity with its error; or design one.
 
     Parameters
     ----------
     scene, tol, folder, progress
         As in `simulate`; without `require` the file of a specification (data/designs), for `Designs`.
+    search_time : str or float
+        Processor time for the dimensions that would pass; a number counts seconds, 0 seeks none.
     require : path or dict
         A file with a table [require], or the contents of that table: data/requirements/human_hand.toml is an example.
 
@@ -113,5 +116,5 @@ def design(scene, require=None, *, tol: Optional[float] = None, folder=None,
     table = _scene_toml({"require": dict(require)}, "") if is_table else None
     name = "require" if is_table else path_of(require, "require")
     printed, text = _with_scene(scene, folder, lambda scene_text, path: _core.design(
-        scene_text, path, table, name, tolerance, progress))
+        scene_text, path, table, name, tolerance, search_time, progress))
     return Judgement(*_read((printed, text)))

@@ -23,10 +23,10 @@ Requirements required(const std::string& lines) {
 }
 
 Judgement judged_file(const std::string& scene, const Requirements& requirements,
-                      bool seeks_remedies = false) {
+                      double search_s = 0.0) {
   const std::string path = kData + scene;
   JudgeOptions options;
-  options.seeks_remedies = seeks_remedies;
+  options.search_s = search_s;
   return judge_scene(read_file(path), path, requirements, options);
 }
 

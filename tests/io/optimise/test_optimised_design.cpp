@@ -201,7 +201,7 @@ TEST_CASE("ten random specifications: designs confirmed by simulate, infeasible 
     CHECK_FALSE(design.active.empty());
     const DesignSpace space(read);
     JudgeOptions quick;
-    quick.seeks_remedies = false;
+    quick.search_s = 0.0;
     if (!design.is_feasible) {
       for (int point = 0; point < 27; ++point) {
         const DesignPoint at = {(point % 3) / 2.0, (point / 3 % 3) / 2.0, (point / 9) / 2.0};
