@@ -213,9 +213,10 @@ SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_
     if (mesh.degree >= kNoLongerCoarse && answer.step_error > control.tolerance) break;
   }
   if (answer.step_error > control.tolerance) {
-    throw std::runtime_error("time steps and the reduced basis leave a relative error of about " +
-                             text_of(answer.step_error, 2) +
-                             " on every mesh; ask for a larger tolerance, or for fewer results");
+    throw std::runtime_error(
+        "what finer meshes do not reduce (time steps, the reduced basis, sums over "
+        "distant pillars) leaves a relative error of about " +
+        text_of(answer.step_error, 2) + "; ask for a larger tolerance, or for fewer results");
   }
   throw std::runtime_error(
       "the finest mesh (degree " + std::to_string(answer.discretisation.degree) +
