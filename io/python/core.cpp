@@ -52,6 +52,7 @@ PYBIND11_MODULE(_core, module) {
   viscard::python::add_fits(module);
   viscard::python::add_rubber(module);
   viscard::python::add_materials(module);
+  viscard::python::add_planning(module);
   viscard::python::add_scenes(module);
   viscard::python::add_designs(module);
   viscard::python::add_rig(module);

@@ -18,6 +18,7 @@ void add_tables(pybind11::module_& module);     // read_table, read_capture
 void add_fits(pybind11::module_& module);       // fit, joint fits
 void add_rubber(pybind11::module_& module);     // tests at large strain, cards of rubber
 void add_materials(pybind11::module_& module);  // materials, cards, predictions
+void add_planning(pybind11::module_& module);   // cost_of_tests
 void add_scenes(pybind11::module_& module);     // simulate, plan, cost
 void add_designs(pybind11::module_& module);    // design
 void add_rig(pybind11::module_& module);        // capture

@@ -17,6 +17,7 @@ from ._design import Designs, Judgement, design
 from ._error import DoubtWarning, Error
 from ._fit import FitResult, Flag, JointFit, fit
 from ._material import Material, Prediction, predict
+from ._planning import TestCost, cost_of_tests
 from ._rubber import Parameter, RubberCard, RubberFit
 from ._scene import Answer, Cost, Field, Plan, Value, cost, forces_from_voltages, plan, simulate
 from ._table import Capture, Table, read_capture, read_table
@@ -25,8 +26,8 @@ __version__: str = _core.version
 
 __all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "Designs", "DoubtWarning", "Error", "Field", "FitResult",
            "Flag", "JointFit", "Judgement", "Material", "Parameter", "Plan", "Prediction", "RubberCard", "RubberFit", "Table",
-           "Value", "capture", "card_targets", "cost", "design", "fit", "forces_from_voltages", "plan", "predict", "read_capture", "read_table",
-           "simulate"]
+           "TestCost", "Value", "capture", "card_targets", "cost", "cost_of_tests", "design", "fit", "forces_from_voltages",
+           "plan", "predict", "read_capture", "read_table", "simulate"]
 
 
 def _end_jobs() -> None:

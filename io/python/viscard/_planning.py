@@ -1,0 +1,70 @@
+"""Which test to make: error against time at the rig."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Dict, List, Optional, Sequence, Union
+
+from . import _core
+from ._arrays import path_of
+
+
+class TestCost:
+    """Tests compared by their errors and their time at the rig.
+
+    Attributes
+    ----------
+    rows : list of dict
+        One for each test on the front, by time; the keys are those of `viscard cost --rig --json`.
+    advice : str
+        The test to make, in a sentence.
+    test : str
+        That test as a test file, for `viscard.capture(test=...)`; empty if there is none.
+    json : dict
+    """
+
+    __test__ = False  # for pytest
+
+    def __init__(self, found: Dict[str, Any]):
+        self.json: Dict[str, Any] = json.loads(found["json"])
+        self.rows: List[Dict[str, Any]] = self.json["rows"]
+        self.advice: str = found["advice"]
+        self.test: str = found["test"]
+
+    def __repr__(self) -> str:
+        return f"TestCost({len(self.rows)} tests: {self.advice})"
+
+
+def cost_of_tests(rig, specimen, want: Union[str, Sequence[str]], *, test=None, guess=None, scene=None,
+                  at_most: Union[str, float] = "60min") -> TestCost:
+    """Compare tests on a rig before one is made, by what they will find and how long they take.
+
+    Parameters
+    ----------
+    rig, specimen : path
+        The section [performance] of the rig file has the noise of a reading.
+    want : str or list of str
+        Quantities with the relative half-width of their 95 % intervals: "E0=1%", "g_2=5%", or a result of the scene.
+    test : path
+        A test to compare with; its approach and retraction are kept.
+    guess : path
+        Material file of a similar material. Default: what the specimen file guesses.
+    scene : path
+        Whose results may be wanted, such as "electrode_voltage=3%".
+    at_most : str or float
+        Longest time at the rig, such as "20 min" or seconds.
+
+    Examples
+    --------
+    >>> found = viscard.cost_of_tests("data/demo/01_rig.toml", "data/demo/03_pdms_1to10.toml", "E0=10%",
+    ...                               at_most="2 min")
+    >>> len(found.rows) > 0, "[ramp]" in found.test
+    (True, True)
+    """
+    words = [want] if isinstance(want, str) else list(want)
+
+    def path(value, name: str) -> Optional[str]:
+        return None if value is None else path_of(value, name)
+
+    return TestCost(_core.cost_of_tests(path_of(rig, "rig"), path_of(specimen, "specimen"), words, path(test, "test"),
+                                        path(guess, "guess"), path(scene, "scene"), at_most))
