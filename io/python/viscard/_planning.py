@@ -21,6 +21,13 @@ class TestCost:
     test : str
         That test as a test file, for `viscard.capture(test=...)`; empty if there is none.
     json : dict
+        What `viscard cost --rig --json` prints.
+
+    Examples
+    --------
+    >>> found = viscard.cost_of_tests("data/demo/01_rig.toml", "data/demo/03_pdms_1to10.toml", "E0=10%", at_most="2 min")
+    >>> [row["touches"] for row in found.rows if row["pareto"]][:1]
+    [1]
     """
 
     __test__ = False  # for pytest
@@ -58,8 +65,8 @@ def cost_of_tests(rig, specimen, want: Union[str, Sequence[str]], *, test=None, 
     --------
     >>> found = viscard.cost_of_tests("data/demo/01_rig.toml", "data/demo/03_pdms_1to10.toml", "E0=10%",
     ...                               at_most="2 min")
-    >>> len(found.rows) > 0, "[ramp]" in found.test
-    (True, True)
+    >>> len(found.rows) > 0, "E0" in found.advice, 'protocol = "ramp-hold"' in found.test
+    (True, True, True)
     """
     words = [want] if isinstance(want, str) else list(want)
 

@@ -107,7 +107,7 @@ class Capture:
     >>> capture.load["time_s"].shape == capture.load["counts"].shape
     True
     >>> sorted(capture.table())
-    ['depth_m', 'force_N', 'segment', 'time_s', 'volts_V']
+    ['depth_m', 'force_N', 'position_m', 'segment', 'time_s', 'volts_V']
     """
 
     def __init__(self, found: dict) -> None:
