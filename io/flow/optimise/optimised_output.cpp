@@ -32,6 +32,7 @@ nlohmann::json json_from_optimised(const OptimisedDesign& design) {
     line["probability"] = k < design.probabilities.size() ? nlohmann::json(design.probabilities[k])
                                                           : nlohmann::json(nullptr);
     line.erase("remedies");
+    line.erase("search_is_complete");
   }
   return {{"feasible", design.is_feasible}, {"values", values},
           {"objectives", objectives},       {"active", design.active},
