@@ -81,9 +81,10 @@ int dispatch(const Words& words, Streams& streams) {
   for (const Command& command : commands()) {
     if (words[0] == command.name) return command.run({words.begin() + 1, words.end()}, streams);
   }
-  throw UsageError("there is no command '" + words[0] + "'" +
-                   did_you_mean(words[0], command_names(), "") +
-                   " 'viscard --help' lists the commands");
+  const std::string meant = did_you_mean(words[0], command_names(), "");
+  throw UsageError(std::string("there is no ") +
+                   (words[0].rfind('-', 0) == 0 ? "option" : "command") + " '" + words[0] + "'" +
+                   (meant.empty() ? ";" : meant) + " 'viscard --help' lists the commands");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "io/cli/scene/design_judge.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/data_folder.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
@@ -50,8 +51,8 @@ int run_design_judge(const po::variables_map& values, const Words& words, Stream
   if (!scene) throw UsageError("--require judges a scene; name its file, such as SCENE.toml");
   if (!require) {
     throw UsageError("'" + *scene +
-                     "' is judged by what is required; add --require FILE, such as "
-                     "data/requirements/human_hand.toml");
+                     "' is judged by what is required; add --require FILE, such as " +
+                     example_with_data("data/requirements/human_hand.toml"));
   }
   const Requirements requirements = read_requirements(*require);
   const Judgement judgement = judgement_of(values, *scene, requirements, streams);
