@@ -50,9 +50,10 @@ int run_design_judge(const po::variables_map& values, const Words& words, Stream
   const auto require = given(values, "require");
   if (!scene) throw UsageError("--require judges a scene; name its file, such as SCENE.toml");
   if (!require) {
-    throw UsageError("'" + *scene +
-                     "' is judged by what is required; add --require FILE, such as " +
-                     example_with_data("data/requirements/human_hand.toml"));
+    throw UsageError(
+        "'" + *scene + "'" +
+        example_with_data(" is judged by what is required; add --require FILE, such as "
+                          "data/requirements/human_hand.toml"));
   }
   const Requirements requirements = read_requirements(*require);
   const Judgement judgement = judgement_of(values, *scene, requirements, streams);
