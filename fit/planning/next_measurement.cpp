@@ -1,9 +1,10 @@
 #include "fit/planning/next_measurement.h"
 
 #include "models/experiment/test_phases.h"
+#include "models/maths/dense.h"
 #include "models/maths/text_of_number.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ Material guess_of(const FittedRun& run) {
 
 // Both measured independently: (A^-1 + B^-1)^-1 = A - A (A + B)^-1 A.
 Eigen::MatrixXd pooled(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return a - a * (a + b).ldlt().solve(a);
+  return a - a * SymmetricFactor(a + b).solve(a);
 }
 
 // The fit together with one more touch.

@@ -48,7 +48,8 @@ void add_uncertainty(std::vector<std::string>& lines, const Material& material) 
     lines.push_back("95 % intervals: E0 " + interval_text(found.E0_Pa_95) + " Pa, E_inf " +
                     interval_text(found.E_inf_Pa_95) + " Pa" +
                     (found.systematic_relative > 0.0
-                         ? fmt::format(", and {:.2g} systematic of E0 (standard uncertainty)", found.systematic_relative)
+                         ? fmt::format(", and {:.2g} systematic of E0 (standard uncertainty)",
+                                       found.systematic_relative)
                          : ""));
     for (std::size_t i = 0; i < found.terms.size(); ++i) {
       lines.push_back(fmt::format("  term {}: g {}, tau {} s", i + 1,

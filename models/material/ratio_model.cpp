@@ -3,7 +3,6 @@
 #include "models/maths/distributions.h"
 #include "models/maths/require.h"
 
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,6 +1,7 @@
 #include "models/maths/dense.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 #include <limits>
 #include <stdexcept>
@@ -138,6 +139,10 @@ EigenSystem generalized_eigen(const MatrixXd& a, const MatrixXd& b) {
     throw std::runtime_error("the eigenvalues of a pair of matrices did not converge");
   }
   return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+VectorXd singular_values(const MatrixXd& matrix) {
+  return Eigen::JacobiSVD<MatrixXd>(matrix).singularValues();
 }
 
 MatrixXd pseudo_inverse(const MatrixXd& matrix) {

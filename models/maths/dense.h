@@ -118,6 +118,9 @@ EigenSystem symmetric_eigen(const Eigen::MatrixXd& matrix);
 // std::runtime_error if the iteration does not converge.
 EigenSystem generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
+// Largest first, as many as the shorter side of the matrix.
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix);
+
 // The pseudo-inverse, by a complete orthogonal decomposition.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
 

@@ -1,8 +1,8 @@
+#include "models/maths/dense.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/scene/scene_effects.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include <cmath>
 
@@ -24,10 +24,9 @@ double coupling_of(const Medium& film) {
   const Matrix6d c = film.is_isotropic && std::isinf(film.bulk_Pa)
                          ? Matrix6d(film.stiffness_Pa + 1e3 * film.shear_Pa * volumetric_form())
                          : film.stiffness_Pa;
-  const Eigen::Matrix3d converse = film.piezo_C_m2 * c.ldlt().solve(film.piezo_C_m2.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> modes(converse,
-                                                                        film.permittivity_F_m);
-  return modes.eigenvalues().maxCoeff();
+  const Eigen::MatrixXd strains =
+      SymmetricFactor(c).solve(Eigen::MatrixXd(film.piezo_C_m2.transpose()));
+  return generalized_eigen(film.piezo_C_m2 * strains, film.permittivity_F_m).values.maxCoeff();
 }
 
 }  // namespace

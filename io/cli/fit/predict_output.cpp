@@ -170,8 +170,10 @@ void print_prediction(const PredictedFile& predicted, std::ostream& out) {
                        counted(prediction.at.size(), "point"));
   }
   if (predicted.has_band && predicted.systematic_relative > 0.0) {
-    out << fmt::format("  the band includes +-{:.2g} % of E0 that further tests on the same bench would not narrow\n",
-                       100.0 * kNormal95 * predicted.systematic_relative);
+    out << fmt::format(
+        "  the band includes +-{:.2g} % of E0 that further tests on the same bench would not "
+        "narrow\n",
+        100.0 * kNormal95 * predicted.systematic_relative);
   }
   for (const Agreement& found : predicted.agreement) {
     print_agreement(found, predicted.against, out);

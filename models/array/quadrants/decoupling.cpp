@@ -1,9 +1,10 @@
 #include "models/array/quadrants/decoupling.h"
 
+#include "models/maths/dense.h"
 #include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Jacobi>
 
 #include <cmath>
 #include <stdexcept>
@@ -71,7 +72,8 @@ Decoupled decouple(const SeemingLoads& seeming, const Eigen::MatrixXd& seen_Pa, 
 NoiseGrowth noise_growth(const Eigen::MatrixXd& seeming, const Eigen::MatrixXd& gains,
                          Eigen::Index index) {
   const Eigen::Index loads = gains.rows(), pillars = seeming.rows() / loads;
-  const Eigen::MatrixXd inverse = seeming.inverse();
+  const Eigen::MatrixXd inverse =
+      LuFactor(seeming).solve(Eigen::MatrixXd::Identity(seeming.rows(), seeming.cols()));
   NoiseGrowth growth;
   growth.factor = Eigen::VectorXd::Zero(loads);
   for (Eigen::Index l = 0; l < loads; ++l) {
@@ -81,7 +83,7 @@ NoiseGrowth noise_growth(const Eigen::MatrixXd& seeming, const Eigen::MatrixXd& 
     }
     growth.factor[l] = std::sqrt(variance) / gains.row(l).norm();
   }
-  const Eigen::VectorXd singular = seeming.bdcSvd().singularValues();
+  const Eigen::VectorXd singular = singular_values(seeming);
   growth.condition = singular[0] / singular[singular.size() - 1];
   return growth;
 }
