@@ -70,12 +70,8 @@ void note_fewer_terms(const SpectralModel& model, SpectralFit& fit) {
                            (wanted == 1 ? " was" : " were") + " requested; " + why});
 }
 
-int n_parameters(const SpectralModel& model, const SpectralState& state) {
-  return static_cast<int>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
-}
-
 double variance_of(const SpectralModel& model, const SpectralState& state, double rss) {
-  return rss / std::max(1.0, model.n_samples() - static_cast<double>(n_parameters(model, state)));
+  return rss / std::max(1.0, model.n_samples() - static_cast<double>(model.n_parameters(state)));
 }
 
 // A fit removes slow parts from its residual, which is therefore correlated negatively, all the more
@@ -234,7 +230,7 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   }
   result.rss = fit.rss;
   result.evidence = {fit.rss, model.n_samples(), fit.noise.inflation(),
-                     n_parameters(model, fit.state)};
+                     static_cast<int>(model.n_parameters(fit.state))};
   result.may_flow = may_flow(model, fit, result);
   const Eigen::VectorXd sigma = model.row_sigma();
   if (sigma.size() > 0) {  // convert every rss to the unit of the data

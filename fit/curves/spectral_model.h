@@ -68,6 +68,11 @@ class SpectralModel {
   Eigen::Index n_nuisances() const { return static_cast<Eigen::Index>(nuisances_.size()); }
   bool may_be_negative() const { return may_be_negative_; }  // for moduli of terms
 
+  // Parameters at this state: the common ones, a modulus and a time of each term, the nuisances.
+  Eigen::Index n_parameters(const SpectralState& state) const {
+    return n_common() + 2 * state.n_terms() + n_nuisances();
+  }
+
   // Range of relaxation times that the data can determine, ln s.
   double ln_tau_min() const { return ln_tau_min_; }
   double ln_tau_max() const { return ln_tau_max_; }

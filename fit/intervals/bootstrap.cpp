@@ -1,6 +1,7 @@
 #include "fit/curves/model_variant.h"
 #include "fit/intervals/uncertainty.h"
 #include "fit/search/separable.h"
+#include "models/maths/interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +18,6 @@ Index block_length(Index rows, double inflation) {
   const double ratio = rho / (1.0 - rho * rho);
   const double length = std::cbrt(6.0 * ratio * ratio * static_cast<double>(rows));
   return std::clamp<Index>(static_cast<Index>(std::ceil(length)), 1, std::max<Index>(1, rows / 4));
-}
-
-Interval middle_95(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    const double position = share * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(position);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return values[below] +
-           (position - static_cast<double>(below)) * (values[above] - values[below]);
-  };
-  return {at(0.025), at(0.975)};
 }
 
 // The drawn values, one list per quantity.

@@ -17,10 +17,6 @@ namespace {
 using Index = Eigen::Index;
 constexpr double kStrongBic = 6.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
 
-double n_parameters(const SpectralModel& model, const SpectralState& state) {
-  return static_cast<double>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
-}
-
 // True if the mean paired difference of the block errors exceeds zero by this many standard errors,
 // over the blocks that both orders can predict.
 bool is_worse(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best,
@@ -148,7 +144,7 @@ OrderRow scored(const SpectralModel& model, const SpectralState& state, double r
   OrderRow row;
   row.n_terms = static_cast<int>(state.n_terms());
   row.rss = rss;
-  const double p = n_parameters(model, state);
+  const auto p = static_cast<double>(model.n_parameters(state));
   const double misfit = n_effective * std::log(std::max(rss, least_rss) / n_samples);
   const double spare = n_effective - p - 1.0;
   row.aicc = spare > 0.0 ? misfit + 2.0 * p + 2.0 * p * (p + 1.0) / spare
@@ -162,7 +158,8 @@ Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralS
   Candidates all;
   // If even the largest order does not fit, its residual is not noise and its autocorrelation does
   // not measure information. So assume at least five independent values per parameter.
-  const double granted = std::min(input.n_samples, 5.0 * n_parameters(model, path.back()));
+  const double granted =
+      std::min(input.n_samples, 5.0 * static_cast<double>(model.n_parameters(path.back())));
   const double n_effective = std::max(granted, input.n_samples / input.inflation);
   for (const SpectralState& state : path) {
     all.is_eligible.push_back(is_within_range(model, state));

@@ -97,7 +97,8 @@ bool has_pairs_only(std::string_view bytes) {
 std::optional<std::string> from_chinese(std::string_view bytes) {
   if (!has_pairs_only(bytes)) return std::nullopt;
   const iconv_t converter = iconv_open("UTF-8", "GB18030");
-  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // not on this system
+  // (iconv_t)-1 as POSIX has it: this system does not know the encoding.
+  if (reinterpret_cast<std::intptr_t>(converter) == -1) return std::nullopt;
   std::string in(bytes), out(2 * bytes.size() + 4, '\0');  // two bytes become three at most
   char *from = in.data(), *to = out.data();
   std::size_t left = in.size(), room = out.size();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 namespace viscard {
 
 // 95 % interval of one parameter.
@@ -10,5 +12,9 @@ struct Interval {
 
 // Half-width of a 95 % interval of a normal deviate in standard deviations: its 97.5 % quantile.
 inline constexpr double kNormal95 = 1.959963984540054;
+
+// The 2.5 % and 97.5 % quantiles of a sample in any order, linear between its values (Hyndman & Fan, Am.
+// Stat. 50 (1996) 361, type 7); zero for an empty one.
+Interval middle_95(std::vector<double> sample);
 
 }  // namespace viscard

@@ -119,6 +119,15 @@ EffectEstimate inertia_estimate(const ArrayScene& scene) {
   return {EffectRole::kNeeded, 1.0, "", 0.0, "vibration is nothing else"};
 }
 
+EffectEstimate adhesion_at(double ratio) {
+  if (ratio < 1.0) {
+    return {EffectRole::kAbsent, 0.0, "length over matting length", ratio,
+            "neighbours that touch part again"};
+  }
+  return {EffectRole::kOutside, 1.0, "length over matting length", ratio,
+          "neighbours that once touch stay together (lateral collapse)"};
+}
+
 // Pillars longer than eq. D3 allows stay together once they touch; no analysis follows them there.
 EffectEstimate adhesion_estimate(const ArrayScene& scene) {
   const ArrayGeometry& g = scene.geometry;
@@ -127,13 +136,7 @@ EffectEstimate adhesion_estimate(const ArrayScene& scene) {
   material.young_modulus_Pa = scene.pillar.E0_Pa;
   material.poisson_ratio = scene.pillar.nu;
   material.surface_energy_J_m2 = scene.surface_energy_J_m2;
-  const double ratio = g.length_m / longest_unmatted_m(g.diameter_m, g.spacing_m, material);
-  if (ratio < 1.0) {
-    return {EffectRole::kAbsent, 0.0, "length over matting length", ratio,
-            "neighbours that touch part again"};
-  }
-  return {EffectRole::kOutside, 1.0, "length over matting length", ratio,
-          "neighbours that once touch stay together (lateral collapse)"};
+  return adhesion_at(g.length_m / longest_unmatted_m(g.diameter_m, g.spacing_m, material));
 }
 
 EffectEstimate finite_strain_estimate(const ArrayScene& scene) {

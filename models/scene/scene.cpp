@@ -23,7 +23,7 @@ std::string creep_buckling_note(const ArrayScene& row) {
 
 std::string creep_buckling_note(const SpaceScene& array) {
   for (const SpaceClass& one : classes_of(array)) {
-    const std::string note = note_of_one(single_pillar(array, one), array.pressure_Pa);
+    std::string note = note_of_one(single_pillar(array, one), array.pressure_Pa);
     if (!note.empty()) return note;
   }
   return "";

@@ -25,6 +25,9 @@ EffectEstimate geometric_stiffness_estimate(const PillarScene& scene);
 void leave_out_geometric_stiffness(PillarScene& scene);
 EffectEstimate finite_strain_estimate(const PillarScene& scene);
 
+// Adhesion of neighbours whose length is `ratio` times the longest that parts again (row_effects.cpp).
+EffectEstimate adhesion_at(double ratio);
+
 // A row of pillars (row_effects.cpp).
 EffectEstimate film_compliance_estimate(const ArrayScene& scene);
 EffectEstimate piezo_coupling_estimate(const ArrayScene& scene);

@@ -154,19 +154,13 @@ EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene) {
 EffectEstimate adhesion_estimate(const SpaceScene& scene) {
   const double gap_m = smallest_gap_m(scene);
   if (std::isinf(gap_m)) return {.reason = "a single pillar with nothing to stick to"};
-  const double ratio = largest_over_classes(scene, [&](const SpaceClass& one) {
+  return adhesion_at(largest_over_classes(scene, [&](const SpaceClass& one) {
     SensorMaterial material;
     material.young_modulus_Pa = one.material.E0_Pa;
     material.poisson_ratio = one.material.nu;
     material.surface_energy_J_m2 = scene.surface_energy_J_m2;
     return one.length_m / longest_unmatted_m(one.diameter_m, gap_m, material);
-  });
-  if (ratio < 1.0) {
-    return {EffectRole::kAbsent, 0.0, "length over matting length", ratio,
-            "neighbours that touch part again"};
-  }
-  return {EffectRole::kOutside, 1.0, "length over matting length", ratio,
-          "neighbours that once touch stay together (lateral collapse)"};
+  }));
 }
 
 EffectEstimate finite_strain_estimate(const SpaceScene& scene) {

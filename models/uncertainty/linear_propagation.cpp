@@ -1,5 +1,6 @@
 #include "models/uncertainty/linear_propagation.h"
 
+#include "models/maths/interval.h"
 #include "models/uncertainty/sobol_points.h"
 #include "models/uncertainty/uncertain_number.h"
 

@@ -19,7 +19,7 @@ double square_factor(bool is_uniform) {
 
 VectorXd values_of_term(const PolynomialTerm& term, const std::vector<bool>& are_uniform,
                         const MatrixXd& points) {
-  const VectorXd first = points.col(term.first);
+  VectorXd first = points.col(term.first);
   if (term.second < 0) return first;
   if (term.second != term.first) return first.cwiseProduct(points.col(term.second));
   const double factor = square_factor(are_uniform[static_cast<std::size_t>(term.first)]);

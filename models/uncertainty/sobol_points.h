@@ -1,6 +1,5 @@
 #pragma once
 
-#include "models/maths/interval.h"
 #include "models/uncertainty/uncertain_input.h"
 
 #include <Eigen/Core>
@@ -22,9 +21,5 @@ Eigen::MatrixXd shifted(Eigen::MatrixXd points, std::uint64_t seed);
 // Standard deviates of points in the unit cube, by the inverse of each distribution.
 Eigen::MatrixXd deviates_from(const Eigen::MatrixXd& points,
                               const std::vector<UncertainInput>& inputs);
-
-// The 2.5 % and 97.5 % quantiles of a sample, linear between its values (Hyndman & Fan, Am. Stat. 50
-// (1996) 361, type 7).
-Interval middle_95(std::vector<double>& sample);
 
 }  // namespace viscard

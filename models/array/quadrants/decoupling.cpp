@@ -72,8 +72,8 @@ Decoupled decouple(const SeemingLoads& seeming, const Eigen::MatrixXd& seen_Pa, 
 NoiseGrowth noise_growth(const Eigen::MatrixXd& seeming, const Eigen::MatrixXd& gains,
                          Eigen::Index index) {
   const Eigen::Index loads = gains.rows(), pillars = seeming.rows() / loads;
-  const Eigen::MatrixXd inverse =
-      LuFactor(seeming).solve(Eigen::MatrixXd::Identity(seeming.rows(), seeming.cols()));
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(seeming.rows(), seeming.cols());
+  const Eigen::MatrixXd inverse = LuFactor(seeming).solve(unit);
   NoiseGrowth growth;
   growth.factor = Eigen::VectorXd::Zero(loads);
   for (Eigen::Index l = 0; l < loads; ++l) {
