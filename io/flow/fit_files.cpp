@@ -18,7 +18,7 @@ namespace {
 // "creep", or "creep 2" for the second of several.
 std::string name_of(const std::vector<TestFile>& tests, std::size_t k) {
   const auto same = [&](const TestFile& other) { return other.kind == tests[k].kind; };
-  const std::string name = name_of_kind(tests[k].kind);
+  std::string name = name_of_kind(tests[k].kind);
   if (std::count_if(tests.begin(), tests.end(), same) == 1) return name;
   const auto at = tests.begin() + static_cast<std::ptrdiff_t>(k);
   return name + " " + std::to_string(1 + std::count_if(tests.begin(), at, same));

@@ -59,12 +59,13 @@ StudyPoint point_from(std::int64_t number, const nlohmann::ordered_json& values,
   for (const auto& [key, value] : values.items()) {
     point.values.emplace_back(key, value.get<std::string>());
   }
-  for (const auto& [name, one] : results.items()) {
+  for (const auto& item : results.items()) {
+    const nlohmann::ordered_json& one = item.value();
     const auto value_of = [&](const char* key) {
       return one.at(key).is_null() ? std::nan("") : one.at(key).get<double>();
     };
-    point.results.push_back(
-        {name, value_of("value"), one.at("unit").get<std::string>(), value_of("error_estimate")});
+    point.results.push_back({item.key(), value_of("value"), one.at("unit").get<std::string>(),
+                             value_of("error_estimate")});
   }
   return point;
 }
