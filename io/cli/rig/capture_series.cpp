@@ -28,7 +28,7 @@ void choose_file(SeriesStep& step) {
 
 // A folder for several captures.
 fs::path made_folder(const CaptureWords& words) {
-  const fs::path folder = words.out_file;
+  fs::path folder = words.out_file;
   if (fs::exists(folder) && !fs::is_directory(folder)) {
     throw std::runtime_error(
         "'" + words.out_file +

@@ -37,7 +37,7 @@ SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const Swee
                                points.size());
   }
   Progress progress(streams, "sweep");
-  const SceneAnswer sum = solve_sweep(
+  SceneAnswer sum = solve_sweep(
       file, store, [&](double done, const std::string& label) { progress.show(done, label); });
   progress.clear();
   if (!folder.empty()) {

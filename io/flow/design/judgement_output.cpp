@@ -52,7 +52,7 @@ std::string wrapped(const std::string& text) {
 }
 
 std::string remedies_text(const JudgedLine& line) {
-  const std::string cut_off =
+  std::string cut_off =
       "the search for single dimensions that would pass was cut off; --search-time gives it more "
       "time";
   if (line.remedies.empty() && !line.is_search_complete) return cut_off;

@@ -112,8 +112,8 @@ std::vector<SceneDimension> dimensions_of(const std::string& text,
 std::optional<Remedy> seek_remedy(double from_m, double limit, bool is_upper,
                                   const QuantityAt& quantity_at) {
   const RemedySearch search(limit, is_upper, quantity_at);
-  const auto larger = search.outward(from_m, 2.0);
-  const auto smaller = search.outward(from_m, 0.5);
+  auto larger = search.outward(from_m, 2.0);
+  auto smaller = search.outward(from_m, 0.5);
   if (!larger) return smaller;
   if (!smaller) return larger;
   return larger->to_m / from_m <= from_m / smaller->to_m ? larger : smaller;

@@ -67,9 +67,9 @@ std::vector<SolvedPoint> SolvedValues::at(const std::vector<DesignPoint>& points
 }
 
 std::vector<double> SolvedValues::spread_at(const DesignPoint& point) const {
-  constexpr int kDigits = 9;
+  constexpr int kSpreadDigits = 9;
   constexpr double kSlopes = 0.05;  // of the standard uncertainty
-  const std::string text = space_.text_at(point, kDigits);
+  const std::string text = space_.text_at(point, kSpreadDigits);
   const UncertainScene scene(scene_from_toml(text, spec_.scene_path), text, spec_.scene_path);
   const auto n = static_cast<Eigen::Index>(kinds_.size());
   const BatchFunction logs = [&](const Eigen::MatrixXd& deviates) {
