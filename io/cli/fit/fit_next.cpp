@@ -20,7 +20,7 @@ void add_next_option(po::options_description& options) {
 }
 
 Words next_words(const po::variables_map& values, const Words& files) {
-  const Words want = given<Words>(values, "want").value_or(Words{});
+  Words want = given<Words>(values, "want").value_or(Words{});
   if (!want.empty() && (files.size() != 1 || !files.front().ends_with(".viscap"))) {
     throw UsageError("--want needs a single capture (*.viscap), which holds its rig and its test");
   }
