@@ -76,7 +76,8 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
   add("density", po::value<std::string>()->value_name("RHO"),
       "of a law of rubber, such as \"1.1 g/cm3\"; LS-DYNA and OpenRadioss need it");
   add("bound", po::value(&words.bound)->value_name("END"),
-      "lower or upper: the card at that end of the 95 % interval of E0, the rest by its covariance with it");
+      "lower or upper: the card at that end of the 95 % interval of E0, the rest by its covariance "
+      "with it");
   add("elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
       "instantaneous or long-term: leave relaxation out");
   add("band", po::value<std::string>()->value_name("LOW,HIGH"),
@@ -181,6 +182,7 @@ int run_card(const Words& words, Streams& streams) {
       "card, runs it, or writes a one-element model to run it in.",
       "viscard card data/materials/pdms_1to10_seed.json --for abaqus --units mm-t-s"};
   add_options(syntax, card);
+  if (std::find(words.begin(), words.end(), "--deck") != words.end()) syntax.may_exist = {"out"};
   syntax.positional = {"material"};
   syntax.choices = {{"for", target_names()},
                     {"units", unit_names()},
