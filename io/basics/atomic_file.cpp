@@ -1,5 +1,7 @@
 #include "io/basics/atomic_file.h"
 
+#include "io/basics/missing_file.h"
+
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
@@ -182,9 +184,13 @@ constexpr std::size_t kLongestPipe = std::size_t{512} << 20, kLongestDevice = st
 
 std::string read_file(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) fail(path, "cannot read", EISDIR);
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw std::runtime_error(path.string() + ": cannot read: Is a directory; name a file in it");
+  }
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
-  if (file.get() < 0) fail(path, "cannot open", errno);
+  if (file.get() < 0) {
+    throw std::runtime_error(path.string() + ": " + why_not_opened(path, errno));
+  }
   std::string contents;
   std::size_t size = 0;
   const auto expected = std::filesystem::file_size(path, ignored);  // fails for a pipe

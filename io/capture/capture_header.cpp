@@ -1,5 +1,8 @@
 #include "io/capture/capture_header.h"
 
+#include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
+#include "io/basics/missing_file.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 
@@ -36,10 +39,17 @@ std::uint32_t big_endian(const Header& header, std::size_t from, std::size_t siz
 // Reads with read(2), because a stream does not report why it fails.
 std::size_t read_header(const fs::path& path, Header& header) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (fd < 0) throw std::runtime_error(path.string() + ": cannot open: " + std::strerror(errno));
+  if (fd < 0) throw std::runtime_error(path.string() + ": " + why_not_opened(path, errno));
   const ssize_t count = ::read(fd, header.data(), header.size());
   ::close(fd);
   return count < 0 ? 0 : static_cast<std::size_t>(count);
+}
+
+[[noreturn]] void refuse_text(const fs::path& path) {
+  const FileKind kind = kind_of_file(read_file(path));
+  const std::string use = use_of_file_kind(kind);
+  fail(path, "is " + file_kind_in_words(kind) + ", not a capture; " +
+                 (use.empty() ? "viscard capture writes captures, *.viscap" : use));
 }
 
 bool has_magic(const Header& header, std::size_t size) {
@@ -54,7 +64,7 @@ void check_capture_header(const fs::path& path) {
   const std::size_t size = read_header(path, header);
   if (size == 0)
     fail(path, "is empty: the capture ended before it wrote anything; there is nothing to read");
-  if (!has_magic(header, size)) fail(path, "is not a capture (a *.viscap file begins otherwise)");
+  if (!has_magic(header, size)) refuse_text(path);
   if (size < header.size())
     fail(path, "is truncated: its header is not complete; use a copy of it");
   if (big_endian(header, 68, 4) != kCaptureApplicationId) {

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
 #include "io/config/config_file.h"
 #include "io/config/config_show.h"
 
@@ -79,7 +80,9 @@ CalibrationRecord calibration_from_toml(const std::string& text, const std::stri
 }
 
 CalibrationRecord read_calibration(const std::filesystem::path& path) {
-  return calibration_from_toml(read_file(path), path.string());
+  const std::string text = read_file(path);
+  return read_as(FileKind::kCalibration, text, path.string(),
+                 [&] { return calibration_from_toml(text, path.string()); });
 }
 
 std::string toml_from_calibration(const CalibrationRecord& record) {

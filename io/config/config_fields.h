@@ -1,9 +1,11 @@
 #pragma once
 
+#include "io/basics/file_kind.h"
 #include "models/uncertainty/uncertain_number.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
@@ -95,5 +97,11 @@ std::string toml_from_fields(const ShowFields& show);
 // innermost table around it if the key is missing, or 0 if the text is not TOML. An entry of a list
 // is given by its number from 1: "analysis.history.3".
 int line_of_key(const std::string& toml, const std::string& dotted_key);
+
+// The path of a file that the TOML text names at a key. Throws std::runtime_error "rig.toml:7:
+// calibration.file: names ..., but ...; ..." if it cannot be read. `in`: the file of the text.
+std::filesystem::path path_at_key(const std::string& toml, const std::filesystem::path& in,
+                                  const std::string& dotted_key, const std::string& name,
+                                  FileKind wanted);
 
 }  // namespace viscard

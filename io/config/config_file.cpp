@@ -1,6 +1,7 @@
 #include "io/config/config_file.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
 #include "io/config/config_fields.h"
 #include "io/config/config_show.h"
 #include "io/config/performance_file.h"
@@ -107,21 +108,28 @@ void show_rig_file(FieldVisitor& fields, RigConfig& rig) {
 RigConfig rig_from_toml(const std::string& text, const std::string& name) {
   RigConfig unset;
   unset.load_cell.volts_per_count = kVoltsPerCount;
-  return config_from_toml<RigConfig>(text, name, unset, show_rig_file, check_rig);
+  return read_as(FileKind::kRig, text, name, [&] {
+    return config_from_toml<RigConfig>(text, name, unset, show_rig_file, check_rig);
+  });
 }
 
 TestPlan test_from_toml(const std::string& text, const std::string& name) {
-  return config_from_toml<TestPlan>(text, name, {}, show_test, check_test);
+  return read_as(FileKind::kRigTest, text, name,
+                 [&] { return config_from_toml<TestPlan>(text, name, {}, show_test, check_test); });
 }
 
 Specimen specimen_from_toml(const std::string& text, const std::string& name) {
-  return config_from_toml<Specimen>(text, name, {}, show_specimen, check_specimen);
+  return read_as(FileKind::kSpecimen, text, name, [&] {
+    return config_from_toml<Specimen>(text, name, {}, show_specimen, check_specimen);
+  });
 }
 
 EmulatedTruth truth_from_toml(const std::string& text, const std::string& name) {
   EmulatedTruth unset;
   unset.material.nu = std::numeric_limits<double>::quiet_NaN();
-  return config_from_toml<EmulatedTruth>(text, name, unset, show_truth, check_truth);
+  return read_as(FileKind::kTruth, text, name, [&] {
+    return config_from_toml<EmulatedTruth>(text, name, unset, show_truth, check_truth);
+  });
 }
 
 namespace {
@@ -154,7 +162,8 @@ RigConfig read_rig(const std::filesystem::path& path) {
   if (!rig.calibration.file.empty()) {
     const double capacity_N = rig.calibration.capacity_N;
     const std::string file = rig.calibration.file;
-    const CalibrationRecord record = read_calibration(folder / rig.calibration.file);
+    const CalibrationRecord record = read_calibration(
+        path_at_key(read_file(path), path, "calibration.file", file, FileKind::kCalibration));
     if (!record.calibration) {
       throw std::runtime_error((folder / rig.calibration.file).string() +
                                ": has no [calibration]; make one with viscard calibrate");
@@ -165,7 +174,8 @@ RigConfig read_rig(const std::filesystem::path& path) {
     check_before_use(rig, (folder / file).string());
   }
   if (!rig.frame.file.empty()) {
-    const CalibrationRecord record = read_calibration(folder / rig.frame.file);
+    const CalibrationRecord record = read_calibration(
+        path_at_key(read_file(path), path, "frame.file", rig.frame.file, FileKind::kCalibration));
     if (!record.frame) {
       throw std::runtime_error((folder / rig.frame.file).string() +
                                ": has no [frame]; make one with viscard calibrate --compliance");

@@ -1,6 +1,7 @@
 #include "io/config/performance_file.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
 #include "io/config/config_show.h"
 
 namespace viscard {
@@ -28,7 +29,9 @@ RigPerformance performance_from_toml(const std::string& rig_text, const std::str
 }
 
 RigPerformance read_performance(const std::filesystem::path& rig_path) {
-  return performance_from_toml(read_file(rig_path), rig_path.string());
+  const std::string text = read_file(rig_path);
+  return read_as(FileKind::kRig, text, rig_path.string(),
+                 [&] { return performance_from_toml(text, rig_path.string()); });
 }
 
 }  // namespace viscard

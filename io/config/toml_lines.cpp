@@ -1,8 +1,10 @@
+#include "io/basics/named_file.h"
 #include "io/config/config_fields.h"
 
 #include <toml++/toml.h>
 
 #include <sstream>
+#include <stdexcept>
 
 namespace viscard {
 
@@ -30,6 +32,15 @@ int line_of_key(const std::string& toml, const std::string& dotted_key) {
     }
   }
   return line;
+}
+
+std::filesystem::path path_at_key(const std::string& toml, const std::filesystem::path& in,
+                                  const std::string& dotted_key, const std::string& name,
+                                  FileKind wanted) {
+  const std::string fault = fault_of_named_file(in.parent_path(), name, wanted);
+  if (fault.empty()) return in.parent_path() / name;
+  throw std::runtime_error(in.string() + ":" + std::to_string(line_of_key(toml, dotted_key)) +
+                           ": " + dotted_key + ": " + fault);
 }
 
 }  // namespace viscard

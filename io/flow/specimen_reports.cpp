@@ -2,6 +2,7 @@
 
 #include "fit/indentation_from_capture.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/missing_file.h"
 #include "io/basics/parallel.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
@@ -19,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <filesystem>
 #include <mutex>
@@ -39,7 +41,7 @@ struct InputFiles {
 InputFiles sorted_by_kind(const std::vector<std::string>& files) {
   InputFiles sorted;
   for (const std::string& file : files) {
-    if (!fs::exists(file)) throw std::runtime_error(file + ": no such file; check the name");
+    if (!fs::exists(file)) throw std::runtime_error(file + ": " + why_not_opened(file, ENOENT));
     if (fs::is_directory(file))
       throw std::runtime_error(file + ": is a folder; give the files in it");
     if (looks_like_ratio_file(file)) continue;  // read by mixing_law_of()

@@ -1,6 +1,8 @@
 #include "io/materials/hyperelastic_file.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
+#include "io/materials/material_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -76,21 +78,23 @@ HyperelasticFile read_hyperelastic(const std::filesystem::path& path) {
 }
 
 HyperelasticFile hyperelastic_from_json(const std::string& text, const std::string& name) {
-  try {
-    const RubberJson json = RubberJson::parse(text);
-    const RubberJson& law = chosen_law(json);
-    HyperelasticFile file;
-    file.law = law_from(law);
-    file.is_trustworthy = law.at("trustworthy");
-    for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
-    add_tests(json, file);
-    return file;
-  } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(name +
-                             ": is not a law of rubber as viscard fit writes it: " + error.what());
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(name + ": " + error.what());
-  }
+  return read_as(FileKind::kRubberLaw, text, name, [&] {
+    try {
+      const RubberJson json = RubberJson(parse_json(text, name));
+      const RubberJson& law = chosen_law(json);
+      HyperelasticFile file;
+      file.law = law_from(law);
+      file.is_trustworthy = law.at("trustworthy");
+      for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
+      add_tests(json, file);
+      return file;
+    } catch (const nlohmann::json::exception& error) {
+      throw std::runtime_error(
+          name + ": is not a law of rubber as viscard fit writes it: " + reason_of(error));
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(name + ": " + error.what());
+    }
+  });
 }
 
 }  // namespace viscard

@@ -1,6 +1,8 @@
 #include "io/materials/material_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -52,6 +54,30 @@ void carry_unknown(const Json& original, Json& fresh, const std::string& section
   }
 }
 
+// ":3: is not JSON: column 7: ": where the reader gave up, counted from 1.
+std::string place_of_fault(const std::string& text, std::size_t byte) {
+  const std::size_t end = std::min(text.size(), byte == 0 ? 0 : byte - 1);
+  const auto line =
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+  const std::size_t last = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
+  const std::size_t column = 1 + end - (last == std::string::npos ? 0 : last + 1);
+  return ":" + std::to_string(line) + ": is not JSON: at column " + std::to_string(column) + " ";
+}
+
+// "the reader met ..." without the words of the JSON library about its own work.
+std::string what_was_met(const Json::parse_error& error) {
+  std::string what = error.what();
+  if (what.find("unexpected end of input") != std::string::npos) {
+    return "the file ends too early; a closing quotation mark, bracket or brace is missing";
+  }
+  const std::size_t from = what.find(" - "), to = what.find("; last read");
+  what = from == std::string::npos
+             ? what
+             : what.substr(from + 3, to == std::string::npos ? to : to - from - 3);
+  return "stands what does not belong there (" + what.substr(0, what.find(';')) +
+         "); look for a comma, quotation mark or brace that is missing before it";
+}
+
 }  // namespace
 
 int whole_number(const Json& json) {
@@ -67,6 +93,13 @@ int whole_number(const Json& json) {
 Json json_from(const Interval& interval) {
   const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
   return Json::array({bound(interval.low), bound(interval.high)});
+}
+
+std::string reason_of(const Json::exception& error) {
+  std::string what = error.what();  // "[json.exception.type_error.302] type must be number, ..."
+  const std::size_t tag = what.find("] ");
+  if (tag != std::string::npos) what.erase(0, tag + 2);
+  return what;
 }
 
 Json parse_json(const std::string& text, const std::string& name) {
@@ -86,11 +119,10 @@ Json parse_json(const std::string& text, const std::string& name) {
   Json json;
   try {
     json = Json::parse(text, watch);
+  } catch (const Json::parse_error& error) {
+    throw std::runtime_error(name + place_of_fault(text, error.byte) + what_was_met(error));
   } catch (const Json::exception& error) {
-    std::string what = error.what();  // "[json.exception.parse_error.101] parse error at line ..."
-    const std::size_t tag = what.find("] ");
-    if (tag != std::string::npos) what.erase(0, tag + 2);
-    throw std::runtime_error(name + ": is not JSON: " + what);
+    throw std::runtime_error(name + ": is not JSON: " + reason_of(error));
   }
   if (is_deep) throw std::runtime_error(name + ": is nested deeper than 64 levels, the limit");
   if (!repeated.empty()) throw std::runtime_error(name + ": key '" + repeated + "' is given twice");

@@ -1,12 +1,15 @@
 #include "io/materials/material_file.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
 #include "io/materials/material_json.h"
 
 namespace viscard {
 
 MaterialFile material_from_json(const std::string& text, const std::string& name) {
-  MaterialFile file{material_from(parse_json(text, name), name), text};
+  MaterialFile file = read_as(FileKind::kMaterial, text, name, [&] {
+    return MaterialFile{material_from(parse_json(text, name), name), text};
+  });
   try {
     validate(file.material);
   } catch (const std::invalid_argument& error) {

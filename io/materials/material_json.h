@@ -11,6 +11,9 @@ namespace viscard {
 // Conversions between a Material and its JSON, for the files of this room. Keys keep their order.
 using Json = nlohmann::ordered_json;
 
+// Why nlohmann::json refused a value, without the tag in front.
+std::string reason_of(const Json::exception& error);
+
 // Throws std::runtime_error naming the file (name), line and column of a fault, or a duplicate key.
 Json parse_json(const std::string& text, const std::string& name);
 

@@ -1,6 +1,8 @@
 #include "io/materials/piezo_file.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
+#include "io/materials/material_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -82,13 +84,15 @@ MediumFile read_medium(const std::filesystem::path& path) {
 }
 
 MediumFile medium_from_json(const std::string& text, const std::string& name) {
-  try {
-    return medium_from(nlohmann::json::parse(text));
-  } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(name + ": is not a medium file: " + error.what());
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(name + ": " + error.what());
-  }
+  return read_as(FileKind::kMedium, text, name, [&] {
+    try {
+      return medium_from(nlohmann::json(parse_json(text, name)));
+    } catch (const nlohmann::json::exception& error) {
+      throw std::runtime_error(name + ": is not a medium file: " + reason_of(error));
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(name + ": " + error.what());
+    }
+  });
 }
 
 }  // namespace viscard

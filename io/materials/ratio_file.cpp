@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
 #include "io/materials/scatter_json.h"
@@ -228,7 +229,9 @@ RatioFit read_ratio_fit(const std::filesystem::path& path) {
   return ratio_fit_from_json(read_file(path), path.string());
 }
 
-RatioFit ratio_fit_from_json(const std::string& text, const std::string& name) {
+namespace {
+
+RatioFit ratio_fit_from(const std::string& text, const std::string& name) {
   const Json json = parse_json(text, name);
   if (!json.is_object() || json.value("schema", "") != kSchema) {
     throw std::runtime_error(name + ": schema is not '" + kSchema +
@@ -240,7 +243,7 @@ RatioFit ratio_fit_from_json(const std::string& text, const std::string& name) {
     fit.law = model_from(json.at("law"));
     read_lists(json, fit);
   } catch (const Json::exception& error) {
-    throw std::runtime_error(name + ": is not a complete joint fit: " + error.what());
+    throw std::runtime_error(name + ": is not a complete joint fit: " + reason_of(error));
   } catch (const std::exception& error) {
     throw std::runtime_error(name + ": is not a valid joint fit: " + error.what());
   }
@@ -253,6 +256,12 @@ RatioFit ratio_fit_from_json(const std::string& text, const std::string& name) {
                              ": common.terms: must be empty; the terms are those of the law");
   }
   return fit;
+}
+
+}  // namespace
+
+RatioFit ratio_fit_from_json(const std::string& text, const std::string& name) {
+  return read_as(FileKind::kJointFit, text, name, [&] { return ratio_fit_from(text, name); });
 }
 
 bool looks_like_ratio_file(const std::filesystem::path& path) {

@@ -70,7 +70,9 @@ void fill_quadrants(const RawQuadrants& raw, const std::filesystem::path& folder
     sensing.nodes = NodeMeans{static_cast<int>(raw.circles), static_cast<int>(raw.on_circle)};
   }
   sensing.noise_V = raw.noise_V;
-  if (!raw.voltages.empty()) sensing.measured_V = measured_V(folder / raw.voltages, scene);
+  if (!raw.voltages.empty())
+    sensing.measured_V =
+        measured_V(named_file("quadrants.voltages", folder, raw.voltages, FileKind::kTable), scene);
 }
 
 }  // namespace viscard

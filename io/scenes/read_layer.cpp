@@ -95,7 +95,8 @@ LayerScene layer_from(const RawLayer& raw, const std::filesystem::path& folder) 
                                     {"plane-stress", LayerModel::kPlaneStress}});
   scene.thickness_m = raw.thickness_m;
   scene.width_m = raw.width_m;
-  at_key("materials.layer", [&] { scene.pillar = pillar_material(raw.layer, folder); });
+  at_key("materials.layer",
+         [&] { scene.pillar = pillar_material(raw.layer, folder, "materials.layer"); });
   choice<bool>("geometry.film.bottom", raw.film_bottom, {{"fixed", true}});
   scene.film = film_medium("materials." + raw.film_material, raw.film, folder).medium;
   if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {

@@ -110,7 +110,8 @@ SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& 
     read_toml_fields(text, path.string(), show, choose);
   };
   try {
-    reader_for(text, path)(read, path.parent_path(), file);
+    read_as(FileKind::kScene, text, path.string(),
+            [&] { reader_for(text, path)(read, path.parent_path(), file); });
     // Those who give values know the causes already.
     if (values.empty()) file.material_causes = material_causes(text, path, file.scene);
   } catch (const SceneMistake& mistake) {

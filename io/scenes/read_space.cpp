@@ -161,7 +161,8 @@ void place_list(const RawSpace& raw, const std::filesystem::path& folder, SpaceS
     throw SceneMistake("geometry.positions",
                        "gives the place of each pillar; leave out rows, columns and spacing");
   }
-  for (const auto& [x_m, y_m] : read_positions(folder / raw.positions)) {
+  for (const auto& [x_m, y_m] :
+       read_positions(named_file("geometry.positions", folder, raw.positions, FileKind::kTable))) {
     scene.pillars.push_back({static_cast<int>(scene.pillars.size()) + 1, 1, x_m, y_m, 0});
   }
   scene.rows = static_cast<int>(scene.pillars.size());
@@ -208,7 +209,9 @@ void fill_classes(const RawSpace& raw, const std::filesystem::path& folder, Spac
     scene.others.push_back(
         {one.diameter_m > 0.0 ? one.diameter_m : scene.diameter_m,
          one.length_m > 0.0 ? one.length_m : scene.length_m,
-         named == raw.materials.end() ? scene.pillar : pillar_material(named->second, folder)});
+         named == raw.materials.end()
+             ? scene.pillar
+             : pillar_material(named->second, folder, "materials." + named->first)});
     for (const RowColumn& place : places_of(key, one.pillars)) {
       int& of_class = scene.pillars[standing(scene, key, place)].of_class;
       if (of_class != 0) {

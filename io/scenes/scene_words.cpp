@@ -1,5 +1,6 @@
 #include "io/scenes/scene_words.h"
 
+#include "io/basics/named_file.h"
 #include "io/materials/material_file.h"
 #include "models/material/liquid.h"
 
@@ -62,9 +63,18 @@ EffectChoices choices_of(const std::map<std::string, std::string>& effects) {
   return choices;
 }
 
+std::filesystem::path named_file(const std::string& key, const std::filesystem::path& folder,
+                                 const std::string& name, FileKind wanted) {
+  const std::string fault = fault_of_named_file(folder, name, wanted);
+  if (!fault.empty()) throw SceneMistake(key, fault);
+  return folder / name;
+}
+
 MediumFile film_medium(const std::string& key, const RawMaterial& raw,
                        const std::filesystem::path& folder) {
-  if (!raw.file.empty()) return read_medium(folder / raw.file);
+  if (!raw.file.empty()) {
+    return read_medium(named_file(key + ".file", folder, raw.file, FileKind::kMedium));
+  }
   if (!(raw.E_Pa > 0.0)) throw SceneMistake(key, "needs E (and nu, rho) or a file");
   try {
     return {.medium = isotropic_medium(raw.E_Pa, raw.nu, raw.rho_kg_m3)};
@@ -73,22 +83,24 @@ MediumFile film_medium(const std::string& key, const RawMaterial& raw,
   }
 }
 
-Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {
+Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder,
+                         const std::string& key) {
   if (!raw.file.empty()) {
-    const bool is_joint = looks_like_ratio_file(folder / raw.file);
+    const auto path = named_file(key + ".file", folder, raw.file, FileKind::kMaterial);
+    const bool is_joint = looks_like_ratio_file(path);
     if (is_joint != (raw.ratio > 0.0)) {
-      throw SceneMistake("materials.pillar",
-                         is_joint ? "the file is a joint fit over mixing ratios; name one, such as "
+      throw SceneMistake(key, is_joint
+                                  ? "the file is a joint fit over mixing ratios; name one, such as "
                                     "ratio = 10 (parts of base to one of curing agent)"
                                   : "the file holds one material, so ratio has no meaning");
     }
-    Material material = is_joint ? material_at_ratio(read_ratio_fit(folder / raw.file), raw.ratio)
-                                 : read_material(folder / raw.file).material;
+    Material material = is_joint ? material_at_ratio(read_ratio_fit(path), raw.ratio)
+                                 : read_material(path).material;
     refuse_liquid(material, raw.file);
     return material;
   }
   if (!(raw.E_Pa > 0.0)) {
-    throw SceneMistake("materials.pillar", "needs E (and nu, rho) or a file");
+    throw SceneMistake(key, "needs E (and nu, rho) or a file");
   }
   Material material;
   material.E0_Pa = raw.E_Pa;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/basics/file_kind.h"
 #include "io/basics/words.h"
 #include "io/config/config_fields.h"
 #include "io/materials/piezo_file.h"
@@ -62,10 +63,17 @@ void check_space_wanted(const SpaceScene& scene);
 // [effects]: name to "auto", "on", "off" or nothing. Throws SceneMistake.
 EffectChoices choices_of(const std::map<std::string, std::string>& effects);
 
+// The path of a file that a scene names at `key`. Throws SceneMistake, with what to do next, if it cannot be
+// read. `folder`: that of the scene.
+std::filesystem::path named_file(const std::string& key, const std::filesystem::path& folder,
+                                 const std::string& name, FileKind wanted);
+
 // The film. Throws SceneMistake if the material has neither a file nor a modulus, or is unphysical.
 MediumFile film_medium(const std::string& key, const RawMaterial& raw,
                        const std::filesystem::path& folder);
-// Files are looked for in `folder`. Throws SceneMistake for neither file nor modulus.
-Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder);
+// The material that stands at `key`. Files are looked for in `folder`. Throws SceneMistake for neither file nor
+// modulus.
+Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder,
+                         const std::string& key = "materials.pillar");
 
 }  // namespace viscard

@@ -95,7 +95,7 @@ void fill_kind(const RawShape& raw, const std::filesystem::path& folder,
   if (raw.file.empty()) {
     throw SceneMistake("shape", "needs file = \"heights.csv\" with columns x, y and z");
   }
-  shape.table = read_heights(folder / raw.file);
+  shape.table = read_heights(named_file("shape.file", folder, raw.file, FileKind::kTable));
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 #include "io/tables/foreign_file.h"
 
-#include "models/maths/text_of_number.h"
+#include "io/basics/file_kind.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace viscard {
@@ -28,34 +27,6 @@ constexpr Magic kMagic[] = {
     {"MATLAB 5.0 MAT-file"sv, "a MATLAB file, not text; export its arrays as CSV"},
     {"<svg"sv, "an SVG picture, not a table"}};
 
-bool is_key(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
-  });
-}
-
-// Lines of TOML only: [section], key = value, comments.
-bool is_toml(std::string_view text) {
-  std::size_t n_keys = 0, n_lines = 0;
-  constexpr std::size_t kEnough = 12;
-  while (!text.empty() && n_lines < kEnough) {
-    const std::size_t end = std::min(text.size(), text.find('\n'));
-    const std::string_view line = trimmed(text.substr(0, end));
-    text.remove_prefix(std::min(text.size(), end + 1));
-    if (line.empty() || line.front() == '#') continue;
-    ++n_lines;
-    if (line.front() == '[' && is_key(line.substr(1, std::min(line.find(']'), line.size()) - 1))) {
-      const bool closes = line.find(']') != std::string_view::npos;
-      if (closes && line.find_first_of(",;\t") == std::string_view::npos) continue;
-    }
-    const std::size_t equals = line.find(" = ");
-    if (equals == std::string_view::npos || !is_key(trimmed(line.substr(0, equals)))) return false;
-    ++n_keys;
-  }
-  return n_keys > 0;
-}
-
 }  // namespace
 
 void refuse_foreign_file(std::string_view bytes, const std::string& name) {
@@ -70,18 +41,14 @@ void refuse_foreign_file(std::string_view bytes, const std::string& name) {
     throw std::runtime_error(
         name + ": is " + (is_sheet ? kSaveSheet : "a zip archive, not a table; unpack it first"));
   }
-  const std::string_view text = trimmed(head.substr(head.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0));
-  const std::size_t inside = text.find_first_not_of(" \t\r\n", 1);
-  if (!text.empty() && text.front() == '{' && inside != std::string_view::npos &&
-      (text[inside] == '"' || text[inside] == '}')) {
-    throw std::runtime_error(name +
-                             ": is JSON, not a table; fit needs the measured columns as text");
-  }
-  if (is_toml(text)) {
-    throw std::runtime_error(name +
-                             ": is a TOML file (a rig, test, specimen or scene), not a table; a "
-                             "specimen is given with --specimen FILE beside the table");
-  }
+  // Makers' tables may have sections and keys above their numbers.
+  const FileKind kind = kind_of_file(head);
+  const bool is_database = kind == FileKind::kCapture || kind == FileKind::kStudyAnswers;
+  const std::string_view text = head.substr(head.starts_with("\xef\xbb\xbf") ? 3 : 0);
+  if (!is_database && !is_json_kind(kind) && !is_toml(text)) return;
+  const std::string use = use_of_file_kind(kind);
+  throw std::runtime_error(name + ": is " + file_kind_in_words(kind) + ", not a table; " +
+                           (use.empty() ? "export the measured columns as text" : use));
 }
 
 }  // namespace viscard

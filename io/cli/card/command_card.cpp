@@ -182,6 +182,7 @@ int run_card(const Words& words, Streams& streams) {
       "card, runs it, or writes a one-element model to run it in.",
       "viscard card data/materials/pdms_1to10_seed.json --for abaqus --units mm-t-s"};
   add_options(syntax, card);
+  if (std::find(words.begin(), words.end(), "--deck") != words.end()) syntax.may_exist = {"out"};
   syntax.positional = {"material"};
   syntax.choices = {{"for", target_names()},
                     {"units", unit_names()},

@@ -48,7 +48,7 @@ int run_help(const Words& words, Streams& streams, const Words& names,
   if (!values) return kDone;
   const auto name = given(*values, "command");
   if (name && std::find(names.begin(), names.end(), *name) == names.end()) {
-    throw UsageError("there is no command '" + *name + "'" + did_you_mean(*name, names, "") +
+    throw UsageError("there is no command '" + *name + "'" + did_you_mean(*name, names, ";") +
                      " 'viscard help' lists the commands");
   }
   const CommandDocuments documents = ask_documents();

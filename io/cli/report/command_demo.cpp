@@ -1,4 +1,5 @@
 #include "io/basics/data_folder.h"
+#include "io/basics/number_text.h"
 #include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
@@ -199,9 +200,10 @@ CommandSyntax demo_syntax() {
   add("data", po::value<std::string>(),
       "folder with the rig, test, specimen and truth files (otherwise those that came with "
       "viscard)");
-  add("speed", po::value<std::string>()->default_value("50"),
+  add("speed", po::value<double>()->default_value(50.0),
       "speed of the emulated clock relative to real time");
   add("force", "run every step again");
+  syntax.may_exist = {"out"};
   return syntax;
 }
 
@@ -217,7 +219,7 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
   const auto own_data = given(*values, "data");
   const fs::path data = own_data ? fs::path(*own_data) : data_folder() / "demo";
   streams.err << depth_explained(data);
-  Demo demo(streams, run_command, out, data, (*values)["speed"].as<std::string>(),
+  Demo demo(streams, run_command, out, data, text_from_number((*values)["speed"].as<double>()),
             values->count("force") > 0);
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());

@@ -71,6 +71,7 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("speed", po::value(&words.speed)->default_value(1.0),
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
   add("force", po::bool_switch(&words.overwrite), "replace an existing capture file");
+  syntax.may_exist = {"out"};
   return syntax;
 }
 

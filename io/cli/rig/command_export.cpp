@@ -110,7 +110,7 @@ int run_export(const Words& words, Streams& streams) {
     write_file(*out, table, values->count("force") > 0);
     summary["out"] = *out;
     if (!is_json) {
-      streams.err << *out << ": " << counted(run.load_samples.size(), "sample") << " of " << capture
+      streams.out << *out << ": " << counted(run.load_samples.size(), "sample") << " of " << capture
                   << ", " << run.status << "\n";
     }
   } else if (!is_json) {

@@ -35,6 +35,7 @@ CommandSyntax cost_syntax() {
       "folder for cost.csv, cost.json and cost.svg; with --rig also test.toml")(
       "force", "overwrite existing files");
   add_test_options(syntax.options);
+  syntax.may_exist = {"out"};
   syntax.positional = {"scene"};
   return syntax;
 }

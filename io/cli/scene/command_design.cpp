@@ -85,6 +85,7 @@ CommandSyntax design_syntax(Design& defaults) {
       "specification, for the scenes, design.json, designs.csv and front.svg")(
       "force", "overwrite existing files");
   add_judge_options(syntax.options);
+  syntax.may_exist = {"out"};
   syntax.positional = {"scene"};
   syntax.choices["lattice"] = {"square", "hexagonal", "plain"};
   return syntax;

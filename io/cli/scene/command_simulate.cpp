@@ -91,6 +91,7 @@ CommandSyntax simulate_syntax() {
       "samples", po::value<std::size_t>(),
       "with --uncertainty: sample with about so many answers, also where the linear answer would "
       "do; default: 4000 where it would not")("force", "overwrite existing files");
+  syntax.may_exist = {"out"};
   syntax.positional = {"scene"};
   return syntax;
 }

@@ -31,6 +31,7 @@ CommandSyntax sweep_syntax(const SweepProgram& program) {
       "take over the points of another part (repeat it for several); nothing is answered then");
   add("force", "overwrite an existing table");
   if (program.add_options) program.add_options(syntax.options);
+  syntax.may_exist = {"out"};
   syntax.positional = {"study"};
   return syntax;
 }

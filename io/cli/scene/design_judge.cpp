@@ -40,8 +40,10 @@ void add_judge_options(po::options_description& options) {
   options.add_options()("require", po::value<std::string>(),
                         "judge SCENE.toml: file with a table [require], such as "
                         "data/requirements/human_hand.toml");
-  options.add_options()("search-time", po::value<std::string>()->default_value("60s"),
-                        "processor time for the dimensions that would pass; 0s: none");
+  options.add_options()(
+      "search-time", po::value<std::string>()->default_value("60s"),
+      "processor time for the search of the dimensions that would pass, summed over all cores; the "
+      "judgement itself comes first and is not limited; 0s: no search");
   add_tolerance_option(options);
 }
 

@@ -8,7 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <ostream>
+#include <typeinfo>
 
 namespace po = boost::program_options;
 
@@ -25,6 +27,82 @@ std::vector<std::string> option_names(const po::options_description& options) {
                                 const char* usage) {
   throw UsageError("there is no option '" + word + "'" + did_you_mean(word, option_names(options)) +
                    " Usage: " + usage);
+}
+
+// The words that belong to no option, in order.
+Words free_words(const Words& words, const po::options_description& options) {
+  Words free;
+  const auto parsed = po::command_line_parser(words).options(options).allow_unregistered().run();
+  for (const auto& option : parsed.options) {
+    if (!option.string_key.empty() || option.position_key < 0) continue;
+    free.insert(free.end(), option.value.begin(), option.value.end());
+  }
+  return free;
+}
+
+// "viscard card" of "viscard card MATERIAL.json --for TARGET".
+std::string command_of(const CommandSyntax& syntax) {
+  const std::string usage = syntax.usage;
+  return usage.substr(0, usage.find(' ', usage.find(' ') + 1));
+}
+
+// Somebody may have typed an option as a subcommand: "viscard card check m.json".
+[[noreturn]] void throw_too_many(const Words& words, const CommandSyntax& syntax) {
+  const Words free = free_words(words, syntax.options);
+  const std::string who = command_of(syntax);
+  const std::string first = free.empty() ? "" : free.front();
+  std::vector<std::string> names;
+  for (const std::string& name : option_names(syntax.options)) names.push_back(name.substr(2));
+  const std::string near = nearest_word(first, names);
+  if (!first.empty() && !near.empty()) {
+    throw UsageError("there is no '" + who + " " + first + "'; did you mean '" + who + " --" +
+                     near + "'? Usage: " + syntax.usage);
+  }
+  const std::size_t n = syntax.positional.size();
+  throw UsageError("too many words on the command line, from '" +
+                   (n < free.size() ? free[n] : first) + "' on; usage: " + syntax.usage);
+}
+
+// What a value of an option must be.
+const char* expected_of(const po::option_description& option) {
+  const auto* typed = dynamic_cast<const po::typed_value_base*>(option.semantic().get());
+  if (typed == nullptr) return "a value";
+  const std::type_info& type = typed->value_type();
+  if (type == typeid(double) || type == typeid(std::vector<double>)) {
+    return "a number without unit, such as 0.5";
+  }
+  const bool is_text = type == typeid(std::string) || type == typeid(std::vector<std::string>);
+  return is_text ? "a text" : "a whole number, such as 5";
+}
+
+// "--terms cannot be 'x'; expected a whole number, such as 5".
+[[noreturn]] void throw_bad_value(const po::validation_error& error, const Words& words,
+                                  const po::options_description& options, const char* usage) {
+  const std::string name = error.get_option_name();
+  const std::string key = name.substr(std::min(name.size(), name.find_first_not_of('-')));
+  const po::option_description* option = options.find_nothrow(key, false);
+  if (option == nullptr) throw UsageError(std::string(error.what()) + "; usage: " + usage);
+  std::string value;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].starts_with(name + "=")) value = words[i].substr(name.size() + 1);
+    if (words[i] == name && i + 1 < words.size()) value = words[i + 1];
+  }
+  throw UsageError(name + " cannot be '" + value + "'; expected " + expected_of(*option));
+}
+
+// A command with subcommands takes them as its first word, "what".
+void check_what(const CommandSyntax& syntax, const po::variables_map& values) {
+  const auto choices = syntax.choices.find("what");
+  if (choices == syntax.choices.end()) return;
+  const auto what = given(values, "what");
+  const std::vector<std::string>& known = choices->second;
+  if (what && std::find(known.begin(), known.end(), *what) != known.end()) return;
+  const std::string who = command_of(syntax);
+  throw UsageError(
+      (what ? "there is no '" + who + " " + *what + "'" + did_you_mean(*what, known, "; ")
+            : who + " needs a word more; ") +
+      (what && !nearest_word(*what, known).empty() ? " " : "") + "there are: " + listed(known) +
+      ". Usage: " + syntax.usage);
 }
 
 void add_common_options(CommandSyntax& syntax) {
@@ -78,7 +156,9 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax, const Words&
   } catch (const po::unknown_option& error) {
     throw_unknown(error.get_option_name(), syntax.options, syntax.usage);
   } catch (const po::too_many_positional_options_error&) {
-    throw UsageError(std::string("too many words on the command line; usage: ") + syntax.usage);
+    throw_too_many(words, syntax);
+  } catch (const po::validation_error& error) {
+    throw_bad_value(error, words, all, syntax.usage);
   } catch (const po::error& error) {
     throw UsageError(std::string(error.what()) + "; usage: " + syntax.usage);
   }
@@ -87,7 +167,8 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax, const Words&
     return std::nullopt;
   }
   check_color(values["color"].as<std::string>());
-  check_output_paths(values);
+  check_output_paths(values, syntax.may_exist);
+  check_what(syntax, values);
   po::notify(values);
   return values;
 }

@@ -19,6 +19,8 @@ struct CommandSyntax {
   bool last_is_repeatable = false;
   // The values that an option or a positional word may have, for help and completion.
   std::map<std::string, std::vector<std::string>> choices;
+  // The outputs that may exist already: folders, and files that are continued. All others are new files.
+  std::vector<std::string> may_exist;
 };
 
 }  // namespace viscard

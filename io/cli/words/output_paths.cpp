@@ -79,14 +79,40 @@ void refuse_unwritable_folder(const NamedPath& output) {
   }
 }
 
+// A file goes into a folder that exists; its name is not that of a folder.
+void refuse_folder_as_file(const NamedPath& output) {
+  std::error_code error;
+  const std::string where = "cannot write --" + output.option + " '" + output.path.string() + "': ";
+  if (fs::is_directory(output.path, error) || !output.path.has_filename()) {
+    throw std::runtime_error(where + "it is a folder; name a file in it, such as '" +
+                             (output.path / "result").string() + "'");
+  }
+  const fs::path folder = output.path.parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, error)) {
+    throw std::runtime_error(where + "there is no folder '" + folder.string() +
+                             "'; make it first, such as with mkdir -p");
+  }
+}
+
+// --force is an option without value or a switch.
+bool is_forced(const po::variables_map& values) {
+  if (values.count("force") == 0) return false;
+  const auto* is_on = boost::any_cast<bool>(&values["force"].value());
+  return is_on == nullptr || *is_on;
+}
+
 }  // namespace
 
-void check_output_paths(const po::variables_map& values) {
+void check_output_paths(const po::variables_map& values,
+                        const std::vector<std::string>& may_exist) {
   const std::vector<NamedPath> paths = paths_among(values);
   for (const NamedPath& path : paths) {
     if (!path.is_output) continue;
     refuse_shared_file(path, paths);
     refuse_unwritable_folder(path);
+    if (std::find(may_exist.begin(), may_exist.end(), path.option) != may_exist.end()) continue;
+    refuse_folder_as_file(path);
+    refuse_existing(path.path, is_forced(values));
   }
 }
 

@@ -3,13 +3,18 @@
 #include <boost/program_options/variables_map.hpp>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace viscard {
 
 // Checks every option that names an output (--out, --csv, --creep-csv, --svg, --vtk) before the
 // work starts. Throws UsageError if the output is also an input of the command (--force would
-// destroy it) or another output, std::runtime_error if its folder is not a folder or not writable.
-void check_output_paths(const boost::program_options::variables_map& values);
+// destroy it) or another output, std::runtime_error if its folder is not a folder or not writable, or if a
+// new file is to be written to a name that is a folder, lies in none, or exists without --force. `may_exist`:
+// the options for folders, which are made, and for files that are continued.
+void check_output_paths(const boost::program_options::variables_map& values,
+                        const std::vector<std::string>& may_exist);
 
 // Throws std::runtime_error if the output exists and may not be overwritten, before work is lost.
 void refuse_existing(const std::filesystem::path& output, bool overwrite);

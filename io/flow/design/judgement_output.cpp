@@ -53,8 +53,8 @@ std::string wrapped(const std::string& text) {
 
 std::string remedies_text(const JudgedLine& line) {
   std::string cut_off =
-      "the search for single dimensions that would pass was cut off; --search-time gives it more "
-      "time";
+      "the search for single dimensions that would pass was cut off by --search-time, in which the "
+      "judgement itself does not count; a longer one gives it more";
   if (line.remedies.empty() && !line.is_search_complete) return cut_off;
   if (line.remedies.empty()) {
     return "no single dimension within a factor of 4 would pass, others fixed";

@@ -1,6 +1,7 @@
 #include "io/flow/design/requirement_kinds.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
 #include "io/basics/words.h"
 #include "io/flow/design/required_values.h"
 
@@ -88,7 +89,9 @@ Requirements requirements_from_toml(const std::string& text, const std::string& 
 }
 
 Requirements read_requirements(const std::filesystem::path& path) {
-  return requirements_from_toml(read_file(path), path.string());
+  const std::string text = read_file(path);
+  return read_as(FileKind::kRequirements, text, path.string(),
+                 [&] { return requirements_from_toml(text, path.string()); });
 }
 
 }  // namespace viscard

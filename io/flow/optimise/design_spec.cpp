@@ -99,9 +99,11 @@ bool is_design_spec(const std::string& text) {
 DesignSpec read_design_spec(const std::filesystem::path& path) {
   DesignSpec spec{.path = path};
   std::string scene;
-  read_toml_fields(read_file(path), path.string(),
-                   [&](FieldVisitor& v) { show_spec(v, spec, scene); });
-  spec.scene_path = path.parent_path() / scene;
+  const std::string text = read_file(path);
+  read_as(FileKind::kDesignTask, text, path.string(), [&] {
+    read_toml_fields(text, path.string(), [&](FieldVisitor& v) { show_spec(v, spec, scene); });
+  });
+  spec.scene_path = path_at_key(text, path, "scene", scene, FileKind::kScene);
   spec.scene_text = read_file(spec.scene_path);
   check_spec(spec);
   return spec;

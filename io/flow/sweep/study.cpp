@@ -131,7 +131,8 @@ void set_key(toml::table& root, const std::string& key, const std::string& value
 Study read_study(const std::filesystem::path& path) {
   Study study{.path = path};
   std::string scene;
-  read_toml_fields(read_file(path), path.string(), [&](FieldVisitor& v) {
+  const std::string text = read_file(path);
+  const auto show = [&](FieldVisitor& v) {
     v.text({"scene", "pillar_sensor.toml", true}, scene);
     v.integer("points", 1, static_cast<std::int64_t>(kMostPoints), study.n_points);
     v.list(
@@ -145,8 +146,10 @@ Study read_study(const std::filesystem::path& path) {
           p.integer("count", 2, static_cast<std::int64_t>(kMostPoints), parameter.count);
           p.text({"spacing", "log"}, parameter.spacing);
         });
-  });
-  study.scene_path = path.parent_path() / scene;
+  };
+  read_as(FileKind::kStudy, text, path.string(),
+          [&] { read_toml_fields(text, path.string(), show); });
+  study.scene_path = path_at_key(text, path, "scene", scene, FileKind::kScene);
   study.scene_text = read_file(study.scene_path);
   check(study);
   if (study.n_points > 0) {

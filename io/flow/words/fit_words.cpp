@@ -7,6 +7,7 @@
 #include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/config/config_file.h"
+#include "models/hyperelastic/hyperelastic_law.h"
 
 #include <algorithm>
 #include <cctype>
@@ -166,6 +167,17 @@ void add_chosen_part(const FitWords& words, FitRequest& request) {
 
 }  // namespace
 
+namespace {
+
+// Laws of viscoelasticity and of rubber.
+std::vector<std::string> all_model_names() {
+  std::vector<std::string> names = law_names();
+  for (const auto& name : hyperelastic_names()) names.emplace_back(name);
+  return names;
+}
+
+}  // namespace
+
 FitRequest fit_request(const FitWords& words) {
   FitRequest request;
   if (words.kind) request.kind = kind_from_word(*words.kind);
@@ -175,7 +187,8 @@ FitRequest fit_request(const FitWords& words) {
     const std::vector<std::string>& names = law_names();
     if (std::find(names.begin(), names.end(), *words.model) == names.end()) {
       throw OptionError("--model " + *words.model + " is not known" +
-                        did_you_mean(*words.model, names) + " Use " + listed(names));
+                        did_you_mean(*words.model, all_model_names()) + " Use " + listed(names) +
+                        "; at large strain (uniaxial=FILE ...): " + listed(hyperelastic_names()));
     }
     request.model = *words.model;
     if (words.terms) {

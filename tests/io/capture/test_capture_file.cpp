@@ -227,7 +227,7 @@ TEST_CASE("a file that is no whole capture is refused with one clear line", "[io
                  "cannot open: No such file or directory"));
   CHECK(contains(error_text([&] { read_capture(folder.path()); }), "is a folder"));
   CHECK(contains(error_with(""), "is empty"));
-  CHECK(contains(error_with("time_s,force_N\n0,1\n"), "is not a capture"));
+  CHECK(contains(error_with("time_s,force_N\n0,1\n"), "not a capture"));
   CHECK(contains(error_with(whole.substr(0, 50)), "is truncated"));
   CHECK(contains(error_with(whole.substr(0, whole.size() / 2)), "is truncated: "));
   CHECK(contains(error_with(whole.substr(0, whole.size() - 1)), "is truncated: "));

@@ -136,7 +136,7 @@ TEST_CASE("impossible geometry is refused with the length that is wrong", "[io]"
 
 TEST_CASE("a medium file is refused with the key that is wrong", "[io]") {
   Files files;
-  CHECK_THAT(files.medium_error("{"), Catch::Contains("not a medium file"));
+  CHECK_THAT(files.medium_error("{"), Catch::Contains("is not JSON"));
   CHECK_THAT(files.medium_error("{}"), Catch::Contains("schema"));
   const std::string head = "{\"schema\": \"viscard-medium/1\", \"rho_kg_m3\": 1780, ";
   CHECK_THAT(files.medium_error(head + "\"x\": 1}"), Catch::Contains("'x'"));

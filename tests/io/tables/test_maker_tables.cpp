@@ -263,8 +263,8 @@ TEST_CASE("a file of another kind is refused by what it is", "[io][csv]") {
   CHECK(refusal("\xff\xd8\xff\xe0") == "f: is a JPEG picture, not a table");
   CHECK(contains(refusal("%PDF-1.4\n1 0 obj\n"), "PDF document"));
   CHECK(contains(refusal("PK\x03\x04 xl/worksheets/sheet1.xml"), "Excel workbook"));
-  CHECK(contains(refusal("{\n \"schema\": \"viscard-material/1\"}"), "is JSON"));
-  CHECK(contains(refusal("# test\nspeed = \"10 um/s\"\n[hold]\ntime = 5\n"), "is a TOML file"));
+  CHECK(contains(refusal("{\n \"schema\": \"viscard-material/1\"}"), "is a material, not a table"));
+  CHECK(contains(refusal("# test\nspeed = \"10 um/s\"\n[hold]\ntime = 5\n"), "not a table"));
   CHECK(read("[s],[N]\n1,2\n").columns.size() == 2);
 }
 

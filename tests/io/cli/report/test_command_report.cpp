@@ -173,7 +173,7 @@ TEST_CASE("a wrong command line of report gives one clear line", "[cli][report]"
   fails({material, "--out", page, "--units", "furlong"}, kBadWords, "mm-t-s");
   fails({material, "--out", page, "--truth", material}, kBadWords, "1 truth file for 0 captures");
   fails({material, "--out", page, "--titel", "x"}, kBadWords, "--title");
-  fails({(folder / "absent.viscap").string(), "--out", page}, kFailed, "no such file");
+  fails({(folder / "absent.viscap").string(), "--out", page}, kFailed, "No such file");
   fails({(folder / ".").string(), "--out", page}, kFailed, "is a folder");
   write_text((folder / "broken.json").string(), "{ \"E0_Pa\": ");
   fails({(folder / "broken.json").string(), "--out", page}, kFailed, "broken.json");

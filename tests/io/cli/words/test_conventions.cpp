@@ -113,6 +113,44 @@ TEST_CASE("a misspelt option gives one line with the nearest option, and status 
   }
 }
 
+TEST_CASE("a number that cannot be read is refused with option, value and what is expected",
+          "[cli]") {
+  const std::string scene = VISCARD_SOURCE_DIR "/data/scenes/pillar_modal.toml";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"fit", "a.csv", "--terms", "x"}, "--terms cannot be 'x'; expected a whole number"},
+      {{"fit", "a.csv", "--max-terms=1.5"}, "--max-terms cannot be '1.5'; expected a whole number"},
+      {{"fit", "a.csv", "--ratio", "a"}, "--ratio cannot be 'a'; expected a number without unit"},
+      {{"simulate", scene, "--tol", "3kg"},
+       "--tol cannot be '3kg'; expected a number without unit"},
+      {{"demo", "--speed", "x"}, "--speed cannot be 'x'; expected a number"},
+      {{"fit", "a.csv", "--time-zero", "q"}, "--time-zero: 'q' does not begin with a number"}};
+  for (const auto& [words, text] : cases) {
+    CAPTURE(words);
+    const auto outcome = run_command(words);
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, text));
+  }
+}
+
+TEST_CASE("a wrong subcommand is named, with the nearest one", "[cli]") {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"scene", "chekc", "x.toml"}, "there is no 'viscard scene chekc'; did you mean 'check'?"},
+      {{"scene"}, "viscard scene needs a word more; there are: check"},
+      {{"rig", "lits"}, "there is no 'viscard rig lits'; did you mean 'list'?"},
+      {{"card", "check", "m.json"},
+       "there is no 'viscard card check'; did you mean 'viscard card --check'?"},
+      {{"plan", "a.toml", "b.toml"}, "too many words on the command line, from 'b.toml' on"},
+      {{"help", "fti"}, "there is no command 'fti'; did you mean 'fit'?"},
+      {{"help", "nix"}, "there is no command 'nix'; 'viscard help' lists"},
+      {{"fit", "a.csv", "--model", "nope"}, "ogden-3"}};
+  for (const auto& [words, text] : cases) {
+    CAPTURE(words);
+    const auto outcome = run_command(words);
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, text));
+  }
+}
+
 TEST_CASE("a shortened option is refused", "[cli]") {
   for (const Command& command : commands()) {
     CAPTURE(command.name);

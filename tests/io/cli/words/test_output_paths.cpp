@@ -72,6 +72,36 @@ TEST_CASE("an output that cannot be written is refused before the work starts", 
   CHECK_FALSE(contains(outcome.err, "missing.csv"));
 }
 
+TEST_CASE(
+    "a folder in the place of a file, or a file in no folder, is refused before the work starts",
+    "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string none = (folder / "none/result.x").string(), here = folder.path().string();
+  const std::vector<std::vector<std::string>> lines{{"fit", "missing.csv", "--out"},
+                                                    {"fit", "missing.csv", "--svg"},
+                                                    {"card", "m.json", "--for", "abaqus", "--out"},
+                                                    {"export", "run.viscap", "--out"},
+                                                    {"predict", "m.json", "--csv"},
+                                                    {"predict", "m.json", "--svg"},
+                                                    {"validate", "m.json", "--csv"},
+                                                    {"scene", "check", "s.toml", "--svg"},
+                                                    {"report", "m.json", "--out"},
+                                                    {"sweep", "s.toml", "--csv"},
+                                                    {"calibrate", "--data", "t.csv", "--out"}};
+  for (std::vector<std::string> words : lines) {
+    words.push_back(here);
+    CAPTURE(words);
+    const auto as_folder = run_command(words);
+    CHECK(as_folder.status == kFailed);
+    CHECK(contains(as_folder.err, "it is a folder; name a file in it"));
+    words.back() = none;
+    CHECK(contains(run_command(words).err, "there is no folder"));
+  }
+  write_file(folder / "old.json", "{}", false);
+  const auto existing = run_command({"fit", "missing.csv", "--out", folder / "old.json"});
+  CHECK(contains(existing.err, "exists already; pass --force"));
+}
+
 TEST_CASE("a folder that cannot be made is one clear line", "[cli]") {
   const auto outcome = run_command({"demo", "--out", "/proc/viscard"});
   CHECK(outcome.status == kFailed);

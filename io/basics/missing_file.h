@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace viscard {
+
+// Why a file cannot be opened, from the error number of open(2), and what to do next: "cannot open: No such
+// file or directory; did you mean 'run_2.csv'?". The nearest name comes from the folder of the file.
+std::string why_not_opened(const std::filesystem::path& path, int error);
+
+// The file of the same folder whose name is nearest to that of `path`, or "" if none is near.
+std::string near_file(const std::filesystem::path& path);
+
+// True if a file of this name can be opened for reading.
+bool is_readable(const std::filesystem::path& path);
+
+}  // namespace viscard
