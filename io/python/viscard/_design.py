@@ -29,7 +29,7 @@ class Judgement:
 
     Examples
     --------
-    >>> judgement = viscard.design("data/scenes/pillar_modal.toml", {"bandwidth": "1 kHz"})
+    >>> judgement = viscard.design(viscard.data_file("scenes/pillar_modal.toml"), {"bandwidth": "1 kHz"})
     >>> judgement["bandwidth"]["verdict"]
     'pass'
     """
@@ -67,7 +67,7 @@ class Designs:
 
     Examples
     --------
-    >>> designs = viscard.design("data/designs/longest_pillar.toml")
+    >>> designs = viscard.design(viscard.data_file("designs/longest_pillar.toml"))
     >>> designs.feasible, designs.designs[0]["active"]
     (True, ['bandwidth'])
     """
@@ -96,16 +96,16 @@ def design(scene, require=None, *, tol: Optional[float] = None, search_time: Uni
     Parameters
     ----------
     scene, tol, folder, progress
-        As in `simulate`; without `require` the file of a specification (data/designs), for `Designs`.
+        As in `simulate`; without `require` the file of a specification, as in `data_file("designs")`, for `Designs`.
     search_time : str or float
         Processor time for the dimensions that would pass; a number counts seconds, 0 seeks none.
     require : path or dict
-        A file with a table [require], or the contents of that table: data/requirements/human_hand.toml is an example.
+        A file with a table [require], or the contents of that table: `data_file("requirements/human_hand.toml")` is an example.
 
     Examples
     --------
-    >>> print(viscard.design("data/scenes/array_voltages.toml", {"crosstalk": "0.1 %"})["crosstalk"]["verdict"])
-    pass
+    >>> viscard.design(viscard.data_file("scenes/array_voltages.toml"), {"crosstalk": "0.1 %"})["crosstalk"]["verdict"]
+    'pass'
     """
     if require is None:
         if tol is not None or folder is not None:

@@ -111,3 +111,14 @@ def test_captures_are_refused_before_they_begin(tmp_path, short_test):
     (tmp_path / "b.viscap").write_text("mine")
     error = text_of(viscard.capture, tmp_path / "b.viscap", test=short_test, emulate=True, speed=200)
     assert error.code == "exists" and (tmp_path / "b.viscap").read_text() == "mine"
+
+
+def test_files_that_do_not_come_with_viscard(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # the data lie beside the module, not beside the user
+    assert viscard.data_file("scenes/pillar_press.toml").endswith("share/viscard/scenes/pillar_press.toml")
+    assert viscard.data_file() + "/demo" == viscard.data_file("demo")
+    error = text_of(viscard.data_file, "scenes/pillar_pres.toml")
+    assert error.code == "file" and "pillar_press.toml" in str(error) and str(error).startswith("no file 'scenes/pillar_pres.toml'")
+    assert "demo, " in str(text_of(viscard.data_file, "scene/other/pillar.toml"))
+    with pytest.raises(TypeError, match="name must be a path, not int"):
+        viscard.data_file(3)
