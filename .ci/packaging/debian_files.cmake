@@ -29,7 +29,7 @@ foreach(component ${CPACK_COMPONENTS_ALL})
        " -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
   if(EXISTS ${root}/usr/share/doc/viscard/CHANGELOG.md)
     file(RENAME ${root}/usr/share/doc/viscard/CHANGELOG.md ${doc}/changelog)
-    run(sed -i "s#](CHANGELOG.md)#](changelog.gz)#" ${doc}/README.md)
+    run(sed -i "s#(CHANGELOG.md)#(changelog.gz)#" ${doc}/README.md)
   endif()
 
   # zsh of Debian looks for the completions of packages elsewhere than for those of the administrator.
