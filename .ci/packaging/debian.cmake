@@ -34,11 +34,11 @@ set(about "viscard drives an indentation rig, fits Young's modulus and a Prony s
 with honest intervals, writes material cards for other solvers, and answers\n\
 scenes of pillar sensors with error estimates.")
 debian_package(runtime viscard science "soft polymers from a load cell to a validated simulation"
-  "${about}\n.\nThis package has the program, its man pages, a demo and example scenes.")
+  "${about}\n.\nThis package has the program, its man pages, a demo and example scenes, and\na page for each part with equations, file formats and recipes.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 # Every page of results has plots, which gnuplot draws.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "gnuplot-nox | gnuplot-x11 | gnuplot-qt")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "viscard-doc, paraview")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "paraview")
 
 debian_package(development libviscard-dev libdevel "library of viscard for C++ programs"
   "${about}\n.\nThis package has the static library, its headers and an example, for CMake and\npkg-config.")
@@ -48,8 +48,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS  # what viscardConfig.cmake and vis
  nlohmann-json3-dev, pkg-config")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "viscard-doc")
 
-debian_package(documentation viscard-doc doc "documentation of viscard"
-  "${about}\n.\nThis package has equations, file formats and recipes, a page for each folder of\nthe source, and the documentation of the library's headers.")
+debian_package(documentation viscard-doc doc "documentation of the library of viscard"
+  "${about}\n.\nThis package has the documentation of the library's headers.")
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 
 # io/cli/mpi installs its program as component mpi if it is built.
@@ -59,7 +59,7 @@ if(TARGET viscard_mpi)
     "${about}\n.\nThis package has viscard-mpi, which answers a scene at many values of its\nparameters on many machines by MPI.")
   set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "openmpi-bin, viscard")  # mpirun, the scenes of its examples
-  set(CPACK_DEBIAN_MPI_PACKAGE_SUGGESTS "slurm-client, viscard-doc")
+  set(CPACK_DEBIAN_MPI_PACKAGE_SUGGESTS "slurm-client")
 endif()
 
 # io/python installs its module as component python if it is built.
@@ -70,6 +70,6 @@ if(TARGET viscard_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "viscard")  # the files of its examples
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, viscard-doc")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib")
 endif()
 include(CPack)

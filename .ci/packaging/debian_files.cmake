@@ -29,6 +29,7 @@ foreach(component ${CPACK_COMPONENTS_ALL})
        " -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
   if(EXISTS ${root}/usr/share/doc/viscard/CHANGELOG.md)
     file(RENAME ${root}/usr/share/doc/viscard/CHANGELOG.md ${doc}/changelog)
+    run(sed -i "s#(CHANGELOG.md)#(changelog.gz)#" ${doc}/README.md)
   endif()
 
   # zsh of Debian looks for the completions of packages elsewhere than for those of the administrator.
@@ -36,14 +37,11 @@ foreach(component ${CPACK_COMPONENTS_ALL})
     file(RENAME ${root}/usr/share/zsh/site-functions ${root}/usr/share/zsh/vendor-completions)
   endif()
 
-  file(GLOB pages ${root}/usr/share/man/man*/*.[1-9])
-  foreach(page ${pages})
-    run(sed -i "s# data/# /usr/share/viscard/#g" ${page})  # examples name files of the source tree
-  endforeach()
-  # Of docstrings too.
-  file(GLOB pages ${root}/usr/lib/python3/dist-packages/viscard/*.py)
-  foreach(page ${pages})
-    run(sed -i "s#\\([\"'=]\\)data/#\\1/usr/share/viscard/#g" ${page})
+  # Texts name files where they are installed, here still below ${root}.
+  execute_process(COMMAND grep -rlIF ${root} ${root} OUTPUT_VARIABLE texts)
+  string(REGEX MATCHALL "[^\n]+" texts "${texts}")
+  foreach(text ${texts})
+    run(sed -i "s#${root}##g" ${text})
   endforeach()
   file(GLOB pages ${root}/usr/share/man/man*/*.[1-9] ${doc}/changelog ${doc}/changelog.Debian)
   foreach(page ${pages})

@@ -11,26 +11,27 @@ file(CREATE_LINK ${CMAKE_SOURCE_DIR}/data ${CMAKE_BINARY_DIR}/share/viscard SYMB
 install(TARGETS viscard RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 # Addresses of functions of other libraries are written once, at the start, and read-only from then on.
 target_link_options(viscard PRIVATE -Wl,-z,relro -Wl,-z,now)
-foreach(folder demo designs materials protocols requirements scenes studies)
-  install(DIRECTORY data/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime)
-endforeach()
-install(DIRECTORY data/reference DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime
-        FILES_MATCHING PATTERN "treloar_*.csv")  # tests at large strain, of the examples in Python
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+# Texts with paths of the installed files in the place of those of the source tree.
+set(folders_of_data "demo|designs|materials|protocols|requirements|scenes|studies")
+configure_file(${packaging}/installed_texts.cmake.in ${CMAKE_BINARY_DIR}/installed_texts.cmake @ONLY)
+configure_file(${packaging}/install_documents.cmake.in ${CMAKE_BINARY_DIR}/install_documents.cmake @ONLY)
+install(SCRIPT ${CMAKE_BINARY_DIR}/install_documents.cmake COMPONENT runtime)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY data/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT runtime)
 install(DIRECTORY io/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime
         FILES_MATCHING PATTERN "*.schema.json")
-# README.md links to files of these as they stand in the source tree.
-file(RELATIVE_PATH data_from_documents /${CMAKE_INSTALL_DOCDIR}/data /${CMAKE_INSTALL_DATADIR}/viscard)
-foreach(folder demo examples)
-  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/links)
-  file(CREATE_LINK ${data_from_documents}/${folder} ${CMAKE_BINARY_DIR}/links/${folder} SYMBOLIC)
+# Pages link to files of these as they stand in the source tree: link_from_page(FOLDER OF_DATA NAME).
+function(link_from_page folder of_data name)
+  file(RELATIVE_PATH data /${CMAKE_INSTALL_DOCDIR}/${folder} /${CMAKE_INSTALL_DATADIR}/viscard/${of_data})
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/page_links)
+  file(CREATE_LINK ${data}/${name} ${CMAKE_BINARY_DIR}/page_links/${name} SYMBOLIC)
+  install(FILES ${CMAKE_BINARY_DIR}/page_links/${name} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT runtime)
+endfunction()
+link_from_page(data "" demo)
+file(GLOB schemas RELATIVE ${CMAKE_SOURCE_DIR}/io/schemas CONFIGURE_DEPENDS io/schemas/*.schema.json)
+foreach(schema ${schemas})
+  link_from_page(io/schemas schemas ${schema})
 endforeach()
-install(FILES ${CMAKE_BINARY_DIR}/links/demo DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT runtime)
-install(FILES ${CMAKE_BINARY_DIR}/links/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT development)
-# Made by the program itself, where they are made.
-install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime
-        OPTIONAL FILES_MATCHING PATTERN "*.1")
 set(completions ${CMAKE_BINARY_DIR}/completions)
 install(FILES ${completions}/viscard.bash RENAME viscard COMPONENT runtime OPTIONAL
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
@@ -43,7 +44,10 @@ install(FILES ${completions}/viscard.fish COMPONENT runtime OPTIONAL
 if(TARGET viscard_mpi)
   install(TARGETS viscard_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
   target_link_options(viscard_mpi PRIVATE -Wl,-z,relro -Wl,-z,now)
-  install(FILES ${CMAKE_BINARY_DIR}/mpi/viscard-mpi.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT mpi OPTIONAL)
+  install(CODE "include(\"${CMAKE_BINARY_DIR}/installed_texts.cmake\")
+    if(EXISTS \"${CMAKE_BINARY_DIR}/mpi/viscard-mpi.1\")
+      install_text(\"${CMAKE_BINARY_DIR}/mpi/viscard-mpi.1\" \"${CMAKE_INSTALL_MANDIR}/man1\")
+    endif()" COMPONENT mpi)
 endif()
 
 # --- development: one archive of all rooms, the headers, and how to find them -----------------------
@@ -55,7 +59,6 @@ set_target_properties(viscard_library PROPERTIES OUTPUT_NAME viscard LINKER_LANG
 install(TARGETS viscard_library ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 
 set(headers_destination ${CMAKE_INSTALL_INCLUDEDIR}/viscard)
-set(documents_destination ${CMAKE_INSTALL_DOCDIR})
 configure_file(${packaging}/install_headers.cmake.in ${CMAKE_BINARY_DIR}/install_headers.cmake @ONLY)
 install(SCRIPT ${CMAKE_BINARY_DIR}/install_headers.cmake COMPONENT development)
 install(DIRECTORY data/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT development
@@ -76,10 +79,7 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/viscardConfigVersion.cmake 
 install(FILES ${CMAKE_BINARY_DIR}/viscardConfig.cmake ${CMAKE_BINARY_DIR}/viscardConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/viscard COMPONENT development)
 
-# --- documentation: the pages of the rooms, to which README.md links ---------------------------------
-configure_file(${packaging}/install_documents.cmake.in ${CMAKE_BINARY_DIR}/install_documents.cmake @ONLY)
-install(SCRIPT ${CMAKE_BINARY_DIR}/install_documents.cmake COMPONENT documentation)
-
+# --- documentation: the pages about the headers ---------------------------------------------------------
 find_program(DOXYGEN doxygen)
 if(DOXYGEN)
   add_custom_target(viscard_api

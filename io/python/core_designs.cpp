@@ -1,14 +1,18 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/units.h"
+#include "io/flow/design/closed_form.h"
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/design/judgement_output.h"
 #include "io/flow/optimise/optimised_output.h"
+#include "io/flow/words/option_error.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
 
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
+
+#include <algorithm>
 
 namespace viscard::python {
 namespace {
@@ -51,10 +55,34 @@ py::tuple design_of_spec(const std::string& path, const py::object& progress) {
                         text_from_front(found.spec, found.front));
 }
 
+// The limits of viscard design without a scene, as JSON, and their text.
+py::tuple closed_form(const py::dict& keywords) {
+  const auto given = [&](const char* name, const char* unit) -> std::optional<double> {
+    std::string keyword = name;
+    std::replace(keyword.begin(), keyword.end(), '-', '_');
+    if (!keywords.contains(keyword)) return std::nullopt;
+    const auto text = text_from(keyword.c_str(), keywords[keyword.c_str()]);
+    try {
+      return text ? std::optional(si_from_text(*text, unit)) : std::nullopt;
+    } catch (const std::invalid_argument& error) {
+      throw OptionError(std::string("--") + name + ": " + error.what());
+    }
+  };
+  std::optional<std::string> lattice;
+  if (keywords.contains("lattice")) lattice = text_from("lattice", keywords["lattice"]);
+  try {
+    const ClosedFormDesign design = closed_form_design(given, lattice);
+    return py::make_tuple(json_from_design(design).dump(), text_from_design(design));
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+}
+
 }  // namespace
 
 void add_designs(py::module_& module) {
   module.def("design", &design_scene);
+  module.def("design_limits", &closed_form);
   module.def("design_of_spec", &design_of_spec);
 }
 

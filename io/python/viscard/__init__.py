@@ -1,6 +1,6 @@
 """viscard: a soft polymer from a load cell to a validated simulation.
 
->>> result = viscard.fit("data/demo/example_relaxation.csv")
+>>> result = viscard.fit(viscard.data_file("demo/example_relaxation.csv"))
 >>> result.material.card("calculix", "mm-t-s").text.splitlines()[0][:2]
 '**'
 
@@ -13,21 +13,23 @@ from __future__ import annotations
 from . import _core
 from ._capture import CaptureOutcome, capture
 from ._card import Card, card_targets
-from ._design import Designs, Judgement, design
+from ._data import data_file
+from ._design import DesignLimits, Designs, Judgement, design
 from ._error import DoubtWarning, Error
 from ._fit import FitResult, Flag, JointFit, fit
 from ._material import Material, Prediction, predict
 from ._planning import TestCost, cost_of_tests
 from ._rubber import Parameter, RubberCard, RubberFit
 from ._scene import Answer, Cost, Field, Plan, Value, cost, forces_from_voltages, plan, simulate
+from ._sweep import Sweep, sweep
 from ._table import Capture, Table, read_capture, read_table
 
 __version__: str = _core.version
 
-__all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "Designs", "DoubtWarning", "Error", "Field", "FitResult",
-           "Flag", "JointFit", "Judgement", "Material", "Parameter", "Plan", "Prediction", "RubberCard", "RubberFit", "Table",
-           "TestCost", "Value", "capture", "card_targets", "cost", "cost_of_tests", "design", "fit", "forces_from_voltages",
-           "plan", "predict", "read_capture", "read_table", "simulate"]
+__all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "DesignLimits", "Designs", "DoubtWarning", "Error", "Field", "FitResult",
+           "Flag", "JointFit", "Judgement", "Material", "Parameter", "Plan", "Prediction", "RubberCard", "RubberFit", "Sweep", "Table",
+           "TestCost", "Value", "capture", "card_targets", "cost", "cost_of_tests", "data_file", "design", "fit",
+           "forces_from_voltages", "plan", "predict", "read_capture", "read_table", "simulate", "sweep"]
 
 
 def _end_jobs() -> None:

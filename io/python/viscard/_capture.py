@@ -21,9 +21,8 @@ class CaptureOutcome:
 
     Examples
     --------
-    >>> import os, tempfile
-    >>> file = os.path.join(tempfile.mkdtemp(), "run.viscap")
-    >>> viscard.capture(file, test=short_test, emulate=True, speed=200).status    # short_test: a test file
+    >>> outcome = viscard.capture("run.viscap", emulate=True, speed=500)
+    >>> outcome.status
     'finished'
     """
 
@@ -72,10 +71,8 @@ def capture(out, *, rig=None, test=None, specimen=None, emulate: bool = False, t
 
     Examples
     --------
-    >>> import os, tempfile
     >>> readings = []
-    >>> outcome = viscard.capture(os.path.join(tempfile.mkdtemp(), "run.viscap"), test=short_test, emulate=True,
-    ...                           speed=200, sample=lambda *reading: readings.append(reading))
+    >>> outcome = viscard.capture("run.viscap", emulate=True, speed=500, sample=lambda *one: readings.append(one))
     >>> time_s, force_N, depth_m = readings[-1]
     """
     words = {"rig": optional_path(rig, "rig"), "test": optional_path(test, "test"),

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any, Dict, List, Optional, Union
 
 from . import _core
-from ._arrays import path_of
+from ._arrays import path_of, with_head
 from ._error import Error
 from ._scene import Progress, _scene_toml, _with_scene
 
@@ -29,7 +29,7 @@ class Judgement:
 
     Examples
     --------
-    >>> judgement = viscard.design("data/scenes/pillar_modal.toml", {"bandwidth": "1 kHz"})
+    >>> judgement = viscard.design(viscard.data_file("scenes/pillar_modal.toml"), {"bandwidth": "1 kHz"})
     >>> judgement["bandwidth"]["verdict"]
     'pass'
     """
@@ -67,7 +67,7 @@ class Designs:
 
     Examples
     --------
-    >>> designs = viscard.design("data/designs/longest_pillar.toml")
+    >>> designs = viscard.design(viscard.data_file("designs/longest_pillar.toml"))
     >>> designs.feasible, designs.designs[0]["active"]
     (True, ['bandwidth'])
     """
@@ -85,28 +85,99 @@ class Designs:
         return f"<viscard.Designs: {len(self.designs)}, {'feasible' if self.feasible else 'not feasible'}>"
 
 
+class DesignLimits:
+    """Closed-form limits of a pillar sensor. ``limits["buckling"]`` is one of them.
+
+    Attributes
+    ----------
+    admissible : bool
+        Every limit is met.
+    limits : list of dict
+        name, value, limit, unit, is_upper, met, margin (below 1 it is not met).
+    longest_m : float
+        The longest admissible pillar, 0 if there is none, and `limited_by`, the limit that determines it.
+    json : dict
+        The object of ``viscard design --json``, also sensitivity_V_Pa, relative_sensitivity, pitch_m, pull_off_force_N.
+
+    Examples
+    --------
+    >>> limits = viscard.design(diameter="40 um", spacing="60 um", length="120 um")
+    >>> limits.admissible, limits["matting"]["met"], limits.limited_by
+    (True, True, 'buckling')
+    """
+
+    def __init__(self, found: Dict[str, Any], text: str) -> None:
+        self.json: Dict[str, Any] = with_head("viscard-design/1", [], found)
+        self.admissible: bool = found["admissible"]
+        self.limits: List[Dict[str, Any]] = found["limits"]
+        self.longest_m: float = found["longest_m"]
+        self.limited_by: str = found["limited_by"]
+        self._text = text
+
+    def __getitem__(self, name: str) -> Dict[str, Any]:
+        for one in self.limits:
+            if one["name"] == name:
+                return one
+        raise KeyError(f"there is no limit '{name}'; there are {', '.join(one['name'] for one in self.limits)}")
+
+    def summary(self) -> str:
+        """The text that viscard design prints."""
+        return self._text
+
+    def __repr__(self) -> str:
+        failed = [one["name"] for one in self.limits if not one["met"]]
+        return f"<viscard.DesignLimits: {'not met: ' + ', '.join(failed) if failed else 'admissible'}>"
+
+
 def _read(printed):
     return json.loads(printed[0]), printed[1]
 
 
-def design(scene, require=None, *, tol: Optional[float] = None, search_time: Union[str, float] = 60.0,
-           folder=None, progress: Progress = None) -> Union[Judgement, Designs]:
-    """Judge a scene by requirements, each against a computed quantity with its error; or design one.
+_OF_LIMITS = ("diameter", "spacing", "length", "pressure", "modulus", "poisson", "surface_energy", "work_of_adhesion", "strength",
+              "end_factor", "film_thickness", "charge_constant", "permittivity", "smallest_feature", "aspect_ratio", "pitch",
+              "sensitivity", "lattice")
+
+
+def _limits(require, tol, folder, values) -> DesignLimits:
+    if require is not None:
+        raise Error("--require judges a scene; name its file, such as SCENE.toml", "usage")
+    if tol is not None or folder is not None:
+        raise Error("tol and folder belong to a scene; give one", "usage")
+    return DesignLimits(*_read(_core.design_limits({name: value for name, value in values.items() if value is not None})))
+
+
+def design(scene=None, require=None, *, tol: Optional[float] = None, search_time: Union[str, float] = 60.0,
+           folder=None, progress: Progress = None, **values) -> Union[Judgement, Designs, DesignLimits]:
+    """Judge a scene by requirements, each against a computed quantity with its error; design one; or state closed-form limits.
 
     Parameters
     ----------
     scene, tol, folder, progress
-        As in `simulate`; without `require` the file of a specification (data/designs), for `Designs`.
+        As in `simulate`; without `require` the file of a specification, as in `data_file("designs")`, for `Designs`.
     search_time : str or float
         Processor time for the dimensions that would pass; a number counts seconds, 0 seeks none.
     require : path or dict
-        A file with a table [require], or the contents of that table: data/requirements/human_hand.toml is an example.
+        A file with a table [require], or the contents of that table: `data_file("requirements/human_hand.toml")` is an example.
+
+    **values
+        Without `scene`, for `DesignLimits`: diameter, spacing, length, pressure, modulus, poisson, surface_energy,
+        work_of_adhesion, strength, end_factor, film_thickness, charge_constant, permittivity, smallest_feature, aspect_ratio,
+        pitch, sensitivity and lattice, as in ``viscard design --help``; texts with a unit or numbers in SI.
 
     Examples
     --------
-    >>> print(viscard.design("data/scenes/array_voltages.toml", {"crosstalk": "0.1 %"})["crosstalk"]["verdict"])
-    pass
+    >>> viscard.design(viscard.data_file("scenes/array_voltages.toml"), {"crosstalk": "0.1 %"})["crosstalk"]["verdict"]
+    'pass'
+    >>> round(viscard.design(diameter=40e-6, spacing="60 um").longest_m * 1e6)
+    149
     """
+    unknown = [name for name in values if name not in _OF_LIMITS]
+    if unknown:
+        raise TypeError(f"design() has no keyword '{unknown[0]}'; there are {', '.join(_OF_LIMITS)}")
+    if scene is None:
+        return _limits(require, tol, folder, values)
+    if values:
+        raise Error(f"{next(iter(values))} belongs to the closed-form limits; a scene has its own values", "usage")
     if require is None:
         if tol is not None or folder is not None:
             raise Error("tol and folder belong to a scene that is judged by require", "usage")

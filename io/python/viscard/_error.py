@@ -39,7 +39,7 @@ class Error(RuntimeError):
     Examples
     --------
     >>> try:
-    ...     viscard.fit("data/demo/example_relaxation.csv", max_terms=200)
+    ...     viscard.fit(viscard.data_file("demo/example_relaxation.csv"), max_terms=200)
     ... except viscard.Error as error:
     ...     print(error.code, "|", error.message)
     usage | max_terms 200 is outside 0 to 100

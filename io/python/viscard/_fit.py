@@ -61,7 +61,7 @@ class FitResult:
 
     Examples
     --------
-    >>> result = viscard.fit("data/demo/example_relaxation.csv")
+    >>> result = viscard.fit(viscard.data_file("demo/example_relaxation.csv"))
     >>> len(result.tau_s), result.unit
     (2, 'Pa')
     >>> low, high = result.E0_interval
@@ -188,7 +188,7 @@ class FitResult:
         Examples
         --------
         >>> import matplotlib; matplotlib.use("agg")
-        >>> axes = viscard.fit("data/demo/example_relaxation.csv").plot()
+        >>> axes = viscard.fit(viscard.data_file("demo/example_relaxation.csv")).plot()
         >>> axes.get_xlabel()
         'time (s)'
         """
@@ -218,7 +218,13 @@ class JointFit:
 
     Examples
     --------
-    >>> joint = viscard.fit(files, joint=True, ratio=[10, 13, 20])     # files: three tables
+    >>> import numpy as np
+    >>> time_s, random = np.geomspace(0.01, 100.0, 300), np.random.default_rng(4)
+    >>> for ratio in (10, 13, 20):
+    ...     E = viscard.Material(2e7 / ratio, 0.495, terms=[(0.1, 0.5), (0.1, 8.0)]).relaxation(time_s)
+    ...     np.savetxt(f"1to{ratio}.csv", np.c_[time_s, E * random.normal(1.0, 1e-3, 300)], delimiter=",",
+    ...                header="time_s,modulus_Pa", comments="")
+    >>> joint = viscard.fit(["1to10.csv", "1to13.csv", "1to20.csv"], joint=True, ratio=[10, 13, 20])
     >>> joint.ratios
     array([10., 13., 20.])
     >>> bool(joint.material(20).E0_Pa < joint.material(10).E0_Pa)
@@ -308,7 +314,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
 
     Examples
     --------
-    >>> result = viscard.fit("data/demo/example_relaxation.csv")
+    >>> result = viscard.fit(viscard.data_file("demo/example_relaxation.csv"))
     >>> print(f"{result.E0_Pa / 1e6:.2f} MPa")
     1.88 MPa
     >>> import numpy as np

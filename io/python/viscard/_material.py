@@ -64,7 +64,7 @@ class Material:
 
         Examples
         --------
-        >>> viscard.Material.load("data/materials/pdms_1to10_seed.json").nu
+        >>> viscard.Material.load(viscard.data_file("materials/pdms_1to10_seed.json")).nu
         0.495
         """
         return cls._of(_core.read_material(path_of(path, "path")))
@@ -127,7 +127,7 @@ class Material:
 
         Examples
         --------
-        >>> material = viscard.Material.load("data/materials/pdms_1to10_seed.json")
+        >>> material = viscard.Material.load(viscard.data_file("materials/pdms_1to10_seed.json"))
         >>> bool(material.relaxation(0.0) > material.relaxation(10.0))
         True
         """
@@ -272,7 +272,7 @@ def predict(material, *, test: Optional[str] = None, strain: Quantity = None, st
 
     Examples
     --------
-    >>> found = viscard.predict("data/materials/pdms_1to10_seed.json", test="oscillation", from_=0.1, to=10)
+    >>> found = viscard.predict(viscard.data_file("materials/pdms_1to10_seed.json"), test="oscillation", from_=0.1, to=10)
     >>> sorted(found.curves)
     ['loss_modulus_Pa', 'storage_modulus_Pa', 'tan_delta']
     """

@@ -25,7 +25,8 @@ class TestCost:
 
     Examples
     --------
-    >>> found = viscard.cost_of_tests("data/demo/01_rig.toml", "data/demo/03_pdms_1to10.toml", "E0=10%", at_most="2 min")
+    >>> rig, specimen = viscard.data_file("demo/01_rig.toml"), viscard.data_file("demo/03_pdms_1to10.toml")
+    >>> found = viscard.cost_of_tests(rig, specimen, "E0=10%", at_most="2 min")
     >>> [row["touches"] for row in found.rows if row["pareto"]][:1]
     [1]
     """
@@ -63,8 +64,8 @@ def cost_of_tests(rig, specimen, want: Union[str, Sequence[str]], *, test=None, 
 
     Examples
     --------
-    >>> found = viscard.cost_of_tests("data/demo/01_rig.toml", "data/demo/03_pdms_1to10.toml", "E0=10%",
-    ...                               at_most="2 min")
+    >>> rig, specimen = viscard.data_file("demo/01_rig.toml"), viscard.data_file("demo/03_pdms_1to10.toml")
+    >>> found = viscard.cost_of_tests(rig, specimen, "E0=10%", at_most="2 min")
     >>> len(found.rows) > 0, "E0" in found.advice, 'protocol = "ramp-hold"' in found.test
     (True, True, True)
     """

@@ -36,7 +36,7 @@ class RubberCard:
 
     Examples
     --------
-    >>> rubber = viscard.fit(["uniaxial=data/reference/treloar_uniaxial.csv"], model="yeoh")
+    >>> rubber = viscard.fit(["uniaxial=" + viscard.data_file("reference/treloar_uniaxial.csv")], model="yeoh")
     >>> "*HYPERELASTIC, YEOH" in rubber.card("abaqus", "mm-t-s").text
     True
     """
@@ -84,8 +84,8 @@ class RubberFit:
 
     Examples
     --------
-    >>> rubber = viscard.fit(["uniaxial=data/reference/treloar_uniaxial.csv",
-    ...                       "planar=data/reference/treloar_planar.csv"], model="ogden-2")
+    >>> rubber = viscard.fit(["uniaxial=" + viscard.data_file("reference/treloar_uniaxial.csv"),
+    ...                       "planar=" + viscard.data_file("reference/treloar_planar.csv")], model="ogden-2")
     >>> rubber.law, list(rubber.parameters)
     ('ogden-2', ['mu_1_Pa', 'mu_2_Pa', 'alpha_1', 'alpha_2'])
     >>> low, high = rubber.parameters["alpha_2"].interval
@@ -142,7 +142,7 @@ class RubberFit:
 
         Examples
         --------
-        >>> rubber = viscard.fit(["uniaxial=data/reference/treloar_uniaxial.csv"], model="neo-hooke")
+        >>> rubber = viscard.fit(["uniaxial=" + viscard.data_file("reference/treloar_uniaxial.csv")], model="neo-hooke")
         >>> C10 = rubber.parameters["C10_Pa"].value
         >>> bool(abs(rubber.stress(2.0) - 2 * C10 * (2 - 1 / 2**2)) < 1e-6)
         True

@@ -45,7 +45,7 @@ class Field(NamedTuple):
 
     Examples
     --------
-    >>> answer = viscard.simulate("data/scenes/pillar_press.toml", fields=True)
+    >>> answer = viscard.simulate(viscard.data_file("scenes/pillar_press.toml"), fields=True)
     >>> field = answer.fields[0]
     >>> field.values["displacement_m"]["value"].shape == (field.x_m.size, 3)
     True
@@ -87,7 +87,7 @@ class Answer:
 
     Examples
     --------
-    >>> answer = viscard.simulate("data/scenes/pillar_press.toml")
+    >>> answer = viscard.simulate(viscard.data_file("scenes/pillar_press.toml"))
     >>> sorted(answer.results)
     ['electrode_capacitance', 'electrode_charge', 'electrode_voltage', 'top_force', 'top_stiffness']
     >>> f"{answer['electrode_voltage'] * 1e3:.0f} mV"
@@ -138,7 +138,7 @@ class Plan:
 
     Examples
     --------
-    >>> plan = viscard.plan("data/scenes/pillar_press.toml")
+    >>> plan = viscard.plan(viscard.data_file("scenes/pillar_press.toml"))
     >>> plan.is_on("piezo_coupling") in (True, False)
     True
     """
@@ -174,7 +174,7 @@ class Cost:
 
     Examples
     --------
-    >>> cost = viscard.cost("data/scenes/pillar_press.toml", budget="1 s")
+    >>> cost = viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget="1 s")
     >>> cost.error.shape == cost.cpu_s.shape
     True
     """
@@ -276,7 +276,7 @@ def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, uncert
     ...     "geometry": {"diameter": "40 um", "length": "120 um",
     ...                  "film": {"thickness": "25 um", "radius": "60 um", "material": "pvdf"},
     ...                  "electrode": {"face": "top", "kind": "equipotential", "radius": "20 um"}},
-    ...     "materials": {"pillar": pdms, "pvdf": {"file": "data/materials/pvdf_film_manual.json"}},
+    ...     "materials": {"pillar": pdms, "pvdf": {"file": viscard.data_file("materials/pvdf_film_manual.json")}},
     ...     "analysis": {"kind": "static", "load": {"displacement": -1e-6, "on": "top"}}})
     >>> f"{answer['electrode_voltage'] * 1e3:.0f} mV"
     '29 mV'
@@ -320,7 +320,7 @@ def forces_from_voltages(scene, voltages, *, noise: Optional[float] = None, tol:
     ...                       "film": {"thickness": "25 um", "edge": "150 um", "material": "pvdf"},
     ...                       "electrode": {"face": "bottom", "kind": "sampled", "quadrants": True}},
     ...          "materials": {"pillar": {"E": "1.8 MPa", "nu": 0.33, "rho": "965 kg/m3"},
-    ...                        "pvdf": {"file": "data/materials/pvdf_seed.json"}},
+    ...                        "pvdf": {"file": viscard.data_file("materials/pvdf_seed.json")}},
     ...          "analysis": {"kind": "static"}}
     >>> voltages = np.zeros((3, 3, 4))
     >>> voltages[1, 1] = [-9.71e-3, 5.86e-3, 5.86e-3, -9.71e-3]
@@ -359,7 +359,7 @@ def plan(scene, *, tol: Optional[float] = None, folder=None) -> Plan:
 
     Examples
     --------
-    >>> viscard.plan("data/scenes/pillar_press.toml").tolerance
+    >>> viscard.plan(viscard.data_file("scenes/pillar_press.toml")).tolerance
     0.001
     """
     tolerance = None if tol is None else float(tol)
@@ -378,7 +378,7 @@ def cost(scene, *, budget: Union[str, float] = 60.0, folder=None, progress: Prog
 
     Examples
     --------
-    >>> bool(viscard.cost("data/scenes/pillar_press.toml", budget=1).pareto.any())
+    >>> bool(viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget=1).pareto.any())
     True
     """
     return Cost(_with_scene(scene, folder, lambda text, path: _core.cost(text, path, budget, progress)))

@@ -30,7 +30,7 @@ class Table(Mapping):
 
     Examples
     --------
-    >>> table = viscard.read_table("data/demo/example_relaxation.csv")
+    >>> table = viscard.read_table(viscard.data_file("demo/example_relaxation.csv"))
     >>> sorted(table)
     ['modulus_Pa', 'time_s']
     >>> table["modulus_Pa"].shape == table["time_s"].shape
@@ -74,7 +74,7 @@ def read_table(path, *, column: Texts = None, sheet: str = "") -> Table:
 
     Examples
     --------
-    >>> table = viscard.read_table("data/demo/example_relaxation.csv")
+    >>> table = viscard.read_table(viscard.data_file("demo/example_relaxation.csv"))
     >>> table["time_s"][:2]
     array([0.01     , 0.0103912])
     """
@@ -103,7 +103,7 @@ class Capture:
 
     Examples
     --------
-    >>> capture = viscard.read_capture(run)           # run: path of a capture
+    >>> capture = viscard.capture("run.viscap", emulate=True, speed=500).read()
     >>> capture.load["time_s"].shape == capture.load["counts"].shape
     True
     >>> sorted(capture.table())
@@ -131,7 +131,8 @@ def read_capture(path) -> Capture:
 
     Examples
     --------
-    >>> viscard.read_capture(run).status              # run: path of a capture
+    >>> outcome = viscard.capture("run.viscap", emulate=True, speed=500)
+    >>> viscard.read_capture("run.viscap").status
     'finished'
     """
     return Capture(_core.read_capture(path_of(path, "path")))

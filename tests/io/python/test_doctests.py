@@ -1,4 +1,4 @@
-"""Every example in a docstring runs, and every public name has one."""
+"""Every example in a docstring runs as it stands, in an empty folder after ``import viscard``; every public name has one."""
 import doctest
 import importlib
 import pathlib
@@ -19,8 +19,9 @@ def all_examples():
 
 
 @pytest.mark.parametrize("example", all_examples(), ids=lambda test: test.name)
-def test_example(example, short_test, run, ratio_files):
-    example.globs.update(viscard=viscard, short_test=short_test, run=run, files=ratio_files)
+def test_example(example, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    example.globs = {"viscard": viscard}
     lines = []
     doctest.DocTestRunner(verbose=False).run(example, out=lines.append)
     assert not lines, "".join(lines)

@@ -111,3 +111,35 @@ def test_captures_are_refused_before_they_begin(tmp_path, short_test):
     (tmp_path / "b.viscap").write_text("mine")
     error = text_of(viscard.capture, tmp_path / "b.viscap", test=short_test, emulate=True, speed=200)
     assert error.code == "exists" and (tmp_path / "b.viscap").read_text() == "mine"
+
+
+def test_files_that_do_not_come_with_viscard(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # the data lie beside the module, not beside the user
+    assert viscard.data_file("scenes/pillar_press.toml").endswith("share/viscard/scenes/pillar_press.toml")
+    assert viscard.data_file() + "/demo" == viscard.data_file("demo")
+    error = text_of(viscard.data_file, "scenes/pillar_pres.toml")
+    assert error.code == "file" and "pillar_press.toml" in str(error) and str(error).startswith("no file 'scenes/pillar_pres.toml'")
+    assert "demo, " in str(text_of(viscard.data_file, "scene/other/pillar.toml"))
+    with pytest.raises(TypeError, match="name must be a path, not int"):
+        viscard.data_file(3)
+
+
+def test_closed_form_limits_have_the_words_of_the_command_line(program):
+    import json
+
+    words = ["design", "--diameter", "50 um", "--lattice", "hexagonal", "--film-thickness", "2e-5"]
+    given = {"diameter": "50 um", "lattice": "hexagonal", "film_thickness": 2e-5}
+    found = viscard.design(**given)
+    assert found.json == json.loads(subprocess.run([program, *words, "--json"], capture_output=True, text=True).stdout)
+    assert found.summary() == subprocess.run([program, *words], capture_output=True, text=True).stdout
+    for option, name, value in (("--diameter", "diameter", "-1 um"), ("--film-thickness", "film_thickness", "3 kg"),
+                                ("--lattice", "lattice", "hexagon")):
+        printed = subprocess.run([program, "design", f"{option}={value}"], capture_output=True, text=True).stderr
+        words = str(text_of(viscard.design, **{name: value}))
+        assert words == printed.splitlines()[0].removeprefix("viscard: ").replace(option, name), printed
+    assert "belongs to the closed-form limits" in str(text_of(viscard.design, "data/scenes/pillar_modal.toml", diameter=1))
+    assert "--require".lstrip("-") in str(text_of(viscard.design, require={"bandwidth": "1 kHz"}))
+    with pytest.raises(TypeError, match="no keyword 'diametre'"):
+        viscard.design(diametre=1)
+    with pytest.raises(TypeError, match="diameter must be a text or a number"):
+        viscard.design(diameter=[1])

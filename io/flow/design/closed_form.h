@@ -1,0 +1,43 @@
+#pragma once
+
+#include "models/sensor/sensor_design.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A pillar sensor whose limits are known in closed form (models/README.md, eqs. D1 to D6).
+struct ClosedFormDesign {
+  SensorGeometry geometry;
+  SensorMaterial material;
+  SensorRequirements requirements;
+};
+
+// A quantity of a design: a number in SI, or a text with its unit.
+struct DesignOption {
+  const char* name;  // "film-thickness"
+  const char* unit;  // in SI; "1" of a pure number
+  const char* what;  // in words
+  double* value;     // in the design
+};
+
+// All quantities of `design`, which must outlive them.
+std::vector<DesignOption> options_of(ClosedFormDesign& design);
+
+// The design with the values (in SI) that `given` returns for the name and the unit of an option; nothing: the
+// default. lattice: "square", "hexagonal" or "plain". Without work of adhesion it is twice the surface energy, of
+// equal surfaces. Throws std::invalid_argument naming what is outside its range.
+ClosedFormDesign closed_form_design(
+    const std::function<std::optional<double>(const char* name, const char* unit)>& given,
+    const std::optional<std::string>& lattice);
+
+// The object of `viscard design --json`, and its text with one line for each limit.
+nlohmann::json json_from_design(const ClosedFormDesign& design);
+std::string text_from_design(const ClosedFormDesign& design);
+
+}  // namespace viscard

@@ -1,0 +1,102 @@
+"""A scene at many values of its parameters."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from typing import Any, Dict, List, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _core
+from ._arrays import optional_path, path_of
+from ._error import Error
+from ._scene import Progress
+
+
+class Sweep:
+    """The answers of a study. ``sweep["electrode_voltage"]`` is a result at all points, SI; NaN where there is none.
+
+    Attributes
+    ----------
+    parameters : dict of list of str
+        By key of the scene ("geometry.diameter"): its value at each point, as a scene states it ("36 um").
+    results : dict of {"unit", "value", "error"}
+        Arrays of shape (points,): results and, by name, frequencies of modes, with their error estimates.
+    point : int array, shape (points,)
+        Numbers of the points that are done; in a grid the first parameter varies slowest.
+    failures : list of str
+        Why a point has no answer; empty: it has one.
+    n_points, n_answered, n_merged : int
+        Of the study; of these answered, or taken over, by this call.
+
+    Examples
+    --------
+    >>> sweep = viscard.sweep(viscard.data_file("studies/pillar.toml"))
+    >>> list(sweep.parameters), sweep["electrode_voltage"].shape
+    (['geometry.diameter', 'geometry.length'], (9,))
+    >>> sweep.results["electrode_voltage"]["unit"]
+    'V'
+    """
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        self.parameters: Dict[str, List[str]] = found["parameters"]
+        self.results: Dict[str, Dict[str, Any]] = found["results"]
+        self.point: np.ndarray = found["point"]
+        self.failures: List[str] = found["failures"]
+        self.n_points: int = found["n_points"]
+        self.n_answered: int = found["n_answered"]
+        self.n_merged: int = found["n_merged"]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self.results:
+            raise KeyError(f"the answers have no '{name}'; they have {', '.join(self.results) or 'no results'}")
+        return self.results[name]["value"]
+
+    def __len__(self) -> int:
+        return len(self.point)
+
+    def __repr__(self) -> str:
+        failed = sum(1 for one in self.failures if one)
+        doubt = f", {failed} without an answer" if failed else ""
+        return f"<viscard.Sweep over {', '.join(self.parameters)}: {len(self)} of {self.n_points} points{doubt}>"
+
+
+def sweep(study, out=None, *, shard: Optional[str] = None, merge: Union[str, Sequence[str], None] = None,
+          progress: Progress = None) -> Sweep:
+    """Answer a scene at many values of its parameters, on all cores, as ``viscard sweep`` does.
+
+    The GIL is released. Ctrl-C, or an exception of `progress`, ends it; the points that are being answered end in the background.
+
+    Parameters
+    ----------
+    study : path
+        A study file; `data_file("studies/pillar.toml")` is a commented example.
+    out : path
+        SQLite file that keeps each point as it ends, so that the same call continues a sweep that was interrupted. ``viscard
+        sweep`` continues it too. Default: nothing is kept.
+    shard : str
+        Answer one part of the points only, such as "3/64".
+    merge : path or list of paths
+        Take over the points of other parts; nothing is answered then.
+    progress : function of (fraction, step)
+
+    Examples
+    --------
+    >>> first = viscard.sweep(viscard.data_file("studies/pillar.toml"), "pillar.sqlite", shard="1/3")
+    >>> rest = viscard.sweep(viscard.data_file("studies/pillar.toml"), "pillar.sqlite")
+    >>> first.n_answered, rest.n_answered, len(rest)
+    (3, 6, 9)
+    """
+    path = path_of(study, "study")
+    if shard is not None and not isinstance(shard, str):
+        raise TypeError(f"shard must be a text such as '3/64', not {shard!r}")
+    parts = [] if merge is None else [merge] if isinstance(merge, (str, os.PathLike)) else list(merge)
+    parts = [path_of(one, "merge") for one in parts]
+    file = optional_path(out, "out")
+    if file is None and parts:
+        raise Error("merge needs out, the file that takes the points over", "usage")
+    if file is not None:
+        return Sweep(_core.sweep(path, file, shard, parts, progress))
+    with tempfile.TemporaryDirectory(prefix="viscard-", ignore_cleanup_errors=True) as own:
+        return Sweep(_core.sweep(path, os.path.join(own, "points.sqlite"), shard, parts, progress))
