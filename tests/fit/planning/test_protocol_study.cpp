@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <set>
+#include <vector>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -101,6 +103,37 @@ TEST_CASE("the front of protocols falls, and its advice is the quickest that is 
   REQUIRE(given != study.rows.end());
   CHECK(study.rows[*study.at_equal_time].total_s <= given->total_s);
   CHECK(study.rows[*study.at_equal_time].shortfall < given->shortfall);
+}
+
+TEST_CASE("ramp, depth, hold, unloading, recovery and touches are all varied", "[fit]") {
+  const EmulatedTruth truth = demo_truth(10, 1);
+  const ProtocolOptions options = options_for(truth);
+  const std::vector<TestPlan> plans = protocol_grid(options);
+  const auto n_values = [&](double TestPlan::*member) {
+    std::set<double> found;
+    for (const TestPlan& plan : plans) found.insert(plan.*member);
+    return found.size();
+  };
+  CHECK(n_values(&TestPlan::ramp_s) == 4);
+  CHECK(n_values(&TestPlan::depth_m) == 2);
+  CHECK(n_values(&TestPlan::hold_s) == 8);
+  CHECK(n_values(&TestPlan::unload_to_fraction) == 2);
+  CHECK(n_values(&TestPlan::recovery_s) == 6);
+  // Each of them makes another prediction.
+  const auto noise_of_g_2 = [&](const TestPlan& plan) {
+    return errors_of({"g_2", 0.01}, predicted_fit(plan, bench_of(truth), truth.material)).noise;
+  };
+  TestPlan base;
+  base.hold_s = 20.0;
+  base.recovery_s = 10.0;
+  std::set<double> noises{noise_of_g_2(base)};
+  for (double TestPlan::*member : {&TestPlan::ramp_s, &TestPlan::depth_m, &TestPlan::hold_s,
+                                   &TestPlan::unload_to_fraction, &TestPlan::recovery_s}) {
+    TestPlan other = base;
+    other.*member *= 0.5;
+    CHECK(noises.insert(noise_of_g_2(other)).second);
+  }
+  CHECK(noises.size() == 6);
 }
 
 TEST_CASE("what the frame alone prevents is named, and does not hide the rest", "[fit]") {
