@@ -20,7 +20,8 @@ void raise(const CommandError& error, const std::string& text) {
 }
 
 // Exceptions of viscard become viscard.Error; those of Python and pybind11 stay as they are.
-void translate(std::exception_ptr thrown) {
+void translate(
+    std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): pybind11's
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const py::error_already_set&) {

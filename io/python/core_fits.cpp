@@ -114,7 +114,8 @@ py::list fit_paths(std::vector<std::string> files, const py::dict& keywords,
     std::vector<FitOutcome> outcomes;
     if (tests.size() > 1) {
       FittedFile fitted = fit_tests(tests, request, show);
-      outcomes.push_back({.path = fitted.path, .fitted = std::move(fitted)});
+      const std::string path = fitted.path;
+      outcomes.push_back({.path = path, .fitted = std::move(fitted)});
     } else {
       for (FileOutcome& one : fit_each_file(files, request, show)) {
         outcomes.push_back({.path = one.path, .fitted = std::move(one.fitted), .error = one.error});
@@ -157,7 +158,7 @@ RatioFit fit_ratios(const std::vector<std::string>& files, const py::dict& keywo
 }  // namespace
 
 void add_fits(py::module_& module) {
-  py::class_<Material>(module, "Material");
+  const py::class_<Material> opaque(module, "Material");
   py::class_<RatioFit>(module, "RatioFit")
       .def("to_json", [](const RatioFit& fit) { return json_from_ratio_fit(fit); })
       .def("law", [](const RatioFit& fit) { return law_in_words(fit); })

@@ -76,7 +76,7 @@ std::string rubber_card_text(const HyperelasticFile& rubber, const std::string& 
 }  // namespace
 
 void add_rubber(py::module_& module) {
-  py::class_<HyperelasticFile>(module, "Rubber");
+  const py::class_<HyperelasticFile> opaque(module, "Rubber");
   module.def("is_large_strain", [](const std::vector<std::string>& words) {
     return !large_strain_given(words).empty();
   });

@@ -150,7 +150,7 @@ TEST_CASE("three tests of one spectrum: intervals hold it and are shorter than a
   Coverage coverage;
   int n_flagged = 0, n_three = 0;
   double shorter_E_inf = 0.0, shorter_tau = 0.0;
-  for (int seed = 0; seed < kSets; ++seed) {
+  for (unsigned seed = 0; seed < kSets; ++seed) {
     const std::vector<MaterialTest> tests = three_tests(kSolid, 1000 + seed);
     const FitResult fit = fit_together(tests, {});
     CHECK(fit.kind == FitKind::kSeveral);
@@ -178,7 +178,7 @@ TEST_CASE("three tests of one spectrum: intervals hold it and are shorter than a
 
 TEST_CASE("a disagreement of 5 % is found and reported, and the result is not trusted",
           "[fit][together]") {
-  for (int seed = 0; seed < 10; ++seed) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
     const std::vector<MaterialTest> tests = three_tests(kSolid, 2000 + seed, 1.05);
     const FitResult fit = fit_together(tests, {});
     REQUIRE(has_flag(fit, "tests-disagree"));
@@ -199,7 +199,7 @@ TEST_CASE("a disagreement of 5 % is found and reported, and the result is not tr
 TEST_CASE("a liquid in three tests is found as a liquid", "[fit][together]") {
   Coverage coverage;
   int n_flagged = 0;
-  for (int seed = 0; seed < 10; ++seed) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
     const FitResult fit = fit_together(three_tests(kLiquid, 3000 + seed), {});
     CAPTURE(seed, fit.terms.size());
     CHECK(fit.E_inf_Pa == 0.0);
@@ -212,7 +212,7 @@ TEST_CASE("a liquid in three tests is found as a liquid", "[fit][together]") {
 
 TEST_CASE("a stiffness among moduli gets its scale from them", "[fit][together]") {
   Coverage coverage;
-  for (int seed = 0; seed < 12; ++seed) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
     Laboratory laboratory(kSolid, 4000 + seed);
     const MaterialTest oscillation = laboratory.oscillation();
     const FitResult fit = fit_together({laboratory.indentation(), oscillation}, {});
@@ -232,7 +232,7 @@ TEST_CASE("a stiffness among moduli gets its scale from them", "[fit][together]"
 TEST_CASE("a test with slow noise counts with its own memory", "[fit][together]") {
   Coverage coverage;
   int n_flagged = 0;
-  for (int seed = 0; seed < 20; ++seed) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
     Laboratory laboratory(kSolid, 5000 + seed);
     const MaterialTest relaxation = laboratory.relaxation(1000.0, 0.8);
     const FitResult fit = fit_together({relaxation, laboratory.oscillation()}, {});
@@ -262,7 +262,7 @@ TEST_CASE("coverage of several tests together", "[fit][together][slow]") {
     const PronySeries& truth = is_liquid ? kLiquid : kSolid;
     Coverage together, alone;
     int n_flagged = 0, n_found = 0;
-    for (int seed = 0; seed < kSets; ++seed) {
+    for (unsigned seed = 0; seed < kSets; ++seed) {
       const std::vector<MaterialTest> tests = three_tests(truth, 10000 + seed);
       const FitResult fit = fit_together(tests, {});
       together.add(fit, truth);

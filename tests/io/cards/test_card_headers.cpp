@@ -122,7 +122,7 @@ TEST_CASE("a second element that contradicts the first is a mistake", "[cards]")
     const std::size_t at = text.find(open);
     REQUIRE(at != std::string::npos);
     std::string second = text.substr(at);
-    const std::size_t digit = second.find_first_of("123456789", second.find("0"));
+    const std::size_t digit = second.find_first_of("123456789", second.find('0'));
     second[digit] = second[digit] == '9' ? '1' : '9';
     CAPTURE(name, second);
     CHECK_THAT(findings_of(text + second, target, &material), Contains("second-element!"));

@@ -217,7 +217,8 @@ void check_infeasible(const DesignSpec& spec, const OptimisedDesign& design) {
   JudgeOptions quick;
   quick.search_s = 0.0;
   for (int point = 0; point < 27; ++point) {
-    const DesignPoint at = {(point % 3) / 2.0, (point / 3 % 3) / 2.0, (point / 9) / 2.0};
+    const int row = point / 3, layer = point / 9;
+    const DesignPoint at = {0.5 * (point % 3), 0.5 * (row % 3), 0.5 * layer};
     CHECK_FALSE(
         judge_scene(space.text_at(at, 9), spec.scene_path, spec.requirements, quick).passes());
   }

@@ -190,7 +190,7 @@ TEST_CASE("every test predicts its closed form and marks what the fit has not se
 
 TEST_CASE("requests that contradict the test are refused", "[models]") {
   const Material material = fitted_material();
-  const auto refused = [&](PredictionRequest request) {
+  const auto refused = [&](const PredictionRequest& request) {
     CHECK_THROWS_AS(predict_test(material, request), std::invalid_argument);
   };
   refused({.test = PredictedTest::kRelaxation, .stress_Pa = 1.0});

@@ -232,7 +232,7 @@ TEST_CASE("a run over a disturbed line reports that some readings may be wrong",
   INFO(outcome.reason);
   CHECK(outcome.stream.unreadable > 0);
   CHECK(rig.has_event("doubt", "line_noise"));
-  REQUIRE(outcome.doubts.size() > 0);
+  REQUIRE_FALSE(outcome.doubts.empty());
   CHECK(outcome.doubts[0].find("may be wrong") != std::string::npos);
 }
 

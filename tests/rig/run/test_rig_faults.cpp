@@ -60,7 +60,7 @@ TEST_CASE("a punch that presses before the run is lifted, and the advice is not 
   CHECK_THAT(outcome.reason, !Contains("[ramp]") && !Contains("FALL") && !Contains("by hand"));
   CHECK(outcome.code == "pressing");
   CHECK(rig.emulated.outcome().final_position_m < -0.4e-3);
-  CHECK(rig.all<LoadSample>().size() > 0);
+  CHECK_FALSE(rig.all<LoadSample>().empty());
 }
 
 TEST_CASE("a light press before the run is felt by a lift of 0.1 mm, and the punch is lifted",

@@ -63,9 +63,10 @@ TEST_CASE("gains of quarters are those of an independent program", "[models]") {
   const std::array<std::array<double, 4>, 3> signs = {
       {{1, 1, 1, 1}, {1, -1, -1, 1}, {1, 1, -1, -1}}};
   const std::array<double, 3> expected = {-129759.0, -32113.0, -34118.0};  // Pa/V
-  for (int load = 0; load < 3; ++load) {
-    for (int q = 0; q < 4; ++q) {
-      CHECK(gains(load, q) == Approx(signs.at(load).at(q) * expected.at(load)).epsilon(2e-4));
+  for (std::size_t load = 0; load < 3; ++load) {
+    for (std::size_t q = 0; q < 4; ++q) {
+      const double gain = gains(static_cast<Eigen::Index>(load), static_cast<Eigen::Index>(q));
+      CHECK(gain == Approx(signs.at(load).at(q) * expected.at(load)).epsilon(2e-4));
     }
   }
   const SpaceArray isotropic = quartered(1, 1, 100e-6, false);

@@ -32,9 +32,10 @@ SpaceArray square_on(int n, const LayeredFilm& film) {
   array.classes = {{PillarGeometry{}, isotropic_medium(1.8e6, 0.33, 965.0)}};
   array.film = film;
   array.electrode_radius_m = 20e-6;
+  const int middle = n / 2;
   for (int row = 0; row < n; ++row) {
     for (int column = 0; column < n; ++column) {
-      array.pillars.push_back({(column - n / 2) * kPitch_m, (row - n / 2) * kPitch_m, 0});
+      array.pillars.push_back({(column - middle) * kPitch_m, (row - middle) * kPitch_m, 0});
     }
   }
   return array;

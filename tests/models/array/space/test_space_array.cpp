@@ -177,7 +177,7 @@ TEST_CASE("each level of accuracy comes closer to the finest", "[models][converg
   const std::vector<SpaceAccuracy> levels = space_accuracies(array);
   const Eigen::MatrixXd finest = SpaceResponse(array, levels.back()).voltages_V(loads);
   double last = 1.0;
-  for (const std::size_t level : {0, 1, 3, 5}) {
+  for (const std::size_t level : {0U, 1U, 3U, 5U}) {
     const Eigen::MatrixXd V = SpaceResponse(array, levels[level]).voltages_V(loads);
     const double error = (V - finest).cwiseAbs().maxCoeff() / finest.cwiseAbs().maxCoeff();
     CHECK(error < 0.3 * last);
