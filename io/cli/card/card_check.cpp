@@ -108,8 +108,9 @@ std::string shift_row(const TemperatureShift& shift) {
 void print_numbers(const CardCheck& check, std::ostream& out) {
   const Material& material = check.read.material;
   if (material.E0_Pa > 0.0) {
-    out << fmt::format("E0 = {:.9g} Pa, nu = {:.9g}, rho = {:.9g} kg/m3\n", material.E0_Pa,
-                       material.nu, material.rho_kg_m3);
+    out << fmt::format("E0 = {:.9g} Pa, nu = {:.9g}, ", material.E0_Pa, material.nu)
+        << (material.rho_kg_m3 > 0.0 ? fmt::format("rho = {:.9g} kg/m3\n", material.rho_kg_m3)
+                                     : "no density\n");
     for (std::size_t i = 0; i < material.terms.size(); ++i) {
       out << fmt::format("  term {}: g = {:.9g}, k = {:.9g}, tau = {:.9g} s\n", i + 1,
                          material.terms[i].g, material.terms[i].k, material.terms[i].tau_s);

@@ -18,6 +18,13 @@ struct ShownUnit {
 constexpr ShownUnit kShown[] = {{"m", 1e6, "um"}, {"Pa", 1e-3, "kPa"},     {"Pa/K", 1e-3, "kPa/K"},
                                 {"N", 1e3, "mN"}, {"V/Pa", 1e6, "mV/kPa"}, {"Hz", 1.0, "Hz"}};
 
+// Four digits, without an exponent where a reader would write none: "12340", not "1.234e+04".
+std::string plain(double value) {
+  if (!(std::abs(value) >= 9999.5 && std::abs(value) < 1e7)) return fmt::format("{:.4g}", value);
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3.0);
+  return fmt::format("{:.0f}", step * std::round(value / step));
+}
+
 std::string shown(double value, const RequirementKind& kind, bool with_unit) {
   // Shares are shown in per cent; counts and margins, which have lower limits, as they are.
   if (std::string(kind.unit) == "1") {
@@ -26,10 +33,9 @@ std::string shown(double value, const RequirementKind& kind, bool with_unit) {
   }
   for (const ShownUnit& one : kShown) {
     if (kind.unit != std::string(one.si)) continue;
-    return fmt::format("{:.4g}{}{}", one.factor * value, with_unit ? " " : "",
-                       with_unit ? one.unit : "");
+    return plain(one.factor * value) + (with_unit ? std::string(" ") + one.unit : "");
   }
-  return fmt::format("{:.4g}{}{}", value, with_unit ? " " : "", with_unit ? kind.unit : "");
+  return plain(value) + (with_unit ? std::string(" ") + kind.unit : "");
 }
 
 // Lines of at most 80 columns, the further ones indented like the first.
