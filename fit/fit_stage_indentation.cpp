@@ -1,5 +1,6 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/spectral_fit.h"
+#include "fit/assembly/bench_doubt.h"
 #include "fit/assembly/stage_specimen.h"
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/stage_model.h"
@@ -224,8 +225,7 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   result.kind = FitKind::kIndentation;
   result.is_stiffness = !data.contact;
   fill_result(model, fit, specimen_series_of(model, data, options.is_liquid), result);
-  result.gain_drift_relative = gain_drift_of_moduli(model, fit, data, result.E0_Pa);
-  add_common_uncertainty(result.gain_drift_relative, result);
+  add_gain_drift(gain_drift_part(model, fit, data, result), result);
   result.noise.sigma = prepared_for.noise.resting_N;
   result.contact_position_m = fit.state.nuisance[contact_nuisance(data)];
   report_stage_speed(fit, result);

@@ -1,6 +1,7 @@
 #include "fit/assembly/bench_doubt.h"
 
 #include "fit/assembly/stage_specimen.h"
+#include "models/contact/punch_contact.h"
 
 #include <cmath>
 
@@ -60,6 +61,19 @@ std::vector<SystematicPart> systematic_parts_from(const PronySeries& specimen_N_
     parts.push_back({kGeometryCause, doubt.geometry_relative_u, {}, {}});
   }
   return parts;
+}
+
+SystematicPart gain_drift_part(const SpectralModel& model, const SpectralFit& fit,
+                               const IndentationData& data, const FitResult& result) {
+  const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
+  PronySeries specimen_N_m{factor_m * result.E_inf_Pa, {}};
+  for (const FittedTerm& term : result.terms) {
+    specimen_N_m.terms.push_back({factor_m * term.modulus_Pa, term.tau_s});
+  }
+  const std::vector<SystematicPart> parts = systematic_parts_from(
+      specimen_N_m, {.frame_stiffness_N_m = data.frame_stiffness_N_m,
+                     .force_relative_u = gain_drift_relative_u(model, fit, data)});
+  return parts.empty() ? SystematicPart{} : parts.front();
 }
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fit/assembly/spectral_fit.h"
 #include "models/material/material.h"
 
 #include <vector>
@@ -28,5 +29,11 @@ struct BenchDoubt {
 // specimen_N_m: relaxation of the force per depth, N/m. Causes without an effect are left out.
 std::vector<SystematicPart> systematic_parts_from(const PronySeries& specimen_N_m,
                                                   const BenchDoubt& doubt);
+
+// What one standard deviation of the possible drift of the gain before contact (gain_drift_relative_u()) changes in the
+// specimen's series. The gain at contact stands in all forces of the record, so it acts as a wrong calibration
+// does (above): through the frame it changes shares and times too. Drift during the record is fitted.
+SystematicPart gain_drift_part(const SpectralModel& model, const SpectralFit& fit,
+                               const IndentationData& data, const FitResult& result);
 
 }  // namespace viscard

@@ -1,4 +1,5 @@
 #include "fit/assembly/spectral_fit.h"
+#include "models/material/systematic_parts.h"
 
 #include <cmath>
 
@@ -20,26 +21,37 @@ double gain_drift_relative_u(const SpectralModel& model, const SpectralFit& fit,
   return std::sqrt(rate_square) / stiffness_N_m * before_s;
 }
 
-void add_common_uncertainty(double relative_u, FitResult& result) {
-  if (!(relative_u > 0.0)) return;
-  const auto widen = [&](Interval& interval, double value) {
-    interval = combined_95(interval, value, relative_u);
+void add_gain_drift(const SystematicPart& part, FitResult& result) {
+  PronySeries series{result.E_inf_Pa, {}};
+  for (const FittedTerm& term : result.terms) series.terms.push_back({term.modulus_Pa, term.tau_s});
+  const SeriesDirection direction = direction_of(series, part);
+  const double of_E_inf = result.E_inf_Pa > 0.0 ? direction.equilibrium_Pa / result.E_inf_Pa : 0.0;
+  result.gain_drift_relative = part.E0;
+  const auto widen = [](Interval& interval, double value, double relative_u) {
+    if (relative_u != 0.0) interval = combined_95(interval, value, std::abs(relative_u));
   };
-  widen(result.E0_interval_95, result.E0_Pa);
-  widen(result.E_inf_interval_95, result.E_inf_Pa);
-  result.E0_se_Pa = std::hypot(result.E0_se_Pa, relative_u * result.E0_Pa);
-  result.E_inf_se_Pa = std::hypot(result.E_inf_se_Pa, relative_u * result.E_inf_Pa);
-  const auto n_terms = static_cast<Eigen::Index>(result.terms.size());
-  Eigen::VectorXd scale = Eigen::VectorXd::Zero(result.covariance.rows());
-  if (scale.size() > 0) scale[0] = relative_u * result.E_inf_Pa;
-  for (Eigen::Index i = 0; i < n_terms; ++i) {
-    FittedTerm& term = result.terms[static_cast<std::size_t>(i)];
-    const double part = relative_u * term.modulus_Pa;
-    widen(term.modulus_Pa_95, term.modulus_Pa);
-    term.modulus_se_Pa = std::hypot(term.modulus_se_Pa, part);
-    if (1 + i < scale.size()) scale[1 + i] = part;
+  widen(result.E0_interval_95, result.E0_Pa, part.E0);
+  widen(result.E_inf_interval_95, result.E_inf_Pa, of_E_inf);
+  result.E0_se_Pa = std::hypot(result.E0_se_Pa, part.E0 * result.E0_Pa);
+  result.E_inf_se_Pa = std::hypot(result.E_inf_se_Pa, direction.equilibrium_Pa);
+  const std::size_t n_terms = result.terms.size();
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(result.covariance.rows());
+  const auto set = [&](std::size_t row, double value) {
+    if (static_cast<Eigen::Index>(row) < change.size())
+      change[static_cast<Eigen::Index>(row)] = value;
+  };
+  set(0, direction.equilibrium_Pa);
+  for (std::size_t i = 0; i < n_terms; ++i) {
+    FittedTerm& term = result.terms[i];
+    widen(term.modulus_Pa_95, term.modulus_Pa, direction.modulus_Pa[i] / term.modulus_Pa);
+    widen(term.g_95, term.g, i < part.g.size() ? part.g[i] : 0.0);
+    widen(term.tau_s_95, term.tau_s, direction.ln_tau[i]);
+    term.modulus_se_Pa = std::hypot(term.modulus_se_Pa, direction.modulus_Pa[i]);
+    term.ln_tau_se = std::hypot(term.ln_tau_se, direction.ln_tau[i]);
+    set(1 + i, direction.modulus_Pa[i]);
+    set(1 + n_terms + i, direction.ln_tau[i]);
   }
-  result.covariance += scale * scale.transpose();
+  result.covariance += change * change.transpose();
 }
 
 }  // namespace viscard

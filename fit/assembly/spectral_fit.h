@@ -51,8 +51,8 @@ void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
 double gain_drift_relative_u(const SpectralModel& model, const SpectralFit& fit,
                              const IndentationData& data);
 
-// Adds in quadrature a relative uncertainty common to all moduli to their errors, covariance and
-// intervals. Times and ratios of moduli do not change.
-void add_common_uncertainty(double relative_u, FitResult& result);
+// Adds what one standard deviation of the drift changes (gain_drift_part() of bench_doubt.h) in quadrature to errors,
+// covariance and intervals, and sets gain_drift_relative, the part of E0.
+void add_gain_drift(const SystematicPart& part, FitResult& result);
 
 }  // namespace viscard

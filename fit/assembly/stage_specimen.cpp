@@ -43,13 +43,4 @@ SeriesFromState specimen_series_of(const SpectralModel& model, const Indentation
   };
 }
 
-double gain_drift_of_moduli(const SpectralModel& model, const SpectralFit& fit,
-                            const IndentationData& data, double E0_Pa) {
-  const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
-  const double share = data.frame_stiffness_N_m > 0.0
-                           ? factor_m * E0_Pa / data.frame_stiffness_N_m
-                           : 0.0;  // stiffness of the specimen over that of the frame
-  return (1.0 + share) * gain_drift_relative_u(model, fit, data);
-}
-
 }  // namespace viscard

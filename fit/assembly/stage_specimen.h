@@ -23,9 +23,4 @@ PronySeries stage_series(const PronySeries& specimen_series_N_m, double frame_st
 SeriesFromState specimen_series_of(const SpectralModel& model, const IndentationData& data,
                                    bool is_liquid);
 
-// Relative standard uncertainty of the specimen's moduli from the possible drift of the gain before
-// contact. The frame's deflection is subtracted from the depth, so a softer frame raises it.
-double gain_drift_of_moduli(const SpectralModel& model, const SpectralFit& fit,
-                            const IndentationData& data, double E0_Pa);
-
 }  // namespace viscard

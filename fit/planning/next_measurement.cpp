@@ -166,7 +166,7 @@ PredictedFit known_fit(const FittedRun& run) {
     known.series.terms.push_back({term.modulus_Pa, term.tau_s});
   }
   known.covariance = run.fit.covariance;
-  known.result.gain_drift_relative = 0.0;  // the covariance contains it
+  known.result.gain_drift_relative = 0.0;  // the covariance contains it, so gain_drift stays empty
   known.systematic_parts = systematic_parts_on(run.bench, known.series);
   return known;
 }

@@ -166,9 +166,8 @@ PredictedFit predicted_fit(const TestPlan& plan, const Bench& bench, const Mater
   fill_parameters(model, fit.state, fit.covariance, series_from_state, predicted.result);
   predicted.series = series_from_state(fit.state);
   predicted.covariance = predicted.result.covariance;
-  predicted.result.gain_drift_relative =
-      gain_drift_of_moduli(model, fit, run.data, predicted.result.E0_Pa);
-  add_common_uncertainty(predicted.result.gain_drift_relative, predicted.result);
+  predicted.gain_drift = gain_drift_part(model, fit, run.data, predicted.result);
+  add_gain_drift(predicted.gain_drift, predicted.result);
   predicted.systematic_parts = systematic_parts_on(bench, predicted.series);
   return predicted;
 }
@@ -189,15 +188,17 @@ ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit) {
   };
   ErrorCauses causes;
   causes.noise = relative_error(wanted, fit.series, fit.covariance);
-  causes.gain_drift = change(scaled(fit.series, 1.0 + fit.result.gain_drift_relative));
   constexpr double kSmallShare =
       1e-3;  // of a standard deviation, so that effects are to first order
+  const auto effect = [&](const SystematicPart& part) {
+    return change(moved(fit.series, direction_of(fit.series, part), kSmallShare)) / kSmallShare;
+  };
+  causes.gain_drift = effect(fit.gain_drift);
   for (const SystematicPart& part : fit.systematic_parts) {
     double& cause = part.cause == kFrameCause      ? causes.frame
                     : part.cause == kLoadCellCause ? causes.calibration
                                                    : causes.geometry;
-    const PronySeries other = moved(fit.series, direction_of(fit.series, part), kSmallShare);
-    cause = change(other) / kSmallShare;
+    cause = effect(part);
   }
   return causes;
 }

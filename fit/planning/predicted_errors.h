@@ -49,6 +49,7 @@ struct PredictedFit {
   PronySeries series;                            // of the guess, Pa
   Eigen::MatrixXd covariance;                    // of (E_inf, E_i, ln tau_i) from the noise alone
   std::vector<SystematicPart> systematic_parts;  // of the series
+  SystematicPart gain_drift;  // what the possible drift before contact changes in it
 };
 
 // Throws what planned_run() throws, and std::invalid_argument if the rig's noise is not known or the

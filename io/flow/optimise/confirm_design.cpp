@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -78,7 +79,8 @@ double deviate_of(double probability) {
 OptimisedDesign confirmed_design(const DesignSpec& spec, const DesignSpace& space,
                                  const SolvedValues& solved, const DesignPoint& point) {
   OptimisedDesign design;
-  design.values = space.values_at(point, kFileDigits);
+  design.values = spec.chosen;
+  for (auto& value : space.values_at(point, kFileDigits)) design.values.push_back(std::move(value));
   design.scene_text = space.text_at(point, kFileDigits);
   JudgeOptions options;
   options.search_s = 0.0;

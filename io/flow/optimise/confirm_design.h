@@ -16,7 +16,7 @@ struct DesignedObjective {
 
 // A design and what the solver finds of it, with its values rounded to four digits.
 struct OptimisedDesign {
-  StudyValues values;                 // of the ranges
+  StudyValues values;                 // of the choices, then of the ranges
   std::string scene_text;             // beside the specification's scene
   Judgement judgement;                // of that scene, at its own tolerance
   std::vector<double> probabilities;  // of each line; empty: not asked

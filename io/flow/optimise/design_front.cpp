@@ -1,7 +1,13 @@
 #include "io/flow/optimise/design_front.h"
 
+#include "io/basics/parallel.h"
+#include "io/flow/optimise/design_choices.h"
+
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -12,9 +18,10 @@ double cost_of(const DesignSpec& spec, const OptimisedDesign& design, std::size_
   return spec.objectives[which].is_largest() ? -logarithm : logarithm;
 }
 
-// Drops designs that another one beats in one objective without loss in the other.
+// Drops designs that another one beats in one objective without loss in the other. What the rounding of dimensions
+// makes is no gain and no loss.
 void keep_undominated(const DesignSpec& spec, std::vector<OptimisedDesign>& designs) {
-  constexpr double kSame = 1e-4;
+  constexpr double kSame = 2e-3;
   std::vector<OptimisedDesign> kept;
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const double a = cost_of(spec, designs[i], 0), b = cost_of(spec, designs[i], 1);
@@ -34,10 +41,20 @@ void keep_undominated(const DesignSpec& spec, std::vector<OptimisedDesign>& desi
   designs = std::move(kept);
 }
 
-}  // namespace
+// Largest lack of a margin, as a logarithm; 0 if all are kept.
+double lack_of(const OptimisedDesign& design) {
+  constexpr double kNotAnswered = 100.0;
+  double most = 0.0;
+  for (const JudgedLine& line : design.judgement.lines) {
+    most = std::max(
+        most, line.found.is_answered && line.margin > 0.0 ? -std::log(line.margin) : kNotAnswered);
+  }
+  return most;
+}
 
-DesignFront design_front(const DesignSpec& spec,
-                         const std::function<void(double, const std::string&)>& progress) {
+// The front of a specification without choices.
+DesignFront front_of(const DesignSpec& spec,
+                     const std::function<void(double, const std::string&)>& progress) {
   DesignFront front;
   const bool is_front = spec.objectives.size() == 2;
   const double n = is_front ? static_cast<double>(spec.front_points) : 1.0;
@@ -64,16 +81,70 @@ DesignFront design_front(const DesignSpec& spec,
     add(between);
     if (!front.designs.back().is_feasible) front.designs.pop_back();
   }
-  keep_undominated(spec, front.designs);
   return front;
+}
+
+// One design of several: the best in the only objective, or the one that lacks least.
+OptimisedDesign best_of(const DesignSpec& spec, const std::vector<OptimisedDesign>& designs) {
+  return *std::min_element(
+      designs.begin(), designs.end(), [&](const OptimisedDesign& a, const OptimisedDesign& b) {
+        if (a.is_feasible != b.is_feasible) return a.is_feasible;
+        return a.is_feasible ? cost_of(spec, a, 0) < cost_of(spec, b, 0) : lack_of(a) < lack_of(b);
+      });
+}
+
+}  // namespace
+
+DesignFront design_front(const DesignSpec& spec,
+                         const std::function<void(double, const std::string&)>& progress) {
+  DesignFront all;
+  const std::vector<DesignSpec> specs = chosen_specs(spec);
+  const auto n = static_cast<double>(specs.size());
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const std::string chosen = text_of_chosen(specs[i].chosen);
+    try {
+      const DesignFront one = front_of(specs[i], [&](double part, const std::string& what) {
+        if (progress) {
+          progress((static_cast<double>(i) + part) / n,
+                   chosen.empty() ? what : chosen + ": " + what);
+        }
+      });
+      all.n_solved += one.n_solved;
+      all.designs.insert(all.designs.end(), one.designs.begin(), one.designs.end());
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      if (chosen.empty()) throw;
+      throw std::runtime_error(std::string(error.what()) + " (with " + chosen + ")");
+    }
+  }
+  const bool is_any = std::any_of(all.designs.begin(), all.designs.end(),
+                                  [](const OptimisedDesign& one) { return one.is_feasible; });
+  if (!is_any || spec.objectives.size() < 2) {
+    all.designs = {best_of(spec, all.designs)};
+    return all;
+  }
+  std::erase_if(all.designs, [](const OptimisedDesign& one) { return !one.is_feasible; });
+  keep_undominated(spec, all.designs);
+  return all;
 }
 
 Plot picture_of_front(const DesignSpec& spec, const DesignFront& front) {
   PlotPanel panel;
-  PlotSeries dots{.mark = Mark::kPoints, .label = "designs", .size = 1.5};
   PlotSeries line{.mark = Mark::kLine, .ink = Ink::kGrey};
+  std::map<std::string, PlotSeries> dots;  // by the values of the choices
   for (const OptimisedDesign& design : front.designs) {
-    for (PlotSeries* const one : {&dots, &line}) {
+    const auto first_range =
+        design.values.begin() + static_cast<std::ptrdiff_t>(spec.choices.size());
+    const std::string chosen = text_of_chosen({design.values.begin(), first_range});
+    PlotSeries& own =
+        dots.try_emplace(chosen, PlotSeries{.mark = Mark::kPoints,
+                                            .label = chosen.empty() ? "designs" : chosen,
+                                            .ink = ink_of_series(dots.size()),
+                                            .pattern = static_cast<int>(dots.size()),
+                                            .size = 1.5})
+            .first->second;
+    for (PlotSeries* const one : {&own, &line}) {
       one->x.push_back(design.objectives[0].value);
       one->y.push_back(design.objectives[1].value);
     }
@@ -85,7 +156,8 @@ Plot picture_of_front(const DesignSpec& spec, const DesignFront& front) {
   };
   panel.x = {label(0), false};
   panel.y = {label(1), false};
-  panel.series = {line, dots};
+  panel.series = {line};
+  for (auto& [chosen, own] : dots) panel.series.push_back(std::move(own));
   Plot plot{
       .title = "Front between two objectives",
       .description = "Each dot is a design that the solver confirmed; none is better in both."};

@@ -11,15 +11,17 @@ namespace viscard {
 
 // Designs of which none is better in both objectives: the ends, each the best in one objective, and between
 // them the best in the first at even steps of the second (the epsilon-constraint method: Haimes, Lasdon & Wismer,
-// IEEE Trans. Syst. Man Cybern. 1 (1971) 296). With one objective, or if nothing is feasible, a single design.
+// IEEE Trans. Syst. Man Cybern. 1 (1971) 296). With choices, those of all combinations together. With one objective, or if
+// nothing is feasible, a single design: the best, or the one that lacks least.
 struct DesignFront {
   std::vector<OptimisedDesign> designs;  // best in the first objective first
   std::size_t n_solved = 0;
 };
+// Throws what optimise_design() throws; the message names the choice.
 DesignFront design_front(const DesignSpec& spec,
                          const std::function<void(double, const std::string&)>& progress);
 
-// The second objective over the first, one dot for each design.
+// The second objective over the first, one dot for each design; designs with the same choices share an ink.
 Plot picture_of_front(const DesignSpec& spec, const DesignFront& front);
 
 }  // namespace viscard

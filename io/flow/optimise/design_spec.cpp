@@ -33,6 +33,12 @@ void show_spec(FieldVisitor& v, DesignSpec& spec, std::string& scene) {
         r.text({"spacing", "log"}, spec.ranges[i].spacing);
       });
   v.list(
+      "choice", spec.choices.size(), [&](std::size_t n) { spec.choices.resize(n); },
+      [&](FieldVisitor& c, std::size_t i) {
+        c.text({"key", "geometry.electrode.kind", true}, spec.choices[i].key);
+        c.texts({"values", "sampled", true}, spec.choices[i].values);
+      });
+  v.list(
       "objective", spec.objectives.size(), [&](std::size_t n) { spec.objectives.resize(n); },
       [&](FieldVisitor& o, std::size_t i) {
         o.text({"quantity", "voltage_per_pressure", true}, spec.objectives[i].quantity);
@@ -45,6 +51,24 @@ std::vector<std::string> objective_words(const DesignSpec& spec) {
   for (const RequirementKind& kind : requirement_kinds()) words.emplace_back(kind.key);
   for (const DesignRange& range : spec.ranges) words.push_back(range.key);
   return words;
+}
+
+// Keys with a choice join those with a range.
+void check_choices(const DesignSpec& spec, std::set<std::string>& keys) {
+  for (const DesignChoice& choice : spec.choices) {
+    if (!keys.insert(choice.key).second) {
+      refuse_spec(spec, "'" + choice.key + "' has a choice, and a range or another choice");
+    }
+    const std::set<std::string> different(choice.values.begin(), choice.values.end());
+    if (different.empty() || different.size() != choice.values.size()) {
+      refuse_spec(spec, "the choice of '" + choice.key + "' needs values that differ");
+    }
+  }
+  if (count_combinations(spec) > kMostCombinations) {
+    refuse_spec(spec, "the choices have " + std::to_string(count_combinations(spec)) +
+                          " combinations, more than " + std::to_string(kMostCombinations) +
+                          "; each is a search of its own. Leave some values out");
+  }
 }
 
 void check_spec(const DesignSpec& spec) {
@@ -60,6 +84,7 @@ void check_spec(const DesignSpec& spec) {
                             "' has a spacing that is neither \"log\" nor \"linear\"");
     }
   }
+  check_choices(spec, keys);
   if (spec.objectives.empty() || spec.objectives.size() > 2) {
     refuse_spec(
         spec, "needs one [[objective]] with quantity and goal, or two for the front between them");
@@ -86,6 +111,12 @@ void check_spec(const DesignSpec& spec) {
 }
 
 }  // namespace
+
+std::size_t count_combinations(const DesignSpec& spec) {
+  std::size_t n = 1;
+  for (const DesignChoice& choice : spec.choices) n *= choice.values.size();
+  return n;
+}
 
 bool is_design_spec(const std::string& text) {
   try {

@@ -96,6 +96,7 @@ nlohmann::json json_from_front(const DesignSpec& spec, const DesignFront& front)
 
 std::string csv_from_front(const DesignSpec& spec, const DesignFront& front) {
   std::string text;
+  for (const DesignChoice& choice : spec.choices) text += choice.key + ",";
   for (const DesignRange& range : spec.ranges) text += range.key + ",";
   for (const DesignedObjective& one : front.designs[0].objectives) {
     text +=

@@ -13,7 +13,7 @@ namespace viscard {
 std::string text_from_front(const DesignSpec& spec, const DesignFront& front);
 // The object of viscard design SPEC, without its head.
 nlohmann::json json_from_front(const DesignSpec& spec, const DesignFront& front);
-// One line for each design: ranges in their units, objectives and margins.
+// One line for each design: choices, ranges in their units, objectives and margins.
 std::string csv_from_front(const DesignSpec& spec, const DesignFront& front);
 
 // The scene of a design for a folder of its own: names of files are changed to lead there from `folder`.

@@ -120,6 +120,11 @@ TEST_CASE("the systematic part of E0 is that of the fit, and shares of terms hav
   CHECK(errors_of({"sum_g", 0.01}, predicted).frame ==
         Approx(0.02 * share * (1.0 - sum_g)).epsilon(2e-3));
   CHECK(errors_of({"tau_2", 0.01}, predicted).geometry < 1e-12);
+  // A gain that has drifted before contact is a wrong calibration: (1 + share) for E0, share (1 - g) for g.
+  REQUIRE(E0.gain_drift > 0.0);
+  CHECK(E0.gain_drift == Approx(predicted.result.gain_drift_relative).epsilon(1e-3));
+  CHECK(errors_of({"sum_g", 0.01}, predicted).gain_drift ==
+        Approx(E0.gain_drift * share * (1.0 - sum_g) / (1.0 + share)).epsilon(2e-3));
   bench.rig.calibration.volts_per_newton_u = 0.01 * bench.rig.calibration.volts_per_newton;
   bench.specimen.contact.punch_radius_u_m = 0.01 * bench.specimen.contact.punch_radius_m;
   const ErrorCauses doubted = errors_of({"E0", 0.01}, predicted_fit({}, bench, truth.material));

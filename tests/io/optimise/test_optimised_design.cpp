@@ -9,7 +9,7 @@
 #include "models/scene/simulate.h"
 #include "models/sensor/sensor_design.h"
 #include "tests/fit/laws/campaigns.h"
-#include "tests/io/scenes/scene_text.h"
+#include "tests/io/optimise/spec_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,51 +20,6 @@
 
 using namespace viscard;
 using namespace viscard::test;
-
-namespace {
-
-const char* const kPillar = R"(tolerance = 1e-3
-[geometry]
-diameter = "40 um"
-length = "120 um"
-[materials]
-pillar = { E = "1.8 MPa", nu = 0.33, rho = "965 kg/m3" }
-[analysis]
-kind = "modal"
-modes = 1
-)";
-
-// A specification of that pillar (or of another scene) in a folder of its own.
-class SpecFiles {
- public:
-  explicit SpecFiles(const std::string& spec, const std::string& scene = kPillar)
-      : scene_(scene), path_(scene_.beside("spec.toml")) {
-    std::ofstream(path_) << "scene = \"scene.toml\"\n" << spec;
-  }
-  std::string path() const { return path_; }
-  DesignSpec read() const { return read_design_spec(path_); }
-  std::string beside(const std::string& name) const { return scene_.beside(name); }
-
- private:
-  SceneText scene_;
-  std::string path_;
-};
-
-const char* const kLongest = R"([[objective]]
-quantity = "geometry.length"
-goal = "largest"
-[[range]]
-key = "geometry.length"
-)";
-
-// The longest pillar of 40 um that stands with this modulus and margin (eq. D4).
-double longest_m(double E_Pa, double margin) {
-  SensorMaterial material;
-  material.young_modulus_Pa = E_Pa;
-  return longest_upright_m(40e-6, material) / margin;
-}
-
-}  // namespace
 
 TEST_CASE("the longest pillar that stands is that of the formula", "[io][design]") {
   const SpecFiles files(std::string("[require]\ncollapse_margin = 2\n") + kLongest +
