@@ -57,7 +57,8 @@ def test_a_point_without_an_answer_is_nan_with_its_reason(tmp_path):
         found["voltage2"]
 
 
-def test_mistakes_have_the_words_of_the_command_line(program, tmp_path):
+def test_mistakes_have_the_words_of_the_command_line(program, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # messages name the folder
     (tmp_path / "study.toml").write_text("points = 3\n")
     for words, call in ((["nothing.toml"], lambda: viscard.sweep("nothing.toml")),
                         ([str(tmp_path / "study.toml")], lambda: viscard.sweep(tmp_path / "study.toml"))):
