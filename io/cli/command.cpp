@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 #include <ostream>
 #include <sstream>
 
@@ -134,7 +135,15 @@ int with_exit_status(const char* program, const Words& words, Streams& streams,
                      const std::function<int()>& work) {
   const std::string who = bold_red(program + std::string(":"), streams.is_err_coloured) + " ";
   try {
-    return with_json_errors(words, streams, work);
+    return with_json_errors(words, streams, [&] {
+      try {
+        return work();
+      } catch (const std::bad_alloc&) {
+        throw std::runtime_error(
+            "the memory of this machine does not suffice; check sizes and their units, or ask for "
+            "less accuracy or fewer points");
+      }
+    });
   } catch (const UsageError& error) {
     streams.err << who << error.what() << "\n";
     return kBadWords;

@@ -174,6 +174,12 @@ class TomlReader final : public FieldVisitor {
     } else {
       fail(node, field.key, "expected " + expected(field));
     }
+    // Nothing here is longer than a metre; a unit that was forgotten makes it so.
+    if (node.is_number() && std::string_view(field.unit) == "m" && std::abs(written) > 1.0) {
+      const std::string number = text_from_number(written);
+      fail(node, field.key,
+           "is " + number + " m, because it has no unit; write one, such as \"" + number + " um\"");
+    }
     if (!is_in(field.range, written)) {
       fail(node, field.key,
            "is " + text_from_number(written) + "; expected " + text_of(field.range));

@@ -5,6 +5,7 @@
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/config/config_file.h"
+#include "io/flow/capture_setup.h"
 #include "io/materials/material_file.h"
 #include "rig/run/preflight.h"
 
@@ -214,13 +215,17 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
 
+  const double speed = (*values)["speed"].as<double>();
+  if (!(speed > 0.0) || speed > kFastestEmulation) {
+    throw UsageError(
+        fmt::format("--speed is {}; it must be above 0 and at most {}", speed, kFastestEmulation));
+  }
   const fs::path out = (*values)["out"].as<std::string>();
   fs::create_directories(out);
   const auto own_data = given(*values, "data");
   const fs::path data = own_data ? fs::path(*own_data) : data_folder() / "demo";
   streams.err << depth_explained(data);
-  Demo demo(streams, run_command, out, data, text_from_number((*values)["speed"].as<double>()),
-            values->count("force") > 0);
+  Demo demo(streams, run_command, out, data, text_from_number(speed), values->count("force") > 0);
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();

@@ -45,7 +45,14 @@ WantedQuantity wanted_from_text(const std::string& text) {
                                 "'; expected a quantity and its tolerance, such "
                                 "as E0=1% or g_2=5%");
   }
-  WantedQuantity wanted{text.substr(0, equals), si_from_text(text.substr(equals + 1), "1")};
+  WantedQuantity wanted{text.substr(0, equals), 0.0};
+  try {
+    wanted.tolerance = si_from_text(text.substr(equals + 1), "1");
+  } catch (const std::invalid_argument&) {
+    throw std::invalid_argument("--want is '" + text +
+                                "'; after the equals sign expected a share, such "
+                                "as 5% or 0.05");
+  }
   if (!(wanted.tolerance > 0.0 && wanted.tolerance < 1.0)) {
     throw std::invalid_argument("--want " + text +
                                 ": the tolerance is relative, above 0 and below 100 %, such as 1%");

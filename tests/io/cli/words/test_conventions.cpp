@@ -123,6 +123,9 @@ TEST_CASE("a number that cannot be read is refused with option, value and what i
       {{"simulate", scene, "--tol", "3kg"},
        "--tol cannot be '3kg'; expected a number without unit"},
       {{"demo", "--speed", "x"}, "--speed cannot be 'x'; expected a number"},
+      {{"demo", "--speed", "0"}, "--speed is 0; it must be above 0 and at most 500"},
+      {{"fit", "a.viscap", "--want", "g_2=abc"},
+       "--want is 'g_2=abc'; after the equals sign expected a share, such as 5%"},
       {{"fit", "a.csv", "--time-zero", "q"}, "--time-zero: 'q' does not begin with a number"}};
   for (const auto& [words, text] : cases) {
     CAPTURE(words);
