@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sqlite3.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 namespace viscard {
 namespace {
@@ -18,12 +21,26 @@ const char* const kTables =
 const char* const kInsert =
     "INSERT OR IGNORE INTO points (point, parameters, results, failure) VALUES (?, ?, ?, ?)";
 
+// SQLite does not wait when a journal becomes a WAL while another program opens the file as well.
+void write_ahead(Database& database) {
+  constexpr int kMostTries = 500;
+  for (int tries = 1;; ++tries) {
+    try {
+      database.execute("PRAGMA journal_mode = WAL;");
+      return;
+    } catch (const SqliteError& error) {
+      if (error.code() != SQLITE_BUSY || tries == kMostTries) throw;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 Database opened(const std::filesystem::path& path, const Study& study) {
   if (!std::filesystem::exists(path)) std::ofstream(path).flush();
   Database database(path, Database::Access::kReadWrite);
-  database.execute(
-      "PRAGMA busy_timeout = 10000; PRAGMA journal_mode = WAL; "
-      "PRAGMA synchronous = NORMAL;");
+  database.execute("PRAGMA busy_timeout = 10000;");
+  write_ahead(database);
+  database.execute("PRAGMA synchronous = NORMAL;");
   database.execute(kTables);
   const std::string own = fingerprint(study);
   const std::string found = database.text_of("SELECT fingerprint FROM study LIMIT 1");
