@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// What a file is, told from its contents, for messages about a file in the place of another.
+// What a file is, by its contents, for messages about a file in the place of another.
 enum class FileKind : std::uint8_t {
   kOther,
   kEmpty,
