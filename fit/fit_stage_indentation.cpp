@@ -1,6 +1,6 @@
 #include "fit/assembly/assemble_result.h"
-#include "fit/assembly/spectral_fit.h"
 #include "fit/assembly/bench_doubt.h"
+#include "fit/assembly/spectral_fit.h"
 #include "fit/assembly/stage_specimen.h"
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/stage_model.h"

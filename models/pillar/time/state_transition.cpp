@@ -51,7 +51,8 @@ StateTransition::StateTransition(Eigen::MatrixXd rate_1_s, double longest_s, boo
 
 void StateTransition::advance(double dt_s, Eigen::VectorXd& x) const {
   double left = dt_s / longest_s_;
-  require(left >= 0.0 && left <= 1.0 && (left == 1.0 || static_cast<int>(change_.size()) == halvings_ + 1),
+  require(left >= 0.0 && left <= 1.0 &&
+              (left == 1.0 || static_cast<int>(change_.size()) == halvings_ + 1),
           "a transition cannot advance by this time");
   for (std::size_t k = 0; k < change_.size() && left > 0.0; ++k) {
     const double part = std::ldexp(1.0, -static_cast<int>(k));

@@ -133,7 +133,7 @@ TEST_CASE("a file of another kind is named, with the command that takes it", "[c
 TEST_CASE("every file that is shipped is of the kind of its folder", "[io]") {
   const std::vector<std::pair<std::string, FileKind>> folders{
       {"scenes", FileKind::kScene},       {"seed", FileKind::kScene},
-      {"protocols", FileKind::kRigTest},     {"requirements", FileKind::kRequirements},
+      {"protocols", FileKind::kRigTest},  {"requirements", FileKind::kRequirements},
       {"designs", FileKind::kDesignTask}, {"reference", FileKind::kTable}};
   for (const auto& [name, kind] : folders) {
     for (const auto& entry : std::filesystem::directory_iterator(shipped(name))) {
