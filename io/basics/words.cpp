@@ -55,6 +55,13 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return near.empty() ? otherwise : "; did you mean '" + near + "'?";
 }
 
+std::string no_such_word(const std::string& kind, const std::string& word,
+                         const std::vector<std::string>& known) {
+  const std::string begin = "there is no " + kind + " '" + word + "'";
+  if (known.empty()) return begin + "; there are none";
+  return begin + did_you_mean(word, known) + " There are: " + listed(known);
+}
+
 std::size_t utf8_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;

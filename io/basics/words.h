@@ -20,6 +20,10 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known,
                          const char* otherwise = ".");
 
+// "there is no card target 'abaqu'; did you mean 'abaqus'? There are: abaqus, ansys"; kind: "card target".
+std::string no_such_word(const std::string& kind, const std::string& word,
+                         const std::vector<std::string>& known);
+
 // The length in bytes of the UTF-8 character that begins at `at`; 0 if none does.
 std::size_t utf8_length(std::string_view text, std::size_t at);
 

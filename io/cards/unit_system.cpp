@@ -31,7 +31,7 @@ const UnitSystem& unit_system(const std::string& name) {
   if (const UnitSystem* found = find_unit_system(name)) return *found;
   std::vector<std::string> names;
   for (const UnitSystem& system : unit_systems()) names.emplace_back(system.name);
-  throw std::invalid_argument("there is no unit system '" + name + "'; there are " + listed(names));
+  throw std::invalid_argument(no_such_word("unit system", name, names));
 }
 
 double to_card(double value_SI, int exponent) {

@@ -1,8 +1,11 @@
 // The compiled module viscard._core.
+#include "io/basics/words.h"
 #include "io/flow/command_error.h"
 #include "io/flow/words/option_error.h"
 #include "io/python/job.h"
 #include "io/python/parts.h"
+
+#include <pybind11/stl.h>
 
 #include <new>
 #include <string>
@@ -42,6 +45,7 @@ void translate(
 void add_errors(py::module_& module) {
   py::register_local_exception_translator(translate);
   module.def("jobs_left", &jobs_left);
+  module.def("no_such_word", &no_such_word);
   module.attr("version") = VISCARD_VERSION;
 }
 

@@ -1,5 +1,4 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/units.h"
 #include "io/flow/design/closed_form.h"
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/design/judgement_output.h"
@@ -9,6 +8,7 @@
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
@@ -24,8 +24,11 @@ py::tuple design_scene(const std::optional<std::string>& text, const std::string
                        const std::optional<std::string>& require_text,
                        const std::string& require_path, std::optional<double> tolerance,
                        const py::object& search_time, const py::object& progress) {
-  const double search_s = si_from_text(text_from("search_time", search_time).value_or("60"), "s");
-  if (search_s < 0.0) throw OptionError("--search-time must not be negative, such as 60s");
+  const double search_s = quantity_from("search_time", search_time, "s").value_or(60.0);
+  if (search_s < 0.0) {
+    throw OptionError("search_time is " + fmt::format("{:g}", search_s) +
+                      " s; it must not be negative, such as 60s");
+  }
   const Judgement found = in_background({.progress = progress}, [=](Job& job) {
     const Requirements requirements = require_text
                                           ? requirements_from_toml(*require_text, require_path)
@@ -61,12 +64,7 @@ py::tuple closed_form(const py::dict& keywords) {
     std::string keyword = name;
     std::replace(keyword.begin(), keyword.end(), '-', '_');
     if (!keywords.contains(keyword)) return std::nullopt;
-    const auto text = text_from(keyword.c_str(), keywords[keyword.c_str()]);
-    try {
-      return text ? std::optional(si_from_text(*text, unit)) : std::nullopt;
-    } catch (const std::invalid_argument& error) {
-      throw OptionError(std::string("--") + name + ": " + error.what());
-    }
+    return quantity_from(keyword.c_str(), keywords[keyword.c_str()], unit);
   };
   std::optional<std::string> lattice;
   if (keywords.contains("lattice")) lattice = text_from("lattice", keywords["lattice"]);

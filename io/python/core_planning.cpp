@@ -1,10 +1,10 @@
-#include "io/basics/units.h"
 #include "io/flow/planning/study_output.h"
 #include "io/flow/words/option_error.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
@@ -22,7 +22,11 @@ py::dict cost_of_tests(const std::string& rig, const std::string& specimen,
   request.scene = scene;
   request.want = want;
   if (want.empty()) throw OptionError("what is wanted? Give for instance want=[\"E0=1%\"]");
-  request.longest_s = si_from_text(text_from("at_most", at_most).value_or("60min"), "s");
+  request.longest_s = quantity_from("at_most", at_most, "s").value_or(3600.0);
+  if (!(request.longest_s > 0.0)) {
+    throw OptionError("at_most is " + fmt::format("{:g}", request.longest_s) +
+                      " s; it must be positive, such as \"20 min\"");
+  }
   const TestStudy study = in_background({}, [request](Job&) { return study_tests(request); });
   py::dict out;
   out["json"] = json_from_test_study(study).dump();

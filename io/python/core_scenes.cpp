@@ -1,8 +1,8 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/units.h"
 #include "io/cost/effect_savings.h"
 #include "io/cost/study_cost.h"
 #include "io/flow/scenes/answer_scene.h"
+#include "io/flow/scenes/named_values.h"
 #include "io/flow/scenes/scene_uncertainty.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
@@ -12,6 +12,7 @@
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <cmath>
@@ -49,10 +50,13 @@ py::list effects_list(const std::vector<SceneEffect>& effects) {
   return out;
 }
 
-py::list modes_list(const std::vector<SceneMode>& modes) {
+py::list modes_list(const SceneAnswer& answer) {
+  const std::vector<NamedValue> named = named_values(answer);  // the modes stand behind the results
   py::list out;
-  for (const SceneMode& mode : modes) {
+  for (std::size_t i = 0; i < answer.modes.size(); ++i) {
+    const SceneMode& mode = answer.modes[i];
     py::dict one;
+    one["name"] = named[answer.results.size() + i].name;
     one["family"] = mode.family;
     one["harmonic"] = mode.harmonic;
     one["frequency_Hz"] = mode.frequency_Hz;
@@ -178,7 +182,7 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
         py::make_tuple(result.value, result.unit, result.error_estimate);
   }
   out["results"] = results;
-  out["modes"] = modes_list(answer.modes);
+  out["modes"] = modes_list(answer);
   out["effects"] = effects_list(answer.effects);
   out["maps"] = maps_dict(answer);
   out["curves"] = curves_dict_of(answer.curves);
@@ -232,8 +236,11 @@ py::dict plan_scene(const std::optional<std::string>& text, const std::string& p
 
 py::dict cost_scene(const std::optional<std::string>& text, const std::string& path,
                     const py::object& budget, const py::object& progress) {
-  const double budget_s = si_from_text(text_from("budget", budget).value_or("60"), "s");
-  if (!(budget_s > 0.0)) throw OptionError("--budget must be positive, such as 60s");
+  const double budget_s = quantity_from("budget", budget, "s").value_or(60.0);
+  if (!(budget_s > 0.0)) {
+    throw OptionError("budget is " + fmt::format("{:g}", budget_s) +
+                      " s; it must be positive, such as 60s");
+  }
   const CostStudy study = in_background({.progress = progress}, [=](Job& job) {
     CostOptions options{.budget_s = budget_s};
     options.progress = [&](double done, const std::string& row) { job.report(done, row); };

@@ -1,10 +1,14 @@
 #include "io/python/keywords.h"
 
+#include "io/basics/units.h"
+#include "io/flow/words/option_error.h"
 #include "io/flow/words/option_fields.h"
 
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -21,16 +25,35 @@ using Texts = std::vector<std::string>;
                        std::string(py::str(py::repr(value))));
 }
 
+// True and False, of Python or numpy; not a list of them.
+bool is_boolean(const py::handle& value) {
+  return py::isinstance<py::bool_>(value) ||
+         std::string(py::str(py::type::handle_of(value).attr("__name__"))) == "bool_";
+}
+
+bool has_boolean(const py::handle& values) {
+  if (!py::isinstance<py::sequence>(values) || py::isinstance<py::str>(values)) return false;
+  for (const py::handle& value : values) {
+    if (is_boolean(value)) return true;
+  }
+  return false;
+}
+
 // The value of a keyword; None and a keyword that is not given leave `target` as it is.
 template <typename Target>
 void take(const py::dict& keywords, const char* name, const char* expected, Target& target) {
   if (!keywords.contains(name) || keywords[name].is_none()) return;
   const py::object value = keywords[name];
+  constexpr bool kIsFlag = std::is_same_v<Target, bool>;
   try {
-    target = value.cast<Target>();
-  } catch (const py::cast_error&) {
-    refuse_type(name, expected, value);
+    // pybind11 takes True for 1, and anything that is not empty for True.
+    if (is_boolean(value) == kIsFlag) {
+      target = value.cast<Target>();
+      return;
+    }
+  } catch (const py::cast_error&) {  // refused below
   }
+  refuse_type(name, expected, value);
 }
 
 // One text, or a list of them.
@@ -47,11 +70,15 @@ void take_texts(const py::dict& keywords, const char* name, Texts& target) {
 void take_numbers(const py::dict& keywords, const char* name, std::vector<double>& target) {
   if (!keywords.contains(name) || keywords[name].is_none()) return;
   const py::object value = keywords[name];
-  if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) {
-    target = {value.cast<double>()};
+  constexpr const char* kExpected = "a number or a list of numbers";
+  if (py::isinstance<py::sequence>(value)) {
+    if (has_boolean(value)) refuse_type(name, kExpected, value);
+    take(keywords, name, kExpected, target);
     return;
   }
-  take(keywords, name, "a number or a list of numbers", target);
+  std::optional<double> number;
+  take(keywords, name, kExpected, number);
+  if (number) target = {*number};
 }
 
 }  // namespace
@@ -62,10 +89,29 @@ OptionalText text_from(const char* name, const py::handle& value) {
   if (py::hasattr(value, "__fspath__")) {
     return value.attr("__fspath__")().cast<std::string>();
   }
-  if (!py::isinstance<py::bool_>(value) && py::hasattr(value, "__float__")) {
-    return py::str(py::repr(py::float_(value.cast<double>()))).cast<std::string>();
+  if (!is_boolean(value)) {
+    if (PyIndex_Check(value.ptr()) != 0) {  // 3 stays "3"
+      const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+      if (whole) return py::str(whole).cast<std::string>();
+    } else if (py::hasattr(value, "__float__")) {
+      const double number = PyFloat_AsDouble(value.ptr());
+      if (PyErr_Occurred() == nullptr)
+        return py::str(py::repr(py::float_(number))).cast<std::string>();
+    }
+    PyErr_Clear();  // an array of several numbers
   }
   refuse_type(name, "a text or a number", value);
+}
+
+std::optional<double> quantity_from(const char* name, const py::handle& value,
+                                    const char* si_unit) {
+  const OptionalText text = text_from(name, value);
+  if (!text) return std::nullopt;
+  try {
+    return si_from_text(*text, si_unit);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(std::string(name) + ": " + error.what());
+  }
 }
 
 namespace {

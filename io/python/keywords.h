@@ -20,4 +20,9 @@ PredictWords predict_words_from(const pybind11::dict& keywords);
 // A number is written so that it reads back exactly; nothing for None.
 std::optional<std::string> text_from(const char* name, const pybind11::handle& value);
 
+// In SI of a text with a unit or a number; nothing for None. Throws OptionError naming the keyword if the text
+// is no such quantity.
+std::optional<double> quantity_from(const char* name, const pybind11::handle& value,
+                                    const char* si_unit);
+
 }  // namespace viscard::python

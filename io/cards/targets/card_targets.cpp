@@ -44,7 +44,7 @@ const CardTarget& card_target(const std::string& name) {
     if (target.name == name) return target;
     names.push_back(target.name);
   }
-  throw std::invalid_argument("there is no card target '" + name + "'; there are " + listed(names));
+  throw std::invalid_argument(no_such_word("card target", name, names));
 }
 
 const CardTarget* stated_card_target(const std::string& text) {

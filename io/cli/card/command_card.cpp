@@ -18,8 +18,7 @@ namespace {
 void check_word(const std::string& kind, const std::string& word,
                 const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), word) != known.end()) return;
-  throw UsageError("there is no " + kind + " '" + word + "'" + did_you_mean(word, known) +
-                   " There are: " + listed(known));
+  throw UsageError(no_such_word(kind, word, known));
 }
 
 std::vector<std::string> target_names() {

@@ -60,13 +60,13 @@ class Field(NamedTuple):
 
 
 class Answer:
-    """The answer of a scene. ``answer["name"]`` is a result in SI as a float.
+    """The answer of a scene. ``answer["name"]`` is a result in SI as a float, or the frequency of a mode ("torsion 1") in Hz.
 
     Attributes
     ----------
     results : dict of Value
     modes : list of dict
-        family, harmonic, frequency_Hz, error_estimate, damping_ratio (or None).
+        name ("torsion 1"), family, harmonic, frequency_Hz, error_estimate, damping_ratio (or None).
     curves : dict of {"unit", "x_name", "x", "value", "error"}
         Histories and responses; arrays of shape (points,).
     maps : dict of {"unit", "value", "error"}
@@ -110,9 +110,12 @@ class Answer:
         self.unknowns: int = found["unknowns"]
 
     def __getitem__(self, name: str) -> float:
-        if name not in self.results:
-            raise KeyError(f"the answer has no '{name}'; it has {', '.join(self.results) or 'no results'}")
-        return self.results[name].value
+        if name in self.results:
+            return self.results[name].value
+        frequencies = {mode["name"]: mode["frequency_Hz"] for mode in self.modes}
+        if name in frequencies:
+            return frequencies[name]
+        raise KeyError(f"the answer has no '{name}'; it has {', '.join([*self.results, *frequencies]) or 'no results'}")
 
     @property
     def frequencies_Hz(self) -> np.ndarray:

@@ -62,7 +62,7 @@ TEST_CASE("what cannot be read names the line and what was expected", "[cards]")
   fails("{", "json", "not a JSON card");
   fails("{}", "json", "viscard-card/1");
   fails("a,b\n", "csv", "name a material file");
-  fails("x", "abacus", "there are abaqus");
+  fails("x", "abacus", "did you mean 'abaqus'? There are: abaqus, ansys");
   // Long matches would overflow the stack of std::regex.
   const std::string many(100000, '1');
   fails("\n@Parameter real E0 = " + many + ";", "mfront", "line 2: has 100022 characters");

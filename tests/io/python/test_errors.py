@@ -56,6 +56,27 @@ def test_an_unknown_keyword_is_a_TypeError():
         viscard.read_table(5)
 
 
+def test_booleans_are_no_numbers_and_numbers_no_booleans():
+    for keyword in ("terms", "max_terms", "poisson_ratio", "ratio"):
+        with pytest.raises(TypeError, match=f"{keyword} must be .*number.*, not True"):
+            viscard.fit(EXAMPLE, **{keyword: True})
+    with pytest.raises(TypeError, match="liquid must be True or False, not 3"):
+        viscard.fit(EXAMPLE, liquid=3)
+    with pytest.raises(TypeError, match="depth must be a text or a number, not array"):
+        viscard.fit(EXAMPLE, depth=np.array([1.0, 2.0]))
+
+
+def test_names_that_are_nearly_right():
+    material = viscard.Material(1e6, 0.4)
+    assert "'abaqu'; did you mean 'abaqus'?" in str(text_of(material.card, "abaqu"))
+    assert "'mm-t'; did you mean 'mm-t-s'?" in str(text_of(material.card, "abaqus", "mm-t"))
+    assert str(text_of(viscard.cost, PRESS, budget="abc")).startswith("budget: 'abc'")
+    modes = viscard.simulate("data/scenes/pillar_modal.toml")
+    assert [modes[mode["name"]] for mode in modes.modes] == list(modes.frequencies_Hz)
+    with pytest.raises(KeyError, match=modes.modes[0]["name"]):
+        modes["voltage"]
+
+
 def test_arrays_of_the_wrong_kind(relaxation):
     time_s, modulus_Pa = relaxation
     with pytest.raises(TypeError, match="modulus_Pa must hold real numbers, not <U"):

@@ -87,7 +87,7 @@ def test_plan_and_cost():
     seen = []
     cost = viscard.cost(PRESS, budget="1 s", progress=lambda done, row: seen.append(row))
     assert cost.error.shape == cost.cpu_s.shape == cost.pareto.shape and cost.pareto.any() and seen
-    with pytest.raises(viscard.Error, match="budget must be positive"):
+    with pytest.raises(viscard.Error, match="budget is -1 s; it must be positive"):
         viscard.cost(PRESS, budget=-1)
 
 
