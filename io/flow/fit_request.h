@@ -25,7 +25,8 @@ struct FitRequest {
   std::optional<FitKind> kind;  // none: the columns decide
   FitOptions options;
   ColumnMap columns;
-  std::string sheet;                   // of an Excel workbook; empty: the one with most numbers
+  std::string
+      sheet;  // of an Excel workbook, or struct of a MATLAB file; empty: the one with most numbers
   std::vector<std::string> segments;   // use only rows of these; empty: all
   double time_zero_s = 0.0;            // time in the table where t = 0
   std::optional<double> from_s, to_s;  // only rows of these times, after time_zero_s

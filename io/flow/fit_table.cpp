@@ -284,6 +284,7 @@ FittedFile fit_csv(CsvTable all, const FitRequest& request) {
   const std::size_t n_in_segments = table.lines.size();
   std::string chosen = choose_part(table, request);
   FittedFile fitted = fit_rows(table, request);
+  flag_assumed_units(table, request, fitted.result);
   fitted.maker = maker;
   fitted.chosen = std::move(chosen);
   add_left_out(fitted.result, left_out::kNotChosen, n_in_segments - table.lines.size());

@@ -23,6 +23,9 @@ void require_kind(const CsvTable& table, FitKind kind, const FitRequest& request
 // True for a table of force without a depth, modulus or stress.
 bool is_force_alone(const CsvTable& table, const FitRequest& request);
 
+// Adds the flag unit-assumed if a column of this kind of test states no unit and was read in SI.
+void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitResult& result);
+
 // Keeps the rows of a table that --from, --to, --hold and --crop choose, and returns a sentence that
 // says which; empty if the request chooses none, so that all stay. Throws std::runtime_error if no
 // row remains, or if the table does not have what the choice needs.

@@ -51,7 +51,51 @@ bool has_unknown_numbers(const CsvTable& table, const FitRequest& request) {
   return false;
 }
 
+// The columns that a fit of this kind reads.
+std::vector<std::string> columns_of(FitKind kind, const CsvTable& table,
+                                    const FitRequest& request) {
+  const auto first_of = [&](const std::vector<std::string>& names) {
+    const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+      return find_column(table, name, request.columns).has_value();
+    });
+    return found != names.end() ? *found : names.back();
+  };
+  switch (kind) {
+    case FitKind::kIndentation:
+      return {"time_s", "force_N", "depth_m"};
+    case FitKind::kRelaxation:
+      return {"time_s", first_of({"modulus_Pa", "stress_Pa", "force_N"})};
+    case FitKind::kCreep:
+      return {"time_s", first_of({"compliance_1_Pa", "stress_Pa"})};
+    case FitKind::kDma:
+      return {"frequency_Hz", "storage_modulus_Pa", "loss_modulus_Pa"};
+    case FitKind::kSeveral:
+      break;
+  }
+  return {};
+}
+
 }  // namespace
+
+void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitResult& result) {
+  std::string headers, units, example;
+  for (const std::string& name : columns_of(result.kind, table, request)) {
+    const auto use = find_column(table, name, request.columns);
+    if (!use || !use->is_unit_assumed) continue;
+    const std::string& header = table.columns[use->index].header;
+    const std::string unit = quantity_named(name).si_unit;
+    headers += (headers.empty() ? "'" : ", '") + header + "'";
+    units += (units.empty() ? "" : ", ") + unit;
+    example = header + (unit == "Pa" || unit == "Hz" ? " (k" : " (m") + unit + ")";
+  }
+  if (headers.empty()) return;
+  const bool is_one = headers.find(',') == std::string::npos;
+  result.flags.push_back({"unit-assumed", 0,
+                          std::string(is_one ? "the column " : "the columns ") + headers +
+                              (is_one ? " states no unit and was" : " state no unit and were") +
+                              " read in " + units + "; write the unit in the header, as in '" +
+                              example + "'"});
+}
 
 FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
   if (request.kind) return *request.kind;

@@ -153,6 +153,7 @@ std::optional<ColumnUse> found_column(const CsvTable& table, const Quantity& qua
                       place(i));
     }
     best = use_of(table, i, quantity, 1.0, match->scale);
+    best->is_unit_assumed = match->is_unit_assumed;
     best_rank = match->rank;
   }
   return best;

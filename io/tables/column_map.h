@@ -31,6 +31,8 @@ struct ColumnUse {
   double factor = 1.0;      // SI unit per unit of the table
   double offset = 0.0;      // in the SI unit
   std::string description;  // "force_N: column 2 'Force [nN]' x 1e-09"
+  // Neither the table nor --column states a unit, so the SI unit was taken.
+  bool is_unit_assumed = false;
 };
 
 // Returns nothing if the table has no such column. Throws std::runtime_error if the map names a

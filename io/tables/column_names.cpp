@@ -66,6 +66,11 @@ std::optional<UnitScale> scale_if_fits(const std::string& name, const std::strin
   return scale_to_si(unit, quantity.si_unit);
 }
 
+bool is_unit_assumed(const CsvColumn& column, const Quantity& quantity) {
+  const bool has_unit = !quantity.is_text && std::string(quantity.si_unit) != "1";
+  return has_unit && !is_stated(column.unit) && !is_angular(column.name);
+}
+
 }  // namespace
 
 const std::vector<Quantity>& quantities() {
@@ -162,7 +167,8 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity&
   const bool is_own_name = plain(column.name) == plain(quantity.base);
   if (is_own_name || has_alias(quantity, column.name)) {
     const auto scale = scale_if_fits(column.name, column.unit, quantity);
-    return scale ? std::optional(HeaderMatch{is_own_name ? 2 : 1, *scale}) : std::nullopt;
+    if (!scale) return std::nullopt;
+    return HeaderMatch{is_own_name ? 2 : 1, *scale, is_unit_assumed(column, quantity)};
   }
   if (quantity.is_text || is_stated(column.unit)) return std::nullopt;
   // force_mN, depth_um: the quantity's own name followed by another unit.

@@ -35,6 +35,7 @@ bool is_stated(const std::string& unit);
 struct HeaderMatch {
   int rank = 0;
   UnitScale scale;
+  bool is_unit_assumed = false;  // the header states none, and the quantity is no plain number
 };
 std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity& quantity);
 

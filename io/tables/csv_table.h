@@ -31,7 +31,7 @@ struct CsvTable {
 
 // Throws std::runtime_error naming the file (and line) if it is missing, empty, not text, or has
 // rows of different lengths. A cell may hold no number; column_map.h refuses it in a used column.
-// sheet: of an Excel workbook; empty: the sheet with most numbers.
+// sheet: of an Excel workbook, or the struct of a MATLAB file; empty: the one with most numbers.
 CsvTable read_csv(const std::filesystem::path& path, const std::string& sheet = "");
 
 // The same from bytes; name stands for the file in messages.

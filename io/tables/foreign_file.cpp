@@ -24,7 +24,7 @@ constexpr Magic kMagic[] = {
     {"\xd0\xcf\x11\xe0"sv, "an old Office document (.xls), not text; save its sheet as CSV"},
     {"\x1f\x8b"sv, "compressed with gzip; unpack it first"},
     {"\x89HDF\r\n"sv, "an HDF5 file, not text; export its arrays as CSV"},
-    {"MATLAB 5.0 MAT-file"sv, "a MATLAB file, not text; export its arrays as CSV"},
+    {"MATLAB 7.3 MAT-file"sv, "a MATLAB file of version 7.3 (HDF5); save it with save -v7"},
     {"<svg"sv, "an SVG picture, not a table"}};
 
 }  // namespace
@@ -40,6 +40,15 @@ void refuse_foreign_file(std::string_view bytes, const std::string& name) {
     const bool is_sheet = bytes.find("xl/worksheets") != std::string_view::npos;
     throw std::runtime_error(
         name + ": is " + (is_sheet ? kSaveSheet : "a zip archive, not a table; unpack it first"));
+  }
+  const std::string_view first = head.substr(0, head.find('\n'));
+  if (first.find("Calc_Ramp_Ex_nm") != std::string_view::npos &&
+      first.find("ime") == std::string_view::npos) {
+    throw std::runtime_error(
+        name +
+        ": is a force curve that NanoScope exported, which has no times; add columns time_s (the "
+        "ramp over its speed), force_N (deflection times sensitivity and spring constant) and "
+        "depth_m");
   }
   // Makers' tables may have sections and keys above their numbers.
   const FileKind kind = kind_of_file(head);

@@ -2,6 +2,7 @@
 #include "io/tables/csv_table.h"
 #include "io/tables/foreign_file.h"
 #include "io/tables/maker_table.h"
+#include "io/tables/matlab_file.h"
 #include "io/tables/text_encoding.h"
 #include "io/tables/workbook.h"
 
@@ -19,6 +20,11 @@ CsvTable csv_from_text(std::string_view bytes, const std::string& name, const st
     converted = std::move(found.text);
     text = converted;
     book = "Excel workbook, sheet '" + found.sheet + "' of " + std::to_string(found.n_sheets);
+  } else if (is_matlab_file(bytes)) {
+    SheetText found = matlab_table_text(bytes, name, sheet);
+    converted = std::move(found.text);
+    text = converted;
+    book = "MATLAB file" + (found.sheet.empty() ? "" : ", struct '" + found.sheet + "'");
   } else {
     refuse_foreign_file(bytes, name);
     if (!sheet.empty()) throw std::runtime_error(name + ": has no sheets; omit --sheet");

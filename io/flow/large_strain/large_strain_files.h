@@ -31,7 +31,7 @@ std::vector<LargeStrainFile> large_strain_from_words(const std::vector<std::stri
 struct LargeStrainRequest {
   std::vector<LargeStrainFile> files;
   ColumnMap columns;
-  std::string sheet;  // of Excel workbooks
+  std::string sheet;  // of Excel workbooks, or struct of MATLAB files
   LargeStrainOptions options;
   // Of records with unloading: fit the loading of this cycle, from 1; 0: all rows; none: of the last.
   std::optional<int> cycle;

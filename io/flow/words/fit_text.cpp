@@ -173,7 +173,8 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
                                        : counted(fit.tests.size(), "test") + " together",
                      counted(fit.n_samples, "sample"));
   if (!fitted.maker.empty()) {
-    const bool is_book_only = fitted.maker.starts_with("Excel workbook");
+    const bool is_book_only =
+        fitted.maker.starts_with("Excel workbook") || fitted.maker.starts_with("MATLAB file");
     out << (is_book_only ? "  " : "  file of ") << fitted.maker << "\n";
   }
   if (fit.n_averages < fit.n_samples) {

@@ -62,7 +62,7 @@ class Table(Mapping):
 
 
 def read_table(path, *, column: Texts = None, sheet: str = "") -> Table:
-    """Read a table of numbers from any machine: CSV, text, Excel, JPK and others.
+    """Read a table of numbers from any machine: CSV, text, Excel, MATLAB, JPK and others.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def read_table(path, *, column: Texts = None, sheet: str = "") -> Table:
     column : str or list of str
         "NAME=HEADER" or "NAME=2": the column of a quantity, if its header does not show it.
     sheet : str
-        Of an Excel workbook; default: the one with most numbers.
+        Of an Excel workbook, or the struct of a MATLAB file; default: the one with most numbers.
 
     Examples
     --------

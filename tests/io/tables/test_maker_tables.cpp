@@ -265,6 +265,7 @@ TEST_CASE("a file of another kind is refused by what it is", "[io][csv]") {
   CHECK(contains(refusal("PK\x03\x04 xl/worksheets/sheet1.xml"), "Excel workbook"));
   CHECK(contains(refusal("{\n \"schema\": \"viscard-material/1\"}"), "is a material, not a table"));
   CHECK(contains(refusal("# test\nspeed = \"10 um/s\"\n[hold]\ntime = 5\n"), "not a table"));
+  CHECK(contains(refusal("Calc_Ramp_Ex_nm\tDefl_V_Ex\n0\t0.1\n1\t0.2\n"), "which has no times"));
   CHECK(read("[s],[N]\n1,2\n").columns.size() == 2);
 }
 

@@ -6,6 +6,7 @@
 #include "tests/support/run_command.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include <sstream>
 
@@ -44,6 +45,30 @@ TEST_CASE("a workbook is not called the file of a maker", "[cli]") {
   fitted.maker = "TRIOS";
   print_fit(fitted, of_maker);
   CHECK_THAT(of_maker.str(), Contains("\n  file of TRIOS\n"));
+}
+
+TEST_CASE("columns without a unit are read in SI, and a flag says so", "[cli]") {
+  const TableFolder folder;
+  const auto flag_of = [&](const std::string& header, const std::vector<std::string>& more = {}) {
+    const std::string rows = "0.01,1.8\n0.03,1.78\n0.1,1.75\n0.3,1.72\n1,1.7\n3,1.69\n10,1.68\n";
+    std::vector<std::string> words{"fit", folder.write("t.csv", header + "\n" + rows), "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto json = nlohmann::json::parse(run_command(words).out);
+    for (const auto& flag : json.at("flags")) {
+      if (flag["name"] == "unit-assumed") return flag["text"].get<std::string>();
+    }
+    return std::string();
+  };
+  CHECK(flag_of("time,modulus") ==
+        "the columns 'time', 'modulus' state no unit and were read in s, Pa; write the unit in the "
+        "header, as in 'modulus (kPa)'");
+  CHECK(flag_of("time (s),modulus") ==
+        "the column 'modulus' states no unit and was read in Pa; write the unit in the header, as "
+        "in 'modulus (kPa)'");
+  CHECK(flag_of("time_s,modulus_Pa").empty());
+  CHECK(flag_of("time_s,modulus_MPa").empty());
+  CHECK(flag_of("t [s],E [MPa]").empty());
+  CHECK(flag_of("time_s,modulus", {"--column", "modulus_Pa=modulus [MPa]"}).empty());
 }
 
 TEST_CASE("a memory of the noise beyond the record is not printed in percent", "[cli]") {

@@ -1,0 +1,225 @@
+#include "io/tables/matlab_file.h"
+
+#include "io/basics/number_text.h"
+#include "io/basics/words.h"
+
+#include <matio.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+// The library opens files by name only; this one is in memory.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view bytes) : descriptor_(::memfd_create("matlab", MFD_CLOEXEC)) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written <= 0) throw std::runtime_error("there is no memory for the MATLAB file");
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { ::close(descriptor_); }
+
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+struct CloseMatlab {
+  void operator()(mat_t* file) const { Mat_Close(file); }
+  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+using MatlabFile = std::unique_ptr<mat_t, CloseMatlab>;
+using MatlabVariable = std::unique_ptr<matvar_t, CloseMatlab>;
+
+constexpr bool kIsLittle = std::endian::native == std::endian::little;
+
+// Columns of one length.
+struct NamedColumn {
+  std::string name;
+  std::vector<double> values;
+};
+// By the name of the struct; of the file's own variables: "".
+using ColumnsOfTables = std::map<std::string, std::vector<NamedColumn>>;
+
+template <typename Number>
+std::vector<double> as_doubles(const void* data, std::size_t count) {
+  const auto* begin = static_cast<const Number*>(data);
+  return {begin, begin + count};
+}
+
+// The numbers column by column; empty if they are not real numbers.
+std::vector<double> numbers_of(const matvar_t& variable, std::size_t count) {
+  if (variable.data == nullptr || variable.isComplex != 0 || variable.isLogical != 0) return {};
+  if (variable.nbytes < count * static_cast<std::size_t>(variable.data_size)) return {};
+  switch (variable.data_type) {
+    case MAT_T_DOUBLE:
+      return as_doubles<double>(variable.data, count);
+    case MAT_T_SINGLE:
+      return as_doubles<float>(variable.data, count);
+    case MAT_T_INT8:
+      return as_doubles<std::int8_t>(variable.data, count);
+    case MAT_T_UINT8:
+      return as_doubles<std::uint8_t>(variable.data, count);
+    case MAT_T_INT16:
+      return as_doubles<std::int16_t>(variable.data, count);
+    case MAT_T_UINT16:
+      return as_doubles<std::uint16_t>(variable.data, count);
+    case MAT_T_INT32:
+      return as_doubles<std::int32_t>(variable.data, count);
+    case MAT_T_UINT32:
+      return as_doubles<std::uint32_t>(variable.data, count);
+    default:
+      return {};
+  }
+}
+
+bool is_numeric(const matvar_t& variable) {
+  return variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT32;
+}
+
+// A matrix has its samples along its longer side.
+void add_columns(const matvar_t& variable, const std::string& name,
+                 std::vector<NamedColumn>& columns) {
+  if (!is_numeric(variable) || variable.rank != 2) return;
+  const std::size_t rows = variable.dims[0], width = variable.dims[1];
+  constexpr std::size_t kMost = std::size_t{1} << 31;
+  if (rows == 0 || width == 0 || rows > kMost / width) return;
+  const std::vector<double> values = numbers_of(variable, rows * width);
+  if (values.empty()) return;
+  const bool lies_along_rows = rows < width;
+  const std::size_t length = std::max(rows, width), n = std::min(rows, width);
+  for (std::size_t c = 0; c < n; ++c) {
+    NamedColumn column{n == 1 ? name : name + "_" + std::to_string(c + 1), {}};
+    column.values.reserve(length);
+    for (std::size_t i = 0; i < length; ++i) {
+      column.values.push_back(values[lies_along_rows ? i * rows + c : c * rows + i]);
+    }
+    columns.push_back(std::move(column));
+  }
+}
+
+void add_fields(matvar_t& variable, std::vector<NamedColumn>& columns) {
+  char* const* names = Mat_VarGetStructFieldnames(&variable);
+  const unsigned n = Mat_VarGetNumberOfFields(&variable);
+  for (unsigned i = 0; names != nullptr && i < n; ++i) {
+    const matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
+    if (field != nullptr) add_columns(*field, names[i], columns);
+  }
+}
+
+// The library reads a file that is cut off without a word. After the header of 128 bytes, each element
+// begins with its type and length; the last two bytes of the header are "IM" in the order of this machine.
+bool is_cut_off(std::string_view bytes) {
+  constexpr std::size_t kHeader = 128, kTag = 8;
+  if (bytes.size() < kHeader) return true;
+  const bool is_swapped = bytes.substr(kHeader - 2, 2) != (kIsLittle ? "IM" : "MI");
+  std::size_t at = kHeader;
+  while (at + kTag <= bytes.size()) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + at + sizeof length, sizeof length);
+    if (is_swapped) length = __builtin_bswap32(length);
+    at += kTag + length;
+  }
+  return at != bytes.size();
+}
+
+ColumnsOfTables columns_of_tables(std::string_view bytes, const std::string& name) {
+  // A damaged file is reported once, by what is missing from it.
+  Mat_LogInitFunc("viscard", [](int, char*) {});
+  const MemoryFile memory(bytes);
+  const MatlabFile file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
+  if (!file || is_cut_off(bytes)) {
+    throw std::runtime_error(name + ": is a damaged MATLAB file; save it again");
+  }
+  ColumnsOfTables tables;
+  while (const MatlabVariable variable{Mat_VarReadNext(file.get())}) {
+    if (variable->name == nullptr) continue;
+    const bool is_struct = variable->class_type == MAT_C_STRUCT && variable->rank == 2 &&
+                           variable->dims[0] == 1 && variable->dims[1] == 1;
+    if (is_struct) {
+      add_fields(*variable, tables[variable->name]);
+    } else {
+      add_columns(*variable, variable->name, tables[""]);
+    }
+  }
+  return tables;
+}
+
+// Keeps the columns of that length that holds most numbers.
+void keep_one_length(std::vector<NamedColumn>& columns) {
+  std::map<std::size_t, std::size_t> numbers;
+  for (const NamedColumn& column : columns) {
+    if (column.values.size() > 1) numbers[column.values.size()] += column.values.size();
+  }
+  const auto most =
+      std::max_element(numbers.begin(), numbers.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const std::size_t length = most == numbers.end() ? 0 : most->first;
+  std::erase_if(columns, [&](const NamedColumn& column) { return column.values.size() != length; });
+}
+
+std::string text_of_columns(const std::vector<NamedColumn>& columns) {
+  std::string text;
+  for (const NamedColumn& column : columns) text += (text.empty() ? "" : "\t") + column.name;
+  text += '\n';
+  for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (c > 0) text += '\t';
+      text += text_from_number(columns[c].values[row]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+bool is_matlab_file(std::string_view bytes) {
+  return bytes.starts_with("MATLAB 5.0 MAT-file");
+}
+
+SheetText matlab_table_text(std::string_view bytes, const std::string& name,
+                            const std::string& table) {
+  ColumnsOfTables tables = columns_of_tables(bytes, name);
+  for (auto& [key, columns] : tables) keep_one_length(columns);
+  std::erase_if(tables, [](const auto& entry) { return entry.second.empty(); });
+  if (tables.empty()) {
+    throw std::runtime_error(
+        name +
+        ": is a MATLAB file without a vector or matrix of real numbers, of its own or in a "
+        "struct; export the measured columns as CSV");
+  }
+  const auto numbers = [](const auto& entry) {
+    return entry.second.size() * entry.second.front().values.size();
+  };
+  auto chosen = std::max_element(tables.begin(), tables.end(), [&](const auto& a, const auto& b) {
+    return numbers(a) < numbers(b);
+  });
+  if (!table.empty()) chosen = tables.find(table);
+  if (chosen == tables.end()) {
+    std::vector<std::string> names;
+    for (const auto& entry : tables) {
+      if (!entry.first.empty()) names.push_back(entry.first);
+    }
+    throw std::runtime_error(name + ": " + no_such_word("struct", table, names));
+  }
+  return {chosen->first, text_of_columns(chosen->second), tables.size()};
+}
+
+}  // namespace viscard

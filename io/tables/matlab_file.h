@@ -1,0 +1,22 @@
+#pragma once
+
+#include "io/tables/workbook.h"
+
+#include <string>
+#include <string_view>
+
+namespace viscard {
+
+// MATLAB files of level 5 (save -v6 or -v7; MathWorks, "MAT-File Format"), which SciPy and Octave
+// write, too.
+bool is_matlab_file(std::string_view bytes);
+
+// A table in such a file as text: its arrays of real numbers with as many rows as most of them, by
+// name in a header; rows of a matrix M become M_1, M_2 .... Vectors may lie along rows or columns. The
+// variables of the file are one table, and so are the fields of each struct.
+// table: a struct's name; empty: the table with most numbers. Throws std::runtime_error naming the file
+// if it is damaged, if it has no array of numbers, or with a list of the structs if none has that name.
+SheetText matlab_table_text(std::string_view bytes, const std::string& name,
+                            const std::string& table);
+
+}  // namespace viscard

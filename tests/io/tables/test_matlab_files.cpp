@@ -1,0 +1,127 @@
+// Files are written byte by byte after MathWorks' description, and by the library that reads them.
+#include "io/basics/atomic_file.h"
+#include "io/tables/column_map.h"
+#include "io/tables/csv_table.h"
+#include "tests/support/error_text.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <matio.h>
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::error_text;
+using Numbers = std::vector<double>;
+
+template <typename Number>
+std::string bytes_of(const std::vector<Number>& numbers) {
+  std::string bytes(numbers.size() * sizeof(Number), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return bytes;
+}
+
+// A data element: type, length, contents, padding to 8 bytes.
+std::string element(std::uint32_t type, const std::string& contents) {
+  const std::string head =
+      bytes_of(std::vector<std::uint32_t>{type, static_cast<std::uint32_t>(contents.size())});
+  return head + contents + std::string((8 - contents.size() % 8) % 8, '\0');
+}
+
+// An array of doubles (class 6), column by column.
+std::string array(const std::string& name, std::int32_t rows, std::int32_t columns,
+                  const Numbers& values) {
+  constexpr std::uint32_t kInt8 = 1, kInt32 = 5, kUint32 = 6, kDouble = 9, kMatrix = 14;
+  return element(kMatrix, element(kUint32, bytes_of(std::vector<std::uint32_t>{6, 0})) +
+                              element(kInt32, bytes_of(std::vector<std::int32_t>{rows, columns})) +
+                              element(kInt8, name) + element(kDouble, bytes_of(values)));
+}
+
+std::string matlab_file(const std::string& arrays) {
+  std::string head = "MATLAB 5.0 MAT-file, written by hand";
+  head.resize(124, ' ');
+  return head + std::string("\x00\x01IM", 4) + arrays;
+}
+
+// A file with the struct run of two vectors, a text and a number, beside a short vector; compressed.
+std::string file_with_struct() {
+  const test::ScratchFolder folder;
+  const std::string path = (folder / "run.mat").string();
+  mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
+  REQUIRE(file != nullptr);
+  const char* fields[] = {"time_s", "force_mN", "label"};
+  std::size_t one[] = {1, 1}, four[] = {4, 1}, three[] = {1, 3};
+  double time_s[] = {0.0, 1.0, 2.0, 3.0}, other[] = {1.0, 2.0, 3.0};
+  float force_mN[] = {8.0F, 6.0F, 5.0F, 4.5F};
+  char label[] = "abc";
+  matvar_t* run = Mat_VarCreateStruct("run", 2, one, fields, 3);
+  Mat_VarSetStructFieldByName(
+      run, "time_s", 0, Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, four, time_s, 0));
+  Mat_VarSetStructFieldByName(
+      run, "force_mN", 0, Mat_VarCreate(nullptr, MAT_C_SINGLE, MAT_T_SINGLE, 2, four, force_mN, 0));
+  Mat_VarSetStructFieldByName(run, "label", 0,
+                              Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UTF8, 2, three, label, 0));
+  matvar_t* vector = Mat_VarCreate("other", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, three, other, 0);
+  for (matvar_t* variable : {run, vector}) {
+    REQUIRE(Mat_VarWrite(file, variable, MAT_COMPRESSION_ZLIB) == 0);
+    Mat_VarFree(variable);
+  }
+  Mat_Close(file);
+  return read_file(path);
+}
+
+TEST_CASE("vectors of a MATLAB file are columns by their names", "[io][csv]") {
+  const std::string bytes =
+      matlab_file(array("rate", 1, 1, {10.0}) + array("t", 1, 3, {0.5, 1.0, 1.0 / 3.0}) +
+                  array("force_mN", 3, 1, {4.0, 2.0, 1.0}));
+  const CsvTable table = csv_from_text(bytes, "run.mat");
+  CHECK(table.maker == "MATLAB file");
+  REQUIRE(table.columns.size() == 2);
+  CHECK(column_SI(table, "time_s") == Numbers{0.5, 1.0, 1.0 / 3.0});
+  CHECK(column_SI(table, "force_N") == Numbers{4e-3, 2e-3, 1e-3});
+}
+
+TEST_CASE("a matrix of a MATLAB file has its samples along its longer side", "[io][csv]") {
+  const Numbers by_columns{0.0, 1.0, 2.0, 9.0, 8.0, 7.0}, by_rows{0.0, 9.0, 1.0, 8.0, 2.0, 7.0};
+  for (const std::string& bytes :
+       {matlab_file(array("data", 3, 2, by_columns)), matlab_file(array("data", 2, 3, by_rows))}) {
+    const CsvTable table = csv_from_text(bytes, "m.mat");
+    REQUIRE(table.columns.size() == 2);
+    CHECK(table.columns[0].header == "data_1");
+    CHECK(column_SI(table, "modulus_Pa", {{"modulus_Pa", "data_2"}}) == Numbers{9.0, 8.0, 7.0});
+  }
+}
+
+TEST_CASE("a struct of a MATLAB file is a table of its own", "[io][csv]") {
+  const std::string bytes = file_with_struct();
+  const CsvTable table = csv_from_text(bytes, "run.mat");
+  CHECK(table.maker == "MATLAB file, struct 'run'");
+  CHECK(column_SI(table, "time_s") == Numbers{0.0, 1.0, 2.0, 3.0});
+  CHECK(column_SI(table, "force_N")[3] == Approx(4.5e-3).epsilon(1e-15));
+  CHECK(csv_from_text(bytes, "run.mat", "run").columns.size() == 2);
+  CHECK(contains(error_text([&] { csv_from_text(bytes, "run.mat", "rnu"); }),
+                 "run.mat: there is no struct 'rnu'; did you mean 'run'?"));
+}
+
+TEST_CASE("a MATLAB file without measured numbers is refused by what it lacks", "[io][csv]") {
+  const auto refusal = [](const std::string& bytes) {
+    return error_text([&] { csv_from_text(bytes, "a.mat"); });
+  };
+  CHECK(contains(refusal(matlab_file(array("k", 1, 1, {3.0}))),
+                 "a.mat: is a MATLAB file without a vector or matrix of real numbers"));
+  const std::string whole = matlab_file(array("t", 1, 3, {0.5, 1.0, 1.5}));
+  for (const std::size_t n :
+       {std::size_t{40}, std::size_t{140}, whole.size() - 12, whole.size() - 1}) {
+    CHECK(contains(refusal(whole.substr(0, n)), "a.mat: is a damaged MATLAB file"));
+  }
+  CHECK(contains(refusal("MATLAB 7.3 MAT-file, HDF5"), "save it with save -v7"));
+}
+
+}  // namespace
+}  // namespace viscard
