@@ -65,7 +65,8 @@ constexpr std::array kKinds{
     KindRow{FileKind::kRubberLaw, "a law of rubber", "viscard card takes it",
             "JSON as viscard fit uniaxial=FILE --out writes it"},
     KindRow{FileKind::kOtherJson, "a JSON file of another kind", "", ""},
-    KindRow{FileKind::kCard, "a material card", "viscard card --check takes it", ""},
+    KindRow{FileKind::kCard, "a material card", "viscard card --check takes it",
+            "a text as viscard card --out writes it"},
 };
 
 const KindRow& row_of(FileKind kind) {

@@ -22,6 +22,12 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+// Of ASCII letters.
+std::string in_lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return text;
+}
+
 bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
 }
@@ -39,8 +45,9 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   // Half of the letters must agree: "SI" is not near "mm", "nix" not near "rig".
   std::size_t best_distance =
       std::min(std::max<std::size_t>(2, word.size() / 3), word.size() / 2) + 1;
+  const std::string lower = in_lower_case(word);
   for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::size_t distance = edit_distance(lower, in_lower_case(candidate));
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

@@ -13,7 +13,7 @@ namespace viscard {
 std::string listed(const std::vector<std::string>& words);
 
 // Returns the entry of `known` with the smallest edit distance (insertions, deletions, substitutions, swaps of
-// neighbours) to `word`, or "" if every distance exceeds a third of its length (at least 2, at most half).
+// neighbours; case does not count) to `word`, or "" if every distance exceeds a third of its length (at least 2, at most half).
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
 // "; did you mean 'grbl'?" with the nearest known word, or `otherwise` if none is near.

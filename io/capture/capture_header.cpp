@@ -47,7 +47,10 @@ std::size_t read_header(const fs::path& path, Header& header) {
 
 [[noreturn]] void refuse_text(const fs::path& path) {
   const FileKind kind = kind_of_file(read_file(path));
-  const std::string use = use_of_file_kind(kind);
+  // By its name viscard fit takes it for a capture, so that its use would lead back to here.
+  const bool is_misnamed = kind == FileKind::kTable && path.extension() == ".viscap";
+  const std::string use =
+      is_misnamed ? "give it a name that ends in .csv instead of .viscap" : use_of_file_kind(kind);
   fail(path, "is " + file_kind_in_words(kind) + ", not a capture; " +
                  (use.empty() ? "viscard capture writes captures, *.viscap" : use));
 }

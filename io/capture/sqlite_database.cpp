@@ -12,7 +12,10 @@ namespace {
   static const std::map<int, const char*> kReasons{
       {SQLITE_FULL, "the disk is full"},
       {SQLITE_IOERR, "the disk could not be read or written (full, removed or over quota?)"},
-      {SQLITE_NOTADB, "is not an SQLite database, so neither a capture nor the answers of a study"},
+      {SQLITE_NOTADB,
+       "is not an SQLite database, so neither a capture nor the answers of a study; choose another "
+       "name"},
+      {SQLITE_CANTOPEN, "cannot be opened; check that its folder exists and may be written to"},
       {SQLITE_CORRUPT, "is damaged"},
       {SQLITE_BUSY, "is held by another program"}};
   const auto known = kReasons.find(code & 0xff);

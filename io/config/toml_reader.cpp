@@ -2,6 +2,7 @@
 #include "io/basics/words.h"
 #include "io/config/config_fields.h"
 #include "io/config/quantity_text.h"
+#include "io/config/toml_text.h"
 
 #include <toml++/toml.h>
 
@@ -245,13 +246,7 @@ class TomlReader final : public FieldVisitor {
 
 void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
                       const ChooseValue& choose) {
-  toml::table table;
-  try {
-    table = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw std::runtime_error(name + ":" + std::to_string(error.source().begin.line) +
-                             ": not TOML: " + std::string(error.description()));
-  }
+  const toml::table table = table_from_toml(text, name);
   TomlReader reader(table, name, "", choose);
   show(reader);
   reader.refuse_unknown_keys();

@@ -42,13 +42,15 @@ bool is_line_of_file(const std::string& word) {
          word.find_first_not_of("0123456789", colon + 1) == std::string::npos;
 }
 bool is_option(const std::string& word) {
-  return word.size() > 2 && word.rfind("--", 0) == 0;
+  return word.size() > 2 && word.starts_with("--") && word != "--help";
 }
 bool is_port(const std::string& word) {
   return word.rfind("/dev/", 0) == 0;
 }
+// "[stage]", not "[OPTIONS]" of a usage.
 bool is_section(const std::string& word) {
-  return word.front() == '[' && word.back() == ']';
+  return word.size() > 2 && word.front() == '[' && word.back() == ']' &&
+         std::isupper(static_cast<unsigned char>(word[1])) == 0;
 }
 bool is_file(const std::string& word) {
   const std::size_t dot = word.rfind('.');
@@ -57,15 +59,16 @@ bool is_file(const std::string& word) {
           std::isalpha(static_cast<unsigned char>(word[dot + 1])) != 0);
 }
 
-// The place that the text names: the first of the most telling kind.
+// The place that the text names: the file that it begins with, or the first of the most telling kind.
 std::string place_in(const std::string& text) {
   const std::vector<std::string> words = words_of(text);
-  if (!words.empty() && is_line_of_file(words.front())) return words.front();
+  if (words.empty()) return "";
+  if (is_line_of_file(words.front()) || is_file(words.front())) return words.front();
   for (const auto is_place : {is_port, is_option, is_section}) {
     const auto found = std::find_if(words.begin(), words.end(), is_place);
     if (found != words.end()) return *found;
   }
-  return !words.empty() && is_file(words.front()) ? words.front() : "";
+  return "";
 }
 
 std::string code_of_text(const std::string& text) {
@@ -95,11 +98,15 @@ std::string code_of(const std::exception& error) {
 
 CommandError command_error(const std::string& code, const std::string& text,
                            const std::string& where) {
-  CommandError error{code, text, where.empty() ? place_in(text) : where, ""};
+  CommandError error{code, text, where, ""};
   const std::size_t cut = begin_of_hint(text);
-  if (cut == std::string::npos) return error;
-  error.message = text.substr(0, cut);
-  error.hint = text.substr(cut + 2);
+  if (cut != std::string::npos) {
+    error.message = text.substr(0, cut);
+    error.hint = text.substr(cut + 2);
+  }
+  // An option that a hint recommends is a place only if the message names none.
+  if (where.empty()) error.where = place_in(error.message);
+  if (error.where.empty()) error.where = place_in(error.hint);
   return error;
 }
 

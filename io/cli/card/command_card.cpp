@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
 #include "io/basics/words.h"
 #include "io/cards/proof/solvers.h"
 #include "io/cards/targets/card_targets.h"
@@ -134,10 +135,15 @@ void check_words(CardWords& words) {
   if (words.list) return;
   const std::string& given_card = words.check.empty() ? words.prove : words.check;
   if (words.target.empty() && !given_card.empty()) {
-    const CardTarget* target = stated_card_target(read_file(given_card));
+    const std::string contents = read_file(given_card);
+    const CardTarget* target = stated_card_target(contents);
     if (target == nullptr) {
+      // Numbers alone may be a card of another program.
+      if (kind_of_file(contents) != FileKind::kTable) {
+        refuse_other_kind(contents, given_card, FileKind::kCard);
+      }
       throw UsageError(given_card +
-                       " does not name its solver, as cards by viscard do; say --for "
+                       " does not name its solver, as cards by viscard do; add --for "
                        "TARGET ('viscard card --list' shows the targets)");
     }
     words.target = target->name;
@@ -166,7 +172,7 @@ void check_words(CardWords& words) {
     throw UsageError("--clamp-nu must lie in (-1, 0.5)");
   }
   if (words.material.empty() && words.check.empty() && words.prove.empty()) {
-    throw UsageError("which material? usage: viscard card material.json --for TARGET");
+    throw UsageError("no material given; usage: viscard card MATERIAL.json --for TARGET");
   }
 }
 

@@ -71,7 +71,8 @@ void add_data_options(po::options_description& options) {
   add("column", po::value<Words>()->composing(),
       "NAME=HEADER or NAME=2: the column of a quantity; also NAME=-HEADER and NAME=1e9*HEADER");
   add("sheet", po::value<std::string>(),
-      "of an Excel workbook (.xlsx); default: the one with most numbers");
+      "of an Excel workbook (.xlsx), or the struct of a MATLAB file (.mat); default: the one with "
+      "most numbers");
   add("segment", po::value<Words>()->composing(), "use only rows of this segment (repeatable)");
   add("time-zero", po::value<std::string>()->default_value("0"), "time in the table where t = 0");
   add("from", po::value<std::string>(), "fit only rows from this time on, such as \"2 s\"");
@@ -133,14 +134,15 @@ CommandSyntax fit_syntax() {
   add("force", "replace an existing material file");
   syntax.positional = {"file"};
   syntax.last_is_repeatable = true;
-  syntax.choices = {
-      {"kind", {"indentation", "relaxation", "creep", "dma"}},
-      {"noise", {"auto", "white"}},
-      {"crop", {"auto"}},
-      {"vertical-shift", {"auto", "on", "off"}},
-      {"model",
-       {"kww", "springpot", "fractional-maxwell", "fractional-kelvin-voigt", "fractional-zener"}},
-      {"share", {"E0", "g", "tau"}}};
+  syntax.choices = {{"kind", {"indentation", "relaxation", "creep", "dma"}},
+                    {"noise", {"auto", "white"}},
+                    {"crop", {"auto"}},
+                    {"vertical-shift", {"auto", "on", "off"}},
+                    {"model",
+                     {"kww", "springpot", "fractional-maxwell", "fractional-kelvin-voigt",
+                      "fractional-zener", "neo-hooke", "mooney-rivlin", "yeoh", "ogden-1",
+                      "ogden-2", "ogden-3", "arruda-boyce", "gent"}},
+                    {"share", {"E0", "g", "tau"}}};
   return syntax;
 }
 

@@ -21,7 +21,7 @@ CommandSyntax help_syntax(const Words& names) {
                        "--man prints the source of the manual page instead.",
                        "viscard help fit"};
   syntax.options.add_options()("man", "print the manual page, for man -l -");
-  syntax.positional = {"command"};
+  syntax.positional = {"command", "what"};
   syntax.choices["command"] = names;
   return syntax;
 }
@@ -29,6 +29,18 @@ CommandSyntax help_syntax(const Words& names) {
 const CommandDocument& named(const std::string& name, const CommandDocuments& documents) {
   return *std::find_if(documents.begin(), documents.end(),
                        [&](const CommandDocument& one) { return one.name == name; });
+}
+
+// "scene check": the help of a command explains its subcommands.
+void check_subcommand(const CommandDocument& one, const std::string& what) {
+  const auto choices = one.syntax.choices.find("what");
+  if (choices == one.syntax.choices.end()) {
+    throw UsageError("viscard " + one.name + " has no subcommands; write viscard help " + one.name);
+  }
+  const Words& known = choices->second;
+  if (std::find(known.begin(), known.end(), what) != known.end()) return;
+  throw UsageError("there is no '" + one.name + " " + what + "'" + did_you_mean(what, known, ";") +
+                   " there are: " + listed(known));
 }
 
 ordered_json json_of_list(const CommandDocuments& documents) {
@@ -53,6 +65,7 @@ int run_help(const Words& words, Streams& streams, const Words& names,
   }
   const CommandDocuments documents = ask_documents();
   const CommandDocument* one = name ? &named(*name, documents) : nullptr;
+  if (const auto what = given(*values, "what")) check_subcommand(*one, *what);
   const std::string page = values->count("man") == 0 ? ""
                            : one != nullptr          ? manual_page(*one)
                                                      : manual_overview(documents);

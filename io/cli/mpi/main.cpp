@@ -50,7 +50,7 @@ SweepProgram program_of(MpiRanks& ranks, Streams& streams, RanksEnd& end) {
 int run_words(const Words& words, Streams& streams, MpiRanks& ranks, RanksEnd& end) {
   const SweepProgram program = program_of(ranks, streams, end);
   if (words.empty()) {
-    throw UsageError(std::string("which study? usage: ") + kUsage);
+    throw UsageError(std::string("no study given; usage: ") + kUsage);
   }
   if (words[0] == "--version") {
     streams.out << "viscard-mpi " VISCARD_VERSION "\n";

@@ -36,10 +36,11 @@ class MpiDispatch {
     ranks_.send_to_all_others(RankTag::kStart, text_from(start));
     if (ranks_.size() <= kFewRanks) give(0, dispatcher_.ask(0, now_s()));
     while (!dispatcher_.is_done()) {
-      const bool has_news = take_messages() | take_own_answer();
+      const bool has_message = take_messages();
+      const bool has_own_answer = take_own_answer();
       keep_answers();
       look_for_lost();
-      if (!has_news) std::this_thread::sleep_for(pause());
+      if (!has_message && !has_own_answer) std::this_thread::sleep_for(pause());
     }
     return outcome_;
   }

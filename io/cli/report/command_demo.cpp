@@ -163,8 +163,10 @@ std::string depth_explained(const fs::path& data) {
   const double depth_m = plan.depth_m;
   plan.depth_m = kThesisDepth_m;
   std::string text = fmt::format(
-      "The test indents by {:g} mm, not by {:g} mm as the thesis. With the moduli guessed before\n"
-      "the test, the peak force at that depth would be\n",
+      "The test indents by {:g} mm, not by {:g} mm as in the thesis \"Design of a piezoelectric\n"
+      "tactile sensor\" that it follows. With the moduli guessed before the test, the peak force "
+      "at\n"
+      "that depth would be\n",
       1e3 * depth_m, 1e3 * kThesisDepth_m);
   for (const DemoSpecimen& specimen : kSpecimens) {
     const Preflight check = preflight(rig, plan, read_specimen(data / specimen.specimen_file));

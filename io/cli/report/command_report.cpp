@@ -75,7 +75,7 @@ ReportRequest checked_words(const po::variables_map& values, const Words& words,
   }
   if (!report.tests.empty()) report.files.clear();
   if (values.count("out") == 0) {
-    throw UsageError("which page? name it with --out report.html");
+    throw UsageError("no page given; name it with --out report.html");
   }
   if (report.card_targets.empty()) report.card_targets = {"abaqus", "ansys", "febio", "json"};
   try {

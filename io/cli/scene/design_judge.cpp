@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/data_folder.h"
+#include "io/basics/file_kind.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
@@ -52,6 +53,7 @@ int run_design_judge(const po::variables_map& values, const Words& words, Stream
   const auto require = given(values, "require");
   if (!scene) throw UsageError("--require judges a scene; name its file, such as SCENE.toml");
   if (!require) {
+    refuse_other_kind(read_file(*scene), *scene, FileKind::kScene);
     throw UsageError(
         "'" + *scene + "'" +
         example_with_data(" is judged by what is required; add --require FILE, such as "

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <ostream>
 #include <typeinfo>
 
@@ -63,11 +64,20 @@ std::string command_of(const CommandSyntax& syntax) {
                    (n < free.size() ? free[n] : first) + "' on; usage: " + syntax.usage);
 }
 
+bool counts(const std::type_info& type) {
+  return type == typeid(std::uint64_t) || type == typeid(std::size_t);
+}
+
+const std::type_info& type_of(const po::option_description& option) {
+  const auto* typed = dynamic_cast<const po::typed_value_base*>(option.semantic().get());
+  return typed != nullptr ? typed->value_type() : typeid(void);
+}
+
 // What a value of an option must be.
 const char* expected_of(const po::option_description& option) {
-  const auto* typed = dynamic_cast<const po::typed_value_base*>(option.semantic().get());
-  if (typed == nullptr) return "a value";
-  const std::type_info& type = typed->value_type();
+  const std::type_info& type = type_of(option);
+  if (type == typeid(void)) return "a value";
+  if (counts(type)) return "a whole number from 0 on, such as 5";
   if (type == typeid(double) || type == typeid(std::vector<double>)) {
     return "a number without unit, such as 0.5";
   }
@@ -88,6 +98,19 @@ const char* expected_of(const po::option_description& option) {
     if (words[i] == name && i + 1 < words.size()) value = words[i + 1];
   }
   throw UsageError(name + " cannot be '" + value + "'; expected " + expected_of(*option));
+}
+
+// The library reads "-3" as 18446744073709551613.
+void refuse_negative_counts(const po::parsed_options& parsed) {
+  for (const po::option& given : parsed.options) {
+    const po::option_description* option =
+        parsed.description->find_nothrow(given.string_key, false);
+    if (option == nullptr || !counts(type_of(*option)) || given.value.empty()) continue;
+    const std::string& value = given.value.front();
+    if (!value.starts_with('-')) continue;
+    throw UsageError("--" + given.string_key + " cannot be '" + value + "'; expected " +
+                     expected_of(*option));
+  }
 }
 
 // A command with subcommands takes them as its first word, "what".
@@ -151,8 +174,10 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax, const Words&
     // Shortened options are refused: a new option could change the meaning of an old script.
     const int style =
         po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
-    po::store(po::command_line_parser(words).options(all).positional(positions).style(style).run(),
-              values);
+    const po::parsed_options parsed =
+        po::command_line_parser(words).options(all).positional(positions).style(style).run();
+    refuse_negative_counts(parsed);
+    po::store(parsed, values);
   } catch (const po::unknown_option& error) {
     throw_unknown(error.get_option_name(), syntax.options, syntax.usage);
   } catch (const po::too_many_positional_options_error&) {

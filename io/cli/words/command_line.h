@@ -35,12 +35,12 @@ std::optional<Value> given(const boost::program_options::variables_map& values, 
 std::optional<double> given_quantity(const boost::program_options::variables_map& values,
                                      const char* name, const char* si_unit);
 
-// A positional word. Throws UsageError "which scene? usage: ..." if it is missing.
+// A positional word. Throws UsageError "no scene given; usage: ..." if it is missing.
 template <typename Value = std::string>
 Value required(const boost::program_options::variables_map& values, const char* name,
                const CommandSyntax& syntax) {
   if (const auto value = given<Value>(values, name)) return *value;
-  throw UsageError(std::string("which ") + name + "? usage: " + syntax.usage);
+  throw UsageError(std::string("no ") + name + " given; usage: " + syntax.usage);
 }
 
 // "viscard" and the words, quoted for a shell; output files record it.

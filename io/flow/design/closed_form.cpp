@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 namespace viscard {
 namespace {
@@ -25,6 +27,14 @@ Lattice lattice_of(const std::string& word) {
   throw std::invalid_argument("--lattice cannot be '" + word + "'" +
                               did_you_mean(word, {"square", "hexagonal", "plain"}) +
                               " There are: square, hexagonal, plain");
+}
+
+// Nothing of a sensor is longer than a metre; a unit that was forgotten makes it so.
+void refuse_forgotten_unit(const DesignOption& option, double value) {
+  if (std::string_view(option.unit) != "m" || std::abs(value) <= 1.0) return;
+  throw std::invalid_argument(fmt::format(
+      "--{} is {:g} m; lengths without a unit are in metres. Write the unit, such as \"{:g} um\"",
+      option.name, value, value));
 }
 
 // Lengths in um, the rest as it is.
@@ -68,6 +78,7 @@ ClosedFormDesign closed_form_design(
   for (const DesignOption& option : options_of(design)) {
     const std::optional<double> value = given(option.name, option.unit);
     if (!value) continue;
+    refuse_forgotten_unit(option, *value);
     *option.value = *value;
     has_adhesion = has_adhesion || option.value == &design.material.work_of_adhesion_J_m2;
   }

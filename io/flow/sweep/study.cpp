@@ -3,6 +3,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/number_text.h"
 #include "io/config/config_fields.h"
+#include "io/config/toml_text.h"
 #include "models/maths/text_of_number.h"
 #include "models/uncertainty/sobol_points.h"
 
@@ -196,13 +197,7 @@ std::string scene_text_with(const Study& study, const StudyValues& values) {
 
 std::string scene_text_with(const std::string& scene, const std::filesystem::path& path,
                             const StudyValues& values) {
-  toml::table table;
-  try {
-    table = toml::parse(scene, path.string());
-  } catch (const toml::parse_error& error) {
-    throw std::runtime_error(path.string() + ":" + std::to_string(error.source().begin.line) +
-                             ": not TOML: " + std::string(error.description()));
-  }
+  toml::table table = table_from_toml(scene, path.string());
   for (const auto& [key, value] : values) set_key(table, key, value);
   std::ostringstream text;
   text << table << "\n";

@@ -36,6 +36,10 @@ void write_ahead(Database& database) {
 }
 
 Database opened(const std::filesystem::path& path, const Study& study) {
+  if (std::filesystem::is_directory(path)) {
+    throw std::runtime_error(path.string() + ": is a folder; name a file in it, such as " +
+                             (path / "points.sqlite").string());
+  }
   if (!std::filesystem::exists(path)) std::ofstream(path).flush();
   Database database(path, Database::Access::kReadWrite);
   database.execute("PRAGMA busy_timeout = 10000;");

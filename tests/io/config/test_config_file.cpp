@@ -204,7 +204,26 @@ TEST_CASE("a missing key is refused with the expected value", "[io][config]") {
 
 TEST_CASE("a file that is not TOML is refused with its line", "[io][config]") {
   CHECK(rig_error("name = \"a\"\nname = \"b\"\n").find("rig.toml:2: not TOML: ") == 0);
-  CHECK(rig_error("[stage\n").find("rig.toml:1: not TOML: ") == 0);
+  CHECK(rig_error("[stage\n") == "rig.toml:1: not TOML: the bracket of '[stage' is not closed");
+}
+
+TEST_CASE("a mistake in TOML is explained in the words of the file", "[io][config]") {
+  const auto reason = [](const std::string& line) {
+    const std::string error = rig_error("[stage]\n" + line + "\n");
+    const std::string begin = "rig.toml:2: not TOML: ";
+    return error.starts_with(begin) ? error.substr(begin.size()) : "elsewhere: " + error;
+  };
+  CHECK(reason("speed = 1 mm/s") == "'1 mm/s' needs quotes, as in speed = \"1 mm/s\"");
+  CHECK(reason("port = /dev/ttyUSB0  # the stage") ==
+        "'/dev/ttyUSB0' needs quotes, as in port = \"/dev/ttyUSB0\"");
+  CHECK(reason("speed = 1,5") == "'1,5' has a decimal comma; write a point");
+  CHECK(reason("speed =") == "the value of 'speed' is missing");
+  CHECK(reason("speed = \"1 mm/s") == "a quote (\") is missing");
+  CHECK(reason("speed : 1") == "expected key = value or [section], found 'speed : 1'");
+  CHECK(reason("speed = 1\nspeed = 2")
+            .find("elsewhere: rig.toml:3: not TOML: 'speed' is given "
+                  "twice") == 0);
+  CHECK(reason("a = [1, 2") == "the bracket of '[1, 2' is not closed");
 }
 
 TEST_CASE("values that contradict each other are refused with the file's name", "[io][config]") {

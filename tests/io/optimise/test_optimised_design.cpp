@@ -226,7 +226,9 @@ TEST_CASE("ten random specifications: designs confirmed by simulate, infeasible 
     std::ofstream(out) << scene_for_folder(read, design, std::filesystem::path(out).parent_path());
     PillarScene scene_of_design = std::get<PillarScene>(read_scene(out).scene);
     scene_of_design.tolerance = 2e-3;
-    for (const auto& [key, result] : simulated(scene_of_design)) {
+    for (const auto& answer : simulated(scene_of_design)) {
+      const std::string& key = answer.first;
+      const auto& result = answer.second;
       CAPTURE(key);
       const auto line = std::find_if(design.judgement.lines.begin(), design.judgement.lines.end(),
                                      [&](const JudgedLine& one) { return key == one.kind->key; });

@@ -30,7 +30,9 @@ int free_port() {
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof address;
-  ::bind(descriptor, reinterpret_cast<sockaddr*>(&address), size);
+  if (::bind(descriptor, reinterpret_cast<sockaddr*>(&address), size) != 0) {
+    throw std::runtime_error("no port of this computer is free");
+  }
   ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
   ::close(descriptor);
   return ntohs(address.sin_port);
@@ -137,7 +139,7 @@ json Browser::ask(const char* method, const std::string& path, const json& body)
                           ? client.Get(session_ + path)
                           : client.Post(session_ + path, body.dump(), "application/json");
   if (!result) throw std::runtime_error("chromedriver does not answer to " + path);
-  const json value = json::parse(result->body).at("value");
+  json value = json::parse(result->body).at("value");
   if (result->status == 200) return value;
   throw std::runtime_error(path + ": " + value.value("message", result->body));
 }

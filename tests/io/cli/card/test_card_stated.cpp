@@ -85,7 +85,7 @@ TEST_CASE("card --check knows clamped ratios, one modulus and a bound from the h
   const std::string elastic = card.path("e.inp");
   REQUIRE(card.run({card.save(reference_material()), "--for", "abaqus", "--elastic-only",
                     "long-term", "--out", elastic}) == kDone);
-  CHECK(card.run({"--check", elastic, file.c_str()}) == kDone);
+  CHECK(card.run({"--check", elastic, file}) == kDone);
 }
 
 TEST_CASE("cards by viscard name their target, so --check needs no --for", "[cards][cli]") {

@@ -42,7 +42,7 @@ TEST_CASE("viscard card explains every wrong use in one line", "[cards][cli]") {
       {{material, "--for", "nastran"}, kBadWords, "frontistr"},
       {{material, "--for", "abaqus", "--units", "mm-kg"}, kBadWords, "mm-kg-ms"},
       {{material}, kBadWords, "--for TARGET is missing"},
-      {{"--for", "abaqus"}, kBadWords, "which material?"},
+      {{"--for", "abaqus"}, kBadWords, "no material given; usage: "},
       {{card.path("none.json"), "--for", "abaqus"}, kFailed, "cannot open"},
       {{material, "--for", "abaqus", "--terms", "1"}, kBadWords, "--approximate"},
       {{material, "--for", "abaqus", "--terms", "0", "--approximate"}, kBadWords, "1 to 100"},

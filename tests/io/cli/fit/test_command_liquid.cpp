@@ -75,7 +75,7 @@ TEST_CASE("the fit of a liquid prints its viscosity with the interval", "[cli]")
   const auto json = nlohmann::json::parse(run_command({"fit", table, "--json"}).out);
   CAPTURE(json.dump());
   CHECK(json["viscosity_Pa_s"].get<double>() == Approx(215e3).epsilon(0.02));
-  const auto ends = json["viscosity_interval_95"];
+  const auto& ends = json["viscosity_interval_95"];
   CHECK(ends.front().get<double>() < 215e3);
   CHECK(ends.back().get<double>() > 215e3);
   CHECK(ends.back().get<double>() - ends.front().get<double>() < 0.1 * 215e3);

@@ -24,7 +24,7 @@ const std::string kData = VISCARD_SOURCE_DIR "/data/";
 
 // The material fitted to the example of viscard fit.
 std::string fitted_example(const TableFolder& folder) {
-  const std::string out = folder.file("material.json");
+  std::string out = folder.file("material.json");
   const auto ran = run_command({"fit", kData + "demo/example_relaxation.csv", "--out", out});
   REQUIRE(ran.status == kDone);
   return out;

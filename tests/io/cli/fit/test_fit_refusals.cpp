@@ -19,7 +19,7 @@ TEST_CASE("a wrong command line gives one line and exit status 2", "[cli]") {
   const TableFolder folder;
   const std::string file = folder.write("E.csv", relaxation_table());
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"fit"}, "which file?"},
+      {{"fit"}, "no file given; usage: viscard fit"},
       {{"fit", file, "--term", "3"}, "did you mean '--terms'"},
       {{"fit", file, "--terms", "-1"}, "outside 0 to 100"},
       {{"fit", file, "--terms", "two"}, "two"},

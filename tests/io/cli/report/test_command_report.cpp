@@ -167,7 +167,7 @@ TEST_CASE("a wrong command line of report gives one clear line", "[cli][report]"
     CHECK(outcome.out.empty());
     CHECK_FALSE(std::filesystem::exists(page));
   };
-  fails({"--out", page}, kBadWords, "which files?");
+  fails({"--out", page}, kBadWords, "no files given; usage: ");
   fails({material}, kBadWords, "--out report.html");
   fails({material, "--out", page, "--card", "abacus"}, kBadWords, "abaqus");
   fails({material, "--out", page, "--units", "furlong"}, kBadWords, "mm-t-s");
@@ -197,8 +197,8 @@ TEST_CASE("an existing page is kept unless --force is given", "[cli][report]") {
 TEST_CASE("a table becomes a page without a pillar", "[cli][report]") {
   const test::ScratchFolder folder;
   const std::string page = (folder / "page.html").string();
-  const auto outcome = run_command(
-      {"report", VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv", "--out", page, "--json"});
+  const std::string table = VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv";
+  const auto outcome = run_command({"report", table, "--out", page, "--json"});
   CAPTURE(outcome.err);
   REQUIRE(outcome.status == kDone);
   CHECK_FALSE(nlohmann::json::parse(outcome.out)["specimens"][0].contains("pillar"));

@@ -45,7 +45,7 @@ std::string specimen_file(const ScratchFolder& folder, const std::string& demo,
   const std::string text = read_file(std::string(VISCARD_SOURCE_DIR "/data/demo/") + demo);
   const std::size_t begin = text.find("id = \"") + 6;
   const std::string old = text.substr(begin, text.find('"', begin) - begin);
-  const std::string file = folder / (id + ".toml");
+  std::string file = folder / (id + ".toml");
   write_file(file, replaced(text, "\"" + old + "\"", "\"" + id + "\""), true);
   return file;
 }
@@ -57,7 +57,7 @@ std::string truth_file(const ScratchFolder& folder, const std::string& demo,
   const std::string text = read_file(std::string(VISCARD_SOURCE_DIR "/data/demo/") + demo);
   const std::size_t old = text.find("[scatter]");
   const std::string head = text.substr(0, std::min(old, text.find("[rig]")));
-  const std::string file = folder / (demo + scatter.substr(0, 3) + ".toml");
+  std::string file = folder / (demo + scatter.substr(0, 3) + ".toml");
   write_file(file, head + "[scatter]\n" + scatter + "\n" + text.substr(text.find("[rig]")), true);
   return file;
 }

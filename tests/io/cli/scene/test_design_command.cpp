@@ -36,7 +36,9 @@ TEST_CASE("a design that cannot be is refused in one line", "[cli][design]") {
       Case{{"--end-factor", "3"}, "end"}, Case{{"--end-factor", "0"}, "end"},
       Case{{"--diameter", "-1 um"}, "diameter"}, Case{{"--diameter", "40 kg"}, "--diameter"},
       Case{{"--poisson", "0.6"}, "Poisson"}, Case{{"--lattice", "sqare"}, "did you mean 'square'"},
-      Case{{"--modulus", "0"}, "modulus"}, Case{{"--nonsense", "1"}, "nonsense"});
+      Case{{"--modulus", "0"}, "modulus"},
+      Case{{"--diameter", "40"}, "--diameter is 40 m; lengths without a unit are in metres"},
+      Case{{"--nonsense", "1"}, "nonsense"});
   CAPTURE(c.words[0], c.words[1]);
   std::vector<std::string> words = {"design"};
   words.insert(words.end(), c.words.begin(), c.words.end());

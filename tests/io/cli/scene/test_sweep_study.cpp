@@ -136,3 +136,20 @@ TEST_CASE("mistakes in a study are reported before anything is answered", "[cli]
   CHECK(outcome.err.find(c.what) != std::string::npos);
   CHECK(run_command({"sweep", files.study, "--shard", "4/3"}).status == 2);
 }
+
+TEST_CASE("answers of a study cannot be kept in a folder, in no folder or in another file",
+          "[cli][scene][sweep]") {
+  const StudyFiles files(kStudy);
+  const std::string folder = std::filesystem::path(files.study).parent_path().string();
+  const auto error_with = [&](const std::string& out) {
+    const CommandOutcome outcome = run_command({"sweep", files.study, "--out", out});
+    CHECK(outcome.status == 1);
+    return outcome.err;
+  };
+  CHECK(error_with(folder).find("is a folder; name a file in it, such as ") != std::string::npos);
+  CHECK(error_with(folder + "/none/x").find("cannot be opened; check that its folder exists") !=
+        std::string::npos);
+  const std::string table = files.scene.beside("table.csv");
+  write_file(table, "time_s,force_N\n0,1\n", false);
+  CHECK(error_with(table).find("is not an SQLite database") != std::string::npos);
+}

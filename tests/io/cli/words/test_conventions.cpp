@@ -65,6 +65,7 @@ TEST_CASE("a misspelt command gives one line with the nearest command, and statu
   CHECK(outcome.out.empty());
   CHECK(is_one_line(outcome.err));
   CHECK(contains(outcome.err, "there is no command 'exprot'; did you mean 'export'?"));
+  CHECK(contains(run_command({"FIT", "a.csv"}).err, "did you mean 'fit'?"));
 }
 
 TEST_CASE("every command explains itself with an example of its own", "[cli]") {
@@ -122,6 +123,9 @@ TEST_CASE("a number that cannot be read is refused with option, value and what i
       {{"fit", "a.csv", "--ratio", "a"}, "--ratio cannot be 'a'; expected a number without unit"},
       {{"simulate", scene, "--tol", "3kg"},
        "--tol cannot be '3kg'; expected a number without unit"},
+      {{"capture", "--emulate", "--seed", "-3"},
+       "--seed cannot be '-3'; expected a whole number from 0 on"},
+      {{"simulate", scene, "--samples=-2"}, "--samples cannot be '-2'; expected a whole number"},
       {{"demo", "--speed", "x"}, "--speed cannot be 'x'; expected a number"},
       {{"demo", "--speed", "0"}, "--speed is 0; it must be above 0 and at most 500"},
       {{"fit", "a.viscap", "--want", "g_2=abc"},
@@ -144,6 +148,8 @@ TEST_CASE("a wrong subcommand is named, with the nearest one", "[cli]") {
        "there is no 'viscard card check'; did you mean 'viscard card --check'?"},
       {{"plan", "a.toml", "b.toml"}, "too many words on the command line, from 'b.toml' on"},
       {{"help", "fti"}, "there is no command 'fti'; did you mean 'fit'?"},
+      {{"help", "scene", "chekc"}, "there is no 'scene chekc'; did you mean 'check'?"},
+      {{"help", "fit", "check"}, "viscard fit has no subcommands; write viscard help fit"},
       {{"help", "nix"}, "there is no command 'nix'; 'viscard help' lists"},
       {{"fit", "a.csv", "--model", "nope"}, "ogden-3"}};
   for (const auto& [words, text] : cases) {
@@ -152,6 +158,12 @@ TEST_CASE("a wrong subcommand is named, with the nearest one", "[cli]") {
     CHECK(outcome.status == kBadWords);
     CHECK(contains(outcome.err, text));
   }
+}
+
+TEST_CASE("help of a subcommand is that of its command", "[cli]") {
+  const auto outcome = run_command({"help", "scene", "check"});
+  CHECK(outcome.status == kDone);
+  CHECK(outcome.out == run_command({"help", "scene"}).out);
 }
 
 TEST_CASE("a shortened option is refused", "[cli]") {

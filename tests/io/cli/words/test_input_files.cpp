@@ -119,6 +119,9 @@ TEST_CASE("a file of another kind is named, with the command that takes it", "[c
       {{"plan", bytes}, ":1: is a binary file, not a scene; expected TOML"},
       {{"plan", table}, ":1: is a table of numbers, not a scene"},
       {{"sweep", scene}, ":1: is a scene, not a study"},
+      {{"design", table}, ":1: is a table of numbers, not a scene; viscard fit"},
+      {{"card", "--check", empty}, ":1: is empty, not a material card; expected a text"},
+      {{"card", "--check", material}, ":1: is a material, not a material card; viscard card"},
       {{"simulate", shipped("studies/pillar.toml")}, "is a study, not a scene; viscard sweep"},
       {{"rig", "check", "--rig", shipped("demo/02_test.toml")}, "is a test of the rig, not a rig"},
   };
@@ -128,6 +131,16 @@ TEST_CASE("a file of another kind is named, with the command that takes it", "[c
     CHECK(outcome.status == kFailed);
     CHECK(contains(outcome.err, text));
   }
+}
+
+TEST_CASE("a table with the name of a capture is to be renamed", "[cli]") {
+  const ScratchFolder folder;
+  write_file(folder / "t.viscap", "time_s,force_N\n0,1\n1,2\n", false);
+  const auto outcome = run_command({"fit", folder / "t.viscap"});
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err,
+                 "is a table of numbers, not a capture; give it a name that ends in "
+                 ".csv instead of .viscap"));
 }
 
 TEST_CASE("every file that is shipped is of the kind of its folder", "[io]") {

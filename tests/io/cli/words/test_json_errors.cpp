@@ -120,4 +120,15 @@ TEST_CASE("message and hint are the two parts of a text for people", "[cli]") {
   CHECK(command_error("failed", "it failed").hint.empty());
 }
 
+TEST_CASE("the place of an error is what its message names, not what its hint recommends",
+          "[cli]") {
+  const auto where = [](const char* text) { return command_error("failed", text).where; };
+  CHECK(where("a.viscap is a table, not a capture; predict --against takes it") == "a.viscap");
+  CHECK(where("no file given; usage: viscard fit FILE... [OPTIONS]").empty());
+  CHECK(where("there is no command 'fti'; 'viscard --help' lists the commands").empty());
+  CHECK(where("the record has no depth; add --depth") == "--depth");
+  CHECK(where("a.toml: the section [stage] is missing") == "a.toml");
+  CHECK(where("[stage] is given twice") == "[stage]");
+}
+
 }  // namespace viscard

@@ -59,7 +59,7 @@ TEST_CASE("text fits the terminal, keeps the cells of a table whole, and loses n
 
 TEST_CASE("help and tables fit down to 40 columns", "[cli]") {
   const std::string scene = VISCARD_SOURCE_DIR "/data/scenes/pillar_modal.toml";
-  for (const std::size_t columns : {40, 60, 80}) {
+  for (const std::size_t columns : {40u, 60u, 80u}) {
     for (const Command& command : commands()) {
       CAPTURE(command.name, columns);
       std::string help = printed_on(columns, {command.name, "--help"});

@@ -1,0 +1,99 @@
+#include "io/config/toml_text.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace viscard {
+namespace {
+
+std::string line_of(const std::string& text, std::size_t number) {
+  std::istringstream lines(text);
+  std::string line;
+  for (std::size_t i = 0; i < number && std::getline(lines, line); ++i) continue;
+  return line;
+}
+
+// The first word in single quotes of the library's text: a key that stands twice.
+std::string quoted_word(const std::string& text) {
+  const std::size_t open = text.find('\'');
+  const std::size_t close = text.find('\'', open + 1);
+  return open == std::string::npos || close == std::string::npos
+             ? ""
+             : text.substr(open, close - open + 1);
+}
+
+bool is_digit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+bool begins_number(std::string_view value) {
+  const std::size_t sign = value.front() == '-' || value.front() == '+' ? 1 : 0;
+  return value.size() > sign && (is_digit(value[sign]) || value[sign] == '.');
+}
+
+bool has_decimal_comma(std::string_view value) {
+  const std::size_t comma = value.find(',');
+  return comma != std::string_view::npos && comma > 0 && comma + 1 < value.size() &&
+         is_digit(value[comma - 1]) && is_digit(value[comma + 1]) &&
+         value.find(',', comma + 1) == std::string_view::npos;
+}
+
+// What is wrong with the value of a key; empty if nothing of this is.
+std::string reason_of_value(const std::string& key, std::string_view value) {
+  if (value.empty() || value.front() == '#') return "the value of '" + key + "' is missing";
+  const bool is_text = value.front() == '"' || value.front() == '\'';
+  if (is_text && std::count(value.begin(), value.end(), value.front()) % 2 != 0) {
+    return "a quote (" + std::string(1, value.front()) + ") is missing";
+  }
+  if (value.front() == '[' || value.front() == '{') {
+    const char close = value.front() == '[' ? ']' : '}';
+    const bool is_open = value.find(close) == std::string_view::npos;
+    return is_open ? "the bracket of '" + std::string(value) + "' is not closed" : "";
+  }
+  if (is_text) return "";
+  const std::string_view bare = trimmed(value.substr(0, value.find('#')));
+  if (begins_number(bare) && has_decimal_comma(bare)) {
+    return "'" + std::string(bare) + "' has a decimal comma; write a point";
+  }
+  return "'" + std::string(bare) + "' needs quotes, as in " + key + " = \"" + std::string(bare) +
+         "\"";
+}
+
+std::string reason(const std::string& line, const std::string& description) {
+  if (description.find("redefine") != std::string::npos) {
+    return quoted_word(description) + " is given twice";
+  }
+  const std::string_view text = trimmed(line);
+  const std::size_t equals = text.find('=');
+  if (!text.empty() && text.front() == '[' && text.find(']') == std::string_view::npos) {
+    return "the bracket of '" + std::string(text) + "' is not closed";
+  }
+  if (equals == std::string_view::npos || equals == 0) {
+    return "expected key = value or [section], found '" + std::string(text) + "'";
+  }
+  const std::string of_value = reason_of_value(std::string(trimmed(text.substr(0, equals))),
+                                               trimmed(text.substr(equals + 1)));
+  if (!of_value.empty()) return of_value;
+  constexpr std::string_view kBegin = "Error while ";
+  return description.starts_with(kBegin) ? description.substr(kBegin.size()) : description;
+}
+
+}  // namespace
+
+toml::table table_from_toml(const std::string& text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    const std::size_t line = error.source().begin.line;
+    throw std::runtime_error(name + ":" + std::to_string(line) + ": not TOML: " +
+                             reason(line_of(text, line), std::string(error.description())));
+  }
+}
+
+}  // namespace viscard
