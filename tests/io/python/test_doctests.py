@@ -1,6 +1,7 @@
 """Every example in a docstring runs as it stands, in an empty folder after ``import viscard``; every public name has one."""
 import doctest
 import importlib
+import inspect
 import pathlib
 import pkgutil
 import re
@@ -9,7 +10,14 @@ import pytest
 
 import viscard
 
-FINDER = doctest.DocTestFinder(exclude_empty=True)
+
+
+class Finder(doctest.DocTestFinder):
+    def _from_module(self, module, found):
+        return super()._from_module(module, inspect.unwrap(found) if inspect.isroutine(found) else found)
+
+
+FINDER = Finder(exclude_empty=True)
 
 
 def all_examples():
