@@ -175,7 +175,7 @@ class Cost:
 
     Examples
     --------
-    >>> cost = viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget="1 s")
+    >>> cost = viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget="0.2 s")
     >>> cost.error.shape == cost.cpu_s.shape
     True
     """
@@ -392,7 +392,7 @@ def cost(scene: Scene, *, budget: Union[str, float] = 60.0, folder: OptionalPath
 
     Examples
     --------
-    >>> bool(viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget=1).pareto.any())
+    >>> bool(viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget=0.2).pareto.any())
     True
     """
     return Cost(_with_scene(scene, folder, lambda text, path: _core.cost(text, path, budget, progress)))

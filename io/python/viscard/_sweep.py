@@ -32,9 +32,9 @@ class Sweep:
 
     Examples
     --------
-    >>> sweep = viscard.sweep(viscard.data_file("studies/pillar.toml"))
-    >>> list(sweep.parameters), sweep["electrode_voltage"].shape
-    (['geometry.diameter', 'geometry.length'], (9,))
+    >>> sweep = viscard.sweep(viscard.data_file("studies/pillar.toml"), shard="1/3")
+    >>> list(sweep.parameters), sweep["electrode_voltage"].shape, sweep.n_points
+    (['geometry.diameter', 'geometry.length'], (3,), 9)
     >>> sweep.results["electrode_voltage"]["unit"]
     'V'
     """

@@ -5,6 +5,7 @@ import inspect
 import pathlib
 import pkgutil
 import re
+import types
 
 import pytest
 
@@ -20,6 +21,27 @@ class Finder(doctest.DocTestFinder):
 FINDER = Finder(exclude_empty=True)
 
 
+def remembered(call):
+    """The same call in another example gives the same answer, and the file that it wrote: each runs once."""
+    answers = {}
+
+    def again(*words, **keywords):
+        key = repr((words, keywords))
+        if key not in answers:
+            found = call(*words, **keywords)
+            answers[key] = found, pathlib.Path(found.file).read_bytes() if hasattr(found, "file") else b""
+        found, contents = answers[key]
+        if contents:
+            pathlib.Path(found.file).write_bytes(contents)
+        return found
+
+    return again
+
+
+MODULE = types.SimpleNamespace(**{**vars(viscard), "capture": remembered(viscard.capture),
+                                  "cost_of_tests": remembered(viscard.cost_of_tests)})
+
+
 def all_examples():
     modules = [viscard] + [importlib.import_module(f"viscard.{m.name}")
                            for m in pkgutil.iter_modules(viscard.__path__) if m.name != "_core"]
@@ -29,7 +51,7 @@ def all_examples():
 @pytest.mark.parametrize("example", all_examples(), ids=lambda test: test.name)
 def test_example(example, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    example.globs = {"viscard": viscard}
+    example.globs = {"viscard": MODULE}
     lines = []
     doctest.DocTestRunner(verbose=False).run(example, out=lines.append)
     assert not lines, "".join(lines)
