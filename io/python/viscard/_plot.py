@@ -27,6 +27,8 @@ def _check_style(style):
     """Every style is tried on a line that nobody sees, before anything is drawn."""
     Line2D = _matplotlib().lines.Line2D
     for name, value in style.items():
+        if value is None:  # matplotlib's default
+            continue
         try:
             Line2D([], []).set(**{name: value})
         except (AttributeError, TypeError, ValueError) as failure:

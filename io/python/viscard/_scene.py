@@ -358,7 +358,11 @@ def forces_from_voltages(scene: Scene, voltages, *, noise: Optional[float] = Non
             quadrants["noise"] = float(noise)
         whole = {key: value for key, value in scene.items() if key not in ("shape", "want")}
         whole.update(analysis=analysis, quadrants=quadrants)
-        return simulate(whole, tol=tol, folder=folder, progress=progress)
+        try:
+            return simulate(whole, tol=tol, folder=folder, progress=progress)
+        except Error as error:  # of a file that nobody has seen
+            text, message, where = (part.replace(table, "voltages") for part in (str(error), error.message, error.where))
+            raise Error(text, error.code, message, where, error.hint) from None
 
 
 @_check.arguments

@@ -80,6 +80,8 @@ WRONG_VALUES = [
     (lambda: MATERIAL.card("abaqus", elastic_only="abc"), "no elastic_only 'abc'.* There are: instantaneous, long-term"),
     (lambda: MATERIAL.card("abaqus", bound="uper"), "no bound 'uper'; did you mean 'upper'"),
     (lambda: MATERIAL.card("abaqus", terms=2**70), "terms is 1180591620717411303424; it must be at least 0 and at most"),
+    (lambda: MATERIAL.card("abaqus", terms=1), "terms changes the material; pass approximate=True too"),
+    (lambda: MATERIAL.card("abaqus", clamp_nu=3), r"clamp_nu is 3; it must lie in \(-1, 0.5\)"),
     (lambda: viscard.fit(EXAMPLE, poisson_ratio=float("inf")), "poisson_ratio is inf; it must be a finite number"),
     (lambda: viscard.simulate(PRESS, uncertainty=True, samples=-1), "samples is -1; it must be at least 1"),
     (lambda: viscard.simulate(PRESS, tol=10**400), "tol is 10+...; it must be a finite number"),
@@ -118,7 +120,7 @@ def test_no_times_give_no_values():
 def test_numbers_of_numpy_are_numbers():
     one = viscard.Material(np.float32(2e6), np.float64(0.49), terms=np.array([[0.2, 1.0]]), rho_kg_m3=np.int64(965))
     assert (one.E0_Pa, one.json["rho_kg_m3"]) == (2e6, 965)
-    assert len(MATERIAL.card("abaqus", terms=np.int32(1), reproducible=np.bool_(True)).text) > 0
+    assert len(MATERIAL.card("abaqus", terms=np.int32(1), approximate=True, reproducible=np.bool_(True)).text) > 0
     assert viscard.design(diameter=np.array(40e-6)).json == viscard.design(diameter="40 um").json
 
 
@@ -143,6 +145,7 @@ def test_plots_refuse_what_matplotlib_does_not_take():
         result.plot(color="abc")
     assert not plt.get_fignums()  # refused before a figure is made
     result.plot(lw=2, color="C3", label="one")
+    result.plot(color=None)
     plt.close("all")
 
 
@@ -158,6 +161,16 @@ def test_a_warning_points_at_the_line_that_fits():
         warnings.simplefilter("always")
         viscard.fit(WORDS, model="mooney-rivlin")
     assert [one.filename for one in caught] == [__file__]
+
+
+def test_a_pillar_without_voltages_is_named_without_the_file_of_ours():
+    scene = copy.deepcopy(PRESS)
+    scene["geometry"] = {"kind": "array", "model": "space", "rows": 1, "columns": 2, "spacing": "60 um", "diameter": "40 um",
+                         "length": "120 um", "film": {"thickness": "25 um", "edge": "150 um", "material": "pvdf"},
+                         "electrode": {"face": "bottom", "kind": "sampled", "quadrants": True}}
+    scene["analysis"] = {"kind": "static"}
+    with pytest.raises(viscard.Error, match=r"^voltages: has no voltages of pillar \[1, 2\]"):
+        viscard.forces_from_voltages(scene, np.array([[[0.0] * 4, [np.nan] * 4]]))
 
 
 def test_every_argument_is_checked():
