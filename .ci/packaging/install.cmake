@@ -88,7 +88,12 @@ if(DOXYGEN)
     COMMENT "Documentation of the library's headers" VERBATIM)
 endif()
 install(DIRECTORY ${CMAKE_BINARY_DIR}/api/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/api COMPONENT documentation
-        OPTIONAL)
+        OPTIONAL PATTERN "*.html" EXCLUDE)
+install(CODE "include(\"${CMAKE_BINARY_DIR}/installed_texts.cmake\")
+  file(GLOB pages \"${CMAKE_BINARY_DIR}/api/html/*.html\")
+  foreach(page \${pages})
+    install_text(\"\${page}\" \"${CMAKE_INSTALL_DOCDIR}/api\")
+  endforeach()" COMPONENT documentation)
 
 # --- away again ---------------------------------------------------------------------------------------
 add_custom_target(uninstall

@@ -2,6 +2,7 @@
 
 #include "fit/reduce_terms.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/words.h"
 #include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/materials/material_file.h"
@@ -149,7 +150,16 @@ void take_ratio(const CardMaterialRequest& request, PreparedMaterial& prepared) 
   }
 }
 
+// Another word would count as one of these.
+void check_word(const char* option, const std::string& word,
+                const std::vector<std::string>& known) {
+  if (word.empty() || std::find(known.begin(), known.end(), word) != known.end()) return;
+  throw std::invalid_argument(no_such_word(option, word, known));
+}
+
 void take_changes(const CardMaterialRequest& request, PreparedMaterial& prepared) {
+  check_word("--bound", request.bound, {"lower", "upper"});
+  check_word("--elastic-only", request.elastic_only, {"instantaneous", "long-term"});
   if (prepared.material.name.empty()) {
     prepared.material.name = std::filesystem::path(request.material).stem().string();
   }

@@ -34,7 +34,7 @@ struct PreparedMaterial {
 };
 
 // Throws std::runtime_error naming the file, std::invalid_argument if a joint file has no ratio or
-// a material file has one.
+// a material file has one, or if bound or elastic_only is none of its words.
 PreparedMaterial prepare_card_material(const CardMaterialRequest& request);
 
 // The same for a material in memory; request.material stands for it in messages.

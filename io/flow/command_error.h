@@ -10,7 +10,12 @@
 namespace viscard {
 
 // Why something failed, for programs and for the page at the rig: the object
-// {"code", "message", "where", "hint"}. The codes are stable; io/cli/rig/README.md lists them.
+// {"code", "message", "where", "hint"}. The codes are stable: usage (options or keywords that are not allowed), input
+// (the contents of a file, or a value), exists (an output that is there already), file (a file or folder that cannot be
+// used), preflight (a test that this rig cannot do), calibration (expired), port, device, device-lost,
+// device-restarted, stage-alarm, readings-old, computer-late, force-limit, pressing, interrupted, records-lost (ends of
+// a capture), unfit (a rig that failed its check), damaged (a capture), forbidden (a request to viscard
+// serve that another page sent), failed (anything else).
 struct CommandError {
   std::string code;
   std::string message;  // what happened, with the value and its limit

@@ -4,6 +4,7 @@
 #include "io/cards/targets/card_targets.h"
 #include "io/flow/card_material.h"
 #include "io/flow/predict_file.h"
+#include "io/flow/words/option_error.h"
 #include "io/materials/material_file.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
@@ -12,6 +13,7 @@
 #include "models/material/retardation_spectrum.h"
 #include "models/material/series_band.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
@@ -108,6 +110,12 @@ py::dict card(const Material& material, const std::string& target, const std::st
                       .clamped_nu = number_of(keywords, "clamp_nu"),
                       .created_at = now_iso8601(),
                       .command = "viscard.Material.card()"};
+  if (request.terms && !request.may_approximate) {
+    throw OptionError("--terms changes the material; pass --approximate too");
+  }
+  if (const auto nu = options.clamped_nu; nu && !(*nu > -1.0 && *nu < 0.5)) {
+    throw OptionError(fmt::format("--clamp-nu is {:g}; it must lie in (-1, 0.5)", *nu));
+  }
   const Card written = in_background({}, [=](Job&) mutable {
     const PreparedMaterial prepared = prepare_card_material(material, request);
     state_changes(prepared, options);

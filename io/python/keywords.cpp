@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,35 +24,16 @@ using Texts = std::vector<std::string>;
                        std::string(py::str(py::repr(value))));
 }
 
-// True and False, of Python or numpy; not a list of them.
-bool is_boolean(const py::handle& value) {
-  return py::isinstance<py::bool_>(value) ||
-         std::string(py::str(py::type::handle_of(value).attr("__name__"))) == "bool_";
-}
-
-bool has_boolean(const py::handle& values) {
-  if (!py::isinstance<py::sequence>(values) || py::isinstance<py::str>(values)) return false;
-  for (const py::handle& value : values) {
-    if (is_boolean(value)) return true;
-  }
-  return false;
-}
-
 // The value of a keyword; None and a keyword that is not given leave `target` as it is.
 template <typename Target>
 void take(const py::dict& keywords, const char* name, const char* expected, Target& target) {
   if (!keywords.contains(name) || keywords[name].is_none()) return;
   const py::object value = keywords[name];
-  constexpr bool kIsFlag = std::is_same_v<Target, bool>;
   try {
-    // pybind11 takes True for 1, and anything that is not empty for True.
-    if (is_boolean(value) == kIsFlag) {
-      target = value.cast<Target>();
-      return;
-    }
-  } catch (const py::cast_error&) {  // refused below
+    target = value.cast<Target>();
+  } catch (const py::cast_error&) {  // a whole number that is too large
+    refuse_type(name, expected, value);
   }
-  refuse_type(name, expected, value);
 }
 
 // One text, or a list of them.
@@ -72,7 +52,6 @@ void take_numbers(const py::dict& keywords, const char* name, std::vector<double
   const py::object value = keywords[name];
   constexpr const char* kExpected = "a number or a list of numbers";
   if (py::isinstance<py::sequence>(value)) {
-    if (has_boolean(value)) refuse_type(name, kExpected, value);
     take(keywords, name, kExpected, target);
     return;
   }
@@ -89,17 +68,12 @@ OptionalText text_from(const char* name, const py::handle& value) {
   if (py::hasattr(value, "__fspath__")) {
     return value.attr("__fspath__")().cast<std::string>();
   }
-  if (!is_boolean(value)) {
-    if (PyIndex_Check(value.ptr()) != 0) {  // 3 stays "3"
-      const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-      if (whole) return py::str(whole).cast<std::string>();
-    } else if (py::hasattr(value, "__float__")) {
-      const double number = PyFloat_AsDouble(value.ptr());
-      if (PyErr_Occurred() == nullptr)
-        return py::str(py::repr(py::float_(number))).cast<std::string>();
-    }
-    PyErr_Clear();  // an array of several numbers
-  }
+  const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  if (whole) return py::str(whole).cast<std::string>();  // 3 stays "3"
+  PyErr_Clear();
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred() == nullptr) return py::str(py::repr(py::float_(number)));
+  PyErr_Clear();
   refuse_type(name, "a text or a number", value);
 }
 

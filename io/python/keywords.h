@@ -11,8 +11,8 @@
 
 namespace viscard::python {
 
-// Keyword arguments as the options of commands. Quantities are texts or numbers in SI. All throw TypeError
-// naming the keyword if a value has another type.
+// Keyword arguments as the options of commands. Quantities are texts or numbers in SI. viscard/_check.py has refused
+// other types, such as True for a number, which pybind11 takes for 1; what it cannot convert is a TypeError too.
 FitWords fit_words_from(const pybind11::dict& keywords);
 LargeStrainWords large_strain_words_from(const pybind11::dict& keywords);
 PredictWords predict_words_from(const pybind11::dict& keywords);

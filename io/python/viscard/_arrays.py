@@ -7,37 +7,53 @@ import os
 
 import numpy as np
 
+from ._check import is_boolean, is_number, shown
 from ._error import Error
 
 
 def path_of(value, name: str) -> str:
     """A path as text."""
     if not isinstance(value, (str, os.PathLike)):
-        raise TypeError(f"{name} must be a path, not {type(value).__name__}")
+        raise TypeError(f"{name} must be a path, not {shown(value)}")
     return os.fspath(value)
 
 
-def optional_path(value, name: str) -> "str | None":
-    return None if value is None else path_of(value, name)
-
-
-def whole(value, name: str, least: int) -> "int | None":
-    """A whole number or None."""
+def whole(value, name: str, least: int, most: int = 2**31 - 1) -> "int | None":
+    """A whole number between these, or None."""
     if value is None:
         return None
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name} must be a whole number, not {value!r}") from None
-    if number < least:
-        raise Error(f"{name} is {number}; it must be at least {least}", "usage")
+    number = operator.index(value)
+    if not least <= number <= most:
+        raise Error(f"{name} is {number}; it must be at least {least}" + (f" and at most {most}" if number > most else ""),
+                    "usage")
     return number
+
+
+def number(value, name: str) -> float:
+    """A finite number."""
+    if not is_number(value):
+        raise TypeError(f"{name} must be a number, not {shown(value)}")
+    if not np.isfinite(float(value)):
+        raise Error(f"{name} is {value}; it must be a finite number", "input")
+    return float(value)
+
+
+def _holds_boolean(values) -> bool:
+    """Of nested lists; an array shows it by its type."""
+    if isinstance(values, (list, tuple)):
+        return any(_holds_boolean(one) for one in values)
+    return is_boolean(values) or (isinstance(values, np.ndarray) and values.dtype.kind == "b")
 
 
 def numbers(values, name: str, shape: "tuple[int, ...] | None" = None) -> np.ndarray:
     """Real numbers as float64. Raises TypeError for anything else."""
-    array = np.asarray(values)
-    if array.dtype.kind not in "fiub":
+    try:
+        array = np.asarray(values)
+    except ValueError:  # rows of different lengths
+        raise TypeError(f"{name} must hold numbers in rows of one length, not {shown(values)}") from None
+    if _holds_boolean(values) or array.dtype.kind == "b":
+        raise TypeError(f"{name} must hold real numbers, not True or False")
+    if array.dtype.kind not in "fiu":
         raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
     if shape is not None and array.shape != shape:
         raise Error(f"{name} has the shape {array.shape}; it must be {shape}", "input")
@@ -59,7 +75,7 @@ def table(columns, name: str) -> "dict[str, np.ndarray]":
     out: "dict[str, np.ndarray]" = {}
     for header, values in columns.items():
         if not isinstance(header, str):
-            raise TypeError(f"a column of {name} has the name {header!r}; names are texts such as 'time_s'")
+            raise TypeError(f"a column of {name} has the name {shown(header)}; names are texts such as 'time_s'")
         out[header] = numbers(values, header)
         if out[header].ndim != 1:
             raise Error(f"{name}: column '{header}' has {out[header].ndim} dimensions; give one", "input")

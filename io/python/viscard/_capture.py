@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, Callable, Dict, Optional
 
-from . import _core
-from ._arrays import optional_path, path_of, whole
+from . import _check, _core
+from ._arrays import whole
+from ._check import OptionalPath, Path, Progress
 from ._error import Error
 from ._table import Capture, read_capture
 
@@ -42,11 +44,12 @@ class CaptureOutcome:
         return f"<viscard.CaptureOutcome {self.file}: {self.status}>"
 
 
-def capture(out, *, rig=None, test=None, specimen=None, emulate: bool = False, truth=None,
-            seed: Optional[int] = None, speed: float = 1.0, overwrite: bool = False,
+@_check.arguments
+def capture(out: Path, *, rig: OptionalPath = None, test: OptionalPath = None, specimen: OptionalPath = None,
+            emulate: bool = False, truth: OptionalPath = None, seed: Optional[int] = None, speed: float = 1.0, overwrite: bool = False,
             uncalibrated: bool = False, lift: bool = False,
             sample: Optional[Callable[[float, float, float], object]] = None,
-            progress: Optional[Callable[[float, str], object]] = None) -> CaptureOutcome:
+            progress: Progress = None) -> CaptureOutcome:
     """Run one indentation test on a rig and record every byte of it.
 
     Ctrl-C, an exception of a callback, or a `sample` that returns False brakes the stage, lifts the punch and keeps
@@ -75,11 +78,11 @@ def capture(out, *, rig=None, test=None, specimen=None, emulate: bool = False, t
     >>> outcome = viscard.capture("run.viscap", emulate=True, speed=500, sample=lambda *one: readings.append(one))
     >>> time_s, force_N, depth_m = readings[-1]
     """
-    words = {"rig": optional_path(rig, "rig"), "test": optional_path(test, "test"),
-             "specimen": optional_path(specimen, "specimen"), "truth": optional_path(truth, "truth"),
-             "emulate": bool(emulate), "seed": whole(seed, "seed", 0), "speed": float(speed), "overwrite": bool(overwrite),
-             "uncalibrated": bool(uncalibrated), "lift": bool(lift), "command": "viscard.capture()"}
-    file = path_of(out, "out")
+    words = {name: None if path is None else os.fspath(path)
+             for name, path in (("rig", rig), ("test", test), ("specimen", specimen), ("truth", truth))}
+    words.update(emulate=emulate, seed=whole(seed, "seed", 0, 2**64 - 1), speed=float(speed), overwrite=overwrite,
+                 uncalibrated=uncalibrated, lift=lift, command="viscard.capture()")
+    file = os.fspath(out)
     was_enough = []
 
     def watched(time_s, force_N, depth_m):

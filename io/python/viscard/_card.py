@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Dict, List, NamedTuple, Tuple
 
-from . import _core
-from ._arrays import path_of
+from . import _check, _core
 
 
 class Fidelity(NamedTuple):
@@ -47,9 +46,10 @@ class Card:
         self.n_terms: int = found["n_terms"]
         self.largest_difference: float = found["largest_difference"]
 
-    def save(self, path, *, overwrite: bool = False) -> None:
+    @_check.arguments
+    def save(self, path: _check.Path, *, overwrite: bool = False) -> None:
         """Write the card and its companions; existing files are kept unless `overwrite` is True."""
-        to = Path(path_of(path, "path"))
+        to = Path(path)
         for suffix, text in self.companions:
             _core.write_file(str(to.with_suffix("")) + suffix, text, overwrite)
         _core.write_file(str(to), self.text, overwrite)

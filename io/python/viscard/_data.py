@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from ._arrays import path_of
+from . import _check
 from ._error import Error
 
 
-def data_file(name="") -> str:
+@_check.arguments
+def data_file(name: _check.Path = "") -> str:
     """The path of a file that comes with viscard, such as "scenes/pillar_press.toml"; of a folder or "", the folder.
 
     There are the folders demo, designs, materials, protocols, reference, requirements, scenes and studies.
@@ -30,7 +31,7 @@ def data_file(name="") -> str:
     >>> table["time_s"].size
     241
     """
-    wanted = path_of(name, "name")
+    wanted = os.fspath(name)
     # Beside the module: PREFIX/share/viscard of PREFIX/lib/python3/dist-packages/viscard; in a build folder likewise.
     roots = [parent / "share" / "viscard" for parent in Path(__file__).absolute().parents]
     root = next((one for one in roots if (one / "demo").is_dir()), None)
@@ -38,9 +39,9 @@ def data_file(name="") -> str:
         raise Error(f"the files that come with viscard were not found in '{roots[-2]}' nor beside the module; install the "
                     "package viscard", "file")
     path = root / wanted
-    if path.exists():
+    if path.exists() and not os.path.isabs(wanted):
         return str(path)
-    folder = path.parent
+    folder = root if os.path.isabs(wanted) else path.parent
     while not folder.is_dir():
         folder = folder.parent
     there = ", ".join(sorted(os.listdir(folder)))

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from typing import Any, Dict, List, Optional, Union
 
-from . import _core
+from . import _check, _core
 from ._arrays import path_of, with_head
+from ._check import OptionalPath, Progress, Quantity
 from ._error import Error
-from ._scene import Progress, _scene_toml, _with_scene
+from ._scene import _scene_toml, _with_scene
 
 
 class Judgement:
@@ -146,8 +148,9 @@ def _limits(require, tol, folder, values) -> DesignLimits:
     return DesignLimits(*_read(_core.design_limits({name: value for name, value in values.items() if value is not None})))
 
 
-def design(scene=None, require=None, *, tol: Optional[float] = None, search_time: Union[str, float] = 60.0,
-           folder=None, progress: Progress = None, **values) -> Union[Judgement, Designs, DesignLimits]:
+@_check.arguments
+def design(scene: Optional[_check.Scene] = None, require: Optional[_check.Scene] = None, *, tol: Optional[float] = None, search_time: Union[str, float] = 60.0,
+           folder: OptionalPath = None, progress: Progress = None, **values: Quantity) -> Union[Judgement, Designs, DesignLimits]:
     """Judge a scene by requirements, each against a computed quantity with its error; design one; or state closed-form limits.
 
     Parameters
@@ -185,7 +188,7 @@ def design(scene=None, require=None, *, tol: Optional[float] = None, search_time
     tolerance = None if tol is None else float(tol)
     is_table = isinstance(require, Mapping)
     table = _scene_toml({"require": dict(require)}, "") if is_table else None
-    name = "require" if is_table else path_of(require, "require")
+    name = "require" if is_table else os.fspath(require)
     printed, text = _with_scene(scene, folder, lambda scene_text, path: _core.design(
         scene_text, path, table, name, tolerance, search_time, progress))
     return Judgement(*_read((printed, text)))

@@ -7,7 +7,7 @@ import re
 _OPTION = re.compile(r"--([a-z]+(?:-[a-z]+)*)")
 _OTHER_NAMES = {"from": "from_", "emulate": "emulate=True", "force": "overwrite=True",
                 "joint": "joint=True", "uncalibrated": "uncalibrated=True",
-                "accept-flags": "accept_flags=True", "approximate": "approximate=True",
+                "extrapolate": "may_extrapolate=True", "accept-flags": "accept_flags=True", "approximate": "approximate=True",
                 "temperature": "temperature"}
 
 
@@ -27,8 +27,13 @@ class Error(RuntimeError):
     Attributes
     ----------
     code : str
-        Short and stable: "usage" (keywords that are not allowed), "input" (a file or value), "exists",
-        "file", "preflight", "device-lost" and others; io/cli/rig/README.md lists them.
+        Short and stable: "usage" (keywords that are not allowed), "input" (the contents of a file, or a value), "exists" (an
+        output that is there already), "file" (a file or folder that cannot be used), "missing" (a module that is not
+        installed), or "failed" (anything else). Of a capture also "preflight" (this rig cannot do the test), "calibration" (it
+        has expired), "port" (does not exist, or is in use), "device" (does not answer as it should, or the test met what it
+        must not), "device-lost", "device-restarted", "stage-alarm", "readings-old" and "computer-late" (too late to watch the
+        force), "force-limit", "pressing" (something pressed before the test), "interrupted", and "records-lost" (the disk did
+        not keep up).
     message : str
         What happened, with the value and its limit.
     where : str

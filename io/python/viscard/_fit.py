@@ -6,17 +6,15 @@ import inspect
 import os
 import warnings
 from collections.abc import Mapping as _Mapping
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Union
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
-from . import _arrays, _core
+from . import _arrays, _check, _core
+from ._check import OptionalPath, Path, Progress, Quantity, Texts
 from ._error import DoubtWarning, Error
 from ._material import Material
-from ._table import Capture, Table, Texts
-
-Quantity = Union[str, float, None]
-Progress = Optional[Callable[[float, str], object]]
+from ._table import Capture, Table
 
 
 class Flag(NamedTuple):
@@ -239,13 +237,15 @@ class JointFit:
         self.law: str = found.law()
         self.ratios: np.ndarray = np.array(found.ratios())
 
+    @_check.arguments
     def material(self, ratio: float, *, may_extrapolate: bool = False) -> Material:
         """The material at a mixing ratio: measured, or from the law."""
         return Material._of(self._core.at(float(ratio), may_extrapolate))
 
-    def save(self, path, *, overwrite: bool = False) -> None:
+    @_check.arguments
+    def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Write the joint file, which ``viscard card --ratio`` reads."""
-        _core.write_file(_arrays.path_of(path, "path"), self._core.to_json(), overwrite)
+        _core.write_file(os.fspath(path), self._core.to_json(), overwrite)
 
     def __repr__(self) -> str:
         return f"<viscard.JointFit {self.law}>"
@@ -258,7 +258,7 @@ def _paths(data, name: str = "data") -> "list[str]":
         return [_arrays.path_of(data, name)]
     if isinstance(data, np.ndarray) or not hasattr(data, "__iter__"):
         raise TypeError(f"{name} must be a path, a dict of arrays by header, a Capture or a list of paths, "
-                        f"not {type(data).__name__}")
+                        f"not {_check.shown(data)}")
     return [one.file if isinstance(one, Capture) else _arrays.path_of(one, name) for one in data]
 
 
@@ -272,18 +272,19 @@ def _warn(result, name: str) -> None:
     if result.is_trustworthy:
         return
     causes = "; ".join(flag.text for flag in result.flags) or "no flag names the cause"
-    warnings.warn(f"{name}: the result is not to be trusted: {causes}", DoubtWarning, stacklevel=4)
+    warnings.warn(f"{name}: the result is not to be trusted: {causes}", DoubtWarning, stacklevel=5)
 
 
+@_check.arguments
 def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
         max_terms: Optional[int] = None, liquid: bool = False, solid: bool = False,
         allow_negative: bool = False, noise: Optional[str] = None, drift: bool = False,
         no_drift: bool = False, full_data: bool = False, profiles: bool = False,
         diagnose: bool = False, model: Optional[str] = None, bootstrap: Optional[int] = None,
-        fix: Texts = None, bound: Texts = None, constraints=None, column: Texts = None,
+        fix: Texts = None, bound: Texts = None, constraints: OptionalPath = None, column: Texts = None,
         sheet: Optional[str] = None, segment: Texts = None, time_zero: Quantity = None,
         from_: Quantity = None, to: Quantity = None, hold: Optional[int] = None,
-        crop: Optional[str] = None, depth: Quantity = None, specimen=None,
+        crop: Optional[str] = None, depth: Quantity = None, specimen: OptionalPath = None,
         punch_diameter: Quantity = None, layer_thickness: Quantity = None,
         poisson_ratio: Optional[float] = None, frame_stiffness: Quantity = None,
         reference_temperature: Quantity = None, vertical_shift: Optional[str] = None,

@@ -8,12 +8,9 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from . import _arrays, _core
-from ._arrays import path_of
+from . import _arrays, _check, _core
 from ._card import Card
-from ._table import Texts
-
-Quantity = Union[str, float, None]
+from ._check import OptionalPath, Path, Quantity, Texts
 
 
 class Material:
@@ -40,12 +37,16 @@ class Material:
     1600000.0
     """
 
+    @_check.arguments
     def __init__(self, E0_Pa: float, nu: float, *, terms: Sequence[Tuple[float, float]] = (),
                  rho_kg_m3: float = 0.0, name: str = "") -> None:
+        if not isinstance(terms, (list, tuple, np.ndarray)):
+            raise TypeError(f"terms must be a list of (g, tau_s), such as [(0.2, 1.5)], not {_check.shown(terms)}")
         try:
-            rows = [{"g": float(g), "tau_s": float(tau_s)} for g, tau_s in terms]
+            rows = [{"g": _arrays.number(g, "g"), "tau_s": _arrays.number(tau_s, "tau_s")} for g, tau_s in terms]
         except (TypeError, ValueError):
-            raise TypeError(f"terms must be a list of (g, tau_s), such as [(0.2, 1.5)], not {terms!r}") from None
+            raise TypeError("terms must be a list of (g, tau_s), such as [(0.2, 1.5)], "
+                            f"not {_check.shown(terms)}") from None
         text: Dict[str, Any] = {"schema": "viscard-material/1", "name": name, "E0_Pa": float(E0_Pa),
                                 "nu": float(nu), "terms": rows}
         if rho_kg_m3:
@@ -59,7 +60,8 @@ class Material:
         return material
 
     @classmethod
-    def load(cls, path) -> "Material":
+    @_check.arguments
+    def load(cls, path: Path) -> "Material":
         """Read a material file.
 
         Examples
@@ -67,11 +69,12 @@ class Material:
         >>> viscard.Material.load(viscard.data_file("materials/pdms_1to10_seed.json")).nu
         0.495
         """
-        return cls._of(_core.read_material(path_of(path, "path")))
+        return cls._of(_core.read_material(os.fspath(path)))
 
-    def save(self, path, *, overwrite: bool = False) -> None:
+    @_check.arguments
+    def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Write the material file; an existing file is kept unless `overwrite` is True."""
-        _core.write_file(path_of(path, "path"), _core.json_from_material(self._core), overwrite)
+        _core.write_file(os.fspath(path), _core.json_from_material(self._core), overwrite)
 
     @property
     def json(self) -> Dict[str, Any]:
@@ -113,12 +116,13 @@ class Material:
     def _curve(self, kind: str, at, name: str, unit: str, band: bool):
         array = _arrays.arguments(at, name, unit)
         found = _core.curve(self._core, kind, array.ravel(), band)
-        value, low, high = [part.reshape(array.shape) if part.size else None for part in found]
+        value, low, high = [part.reshape(array.shape) if part.size == array.size else None for part in found]
         if not band:
             return value if array.ndim else float(value)
         missing = np.full(array.shape, np.nan)
         return value, missing if low is None else low, missing if high is None else high
 
+    @_check.arguments
     def relaxation(self, time_s, *, band: bool = False):
         """E(t) in Pa, in the shape of `time_s` (s).
 
@@ -133,6 +137,7 @@ class Material:
         """
         return self._curve("relaxation", time_s, "time_s", "s", band)
 
+    @_check.arguments
     def creep(self, time_s, *, band: bool = False):
         """J(t) in 1/Pa, the exact inverse of E(t), in the shape of `time_s` (s).
 
@@ -143,6 +148,7 @@ class Material:
         """
         return self._curve("creep", time_s, "time_s", "s", band)
 
+    @_check.arguments
     def storage(self, frequency_Hz, *, band: bool = False):
         """Storage modulus E' in Pa, in the shape of `frequency_Hz` (Hz).
 
@@ -153,6 +159,7 @@ class Material:
         """
         return self._curve("storage", frequency_Hz, "frequency_Hz", "Hz", band)
 
+    @_check.arguments
     def loss(self, frequency_Hz, *, band: bool = False):
         """Loss modulus E'' in Pa, in the shape of `frequency_Hz` (Hz).
 
@@ -164,10 +171,12 @@ class Material:
         """
         return self._curve("loss", frequency_Hz, "frequency_Hz", "Hz", band)
 
+    @_check.arguments
     def at_temperature(self, temperature_C: float) -> "Material":
         """The material at another temperature, by its temperature shift (degrees Celsius)."""
         return Material._of(_core.material_at_temperature(self._core, float(temperature_C)))
 
+    @_check.arguments
     def card(self, target: str, units: str = "SI", *, terms: Optional[int] = None,
              approximate: bool = False, accept_flags: bool = False, clamp_nu: Optional[float] = None,
              bound: str = "", elastic_only: str = "", temperature_C: Optional[float] = None,
@@ -251,11 +260,12 @@ class Prediction:
         return f"<viscard.Prediction of {', '.join(self.curves)}: {len(self.at)} rows>"
 
 
-def predict(material, *, test: Optional[str] = None, strain: Quantity = None, stress: Quantity = None,
+@_check.arguments
+def predict(material: Union[Material, Path], *, test: Optional[str] = None, strain: Quantity = None, stress: Quantity = None,
             ramp: Quantity = None, hold: Quantity = None, recovery: Quantity = None,
             period: Quantity = None, cycles: Optional[int] = None, from_: Quantity = None,
-            to: Quantity = None, points: Optional[int] = None, history=None,
-            driven_by: Optional[str] = None, against=None, column: Texts = None,
+            to: Quantity = None, points: Optional[int] = None, history: OptionalPath = None,
+            driven_by: Optional[str] = None, against: OptionalPath = None, column: Texts = None,
             time_zero: Quantity = None, temperature: Quantity = None) -> Prediction:
     """Predict what a material does in a test, with its 95 % band.
 
@@ -278,6 +288,6 @@ def predict(material, *, test: Optional[str] = None, strain: Quantity = None, st
     """
     given = dict(locals())
     keywords = {name: value for name, value in given.items() if name != "material" and value is not None}
-    one = material if isinstance(material, Material) else Material.load(material)
+    one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"))
     inputs = [os.fspath(path) for path in (material, history, against) if isinstance(path, (str, os.PathLike))]
     return Prediction(_arrays.with_head("viscard-predict/1", inputs, _core.predict(one._core, keywords)))

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Dict, List, Optional, Sequence, Union
+import os
+from typing import Any, Dict, List, Sequence, Union
 
-from . import _core
-from ._arrays import path_of
+from . import _check, _core
+from ._check import OptionalPath, Path
 
 
 class TestCost:
@@ -43,7 +44,9 @@ class TestCost:
         return f"TestCost({len(self.rows)} tests: {self.advice})"
 
 
-def cost_of_tests(rig, specimen, want: Union[str, Sequence[str]], *, test=None, guess=None, scene=None,
+@_check.arguments
+def cost_of_tests(rig: Path, specimen: Path, want: Union[str, Sequence[str]], *, test: OptionalPath = None,
+                  guess: OptionalPath = None, scene: OptionalPath = None,
                   at_most: Union[str, float] = "60min") -> TestCost:
     """Compare tests on a rig before one is made, by what they will find and how long they take.
 
@@ -71,8 +74,5 @@ def cost_of_tests(rig, specimen, want: Union[str, Sequence[str]], *, test=None, 
     """
     words = [want] if isinstance(want, str) else list(want)
 
-    def path(value, name: str) -> Optional[str]:
-        return None if value is None else path_of(value, name)
-
-    return TestCost(_core.cost_of_tests(path_of(rig, "rig"), path_of(specimen, "specimen"), words, path(test, "test"),
-                                        path(guess, "guess"), path(scene, "scene"), at_most))
+    optional = [None if one is None else os.fspath(one) for one in (test, guess, scene)]
+    return TestCost(_core.cost_of_tests(os.fspath(rig), os.fspath(specimen), words, *optional, at_most))

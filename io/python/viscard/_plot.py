@@ -2,17 +2,40 @@
 
 from __future__ import annotations
 
+from ._check import shown
 from ._error import Error
 
 
-def _axes(ax):
-    if ax is not None:
-        return ax
+def _matplotlib():
     try:
-        import matplotlib.pyplot as plt
+        import matplotlib.pyplot
     except ImportError as missing:
         raise Error("plot() needs matplotlib; install python3-matplotlib", "missing") from missing
-    return plt.subplots(figsize=(7.0, 4.5), layout="constrained")[1]
+    return matplotlib
+
+
+def _axes(ax):
+    plt = _matplotlib().pyplot
+    if ax is None:
+        return plt.subplots(figsize=(7.0, 4.5), layout="constrained")[1]
+    if not isinstance(ax, plt.Axes):
+        raise TypeError(f"ax must be axes of matplotlib, such as plt.subplots()[1], not {shown(ax)}")
+    return ax
+
+
+def _check_style(style):
+    """Every style is tried on a line that nobody sees, before anything is drawn."""
+    Line2D = _matplotlib().lines.Line2D
+    for name, value in style.items():
+        if value is None:  # matplotlib's default
+            continue
+        try:
+            Line2D([], []).set(**{name: value})
+        except (AttributeError, TypeError, ValueError) as failure:
+            if not hasattr(Line2D, f"set_{name}"):
+                raise TypeError(f"plot() has no keyword '{name}'; it takes those of matplotlib's lines, such as color, "
+                                "linewidth and label") from None
+            raise Error(f"{name} is {shown(value)}, which matplotlib does not take: {failure}", "usage") from None
 
 
 def _scale(unit: str, largest: float):
@@ -27,6 +50,7 @@ def _scale(unit: str, largest: float):
 
 
 def plot_fit(result, ax, style):
+    _check_style(style)
     ax = _axes(ax)
     curves = result.curves
     is_sweep = result["kind"] == "dma"

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import os
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
-from . import _arrays, _core
+from . import _arrays, _check, _core
+from ._check import Path
 from ._error import Error
 from ._fit import Flag
 
@@ -45,9 +47,10 @@ class RubberCard:
         self.text = text
         self.target = target
 
-    def save(self, path, *, overwrite: bool = False) -> None:
+    @_check.arguments
+    def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Write the card; an existing file is kept unless `overwrite` is True."""
-        _core.write_file(_arrays.path_of(path, "path"), self.text, overwrite)
+        _core.write_file(os.fspath(path), self.text, overwrite)
 
     def __str__(self) -> str:
         return self.text
@@ -112,9 +115,10 @@ class RubberFit:
         self.is_trustworthy: bool = self.json["trustworthy"]
 
     @classmethod
-    def load(cls, path) -> "RubberFit":
+    @_check.arguments
+    def load(cls, path: Path) -> "RubberFit":
         """The law of a file that `save` or ``viscard fit uniaxial=a.csv --out`` has written."""
-        name = _arrays.path_of(path, "path")
+        name = os.fspath(path)
         try:
             with open(name, encoding="utf-8") as file:
                 text = file.read()
@@ -131,6 +135,7 @@ class RubberFit:
     def __getitem__(self, key: str) -> Any:
         return self.json[key]
 
+    @_check.arguments
     def stress(self, stretch, deformation: str = "uniaxial") -> np.ndarray:
         """Nominal stress in Pa (force over area at rest) at these stretches, shape of `stretch`.
 
@@ -152,6 +157,7 @@ class RubberFit:
             raise Error("stretch must be above 0", "input")
         return _core.rubber_stress(self._law, deformation, at.ravel()).reshape(at.shape)
 
+    @_check.arguments
     def card(self, target: str, units: str = "SI", *, bulk_modulus_Pa: Optional[float] = None,
              density_kg_m3: Optional[float] = None, accept_flags: bool = False) -> RubberCard:
         """A card for a solver: "abaqus", "ansys", "calculix", "febio", "frontistr", "lsdyna" or "openradioss".
@@ -171,9 +177,10 @@ class RubberFit:
                                  accept_flags)
         return RubberCard(text, target)
 
-    def save(self, path, *, overwrite: bool = False) -> None:
+    @_check.arguments
+    def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Write the file that ``viscard card`` reads; an existing one is kept unless `overwrite` is True."""
-        _core.write_file(_arrays.path_of(path, "path"), self._text, overwrite)
+        _core.write_file(os.fspath(path), self._text, overwrite)
 
     def summary(self) -> str:
         """The text of ``viscard fit``: tests, laws, parameters, flags. Of a loaded law: one line."""

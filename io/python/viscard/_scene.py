@@ -6,16 +6,14 @@ import os
 import re
 import tempfile
 from collections.abc import Mapping
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Union
+from typing import Any, Dict, List, NamedTuple, Optional, Union
 
 import numpy as np
 
-from . import _core
-from ._arrays import path_of
+from . import _arrays, _check, _core
+from ._check import OptionalPath, Progress, Scene
 from ._error import Error
 from ._material import Material
-
-Progress = Optional[Callable[[float, str], object]]
 
 
 class Value(NamedTuple):
@@ -177,7 +175,7 @@ class Cost:
 
     Examples
     --------
-    >>> cost = viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget="1 s")
+    >>> cost = viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget="0.2 s")
     >>> cost.error.shape == cost.cpu_s.shape
     True
     """
@@ -221,6 +219,8 @@ def _toml(value: Any, key: str, folder: str) -> str:
 def _key(key: Any) -> str:
     if not isinstance(key, str):
         raise TypeError(f"a key of the scene is {key!r}; keys are texts")
+    if re.fullmatch("[A-Za-z0-9_-]+", key):
+        return key
     return '"' + key.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
@@ -237,9 +237,9 @@ def _with_scene(scene, folder, work):
     if not isinstance(scene, Mapping):
         if folder is not None:
             raise Error("folder belongs to a scene that is a dict; a file has one", "usage")
-        return work(None, path_of(scene, "scene"))
+        return work(None, os.fspath(scene))
     with tempfile.TemporaryDirectory(prefix="viscard-") as own:
-        name = os.path.join(path_of(folder, "folder") if folder is not None else "", "scene")
+        name = os.path.join(os.fspath(folder) if folder is not None else "", "scene")
         try:
             return work(_scene_toml(scene, own), name)
         except Error as error:  # lines are those of our text, which nobody has seen
@@ -248,8 +248,9 @@ def _with_scene(scene, folder, work):
             raise Error(text, error.code, message, where, error.hint) from None
 
 
-def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, uncertainty: bool = False,
-             samples: Optional[int] = None, folder=None, progress: Progress = None) -> Answer:
+@_check.arguments
+def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False, uncertainty: bool = False,
+             samples: Optional[int] = None, folder: OptionalPath = None, progress: Progress = None) -> Answer:
     """Answer a scene; the mesh is refined until the estimated error meets the tolerance.
 
     The GIL is released. Ctrl-C raises KeyboardInterrupt at once; the mesh that is being solved ends in the background.
@@ -293,10 +294,11 @@ def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, uncert
         raise Error("samples belongs to uncertainty=True; give both", "usage")
     tolerance = None if tol is None else float(tol)
     return Answer(_with_scene(scene, folder, lambda text, path: _core.simulate(
-        text, path, tolerance, bool(fields), bool(uncertainty), None if samples is None else int(samples), progress)))
+        text, path, tolerance, fields, uncertainty, _arrays.whole(samples, "samples", 1), progress)))
 
 
-def forces_from_voltages(scene, voltages, *, noise: Optional[float] = None, tol: Optional[float] = None, folder=None,
+@_check.arguments
+def forces_from_voltages(scene: Scene, voltages, *, noise: Optional[float] = None, tol: Optional[float] = None, folder: OptionalPath = None,
                          progress: Progress = None) -> Answer:
     """Forces in three directions on the pillars of an array, from the voltages of the quarters of their electrodes.
 
@@ -333,9 +335,16 @@ def forces_from_voltages(scene, voltages, *, noise: Optional[float] = None, tol:
     """
     if not isinstance(scene, Mapping):
         raise Error("forces_from_voltages needs the scene as a dict; a file names its voltages itself ([quadrants])", "usage")
-    values = np.asarray(voltages, dtype=float)
+    values = _arrays.numbers(voltages, "voltages")
     if values.ndim != 3 or values.shape[2] != 4:
         raise Error(f"voltages have the shape {values.shape}; it must be (rows, columns, 4)", "input")
+    for row, column in np.argwhere(~np.isfinite(values).all(axis=2)):
+        if not np.isnan(values[row, column]).all():
+            raise Error(f"voltages[{row}, {column}] is {values[row, column].tolist()}; it must hold four numbers, or four NaN where "
+                        "no pillar stands", "input")
+    for key in ("analysis", "quadrants"):
+        if not isinstance(scene.get(key, {}), Mapping):
+            raise TypeError(f"{key} must be a dict, not {_check.shown(scene[key])}")
     analysis = {key: value for key, value in dict(scene.get("analysis", {})).items() if key != "load"}
     with tempfile.TemporaryDirectory(prefix="viscard-") as own:
         table = os.path.join(own, "voltages.csv")
@@ -349,10 +358,15 @@ def forces_from_voltages(scene, voltages, *, noise: Optional[float] = None, tol:
             quadrants["noise"] = float(noise)
         whole = {key: value for key, value in scene.items() if key not in ("shape", "want")}
         whole.update(analysis=analysis, quadrants=quadrants)
-        return simulate(whole, tol=tol, folder=folder, progress=progress)
+        try:
+            return simulate(whole, tol=tol, folder=folder, progress=progress)
+        except Error as error:  # of a file that nobody has seen
+            text, message, where = (part.replace(table, "voltages") for part in (str(error), error.message, error.where))
+            raise Error(text, error.code, message, where, error.hint) from None
 
 
-def plan(scene, *, tol: Optional[float] = None, folder=None) -> Plan:
+@_check.arguments
+def plan(scene: Scene, *, tol: Optional[float] = None, folder: OptionalPath = None) -> Plan:
     """Which effects a scene needs at its tolerance, the error of leaving each out, and what that saves.
 
     Parameters
@@ -369,7 +383,8 @@ def plan(scene, *, tol: Optional[float] = None, folder=None) -> Plan:
     return Plan(_with_scene(scene, folder, lambda text, path: _core.plan(text, path, tolerance)))
 
 
-def cost(scene, *, budget: Union[str, float] = 60.0, folder=None, progress: Progress = None) -> Cost:
+@_check.arguments
+def cost(scene: Scene, *, budget: Union[str, float] = 60.0, folder: OptionalPath = None, progress: Progress = None) -> Cost:
     """What accuracy costs: error against processor time, memory and unknowns.
 
     Parameters
@@ -381,7 +396,7 @@ def cost(scene, *, budget: Union[str, float] = 60.0, folder=None, progress: Prog
 
     Examples
     --------
-    >>> bool(viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget=1).pareto.any())
+    >>> bool(viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget=0.2).pareto.any())
     True
     """
     return Cost(_with_scene(scene, folder, lambda text, path: _core.cost(text, path, budget, progress)))

@@ -8,10 +8,10 @@ from typing import Any, Dict, List, Optional, Sequence, Union
 
 import numpy as np
 
-from . import _core
-from ._arrays import optional_path, path_of
+from . import _check, _core
+from ._arrays import path_of
+from ._check import OptionalPath, Path, Progress
 from ._error import Error
-from ._scene import Progress
 
 
 class Sweep:
@@ -32,9 +32,9 @@ class Sweep:
 
     Examples
     --------
-    >>> sweep = viscard.sweep(viscard.data_file("studies/pillar.toml"))
-    >>> list(sweep.parameters), sweep["electrode_voltage"].shape
-    (['geometry.diameter', 'geometry.length'], (9,))
+    >>> sweep = viscard.sweep(viscard.data_file("studies/pillar.toml"), shard="1/3")
+    >>> list(sweep.parameters), sweep["electrode_voltage"].shape, sweep.n_points
+    (['geometry.diameter', 'geometry.length'], (3,), 9)
     >>> sweep.results["electrode_voltage"]["unit"]
     'V'
     """
@@ -62,7 +62,8 @@ class Sweep:
         return f"<viscard.Sweep over {', '.join(self.parameters)}: {len(self)} of {self.n_points} points{doubt}>"
 
 
-def sweep(study, out=None, *, shard: Optional[str] = None, merge: Union[str, Sequence[str], None] = None,
+@_check.arguments
+def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None, merge: Union[Path, Sequence[Path], None] = None,
           progress: Progress = None) -> Sweep:
     """Answer a scene at many values of its parameters, on all cores, as ``viscard sweep`` does.
 
@@ -88,12 +89,12 @@ def sweep(study, out=None, *, shard: Optional[str] = None, merge: Union[str, Seq
     >>> first.n_answered, rest.n_answered, len(rest)
     (3, 6, 9)
     """
-    path = path_of(study, "study")
-    if shard is not None and not isinstance(shard, str):
-        raise TypeError(f"shard must be a text such as '3/64', not {shard!r}")
-    parts = [] if merge is None else [merge] if isinstance(merge, (str, os.PathLike)) else list(merge)
+    path = os.fspath(study)
+    if merge is not None and not isinstance(merge, (str, os.PathLike, list, tuple)):
+        raise TypeError(f"merge must be a path or a list of paths, not {_check.shown(merge)}")
+    parts = [] if merge is None else list(merge) if isinstance(merge, (list, tuple)) else [merge]
     parts = [path_of(one, "merge") for one in parts]
-    file = optional_path(out, "out")
+    file = None if out is None else os.fspath(out)
     if file is None and parts:
         raise Error("merge needs out, the file that takes the points over", "usage")
     if file is not None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Iterator, Mapping, Sequence, Union
+import os
+from typing import Iterator, Mapping
 
 import numpy as np
 
-from . import _core
-from ._arrays import path_of
-
-Texts = Union[str, Sequence[str], None]
+from . import _check, _core
+from ._check import Path, Texts
 
 
 class Table(Mapping):
@@ -61,7 +60,8 @@ class Table(Mapping):
         return f"<viscard.Table {self.file}: {n_rows} rows, {', '.join(self)}>"
 
 
-def read_table(path, *, column: Texts = None, sheet: str = "") -> Table:
+@_check.arguments
+def read_table(path: Path, *, column: Texts = None, sheet: str = "") -> Table:
     """Read a table of numbers from any machine: CSV, text, Excel, MATLAB, JPK and others.
 
     Parameters
@@ -79,7 +79,7 @@ def read_table(path, *, column: Texts = None, sheet: str = "") -> Table:
     array([0.01     , 0.0103912])
     """
     words = [column] if isinstance(column, str) else list(column or [])
-    return Table(_core.read_table(path_of(path, "path"), words, sheet))
+    return Table(_core.read_table(os.fspath(path), words, sheet))
 
 
 class Capture:
@@ -122,7 +122,8 @@ class Capture:
         return f"<viscard.Capture {self.file}: {self.status}, {len(self.load['time_s'])} readings>"
 
 
-def read_capture(path) -> Capture:
+@_check.arguments
+def read_capture(path: Path) -> Capture:
     """Read a captured run, also an unfinished one. The file is never changed.
 
     Parameters
@@ -135,4 +136,4 @@ def read_capture(path) -> Capture:
     >>> viscard.read_capture("run.viscap").status
     'finished'
     """
-    return Capture(_core.read_capture(path_of(path, "path")))
+    return Capture(_core.read_capture(os.fspath(path)))

@@ -88,7 +88,7 @@ def test_arrays_of_the_wrong_kind(relaxation):
     assert "2 dimensions" in str(text_of(viscard.fit, {"time_s": time_s.reshape(2, -1), "modulus_Pa": modulus_Pa}))
     assert "no rows" in str(text_of(viscard.fit, {}))
     assert "modulus_Pa" in str(text_of(viscard.fit, {"t": time_s, "y": modulus_Pa}))
-    with pytest.raises(TypeError, match="a dict of arrays by header, a Capture or a list of paths, not ndarray"):
+    with pytest.raises(TypeError, match="a dict of arrays by header, a Capture or a list of paths, not array"):
         viscard.fit(np.column_stack([time_s, modulus_Pa]))
     whole = viscard.fit({"time_s": time_s.astype(np.float32), "modulus_Pa": modulus_Pa.astype(int)})
     assert whole.E0 == pytest.approx(1.5e6, rel=0.01)
@@ -141,7 +141,7 @@ def test_files_that_do_not_come_with_viscard(tmp_path, monkeypatch):
     error = text_of(viscard.data_file, "scenes/pillar_pres.toml")
     assert error.code == "file" and "pillar_press.toml" in str(error) and str(error).startswith("no file 'scenes/pillar_pres.toml'")
     assert "demo, " in str(text_of(viscard.data_file, "scene/other/pillar.toml"))
-    with pytest.raises(TypeError, match="name must be a path, not int"):
+    with pytest.raises(TypeError, match="name must be a path, not 3"):
         viscard.data_file(3)
 
 

@@ -8,27 +8,29 @@ import time
 import viscard
 
 LONG = """
-import threading, _thread, sys, viscard
-print("ready", flush=True)
+import viscard
+def working(*news):
+    print("ready", flush=True)
 try:
     {call}
 except KeyboardInterrupt:
     print("interrupted", flush=True)
     raise
 """
-SIMULATE = "viscard.simulate('data/scenes/array_tap.toml', tol=3e-3)"  # minutes
+SIMULATE = "print('ready', flush=True); viscard.simulate('data/scenes/array_tap.toml', tol=3e-3)"  # minutes
 
 
-def interrupted(call, after_s=1.5):
+def interrupted(call):
+    """Interrupts what has printed "ready", somewhat later."""
     # A shell starts background work with SIGINT ignored, which children would inherit.
     process = subprocess.Popen([sys.executable, "-c", LONG.format(call=call)], stdout=subprocess.PIPE, text=True,
                                stderr=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     assert process.stdout.readline() == "ready\n"
-    time.sleep(after_s)
+    time.sleep(0.4)
     assert process.poll() is None, process.stderr.read()  # still at work
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
-    return process.returncode, out, err
+    return process.returncode, out.replace("ready\n", ""), err
 
 
 def test_a_simulation_ends_at_once_and_by_the_signal():
@@ -39,7 +41,7 @@ def test_a_simulation_ends_at_once_and_by_the_signal():
 
 def test_a_capture_brakes_the_stage_and_keeps_the_record(tmp_path):
     file = tmp_path / "run.viscap"
-    status, out, err = interrupted(f"viscard.capture({str(file)!r}, emulate=True, speed=1)", after_s=3.0)
+    status, out, err = interrupted(f"viscard.capture({str(file)!r}, emulate=True, speed=5, sample=working)")
     assert out == "interrupted\n" and status == -signal.SIGINT
     capture = viscard.read_capture(file)
     assert capture.status == "interrupted" and len(capture.load["time_s"]) > 0

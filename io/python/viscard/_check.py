@@ -1,0 +1,129 @@
+"""Types of arguments, by the annotations of the functions: a mistake names its keyword before anything is computed."""
+
+from __future__ import annotations
+
+import collections.abc
+import functools
+import inspect
+import math
+import numbers
+import operator
+import os
+import types
+import typing
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, TypeVar, Union
+
+import numpy as np
+
+from ._error import Error
+
+Path = Union[str, os.PathLike]
+OptionalPath = Union[str, os.PathLike, None]
+Scene = Union[str, os.PathLike, Mapping]
+Quantity = Union[str, float, None]
+Texts = Union[str, Sequence[str], None]
+Progress = Optional[Callable[[float, str], object]]
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def shown(value: Any) -> str:
+    """A value in a message, cut if it is long."""
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def is_boolean(value: Any) -> bool:
+    return isinstance(value, (bool, np.bool_))
+
+
+def is_number(value: Any) -> bool:
+    """A real number, no boolean: of Python or numpy, or an array without dimension."""
+    if isinstance(value, np.ndarray):
+        return value.ndim == 0 and value.dtype.kind in "fiu"
+    return isinstance(value, numbers.Real) and not is_boolean(value)
+
+
+def _is_whole(value: Any) -> bool:
+    try:
+        operator.index(value)
+    except TypeError:
+        return False
+    return not is_boolean(value)
+
+
+_KINDS = {bool: ("True or False", is_boolean), float: ("a number", is_number), int: ("a whole number", _is_whole),
+          str: ("a text", lambda value: isinstance(value, str)),
+          os.PathLike: ("a path", lambda value: isinstance(value, os.PathLike)),
+          collections.abc.Mapping: ("a dict", lambda value: isinstance(value, collections.abc.Mapping)),
+          collections.abc.Callable: ("a function", callable), type(None): ("", lambda value: value is None)}
+_LISTS = {str: "a list of texts", float: "a list of numbers"}
+
+
+def _alternatives(hint: Any) -> "List[Any]":
+    is_union = typing.get_origin(hint) in (Union, types.UnionType)
+    return list(typing.get_args(hint)) if is_union else [hint]
+
+
+def _element(hint: Any) -> Any:
+    """float of Sequence[float]; None of what is no list."""
+    return typing.get_args(hint)[0] if typing.get_origin(hint) is collections.abc.Sequence else None
+
+
+def _kind(hint: Any) -> Any:
+    return typing.get_origin(hint) or hint
+
+
+def _is_known(hint: Any) -> bool:
+    return all(_element(one) in _LISTS or _kind(one) in _KINDS for one in _alternatives(hint))
+
+
+def _fits(value: Any, hint: Any) -> bool:
+    element = _element(hint)
+    if element is None:
+        return _KINDS[_kind(hint)][1](value)
+    is_list = isinstance(value, (list, tuple, np.ndarray)) and getattr(value, "ndim", 1) == 1
+    return is_list and all(_KINDS[element][1](one) for one in value)
+
+
+def _in_words(hint: Any) -> str:
+    kinds = _alternatives(hint)
+    if os.PathLike in kinds:  # a path is a text, which need not be said
+        kinds.remove(str)
+    words = [_LISTS[_element(one)] if _element(one) else _KINDS[_kind(one)][0] for one in kinds]
+    words = [word for word in words if word]
+    return ", ".join(words[:-1]) + " or " + words[-1] if len(words) > 1 else words[0]
+
+
+def _check(name: str, value: Any, hint: Any) -> None:
+    if not any(_fits(value, one) for one in _alternatives(hint)):
+        raise TypeError(f"{name} must be {_in_words(hint)}, not {shown(value)}")
+    for number in [value] if is_number(value) else value if isinstance(value, (list, tuple, np.ndarray)) else []:
+        try:
+            is_finite = not is_number(number) or math.isfinite(number)
+        except OverflowError:
+            is_finite = False
+        if not is_finite:
+            raise Error(f"{name} is {shown(number)}; it must be a finite number", "usage")
+
+
+def arguments(function: _Function) -> _Function:
+    """The function, with the types of its arguments checked. Those without annotation it checks itself."""
+    parameters = inspect.signature(function).parameters.values()
+    positional = [one.name for one in parameters if one.kind is not inspect.Parameter.VAR_KEYWORD]
+    others = next((one.name for one in parameters if one.kind is inspect.Parameter.VAR_KEYWORD), None)
+
+    @functools.cache  # at the first call, when all names of the module are there
+    def hints() -> Dict[str, Any]:
+        found = typing.get_type_hints(function)
+        return {name: hint for name, hint in found.items() if name != "return" and _is_known(hint)}
+
+    @functools.wraps(function)
+    def checked(*given: Any, **keywords: Any) -> Any:
+        for name, value in [*zip(positional, given), *keywords.items()]:
+            hint = hints().get(name if name in positional else others)
+            if hint is not None:
+                _check(name, value, hint)
+        return function(*given, **keywords)
+
+    return typing.cast(_Function, checked)
