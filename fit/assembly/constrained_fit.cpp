@@ -2,8 +2,8 @@
 #include "fit/assembly/parametrisation.h"
 #include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/level_noise.h"
 #include "fit/search/projection.h"
-#include "models/maths/dense.h"
 #include "models/maths/text_of_number.h"
 
 #include <Eigen/Core>
@@ -12,6 +12,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -124,25 +125,58 @@ SpectralState spread_start(const SpectralModel& model, const Parametrisation& fo
   return solve_coefficients(model, ln_tau, fit.state.nuisance);
 }
 
-// Covariance of the free parameters, extended to all: fixed ones and those on a bound have none.
-Eigen::MatrixXd free_covariance(const Parametrisation& form, const Box& box,
-                                const SpectralState& state, double variance) {
-  const Eigen::VectorXd theta = form.theta_of(state);
-  const Eigen::MatrixXd slopes = form.slopes(theta);
+// The parameters of theta that are neither held nor on a bound, and all nuisances.
+std::vector<Index> free_parameters(const Parametrisation& form, const Box& box,
+                                   const Eigen::VectorXd& theta) {
+  const Index first_nuisance = theta.size() - form.model().n_nuisances();
   std::vector<Index> free;
   for (Index i = 0; i < theta.size(); ++i) {
     const double reach = 1e-9 * (1.0 + std::abs(theta[i]));
-    if (theta[i] > box.low[i] + reach && theta[i] < box.high[i] - reach) free.push_back(i);
+    const bool is_inside = theta[i] > box.low[i] + reach && theta[i] < box.high[i] - reach;
+    if (is_inside || i >= first_nuisance) free.push_back(i);
   }
-  if (free.empty()) return Eigen::MatrixXd::Zero(slopes.rows(), slopes.rows());  // all on a bound
-  const Eigen::MatrixXd chosen = slopes(Eigen::all, free);
-  const Eigen::MatrixXd jacobian = full_jacobian(form.model(), state) * chosen;
-  const Eigen::VectorXd scale = jacobian.colwise().norm().transpose().cwiseMax(1e-300);
-  const Eigen::MatrixXd scaled = jacobian * scale.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd inverse = pseudo_inverse(scaled.transpose() * scaled);
-  const Eigen::MatrixXd of_free =
-      scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal();
-  return variance * chosen * of_free * chosen.transpose();
+  return free;
+}
+
+// Covariances of the free parameters, extended to all: fixed ones and those on a bound have none.
+class FreeCovariance {
+ public:
+  FreeCovariance(const Parametrisation& form, const Box& box, const SpectralFit& fit)
+      : model_(form.model()), fit_(fit) {
+    const Eigen::VectorXd theta = form.theta_of(fit.state);
+    slopes_ = form.slopes(theta)(Eigen::all, free_parameters(form, box, theta));
+    jacobian_ = full_jacobian(model_, fit.state) * slopes_;
+  }
+
+  // For noise with a memory; white without one.
+  Eigen::MatrixXd of(const Autoregression& noise) const {
+    if (slopes_.cols() == 0) return Eigen::MatrixXd::Zero(slopes_.rows(), slopes_.rows());
+    Eigen::MatrixXd covariance =
+        covariance_from_jacobian(model_, jacobian_, fit_.variance, noise, fit_.row_scale);
+    // What does not influence the data stays where it is.
+    covariance = covariance.array().isFinite().select(covariance, 0.0);
+    return slopes_ * covariance * slopes_.transpose();
+  }
+
+ private:
+  const SpectralModel& model_;
+  const SpectralFit& fit_;
+  Eigen::MatrixXd slopes_, jacobian_;
+};
+
+// Noise and covariance of the constrained fit, whose state is set.
+void take_noise(const Parametrisation& form, const Box& box, SpectralFit& fit) {
+  const SpectralModel& model = form.model();
+  fit.noise = {};
+  if (!fit.options.white_noise) fit.noise = autoregression(model.residual_series(fit.state));
+  fit.row_scale = level_noise(model, fit.state, fit.noise.inflation()).row_scale;
+  const FreeCovariance covariance(form, box, fit);
+  fit.covariance = covariance.of(fit.noise);
+  if (fit.options.white_noise) return;
+  fit.slow = slow_noise(model, fit.state, fit.variance, fit.noise);
+  const bool is_doubtful = !fit.slow.doubt.empty();
+  fit.covariance =
+      widened(fit.covariance, is_doubtful ? covariance.of({}) : fit.covariance, fit.slow);
 }
 
 }  // namespace
@@ -176,13 +210,7 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
   fit.state = best;
   fit.rss = best.rss + model.hidden_rss(best);
   fit.variance = fit.rss / std::max(1.0, model.n_samples() - static_cast<double>(n_free));
-  fit.noise = {};
-  double inflation = 1.0;
-  if (!options.white_noise) {
-    fit.noise = autoregression(model.residual_series(best));
-    inflation = fit.noise.inflation();
-  }
-  fit.covariance = free_covariance(form, box, best, fit.variance * inflation);
+  take_noise(form, box, fit);
   for (const ParameterConstraint& one : options.constraints) {
     fit.notes.push_back(
         {"constrained", 0, range_text(one) + (one.low == one.high ? " was held" : " was applied")});

@@ -1,4 +1,5 @@
 // Intervals where samples are few, and where their noise grows with the value.
+#include "fit/assembly/constraints.h"
 #include "fit/fit_creep.h"
 #include "fit/fit_relaxation.h"
 #include "fit/intervals/viscosity.h"
@@ -60,6 +61,32 @@ TEST_CASE("noise that grows with the compliance reaches the interval of a viscos
   CHECK(of_viscosity >= 34);  // 95 % expected; 26 with equal noise
   CHECK(of_E0 >= 34);
   CHECK(flagged >= 38);
+}
+
+TEST_CASE("noise that grows with the modulus reaches the intervals of a constrained fit", "[fit]") {
+  constexpr int kRuns = 40;
+  constexpr double kE_inf_Pa = 1e4, kE_1_Pa = 1e6, kTau_s = 2.0;
+  int of_E0 = 0, of_E_inf = 0;
+  double half_width_Pa = 0.0;
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    std::normal_distribution<double> normal;
+    RelaxationData data;
+    for (int i = 0; i < 200; ++i) {
+      data.time_s.push_back(0.05 * std::pow(2000.0, i / 199.0));
+      const double E_Pa = kE_inf_Pa + kE_1_Pa * std::exp(-data.time_s.back() / kTau_s);
+      data.value.push_back(E_Pa * (1.0 + 0.02 * normal(random)));
+    }
+    FitOptions options{.n_terms = 1};
+    options.constraints.push_back(constraint_from_text("tau_1=2"));
+    const FitResult fit = fit_relaxation(data, options);
+    of_E0 += holds(fit.E0_interval_95, kE_inf_Pa + kE_1_Pa) ? 1 : 0;
+    of_E_inf += holds(fit.E_inf_interval_95, kE_inf_Pa) ? 1 : 0;
+    half_width_Pa += 0.5 * (fit.E_inf_interval_95.high - fit.E_inf_interval_95.low) / kRuns;
+  }
+  CHECK(of_E0 >= 34);
+  CHECK(of_E_inf >= 34);
+  CHECK(half_width_Pa < 1000.0);
 }
 
 TEST_CASE("equal noise is seldom said to grow", "[fit]") {
