@@ -24,8 +24,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Of the fastest loading: a term with a shorter time relaxes while the load changes (as the flag
-// tau-below-ramp).
+// Of the fastest loading, and sampling intervals: shorter times are flagged (tau-below-ramp,
+// tau-below-sampling).
+constexpr double kShownIntervals = 3.0;
 constexpr double kShownShare = 0.2;
 
 // Places of the contact position and of the speed among the nuisances of StageModel.
@@ -237,8 +238,10 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   result.is_stiffness = !data.contact;
   fill_result(model, fit, specimen_series_of(model, data, options.is_liquid), result);
   report_fastest(data, fit, result);
-  carry_fast_doubt(model, fit, specimen_series_of(model, data, options.is_liquid),
-                   kShownShare * result.fastest_s, result);
+  carry_fast_doubt(
+      model, fit, specimen_series_of(model, data, options.is_liquid),
+      std::max(kShownShare * result.fastest_s, kShownIntervals * usual_step_s(data.time_s)),
+      result);
   add_gain_drift(gain_drift_part(model, fit, data, result), result);
   result.noise.sigma = prepared_for.noise.resting_N;
   result.contact_position_m = fit.state.nuisance[contact_nuisance(data)];

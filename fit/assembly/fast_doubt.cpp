@@ -1,6 +1,7 @@
 #include "fit/assembly/fast_doubt.h"
 
 #include "fit/intervals/uncertainty.h"
+#include "fit/search/full_system.h"
 #include "fit/search/separable.h"
 #include "models/maths/text_of_number.h"
 
@@ -42,16 +43,15 @@ SpectralState with_fast_term(const SpectralModel& model, const SpectralFit& fit,
   return state;
 }
 
-// Such fits at times from shortest_s on to near the fastest term; none if that range is narrower
-// than what one term stands for.
+// Such fits at times from shortest_s on to well below the fastest fitted term.
 std::vector<SpectralState> with_fast_terms(const SpectralModel& model, const SpectralFit& fit,
                                            double shortest_s) {
-  constexpr double kPerDecade = 8.0, kApart = 1.5, kOneTerm = 20.0;
+  constexpr double kPerDecade = 8.0, kApart = 6.0;
   const double from = std::max(std::log(shortest_s), model.ln_tau_min());
   const double record = model.ln_tau_max() - std::log(9.0);  // a third of it
   const double fastest = fit.state.n_terms() > 0 ? fit.state.ln_tau.minCoeff() : record;
-  if (fastest - from < std::log(kOneTerm)) return {};
   const double to = fastest - std::log(kApart);
+  if (!(to > from)) return {};
   const auto steps = static_cast<Index>(std::ceil((to - from) / std::log(10.0) * kPerDecade));
   std::vector<SpectralState> states;
   for (const double ln_tau : Eigen::VectorXd::LinSpaced(steps + 1, from, to)) {
@@ -60,28 +60,55 @@ std::vector<SpectralState> with_fast_terms(const SpectralModel& model, const Spe
   return states;
 }
 
-// Extends an interval to the part `share` of another about its value.
-void extend(Interval& interval, const Interval& other, double value, double share) {
-  interval.low = std::min(interval.low, value - share * (value - other.low));
-  interval.high = std::max(interval.high, value + share * (other.high - value));
-}
-
-void extend_ratio(Interval& interval, const Interval& other, double value, double share) {
-  interval.low = std::min(interval.low, value * std::pow(other.low / value, share));
-  interval.high = std::max(interval.high, value * std::pow(other.high / value, share));
+void extend(Interval& interval, const Interval& other) {
+  interval.low = std::min(interval.low, other.low);
+  interval.high = std::max(interval.high, other.high);
 }
 
 // Extends all intervals of the result to those of a result with one more, faster term.
-void extend_all(FitResult& result, const FitResult& other, double share) {
-  extend(result.E0_interval_95, other.E0_interval_95, other.E0_Pa, share);
-  extend(result.E_inf_interval_95, other.E_inf_interval_95, other.E_inf_Pa, share);
-  extend(result.sum_g_95, other.sum_g_95, other.sum_g, share);
+void extend_all(FitResult& result, const FitResult& other) {
+  extend(result.E0_interval_95, other.E0_interval_95);
+  extend(result.E_inf_interval_95, other.E_inf_interval_95);
+  extend(result.sum_g_95, other.sum_g_95);
   for (std::size_t i = 0; i < result.terms.size(); ++i) {
     FittedTerm& term = result.terms[i];
     const FittedTerm& same = other.terms[i + 1];
-    extend(term.modulus_Pa_95, same.modulus_Pa_95, same.modulus_Pa, share);
-    extend(term.g_95, same.g_95, same.g, share);
-    extend_ratio(term.tau_s_95, same.tau_s_95, same.tau_s, share);
+    extend(term.modulus_Pa_95, same.modulus_Pa_95);
+    extend(term.g_95, same.g_95);
+    extend(term.tau_s_95, same.tau_s_95);
+  }
+}
+
+// The share and the time of terms that the data do not exclude.
+struct HiddenTerms {
+  double largest_g = 0.0;
+  Interval tau_s{std::numeric_limits<double>::infinity(), 0.0};
+};
+
+// Visits values of the hidden modulus within the region of likelihood that is left after `rise`
+// variances, each with the best values of all else and the region that is left for them. Fits with
+// a negative modulus are no materials.
+void carry_hidden_term(const SpectralModel& model, const SpectralFit& fit,
+                       const SeriesFromState& series_from_state, const SpectralState& state,
+                       double rise, FitResult& result, HiddenTerms& hidden) {
+  constexpr int kSteps = 8;
+  const Eigen::MatrixXd covariance = covariance_at_held_time(model, fit, state);
+  const Index modulus = model.n_common();
+  const double sd = std::sqrt(covariance(modulus, modulus));
+  if (!(sd > 0.0) || !std::isfinite(sd)) return;
+  const double left = 1.0 - rise / kChiSquare95;
+  const Eigen::VectorXd slope = covariance.col(modulus) / sd;
+  for (int step = -kSteps; step <= kSteps; ++step) {
+    const double part = std::sqrt(left) * step / kSteps;  // of the 95 % interval
+    const SpectralState moved = moved_by(state, std::sqrt(kChiSquare95) * part * slope);
+    if (moved.coefficients.segment(modulus, state.n_terms()).minCoeff() < 0.0) continue;
+    FitResult other;
+    fill_parameters(model, moved, (left - part * part) * (covariance - slope * slope.transpose()),
+                    series_from_state, other);
+    if (other.terms.size() != result.terms.size() + 1) continue;
+    extend_all(result, other);
+    hidden.largest_g = std::max(hidden.largest_g, other.terms.front().g);
+    extend(hidden.tau_s, {other.terms.front().tau_s, other.terms.front().tau_s});
   }
 }
 
@@ -95,29 +122,21 @@ void carry_fast_doubt(const SpectralModel& model, const SpectralFit& fit,
   double least_rss = fit.state.rss;
   for (const SpectralState& state : states) least_rss = std::min(least_rss, state.rss);
   const Interval E0 = result.E0_interval_95;
-  Interval hidden_s{std::numeric_limits<double>::infinity(), 0.0};
-  double largest_g = 0.0;
+  HiddenTerms hidden;
   for (const SpectralState& state : states) {
     const double rise = (state.rss - least_rss) / fit.variance;
     if (rise >= kChiSquare95) continue;
-    FitResult other;
-    fill_parameters(model, state, covariance_at_held_time(model, fit, state), series_from_state,
-                    other);
-    if (other.terms.size() != result.terms.size() + 1) continue;
-    const double share = std::sqrt(1.0 - rise / kChiSquare95);
-    extend_all(result, other, share);
-    const FittedTerm& hidden = other.terms.front();
-    largest_g = std::max(largest_g, hidden.g + share * (hidden.g_95.high - hidden.g));
-    hidden_s.low = std::min(hidden_s.low, std::exp(state.ln_tau[0]));
-    hidden_s.high = std::max(hidden_s.high, std::exp(state.ln_tau[0]));
+    carry_hidden_term(model, fit, series_from_state, state, rise, result, hidden);
   }
-  constexpr double kMuch = 1.5;
-  const Interval& widened_E0 = result.E0_interval_95;
-  if (!(widened_E0.high - widened_E0.low > kMuch * (E0.high - E0.low))) return;
+  constexpr double kMuch = 1.5,
+                   kOfE0 = 0.015;  // below, geometry and load cell are in doubt by more
+  const double before = E0.high - E0.low;
+  const double after = result.E0_interval_95.high - result.E0_interval_95.low;
+  if (!(after > kMuch * before) || !(after - before > kOfE0 * result.E0_Pa)) return;
   result.flags.push_back(
       {"fast-term-hidden", 0,
-       "a term of " + text_of(hidden_s.low, 2) + " to " + text_of(hidden_s.high, 2) +
-           " s with a share of up to " + text_of(largest_g, 2) +
+       "a term of " + text_of(hidden.tau_s.low, 2) + " to " + text_of(hidden.tau_s.high, 2) +
+           " s with a share of up to " + text_of(hidden.largest_g, 2) +
            " would not show in this test, whose loading is too slow for it; the intervals include "
            "it. A quick partial unloading shows it (protocol ramp-hold, [recovery])"});
 }

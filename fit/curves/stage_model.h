@@ -20,9 +20,10 @@ namespace viscard {
 // under load (a share of the force).
 //
 // Nuisances: one start time per move (only roughly known on the amplifier's clock; the prior of a
-// correction is that it is as late as the ramp), the contact position, and the logarithm of the true speed of all moves over the commanded one, because the
-// stage's clock is its own; its prior is normal, 0 +- 0.2 %. The kinks of the force determine all of
-// them sharply. Out of contact the force is zero.
+// correction is that it is as late as the ramp), the contact position, and the logarithm of the true
+// speed of all moves over the commanded one, because the stage's clock is its own; its prior is
+// normal, 0 +- 0.2 %. The kinks of the force determine all of them sharply. Out of contact the force
+// is zero.
 class StageModel final : public SpectralModel {
  public:
   // nuisance_start: shifts of the starts first (s), then the contact position (m), then the
