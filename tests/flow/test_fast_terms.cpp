@@ -48,7 +48,7 @@ std::string captured(const Specimen& specimen, const std::string& protocol, int 
   const CommandRun run =
       run_words({"capture", "--emulate", "--truth", truth_of(specimen, folder), "--seed",
                  std::to_string(seed), "--test", protocol, "--specimen",
-                 demo_file("03_pdms_1to10.toml"), "--speed", "200", "--out", capture});
+                 demo_file("03_pdms_1to10.toml"), "--speed", "200", "--out", capture, "--force"});
   INFO(run.err);
   REQUIRE(run.status == 0);
   return capture;
@@ -156,7 +156,6 @@ TEST_CASE("intervals of captures with a fast term hold the truth, in all protoco
         CAPTURE(protocol, specimen.name, seed);
         const std::string capture = captured(specimen, protocol_file(protocol), seed, folder);
         count(specimen, fitted(capture), all);
-        std::filesystem::remove(capture);
       }
       const double pooled = static_cast<double>(all.n_holding()) / all.n();
       std::cout << fmt::format("| {} | {} | {} | {} | {} | {} | {:.1f} % | {} of {} |\n", protocol,
