@@ -1,5 +1,6 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/bench_doubt.h"
+#include "fit/assembly/fast_doubt.h"
 #include "fit/assembly/spectral_fit.h"
 #include "fit/assembly/stage_specimen.h"
 #include "fit/assembly/two_point_modulus.h"
@@ -22,6 +23,11 @@ namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
+
+// Of the fastest loading, and sampling intervals: shorter times are flagged (tau-below-ramp,
+// tau-below-sampling).
+constexpr double kShownIntervals = 3.0;
+constexpr double kShownShare = 0.2;
 
 // Places of the contact position and of the speed among the nuisances of StageModel.
 Index contact_nuisance(const IndentationData& data) {
@@ -159,6 +165,16 @@ void report_stage_speed(const SpectralFit& fit, FitResult& result) {
            "that of the amplifier"});
 }
 
+// The fastest loading or unloading; corrections show nothing fast.
+void report_fastest(const IndentationData& data, const SpectralFit& fit, FitResult& result) {
+  const StageMove& ramp = data.moves.front();
+  result.fastest_s = duration_s(ramp);
+  for (const StageMove& move : data.moves) {
+    if (is_correction(move, ramp, fit.state.nuisance[contact_nuisance(data)])) continue;
+    result.fastest_s = std::min(result.fastest_s, duration_s(move));
+  }
+}
+
 // Fills window, flags and the two-point modulus.
 void report_stage_fit(const StageModel& model, const IndentationData& data, const SpectralFit& fit,
                       const Eigen::VectorXd& residual_N, ContactFit& out) {
@@ -166,10 +182,6 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   const StageMove& ramp = data.moves.front();
   result.fit_from_s = ramp.start_time_s + fit.state.nuisance[0];
   result.fit_to_s = data.contact_to_s;
-  result.fastest_s = duration_s(ramp);
-  for (const StageMove& move : data.moves) {
-    result.fastest_s = std::min(result.fastest_s, duration_s(move));
-  }
   add_identifiability_flags(
       model, fit.state, fit.covariance,
       {usual_step_s(data.time_s), 0.0, 0.0, result.fit_to_s - result.fit_from_s}, result);
@@ -225,6 +237,11 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   result.kind = FitKind::kIndentation;
   result.is_stiffness = !data.contact;
   fill_result(model, fit, specimen_series_of(model, data, options.is_liquid), result);
+  report_fastest(data, fit, result);
+  carry_fast_doubt(
+      model, fit, specimen_series_of(model, data, options.is_liquid),
+      std::max(kShownShare * result.fastest_s, kShownIntervals * usual_step_s(data.time_s)),
+      result);
   add_gain_drift(gain_drift_part(model, fit, data, result), result);
   result.noise.sigma = prepared_for.noise.resting_N;
   result.contact_position_m = fit.state.nuisance[contact_nuisance(data)];

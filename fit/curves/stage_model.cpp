@@ -48,6 +48,11 @@ double crossing_s(const IndentationData& data, double from_s, double level_N, bo
 
 }  // namespace
 
+bool is_correction(const StageMove& move, const StageMove& ramp, double contact_m) {
+  constexpr double kShareOfWay = 0.05;
+  return std::abs(move.to_m - move.from_m) < kShareOfWay * std::abs(ramp.to_m - contact_m);
+}
+
 StageMove timed(StageMove move, double shift_s, double ln_speed) {
   const double speed = std::exp(ln_speed);
   move.start_time_s += shift_s;
@@ -66,6 +71,10 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
   start[0] = onset.shift_s;
   for (Index m = 1; m < n_moves; ++m) {
     const StageMove& move = data.moves[static_cast<std::size_t>(m)];
+    if (is_correction(move, ramp, onset.contact_m)) {
+      start[m] = onset.shift_s;
+      continue;
+    }
     const double begin_s = move.start_time_s - data.start_early_s;
     const double end_s = move.start_time_s + duration_s(move) + data.start_late_s;
     const double before_N = median_force_N(data, begin_s - 10.0 * after_s, begin_s, 0.0);
@@ -115,11 +124,17 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
   if (with_drift_) common_.push_back({"creep_N_m_s", true});
   ramp_s_ = data.contact_from_s;
 
+  // The delays of two moves differ by what is unknown of each.
+  const double delay_sd_s = std::max(data.start_late_s / std::sqrt(6.0), 0.1 * dt_s);
+  const StageMove& ramp = moves_.front();
   for (Index m = 0; m < n_moves; ++m) {
     nuisances_.push_back({"start_" + std::to_string(m + 1) + "_s", start[m], start[m] - 10.0 * dt_s,
                           start[m] + 10.0 * dt_s, dt_s});
+    if (m == 0 || !is_correction(moves_[static_cast<std::size_t>(m)], ramp, start[n_moves]))
+      continue;
+    nuisances_.back().prior = start[0];
+    nuisances_.back().prior_sd = delay_sd_s;
   }
-  const StageMove& ramp = moves_.front();
   const double way_m = ramp.to_m - ramp.from_m;
   const double step_m = std::min(std::abs(way_m), ramp.speed_m_s * dt_s);
   // Contact may lie anywhere on the ramp, independent of the surface position that the rig assumed,

@@ -19,10 +19,11 @@ namespace viscard {
 // of contact determine the drift of the zero; the long hold determines the creep of the load cell
 // under load (a share of the force).
 //
-// Nuisances: one start time per move (only roughly known on the amplifier's clock), the contact
-// position, and the logarithm of the true speed of all moves over the commanded one, because the
-// stage's clock is its own; its prior is normal, 0 +- 0.2 %. The kinks of the force determine all of
-// them sharply. Out of contact the force is zero.
+// Nuisances: one start time per move (only roughly known on the amplifier's clock; the prior of a
+// correction is that it is as late as the ramp), the contact position, and the logarithm of the true
+// speed of all moves over the commanded one, because the stage's clock is its own; its prior is
+// normal, 0 +- 0.2 %. The kinks of the force determine all of them sharply. Out of contact the force
+// is zero.
 class StageModel final : public SpectralModel {
  public:
   // nuisance_start: shifts of the starts first (s), then the contact position (m), then the
@@ -60,9 +61,14 @@ class StageModel final : public SpectralModel {
 // A move that starts later and goes exp(ln_speed) times as fast.
 StageMove timed(StageMove move, double shift_s, double ln_speed);
 
+// A correction of the position while a force is held: shorter than a twentieth of the way of the
+// ramp from contact (m). Relaxation changes the force as much, so the force shows neither when it
+// starts nor what is fast in the specimen.
+bool is_correction(const StageMove& move, const StageMove& ramp, double contact_m);
+
 // Start values of StageModel's nuisances from the force curve alone: ramp start and contact from
-// contact_onset(); each later move starts where the force passes half of its change; the speed is
-// the commanded one.
+// contact_onset(); each later move starts where the force passes half of its change, a correction as
+// late as the ramp; the speed is the commanded one.
 Eigen::VectorXd nuisance_start(const IndentationData& data);
 
 }  // namespace viscard

@@ -1,3 +1,4 @@
+#include "fit/curves/stage_model.h"
 #include "fit/curves/stage_response.h"
 #include "models/material/hereditary.h"
 
@@ -46,4 +47,11 @@ TEST_CASE("the time at a position is the inverse of the position", "[fit]") {
   const StageMove move{2.0, 1e-3, 0.4e-3, 4e-3, 0.2};
   const double t = time_at_position_s(move, 0.7e-3);
   CHECK(position_m(move, t) == Approx(0.7e-3).epsilon(1e-12));
+}
+
+TEST_CASE("a correction is shorter than a twentieth of the way of the ramp in contact", "[fit]") {
+  const StageMove ramp{0.0, 0.0, 1.2e-4, 1e-4, 1e-2};  // contact at 20 um, so 100 um in contact
+  CHECK(is_correction({5.0, 1.2e-4, 1.245e-4, 1e-4, 1e-2}, ramp, 2e-5));
+  CHECK(is_correction({5.0, 1.2e-4, 1.155e-4, 1e-4, 1e-2}, ramp, 2e-5));
+  CHECK_FALSE(is_correction({5.0, 1.2e-4, 1.255e-4, 1e-4, 1e-2}, ramp, 2e-5));
 }
