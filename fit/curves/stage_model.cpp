@@ -81,6 +81,10 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
     const double after_N = median_force_N(data, end_s, end_s + after_s, 0.0);
     const double half_s = crossing_s(data, begin_s, 0.5 * (before_N + after_N), after_N > before_N);
     start[m] = half_s - time_at_position_s(move, 0.5 * (move.from_m + move.to_m));
+    // Beyond what is unknown of the start of two moves, relaxation has moved the middle of the force.
+    const double unknown_s =
+        data.start_early_s + data.start_late_s + 2.0 * usual_step_s(data.time_s);
+    if (std::abs(start[m] - onset.shift_s) > unknown_s) start[m] = onset.shift_s;
   }
   return start;
 }

@@ -67,8 +67,9 @@ StageMove timed(StageMove move, double shift_s, double ln_speed);
 bool is_correction(const StageMove& move, const StageMove& ramp, double contact_m);
 
 // Start values of StageModel's nuisances from the force curve alone: ramp start and contact from
-// contact_onset(); each later move starts where the force passes half of its change, a correction as
-// late as the ramp; the speed is the commanded one.
+// contact_onset(); each later move starts where the force passes half of its change. A correction
+// starts as late as the ramp, and so does a move whose force relaxes so much that its middle gives a
+// time which cannot be; the speed is the commanded one.
 Eigen::VectorXd nuisance_start(const IndentationData& data);
 
 }  // namespace viscard

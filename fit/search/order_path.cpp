@@ -116,6 +116,21 @@ RefineOptions better_than(RefineOptions options, const std::vector<SpectralState
   return options;
 }
 
+// The order of the spectrum's peaks at these nuisances and all smaller ones.
+void descend_from_peaks(const SpectralModel& model, const Eigen::VectorXd& nuisance,
+                        const OrderPathOptions& options, std::vector<SpectralState>& path) {
+  const bool has_elastic = model.n_common() > 0 && !model.common()[0].is_free;
+  SpectralState start =
+      solve_coefficients(model, spectrum_peaks(model, nuisance, options.grid_per_decade), nuisance);
+  start = without_zero_terms(model, std::move(start));
+  while (start.n_terms() > options.max_terms) {
+    start = with_one_less_term(model, start, {.max_iterations = 0});
+  }
+  if (start.n_terms() == 0 && !has_elastic) return;
+  descend(model, without_zero_terms(model, quick_search(model, start, options.refine)), options,
+          path);
+}
+
 // Upward pass. Returns the previously known orders whose fit improved.
 std::vector<std::size_t> ascend(const SpectralModel& model, const Eigen::VectorXd& nuisance,
                                 const OrderPathOptions& options, std::vector<SpectralState>& path) {
@@ -185,24 +200,17 @@ std::vector<SpectralState> order_path(const SpectralModel& model, const OrderPat
   std::vector<SpectralState> path;
   const bool has_elastic = model.n_common() > 0 && !model.common()[0].is_free;
   Eigen::VectorXd nuisance = model.nuisance_start();
+  const bool has_peaks = !model.may_be_negative() && options.max_terms > 0;
   if (has_elastic) {
     const SpectralState elastic = quick_search(
         model, solve_coefficients(model, Eigen::VectorXd(0), nuisance), options.refine);
     keep_better(path, elastic);
+    // An elastic fit to a specimen that relaxes much moves the nuisances far away, from where later
+    // fits may not return.
+    if (has_peaks && nuisance.size() > 0) descend_from_peaks(model, nuisance, options, path);
     nuisance = elastic.nuisance;
   }
-  if (!model.may_be_negative() && options.max_terms > 0) {
-    SpectralState start = solve_coefficients(
-        model, spectrum_peaks(model, nuisance, options.grid_per_decade), nuisance);
-    start = without_zero_terms(model, std::move(start));
-    while (start.n_terms() > options.max_terms) {
-      start = with_one_less_term(model, start, {.max_iterations = 0});
-    }
-    if (start.n_terms() > 0 || has_elastic) {
-      descend(model, without_zero_terms(model, quick_search(model, start, options.refine)), options,
-              path);
-    }
-  }
+  if (has_peaks) descend_from_peaks(model, nuisance, options, path);
   const std::vector<std::size_t> improved = ascend(model, nuisance, options, path);
   for (auto n = improved.rbegin(); n != improved.rend(); ++n)
     descend_again(model, *n, options, path);
