@@ -33,7 +33,8 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
   const Index linear = state.coefficients.size();
   const Index n_terms = state.n_terms();
   const Index total = linear + n_terms + model.n_nuisances();
-  const Index size = vector_from(series_from_state(state)).size();
+  const Eigen::VectorXd here = vector_from(series_from_state(state));
+  const Index size = here.size();
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(size, total);
   constexpr double kStep = 1e-5;
   for (Index j = 0; j < linear + n_terms; ++j) {
@@ -55,8 +56,16 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
       up.ln_tau[j - linear] += step;
       down.ln_tau[j - linear] -= step;
     }
-    slopes.col(j) =
-        (vector_from(series_from_state(up)) - vector_from(series_from_state(down))) / (2.0 * step);
+    // In creep a term that almost vanishes may be one of the series on one side only.
+    Eigen::VectorXd above = vector_from(series_from_state(up));
+    Eigen::VectorXd below = vector_from(series_from_state(down));
+    int n_steps = 2;
+    for (Eigen::VectorXd* side : {&above, &below}) {
+      if (side->size() == size) continue;
+      *side = here;
+      --n_steps;
+    }
+    if (n_steps > 0) slopes.col(j) = (above - below) / (n_steps * step);
   }
   return slopes;
 }

@@ -22,8 +22,10 @@ Eigen::MatrixXd waves_of_forces(const FootTrace& foot, double k_1_m) {
     const Eigen::Vector3d order = of_nodes.col(foot.unknowns[i].node);
     const int field = foot.unknowns[i].field;
     auto column = waves.col(static_cast<Eigen::Index>(i));
-    if (foot.is_axial) {
-      field == 0 ? column << -order[1], 0.0, 0.0 : column << 0.0, 0.0, order[0];
+    if (foot.is_axial && field == 0) {
+      column << -order[1], 0.0, 0.0;
+    } else if (foot.is_axial) {
+      column << 0.0, 0.0, order[0];
     } else if (field == 0) {
       column << -order[2], order[2], 0.0;
     } else if (field == 1) {
