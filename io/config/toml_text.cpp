@@ -77,8 +77,8 @@ std::string reason(const std::string& line, const std::string& description) {
   if (equals == std::string_view::npos || equals == 0) {
     return "expected key = value or [section], found '" + std::string(text) + "'";
   }
-  const std::string of_value = reason_of_value(std::string(trimmed(text.substr(0, equals))),
-                                               trimmed(text.substr(equals + 1)));
+  std::string of_value = reason_of_value(std::string(trimmed(text.substr(0, equals))),
+                                         trimmed(text.substr(equals + 1)));
   if (!of_value.empty()) return of_value;
   constexpr std::string_view kBegin = "Error while ";
   return description.starts_with(kBegin) ? description.substr(kBegin.size()) : description;
