@@ -71,7 +71,7 @@ double largest(const Problem& problem, const Parameters& p) {
   return residuals(problem, p, nullptr).lpNorm<Eigen::Infinity>();
 }
 
-// The parameters with the smallest maximum error of all that were offered.
+// Keeps the parameters with the smallest maximum error among all that were offered.
 struct Best {
   Parameters p = {};
   double error = std::numeric_limits<double>::infinity();
@@ -130,7 +130,7 @@ Parameters sharpen(const Problem& problem, Parameters p) {
   return best.p;
 }
 
-// The largest |r| of each run of one sign: the alternation of the error curve.
+// The largest |r| in each interval of constant sign: the alternation of the error curve.
 std::vector<Eigen::Index> peaks_of(const Eigen::VectorXd& r) {
   std::vector<Eigen::Index> peaks;
   for (Eigen::Index i = 0; i < r.size(); ++i) {

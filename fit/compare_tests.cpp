@@ -14,7 +14,8 @@
 namespace viscard {
 namespace {
 
-// The order with the best AICc, if it is larger: a misfit of too few terms is no disagreement.
+// The order with the best AICc, if it is larger: a misfit caused by too few terms is not a
+// disagreement.
 const SpectralState& generous_state(const SpectralFit& fit) {
   std::size_t best = fit.scores.chosen;
   for (std::size_t i = best + 1; i < fit.path.size(); ++i) {
@@ -41,16 +42,17 @@ std::string text_of_difference(const FittedTest& test) {
   return text + (test.p_value < 1e-12 ? "p below 1e-12" : "p = " + text_of(test.p_value, 2)) + ")";
 }
 
-// More than chance, for all tests together, and more than matters to a material.
+// Larger than chance allows (all tests together), and large enough to matter for a material.
 bool is_different(const TestAgreement& found, std::size_t n_tests) {
   constexpr double kSmall = 5e-3;   // of the values
-  constexpr double kChance = 0.01;  // of a report for tests that agree
+  constexpr double kChance = 0.01;  // relative error reported for tests that agree
   return found.freedom > 0 && found.p_value <= kChance / static_cast<double>(n_tests) &&
          found.at_least > kSmall;
 }
 
-// The tests that differ. If one of them is off, all others differ from what it allows; so the most
-// different one gets a course of its own, and of three or more the rest is compared without it.
+// The tests that differ. One wrong test makes all others differ from its predictions, so the most
+// different test gets a free departure of its own; if three or more tests were given, the rest is
+// compared without it.
 std::vector<bool> different_tests(const JointTests& joint, const SpectralState& state,
                                   const Eigen::VectorXd& freedom,
                                   const std::vector<TestAgreement>& found) {

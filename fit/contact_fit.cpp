@@ -27,8 +27,8 @@ SpectralState fitted_again(const SpectralModel& model, const SpectralState& star
   return quick_search(model, state, {.tolerance = 1e-10});
 }
 
-// The whole record with the course of contact of this series and that of the record in turn, until
-// the course stays the same. The order is that of the state.
+// Fits the whole record. The contact history of the series and the fit of the record are updated in
+// turn until the contact history no longer changes. The number of terms is that of the state.
 WholeRecord settled_record(const ContactTable& table, SpectralState state, PronySeries series,
                            bool with_drift, const FitOptions& options) {
   constexpr int kRounds = 12;

@@ -25,9 +25,9 @@ struct HistoryFit {
 
 HistoryFit fit_history(HistoryInput input, const FitOptions& options);
 
-// Fits the whole record of a punch that is pulled back. Where it is in contact follows from the
-// series. If the whole record asks for another order than the first contact, the course is found
-// again with that.
+// Fits the whole record of a punch that is pulled back. The series determines when the punch is in
+// contact. If the whole record needs another number of terms than the first contact, the contact
+// history is computed again with that number.
 HistoryFit fit_whole(const ContactTable& table, HistoryFit fitted, const FitOptions& options);
 
 }  // namespace viscard

@@ -63,7 +63,7 @@ double zero_force_N(const ContactTable& table) {
   return median(Column(table.force_N.begin(), table.force_N.begin() + first));
 }
 
-// True if the force has fallen to that of no contact: the punch is pulled back faster than the
+// True if the force has fallen to its value out of contact: the punch moves back faster than the
 // surface follows. Single samples may be noise.
 bool is_without_force(const ContactTable& table, std::size_t from, double small_N) {
   constexpr std::size_t kRun = 3;
@@ -105,7 +105,7 @@ HistoryInput input_of(const ContactTable& table) {
   return input;
 }
 
-// Free samples whose force is clearly negative: the surface sticks to the punch.
+// Samples out of contact whose force is clearly negative: the surface sticks to the punch.
 std::vector<std::size_t> rows_in_tension(const ContactTable& table,
                                          const std::vector<char>& is_free) {
   constexpr double kSigmas = 6.0, kShareOfPeak = 0.02;

@@ -17,7 +17,7 @@ struct ContactTable {
   DepthLaw law{1.0, 1.0};
   TableContact contact;
   std::size_t loaded = 0;  // index of the end of the first loading
-  bool goes_back = false;  // the punch is pulled back by a fifth of its way or more
+  bool goes_back = false;  // the punch is pulled back by at least a fifth of its travel
   // Rows left out, by reason.
   std::size_t n_not_a_number = 0, n_spikes = 0, n_depth_spikes = 0, n_touch = 0;
 };
@@ -31,8 +31,8 @@ ContactTable contact_table(const IndentationData& data);
 // to fall, because the hereditary integral holds while the contact does not shrink.
 HistoryInput first_contact(const ContactTable& table);
 
-// The whole record under a flat punch, with contact lost and made again as the series says
-// (contact_course.h). Rows in tension are left out, if there are many: adhesion.
+// The whole record under a flat punch, with contact lost and made again as the series predicts
+// (contact_course.h). Rows in tension (adhesion) are left out if there are many.
 struct WholeRecord {
   HistoryInput input;
   std::size_t n_contacts = 1, n_adhesion = 0;

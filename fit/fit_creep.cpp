@@ -41,7 +41,8 @@ FitResult fit_creep_as(std::span<const double> time_s, std::span<const double> c
   const StepModel model(time_s, compliance_1_Pa, StepShape::kCreep, options);
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
   if (!(fit.state.coefficients[0] > 0.0)) {
-    // Among several tests another one may show E0; creep contributes what fewer terms describe.
+    // In a fit of several tests another test may determine E0; creep then contributes what fewer
+    // terms describe.
     const auto n_terms = static_cast<int>(fit.state.n_terms());
     if (options.keep_rows && n_terms > 0) {
       FitOptions fewer = options;

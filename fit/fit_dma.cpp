@@ -59,12 +59,13 @@ struct FittedModel {
   }
 };
 
-// The fit with a dashpot for what relaxes far faster than the measured frequencies, if terms within
-// their range leave more than twice the sum of squares and BIC prefers the dashpot clearly.
+// The fit with a dashpot for relaxation far faster than the measured frequencies. It is used if
+// terms within their range leave more than twice the sum of squares and BIC clearly prefers the
+// dashpot.
 void try_dashpot(const FitOptions& options, const std::vector<int>& blocks,
                  const std::function<std::unique_ptr<DmaModel>()>& model_with,
                  FittedModel& fitted) {
-  // The profile of E_inf needs it as the first common column; constraints know no dashpot.
+  // The profile of E_inf needs E_inf as the first common column; constraints cannot name a dashpot.
   if (!options.constraints.empty() || options.allow_negative) return;
   if (options.is_liquid && options.with_profiles) return;
   FittedModel other{model_with(), {}};

@@ -203,14 +203,14 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
       });
 }
 
-// What is believed of frame, load cell and geometry, and how it changes the result.
+// Stated uncertainties of frame, load cell and geometry, and their effect on the result.
 void add_systematic_parts_to(const IndentationData& data, FitResult& result) {
   BenchDoubt doubt{.frame_stiffness_N_m = data.frame_stiffness_N_m,
                    .frame_relative_u = data.frame_stiffness_relative_u,
                    .force_relative_u = data.force_relative_u};
   if (data.contact) doubt.geometry_relative_u = relative_uncertainty(*data.contact);
   const DepthLaw law = data.contact ? depth_law(*data.contact) : DepthLaw{1.0, 1.0};
-  // Stiffness of the contact per modulus at the largest depth.
+  // Stiffness of the contact divided by the modulus, at the largest depth.
   const double depth_m =
       law.power == 1.0 ? 1.0 : *std::max_element(data.depth_m.begin(), data.depth_m.end());
   const double factor_m = law.power * law.factor * std::pow(depth_m, law.power - 1.0);

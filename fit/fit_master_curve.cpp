@@ -104,7 +104,7 @@ void flag_left_out(const MasterSegments& all, FitResult& result) {
                               " left out of the master curve: " + names});
 }
 
-// Flags free shifts that no smooth curve describes, or that differ visibly from the smooth ones.
+// Flags free shifts that no smooth curve describes, or that clearly differ from the smooth ones.
 void flag_shifts(const ShiftFits& shifts, MasterCurve& curve) {
   const auto percent = [](double share) { return text_of(100.0 * share, 2) + " %"; };
   const auto log10_a = [](double ln_a) { return text_of(ln_a / std::log(10.0), 4); };
@@ -143,7 +143,7 @@ void flag_shifts(const ShiftFits& shifts, MasterCurve& curve) {
                                  ") and were taken"});
 }
 
-// The material holds a law, even where no law describes the factors.
+// The material stores a law, even if no law describes the factors well.
 void flag_law(MasterCurve& curve) {
   const TemperatureShift* law = curve.laws.better();
   if (law == nullptr || curve.form == "wlf" || curve.form == "arrhenius") return;
@@ -197,7 +197,7 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
   curve.free_factors = shifts.free_factors;
   curve.laws = shifts.laws;
   curve.form = name_of_form(shifts.form);
-  // A law that describes the rows themselves as well as free factors do is the law of the material.
+  // A law that describes the rows as well as free factors becomes the law of the material.
   if (shifts.form == ShiftFormKind::kWlf && curve.laws.wlf) curve.laws.wlf_is_better = true;
   if (shifts.form == ShiftFormKind::kArrhenius && curve.laws.arrhenius) {
     curve.laws.wlf_is_better = false;

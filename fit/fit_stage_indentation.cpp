@@ -24,8 +24,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Of the fastest loading, and sampling intervals: shorter times are flagged (tau-below-ramp,
-// tau-below-sampling).
+// Time scales of the fastest loading and of the sampling: shorter relaxation times are flagged
+// (tau-below-ramp, tau-below-sampling).
 constexpr double kShownIntervals = 3.0;
 constexpr double kShownShare = 0.2;
 
@@ -136,7 +136,7 @@ std::optional<std::size_t> move_losing_contact(const IndentationData& data,
   return std::nullopt;
 }
 
-// A fit of a run in contact, and the move that loses contact, if any.
+// A fit of a run while in contact, and the move that loses contact, if there is one.
 struct ContactFit {
   FitResult result;
   std::optional<std::size_t> lost_by_move;
@@ -165,7 +165,7 @@ void report_stage_speed(const SpectralFit& fit, FitResult& result) {
            "that of the amplifier"});
 }
 
-// The fastest loading or unloading; corrections show nothing fast.
+// The fastest loading or unloading. Corrections of the position are too small to show fast terms.
 void report_fastest(const IndentationData& data, const SpectralFit& fit, FitResult& result) {
   const StageMove& ramp = data.moves.front();
   result.fastest_s = duration_s(ramp);
@@ -202,8 +202,8 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   }
 }
 
-// Start values and noise from preliminary fits with a few terms: the first with equal weights, and
-// a second one if the stamps scatter, because their errors distort the first.
+// Start values and noise from preliminary fits with a few terms: the first with equal weights. If
+// the time stamps scatter, a second one follows, because their errors distort the first.
 struct Preparation {
   Eigen::VectorXd start;
   StageNoise noise;

@@ -21,7 +21,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Independent values of each test beyond what it determines.
+// Number of independent values of each test minus the number of parameters that it determines.
 Eigen::VectorXd noise_freedom(const JointTests& joint, const Eigen::VectorXd& used) {
   constexpr double kLeast = 2.0;
   Eigen::VectorXd freedom(used.size());
@@ -43,8 +43,8 @@ double own_unit_rss(const JointTests& joint, std::size_t k, const SpectralState&
          member.model->hidden_rss(model.member_state(k, state));
 }
 
-// The standard deviation of each test from the fit of all, which has more values to determine it. If
-// that is larger than the test's own by more than chance, the tests differ, and its own one counts.
+// The standard deviation of each test from the fit of all tests. If it is significantly larger than
+// that of the test's own fit, the tests differ, and the value of its own fit is used.
 double larger_change_of_sigma(const std::vector<MaterialTest>& tests, const SpectralState& state,
                               JointTests& joint) {
   constexpr double kChance = 1e-3;
@@ -72,7 +72,7 @@ double larger_change_of_sigma(const std::vector<MaterialTest>& tests, const Spec
   return largest;
 }
 
-// The curves of a test's own fit, with those of the fit of all.
+// The curves of a test's own fit, with the fitted values replaced by those of the fit of all tests.
 FitCurves curves_of(const MaterialTest& test, const JointTests& joint, std::size_t k,
                     const SpectralState& state) {
   const JointMember& member = joint.model->member(k);
@@ -99,7 +99,7 @@ FitCurves curves_of(const MaterialTest& test, const JointTests& joint, std::size
   return curves;
 }
 
-// What a test shows, since its load began: as in the window of a material.
+// Range of times that a test covers, from the begin of its load: as in the window of a material.
 Interval shown_window(const FitResult& own) {
   if (own.kind == FitKind::kIndentation) return {own.fastest_s, own.fit_to_s - own.fit_from_s};
   return {std::max(0.0, own.fit_from_s), own.fit_to_s - std::min(0.0, own.fit_from_s)};
@@ -137,7 +137,8 @@ FittedTest fitted_test(const MaterialTest& test, const JointTests& joint, std::s
   return one;
 }
 
-// Flags of a test's own fit that are about its data; what its window does not show, others may.
+// Flags of a test's own fit that concern its data. Flags about its window are dropped, because
+// other tests may cover the missing times.
 void carry_flags(const MaterialTest& test, FitResult& result) {
   constexpr std::array kAboutData{
       "spikes-left-out",         "first-row-left-out", "last-row-left-out", "samples-before-zero",
@@ -165,7 +166,7 @@ void report_window(const std::vector<MaterialTest>& tests, const SpectralModel& 
     result.fit_from_s = std::min(result.fit_from_s, result.tests[k].from_s);
     result.fit_to_s = std::max(result.fit_to_s, result.tests[k].to_s);
   }
-  window.sampling_s = fastest_s;  // 0 for an oscillation: its range of times says enough
+  window.sampling_s = fastest_s;  // 0 for an oscillation: its range of times is sufficient
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
 }
 
@@ -200,7 +201,7 @@ FitResult fit_as(const std::vector<MaterialTest>& tests, const FitOptions& optio
   result.is_stiffness = std::all_of(tests.begin(), tests.end(),
                                     [](const MaterialTest& test) { return test.own.is_stiffness; });
   fill_result(*joint.model, fit, relaxation_series_of(*joint.model, options.is_liquid), result);
-  // Creep may determine a small E_inf so well that it seems to differ from zero; BIC decides.
+  // Creep may determine a small E_inf so precisely that it seems to differ from zero; BIC decides.
   constexpr double kSmallShare = 0.01;
   result.may_flow |= result.E_inf_Pa < kSmallShare * result.E0_Pa;
   double independent = 0.0;

@@ -40,8 +40,8 @@ bool is_usable(const LoadSample& sample) {
          (sample.volts || sample.counts || sample.force_N);
 }
 
-// Scatter of the stamps may swap neighbours. A stamp that lies back by more than this comes from a
-// clock that restarted.
+// Scatter of the time stamps may swap neighbours. A stamp that goes back by more than this comes
+// from a clock that restarted.
 double longest_swap_s(const std::vector<Reading>& received) {
   constexpr double kFewReadings = 5.0;
   std::vector<double> steps;
@@ -130,7 +130,7 @@ double still_since_s(const CapturedRun& run, const CommandedMove& first) {
   return since_s;
 }
 
-// End of contact and the time from which the force is zero again; never without a retraction.
+// End of contact, and the time from which the force is zero again; infinite without a retraction.
 double free_again_s(const CapturedRun& run, IndentationData& data) {
   const CommandedMove* retract = first_move(run, "retract");
   if (retract == nullptr) return 1e300;
@@ -153,8 +153,9 @@ void take_moves_in_contact(const CapturedRun& run, IndentationData& data) {
 
 ClockLine line_from_below(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() < 2 || !(x.back() > x.front())) return {x.empty() ? 0.0 : y[0] - x[0], 1.0};
-  // The least delayed message near each end gives the slope. Which it is depends on the slope, so a
-  // few rounds are needed. An edge of the lower convex hull may be short and tilt the line.
+  // The least delayed message near each end determines the slope. Which message that is depends on
+  // the slope itself, so a few iterations are needed. An edge of the lower convex hull would be a
+  // bad substitute: it may be short and tilt the line.
   const std::size_t count = x.size();
   const std::size_t third = std::max<std::size_t>(1, count / 3);
   ClockLine line{0.0, (y.back() - y.front()) / (x.back() - x.front())};

@@ -28,14 +28,14 @@ double fastest_s(const KeptRows& rows) {
   return std::max({rows.window.from_s, rows.window.ramp_s, rows.window.sampling_s});
 }
 
-// The first test with moduli counts as it is; without one, the first test.
+// The first test with moduli has the factor one; if there is none, the first test.
 std::size_t fixed_test(const std::vector<MaterialTest>& tests) {
   const auto found = std::find_if(tests.begin(), tests.end(),
                                   [](const MaterialTest& test) { return !test.own.is_stiffness; });
   return found == tests.end() ? 0 : static_cast<std::size_t>(found - tests.begin());
 }
 
-// Ratio of the own fits in the middle of what both windows show.
+// Ratio of the values of both single fits in the middle of the window that both cover.
 double scale_between(const FitResult& test, const FitResult& reference) {
   const TestWindow &a = test.kept->window, &b = reference.kept->window;
   const double from_s = std::max(fastest_s(*test.kept), fastest_s(*reference.kept));
@@ -45,7 +45,7 @@ double scale_between(const FitResult& test, const FitResult& reference) {
          relaxation_modulus_Pa(series_of(reference), at_s);
 }
 
-// A dashpot stands for what is faster than a sweep can show; a faster test shows that as terms.
+// A dashpot stands for relaxation too fast for a sweep; a faster test resolves it as terms.
 bool is_fastest(const MaterialTest& test, const std::vector<MaterialTest>& tests) {
   return std::all_of(tests.begin(), tests.end(), [&](const MaterialTest& other) {
     return fastest_s(*other.own.kept) >= fastest_s(*test.own.kept);
@@ -145,7 +145,7 @@ JointTests joint_tests(const std::vector<MaterialTest>& tests, const FitOptions&
       member.has_scale = true;
       member.scale_start = scale_between(tests[k].own, tests[reference].own);
     } else if (tests[k].own.systematic_relative > 0.0) {
-      member.has_scale = true;  // as well as its geometry and calibration are known
+      member.has_scale = true;  // prior width: uncertainty of its geometry and calibration
       member.scale_prior_sd = tests[k].own.systematic_relative;
     }
     const std::vector<double> time_s = row_times_s(rows, *member.model);

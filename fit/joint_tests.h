@@ -22,7 +22,7 @@ struct JointTests {
   std::vector<double> sigma;             // of one sample of each test
 };
 
-// The series about which creep is linearised first: that of the creep itself.
+// The series about which creep is linearised first: that of the creep's own fit.
 PronySeries starting_series(const std::vector<MaterialTest>& tests);
 
 // Each test with the noise of its own fit. The rows of the tests must outlive the result.

@@ -38,7 +38,7 @@ FormFit Forms::fit(const MasterShape& shape, const Eigen::VectorXd& ln_tau,
   return out;
 }
 
-// A prior that the data do not narrow leaves no parameter to them.
+// A parameter whose prior the data do not narrow is not counted.
 double Forms::determined(const FormFit& fit) const {
   const auto all = static_cast<double>(fit.model->n_nuisances());
   const Eigen::VectorXd weight = fit.model->prior_weight();
@@ -53,8 +53,8 @@ double Forms::determined(const FormFit& fit) const {
 }
 
 // Sum of squared errors of predicting each block of rows from all others, by one linearised step:
-// e_b = (1 - H_bb)^-1 r_b with H of all parameters and priors. A block that alone determines
-// something counts as ten times its residual.
+// e_b = (1 - H_bb)^-1 r_b, where H is the hat matrix of all parameters and priors. A block that
+// alone determines a parameter counts as ten times its residual.
 double Forms::predicted_error(const FormFit& fit) const {
   Eigen::MatrixXd jacobian = full_jacobian(*fit.model, fit.state);
   const Index priors = fit.model->n_nuisances();
@@ -99,7 +99,7 @@ FormFit Forms::smooth(const FormFit& first) const {
     const FormFit& from = last.model ? last : first;
     FormFit next = fit(shape, from.state.ln_tau, from.model->ln_a(from.state.nuisance));
     const double error = predicted_error(next);
-    constexpr double kAsGood = 0.99;  // the smoother one unless the other is visibly better
+    constexpr double kAsGood = 0.99;  // prefer the smoother form unless the other is visibly better
     if (error < kAsGood * least) {
       least = error;
       best = next;

@@ -16,8 +16,9 @@ struct FormFit {
   MasterShape shape;
   std::shared_ptr<const MasterModel> model;
   SpectralState state;
-  double rss = 0.0;         // of the rows, without the priors, for rows that no noise divides
-  double parameters = 0.0;  // shifts that the data determine, priors deducted
+  // Sum of squares of the rows without the priors, not divided by the noise.
+  double rss = 0.0;
+  double parameters = 0.0;  // number of shifts that the data determine, priors deducted
 };
 
 // Fits the segments of one master curve in several forms. Refers to its arguments.
@@ -33,11 +34,11 @@ class Forms {
               const Eigen::VectorXd& ln_a) const;
   // The order path at fixed shifts.
   SpectralFit at_fixed(const Eigen::VectorXd& ln_a, const std::vector<double>& ln_b) const;
-  // The weight of the second differences by cross-validation, from a tight prior to a loose one, so
-  // that shifts which the data hardly determine stay where they start.
+  // Chooses the weight of the second differences by cross-validation, from a tight prior to a loose
+  // one, so that shifts that the data hardly determine stay at their start values.
   FormFit smooth(const FormFit& first) const;
-  // By BIC with the inflation of the fit with vertical shifts: isotherms that are off by a factor
-  // each leave residuals in blocks, which look like slow noise.
+  // By BIC, with the inflation of the fit with vertical shifts: if isotherms differ by a factor
+  // each, the residuals are correlated in blocks and look like slow noise.
   bool prefers_vertical(const FormFit& plain, const FormFit& vertical) const;
 
  private:
@@ -54,9 +55,10 @@ class Forms {
 struct Yardstick {
   double rows = 0.0, rss = 0.0, parameters = 0.0, variance = 0.0, inflation = 1.0;
 
-  // True if the sum of squares is significantly above that of free shifts (the rise in units of the
-  // noise exceeds its degrees of freedom by four standard deviations) and the residual visibly:
-  // free shifts also follow what a finite number of terms leaves, which is no evidence.
+  // True if the form describes the data worse than free shifts in both of two ways: the rise of the
+  // sum of squares is significant (in units of the noise it exceeds its degrees of freedom by four
+  // standard deviations), and the residual is visibly larger. Significance alone is not enough,
+  // because free shifts also follow the error of a finite number of terms.
   bool is_worse(const FormFit& form) const;
   double bic(const FormFit& form) const;
 };

@@ -29,9 +29,9 @@ double typical_curvature(const std::vector<MasterSegment>& segments, const Maste
   return std::max(p.tail(p.size() - 1).norm() / std::sqrt(n), kLeast * std::abs(p[0]) + 1e-3);
 }
 
-// True if an isotherm's shift is off the parabola over 1/T through two neighbours on either side by
-// more than a tenth of a decade and a tenth of the step between its neighbours. A smooth curve that
-// the data bend that far is free.
+// True if the shift of an isotherm deviates from the parabola over 1/T through its two neighbours
+// on either side by more than a tenth of a decade and a tenth of the step between its neighbours. A
+// smooth curve that the data bend so much is in effect a free one.
 bool is_erratic(const MasterModel& model, const SpectralState& state,
                 const std::vector<MasterSegment>& segments) {
   constexpr double kVisible = 0.23, kShare = 0.1;
@@ -80,8 +80,8 @@ ShiftLaws laws_of(const std::vector<ShiftFactor>& all, const Eigen::MatrixXd& co
   return laws;
 }
 
-// What the forms start from: the number of terms and the noise at the first shifts, and whether
-// vertical shifts are used.
+// What all forms start from: the number of terms and the noise at the first shifts, and the
+// decision about vertical shifts.
 struct RoughFit {
   MasterShape shape;
   Eigen::VectorXd ln_tau;

@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-// The shifts of a master curve in the form that was taken, beside free ones.
+// The shifts of a master curve in the form that was chosen, beside the free ones.
 struct ShiftFits {
   std::unique_ptr<MasterModel> model;  // of the form that was taken
   SpectralFit fit;
@@ -23,12 +23,12 @@ struct ShiftFits {
   ShiftLaws laws;
 };
 
-// Fits the shifts as a smooth curve over 1/T (penalised second differences, with the weight by
-// cross-validation), free, and as the WLF and Arrhenius laws, all with the number of terms of the
-// smooth fit. Takes the law with the lower BIC among those whose sum of squares is not significantly
-// and visibly above that of free shifts, else the smooth curve if that is not, else the free ones.
-// Vertical
-// shifts are used if BIC prefers them clearly, or always or never if the options ask for it.
+// Fits the shifts in four forms, all with the number of terms of the smooth fit: as a smooth curve
+// over 1/T (penalised second differences, with the weight by cross-validation), free, and by the
+// WLF and Arrhenius laws. A form is accepted if its sum of squares is not significantly and visibly
+// above that of free shifts. The accepted law with the lower BIC is chosen, else the smooth curve
+// if it is accepted, else the free shifts. Vertical shifts are used if BIC prefers them clearly;
+// the options can force or forbid them.
 ShiftFits fit_shifts(const std::vector<MasterSegment>& segments, const MasterStart& start,
                      const std::vector<int>& blocks, const FitOptions& options);
 

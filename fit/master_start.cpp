@@ -99,7 +99,7 @@ std::optional<double> offset_of_overlay(const MasterSegment& a, const MasterSegm
   return best;
 }
 
-// Both offsets between a segment and the next, in ln(argument) at equal modulus.
+// Both offsets between a segment and the next one, in ln(argument) at equal modulus.
 struct Step {
   std::optional<double> crossing, overlay;
   bool is_known() const { return crossing || overlay; }
@@ -114,7 +114,7 @@ std::vector<Step> steps_of(const std::vector<MasterSegment>& segments) {
   return steps;
 }
 
-// Keeps the run of overlapping segments that holds the reference, or else the longest.
+// Keeps the sequence of overlapping segments that contains the reference, or else the longest one.
 void keep_connected(MasterSegments& all, std::vector<Step>& steps,
                     const std::optional<double>& T_ref_C) {
   const std::optional<std::size_t> wanted =
@@ -159,8 +159,8 @@ Eigen::VectorXd chain_of(const std::vector<Step>& steps, bool is_dma, bool by_ov
   return ln_a.array() - ln_a[static_cast<Index>(reference)];
 }
 
-// The parameters of a law with the least scatter: from the best of several starts, steps of each by
-// a factor, which become finer where none helps.
+// The parameters of a law with the least scatter. From several starts, each parameter is changed by
+// a factor that becomes finer when no change improves the scatter.
 ShiftCandidate best_of_law(const ShiftForm& form, const std::vector<Eigen::VectorXd>& starts,
                            const SpectrumScatter& scatter) {
   ShiftCandidate best;
@@ -193,8 +193,8 @@ ShiftCandidate best_of_law(const ShiftForm& form, const std::vector<Eigen::Vecto
   return best;
 }
 
-// Parameters of a law through a chain of shifts, and for WLF also with its slope at the reference
-// and several C2, because the far end of a chain may be wrong.
+// Parameters of a law through a chain of shifts. For WLF also candidates with its slope at the
+// reference and several C2, because the far end of a chain may be wrong.
 std::vector<Eigen::VectorXd> law_starts(const ShiftForm& form, const Eigen::VectorXd& ln_a,
                                         const std::vector<double>& temperature_C,
                                         std::size_t reference) {

@@ -12,7 +12,7 @@
 namespace viscard {
 namespace {
 
-// On a grid four times as fine as the one used for the reduction.
+// Evaluates the error on a grid four times as fine as the one used for the reduction.
 double largest_error(const PronySeries& one, const PronySeries& reference, double t_min_s,
                      double t_max_s) {
   const int count = std::max(800, static_cast<int>(160.0 * std::log10(t_max_s / t_min_s)));

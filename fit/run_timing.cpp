@@ -11,7 +11,7 @@
 namespace viscard {
 namespace {
 
-// Start of the retraction. Backwards in time it is a first move into the specimen.
+// Start of the retraction. With time reversed, the retraction is a first move into the specimen.
 std::optional<double> retraction_start_s(const IndentationData& data, const CommandedMove& retract,
                                          double still_since_s) {
   const StageMove& move = retract.move;
@@ -30,7 +30,7 @@ std::optional<double> retraction_start_s(const IndentationData& data, const Comm
   try {
     return move.start_time_s - contact_onset(backwards).shift_s;
   } catch (const std::exception&) {
-    return std::nullopt;  // no force is left to see the retraction by
+    return std::nullopt;  // no force is left from which the start of the retraction could be found
   }
 }
 

@@ -17,9 +17,9 @@ struct ShiftCandidate {
   double scatter = std::numeric_limits<double>::infinity();
 };
 
-// Scatter about the best non-negative spectrum on a grid of times at given shifts, without any search.
-// Unless the options forbid vertical shifts, the level of each segment follows the spectrum (ln_b),
-// so that only shapes count.
+// Scatter about the best non-negative spectrum on a grid of times at given shifts, without a
+// search. Unless the options forbid vertical shifts, the level of each segment follows the spectrum
+// (ln_b), so that only the shapes are compared.
 class SpectrumScatter {
  public:
   SpectrumScatter(const std::vector<MasterSegment>& segments, std::size_t reference,

@@ -32,7 +32,8 @@ struct DriverRow {
   const char* name;
   Make<Device, Config> make;
   void (*check)(const Config&);
-  bool sends_lines = false;  // of text by itself, so that a thermometer can share its port
+  // The device sends text lines by itself, so a thermometer can share its port.
+  bool sends_lines = false;
 };
 
 constexpr DriverRow<Stage, StageConfig> kStages[] = {
@@ -61,7 +62,8 @@ const Row& row_of(const Row (&rows)[n], const std::string& name, const std::stri
                  "] of the rig file is unknown; known are " + known);
 }
 
-// A wrong word of the rig file is reported before a port that is missing: it is in any case wrong.
+// A wrong word of the rig file is reported before a missing port, because the word must be
+// corrected in any case.
 void check_words(const RigConfig& rig) {
   row_of(kStages, rig.stage.driver, "stage").check(rig.stage);
   const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");

@@ -27,8 +27,8 @@ struct RigDevices {
   std::unique_ptr<LoadCell> load_cell;
 };
 
-// The thermometer of a rig, with its own port if it has one; nullptr if the rig file names none. A
-// port that cannot be opened is a trouble of the thermometer and no error.
+// The thermometer of a rig, with its own port if it has one; nullptr if the rig file names none. If
+// its port cannot be opened, the thermometer reports the trouble and no exception is thrown.
 std::unique_ptr<Thermometer> make_thermometer(const RigConfig& rig, const RigClock& clock,
                                               const RecordSink& sink);
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int kFewestReadings = 10;
 constexpr double kSlowLink_s = 0.020;
 constexpr double kLeastRate_Hz = 20.0;
-constexpr double kFullLine = 0.95;           // of what a baud rate carries
+constexpr double kFullLine = 0.95;           // of the bytes per second that a baud rate allows
 constexpr double kBits = 10.0;               // of one byte on the wire
 constexpr double kBaudReserve = 1.25;        // of the baud rate proposed over the one needed
 constexpr double kFallsBehind = 0.01;        // more than the error of a device's clock
@@ -60,8 +60,8 @@ int baud_for(double bytes_per_s) {
   return kBauds.back();
 }
 
-// What is wrong with the line of an amplifier that sends by itself, or "": its readings become older
-// and older.
+// Describes a line that is too slow for an amplifier sending by itself: its readings become older
+// and older. "" if the line is fast enough.
 std::string lag_trouble(const RigConfig& rig, const RigCheck& check) {
   const LoadCellConfig& cell = rig.load_cell;
   if (!check.is_stream) return "";

@@ -23,8 +23,8 @@ struct RigCheck {
   std::string reads_as;   // assumed unit of the readings: "counts", "volts", "g" ...
   double rate_Hz = 0.0;   // of readings, by the device's clock if it has one
   double jitter_s = 0.0;  // largest minus smallest delay of a reading, wall time
-  // Time by which a reading is later than the one a second before it, by the device's clock: above 0
-  // if the line carries less than is sent.
+  // Increase of the readings' delay per second, by the device's clock: above 0 if the line carries
+  // less than the device sends.
   double falls_behind = 0.0;
   bool is_stream = false;           // the instrument sends readings by itself
   bool has_clock = false;           // the lines carry the device's own time
@@ -38,7 +38,8 @@ struct RigCheck {
   std::optional<double> temperature_C;
   std::size_t n_temperatures = 0;
   std::string thermometer_trouble;
-  double late_s = 0.0;  // longest delay of this computer while it listened; then nothing is sure
+  // Longest delay of this computer while it listened; if it is long, no measured value is reliable.
+  double late_s = 0.0;
 };
 
 // Connects both devices and listens for duration_s of rig time; moves nothing. Throws RigError if a

@@ -51,13 +51,13 @@ class IndentationRun {
   bool is_begun() const { return is_begun_; }
   // The phase that is carried out.
   const std::string& name() const { return name_; }
-  // A stage position at which the punch is free, as far as is known.
+  // A stage position at which the punch is probably free.
   double safe_position_m() const {
     if (run_.outcome.contact_position_m) return run_.contact_m - run_.plan.retract_m;
     return presses_at_start() ? run_.start_m - run_.plan.retract_m : run_.start_m;
   }
 
-  // Something presses before anything was moved, so it presses where the stage stands.
+  // If something presses before any move, it presses at the present position of the stage.
   bool presses_at_start() const {
     return run_.presses_at_start ||
            (is_begun_ && !run_.session.has_moved() &&
@@ -104,7 +104,7 @@ class IndentationRun {
     run_.session.move(run_.contact_m + expected.stage_travel_of(phase.depth_m), speed_m_s,
                       phase.purpose);
     depth_asked_m_ = phase.depth_m;
-    // The newest reading is older than the end of the move, so a hold notes its depth itself.
+    // The newest reading is later than the end of the move, so a hold reads its depth itself.
     const TestPhase* next = &phase + 1;
     const bool is_held = next->kind == TestPhase::Kind::kWait && next->duration_s > 0.0;
     if (!is_held && phase.depth_m >= deepest_m(run_.phases)) note_depth(run_);
@@ -131,7 +131,7 @@ std::string mm_text(double length_m) {
   return text_from_number(length_m * 1e3, 3) + " mm";
 }
 
-// Where the punch is relative to the contact or, before that is known, to the start.
+// Position of the punch relative to the contact or, before the contact is known, to the start.
 std::string place_of_stage(TestRun& run) {
   const double position_m = run.session.stage().position_m();
   if (run.outcome.contact_position_m) {
@@ -145,8 +145,8 @@ std::string place_of_stage(TestRun& run) {
          " where it started";
 }
 
-// Where a run that ended early has left the punch: what a person at the rig must know first.
-// Empty if only the trouble of the lift is known.
+// Where the punch is after a run that ended early: the first information that a person at the rig
+// needs. Empty if only the trouble of the lift is known.
 std::string place_of_punch(TestRun& run, const SafeEnd& end, bool had_moved, bool knows_position) {
   if (end.lifted_m > 0.0) {
     return ". The stage was stopped and lifted by " + mm_text(end.lifted_m) +
@@ -164,7 +164,7 @@ bool is_a(const std::exception& error) {
   return dynamic_cast<const Type*>(&error) != nullptr;
 }
 
-// For programs; the reason is for people.
+// The code is for programs; the reason is for people.
 std::string code_of_end(const std::exception& error, bool presses_at_start) {
   if (presses_at_start || is_a<PressesAtStart>(error)) return "pressing";
   if (is_a<LimitReached>(error)) return "force-limit";
@@ -184,7 +184,7 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   outcome.status = status;
   outcome.cause = error.what();
   outcome.reason = outcome.cause;
-  // The rig may not be to blame for what follows a delay of this computer.
+  // After a delay of this computer the rig may not be the cause of what follows.
   const std::string late = run.session.lateness_text();
   if (!is_a<RunInterrupted>(error) && !late.empty() &&
       outcome.reason.find(late) == std::string::npos) {

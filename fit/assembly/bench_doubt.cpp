@@ -39,7 +39,7 @@ std::vector<SystematicPart> systematic_parts_from(const PronySeries& specimen_N_
   const double frame_N_m = doubt.frame_stiffness_N_m;
   const bool has_frame = frame_N_m > 0.0;
   const double s = has_frame ? instantaneous_modulus_Pa(specimen_N_m) / frame_N_m : 0.0;
-  // Without an equilibrium modulus only E0 is followed.
+  // A series without an equilibrium modulus reports only the change of E0.
   const bool is_solid = specimen_N_m.equilibrium_modulus_Pa > 0.0;
   const PronySeries stage_N_m = is_solid ? stage_series(specimen_N_m, frame_N_m) : PronySeries{};
   const auto part = [&](double relative_u, double forces, double frame, double of_E0,

@@ -12,7 +12,7 @@ inline constexpr const char* kFrameCause = "frame";
 inline constexpr const char* kLoadCellCause = "load cell";
 inline constexpr const char* kGeometryCause = "geometry";
 
-// What is not known exactly of a bench: relative standard uncertainties, and the frame.
+// Uncertainties of a bench: relative standard uncertainties, and the frame.
 struct BenchDoubt {
   double frame_stiffness_N_m = 0.0;  // 0: rigid, or no frame in between
   double frame_relative_u = 0.0;

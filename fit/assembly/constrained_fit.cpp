@@ -34,7 +34,8 @@ Box box_of(const Parametrisation& form, const std::vector<ParameterConstraint>& 
   return box;
 }
 
-// A time that the record cannot show leaves its modulus undetermined, unless that is held too.
+// A time that the record cannot resolve leaves its modulus undetermined, unless the modulus is held
+// too.
 void check_times(const SpectralModel& model, const std::vector<ParameterConstraint>& constraints) {
   for (const ParameterConstraint& one : constraints) {
     const ParameterName name = parameter_name(one.name);
@@ -88,7 +89,8 @@ void check_solution(const SpectralState& state, const std::vector<ParameterConst
 void flag_contradiction(double free_rss, double free_variance, double inflation, int n_held,
                         SpectralFit& fit) {
   const double rise = (fit.rss - free_rss) / std::max(free_variance * inflation, 1e-300);
-  // Holding n true values raises the residual sum by n +- sqrt(2 n) variances by chance.
+  // Holding n parameters at their true values raises the residual sum by n +- sqrt(2 n) variances
+  // by chance.
   const double by_chance = n_held + 5.0 * std::sqrt(2.0 * n_held);
   if (!(rise > by_chance)) return;
   constexpr double kPlain = 2.0;  // a factor that is visible without statistics
@@ -148,12 +150,12 @@ class FreeCovariance {
     jacobian_ = full_jacobian(model_, fit.state) * slopes_;
   }
 
-  // For noise with a memory; white without one.
+  // Covariance for noise with this autoregression; without coefficients it is white noise.
   Eigen::MatrixXd of(const Autoregression& noise) const {
     if (slopes_.cols() == 0) return Eigen::MatrixXd::Zero(slopes_.rows(), slopes_.rows());
     Eigen::MatrixXd covariance =
         covariance_from_jacobian(model_, jacobian_, fit_.variance, noise, fit_.row_scale);
-    // What does not influence the data stays where it is.
+    // A parameter without influence on the data keeps its value.
     covariance = covariance.array().isFinite().select(covariance, 0.0);
     return slopes_ * covariance * slopes_.transpose();
   }

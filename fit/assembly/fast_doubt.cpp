@@ -85,9 +85,9 @@ struct HiddenTerms {
   Interval tau_s{std::numeric_limits<double>::infinity(), 0.0};
 };
 
-// Visits values of the hidden modulus within the region of likelihood that is left after `rise`
-// variances, each with the best values of all else and the region that is left for them. Fits with
-// a negative modulus are no materials.
+// Visits values of the modulus of the hidden term within the likelihood region that is left after
+// `rise` variances, each with the best values of all other parameters and the region left for
+// these. A fit with a negative modulus is no material and is skipped.
 void carry_hidden_term(const SpectralModel& model, const SpectralFit& fit,
                        const SeriesFromState& series_from_state, const SpectralState& state,
                        double rise, FitResult& result, HiddenTerms& hidden) {
@@ -129,7 +129,8 @@ void carry_fast_doubt(const SpectralModel& model, const SpectralFit& fit,
     carry_hidden_term(model, fit, series_from_state, state, rise, result, hidden);
   }
   constexpr double kMuch = 1.5,
-                   kOfE0 = 0.015;  // below, geometry and load cell are in doubt by more
+                   // Below this share, the uncertainty of geometry and load cell is larger.
+      kOfE0 = 0.015;
   const double before = E0.high - E0.low;
   const double after = result.E0_interval_95.high - result.E0_interval_95.low;
   if (!(after > kMuch * before) || !(after - before > kOfE0 * result.E0_Pa)) return;

@@ -52,7 +52,7 @@ SpectralState settled(JointModel& model, SpectralState state) {
     SpectralState next = best_near(model, best);
     const double move = largest_move(next, best);
     const double rss = refer_to_itself(model, next);
-    if (!(rss <= least * (1.0 + 1e-9))) {  // too far a step: keep the last one
+    if (!(rss <= least * (1.0 + 1e-9))) {  // the step was too large: keep the last answer
       refer_to_itself(model, best);
       best.is_converged = best.is_converged && move < 1e-3;
       return best;
@@ -79,7 +79,8 @@ SpectralFit fit_joint_spectrum(JointModel& model, const std::vector<NoiseGroup>&
     search_orders(model, blocks, inflation_of(groups), fit);
     fit.state = settled(model, fit.path[fit.scores.chosen]);
     const bool is_same = fit.state.n_terms() == last_order;
-    if (!model.has_creep() || is_same) break;  // the orders were compared about this answer
+    // The orders were compared with creep linearised about this answer.
+    if (!model.has_creep() || is_same) break;
     last_order = fit.state.n_terms();
   }
   fit.rss = full_rss(model, fit.state);

@@ -62,7 +62,7 @@ double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, dou
 
 void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
                        const SeriesFromState& series_from_state, FitResult& result) {
-  if (fit.options.n_terms) return;  // a requested order is not uncertain
+  if (fit.options.n_terms) return;  // a requested order has no uncertainty
   constexpr double kStrong = 6.0;
   const Interval E0 = result.E0_interval_95;
   const Interval E_inf = result.E_inf_interval_95;

@@ -25,7 +25,7 @@ struct Comparison {
   bool is_other_needless = false;
 };
 
-// The residual of the better fit is nearer to the noise, so its memory counts for both.
+// The residual of the better fit is nearer to the noise, so its autocorrelation is used for both.
 Comparison compared(const FitEvidence& liquid, const FitEvidence& solid) {
   constexpr double kSignificant = 3.84;  // 95 % of chi-square with one degree of freedom
   const FitEvidence& better = liquid.rss < solid.rss ? liquid : solid;
@@ -74,7 +74,8 @@ FitResult fit_solid_or_liquid(const FitOptions& options, const FitAs& fit_as) {
   chosen.bic_liquid_minus_solid = difference;
   constexpr double kStrong = 6.0;
   if (comparison.is_other_needless && difference > 0.0) return chosen;
-  if (comparison.is_other_needless) {  // what the record leaves open is in the solid's interval
+  // The interval of the solid already includes the times that the record cannot resolve.
+  if (comparison.is_other_needless) {
     chosen.E_inf_interval_95 = hull(chosen.E_inf_interval_95, solid.E_inf_interval_95);
   }
   if (std::abs(difference) < kStrong && !comparison.is_other_needless) {

@@ -9,7 +9,8 @@
 namespace viscard {
 namespace {
 
-// The options leave the order free: a fit of a given order may have structure for another reason.
+// Only if the options leave the order free: a fit of a given order may have structure for another
+// reason.
 bool may_try(const FitOptions& options) {
   return options.drift == TableDrift::kIfCalledFor && !options.n_terms &&
          options.constraints.empty() && !options.allow_negative;
@@ -68,7 +69,7 @@ FitResult fit_with_or_without_drift(const FitOptions& options, const TableExtent
                                     const std::function<FitResult(TableDrift)>& fit) {
   const bool is_asked = options.drift == TableDrift::kFitted;
   FitResult result = fit(is_asked ? TableDrift::kFitted : TableDrift::kNone);
-  // Tables with readings out of contact have a drift that no one asked for.
+  // Tables with readings out of contact contain a drift that the user did not request.
   const DriftReason reason = is_asked       ? DriftReason::kAskedFor
                              : result.drift ? DriftReason::kOutOfContact
                                             : DriftReason::kStructure;

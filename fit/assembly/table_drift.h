@@ -18,7 +18,7 @@ void examine_table(const Model& model, const SpectralFit& fit, double zero_s, Fi
   examine_rows(model, fit, model.row_time_s(), zero_s, result);
 }
 
-// What the choice for or against a drift has to know about a table.
+// Data that the choice for or against a drift needs.
 struct TableExtent {
   double duration_s = 0.0;
   double largest = 0.0;  // of the fitted column

@@ -15,7 +15,7 @@ using Index = Eigen::Index;
 // The rows of all tests and one row for each prior, as the answer leaves them.
 struct Residual {
   Eigen::VectorXd left;
-  Eigen::MatrixXd basis;  // of what the parameters can do
+  Eigen::MatrixXd basis;  // residual after projection on what the parameters can describe
 };
 
 // own: columns of one test, from this row on, that count as further parameters.
@@ -51,7 +51,7 @@ Eigen::MatrixXd powers_of(const Eigen::VectorXd& ln_time) {
   return powers;
 }
 
-// Departures of a test from the spectrum that the others leave testable.
+// Departures of a test from the spectrum that the other tests can reveal.
 struct Departures {
   Eigen::MatrixXd shape;  // rows of the test x directions, relative to its values
   Eigen::MatrixXd rows;   // all rows x directions, without what the parameters can do; orthogonal
@@ -109,7 +109,7 @@ double p_value_of(const Estimate& found) {
   return f_upper_tail(square / size, size, found.freedom);
 }
 
-// Where the departure exceeds its error most.
+// At the time where the departure exceeds its error most.
 void find_worst(const Departures& of, const Estimate& found, TestAgreement& agreement) {
   for (Index row = 0; row < of.shape.rows(); ++row) {
     const Eigen::VectorXd at = of.shape.row(row).transpose();

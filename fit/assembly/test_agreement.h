@@ -12,19 +12,20 @@
 
 namespace viscard {
 
-// Whether one of several tests agrees with the spectrum of all. Its values may depart from it by a
-// factor 1 + d(u), d a parabola in u = log time. The spectrum of all tests and d are fitted together
-// (one linearised step), so d is how far this test lies from what the others allow.
+// Tests whether one of several tests agrees with the spectrum of all. Its values may differ from
+// that spectrum by a factor 1 + d(u), where d is a parabola in u = log time. The spectrum of all
+// tests and d are fitted together (one linearised step), so d measures how far this test lies from
+// the prediction of the others.
 struct TestAgreement {
   double difference = 0.0;  // the same factor at all times
   Interval difference_95;
   double worst = 0.0;     // d where it exceeds its error most
   double at_least = 0.0;  // |d| there, minus 1.96 standard errors
-  // Of so large a difference by chance: the smaller one of the tests for a factor and for a parabola,
-  // times two. F test with the noise of every test and its memory; degrees of freedom of
-  // Satterthwaite, Biometrics Bull. 2 (1946) 110.
+  // Probability of so large a difference by chance: twice the smaller one of the probabilities for
+  // a factor and for a parabola. F test with the noise of every test and its autocorrelation;
+  // degrees of freedom of Satterthwaite, Biometrics Bull. 2 (1946) 110.
   double p_value = 1.0;
-  int freedom = 0;  // directions in which the others leave something to compare with
+  int freedom = 0;  // number of directions in which the other tests allow a comparison
 };
 
 // For each test. state: an optimum of the model. ln_time: of the rows of each test. freedom: of each

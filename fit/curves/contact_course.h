@@ -27,7 +27,7 @@ ContactCourse contact_course(std::span<const double> time_s, std::span<const dou
 std::vector<char> moved_samples(std::span<const double> depth_m);
 
 // The first loading ends at the first sample with 98 % of the largest depth that is reached before
-// the punch goes back by a fifth of the range. goes_back: it does so at all.
+// the punch goes back by a fifth of the range. goes_back: true if it goes back that far.
 struct FirstLoading {
   std::size_t loaded = 0;
   bool goes_back = false;

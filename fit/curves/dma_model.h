@@ -25,7 +25,7 @@ class DmaModel final : public SpectralModel {
 
   Eigen::Index n_frequencies() const { return n_rows() / 2; }
   double frequency_Hz(Eigen::Index i) const;
-  // Index of the dashpot among the common columns; -1: there is none.
+  // Index of the dashpot among the common columns; -1 if there is none.
   Eigen::Index dashpot() const { return with_dashpot_ ? n_common() - 1 : -1; }
 
  private:

@@ -119,7 +119,7 @@ std::optional<double> step_before(const std::vector<double>& time_s,
   constexpr double kShare = 0.1;
   if (time_s.size() < 2 || input.front() == 0.0 || !(time_s.front() > 0.0)) return std::nullopt;
   if (time_s.front() > kShare * (time_s.back() - time_s.front())) return std::nullopt;
-  // A ramp that the record shows from its first sample on is no step.
+  // A ramp that the record shows from its first sample on is not a step.
   double largest = 0.0;
   for (const double one : input) largest = std::max(largest, std::abs(one));
   constexpr double kLoaded = 0.5;
@@ -155,7 +155,8 @@ void HistoryModel::fill_equilibrium(const Onset& onset, Column into) const {
   }
 }
 
-// Recursion over the samples, on request with the derivatives by ln tau and contact position.
+// Recursion over the samples, optionally with the derivatives with respect to ln tau and contact
+// position.
 void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) const {
   const double c = in_.factor;
   StepFactors step;

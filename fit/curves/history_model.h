@@ -49,8 +49,8 @@ std::size_t end_of_loading(const std::vector<double>& input);
 // 0 for a step.
 double loading_s(const HistoryInput& input);
 
-// The time of the step that a record which begins under load has seen: t = 0, if that is before the
-// first sample by at most a tenth of the record. None for other records.
+// Time of the step that a record beginning under load missed: t = 0, if that is before the first
+// sample by at most a tenth of the record. None for other records.
 std::optional<double> step_before(const std::vector<double>& time_s,
                                   const std::vector<double>& input);
 

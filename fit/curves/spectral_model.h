@@ -89,7 +89,7 @@ class SpectralModel {
     return columns(state.ln_tau, state.nuisance, /*with_slopes=*/false).values * state.coefficients;
   }
 
-  // One member of every nuisance, for instance &Nuisance::scale.
+  // Pointer to a member of Nuisance, for instance &Nuisance::scale, collected over all nuisances.
   Eigen::VectorXd of_nuisances(double Nuisance::*member) const;
   Eigen::VectorXd nuisance_start() const { return of_nuisances(&Nuisance::start); }
   // Distance of each nuisance from the mean of its prior, in standard deviations; 0 without one.
@@ -110,8 +110,9 @@ class SpectralModel {
     ModelColumns columns;
   };
   virtual HiddenRows hidden_rows(const Eigen::VectorXd& /*ln_tau*/) const { return {}; }
-  // For a last polish: the sum of squares over all samples and its descent, J^T (data - model), by
-  // the coefficients and ln tau. Nothing if rows are samples, or if averaging neglects nothing.
+  // For a last polish: the sum of squares over all samples and its negative gradient, J^T (data -
+  // model), with respect to the coefficients and ln tau. Nothing if rows are samples, or if
+  // averaging loses no information.
   struct SampleSums {
     double rss = 0.0;
     Eigen::VectorXd descent;

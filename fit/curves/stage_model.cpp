@@ -81,7 +81,8 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
     const double after_N = median_force_N(data, end_s, end_s + after_s, 0.0);
     const double half_s = crossing_s(data, begin_s, 0.5 * (before_N + after_N), after_N > before_N);
     start[m] = half_s - time_at_position_s(move, 0.5 * (move.from_m + move.to_m));
-    // Beyond what is unknown of the start of two moves, relaxation has moved the middle of the force.
+    // A start that differs from that of the ramp by more than the uncertainty of two starts shows
+    // that relaxation has shifted the middle of the force.
     const double unknown_s =
         data.start_early_s + data.start_late_s + 2.0 * usual_step_s(data.time_s);
     if (std::abs(start[m] - onset.shift_s) > unknown_s) start[m] = onset.shift_s;
@@ -128,7 +129,7 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
   if (with_drift_) common_.push_back({"creep_N_m_s", true});
   ramp_s_ = data.contact_from_s;
 
-  // The delays of two moves differ by what is unknown of each.
+  // The delays of two moves differ by at most the start uncertainty of each.
   const double delay_sd_s = std::max(data.start_late_s / std::sqrt(6.0), 0.1 * dt_s);
   const StageMove& ramp = moves_.front();
   for (Index m = 0; m < n_moves; ++m) {

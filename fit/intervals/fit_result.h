@@ -39,7 +39,7 @@ struct LackOfFit {
   double structure = 0.0;  // root mean square of the curve, in the unit of the fitted column
   double noise = 0.0;      // standard deviation of one sample about the curve
   double relative = 0.0;   // structure over the data
-  // The same where it is largest; 0: nowhere above chance.
+  // largest local value; 0: nowhere above chance
   double worst = 0.0, worst_relative = 0.0;
   double worst_from_s = 0.0, worst_to_s = 0.0;
   double rise = 0.0;  // of the smooth curve through the data, over its largest value
@@ -141,19 +141,20 @@ struct FittedTest {
   double own_E0_Pa = 0.0, own_E_inf_Pa = 0.0;
   Interval own_E0_95, own_E_inf_95;
   double own_rss = 0.0;  // as rss (kDma: relative)
-  // How far it lies from what the other tests allow (fit/assembly/test_agreement.h): a factor on all
-  // its values, the largest departure in its window, and the probability of so much by chance.
+  // How far it lies from the prediction of the other tests (fit/assembly/test_agreement.h): a
+  // factor on all its values, the largest departure in its window, and the probability of so large
+  // a departure by chance.
   double difference = 0.0, worst = 0.0;
   Interval difference_95;
   double p_value = 1.0;    // that probability
-  int freedom = 0;         // of the test; 0: nothing to compare it with
+  int freedom = 0;         // degrees of freedom of the comparison; 0: the other tests allow none
   bool disagrees = false;  // by more than chance and 0.5 %
   FitCurves curves;
 };
 
 struct KeptRows;
 
-// What a fit of one kind of test gives. Moduli are in Pa, or stiffnesses in N/m if is_stiffness.
+// The result of a fit. Moduli are in Pa, or stiffnesses in N/m if is_stiffness.
 struct FitResult {
   FitKind kind = FitKind::kIndentation;
   bool is_stiffness = false;
@@ -166,8 +167,8 @@ struct FitResult {
   double rss = 0.0;
   std::size_t n_samples = 0;
   FitEvidence evidence;
-  bool may_flow = false;  // the data do not exclude E_inf = 0, so a liquid should be tried
-  // If both were tried: below zero the liquid is shown.
+  bool may_flow = false;  // the data do not exclude E_inf = 0, so a liquid should be tried too
+  // If both were tried: negative if the liquid was chosen.
   std::optional<double> bic_liquid_minus_solid;
   std::size_t n_averages = 0;  // rows of the fit: averages in log time, or single samples
   std::vector<OrderRow> orders;
@@ -197,7 +198,7 @@ struct FitResult {
   std::size_t n_left_out = 0;  // rows that are not fitted, for all reasons together
   std::vector<LeftOutRows> left_out;
   std::size_t n_contacts = 0;  // times that contact was made, in a table of force and depth
-  std::optional<LackOfFit> lack_of_fit;  // nothing: not tested
+  std::optional<LackOfFit> lack_of_fit;  // nothing: not tested for lack of fit
   std::optional<FittedDrift> drift;      // of a table, if it was fitted
   bool is_converged = true;              // of the chosen order
   // False: not converged, saturated, gap in the ramp ... (the flags name the cause).
@@ -218,7 +219,7 @@ struct ModulusIntervals {
   Interval E0_Pa, E_inf_Pa;
 };
 ModulusIntervals combined_intervals(const FitResult& fit);
-// Those of one term.
+// The same for one term.
 struct TermIntervals {
   Interval modulus_Pa, g, tau_s;  // g is a pure number
 };

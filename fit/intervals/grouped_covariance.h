@@ -22,8 +22,8 @@ struct NoiseGroup {
   Eigen::VectorXd row_scale;  // standard deviation of each row over that of all; empty if alike
 };
 
-// Linear functions of the rows, x = W^T r, whose errors are wanted: W has one column for each. Returns
-// the covariance of x from each group's own noise, with the slow parts of it (slow_noise.h).
+// Linear functions of the rows, x = W^T r, whose errors are wanted: W has one column for each.
+// Returns the covariance of x from the noise of each group, including its slow part (slow_noise.h).
 std::vector<Eigen::MatrixXd> covariance_by_group(const Eigen::MatrixXd& rows_by_value,
                                                  const std::vector<NoiseGroup>& groups);
 

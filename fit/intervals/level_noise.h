@@ -8,9 +8,9 @@
 
 namespace viscard {
 
-// Noise that grows with the value, as that of a creep compliance which rises a hundredfold. The fit
-// weighs all samples alike, so that the covariance for equal noise is too small for what large values
-// determine (a viscosity) and too large for the rest.
+// Noise that grows with the value, for example of a creep compliance that rises a hundredfold. The
+// fit weights all samples alike, so the covariance for equal noise is too small for parameters that
+// large values determine (a viscosity) and too large for the others.
 struct LevelNoise {
   // Standard deviation of each row over the root mean square of all samples; empty for equal noise.
   Eigen::VectorXd row_scale;

@@ -7,14 +7,15 @@
 
 namespace viscard {
 
-// What intervals have to include because the noise is slow compared with the record.
+// Corrections of intervals for noise that is slow compared with the record.
 struct SlowNoise {
   double widening = 1.0;  // of the covariance
-  // With a doubt: every variance is at least this times that for white noise (batch means).
+  // If the noise is doubtful: every variance is at least this times that for white noise (batch
+  // means).
   double batch_inflation = 1.0;
-  // Nothing, or a sentence for the flag slow-noise: the memory of the noise reaches a tenth of the
-  // record, fewer than 40 independent values remain, or means of samples scatter more than the
-  // autoregression implies.
+  // Nothing, or a sentence for the flag slow-noise. It is set if the autocorrelation of the noise
+  // reaches a tenth of the record, if fewer than 40 independent values remain, or if means of
+  // samples scatter more than the autoregression implies.
   std::string doubt;
 };
 

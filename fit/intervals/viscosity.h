@@ -16,7 +16,7 @@ struct Viscosity {
   Interval interval_95;
 };
 
-// Of a liquid; nothing for a solid, or for stiffnesses in place of moduli.
+// Viscosity of a liquid; nothing for a solid, or if the fit gives stiffnesses instead of moduli.
 std::optional<Viscosity> viscosity_of(const FitResult& fit);
 
 }  // namespace viscard

@@ -136,7 +136,8 @@ Material common_of(const std::vector<Material>& specimens) {
     common.valid.t_min_s = std::max(common.valid.t_min_s, one.valid.t_min_s);
     common.valid.t_max_s = std::min(common.valid.t_max_s, one.valid.t_max_s);
     common.valid.strain_max = std::min(common.valid.strain_max, one.valid.strain_max);
-    // Every specimen was pressed on the same bench; the one that it matters most for counts.
+    // Every specimen was pressed on the same bench; the specimen that its uncertainty affects most
+    // determines the value.
     MaterialUncertainty& all = *common.uncertainty;
     if (one.uncertainty->systematic_relative > all.systematic_relative) {
       all.systematic_relative = one.uncertainty->systematic_relative;
@@ -160,7 +161,8 @@ void add_flags(RatioFit& fit) {
   }
   for (const Scatter& scatter : fit.scatter) {
     if (scatter.quantity != "ln_E0" || !(scatter.ratio.interval_95.low > 0.0)) continue;
-    // With one specimen at each ratio this level contains the specimens, which the law allows for.
+    // With one specimen at each ratio this level also contains the scatter between specimens, which
+    // the law allows for.
     if (!is_identified(scatter.specimen)) continue;
     fit.flags.push_back({"ratio-scatter", 0,
                          "E0 of the ratios scatters about the law by " +

@@ -189,15 +189,15 @@ FittedLaw fitted_law(const SpectralModel& model, const SpectralFit& fit,
   if (model.row_sigma().size() > 0) {
     out.rss = point.residual.cwiseProduct(model.row_sigma()).squaredNorm();
   }
-  // A law that does not describe the record has errors at least as large as its misfit says: the
-  // variance is that of the samples or that of the rows, the larger one.
+  // The residual of a law that does not describe the record is larger than the noise. Its errors
+  // use the larger of two variances: that of the samples and that of the rows.
   const double rows = static_cast<double>(model.n_rows());
   const double variance = std::max(rss / std::max(1.0, n - p), point.rss / std::max(1.0, rows - p));
   const Eigen::MatrixXd covariance = covariance_from_jacobian(
       model, law_jacobian(columns, search, point), variance, fit.noise, fit.row_scale);
   const UncertainLaw known =
       uncertain_law(numbers_of(kind, is_creep, search, point), search, covariance);
-  if (!(point.amplitude() > 0.0)) return out;  // the law is not in these data at all
+  if (!(point.amplitude() > 0.0)) return out;  // the data contain nothing of this law
   fill_named(known, result.is_stiffness, out);
   // ln_tau_min() and ln_tau_max() lie outside the times of the record by a factor of three.
   fill_series(known, 3.0 * std::exp(model.ln_tau_min()), std::exp(model.ln_tau_max()) / 3.0, out);

@@ -36,8 +36,9 @@ CoarseSpectrum coarse_of(const LawNumbers& law, const LogGrid& grid) {
   return coarse_spectrum(DecaySpectrum(form.shape, law.exponent, law.is_creep), law.ln_tau, grid);
 }
 
-// What is faster than the grid, as one term with the same sums of w T and w T^2: the same response
-// to an oscillation within the window. Its weight is at most the sum of w (Cauchy & Schwarz).
+// Everything faster than the grid becomes one term with the same sums of w T and w T^2, so the
+// response to an oscillation within the window is the same. Its weight is at most the sum of w
+// (Cauchy & Schwarz).
 struct FastTerm {
   double weight = 0.0, time_s = 0.0;
 };
@@ -60,7 +61,8 @@ RetardationSpectrum law_retardation(const LawNumbers& law, const LogGrid& grid) 
     const double compliance = law.amplitude * found.weights[j];
     spectrum.terms.push_back({std::max(compliance, least), std::exp(grid.at(j))});
   }
-  // The flow within the window, as a last term: a material keeps some modulus for ever.
+  // The flow within the window becomes a last term, because a material file always keeps some
+  // modulus at infinite time.
   const double last_s = 10.0 * std::exp(grid.at(grid.count - 1));
   const double flow = law.amplitude * found.slower_per_T * last_s;
   spectrum.terms.push_back({std::max(flow, least), last_s});

@@ -54,8 +54,8 @@ struct NamedLawValues {
 NamedLawValues named_values(const LawNumbers& law, bool is_stiffness);
 
 // A Prony series of the law: terms evenly spaced in ln tau by `step`, from 1.5 decades below
-// t_min_s to 2.5 decades above t_max_s. What is faster is one more term,
-// what is slower part of E_inf. A creep law is written as a retardation spectrum and converted.
+// t_min_s to 2.5 decades above t_max_s. Relaxation faster than that becomes one more term, slower
+// relaxation becomes part of E_inf. A creep law is written as a retardation spectrum and converted.
 PronySeries law_series(const LawNumbers& law, double t_min_s, double t_max_s, double step);
 // The widest step whose series is within 0.1 % (or with at most 60 terms), and its largest relative
 // error: of E(t), or J(t) in creep, between t_min_s and t_max_s, and of the complex modulus (or

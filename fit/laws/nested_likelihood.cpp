@@ -88,7 +88,7 @@ double NestedLikelihood::minus_twice(const Deviations& deviations) const {
     weights[r] = 1.0 / (at.variance + ratio);
   }
   const double origin = means[0];
-  means.array() -= origin;  // a constant that the law's own constant takes up
+  means.array() -= origin;  // a constant that the law's own constant absorbs
   const SymmetricFactor normal(design_.transpose() * weights.asDiagonal() * design_);
   const Eigen::VectorXd beta =
       normal.solve(Eigen::VectorXd(design_.transpose() * weights.cwiseProduct(means)));

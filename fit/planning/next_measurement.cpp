@@ -51,7 +51,7 @@ double compliance_minutes(const FittedRun& run) {
                     planned_s(phases_from_plan(plan), 0, run.bench.performance.approach_s));
 }
 
-// Adds one way to go on, judged by the quantity that is widest now.
+// Adds one possible measurement, judged by the quantity whose interval is now widest.
 class Ways {
  public:
   Ways(const FittedRun& run, const std::vector<WantedQuantity>& wanted) : run_(run) {
@@ -73,7 +73,7 @@ class Ways {
     ways_.push_back({what, how, widest_.name, before_, half_width, minutes});
   }
 
-  // The same fit with one doubt halved.
+  // The same fit with one systematic uncertainty halved.
   void add_known(const std::string& what, const std::string& how, double minutes,
                  const std::function<void(Bench&)>& improve) {
     FittedRun better = run_;
@@ -137,7 +137,7 @@ void add_better_knowledge(const FittedRun& run, Ways& ways) {
       kGeometry_min, [](Bench& better) { better.specimen.contact.punch_radius_u_m *= 0.5; });
 }
 
-// A new specimen: nothing of the fit is kept, because specimens differ.
+// A new specimen: no information of the fit is kept, because specimens differ.
 void add_thicker_layer(const FittedRun& run, Ways& ways) {
   if (!(run.bench.specimen.contact.layer_thickness_m > 0.0)) return;
   Bench thicker = run.bench;

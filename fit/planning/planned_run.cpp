@@ -14,7 +14,8 @@ namespace {
 
 using Kind = TestPhase::Kind;
 
-// The fit takes what the run itself measured (start_uncertainty_s); assumed here.
+// A run measures the uncertainty of its starts (start_uncertainty_s), which the fit then uses; here
+// it is assumed.
 constexpr double kStartLate_s = 0.02;
 
 void require_planned(bool is_good, const std::string& text) {

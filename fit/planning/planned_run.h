@@ -18,9 +18,9 @@ struct Bench {
 // Relative standard uncertainty of the load cell's calibration.
 double force_relative_u(const RigConfig& rig);
 
-// What one run of a test will record, before there is one: the readings' times, the moves of the
-// stage, and how long it takes. data.force_N are zeros, because the information of a run does not
-// depend on what is read.
+// The data that one run of a test will record, before it is made: the times of the readings, the
+// moves of the stage, and the duration of the run. data.force_N are zeros, because the information
+// of a run does not depend on the values of the readings.
 struct PlannedRun {
   IndentationData data;
   double total_s = 0.0;       // at the rig, from the start of the run to its end

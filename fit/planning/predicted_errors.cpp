@@ -20,7 +20,7 @@ PronySeries scaled(PronySeries series, double factor) {
   return series;
 }
 
-// Readings are disturbed by noise, and in motion by the steps of the stage besides.
+// Noise of a reading, plus the error from the steps of the stage while it moves.
 StageNoise noise_of(const RigPerformance& performance, double stiffness_N_m) {
   if (!(performance.noise_N > 0.0)) {
     throw std::invalid_argument(

@@ -39,9 +39,9 @@ struct ErrorCauses {
   ErrorCauses of_touches(int n) const;  // of the mean of n runs on one specimen
 };
 
-// What one run of a test is expected to tell about a specimen of the guessed material: the result
-// that its fit would have, with the errors that the Fisher information of the fit's own model
-// (StageModel, with its nuisances and their priors) gives at the guess. The order is taken as known.
+// The expected result of one run of a test on a specimen of the guessed material: the result that
+// its fit would have, with the errors from the Fisher information of the fit's own model
+// (StageModel, with its nuisances and their priors) at the guess. The order is assumed to be known.
 struct PredictedFit {
   FitResult result;      // parameters, covariance, systematic_relative, gain_drift_relative
   double total_s = 0.0;  // at the rig
@@ -49,14 +49,14 @@ struct PredictedFit {
   PronySeries series;                            // of the guess, Pa
   Eigen::MatrixXd covariance;                    // of (E_inf, E_i, ln tau_i) from the noise alone
   std::vector<SystematicPart> systematic_parts;  // of the series
-  SystematicPart gain_drift;  // what the possible drift before contact changes in it
+  SystematicPart gain_drift;  // change of the series by the possible gain drift before contact
 };
 
 // Throws what planned_run() throws, and std::invalid_argument if the rig's noise is not known or the
 // guess has no modulus.
 PredictedFit predicted_fit(const TestPlan& plan, const Bench& bench, const Material& guess);
 
-// What the doubts of the bench change in a series (Pa) that was fitted on it.
+// Changes of a series (Pa) by the systematic uncertainties of the bench on which it was fitted.
 std::vector<SystematicPart> systematic_parts_on(const Bench& bench, const PronySeries& series);
 
 ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit);

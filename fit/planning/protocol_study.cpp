@@ -23,7 +23,7 @@ double counted(const ErrorCauses& causes, bool is_beyond_reach) {
   return is_beyond_reach ? causes.without_systematic_95() : causes.half_width_95();
 }
 
-// What one run of a plan tells at one guess.
+// Predicted errors of one run of a plan for one guess of the material.
 struct Prediction {
   double total_s = 0.0, peak_force_N = 0.0;
   double weakest_term = 0.0;
@@ -82,7 +82,8 @@ void mark_front(std::vector<ProtocolRow>& rows) {
   }
 }
 
-// Rows that may be on the front when the doubt in the guess counts: within a fifth of it.
+// Rows that may belong to the front when the uncertainty of the guess is considered: within a fifth
+// of it.
 void keep_near_front(std::vector<ProtocolRow>& rows) {
   constexpr double kNear = 1.2;
   mark_front(rows);

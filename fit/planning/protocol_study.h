@@ -10,18 +10,19 @@
 
 namespace viscard {
 
-// One way to measure: a test, carried out on the same specimen so many times.
+// One way to measure: a test, and how many times it is repeated on the same specimen.
 struct ProtocolRow {
   TestPlan plan;
   int touches = 1;
   double total_s = 0.0;  // at the rig
   double peak_force_N = 0.0;
   // Smallest modulus of a term over its standard error, at the best guess. Below kClearTerm the fit
-  // may not find that term, and then its answer is not the one that is predicted.
+  // may miss that term, and then its result differs from the prediction.
   double weakest_term = 0.0;
   std::vector<ErrorCauses> errors;       // of the wanted quantities in their order, at the guess
   std::vector<double> worst_half_width;  // 95 %, relative: the largest over the doubt in the guess
-  // Largest of half-width over tolerance; 1 or less: all that is wanted is met. See ProtocolStudy.
+  // Largest of half-width over tolerance; if it is 1 or less, all wanted tolerances are met. See
+  // ProtocolStudy.
   double shortfall = 0.0;
   bool is_given = false;     // the test that the user gave
   bool is_on_front = false;  // no other row takes less time and falls as little short (within 2 %)
@@ -34,22 +35,23 @@ inline constexpr double kClearTerm = 6.0;
 // Error against time at the rig.
 struct ProtocolStudy {
   std::vector<WantedQuantity> wanted;
-  // True if the systematic parts alone exceed the tolerance. No test mends that, so such a quantity
-  // counts without them in the shortfall of the rows.
+  // True if the systematic parts alone exceed the tolerance. No test can change that, so the
+  // shortfall of the rows ignores the systematic parts of such a quantity.
   std::vector<bool> is_beyond_reach;
   std::vector<ProtocolRow> rows;  // ascending time: the front, and the given test
   std::size_t n_tried = 0;
   bool loses_terms =
-      false;  // no test shows all terms of the guess; else rows that do not are left out
+      false;  // no test resolves all terms of the guess; otherwise such rows are left out
   std::optional<std::size_t> advised;  // the quickest row that meets all that is wanted ...
-  bool meets_all = false;              // ... or else the one that falls least short
+  // ... or else the row that misses the tolerances by the smallest factor.
+  bool meets_all = false;
   std::optional<std::size_t>
       at_equal_time;  // the best row that takes no longer than the given test
 };
 
 struct ProtocolOptions {
   TestPlan base;              // its approach and retraction are kept
-  bool is_given = false;      // base is a test of the user's, to be compared
+  bool is_given = false;      // base is a test given by the user, to be compared
   double deepest_m = 0.0;     // that the load cell allows
   double longest_s = 3600.0;  // at the rig
   int most_touches = 5;

@@ -39,9 +39,9 @@ Bounds bounds_of(const SpectralModel& model, const SpectralState& state) {
   return bounds;
 }
 
-// Half the second derivatives of the sum of squares of the averages by coefficients and ln tau, from
-// differences of its slope. Where that sum is almost flat, the part that a Gauss-Newton step leaves
-// out counts.
+// Half the second derivatives of the sum of squares of the averages with respect to coefficients
+// and ln tau, from differences of its gradient. Where that sum is almost flat, the term that
+// Gauss-Newton neglects matters.
 Eigen::MatrixXd curvature_of(const SpectralModel& model, const SpectralState& state,
                              const Eigen::VectorXd& unit) {
   constexpr double kShare = 1e-4;  // of the sum's own scale
@@ -59,9 +59,9 @@ Eigen::MatrixXd curvature_of(const SpectralModel& model, const SpectralState& st
   return 0.5 * (curvature + curvature.transpose());
 }
 
-// The search for the optimum of all samples among the parameters that are not on a bound: Newton
-// steps with the curvature of the averages, which learn the rest of it. A step ends where it
-// meets a bound, and is halved until the sum of squares falls.
+// Searches the optimum of all samples among the parameters that are not on a bound, by quasi-Newton
+// steps that start with the curvature of the averages. A step ends at the first bound that it
+// meets, and is halved until the sum of squares falls.
 class SamplePolish {
  public:
   SamplePolish(const SpectralModel& model, const SpectralState& start,
@@ -84,8 +84,8 @@ class SamplePolish {
   }
 
  private:
-  // A smaller gain of the sum of squares ends the search: for one more parameter worth its place it
-  // would be 1 over the number of samples.
+  // A smaller gain of the sum of squares ends the search. A useful additional parameter would gain
+  // about 1 over the number of samples.
   static constexpr double kGain = 1e-10;
 
   Eigen::VectorXd parameters() const {
@@ -94,7 +94,7 @@ class SamplePolish {
     return all;
   }
 
-  // The usual case: what a Gauss-Newton step promises is not worth it.
+  // True in the usual case, where the gain predicted by a Gauss-Newton step is negligible.
   bool is_there() const {
     const Cholesky factor(gauss_newton_);
     if (!factor.is_definite()) return false;
@@ -107,7 +107,8 @@ class SamplePolish {
            (at[i] >= bounds_.high[i] && direction[i] > 0.0);
   }
 
-  // Without the parameters that the direction leads out of their bounds. True if there were any.
+  // Removes the parameters whose bounds the direction would violate. Returns true if there were
+  // any.
   bool hold_outward(std::vector<Index>& free, const Eigen::VectorXd& direction) const {
     const Eigen::VectorXd at = parameters();
     return std::erase_if(free, [&](Index i) { return leads_out(i, at, direction); }) > 0;
@@ -162,7 +163,7 @@ class SamplePolish {
     inverse_ = left * inverse_ * left.transpose() + step * step.transpose() / product;
   }
 
-  // False if no step gains anything.
+  // False if no step reduces the sum of squares.
   bool advance() {
     constexpr int kMostHalvings = 12;
     const Eigen::VectorXd change = full_step();

@@ -21,7 +21,7 @@ struct RefineOptions {
   // quick_search() also ends if a step gains less than this times the model's sample_variance().
   double unseen_variances = 0.0;
   Eigen::Index held = -1;  // index of a time that quick_search() keeps fixed; -1: none
-  // quick_search() gives up a fit that is not expected to fall below this sum of squares.
+  // quick_search() gives up a fit whose sum of squares will probably stay above this value.
   double target = std::numeric_limits<double>::infinity();
 };
 SpectralState refine(const SpectralModel& model, const SpectralState& start,

@@ -34,7 +34,7 @@ struct CaptureRequest {
   bool lifts_at_start = false;
 };
 
-// Who watches a capture while it runs. Any of these may be empty.
+// Callbacks and flags of a person or program that watches a capture. Any of them may be empty.
 struct CaptureWatch {
   const std::atomic<bool>* stop = nullptr;          // ends the run when set
   const std::atomic<bool>* stop_at_once = nullptr;  // the same without braking
@@ -50,7 +50,7 @@ struct CaptureWatch {
 // written (emulated_truth.h). Throws std::runtime_error if the test could not begin.
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch);
 
-// Extension of the file beside a capture of an emulated rig that holds its truth.
+// Extension of the file, beside an emulated capture, that holds its truth.
 inline constexpr const char* kTruthEnding = ".truth.json";
 
 // The truth as JSON for the file beside the capture: the result that a fit of the run should find.

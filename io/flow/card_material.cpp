@@ -21,9 +21,9 @@
 namespace viscard {
 namespace {
 
-// Without a covariance: E0 and E_inf at the same end of their own intervals, what lies between them shared
-// among the terms as fitted. Every modulus at its own end would be further out than any interval, because
-// the moduli of one fit are correlated.
+// Without a covariance: E0 and E_inf are taken at the same end of their intervals, and the
+// difference is shared among the terms in the fitted proportions. Taking every modulus at its own
+// end would leave the joint interval, because the moduli of one fit are correlated.
 void take_both_ends(const CardMaterialRequest& request, IntervalEnd end,
                     PreparedMaterial& prepared) {
   Material& material = prepared.material;
@@ -150,7 +150,7 @@ void take_ratio(const CardMaterialRequest& request, PreparedMaterial& prepared) 
   }
 }
 
-// Another word would count as one of these.
+// A misspelt word would otherwise count as one of these.
 void check_word(const char* option, const std::string& word,
                 const std::vector<std::string>& known) {
   if (word.empty() || std::find(known.begin(), known.end(), word) != known.end()) return;

@@ -23,7 +23,7 @@ struct CardMaterialRequest {
   bool may_approximate = false;  // refit the terms to the number that the target takes
 };
 
-// The material after all that, with notes of what was done to it.
+// The resulting material, with notes of the changes that were made.
 struct PreparedMaterial {
   Material material;
   std::string sha256;
@@ -41,7 +41,7 @@ PreparedMaterial prepare_card_material(const CardMaterialRequest& request);
 PreparedMaterial prepare_card_material(const Material& material,
                                        const CardMaterialRequest& request);
 
-// What a card states of these changes.
+// The text of these changes for the card.
 void state_changes(const PreparedMaterial& prepared, CardOptions& options);
 
 }  // namespace viscard

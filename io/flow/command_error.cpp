@@ -59,7 +59,8 @@ bool is_file(const std::string& word) {
           std::isalpha(static_cast<unsigned char>(word[dot + 1])) != 0);
 }
 
-// The place that the text names: the file that it begins with, or the first of the most telling kind.
+// The place that the text names: the file at its beginning, or else the first place of the most
+// specific kind.
 std::string place_in(const std::string& text) {
   const std::vector<std::string> words = words_of(text);
   if (words.empty()) return "";
@@ -104,7 +105,7 @@ CommandError command_error(const std::string& code, const std::string& text,
     error.message = text.substr(0, cut);
     error.hint = text.substr(cut + 2);
   }
-  // An option that a hint recommends is a place only if the message names none.
+  // An option that a hint recommends counts as the place only if the message names no other place.
   if (where.empty()) error.where = place_in(error.message);
   if (error.where.empty()) error.where = place_in(error.hint);
   return error;

@@ -23,7 +23,7 @@ struct CommandError {
   std::string hint;     // what to do next; may be empty
 };
 
-// A failure whose code no other type of exception shows.
+// A failure whose code cannot be derived from its exception type.
 class CodedError : public std::runtime_error {
  public:
   CodedError(std::string code, const std::string& text)
@@ -35,7 +35,7 @@ class CodedError : public std::runtime_error {
 };
 
 // Divides a message for people, which states what happened and then what to do, into its parts.
-// where: if it is empty, the place that the text names.
+// where: the place of the failure; if it is empty, the place that the text names.
 CommandError command_error(const std::string& code, const std::string& text,
                            const std::string& where = "");
 // The code follows from the type of the exception.

@@ -27,7 +27,8 @@ void add_temperature(const CapturedRun& run, FittedFile& fitted) {
   if (!drift.empty() && !is_said) flags.push_back({"temperature-drift", 0, drift});
 }
 
-// Among several tests a run counts as its table of force and depth. The depth is without the frame.
+// In a fit of several tests a captured run is used as its table of force and depth. The depth is
+// without the frame's deflection.
 FittedFile fit_as_table(const std::string& path, const CapturedRun& run,
                         const FitRequest& request) {
   FitRequest of_table = request;
@@ -52,7 +53,8 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
                              "tables; omit them for a capture");
   }
   CapturedRun run = read_capture(path);
-  const std::string specimen_id = run.specimen.id;  // the geometry may be replaced, not this
+  // The geometry may be replaced, this value may not.
+  const std::string specimen_id = run.specimen.id;
   if (request.specimen) run.specimen = *request.specimen;
   if (request.frame_stiffness_N_m > 0.0) run.rig.frame.stiffness_N_m = request.frame_stiffness_N_m;
   FittedFile fitted;
@@ -69,7 +71,7 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
         {"run-" + run.status, 0,
          "the run was not finished; the fit uses the part that was recorded"});
   }
-  // Defects that the run reported about its own record.
+  // Defects of the record that the run itself reported.
   for (const RunEvent& event : run.events) {
     if (event.name != "doubt") continue;
     std::string name = event.value;
@@ -80,7 +82,7 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   return fitted;
 }
 
-// Answers with the law that was asked for.
+// Replaces the answer by the law that was requested.
 void take_laws(const FitRequest& request, bool is_capture, FittedFile& fitted) {
   if (!request.diagnose && request.model.empty()) return;
   if (fitted.result.laws.empty()) {

@@ -21,14 +21,14 @@ FittedFile fit_values(const CsvTable& table, const FitRequest& request);
 // Called with the fraction done and the name of the step that was finished last; may be empty.
 using FlowProgress = std::function<void(double fraction, const std::string& step)>;
 
-// What became of one of several files: its fit, or the reason why there is none.
+// The result for one of several files: its fit, or the reason why there is none.
 struct FileOutcome {
   std::string path;
   std::optional<FittedFile> fitted;
   std::exception_ptr error;
 };
 
-// Fits all files on all cores. A file that fails does not keep the others from being fitted.
+// Fits all files on all cores. If one file fails, the others are fitted nevertheless.
 std::vector<FileOutcome> fit_each_file(const std::vector<std::string>& files,
                                        const FitRequest& request, const FlowProgress& progress);
 
@@ -59,7 +59,7 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
 struct JointRequest {
   std::vector<std::string> files;  // captures, tables, material files
   std::vector<double> ratios;      // one for each file; empty: the files state them
-  // One for each file, of the specimen that it is a record of; empty: the files state them.
+  // Id of the specimen of each file; empty: the files state it.
   std::vector<std::string> specimen_ids;
   FitRequest fit;
   MaterialRequest material;

@@ -24,12 +24,13 @@ std::string name_of(const std::vector<TestFile>& tests, std::size_t k) {
   return name + " " + std::to_string(1 + std::count_if(tests.begin(), at, same));
 }
 
-// How each test is fitted by itself: by its own order, as the others do not decide it.
+// Options for fitting each test alone: the order is chosen for that test, because the others do not
+// determine it.
 FitRequest request_of(const TestFile& test, const FitRequest& request) {
   FitRequest one = request;
   one.kind = test.kind;
   one.is_one_of_several = true;
-  one.needs_modulus = false;  // the other tests may give it
+  one.needs_modulus = false;  // another test may supply it
   one.options.keep_rows = true;
   one.options.n_terms.reset();
   return one;

@@ -40,7 +40,8 @@ struct FitRequest {
   bool needs_specimen = false;       // a table of several specimens is refused
   bool needs_modulus = false;        // a stiffness is refused, because a material will be written
   double frame_stiffness_N_m = 0.0;  // for tables whose depth_m is the position of the stage
-  // The kind was stated for this file: other columns are refused, options for others do not count.
+  // The user stated the kind of test of this file: other columns are refused, options for other
+  // kinds are ignored.
   bool is_one_of_several = false;
   std::optional<double> T_ref_C;  // reference temperature of a master curve
 };
@@ -48,7 +49,7 @@ struct FitRequest {
 // The fit of one file, with the specimen that the file or the options describe.
 struct FittedFile {
   std::string path;
-  bool is_in_memory = false;  // the path is a name and no file
+  bool is_in_memory = false;  // the path is only a name; there is no such file
   FitResult result;
   Specimen specimen;        // empty for a table without --specimen
   std::string specimen_id;  // of the capture, or of the table's column "specimen"; empty: not known
@@ -57,7 +58,7 @@ struct FittedFile {
   // Rows of an exported capture before its first baseline, which are not fitted.
   std::size_t n_before_test = 0;
   std::string chosen;         // the part that --from, --to, --hold or --crop chose; empty: all
-  bool has_no_depth = false;  // the results are forces in N, because no depth is known
+  bool has_no_depth = false;  // the results are forces in N, because the depth is unknown
   // By the thermometer of the run; nothing if there was none.
   std::optional<RunTemperature> temperature;
   // For a table of several temperatures; `result` is then the fit at the reference temperature.

@@ -188,8 +188,8 @@ std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
   return fit_master_curve(data, request.options);
 }
 
-// Options that this kind of table cannot use are refused, because a person who gives them expects
-// that they count.
+// Refuses options that this kind of table cannot use, because the user expects them to have an
+// effect.
 void check_options(const CsvTable& table, FitKind kind, const FitRequest& request) {
   const bool is_alone = kind == FitKind::kRelaxation && is_force_alone(table, request);
   if (request.depth_m && !is_alone) {
@@ -204,7 +204,7 @@ void check_options(const CsvTable& table, FitKind kind, const FitRequest& reques
   }
 }
 
-// Options for other ones of several tests do not count for this one.
+// Options for the other tests do not apply to this one.
 FitRequest of_this_test(const CsvTable& table, const FitRequest& request) {
   FitRequest one = request;
   if (!request.is_one_of_several || !request.kind) return one;

@@ -57,8 +57,8 @@ std::vector<JointRecord> read_records(const JointRequest& request) {
   return records;
 }
 
-// Repeats of one specimen must be known as such: taken for specimens, they would make the intervals
-// too narrow.
+// Repeats of one specimen must be marked as such: counted as specimens, they would make the
+// intervals too narrow.
 void check_specimens(const std::vector<JointRecord>& records) {
   std::map<std::string, const JointRecord*> first_of;
   const JointRecord* repeat = nullptr;
@@ -114,7 +114,7 @@ void refit_others(const std::vector<JointRecord*>& records, const JointRequest& 
   }
 }
 
-// A record counts once, also if a file and a material made of it are given.
+// A record counts once, even if both a file and a material made from it are given.
 void refuse_repeated_records(const std::vector<JointRecord>& records) {
   std::map<std::string, const JointRecord*> first_with;
   for (const JointRecord& one : records) {

@@ -24,7 +24,7 @@ ValidityWindow window_of(const FitResult& fit) {
   return window;
 }
 
-// A law's series holds where it was compared with the law.
+// The series of a law is valid in the window in which it was compared with the law.
 void narrow_to_law(const FittedFile& fitted, ValidityWindow& window) {
   for (const FittedLaw& law : fitted.result.laws) {
     if (law.name != fitted.model) continue;
@@ -33,7 +33,7 @@ void narrow_to_law(const FittedFile& fitted, ValidityWindow& window) {
   }
 }
 
-// What a thermometer has measured counts more than what somebody has noted.
+// A temperature measured by a thermometer takes precedence over a noted one.
 void set_temperature(const FittedFile& fitted, Material& material) {
   if (fitted.temperature) {
     material.T_ref_C = fitted.temperature->mean_C;

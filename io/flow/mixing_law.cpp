@@ -36,7 +36,8 @@ MixingLaw law_from(const RatioFit& fit) {
           fit.scatter};
 }
 
-// The records' scatter also of what relaxes; only of E0 if that is unknown for one of them.
+// The scatter of the records includes the relaxing shares; if these are unknown for one record,
+// only E0 is used.
 std::vector<Scatter> scatter_of_all(const std::vector<Material>& records, const RatioFit& fit) {
   for (const Material& one : records) {
     const auto size = static_cast<Eigen::Index>(1 + 2 * one.terms.size());

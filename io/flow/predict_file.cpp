@@ -228,7 +228,7 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
     }
     const ReadTable& course = history ? *history : *measured;
     wanted.history = history_from(course);
-    // A table with both columns holds the answer too.
+    // A table with both columns also contains the measured answer.
     if (!measured && course.has("strain") && course.has("stress_Pa")) measured = history;
   }
   if (measured) wanted.also_at = wanted_arguments(wanted.test, *measured);

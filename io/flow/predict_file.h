@@ -33,7 +33,7 @@ struct Agreement {
   std::vector<std::size_t> index;    // of each row in the prediction
   std::size_t n_left_out = 0;        // rows before the test begins
   std::size_t n_inside_window = 0;
-  // Of predicted - measured, in the unit of the name; relative to the rms measured.
+  // Statistics of predicted - measured, in the unit of the name; relative to the rms measured.
   double rms = 0.0, rms_relative = 0.0;  // of predicted - measured; relative to the rms measured
   double rms_inside_window = 0.0;        // NaN if no row is inside
   // Largest magnitude of predicted - measured, and where.
@@ -46,7 +46,7 @@ struct Agreement {
   bool is_noise_relative = false;  // of frequency sweeps, whose values span decades
 };
 
-// What a material file does in a test.
+// What a material file predicts for a test.
 struct PredictedFile {
   std::string path, name;  // of the material
   double systematic_relative = 0.0;

@@ -6,7 +6,8 @@
 namespace viscard {
 namespace {
 
-// The message also states where the punch was left, which the reason says behind the cause.
+// The message also contains the final position of the punch, which the reason gives after the
+// cause.
 CommandError error_of_run(const RunOutcome& outcome) {
   const bool has_cause = !outcome.cause.empty() && outcome.reason.rfind(outcome.cause, 0) == 0;
   CommandError error = command_error(outcome.code.empty() ? "failed" : outcome.code,

@@ -231,7 +231,7 @@ void add_pillar(SpecimenReport& specimen) {
 
 void add_pillar_and_cards(SpecimenReport& specimen, const ReportRequest& request) {
   if (!specimen.material) return;
-  // Users of tables from other machines ask for the material, not for a pillar.
+  // Users of tables from other machines want the material, not a pillar.
   const bool is_table = specimen.fit && !specimen.run;
   if (!is_table) add_pillar(specimen);
   const std::string stem = fs::path(specimen.files.front().path).stem().string();

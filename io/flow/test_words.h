@@ -7,11 +7,11 @@
 
 namespace viscard {
 
-// The words of a command that may name tests of one material: "creep=b.csv". Kinds: relaxation, creep,
-// dma or oscillation, indentation. Empty if no word does: then all are plain files. A word is a plain
-// file if a file of that name exists, or if it has no "=" or a folder before it ("./a=b.csv"). Throws
-// std::invalid_argument for a kind that is not known, for plain files beside tests, and for a test
-// without a file.
+// The words of a command that may name tests of one material: "creep=b.csv". Kinds: relaxation,
+// creep, dma or oscillation, indentation. Returns an empty list if no word names a kind: then all
+// are plain files. A word is a plain file if a file of that name exists, or if it has no "=" or a
+// folder before it ("./a=b.csv"). Throws std::invalid_argument for an unknown kind, for plain files
+// beside tests, and for a test without a file.
 std::vector<TestFile> tests_from_words(const std::vector<std::string>& words);
 
 // The files, without their kinds.

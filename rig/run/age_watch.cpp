@@ -7,7 +7,8 @@ namespace viscard {
 namespace {
 
 constexpr double kOldest_s = 0.25;
-constexpr double kBeyond = 0.05;  // of the capacity: so far may the force pass its limit unseen
+// Of the capacity: by so much the force may pass its limit before it is seen.
+constexpr double kBeyond = 0.05;
 constexpr double kAnswer_s =
     0.025;  // bytes held back by an adapter (16 ms), and the stage's answer
 constexpr double kPeriods = 2.0;

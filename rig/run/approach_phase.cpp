@@ -22,7 +22,7 @@ constexpr double kMostFurther = 0.5;  // of the soft limit
 constexpr double kOfFrame = 0.95;     // a stiffer contact says nothing of the specimen
 
 struct Touch {
-  JogEnd before;  // the last stop before the touch
+  JogEnd before;  // the last stop before contact
   JogEnd at;
 };
 
@@ -38,7 +38,7 @@ double contact_threshold_N(TestRun& run) {
   return threshold_N;
 }
 
-// What a person sees at the rig tells the three causes apart.
+// Observations that distinguish the three causes for a person at the rig.
 std::string nothing_touched_text(const TestRun& run) {
   const int sign = run.rig.stage.toward_specimen;
   return "nothing was touched within " + text_from_number(run.plan.approach_limit_m * 1e3, 2) +
@@ -74,10 +74,11 @@ JogEnd pressed_to(TestRun& run, double position_m, double most_N) {
   return {run.session.stage().position_m(), force_N};
 }
 
-// Presses a few percent of the depth further, so that two stops in contact show the stiffness:
-// contact and travel by a wrong modulus_guess would miss the depth by tens of um. The stop at the
-// touch is not one of the two, because a report has only three decimals of a mm; where a whole move
-// ends is known to a step. Returns the touch itself if the force leaves no room for that.
+// Presses a few per cent of the depth further, so that two stops in contact show the stiffness.
+// With a wrong modulus_guess, contact and travel would miss the depth by tens of um. The stop at
+// the touch is not one of the two, because a report has only three decimals of a mm; the end of a
+// whole move is known to a step. Returns the touch itself if the force leaves no room for the
+// second stop.
 Touch pressed_further(TestRun& run, const Touch& touch) {
   const Preflight& expected = run.outcome.expected;
   const double least_m = kFewestSteps / run.session.stage().dynamics().steps_per_m;
@@ -94,8 +95,8 @@ Touch pressed_further(TestRun& run, const Touch& touch) {
   return second.force_N > first.force_N ? Touch{first, second} : touch;
 }
 
-// With the frame known, the stage's way to a depth follows from the stiffness measured. If the force
-// at full depth would pass the limit, the way stays the one by modulus_guess.
+// With a known frame, the stage's travel to a depth follows from the measured stiffness. If the
+// force at full depth would pass the limit, the travel computed from modulus_guess is kept.
 void use_stiffness(TestRun& run, double total_N_m) {
   const double frame_N_m = run.rig.frame.stiffness_N_m;
   const double depth_m = deepest_m(run.phases);

@@ -15,7 +15,8 @@ ForceControl::ForceControl(const Options& options) : options_(options) {
 
 double ForceControl::step_m(double force_N) {
   constexpr double kShare = 0.7;
-  constexpr double kSureSigmas = 6.0;  // a response above this many sigmas shows the stiffness
+  // A response above this many standard deviations determines the stiffness.
+  constexpr double kSureSigmas = 6.0;
   if (last_force_N_ && last_step_m_ != 0.0) {
     const double response_N = force_N - *last_force_N_;
     // Relaxation makes the response to a step toward the specimen too small and to a step away from

@@ -8,11 +8,11 @@ namespace viscard {
 
 enum class GuardAction { kNone, kWarn, kSoftStop, kHardStop };
 
-// Decides from the readings alone what must be done to protect the load cell: warn, stop with
-// deceleration, or stop at once. While the stage moves, one reading above a limit is enough; at rest
-// the next one must be above it too, because a garbled digit must not end a long hold. A doubtful reading
-// (the code of an interrupted or saturated conversion, or no number) waits for the next one; if
-// that is doubtful too or does not arrive in time, the stage is stopped at once.
+// Decides from the readings alone how to protect the load cell: warn, stop with deceleration, or
+// stop at once. While the stage moves, one reading above a limit is enough; at rest the next one
+// must be above it too, because a garbled digit must not end a long hold. After a doubtful reading
+// (the code of an interrupted or saturated conversion, or no number) the guard waits for the next
+// one; if that is doubtful too or does not arrive in time, the stage is stopped at once.
 class ForceGuard {
  public:
   ForceGuard(const SafetyConfig& safety, double capacity_N);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNearShare = 0.45;    // of the force: from here on the stiffness is well known
 constexpr double kFirstShare = 0.7;    // of the force: the first move, by the stiffness guessed
-constexpr double kLeastRatio = 0.2;    // of the stiffness seen over the one guessed
+constexpr double kLeastRatio = 0.2;    // of the measured stiffness over the guessed one
 constexpr double kMeanReadings = 8.0;  // of the mean before one step
 constexpr double kLeastMean_s = 0.1;
 constexpr double kTolerance = 0.005;   // of the force, unless the test file sets another

@@ -9,7 +9,7 @@ namespace viscard {
 namespace {
 
 constexpr double kSigmas = 8.0;
-// The noise of twenty readings is known to 27 %, so that a mean leaves out less.
+// The noise of twenty readings is known to 27 % only, so a mean removes fewer readings.
 constexpr double kMeanSigmas = 16.0;
 constexpr double kPerStep = 0.954;  // median of the step between two readings over their noise
 constexpr double kSteeper = 2.5;    // an end may be so much steeper than the step beside it

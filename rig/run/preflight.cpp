@@ -46,7 +46,7 @@ void check_force(const RigConfig& rig, const std::vector<TestPhase>& phases, Pre
                             ". Lower " + highest.load_key + " of the test file to " + remedy);
 }
 
-// A force that no approach would notice is a mistake of the modulus or of the depth.
+// A force that no approach would notice shows a mistake in the modulus or in the depth.
 void check_least_force(const RigConfig& rig, const TestPlan& plan, Preflight& result) {
   if (result.peak_force_N > plan.contact_force_N) return;
   result.problems.push_back(
@@ -66,8 +66,8 @@ void check_travel(const RigConfig& rig, const TestPlan& plan, Preflight& result)
       in_mm(0.5 * rig.stage.travel_m) + ", or correct travel under [stage] of the rig file");
 }
 
-// At a depth below the relaxed share of the largest depth before, the specimen, which has not
-// recovered yet, lies below the punch.
+// At a depth below the relaxed share of the largest earlier depth the punch loses contact, because
+// the specimen has not recovered yet.
 void check_lift_off(const std::vector<TestPhase>& phases, double relaxation, Preflight& result) {
   double deepest_m = 0.0;
   for (const TestPhase& phase : phases) {
@@ -110,7 +110,7 @@ void check_rates(const RigConfig& rig, const std::vector<TestPhase>& phases, Pre
   }
 }
 
-// The moves to a depth in a given time must not need more than the largest speed.
+// The moves to a depth in a given time must not need a speed above the largest one.
 void check_speeds(const std::vector<TestPhase>& phases, const StageDynamics& dynamics,
                   Preflight& result) {
   double before_m = 0.0;

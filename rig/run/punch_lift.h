@@ -7,10 +7,11 @@
 
 namespace viscard {
 
-// What a run that ended early could still do for the specimen and the load cell.
+// What was still done for the specimen and the load cell after a run that ended early.
 struct SafeEnd {
   double lifted_m = 0.0;
-  std::string trouble;  // what could not be done and what to do by hand; empty if all was done
+  // What could not be done, and what to do by hand; empty if everything was done.
+  std::string trouble;
 };
 
 // Stops the stage, unlocks it if it locked itself, lifts the punch and checks that the force falls.

@@ -9,7 +9,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kFlatForce = 0.2;  // of the expected peak: below it the punch hardly pressed
+constexpr double kFlatForce = 0.2;  // of the expected peak: below this the punch hardly pressed
 constexpr double kLongGap_s = 1.0;  // wall time without a reading
 constexpr double kLongGapPeriods = 20.0;
 
@@ -47,7 +47,8 @@ void doubt_gap(RunSession& session, RunOutcome& outcome, double most_s) {
 void doubt_line(RunSession& session, RunOutcome& outcome) {
   constexpr double kReadableToNot = 30.0 / 50.0;
   const StreamCounts& stream = outcome.stream;
-  const bool has_check = session.load_cell().has_check();  // then only what stands out is doubtful
+  // Then only readings that stand out are doubtful.
+  const bool has_check = session.load_cell().has_check();
   if ((has_check ? 0 : stream.unreadable) + stream.implausible == 0) return;
   const double n_hidden = std::ceil(kReadableToNot * static_cast<double>(stream.unreadable) +
                                     static_cast<double>(stream.implausible));
@@ -62,8 +63,8 @@ void doubt_line(RunSession& session, RunOutcome& outcome) {
   session.event("doubt", "line_noise", outcome.doubts.back());
 }
 
-// A run without a temperature, or with one that drifted, is as good as before, but its temperature is
-// not what the material should carry.
+// A run without a temperature, or with one that drifted, is a valid run, but its temperature should
+// not go into the material.
 void doubt_temperature(RunSession& session, const RigConfig& rig, RunOutcome& outcome) {
   const Thermometer* thermometer = session.thermometer();
   if (thermometer == nullptr) return;

@@ -24,7 +24,7 @@ struct RunProgress {
 struct RunReading {
   double time_s = 0.0;   // when it was made, in rig seconds since the run began
   double force_N = 0.0;  // from the tare
-  double depth_m = 0.0;  // as in RunProgress
+  double depth_m = 0.0;  // depth, as in RunProgress
 };
 
 class Thermometer;

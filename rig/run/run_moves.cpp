@@ -1,5 +1,5 @@
-// The moves of a session, and what they are watched by: the age of the readings, and how late this
-// computer is.
+// The moves of a session, and how they are watched: the age of the readings, and the delays of this
+// computer.
 #include "models/maths/text_of_number.h"
 #include "rig/run/run_session.h"
 
@@ -42,7 +42,7 @@ std::string RunSession::lateness_text(double within_wall_s) const {
          "start viscard with priority (chrt -f 50 viscard ...), then start the run again";
 }
 
-// Everything that came meanwhile has been read and judged before this.
+// Everything received in the meantime has been read and judged before this.
 void RunSession::check_lateness() {
   const HostLateness& host = clock_.lateness();
   if (host.n_long() == n_late_) return;
@@ -78,7 +78,7 @@ void RunSession::expect_stiffness(double stiffness_N_m) {
   stiffness_N_m_ = std::max(stiffness_N_m_, stiffness_N_m);
 }
 
-// False if it still waits after so much time spent listening.
+// False if a reading is still missing after so much time spent listening.
 bool RunSession::pump_while(const std::function<bool()>& is_waiting, double listened_wall_s) {
   const double until_s = clock_.awake_s() + listened_wall_s;
   while (is_waiting()) {

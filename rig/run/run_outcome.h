@@ -15,7 +15,7 @@ struct RunOutcome {
   // "finished" | "interrupted" (by a person or a lost device) | "stopped" (by a force limit)
   std::string status;
   std::string reason;  // why it did not finish and what to do; empty if it did
-  std::string cause;   // the reason without where the punch was left
+  std::string cause;   // the reason without the final position of the punch
   // Of an early end, for programs: "force-limit" | "interrupted" | "device-lost" |
   // "device-restarted" | "stage-alarm" | "readings-old" | "pressing" | "device" | "failed".
   std::string code;
@@ -26,7 +26,8 @@ struct RunOutcome {
   // errors below twice the step between readings are not detected either; in the first five and the
   // last two readings the threshold is up to twice as high.
   double hidden_error_N = 0.0;
-  // The stage was moved after the tare; otherwise nothing is known of the specimen.
+  // The stage was moved after the tare; otherwise the run contains no information about the
+  // specimen.
   bool has_begun = false;
   std::optional<double> contact_position_m;  // live estimate; the fit finds a better one
   double peak_force_N = 0.0;

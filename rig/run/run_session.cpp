@@ -149,7 +149,8 @@ void RunSession::act_on(GuardAction action, double force_N) {
   throw_limit(action, force_N);
 }
 
-// The advice depends on how far the run has come. Whether the punch can be lifted is not known yet.
+// The advice depends on how far the run has come. At this point it is not known whether the punch
+// can be lifted.
 void RunSession::throw_limit(GuardAction action, double force_N) const {
   const bool is_hard = action == GuardAction::kHardStop;
   if (is_hard && std::abs(force_N) < guard_.hard_limit_N()) {

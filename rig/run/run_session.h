@@ -81,7 +81,7 @@ class RunSession {
   // Delays of this computer since the session began, in which nothing could be watched.
   int n_late() const { return clock_.lateness().n_long() - n_late_before_; }
   double longest_late_s() const { return longest_late_s_; }
-  // Why a run that ends now may not be to blame: this computer was late within the last seconds.
+  // Why this computer may be the cause if the run ends now: it was late within the last seconds.
   // Empty if it was not.
   std::string lateness_text(double within_wall_s = 2.0) const;
   // Judges the last readings too; call when no more readings follow.

@@ -12,7 +12,7 @@ constexpr double kNap_wall_s = 0.005;
 constexpr double kSilence_wall_s = 0.1;
 // On an emulated clock that runs fast, every stall of the machine counts as seconds of rig time.
 constexpr double kSilenceEmulated_wall_s = 1.0;
-// At rest nothing presses harder meanwhile, but a hold without readings is worth nothing.
+// At rest no force can rise in the meantime, but a hold without readings is useless.
 constexpr double kDeadAtRest_wall_s = 1.5;
 constexpr double kDeadEmulated_wall_s = 3.0;
 constexpr double kDeadPeriods = 20.0;  // of a slow instrument

@@ -71,8 +71,9 @@ std::vector<std::int64_t> SpikeWatch::judge_until(std::size_t end) {
   return found;
 }
 
-// What the readings on one side predict for the one at `at`; spikes found before are left out.
-// Of the side after, those that depart from the line before are left out, if three others do not.
+// The prediction from the readings on one side for the reading at `at`; spikes found before are
+// left out. On the side after, readings that depart from the line before are left out, if three
+// others do not.
 SpikeWatch::Line SpikeWatch::predicted(std::size_t at, int direction, const Line* before) const {
   std::array<std::size_t, kSide> side{};
   std::size_t n = 0;
@@ -114,8 +115,8 @@ SpikeWatch::Line SpikeWatch::predicted(std::size_t at, int direction, const Line
   return line;
 }
 
-// Whether a reading is further from the line than noise explains, with the uncertainty of a line
-// through kSide readings that end beside `from`: their mean lies (kSide + 1)/2 before it.
+// True if a reading is further from the line than noise explains. This includes the uncertainty of
+// a line through kSide readings that end beside `from`: their mean lies (kSide + 1)/2 before it.
 bool SpikeWatch::departs(const Line& before, std::size_t at, std::size_t from) const {
   constexpr double kMiddle = 0.5 * (kSide + 1), kSpread = kSide * (kSide * kSide - 1) / 12.0;
   const double away = readings_[at].place - readings_[from].place;
@@ -156,7 +157,7 @@ bool SpikeWatch::judge(std::size_t at) {
     return std::abs(value - line.value) > kAtTheEnd * one + kTurned * std::abs(line.slope);
   }
   const double slope = std::max(std::abs(before.slope), std::abs(behind.slope));
-  // Slopes that noise alone can make need no allowance.
+  // Slopes that noise alone can cause need no allowance.
   const double corner =
       std::max(0.0, std::abs(before.slope - behind.slope) - kNoisySlope * noise());
   const double ramp = std::max(0.0, slope - kNoisySlope * noise());
@@ -168,7 +169,7 @@ bool SpikeWatch::judge(std::size_t at) {
   if (slope > kLikely * noise() && lies_between(at, before, kLikely * noise())) return false;
   const double apart = std::abs(before.value - behind.value);
   const double middle = 0.5 * (before.value + behind.value);
-  // Two lines through pure noise are seldom further apart than this.
+  // Two lines through pure noise seldom differ by more than this.
   const bool do_agree = apart < 4.0 * noise();
   const double distance = std::abs(
       value - (do_agree ? mean_around(at, middle, 0.5 * (before.slope + behind.slope)) : middle));

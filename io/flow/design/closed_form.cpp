@@ -29,7 +29,7 @@ Lattice lattice_of(const std::string& word) {
                               " There are: square, hexagonal, plain");
 }
 
-// Nothing of a sensor is longer than a metre; a unit that was forgotten makes it so.
+// No length of a sensor exceeds a metre; a longer one shows that a unit was forgotten.
 void refuse_forgotten_unit(const DesignOption& option, double value) {
   if (std::string_view(option.unit) != "m" || std::abs(value) <= 1.0) return;
   throw std::invalid_argument(fmt::format(

@@ -29,9 +29,10 @@ struct DesignOption {
 // All quantities of `design`, which must outlive them.
 std::vector<DesignOption> options_of(ClosedFormDesign& design);
 
-// The design with the values (in SI) that `given` returns for the name and the unit of an option; nothing: the
-// default. lattice: "square", "hexagonal" or "plain". Without work of adhesion it is twice the surface energy, of
-// equal surfaces. Throws std::invalid_argument naming what is outside its range.
+// The design with the values (in SI) that `given` returns for the name and the unit of an option;
+// if it returns nothing, the default is used. lattice: "square", "hexagonal" or "plain". Without
+// work of adhesion, twice the surface energy is used (equal surfaces). Throws std::invalid_argument
+// naming the value that is outside its range.
 ClosedFormDesign closed_form_design(
     const std::function<std::optional<double>(const char* name, const char* unit)>& given,
     const std::optional<std::string>& lattice);

@@ -19,7 +19,7 @@ double processor_time_s() {
   return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
 }
 
-// Seeks single dimensions that make one line pass.
+// Searches for single dimensions that make one failing requirement pass.
 class LineRemedies {
  public:
   LineRemedies(const std::string& text, const std::filesystem::path& path,
@@ -30,7 +30,8 @@ class LineRemedies {
         tolerance_(tolerance),
         dimensions_(dimensions_of(text, path)) {}
 
-  // Fills the remedies of a line within a processor time. A dimension whose search is cut off has none.
+  // Fills the remedies of a line within a limit of processor time. A dimension whose search is cut
+  // off gets none.
   void add(JudgedLine& line, double search_s) const {
     const double end_s = processor_time_s() + search_s;
     std::atomic<bool> is_complete = true;
@@ -137,7 +138,8 @@ Judgement judge_scene(const std::string& text, const std::filesystem::path& path
   for (std::size_t i = 0; i < failing.size(); ++i) {
     report(failing.size() + i, failing.size(),
            std::string(failing[i]->kind->key) + ": dimensions that would pass");
-    const double left_s = end_s - processor_time_s();  // what a line leaves is for those after it
+    // Time that a line does not use is left to those after it.
+    const double left_s = end_s - processor_time_s();
     remedies.add(*failing[i], left_s / static_cast<double>(failing.size() - i));
   }
   return judgement;

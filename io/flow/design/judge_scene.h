@@ -20,7 +20,7 @@ struct JudgedLine {
   Verdict verdict = Verdict::kNotAnswered;
   double margin = 0.0;  // limit over value, or its inverse for a lower limit: below 1 it fails
   std::vector<Remedy> remedies;    // of a line that fails: single dimensions, nearest first
-  bool is_search_complete = true;  // the time for them was enough
+  bool is_search_complete = true;  // the time was sufficient for all remedies
 };
 
 struct Judgement {
@@ -31,7 +31,8 @@ struct Judgement {
 
 struct JudgeOptions {
   std::optional<double> tolerance;  // instead of the scene's
-  // Processor time for the dimensions that would pass, shared between the lines that fail; 0: none.
+  // Processor time for the search of dimensions that would pass, shared between the failing lines;
+  // 0: no search.
   double search_s = 60.0;
   // Called with the fraction done and what is done next; may be empty.
   std::function<void(double, const std::string&)> progress;
@@ -43,7 +44,7 @@ struct JudgeOptions {
 Judgement judge_scene(const std::string& text, const std::filesystem::path& path,
                       const Requirements& requirements, const JudgeOptions& options);
 
-// The quantity of a scene; what simulate() refuses is a value that is not answered, with the reason.
+// The quantity of a scene. If simulate() refuses, the value is "not answered", with the reason.
 RequiredValue computed(const RequirementKind& kind, const Scene& scene,
                        const Requirements& requirements);
 

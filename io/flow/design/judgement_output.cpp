@@ -9,7 +9,7 @@
 namespace viscard {
 namespace {
 
-// A number in a unit that a reader takes in at once.
+// A number with a unit in which it is easy to read.
 struct ShownUnit {
   const char* si;
   double factor;

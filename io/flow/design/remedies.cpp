@@ -29,13 +29,13 @@ double rounded(double passing_m, double failing_m) {
   return unit * (passing_m > failing_m ? std::ceil(count - 1e-9) : std::floor(count + 1e-9));
 }
 
-// A value of the dimension, and by how much the quantity keeps the limit for certain, as a logarithm: below 0
-// it does not. NaN: not answered.
+// A value of the dimension, and the logarithm of the margin with which the quantity certainly keeps
+// the limit: below 0 it does not keep it. NaN: not answered.
 struct Tried {
   double value_m = 0.0, sure = 0.0;
 };
 
-// A search outward from what the scene has.
+// A search outward from the value in the scene.
 class RemedySearch {
  public:
   RemedySearch(double limit, bool is_upper, const QuantityAt& quantity_at)
@@ -72,7 +72,7 @@ class RemedySearch {
       const Tried middle = tried(failing.value_m * std::exp(share * width));
       (middle.sure >= 0.0 ? passing : failing) = middle;
     }
-    // The rounded value may be one that is undecided: a step or two further out.
+    // The rounded value may be undecided; then try one or two further steps outward.
     const double step = passing.value_m > failing.value_m ? 1.005 : 1.0 / 1.005;
     double value_m = passing.value_m;
     for (int i = 0; i < 4; ++i) {

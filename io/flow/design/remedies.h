@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-// A dimension of a scene that alone, all others fixed, makes a requirement pass.
+// A dimension of a scene whose change alone makes a requirement pass.
 struct Remedy {
   std::string key;      // "geometry.spacing"
   double from_m = 0.0;  // what the scene has
@@ -27,13 +27,13 @@ struct SceneDimension {
 std::vector<SceneDimension> dimensions_of(const std::string& text,
                                           const std::filesystem::path& path);
 
-// The quantity with one dimension changed; not answered where there is no such scene.
+// The quantity with one dimension changed; "not answered" if such a scene does not exist.
 using QuantityAt = std::function<RequiredValue(double value_m)>;
 
-// The value nearest to `from_m`, between a quarter and four times it, at which the quantity keeps the
-// limit for certain; nothing if none was found. The quantity is taken to cross the limit once between
-// values that differ by a factor of two, and a direction in which it moves away from the limit twice is
-// given up.
+// The value nearest to `from_m`, between a quarter and four times it, at which the quantity
+// certainly keeps the limit; nothing if none was found. Assumes that the quantity crosses the limit
+// at most once between values that differ by a factor of two. A direction in which the quantity
+// moves away from the limit twice is given up.
 std::optional<Remedy> seek_remedy(double from_m, double limit, bool is_upper,
                                   const QuantityAt& quantity_at);
 

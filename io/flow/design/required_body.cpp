@@ -166,7 +166,7 @@ RequiredValue required_hysteresis(const Scene& scene, const Requirements& requir
   std::string how = fmt::format("pi tan d, largest at {:.3g} Hz", at_Hz);
   const std::size_t i_at =
       static_cast<std::size_t>(std::find(real.x.begin(), real.x.end(), at_Hz) - real.x.begin());
-  // A peak lies between two frequencies: what the neighbours differ by bounds what was missed.
+  // A peak may lie between two frequencies: the difference of the neighbours bounds the error.
   if (i_at > 0 && i_at + 1 < real.x.size()) {
     const double before = std::abs(imaginary.value[i_at - 1] / real.value[i_at - 1]);
     const double after = std::abs(imaginary.value[i_at + 1] / real.value[i_at + 1]);
@@ -186,7 +186,8 @@ RequiredValue required_nonlinearity(const Scene& scene, const Requirements& requ
   const double top_Pa = *share * requirements.linear_to_Pa;
   const double strain = std::abs(found.value) * top_Pa / one->geometry.length_m;
   const double own_error = found.error_estimate * top_Pa / one->geometry.length_m;
-  // 1 (neo-Hookean) to 2.3 (St Venant-Kirchhoff) times the strain: the law of the rubber decides.
+  // 1 (neo-Hookean) to 2.3 (St Venant-Kirchhoff) times the strain, depending on the law of the
+  // rubber.
   constexpr double kLeast = 1.0, kMost = 2.3;
   return answered(0.5 * (kLeast + kMost) * strain,
                   0.5 * (kMost - kLeast) * strain + kMost * own_error,

@@ -5,9 +5,10 @@
 
 namespace viscard {
 
-// The quantities that requirements limit, one function each, for any kind of scene; requirement_kinds()
-// is the table of them, README.md has the formulas. What a kind of scene cannot answer is a value that is
-// not answered, with the reason. They throw what simulate() throws.
+// The quantities that requirements limit, one function each, for any kind of scene;
+// requirement_kinds() is the table of these functions, README.md has the formulas. If a kind of
+// scene cannot answer a quantity, the value is "not answered", with the reason. They throw what
+// simulate() throws.
 
 // Of the body (required_body.cpp).
 RequiredValue required_pillars_per_tactel(const Scene& scene, const Requirements& requirements);

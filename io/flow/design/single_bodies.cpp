@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSamePlace = 1e-6;  // of the pitch
 
-// Effects are chosen anew: a choice of the scene may not exist for another analysis.
+// Effects are planned anew: an effect chosen for the scene may not exist in another analysis.
 void strip(PillarScene& one) {
   one.electrodes.reset();
   one.readout.reset();

@@ -20,7 +20,8 @@ const char* word_of(Verdict verdict) {
 
 Verdict verdict_of(const RequiredValue& found, double limit, bool is_upper) {
   if (!found.is_answered) return Verdict::kNotAnswered;
-  constexpr double kRounding = 1e-12;  // of exact values that equal their limit, which keep it
+  // Tolerance for exact values that equal their limit; these pass.
+  constexpr double kRounding = 1e-12;
   const double spare = (is_upper ? limit - found.value : found.value - limit) + kRounding * limit;
   if (std::abs(spare) < found.error_estimate) return Verdict::kUndecided;
   return spare >= 0.0 ? Verdict::kPass : Verdict::kFail;

@@ -4,7 +4,8 @@
 
 namespace viscard {
 
-// What a requirement comes to. A quantity that is nearer to the limit than its error is undecided.
+// The verdict on a requirement. If the distance of a quantity to the limit is smaller than its
+// error, it is undecided.
 enum class Verdict { kPass, kFail, kUndecided, kNotAnswered };
 // "pass", "fail", "undecided", "not answered".
 const char* word_of(Verdict verdict);

@@ -5,9 +5,9 @@
 
 namespace viscard {
 
-// A formula for the quantity of a requirement, up to a factor: what the optimiser looks at first, and what
-// its models are corrected from (README.md has the sources). Exact for those quantities that cost nothing;
-// 1 where there is no formula. Not positive or not finite where there is no such scene.
+// A formula for the quantity of a requirement, up to a factor. The optimiser starts from it, and
+// its models are corrections of it (README.md has the sources). Exact for quantities that need no
+// solution; 1 if there is no formula. Not positive or not finite if there is no such scene.
 double cheap_value(const RequirementKind& kind, const Scene& scene,
                    const Requirements& requirements);
 

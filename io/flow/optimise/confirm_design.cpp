@@ -46,7 +46,7 @@ DesignedObjective objective_at(const DesignSpec& spec, const DesignSpace& space,
   return objective;
 }
 
-// What lies as near to its limit as rounding, error and uncertainty let it.
+// Requirements that are at their limit within rounding, error and uncertainty.
 void name_limits(const DesignSpec& spec, const DesignPoint& point,
                  const std::vector<double>& spread, OptimisedDesign& design) {
   constexpr double kNear = 0.02, kAtEnd = 5e-3;

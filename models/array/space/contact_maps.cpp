@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kPressureColumn = static_cast<int>(TopLoad::kPressure);
 
-// Maps of the tops, by pillar. The sizes that their errors refer to: the largest force, and that force
-// at half a radius, where a top begins to lift.
+// Maps of the tops, by pillar. Errors are relative to these sizes: the largest force, and that
+// force at half a radius, where a top begins to lift.
 struct TopMap {
   const char* name;
   const char* unit;
@@ -58,7 +58,7 @@ double largest_pressure_Pa(const SpaceContact& contact) {
   return std::max(contact.loads_Pa.col(kPressureColumn).maxCoeff(), 0.0);
 }
 
-// The pillar with the largest share of its class' limit.
+// The pillar that uses the largest share of the limit of its class.
 struct Worst {
   std::size_t pillar = 0;
   double value = 0.0;
@@ -178,7 +178,7 @@ void add_profiles(const SpaceScene& scene, const SpaceContact& contact, SceneAns
     const double height = height_m(shape, one.x_m, one.y_m);
     if (!std::isfinite(height)) continue;
     const SpaceClass kind = class_of(scene, one);
-    // A top that is touched everywhere has no gap; the others are as high as they were.
+    // A top that is touched everywhere has no gap; the other tops are as high as without load.
     const double above_m = kind.length_m - scene.length_m;
     const bool is_touched = contact.pressed.tops[i].share > 0.0;
     gap.x.push_back(one.x_m);
@@ -186,7 +186,8 @@ void add_profiles(const SpaceScene& scene, const SpaceContact& contact, SceneAns
                                    : std::max(height - contact.pressed.depth_m - above_m, 0.0));
   }
   if (asks_for(scene, kPressureProfile)) answer.curves.push_back(std::move(pressure));
-  // A backing sinks beside the contact too, which is known under the touched pillars only.
+  // The surface of a backing sinks beside the contact too, but its sinking is computed under the
+  // touched pillars only.
   if (asks_for(scene, kGapProfile) && !scene.backing) answer.curves.push_back(std::move(gap));
 }
 

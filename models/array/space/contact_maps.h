@@ -16,15 +16,16 @@ namespace viscard {
 std::vector<std::string> contact_maps();
 std::vector<std::string> contact_results();
 
-// Adds those that the scene wants to an answer that has its array, with the changes from grid to grid as
-// errors.
+// Adds the maps and results that the scene wants to an answer that already has its array. Errors
+// are the changes from grid to grid.
 void add_contact(const SpaceScene& scene, const SpaceContact& contact, SceneAnswer& answer);
 
-// The largest error of forces and moments of the tops, relative to what the tolerance refers to.
+// The largest error of forces and moments of the tops, relative to the reference values of the
+// tolerance.
 double contact_error(const SpaceContact& contact);
 
-// What a linear answer without friction does not follow: buckling, large strains and slopes, tops that
-// meet their neighbours.
+// Effects that a linear answer without friction does not include: buckling, large strains and
+// slopes, tops that touch their neighbours.
 std::vector<std::string> contact_notes(const SpaceScene& scene, const SpaceContact& contact);
 
 }  // namespace viscard

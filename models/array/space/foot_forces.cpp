@@ -12,7 +12,8 @@
 namespace viscard {
 namespace {
 
-// Points across the foot of a pillar, and the forces at them that stand for forces on its nodes.
+// Points across the foot of a pillar, and the forces at these points that are equivalent to forces
+// on its nodes.
 class FootPoints {
  public:
   FootPoints(const PillarModel& model, double largest_k_1_m) {
@@ -99,7 +100,7 @@ class HeldPillar {
     return nodes_on_break(mesh.section, mesh.bond_row, 0, mesh.pillar_columns);
   }
 
-  // The unknowns of the foot, and the forces on the base that their motions take away.
+  // The unknowns of the foot; and below the forces on them when one of them is moved by 1.
   std::vector<FootUnknown> foot_unknowns() const {
     const DofMap& dofs = free_.system().dofs();
     const std::vector<int> nodes = foot_nodes();

@@ -16,11 +16,11 @@ class FilmTable;
 enum class TopLoad { kPressure, kShearX, kShearY, kTiltX, kTiltY };
 constexpr int kTopLoads = 5;
 
-// What one pillar on a rigid base hands to it, as forces at points of its foot (N per Pa of load).
-// They are those of the continuous traction that does the same work on every function of the mesh as
-// the reactions of the base. Their work on smooth functions converges twice as fast as stresses, and
-// the singular rim needs no care. The film is three orders stiffer than a pillar, so the rigid base
-// changes voltages by some 1e-5 (eq. S3).
+// Forces that one pillar exerts on a rigid base, at points of its foot (N per Pa of load). They are
+// those of the continuous traction that does the same work on every function of the mesh as the
+// reactions of the base. Their work on smooth functions converges twice as fast as stresses do, and
+// the singular rim needs no special treatment. The film is three orders stiffer than a pillar, so
+// that a rigid base changes voltages by only about 1e-5 (eq. S3).
 struct FootForces {
   std::vector<double> radius_m;
   // Forces on the circles of radius_m under pressure.
@@ -31,8 +31,8 @@ struct FootForces {
   struct Sideways {  // conjugate to the fields a, b, w of eq. 12
     Eigen::VectorXd a, b, w;
   } shear, tilt;
-  // Motion of the top, m or rad per Pa: sinking under pressure; mean u_x and tilt about y of a
-  // top that stays as plane as its mean, under shear and under the tilting traction.
+  // Motion of the top, m or rad per Pa: sinking under pressure; mean u_x and tilt about y under
+  // shear and under the tilting traction. The top is treated as a plane with the same mean motion.
   double sinking_m_Pa = 0.0;
   double sideways_by_shear_m_Pa = 0.0;
   double sideways_by_tilt_m_Pa = 0.0;
@@ -41,9 +41,10 @@ struct FootForces {
   int unknowns = 0;  // of the larger system
 };
 
-// With points close enough for waves up to the largest k. With a film, the foot's traction is the one on
-// that film and its backing (eq. S11); the motions of the top remain those on a rigid base. Throws
-// std::invalid_argument for a geometry that PillarModel refuses or that has a film.
+// The points are close enough for waves up to the largest k. With a film, the foot's traction is
+// computed on that film and its backing (eq. S11), while the motions of the top remain those on a
+// rigid base. Throws std::invalid_argument for a geometry that PillarModel refuses or that has a
+// film.
 FootForces foot_forces(const PillarGeometry& pillar, const Medium& medium,
                        const Discretisation& mesh, double largest_k_1_m = 0.0,
                        const FilmTable* on_film = nullptr);

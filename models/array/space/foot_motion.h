@@ -7,8 +7,9 @@
 
 namespace viscard {
 
-// How a film on a backing moves under the feet of pillars by the forces and moments of all: the work of
-// each foot's traction on the film's displacement (eq. S11). The array must outlive it.
+// How a film on a backing moves under the feet of pillars when forces and moments act on all of
+// them: the work of each foot's traction on the film's displacement (eq. S11). The array must
+// outlive this object.
 class FootMotion {
  public:
   explicit FootMotion(const SpaceArray& array);

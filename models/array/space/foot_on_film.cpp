@@ -37,7 +37,7 @@ Eigen::MatrixXd waves_of_forces(const FootTrace& foot, double k_1_m) {
   return waves;
 }
 
-// How the film moves the unknowns of the foot under forces on them (eq. S11).
+// Motion of the foot's unknowns on the film under forces on them (eq. S11).
 Eigen::MatrixXd film_compliance(const FilmTable& film, const FootTrace& foot) {
   const auto count = static_cast<Eigen::Index>(foot.unknowns.size());
   Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(count, count);

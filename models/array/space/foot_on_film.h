@@ -14,7 +14,8 @@ struct FootUnknown {
   int field = 0, node = 0, dof = 0;
 };
 
-// How forces on the nodes of a foot stand for forces at points of it (foot_forces.h).
+// Converts forces on the nodes of a foot to equivalent forces at points of the foot
+// (foot_forces.h).
 struct FootTrace {
   std::vector<double> radius_m;  // of the points
   Eigen::MatrixXd from_nodes;    // points x nodes
@@ -22,12 +23,12 @@ struct FootTrace {
   bool is_axial = true;  // fields u_r, u_z of harmonic 0, or a, b, w of harmonic 1 (eq. 12)
 };
 
-// The foot of a pillar on a film that yields: R = R_rigid - S u with u = C R, S the stiffness of the
-// pillar against motions of its foot, C the film's compliance (eq. S11).
+// The foot of a pillar on a compliant film: R = R_rigid - S u with u = C R, where S is the
+// stiffness of the pillar against motions of its foot and C the compliance of the film (eq. S11).
 class FootOnFilm {
  public:
   FootOnFilm(const FilmTable& film, const FootTrace& foot, const Eigen::MatrixXd& stiffness);
-  // The forces of the pillar on a rigid base become those on the film.
+  // Converts the forces of the pillar on a rigid base to those on the film.
   void correct(Eigen::VectorXd& base_forces) const;
 
  private:

@@ -1,4 +1,4 @@
-// The array under its shape as independent columns, before anything is solved.
+// The array under its shape as independent columns: an estimate before anything is solved.
 #include "models/array/space/space_contact.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -41,7 +41,7 @@ Column column_under(const RigidShape& shape, const SpacePillar& one, const Space
     column.highest_m = std::max(column.highest_m, rim_m);
     column.mean_m += 0.5 * rim_m / kAngles;  // exact for a paraboloid
   }
-  // Where the surface ends above a top, its covered part counts.
+  // If the surface ends above a top, only the covered part of the top counts.
   if (!std::isfinite(column.mean_m)) column.mean_m = column.lowest_m;
   return column;
 }

@@ -199,8 +199,8 @@ std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectru
   const double largest_k_1_m = accuracy.largest_kt / thickness_m(film);
   const ChargePotential potential(film, largest_k_1_m, accuracy.film_degree);
   std::vector<double> per_charge;
-  // Charge lies on the face that is read, whichever it is, so its short waves fade out (eq. S6). With
-  // own waves the weights do so already.
+  // The charge lies on the face that is read, so its short waves must fade out on either face (eq.
+  // S6). If the spectrum has waves of its own, its weights already contain this.
   for (const PotentialSpectrum::Wave& wave : spectrum.waves) {
     const double share = accuracy.own_kt > 0.0 ? 1.0 : 1.0 - cut(wave.k_1_m / largest_k_1_m);
     per_charge.push_back(share * wave.weight_1_m2 * potential.at(wave.k_1_m));

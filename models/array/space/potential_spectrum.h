@@ -43,29 +43,31 @@ struct PotentialSpectrum {
 // The spectrum of a pillar with these forces at its foot, with waves as short as the accuracy takes.
 PotentialSpectrum potential_spectrum(const LayeredFilm& film, const FootForces& foot,
                                      const PotentialAccuracy& accuracy);
-// The waves that only matter on the load's own axis, beyond those of the other spectrum (eq. S6).
+// The additional short waves, beyond those of the other spectrum, that only matter on the load's
+// own axis (eq. S6).
 std::vector<PotentialSpectrum::OwnWave> own_waves(const LayeredFilm& film, const FootForces& foot,
                                                   const PotentialAccuracy& accuracy);
 
 constexpr double kWavePhase = 5.0;  // largest radius times a panel of k
 constexpr double kWaveStep = 0.7;   // panel of k times the thickness of the film
-// Share of waves, by of_largest, their k over the largest, that fades out: rises smoothly from 0 to 1, so that what
-// neighbours miss of the short waves falls off with the distance.
+// Weight that lets the shortest waves fade out: rises smoothly from 0 to 1 with of_largest, the
+// wave number over the largest one. The error of truncation at neighbours then decreases with the
+// distance.
 double cut(double of_largest);
 // Amplitude of each harmonic of the potential of one wave number, for every load (eq. S4), from what is
 // read per unit (tau_x, tau_y, t_z) along the directions j pi/(2 L), j = 0 to L.
 Eigen::MatrixXd harmonics_of(const std::vector<Eigen::Vector4d>& at_angles, const FootForces& foot,
                              double k_1_m);
 
-// The part of the spectrum that comes from the charge which the pillar's own open electrode gains
-// without a net charge (eq. S5); amplitudes by wave, j x loads.
+// The part of the spectrum that is due to the charge on the pillar's own open electrode, whose net
+// charge is zero (eq. S5); amplitudes by wave, j x loads.
 std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectrum,
                                                 const LayeredFilm& film, const DiscCharge& charge,
                                                 const PotentialAccuracy& accuracy);
 
-// Voltage of an open electrode per charge on another one at the distance between their axes, over the
-// voltage of that one: the coefficient of potential p12/p11. Its square is what electrodes without net
-// charge change in each other's readings.
+// Voltage of an open electrode per charge on another one at a given distance of the axes, divided
+// by the voltage of that other one: the ratio p12/p11 of the coefficients of potential. Its square
+// is the relative change of each other's readings by electrodes without net charge.
 double mutual_influence(const LayeredFilm& film, const DiscCharge& charge, double distance_m,
                         const PotentialAccuracy& accuracy);
 

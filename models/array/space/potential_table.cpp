@@ -79,7 +79,7 @@ PotentialTable::PotentialTable(const PotentialSpectrum& spectrum,
       continue;
     }
     add_wave(wave.amplitude + induced[i], wave.k_1_m, factors);
-    // An electrode without net charge leaves the voltage that it reads itself.
+    // An electrode without net charge does not change the voltage that it reads.
     for (std::size_t r = 0; r < factors.size(); ++r) own_V_[r] -= factors[r] * induced[i](0, 0);
   }
   for (const PotentialSpectrum::OwnWave& wave : spectrum.own) {

@@ -12,8 +12,8 @@ namespace viscard {
 // Potential on the face that is read, V, per value of TopLoad, each 1 Pa.
 using PotentialByLoad = Eigen::Matrix<double, kTopLoads, 1>;
 
-// An axisymmetric way to read the potential around a point, as the Hankel transform of its weights: 1
-// at k = 0. The potential itself is read with 1.
+// An axisymmetric weighting of the potential around a point, as the Hankel transform of its
+// weights: 1 at k = 0. For the potential itself the transform is 1 everywhere.
 using AxialReading = std::function<double(double k_1_m)>;
 AxialReading point_reading();
 AxialReading disc_mean(double radius_m);  // 2 J_1(k a)/(k a)
@@ -22,8 +22,9 @@ AxialReading disc_mean(double radius_m);  // 2 J_1(k a)/(k a)
 // y are those of the film.
 class PotentialTable {
  public:
-  // `induced` (potential_spectrum.h) is read by all but the pillar itself; empty: no electrode. The table
-  // covers the distances from `from_m` to `reach_m`.
+  // `induced` (potential_spectrum.h) contributes to the readings of all pillars except the loaded
+  // one; it is empty without an electrode. The table covers the distances from `from_m` to
+  // `reach_m`.
   PotentialTable(const PotentialSpectrum& spectrum, const std::vector<Eigen::MatrixXd>& induced,
                  double reach_m, const std::vector<AxialReading>& readings = {point_reading()},
                  double from_m = 0.0);

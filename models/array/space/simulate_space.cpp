@@ -19,7 +19,7 @@
 namespace viscard {
 namespace {
 
-// At least this share of the tolerance is left for what the accuracies reduce.
+// At least this share of the tolerance is reserved for the errors that finer accuracies reduce.
 constexpr double kShareOfAccuracy = 0.2;
 
 SpaceAccuracy accuracy_for(const SpaceScene& scene, const SpaceArray& array,
@@ -34,7 +34,7 @@ SpaceAccuracy accuracy_for(const SpaceScene& scene, const SpaceArray& array,
   return accuracy;
 }
 
-// Relative errors that no accuracy of the array reduces: eq. S5, S7 and S8.
+// Relative errors that do not depend on the accuracy level of the array: eq. S5, S7 and S8.
 struct ConstantErrors {
   double foot = 0.0;          // of a voltage
   double electrodes = 0.0;    // of a voltage
@@ -54,18 +54,19 @@ ConstantErrors constant_errors(const SpaceScene& scene) {
   return errors;
 }
 
-// The part of a map's error, in its unit, that all pillars have, and that of the film's edge. A foot's
-// traction that is slightly wrong acts on the neighbours like its load, as a part of the field there.
+// The part of a map's error, in its unit, that is common to all pillars, and that of the film's
+// edge. A small error of a foot's traction acts on the neighbours like a load, as a fraction of its
+// field there.
 double common_error_of(const SceneMap& map, const ConstantErrors& errors) {
   if (map.unit != "%") return (errors.foot + errors.electrodes) * size_of(map);
   return 100.0 * errors.electrodes + 200.0 * errors.foot * errors.neighbour;
 }
-// What the relative error at the film's edge is relative to, in the unit of the map.
+// Reference value of the relative error at the film's edge, in the unit of the map.
 double edge_size_of(const SceneMap& map) {
   return map.unit != "%" ? size_of(map) : 100.0;
 }
 
-// The largest of them relative to what the tolerance refers to.
+// The largest of these errors, relative to the reference value of the tolerance.
 double largest_constant_error(const SpaceScene& scene, const ConstantErrors& errors) {
   SceneMap voltage{.name = "", .unit = "V", .scale = 1.0};
   const double of_voltages = common_error_of(voltage, errors) + errors.largest_edge;
@@ -128,8 +129,8 @@ std::vector<Discretisation> space_meshes(const SpaceScene& scene) {
 
 namespace {
 
-// What pillars beyond the reach would add, relative to what the tolerance refers to. No change from
-// accuracy to accuracy shows it where two of them do not reach a pillar.
+// What pillars beyond the reach would add, relative to the reference value of the tolerance.
+// Comparing two accuracies does not show it for a pillar that neither of them reaches.
 double beyond_reach(const SpaceScene& scene, const SpaceResponse& response,
                     const TopLoads& loads_Pa, const SceneAnswer& answer) {
   const Eigen::VectorXd beyond_V = response.beyond_reach_V(loads_Pa);
@@ -167,7 +168,7 @@ SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
   return answer;
 }
 
-// What the last refinement of the tops changed in the voltages, as part of their errors.
+// Change of the voltages by the last refinement of the tops, as part of their errors.
 void add_change_of_loads(const SpaceScene& scene, const SpaceContact& contact,
                          SceneAnswer& answer) {
   if (contact.change_Pa.isZero(0.0)) return;
@@ -179,7 +180,8 @@ void add_change_of_loads(const SpaceScene& scene, const SpaceContact& contact,
   }
 }
 
-// Shares of the tolerance: at which no finer grid of the tops is tried, and what the finest may leave.
+// Shares of the tolerance: below the first no finer grid of the tops is tried, the second is the
+// most that the finest grid may leave.
 constexpr double kShareOfContact = 0.25;
 constexpr double kMostOfContact = 0.7;
 
@@ -212,7 +214,7 @@ std::string note_of_shrinking(const TouchCourse& course) {
          text_of(course.time_s[course.shown_at], 4) + " s";
 }
 
-// For studies of meshes: the loads as for a tolerance, once more for each mesh.
+// For mesh studies: the loads are found as for a tolerance, once more for each mesh.
 SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
   const TouchCourse course = touch_course(scene, kShareOfContact * scene.tolerance);
   SceneAnswer answer = voltages_on(scene, course.shown.loads_Pa, mesh, &course);
@@ -265,7 +267,7 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
     }
   }
   for (SceneMap& map : answer.maps) {
-    // What the voltages of this accuracy are wrong by, of which the change of the forces shows nothing.
+    // Errors of the voltages at this accuracy that the change of the forces does not show.
     if (!map.name.starts_with("sensed_") || is_measured) continue;
     const double of_voltages = answer.largest_relative_error * size_of(map);
     for (double& error : map.error) error += of_voltages;

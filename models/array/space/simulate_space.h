@@ -22,8 +22,8 @@ namespace viscard {
 // S7, S8). Throws std::runtime_error with the reason if the finest accuracy does not meet the tolerance.
 SceneAnswer simulate_space(const SpaceScene& scene);
 
-// The scene with the accuracy that has the degree of this mesh, or the next one; without errors. And the
-// meshes of the feet that simulate_space() goes through.
+// The scene on the accuracy whose degree is that of this mesh, or the next higher one, without
+// errors; and the list of meshes of the feet that simulate_space() goes through.
 SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh);
 std::vector<Discretisation> space_meshes(const SpaceScene& scene);
 
@@ -42,7 +42,7 @@ double rigid_foot_error(const SpaceScene& scene);
 // Relative error of each pillar's voltages because the film is solved without end (eq. S8).
 std::vector<double> film_edge_errors(const SpaceScene& scene);
 
-// What a backing changes in the voltages under the loads (eq. S12).
+// Changes of the voltages by a backing under the loads (eq. S12).
 struct BackingEffect {
   double edge = 0.0;       // relative error, because the film is solved without end
   std::size_t pillar = 0;  // with the largest voltage
@@ -50,7 +50,8 @@ struct BackingEffect {
   double rigid_V = 0.0;
 };
 BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa);
-// Throws SceneMistake where the film's edge and other relative errors are more than `most`.
+// Throws SceneMistake if the errors from the film's edge and the other relative errors exceed
+// `most`.
 void check_edge(const SpaceScene& scene, const BackingEffect& effect, double other_errors,
                 double most);
 // Remarks on a film that reads its stretching.
@@ -59,8 +60,8 @@ void add_stretching_note(const SpaceScene& scene, const BackingEffect& effect, S
 // Relative error of the voltages of equipotential electrodes that influence each other (eq. S5).
 double electrode_error(const SpaceScene& scene);
 
-// What a neighbour, or an end of the film, changes in a voltage at most, at a distance x in units of the
-// film's thickness (eq. A4, models/array/plane).
+// Upper bound of the relative change of a voltage by a neighbour, or by an end of the film, at a
+// distance x in units of the film's thickness (eq. A4, models/array/plane).
 double neighbour_influence(double x, double thickness_over_diameter);
 
 }  // namespace viscard

@@ -45,8 +45,8 @@ double largest_diameter_m(const SpaceArray& array) {
   return largest_m;
 }
 
-// What a mirrored place does to the readings of a pillar under some of the loads: quarters change
-// places, and loads along the axis turn round.
+// Mapping of the readings of a pillar at a mirrored place under some of the loads: quarters change
+// places, and loads along the axis change sign.
 std::array<KernelMirror, 2> mirrors_of(Eigen::Index readings, const std::vector<TopLoad>& loads) {
   constexpr std::array<std::array<int, 6>, 2> kQuarters = {
       {{0, 1, 3, 2, 5, 4}, {0, 1, 5, 4, 3, 2}}};
@@ -110,10 +110,11 @@ std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
     one.potential.film_degree = degree + 4;
     one.potential.largest_kt = 4.0 + 2.0 * degree;
     one.potential.harmonics = degree < 5 ? 2 : 3;
-    // The load's own face reads short waves as 1/k: of the rim's traction k^-1.7 is left (eq. S6).
+    // The face that carries the load reads short waves as 1/k, so the traction at the rim leaves
+    // k^-1.7 (eq. S6).
     if (array.film.grounded == FilmFace::kBottom)
       one.potential.own_kt = 5.0 * std::pow(2.0, degree - 1);
-    // What lies beyond decays as exp(-0.92 x/t) (eq. A4).
+    // Beyond this distance the field decays as exp(-0.92 x/t) (eq. A4).
     one.potential.reach_m = 2.0 * radius_m + (3.0 + 1.5 * degree) * t_m;
     if (array.film.backing) {
       one.potential.far_m = array_diagonal_m(array) + 2.0 * array.electrode_radius_m;

@@ -12,10 +12,11 @@
 
 namespace viscard {
 
-// What is read under each pillar on the face of the film that carries no charge.
+// What is read under each pillar, on the face of the film that carries no charge.
 enum class SpaceElectrode {
-  kSampled,    // the potential under the axis, and its mean over the electrode's disc
-  kQuadrants,  // as well its means over the quarters of the disc: 1 (+,+), 2 (-,+), 3 (-,-), 4 (+,-)
+  kSampled,  // the potential under the axis, and its mean over the electrode's disc
+  // Additionally its means over the quarters of the disc: 1 (+,+), 2 (-,+), 3 (-,-), 4 (+,-).
+  kQuadrants,
   kEquipotential,  // the voltage of an open electrode on the disc
 };
 
@@ -61,8 +62,8 @@ struct SpaceAccuracy {
   Discretisation foot;
   PotentialAccuracy potential;
 };
-// Accuracies of rising cost, in the order of the foot's degree (3 to 9). A face that carries both load and
-// electrode is read by much shorter waves than the one below.
+// Accuracies of rising cost, in the order of the foot's degree (3 to 9). If the loaded face is also
+// the one that is read, much shorter waves are needed than for the face below.
 std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array);
 
 // Readings of each pillar per load on a pillar at each offset: the answer of one array to any loads. The
@@ -84,8 +85,9 @@ class SpaceResponse {
   // The potential itself at the offset (x, y), V/Pa.
   PotentialByLoad potential(int of_class, double x_m, double y_m) const;
 
-  // At most about what pillars beyond the reach of the accuracy would add to each reading: the largest
-  // reading at that distance, since it decays within a pitch. 0 if no two pillars are so far apart.
+  // Estimate of the largest contribution of pillars beyond the reach of the accuracy to each
+  // reading: the largest reading at that distance, since it decays within a pitch. 0 if no two
+  // pillars are so far apart.
   Eigen::VectorXd beyond_reach_V(const TopLoads& loads_Pa) const;
 
   // What a point of the film far from all pillars reads, V; without an electrode.

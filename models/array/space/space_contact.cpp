@@ -19,8 +19,8 @@ constexpr std::array<TopFineness, kContactGrids> kGrids = {
 // Of the stiffness of a pillar in a graded mesh, and one to compare with.
 constexpr Discretisation kStiffnessMesh{.degree = 6, .layers = 4};
 constexpr Discretisation kCoarserMesh{.degree = 5, .layers = 3};
-// The part of a foot's settling that is not its own: that of its neighbours (1e-3), and what the film's
-// short waves leave (1e-2).
+// Neglected part of a foot's settling: that of its neighbours (1e-3), and that of the film's short
+// waves (1e-2).
 constexpr double kOfSettling = 0.02;
 
 std::vector<TouchedPillar> touched_pillars(const SpaceScene& scene) {

@@ -11,8 +11,8 @@
 
 namespace viscard {
 
-// The tops of a scene's array under its shape, as loads on the array, and how far they changed from a
-// grid with elements twice as large.
+// The tops of a scene's array under its shape, as loads on the array, and their changes from a grid
+// with elements twice as large.
 struct SpaceContact {
   PressedArray pressed;
   TopLoads loads_Pa;  // a pressure and two tilts that have the force and the moments of each top
@@ -44,7 +44,7 @@ class SpaceTops {
   SpaceContact at_rest() const;                 // under the shape as the scene has it
   SpaceContact at_depth(double depth_m) const;  // elastic
   RelaxingTops relaxing(const std::vector<std::size_t>& pillars) const;
-  // Of all pillars; those that are not named bear nothing.
+  // Loads of all pillars; pillars that are not named bear nothing.
   SpaceContact contact_of(const PressedArray& some, const std::vector<std::size_t>& pillars) const;
 
  private:
@@ -58,16 +58,17 @@ class SpaceTops {
 TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& tops,
                        const std::vector<std::size_t>& pillars);
 
-// On grids of rising fineness until no force changes by more than the tolerance times the largest one, or
-// the last one is reached. Tops that are touched everywhere have no error.
+// Refines the grids until no force changes by more than the tolerance times the largest force, or
+// until the finest grid is reached. Tops that are touched everywhere have no error.
 SpaceContact contact_within(const SpaceScene& scene, double tolerance);
 
 // How far the foot of a pillar sinks into the film under a pressure on its top, m/Pa: the work of its
 // traction on the film (eq. S9).
 double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot);
 
-// Throws SceneMistake where a table of heights has a tip that the finest grid of a top does not see: a node that
-// reaches below the top, with none of the grid's points half as deep.
+// Throws SceneMistake if a table of heights has a tip that the finest grid of a top does not
+// resolve: a node of the table that reaches below the top, while no grid point is even half as
+// deep.
 void refuse_missed_tips(const SpaceScene& scene, double depth_m);
 
 // The array as an elastic foundation of columns E A/l, a closed form for estimates before anything is

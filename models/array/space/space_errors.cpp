@@ -1,4 +1,4 @@
-// Errors that no accuracy of an array in the plane reduces.
+// Errors of an array in the plane that do not depend on the accuracy level.
 #include "models/array/film/disc_charge.h"
 #include "models/array/space/potential_spectrum.h"
 #include "models/array/space/simulate_space.h"
@@ -61,8 +61,9 @@ std::vector<double> film_edge_errors(const SpaceScene& scene) {
   return to_edge_m;
 }
 
-// The film carries stress to its edge that a free edge does not bear. Relieving it changes the voltages by
-// at most about what the film without end reads there, with a factor from finite films (eq. S12).
+// At its edge the endless film carries stress that a free edge cannot bear. Relieving it changes
+// the voltages by at most about the reading of the endless film there, with a factor taken from
+// finite films (eq. S12).
 BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa) {
   constexpr double kOfEdge = 1.0;
   BackingEffect effect;

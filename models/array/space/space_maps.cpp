@@ -13,7 +13,8 @@
 namespace viscard {
 namespace {
 
-// The reading of one pillar that cross-talk compares: of a disc, in either kind.
+// The reading of a pillar from which cross-talk is computed: that of a disc, with either kind of
+// electrode.
 struct DiscReading {
   const char* map;
   Eigen::Index row;  // of a kernel
@@ -22,8 +23,9 @@ DiscReading disc_reading(const SpaceScene& scene) {
   const bool has_electrodes = scene.electrode == SpaceElectrode::kEquipotential;
   return has_electrodes ? DiscReading{"electrode_voltage", 0} : DiscReading{"mean_voltage", 1};
 }
-// A pillar that is sheared has no centre or mean voltage of its own. What its neighbours leave there
-// is judged beside this share of the voltage that the load would have as a pressure.
+// A pillar under shear has no centre or mean voltage of its own. The contributions of its
+// neighbours are judged relative to this share of the voltage that the same load would give as a
+// pressure.
 constexpr double kOfPressed = 0.01;
 
 // The mean voltage of unloaded pillars over the largest of the loaded ones.
@@ -41,7 +43,8 @@ SceneMap crosstalk_map(const SceneMap& mean, const std::vector<bool>& loaded) {
   return map;
 }
 
-// Quarters of an electrode are read together, so that the tolerance refers to the largest of the four.
+// The quarters of an electrode are read together, so the tolerance refers to the largest of the
+// four.
 bool is_quarter(const SceneMap& map) {
   return map.name.starts_with("quadrant_");
 }
@@ -116,7 +119,7 @@ std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& resp
       loads_Pa.cwiseAbs().maxCoeff();
   const std::vector<std::string> names = reading_names(scene.electrode);
   std::vector<SceneMap> maps;
-  const bool senses = senses_forces(scene);  // whose error is that of the voltages
+  const bool senses = senses_forces(scene);  // whose error equals that of the voltages
   SceneMap mean;
   double largest_quarter_V = 0.0;
   for (std::size_t r = 0; r < names.size(); ++r) {

@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-constexpr double kCrosstalkScale = 10.0;  // %: a tolerance of 1e-3 gives per cents to 0.01 points
+constexpr double kCrosstalkScale = 10.0;  // %: a tolerance of 1e-3 gives percentages to 0.01 points
 constexpr const char* kCrosstalk = "crosstalk_percent";
 
 // True if the scene asks for a map, or for one of its values.
@@ -48,11 +48,11 @@ std::vector<std::string> sensed_maps(const SpaceScene& scene);
 std::vector<std::string> sensed_results(const SpaceScene& scene);
 // True if the scene asks for any of them.
 bool senses_forces(const SpaceScene& scene);
-// Adds the maps and the results that depend on the voltages: readings as SpaceResponse gives them under the loads, or the
-// scene's measured ones.
+// Adds the maps and the results that depend on the voltages. The readings are those of
+// SpaceResponse under the loads, or the measured ones of the scene.
 void add_sensed(const SpaceScene& scene, const SpaceResponse& response, const TopLoads& loads_Pa,
                 const Eigen::MatrixXd& readings_V, SceneAnswer& answer);
-// The other results, once, and what a reader must know.
+// Adds the remaining results, once, and notes for the reader.
 void finish_sensed(const SpaceScene& scene, SceneAnswer& answer);
 std::vector<std::string> sensed_notes(const SpaceScene& scene);
 // The loads behind the measured voltages, coarsely.
@@ -68,8 +68,8 @@ std::vector<std::string> sensing_results(const SpaceScene& scene);
 // Results name single pillars where there are at most this many.
 constexpr std::size_t kMostNamedPillars = 25;
 
-// Replaces those results of the answer that are values of its maps: the largest and the smallest of
-// each, and those of single pillars that the scene wants.
+// Replaces the results of the answer that are values of its maps: the largest and the smallest
+// value of each map, and the values of single pillars that the scene wants.
 void set_results(const SpaceScene& scene, SceneAnswer& answer);
 
 }  // namespace viscard

@@ -33,7 +33,8 @@ bool has_options(const QuadrantSensing& sensing) {
   return sensing.measured_V.size() > 0 || sensing.nodes || sensing.noise_V > 0.0 ||
          !sensing.by_neighbours;
 }
-// Voltages are what most scenes want: forces come by name, or where the scene says how they are found.
+// Most scenes want voltages only: forces are computed if they are asked for by name, or if the
+// scene states how to find them.
 bool asks_for_sensed(const SpaceScene& scene, const std::string& name) {
   return scene.wanted.empty() ? has_options(scene.quadrants) : asks_for_map(scene, name);
 }
@@ -78,7 +79,7 @@ Eigen::MatrixXd node_means(const SpaceResponse& response, const std::vector<Quad
   return means;
 }
 
-// What the quarters read: as measured, or of the scene's loads.
+// Readings of the quarters: measured ones, or those of the scene's loads.
 Eigen::MatrixXd quarters_V(const SpaceScene& scene, const SpaceResponse& response,
                            const TopLoads& loads_Pa, const Eigen::MatrixXd& readings_V) {
   const QuadrantSensing& sensing = scene.quadrants;
@@ -103,7 +104,7 @@ Eigen::MatrixXd forces_N(const SpaceScene& scene, Eigen::MatrixXd loads_Pa) {
   return loads_Pa;
 }
 
-// What the largest voltage can stand for: errors of a voltage are relative to it.
+// Reference value of voltage errors: the largest voltage.
 double force_of_voltage_N(const SpaceScene& scene, const std::vector<QuadrantGains>& gains,
                           int load, double largest_V) {
   double largest_N = 0.0;
@@ -194,7 +195,8 @@ void add_sensed(const SpaceScene& scene, const SpaceResponse& response, const To
 }
 
 void finish_sensed(const SpaceScene& scene, SceneAnswer& answer) {
-  // Results that follow from the voltages err as these do, relative to what they are judged beside.
+  // Results that are computed from the voltages have the same relative error, with their own
+  // reference value.
   const std::vector<std::string> names = sensed_results(scene);
   for (SceneResult& one : answer.results) {
     if (std::find(names.begin(), names.end(), one.name) == names.end()) continue;

@@ -43,8 +43,8 @@ struct SpaceClass {
   Material material;
 };
 
-// A rigid shape that presses on the tops without friction: its point (x, y) to a depth below the tops
-// of the usual pillars, or with a force. The other one is 0.
+// A rigid shape that presses on the tops without friction: its point (x, y) moves to a depth below
+// the tops of the usual pillars, or with a force. The quantity that is not given is 0.
 struct ShapePress {
   RigidShape shape;
   double depth_m = 0.0;
@@ -89,7 +89,8 @@ struct SpaceScene : SceneCommon {
   bool feels_neighbours = true;
   // Set by the plan: the film lies on its backing instead of a rigid base.
   bool feels_backing = true;
-  // Set by the plan: a shape only pushes. If not, all tops follow it, also where they must be pulled.
+  // Set by the plan: a shape can only push. Otherwise all tops follow the shape, even if they must
+  // be pulled.
   bool feels_contact = true;
 
   // Word of geometry.kind in a scene file, the same as for a row: geometry.model = "space" selects

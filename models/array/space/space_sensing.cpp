@@ -58,7 +58,8 @@ std::vector<double> heat_times_s(double first_s, double end_s) {
   return times;
 }
 
-// One reading of a pillar: what the kelvins at its top do, and the pressure that reads as much.
+// One reading of a pillar: its response to the temperature of the top, and the pressure with the
+// same reading.
 class HeatResults {
  public:
   HeatResults(const SpaceScene& scene, SceneAnswer& answer)
@@ -122,7 +123,8 @@ class HeatResults {
   SceneAnswer* answer_;
 };
 
-// Of one electrode; a quarter of it has a quarter of that, apart from what the gaps between quarters add.
+// Noise of one electrode. A quarter of it has a quarter of that, apart from the effect of the gaps
+// between quarters.
 double noisy_capacitance_F(const SpaceScene& scene, const SpaceArray& array) {
   const DiscCharge charge(array.film, array.electrode_radius_m, 1, kModes, kSensedFilmDegree);
   return scene.electrode == SpaceElectrode::kQuadrants ? 0.25 * charge.capacitance_F()

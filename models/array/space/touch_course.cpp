@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNoLoad_Pa = 1e-300;
 
-// The grid that the deepest state needs, as contact_within() finds it for a scene at rest.
+// The grid that the deepest state needs, chosen as contact_within() chooses it for a scene at rest.
 struct FoundGrid {
   SpaceTops fine, coarse;
 };
@@ -41,7 +41,8 @@ double largest_of(const std::vector<TopLoads>& loads_Pa) {
   return largest_Pa;
 }
 
-// Adds what the samples of `fine` that `coarse` has too changed; between them what their neighbours did.
+// Adds the changes at the samples of `fine` that `coarse` has too; between them the changes at
+// their neighbours.
 void add_step_change(const std::vector<TouchSample>& samples, const GridCourse& coarse,
                      const GridCourse& fine, TouchCourse& course) {
   std::vector<std::size_t> twin;  // in coarse, of the sample itself or of the one after it

@@ -8,10 +8,11 @@
 
 namespace viscard {
 
-// A shape on pillars that relax, in time (eq. S14, S15). What one relative modulus e(t) gives to all pillars:
-// as long as no contact shrinks, the loads on the tops are those of elastic pillars at each depth, relaxed
-// like a strain. Ting, J. Appl. Mech. 33 (1966) 845; Lee & Radok, J. Appl. Mech. 27 (1960) 438. Where any
-// contact shrinks, the tops are followed step by step (models/array/contact, eq. T6).
+// A shape on pillars that relax, in time (eq. S14, S15). All pillars relax with one relative
+// modulus e(t), so as long as no contact shrinks, the loads on the tops are those of elastic
+// pillars at each depth, relaxed as a stress is under a given strain. Ting, J. Appl. Mech. 33
+// (1966) 845; Lee & Radok, J. Appl. Mech. 27 (1960) 438. If any contact shrinks, the tops are
+// followed step by step (models/array/contact, eq. T6).
 
 // The loads on the tops in time. Rows of loads: the pillars that are touched at the deepest state.
 struct TouchCourse {
@@ -21,20 +22,20 @@ struct TouchCourse {
   std::vector<int> contacts;
   std::vector<std::size_t> touched;  // ascending, index into SpaceScene::pillars
   std::vector<TopLoads> loads_Pa;
-  // What the last refinement of the tops and the last halving of the steps changed, as magnitudes.
+  // Changes by the last refinement of the tops and by the last halving of the steps, as magnitudes.
   std::vector<TopLoads> change_Pa;
   std::vector<double> depth_change_m, force_change_N;
   std::vector<int> contact_change;
   double stiffness_error = 0.0;  // relative, of all loads
   // Largest change of a load relative to the largest load, and the part above.
   double relative_error = 0.0;
-  bool has_shrunk = false;   // some contact did, so that the course was found step by step
+  bool has_shrunk = false;   // a contact shrank, so the course was found step by step
   std::size_t shown_at = 0;  // in time_s
   SpaceContact shown;    // for maps: the end of a contact that grows, otherwise the largest force
-  SpaceContact largest;  // for remarks; without relaxation where the contact grows
+  SpaceContact largest;  // for notes; without relaxation if the contact grows
 };
 
-// With grids of the tops and time steps of rising fineness until the loads change by less than the
+// Refines the grids of the tops and the time steps until the loads change by less than the
 // tolerance.
 TouchCourse touch_course(const SpaceScene& scene, double tolerance);
 

@@ -11,7 +11,7 @@
 namespace viscard {
 namespace {
 
-// What the tolerance of a voltage refers to: the largest of its map, now and at the end.
+// Reference value for the tolerance of a voltage: the largest of its map, now and at the end.
 double size_in_map(const SceneAnswer& answer, const std::string& name,
                    const std::vector<double>& values) {
   double size = largest_size(values);
@@ -99,7 +99,8 @@ void add_voltage_curves(const SpaceScene& scene, const SpaceResponse& response,
                      .x = course.time_s,
                      .value = std::move(one.value)};
     curve.left_out = std::move(one.step_change);
-    curve.span = course.time_s.back();  // where meshes cross says nothing
+    // If the curves of two meshes cross, their difference is no error estimate.
+    curve.span = course.time_s.back();
     curve.allowed.assign(curve.x.size(), size_in_map(answer, one.map, curve.value));
     answer.curves.push_back(std::move(curve));
   }

@@ -22,14 +22,15 @@ enum class FreeBottom {
 // The value that a history gives in time.
 enum class HistoryOf { kNothing, kPressure, kShortening };
 
-// Geometric stiffness weighs the squares of gradients by a stress that is itself singular: where
-// displacements grow as r^lambda its error falls as r^(3 lambda - 1), not r^(2 lambda). lambda is
-// 0.60 at a bonded rim of nu -> 0.5 (Williams, J. Appl. Mech. 19 (1952) 526) and 0.7 at 0.33, so
-// that a layer of ratio 0.15 leaves up to 0.23 of the error (share_left of error_control.h).
+// Geometric stiffness weights the squares of gradients by a stress that is itself singular. If
+// displacements grow as r^lambda, the error of the displacements falls as r^(2 lambda), but that of
+// the geometric stiffness only as r^(3 lambda - 1). lambda is 0.60 at a bonded rim for nu -> 0.5
+// (Williams, J. Appl. Mech. 19 (1952) 526) and 0.7 at 0.33, so a layer of ratio 0.15 leaves up to
+// 0.23 of the error (share_left of error_control.h).
 constexpr double kShareLeftOfStress = 0.3;
 
-// One analysis of a pillar: what it needs, what it may be asked for, and its answer on one mesh.
-// All other code reads this row and never asks which analysis it is. README.md: how to add one.
+// One analysis of a pillar: what it needs, which results it offers, and its answer on one mesh. All
+// other code reads this row and never asks which analysis it is. README.md explains how to add one.
 struct Analysis {
   const char* name;   // the word in a scene file
   PillarDrive drive;  // its alternative of the variant, with default values
@@ -38,8 +39,8 @@ struct Analysis {
   bool relaxes = false;        // uses the Prony series; the others use the instantaneous moduli
   bool bends = false;          // the answer is how the pillar bends, under any load
   bool load_stays = false;     // a pressure on the top may stay until the pillar buckles in creep
-  bool follows_creep = false;  // up to the time at which it does
-  // A load that swings to and fro: its lowest frequency; null: it does not swing.
+  bool follows_creep = false;  // the time at which that happens limits the history
+  // The lowest frequency of an oscillating load; null: the load does not oscillate.
   double (*swings_from_Hz)(const PillarScene& scene) = nullptr;
   HistoryOf history = HistoryOf::kNothing;
   FreeBottom free_bottom = FreeBottom::kRefused;
@@ -48,13 +49,13 @@ struct Analysis {
 
   // Throws std::invalid_argument naming what this analysis lacks.
   void (*check)(const PillarScene& scene) = nullptr;
-  // Everything that may stand under [want]: the names of results, and of curves, which stand for
-  // the results read off them.
+  // Everything that may stand under [want]: the names of results, and the names of curves. A
+  // curve's name also selects the results read off it.
   std::vector<std::string> (*result_names)(const PillarScene& scene) = nullptr;
   // Results, modes and curves without mesh errors, on `answer`, whose discretisation is set.
   void (*run)(const PillarScene& scene, SceneAnswer& answer) = nullptr;
 
-  // The rest may be null.
+  // The following members may be null.
 
   // Largest push on the top, Pa, that must stay below the buckling pressure; null: none does.
   double (*push_Pa)(const PillarScene& scene) = nullptr;
@@ -87,7 +88,7 @@ PillarMedia media_of(const PillarScene& scene);  // pillar with its instantaneou
 Motion axial_motion(const PillarScene& scene);
 Motion lateral_motion(const PillarScene& scene);
 ModelOptions options_of(const PillarScene& scene, Motion motion);
-// The caller counts the unknowns of what it solves.
+// model_of() and electric_model_of() do not count unknowns; the caller does.
 PillarModel model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
 PillarModel electric_model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
 void count_unknowns(const PillarModel& model, SceneAnswer& answer);

@@ -15,10 +15,11 @@ void check_buckling(const PillarScene& scene) {
   require(!scene.plane, "buckling is computed for a cylinder, not for a strip");
 }
 
-// Under a tip whose rim is thin, local modes of its inner corner mix with the pillar's own: the load falls
-// with each finer mesh, which the change between two of them does not show. A tip of 10 um x 5 um (rim
-// of 14 degrees) on 40 um x 120 um: 12 958, 12 931, 12 901, 12 870, 12 824, 12 589 Pa at degrees 4 to 8 and
-// 10. Rims from 19 degrees on converge (10 um x 7 um: 12 979 and 12 975 Pa at 1e-3 and 2e-4).
+// Under a tip whose rim is thin, local modes of its inner corner mix with the pillar's own modes:
+// the load falls with each finer mesh, and the change between two meshes underestimates the error.
+// A tip of 10 um x 5 um (rim of 14 degrees) on 40 um x 120 um: 12 958, 12 931, 12 901, 12 870, 12
+// 824, 12 589 Pa at degrees 4 to 8 and 10. Rims of 19 degrees and more converge (10 um x 7 um: 12
+// 979 and 12 975 Pa at 1e-3 and 2e-4).
 double fall_under_thin_rim(const Flare& tip) {
   constexpr double kThinnest =
       0.35;  // tangent of the rim's angle, height/(2 width) of the parabola
@@ -58,7 +59,7 @@ std::vector<SectionGrid> buckling_fields(const PillarScene& scene, const Discret
   return {at.grid};
 }
 
-// A plate halves the free length above the foot, so that the turn of the foot counts twice.
+// A plate halves the free length above the foot, so the rotation of the foot counts twice.
 EffectEstimate buckling_film_compliance(const PillarScene& scene, const EffectEstimate&) {
   const FilmShares shares = film_shares(scene);
   return {EffectRole::kOptional,

@@ -28,8 +28,9 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 // Up to this many frequencies are solved one by one on the whole body.
 constexpr std::size_t kMostDirect = 16;
 
-// Answers one frequency at a time. The tolerance of an output refers to |y| + |omega dy/domega|: a
-// curve is right within the tolerance in amplitude or frequency. Near a pole no mesh can give more.
+// Answers one frequency at a time. The tolerance of an output is relative to |y| + |omega
+// dy/domega|: a curve must be right within the tolerance either in amplitude or in frequency. Near
+// a pole no mesh can give more.
 class Response {
  public:
   Response(const PillarScene& scene, const SceneBody& body, const ReducedBody& reduced)
@@ -49,7 +50,7 @@ class Response {
     base_acceleration_m_s2_ = base_acceleration_m_s2(scene);
   }
 
-  // Adds the values of all outputs, and the sizes that the tolerance refers to.
+  // Adds the values of all outputs, and the reference values of the tolerance.
   void add(double frequency_Hz, std::vector<Sweep>& sweeps) const {
     const double omega = kTwoPi * frequency_Hz;
     const Eigen::MatrixXcd answers = solver_.solve(omega, sides_.cast<Complex>());
@@ -132,7 +133,7 @@ void note_poles(const PillarScene& scene, const Sweep& sweep, SceneAnswer& answe
     list += (count > 1 ? ", " : "") + text_of(harmonic_drive(scene).frequencies_Hz[i], 8);
   }
   if (count == 0) return;
-  // A coarse mesh may resonate where the pillar does not; every answer reaches degree 5.
+  // A coarse mesh may have a resonance where the pillar has none; every answer reaches degree 5.
   if (harmonic_drive(scene).frequencies_Hz.size() == 1 && answer.discretisation.degree >= 5) {
     throw std::runtime_error("at " + list +
                              " Hz the pillar is on a resonance, or a node between two, with too "

@@ -85,7 +85,7 @@ void note_rigid_motions(const PillarScene& scene, SceneAnswer& answer) {
                          ") have no frequency and are not listed");
 }
 
-// A mode that a push does not set swinging has no frequency.
+// A mode that a push does not excite has no frequency.
 void note_overdamped(const PillarScene& scene, const std::string& mode, SceneAnswer& answer) {
   if (modal_drive(scene).pressure_Pa > 0.0) {
     throw std::runtime_error(mode + " does not vibrate under the pressure of " +
@@ -107,7 +107,7 @@ void add_relaxed_modes(const PillarScene& scene, const ModeFamily& family, const
     if (family.motion == Motion::kLateral) require_below_buckling(*axial, model, pressure_Pa);
     body.elastic.coeffs() += pressure_Pa * stress_stiffness_per_Pa(*axial, model).coeffs();
   }
-  const double small = 0.03 * scene.tolerance;  // of what the basis leaves out
+  const double small = 0.03 * scene.tolerance;  // error from the modes that the basis leaves out
   int number = 0;
   for (const RelaxedMode& mode :
        relaxed_modes(model, std::move(body), modes_of_family(scene, model), small)) {

@@ -39,7 +39,8 @@ double first_resonance_rad_s(const PillarScene& scene) {
   return 3.516 * gyration_m * speed_m_s / (L_m * L_m);
 }
 
-// Roughness of a load history: the sums of its jumps and of its changes of slope, over its peak.
+// Roughness of a load history: the sums of its jumps and of its changes of slope, relative to its
+// peak.
 struct Roughness {
   double jumps = 0.0;
   double kinks_1_s = 0.0;
@@ -72,7 +73,8 @@ double tail_beyond(double omega_rad_s, double first_rad_s, const Roughness& load
   return 0.4 * load.jumps * ratio + 0.2 * load.kinks_1_s * ratio / omega_rad_s;
 }
 
-// The frequency beyond which this tail is a share of the tolerance for twice the static answer.
+// The frequency above which the remaining modes add less than a share of the tolerance, for twice
+// the static answer.
 constexpr double kFarthest = 60.0;  // first resonances; meshes and bases end there
 constexpr int kLargestBasis = 450;
 double reach_rad_s(const PillarScene& scene, double first_rad_s) {
@@ -116,8 +118,8 @@ void add_curve(const OutputCurve& of, const std::vector<double>& time_s,
   answer.curves.back().span = first_Hz;
 }
 
-// Runs at more times than the outputs, as many times more as the peaks between them need to be known
-// to a tenth of the tolerance, or as time allows.
+// Runs the motion at more times than the outputs: as many as are needed to know the peaks between
+// them to a tenth of the tolerance, or as many as time allows.
 TransientResult run_to_peaks(const ViscoelasticSystem& small, TransientRequest request,
                              const Eigen::MatrixXd& observers, double tolerance) {
   constexpr double kMostWork = 4e9;  // multiplications
@@ -142,7 +144,7 @@ TransientResult run_to_peaks(const ViscoelasticSystem& small, TransientRequest r
   }
 }
 
-// Displacement under the largest load at rest, over the largest that was found.
+// Displacement under the largest load at rest, over the largest displacement that was found.
 double static_over_peak(const ReducedBody& reduced, const TransientRequest& request,
                         const Eigen::VectorXd& observer, const Eigen::VectorXd& found) {
   const Eigen::MatrixXd stiffness =
@@ -154,10 +156,11 @@ double static_over_peak(const ReducedBody& reduced, const TransientRequest& requ
   return at_rest / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
 }
 
-// A jump excites waves of every length with amplitudes in proportion to the length, a change of
-// slope in proportion to its square. Waves too short for the meshes here are then part of the
-// answer. They are small if jumps become ramps and ramps longer, until the tail is a good third of
-// the tolerance, or if the tolerance is as much larger. Mesh and basis use the rest of it.
+// A jump excites waves of every length with amplitudes in proportion to the length; a change of
+// slope with amplitudes in proportion to its square. The answer may therefore contain waves that
+// are too short for the meshes here. They become negligible if jumps are replaced by ramps and
+// ramps are made longer, until their contribution is about a third of the tolerance, or if the
+// tolerance is raised accordingly. Mesh and basis use the rest of the tolerance.
 void refuse_sudden_load(const PillarScene& scene, double first_rad_s, double reach, double tail,
                         double static_share) {
   const Roughness load = roughness_of(transient_drive(scene).history);

@@ -24,12 +24,13 @@ double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral
   }
 }
 
-// Meshes on which the limit is found: the coarse one is right within kCoarseLimit, so that a load
-// nearer to it is judged on the fine one.
+// Meshes on which the limit is found: the coarse one is accurate within kCoarseLimit, so a load
+// closer to the limit is judged on the fine one.
 enum class LimitMesh { kCoarse = 1, kFine = 3 };
 constexpr double kCoarseLimit = 0.02;
 
-// Pressure at which the pillar buckles under a free top, or the shortening by a plate on its top.
+// Pressure at which the pillar buckles with a free top, or the shortening at which it buckles under
+// a plate.
 double buckling_limit(const PillarScene& scene, bool has_plate, LimitMesh on = LimitMesh::kCoarse) {
   const Discretisation mesh = stressed_mesh_sequence(scene.geometry)[static_cast<std::size_t>(on)];
   const PillarModel axial(scene.geometry, mesh, media_of(scene),
@@ -58,7 +59,8 @@ std::string beyond_buckling_under_plate(const PillarScene& scene) {
 double engesser_pressure_Pa(const PillarScene& scene) {
   const double radius_of_gyration_m =
       scene.plane ? scene.geometry.diameter_m / std::sqrt(12.0) : 0.25 * scene.geometry.diameter_m;
-  // A half wave has twice the pillar's length under a free top, once its length under a plate.
+  // With a free top a half wave is twice as long as the pillar, under a plate as long as the
+  // pillar.
   const bool is_upright = moves_top(scene) || plate_on_top(scene);
   const double half_wave_m = (is_upright ? 1.0 : 2.0) * scene.geometry.length_m;
   const double slenderness = half_wave_m / radius_of_gyration_m;

@@ -19,23 +19,23 @@ double rough_buckling_pressure_Pa(const PillarScene& scene);
 // so stubby that it buckles only locally), for a strip Engesser's (eq. E6).
 double pillar_buckling_pressure_Pa(const PillarScene& scene);
 
-// The same pillar long after loading: with its long-term moduli, which relax no further.
+// The same pillar long after loading: with its long-term moduli, after which it relaxes no further.
 PillarScene long_term_scene(const PillarScene& scene);
 
-// Largest pressure on the top, Pa; 0 for a history of shortening. A top that is moved counts as
-// E u/L, and an analysis that finds a pressure itself as that pressure.
+// Largest pressure on the top, Pa; 0 for a history of shortening. A displacement u of the top
+// counts as E u/L. An analysis that finds a pressure itself counts with that pressure.
 double largest_pressure_Pa(const PillarScene& scene);
 
 // A clause with the load and the buckling pressure that it exceeds; "" if the straight pillar bears
-// the load. The limit is the pillar's own buckling pressure on a coarse mesh where Euler's
-// formula comes near the load, for a strip Engesser's formula (eq. E6).
+// the load. If Euler's formula comes near the load, the limit is the pillar's own buckling pressure
+// on a coarse mesh; for a strip it is Engesser's formula (eq. E6).
 std::string beyond_buckling(const PillarScene& scene);
 
-// True if the scene forces geometric_stiffness off: it declares that its pillar stays straight.
+// True if the scene forces geometric_stiffness off, and so declares that its pillar stays straight.
 bool holds_straight(const PillarScene& scene);
 
-// Throws SceneMistake if the load lies beyond buckling, where a straight answer has no meaning,
-// unless the scene holds the pillar straight.
+// Throws SceneMistake if the load lies beyond buckling, where the straight shape is not a valid
+// answer, unless the scene holds the pillar straight.
 void refuse_beyond_buckling(const PillarScene& scene);
 
 }  // namespace viscard

@@ -24,7 +24,8 @@ void check_electrodes(const PillarScene& scene) {
 }
 
 // Between 0.499999 and 0.5 rounding in the large bulk modulus spoils the shear (near 0.499999 a
-// bent pillar has an error of about 1e-5). At 0.5 a method of its own is exact.
+// bent pillar has an error of about 1e-5). At exactly 0.5 a different method is used, which is
+// exact.
 void check_poisson_ratio(const PillarScene& scene) {
   constexpr double kNearest = 0.499999;
   if (!(scene.pillar.nu > kNearest * (1.0 + 1e-9) && scene.pillar.nu < 0.5)) return;
@@ -33,7 +34,7 @@ void check_poisson_ratio(const PillarScene& scene) {
                      "computed exactly");
 }
 
-// A mesh that is asked for has to fit into memory.
+// A mesh that the scene requests has to fit into memory.
 void check_mesh(const PillarScene& scene) {
   if (!scene.discretisation || !(scene.discretisation->uniform_m > 0.0)) return;
   const PillarGeometry& g = scene.geometry;

@@ -49,7 +49,7 @@ struct FallingLimit {
   }
 };
 
-// The largest pressure along the pillar that may stay long enough for creep; 0 without one.
+// The largest pressure on the top that acts long enough for creep; 0 if there is none.
 double staying_pressure_Pa(const PillarScene& scene) {
   const Analysis& analysis = analysis_of(scene);
   if (scene.pillar.terms.empty() || holds_straight(scene) || !scene.fixed_bottom) return 0.0;
@@ -62,7 +62,7 @@ double staying_pressure_Pa(const PillarScene& scene) {
   return largest_Pa;
 }
 
-// Limits of a scene whose load comes near the long-term one; otherwise no limit.
+// The limits of a scene whose load comes near the long-term limit; otherwise infinite.
 FallingLimit limit_of(const PillarScene& scene, double pressure_Pa) {
   FallingLimit limit;
   const PillarScene relaxed = long_term_scene(scene);
@@ -74,7 +74,8 @@ FallingLimit limit_of(const PillarScene& scene, double pressure_Pa) {
   return limit;
 }
 
-// The first time until which a history has held a level for as long as the pillar bears it.
+// The first time at which a history has stayed above a level for as long as the pillar bears that
+// level.
 double buckles_at_s(const std::vector<HistoryPoint>& points, double level, double bears_s) {
   double since_s = points.front().value >= level ? points.front().time_s : kNever;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -90,7 +91,7 @@ double buckles_at_s(const std::vector<HistoryPoint>& points, double level, doubl
   return kNever;
 }
 
-// The level number `of` of those between the long-term limit and the largest pressure.
+// Level number `of` among the levels between the long-term limit and the largest pressure.
 constexpr int kLevels = 200;
 double level_Pa(const FallingLimit& limit, double largest_Pa, int number) {
   if (number == kLevels) return largest_Pa;
@@ -98,7 +99,7 @@ double level_Pa(const FallingLimit& limit, double largest_Pa, int number) {
   return (1.0 - share) * limit.long_term_Pa + share * largest_Pa;
 }
 
-// Sets the time at which the pillar buckles within a history, and the level that makes it do so.
+// Sets the time at which the pillar buckles within a history, and the level that causes it.
 void find_in_history(const std::vector<HistoryPoint>& points, const FallingLimit& limit,
                      CreepBuckling& found) {
   const double largest_Pa = found.pressure_Pa;
@@ -130,7 +131,7 @@ std::string clause_of(const CreepBuckling& found) {
          text_of(100.0 * found.share, 3) + " % of E_0";
 }
 
-// Of a buckling analysis, whose result is the pressure right after loading.
+// For a buckling analysis, whose result is the pressure right after loading.
 std::string long_term_note(const PillarScene& scene) {
   if (scene.pillar.terms.empty() || plate_on_top(scene)) return "";
   const double long_term_Pa = limit_of(scene, kNever).long_term_Pa;

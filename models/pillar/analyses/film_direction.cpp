@@ -11,7 +11,7 @@
 namespace viscard {
 namespace {
 
-// Of one result: what the film's direction adds to it, and the error of that.
+// Contribution of the film's direction to one result, and the error of that contribution.
 struct DirectionChange {
   std::string name;
   std::string unit;
@@ -50,9 +50,10 @@ MeshChange change_on(const PillarScene& scene, const Discretisation& mesh) {
 // From this tolerance on two coarse meshes are enough: they leave at most 5e-5 of a voltage.
 constexpr double kLoose = 5e-4;
 
-// The change is small, so that coarse meshes give it to a few per cent. Its error is what the last
-// two meshes differ by, but at least a tenth of the difference before (error_control.h), and what
-// harmonic 4 adds. Higher harmonics add less, each by the same small factor again.
+// The change is small, so coarse meshes give it to a few per cent. Its error is the difference of
+// the last two meshes, but at least a tenth of the difference before (error_control.h), plus the
+// contribution of harmonic 4. Higher harmonics contribute less, each by the same small factor
+// again.
 std::vector<DirectionChange> axial_changes(const PillarScene& scene) {
   const std::vector<Discretisation> meshes = mesh_sequence(scene.geometry);
   const std::vector<std::size_t> used =
@@ -104,9 +105,9 @@ double charge_of_direction_C(const PillarModel& model, const Eigen::VectorXd& u,
   return 0.5 * e_C_m2 * sum / model.geometry().film->thickness_m;
 }
 
-// Sideways the direction counts at first order: quadrants read e31 along x and e32 along y. The
-// motion per volt changes by the same share (reciprocity). A charge-free face is taken to change as
-// an electrode under the whole pillar does.
+// Sideways the direction has an effect of first order: quadrants read e31 along x and e32 along y.
+// The motion per volt changes by the same share (reciprocity). A charge-free face is assumed to
+// change as an electrode under the whole pillar does.
 std::vector<DirectionChange> sideways_changes(const PillarScene& scene) {
   ModelOptions options = options_of(scene, Motion::kLateral);
   options.rigid_top = false;
@@ -211,7 +212,7 @@ void add_film_direction(const PillarScene& scene, SceneAnswer& answer) {
   if (is_static && !scene.one_way_potential) {
     return correct_results(scene, axial_changes(scene), answer);
   }
-  // Of moving loads and one-way fields, the relative change of the same results at rest.
+  // For moving loads and one-way fields: the relative change of the same results at rest.
   PillarScene at_rest = scene;
   if (!is_static) at_rest.drive = StaticDrive{.pressure_Pa = 1.0};
   at_rest.one_way_potential = false;

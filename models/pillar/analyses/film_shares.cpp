@@ -15,8 +15,8 @@ FilmElasticity elasticity_of(const Medium& film) {
   return {1.0 / s.diagonal().head(3).maxCoeff(), 1.0 / s.diagonal().tail(3).maxCoeff(), 0.0};
 }
 
-// The film under the pillar yields less than the column of film below it would, standing alone, and
-// on a wide film less than a half-space does under a disc (eq. E1).
+// The film under the pillar is stiffer than a free-standing column of film would be, and a wide
+// film is stiffer than a half-space under a disc (eq. E1).
 FilmShares film_shares(const PillarScene& scene) {
   const double R = 0.5 * scene.geometry.diameter_m;
   const double L = scene.geometry.length_m;

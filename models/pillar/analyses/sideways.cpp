@@ -9,7 +9,8 @@
 namespace viscard {
 namespace {
 
-// Force along x: that of the shear, or the one that gives the top its displacement.
+// Force along x: that of the given shear, or the one that produces the given displacement of the
+// top.
 double side_force_N(const PillarScene& scene, const PillarModel& model, double displacement_per_N_m,
                     double moved_by_voltage_m = 0.0) {
   const double area_m2 = top_area_m2(model);
@@ -26,7 +27,7 @@ void note_unresolved_sideways(double of_displacement, double of_charge, SceneAns
 }
 
 void add_quadrants(const PillarScene& scene, const PillarModel& model, SceneAnswer& answer) {
-  // Without a held bottom a force on the top has no answer.
+  // With a free bottom a force on the top has no static answer.
   const QuadrantAnswer unit = piezo_quadrants(model, scene.fixed_bottom ? 1.0 : 0.0);
   const double by_voltage_m = unit.displacement_per_V_m * drive_V(scene);
   const double force_N = side_force_N(scene, model, unit.top_displacement_m, by_voltage_m);
@@ -37,7 +38,7 @@ void add_quadrants(const PillarScene& scene, const PillarModel& model, SceneAnsw
     answer.results.push_back({"top_displacement", moved_m, "m"});
   }
   answer.results.push_back({"displacement_per_volt", unit.displacement_per_V_m, "m/V"});
-  // Under a drive the charge of touching quadrants is unbounded.
+  // If the electrode is driven, the charge of touching quadrants is unbounded.
   if (drive_V(scene) == 0.0) {
     answer.results.push_back({"quadrant_charge", force_N * unit.charge_C, "C"});
   }

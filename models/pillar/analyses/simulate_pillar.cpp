@@ -11,7 +11,7 @@ SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mes
   SceneAnswer answer;
   answer.discretisation = mesh;
   analysis_of(scene).run(scene, answer);
-  // Only the errors of wanted results are watched.
+  // Only the errors of results that the scene wants are watched.
   for (SceneResult& result : answer.results) result.is_wanted = asks_for(scene, result.name);
   return answer;
 }

@@ -11,9 +11,9 @@ namespace viscard {
 // Throws std::invalid_argument, mostly SceneMistake, naming what is missing or contradictory.
 void validate(const PillarScene& scene);
 
-// Everything a scene may ask for under [want]: the names of its results, and of its curves, which
-// stand for the results read off them. Nothing is solved. tests/models/scene compares this list
-// with the results of the analyses.
+// Everything a scene may ask for under [want]: the names of its results, and the names of its
+// curves. A curve's name also selects the results read off it. Nothing is solved.
+// tests/models/scene compares this list with the results of the analyses.
 std::vector<std::string> result_names(const PillarScene& scene);
 
 // Answers the scene as it stands, with the effects it names: on meshes of rising degree and grading

@@ -47,7 +47,7 @@ void add_reading(const PillarScene& scene, double voltage_V, double capacitance_
   add_time_constant(filter.time_constant_s, answer);
 }
 
-// Errors that the coupled solution itself shows. Per displacement of the top an answer also has the
+// Errors that the coupled solution itself shows. A result per displacement of the top also has the
 // error of the displacement per force.
 void note_unresolved(const PillarScene& scene, const PiezoRest& rest, SceneAnswer& answer) {
   const double of_top = moves_top(scene) ? rest.displacement : 0.0;
@@ -67,13 +67,14 @@ void note_unresolved(const PillarScene& scene, const PiezoRest& rest, SceneAnswe
   }
 }
 
-// A pillar on a film with an electrode, its top moved: voltage and force with the electrode open
-// (or driven), the charge that flows onto it shorted, and its capacitance with the top held.
+// A pillar on a film with an electrode, whose top is moved: voltage and force with the electrode
+// open (or driven), the charge that flows onto a shorted electrode, and the capacitance with the
+// top held.
 void add_moved_piezoelectric(const PillarScene& scene, const PiezoAnswer& per_Pa, double area_m2,
                              SceneAnswer& answer) {
   const double shorted_m = shorted_displacement_m(per_Pa);
   const double charge_C_per_m = per_Pa.charge_C / shorted_m;
-  // A voltage on the electrode moves no charge by moving a top that is held.
+  // With the top held, a voltage on the electrode moves no charge by moving the top.
   const double held_F = per_Pa.capacitance_F - charge_C_per_m * per_Pa.displacement_per_V_m;
   const double pressure_Pa = top_pressure_Pa(scene, per_Pa);
   const bool is_driven = drive_V(scene) != 0.0;
@@ -165,7 +166,7 @@ void add_film_results(const PillarScene& scene, const FilmAnswer& per_Pa, SceneA
   if (scene.electrodes->electrode_radius_m == 0.0) return add_sampled(scene, per_Pa, answer);
   if (moves_top(scene)) {
     add_moved_piezoelectric(scene, per_Pa.piezo, per_Pa.area_m2, answer);
-  } else if (drive_V(scene) != 0.0) {  // of a free body only the drive counts
+  } else if (drive_V(scene) != 0.0) {  // for a free body only the drive has an effect
     add_driven(scene, per_Pa.piezo, per_Pa.area_m2, answer);
   } else {
     add_pressed(scene, per_Pa.piezo, answer);

@@ -21,8 +21,8 @@ namespace viscard {
 // Mean pressure or shear on the top, Pa.
 double top_pressure_Pa(const PillarScene& scene, double displacement_per_Pa_m,
                        double moved_by_voltage_m = 0.0);
-// The same from piezo_static() or piezo_one_way() at 1 Pa: electrode open, or at the drive's
-// voltage if there is one.
+// The same from piezo_static() or piezo_one_way() at 1 Pa: with the electrode open, or at the
+// drive's voltage if there is one.
 double top_pressure_Pa(const PillarScene& scene, const PiezoAnswer& per_Pa);
 
 // Top displacement per Pa with the electrode shorted.
@@ -35,22 +35,22 @@ void add_top_force(const PillarScene& scene, double force_N, double stiffness_N_
 // A static load along the axis of a pillar whose film has an electrode or a charge-free face: adds
 // voltage, charge, capacitance and motion to the answer (eq. 19 to 25).
 void run_static_piezo(const PillarScene& scene, SceneAnswer& answer);
-// Its results from what the film does under 1 Pa.
+// Results computed from the answer of the film at 1 Pa.
 void add_film_results(const PillarScene& scene, const FilmAnswer& per_Pa, SceneAnswer& answer);
 
-// What the average over the directions in the film's plane neglects (film_direction.cpp): changes
-// the results of axial statics, which are then those of the film as it is, and adds to the error
-// estimates of all other analyses with electrodes. Reports both in the notes.
+// Effect of the averaging over the directions in the film's plane (film_direction.cpp): corrects
+// the results of axial statics for the real directions, and adds an error estimate to the results
+// of all other analyses with electrodes. Reports both in the notes.
 void add_film_direction(const PillarScene& scene, SceneAnswer& answer);
 
 // A shear on the top along x, and a voltage on the opposite halves of quadrants.
 
-// At rest: checks, results, the solution to be looked at.
+// For loads at rest: checks, results, and the solution for pictures.
 void check_sideways(const PillarScene& scene);
 void run_sideways(const PillarScene& scene, SceneAnswer& answer);
 std::vector<SectionGrid> sideways_fields(const PillarScene& scene, const Discretisation& mesh);
 
-// In time or frequency: checks.
+// For loads in time or frequency: checks.
 void check_sideways_in_time(const PillarScene& scene);
 
 }  // namespace viscard

@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 // More elements than this, at the highest degree, would be too many unknowns.
 constexpr double kMostCells = 400.0;
-// Share of the tolerance that may be left of a wave where elements begin to grow.
+// Share of the tolerance to which a wave must have decayed before elements may grow.
 constexpr double kLeftOfTolerance = 0.1;
 
 struct Waves {
@@ -36,7 +36,7 @@ Waves waves_at(const PillarScene& scene, double frequency_Hz) {
   };
   Complex E = 3.0 * G;
   double slowest = decay(G);
-  if (m.nu < 0.5) {  // an incompressible body has no pressure waves but the bar's
+  if (m.nu < 0.5) {  // an incompressible body has no pressure waves except the bar's
     const Complex K = m.E0_Pa / (3.0 * (1.0 - 2.0 * m.nu)) * relative.bulk;
     E = 9.0 * K * G / (3.0 * K + G);
     slowest = std::min(slowest, decay(K + 4.0 / 3.0 * G));

@@ -32,10 +32,10 @@ struct HistoryOptions {
   int max_levels = 8;            // each halves all steps
   std::vector<double> output_times_s;      // additional times that steps must hit exactly
   std::vector<Eigen::VectorXd> observers;  // additional linear outputs, vectors times u
-  std::function<void(double)> progress;    // called with the completed fraction; may be empty
+  std::function<void(double)> progress;    // callback with the completed fraction; may be empty
 };
 
-// What a run through a history gives.
+// Results of a run through a history.
 struct HistoryResult {
   std::vector<double> time_s;                 // a jump has the same time twice
   std::vector<double> force;                  // multiple of the unit load
