@@ -15,8 +15,9 @@ struct FrequencyBand {
 // Throws std::invalid_argument unless 0 < from < to, both finite.
 void validate(const FrequencyBand& band);
 
-// The band that the material's data support: f = 1/(2 pi t) over its validity window; without a
-// window the relaxation times and a decade beyond them; 1 to 1000 Hz for a material without terms.
+// The band that the material's data support: f = 1/(2 pi t) over its validity window. Without a
+// window: the relaxation times and a decade beyond them; for a material without terms, 1 to 1000
+// Hz.
 FrequencyBand supported_band(const Material& material);
 
 // Logarithmically equidistant, both ends included.
@@ -39,11 +40,11 @@ struct LossDeviation {
   double loss_factor = 0.0;  // of the material there
 };
 
-// What a code with constant moduli can take of a material over a band. A structure with stiffness
-// matrix K and damping matrix C = alpha M + beta K has the damping ratio alpha/(2 omega) + beta
-// omega/2 at omega (Clough and Penzien, Dynamics of Structures, 2nd ed. (1993), section 12-5), which
-// is half its loss factor. alpha and beta >= 0 are those of least squares over the band, integrated
-// over the logarithm of the frequency.
+// Parameters for a code with constant moduli that represent a material over a band. A structure
+// with stiffness matrix K and damping matrix C = alpha M + beta K has the damping ratio alpha/(2
+// omega) + beta omega/2 at omega (Clough and Penzien, Dynamics of Structures, 2nd ed. (1993),
+// section 12-5), which is half its loss factor. alpha and beta >= 0 are those of least squares over
+// the band, integrated over the logarithm of the frequency.
 struct BandReduction {
   double young_Pa = 0.0;        // between the ends of E'(f): equally far from both, relatively
   double poisson = 0.0;         // of the storage moduli in the middle of the band

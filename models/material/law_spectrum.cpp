@@ -209,7 +209,7 @@ Eigen::VectorXd weights_on_grid(const DecaySpectrum& spectrum, double ln_tau, co
     ln_T -= step;
   }
   Eigen::VectorXd weights = collector.weights();
-  // All compliance: what the samples have not reached is faster than all of them.
+  // The rest of the compliance belongs to times faster than all samples.
   if (spectrum.is_growth()) weights[0] += 1.0 - (weights.sum() + collector.beyond());
   return weights;
 }

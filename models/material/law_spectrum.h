@@ -54,9 +54,9 @@ LogGrid grid_for_times(double ln_t_min, double ln_t_max);
 
 // Weights w_j of exponentials on the grid with phi = sum_j w_j exp(-t/T_j) or psi = sum_j w_j (1 -
 // exp(-t/T_j)), to about 1e-6 for times that lie e^16 inside the grid. Each node of the integral is
-// shared among eight columns by interpolation; weights may be negative. What lies beyond the ends
-// is lumped there: fast parts keep their viscosity w T, slow ones their modulus w (growth: fast
-// ones their compliance w, slow ones their fluidity w/T).
+// shared among eight columns by interpolation; weights may be negative. The parts beyond the ends
+// are added to the end columns: fast parts keep their viscosity w T, slow ones their modulus w
+// (growth: fast ones their compliance w, slow ones their fluidity w/T).
 Eigen::VectorXd weights_on_grid(const DecaySpectrum& spectrum, double ln_tau, const LogGrid& grid);
 
 // Positive weights at the points of a coarse grid, the trapezoidal rule with its step, and the sums

@@ -22,8 +22,8 @@ void validate(const LoadHistory& history);
 // a stress (eq. 33). Exact for any spacing of the corners. Throws what validate() throws.
 std::vector<double> response(const PronySeries& series, const LoadHistory& history);
 
-// The history with more corners, at the given times; its course is the same. Times before the
-// first corner are left out. A time that is a corner already adds nothing.
+// The same history with additional corners at the given times; its course does not change. Times
+// before the first corner are ignored, and so are times that are corners already.
 LoadHistory with_corners_at(const LoadHistory& history, std::vector<double> time_s);
 
 // One motion of the input to `target` within duration_s (0: a jump).

@@ -30,8 +30,9 @@ struct TermUncertainty {
   Interval modulus_Pa_95, g_95, tau_s_95;
 };
 
-// What one standard deviation of one systematic cause (frame, load cell, geometry) changes, all of it
-// together: a frame that is softer than believed raises E0 and all g. Relative changes, with their signs.
+// Changes by one standard deviation of one systematic cause (frame, load cell, geometry), all of
+// them together: for example, a frame that is softer than believed raises E0 and all g. Relative
+// changes, with their signs.
 struct SystematicPart {
   std::string cause;
   double E0 = 0.0;             // relative change
@@ -56,7 +57,8 @@ struct ValidityWindow {
   double strain_max = 0.0;  // 0: unknown
 };
 
-// An identifiability flag: what the data do not determine. Cards annotate or refuse flagged terms.
+// An identifiability flag: something that the data do not determine. Cards annotate or refuse
+// flagged terms.
 struct MaterialFlag {
   std::string name;  // short and stable, e.g. "tau-below-sampling"
   int term = 0;      // 1-based; 0 for the whole material

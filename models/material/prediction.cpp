@@ -15,8 +15,8 @@ namespace {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kUsualStrain = 0.01, kUsualStress_Pa = 1000.0;
 
-// The times that the prediction covers unless the request states others: those of the window, or
-// else a decade beyond the relaxation times on either side.
+// The times that the prediction covers unless the request states others: those of the window;
+// without a window, the relaxation times and a decade beyond them on either side.
 struct TimeSpan {
   double first_s = 0.01, last_s = 100.0;
 };

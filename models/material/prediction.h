@@ -9,13 +9,13 @@
 
 namespace viscard {
 
-// What a material does in a test: the curve with its 95 % band, and where it leaves the window of
+// Response of a material in a test: the curve with its 95 % band, and where it leaves the window of
 // the fit.
 
 // Kinds of tests that can be predicted.
 enum class PredictedTest { kRelaxation, kCreep, kRecovery, kCycles, kOscillation, kHistory };
 
-// The test whose answer is asked for.
+// The test to predict.
 struct PredictionRequest {
   PredictedTest test = PredictedTest::kRelaxation;
   // Size of the input: strain, or stress in Pa. Relaxation and creep without one are ideal steps and

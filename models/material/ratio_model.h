@@ -97,7 +97,7 @@ struct RatioSpecimen {  // one record
   int specimen = 0;       // from 1; records with the same number are touches on one specimen
   int touch = 1;
 };
-// What a joint fit over mixing ratios gives.
+// Result of a joint fit over mixing ratios.
 struct RatioFit {
   RatioModel best, law;                // of all forms by BIC, and of those that are laws
   std::vector<RatioComparison> forms;  // ascending BIC

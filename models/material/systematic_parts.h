@@ -8,14 +8,15 @@
 
 namespace viscard {
 
-// The systematic parts that are stated; if only their sum is, one that scales all moduli together.
+// The systematic parts that the material states; if it states only their sum, one part that scales
+// all moduli together.
 std::vector<SystematicPart> systematic_parts_of(const MaterialUncertainty& uncertainty);
 
 // The changes of E_inf, E_i and ln tau_i that a part makes: g_i = E_i/E0, so that
 //   d ln E_i = d ln E0 + d ln g_i,  d E_inf = E_inf d ln E0 - sum E_i d ln g_i.
 SeriesDirection direction_of(const PronySeries& series, const SystematicPart& part);
 
-// Relative standard uncertainties by all parts together. Terms are counted from 0.
+// Relative standard uncertainties due to all parts together. Terms are counted from 0.
 double systematic_u_of_E0(const std::vector<SystematicPart>& parts);
 double systematic_u_of_E_inf(const std::vector<SystematicPart>& parts, const PronySeries& series);
 double systematic_u_of_modulus(const std::vector<SystematicPart>& parts, std::size_t term);  // E_i

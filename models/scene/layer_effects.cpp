@@ -9,8 +9,8 @@
 namespace viscard {
 namespace {
 
-// The film's share of how far the face sinks under a wide pressure: t/M of the film over that of both,
-// M = E (1 - nu)/((1 + nu)(1 - 2 nu)).
+// Share of the film in the sinking of the face under a wide pressure: t/M of the film over that of
+// film and layer, M = E (1 - nu)/((1 + nu)(1 - 2 nu)).
 EffectEstimate film_compliance_estimate(const LayerScene& scene) {
   const double film = scene.film_thickness_m / scene.film.stiffness_Pa(2, 2);
   const double share = film / (film + scene.thickness_m / bonded_modulus_Pa(scene));
@@ -47,7 +47,8 @@ EffectEstimate finite_strain_estimate(const LayerScene& scene) {
           "small strains are assumed; not in the error"};
 }
 
-// A face without end cannot follow a shape everywhere; one of a given width may be told to.
+// A face without ends cannot follow a shape everywhere; for a shape of given width the scene may
+// request it.
 EffectEstimate contact_estimate(const LayerScene& scene) {
   const EffectRole role = scene.width_m > 0.0 ? EffectRole::kOptional : EffectRole::kNeeded;
   return {role, 1.0, "", 0.0, "where the shape does not touch, the face is not pulled"};

@@ -32,7 +32,8 @@ EffectEstimate incompressibility_estimate(const PillarScene& scene) {
 
 EffectEstimate three_dimensional_estimate(const PillarScene& scene) {
   // Radius of gyration d/4 of a disc against d/sqrt(12) of a strip: lateral frequencies and
-  // buckling of slender pillars differ by that; axial answers by the clamped foot (eq. E5).
+  // buckling of slender pillars differ by that ratio; axial answers differ by the clamped foot (eq.
+  // E5).
   const double foot = scene.pillar.nu * scene.pillar.nu *
                       std::min(1.0, 0.5 * scene.geometry.diameter_m / scene.geometry.length_m);
   const bool bends = analysis_of(scene).bends;
@@ -49,7 +50,8 @@ EffectEstimate three_dimensional_estimate(const PillarScene& scene) {
 
 namespace {
 
-// p/p_cr of the load; a straight pillar under a load along its axis shortens without the effect.
+// p/p_cr of the load. Without the effect, a straight pillar under a load along its axis still
+// shortens.
 EffectEstimate stiffness_of_straight_pillar(const PillarScene& scene) {
   const double pressure_Pa = largest_pressure_Pa(scene);
   if (pressure_Pa == 0.0) return {.reason = "no pressure on the top"};

@@ -128,7 +128,7 @@ EffectEstimate adhesion_at(double ratio) {
           "neighbours that once touch stay together (lateral collapse)"};
 }
 
-// Pillars longer than eq. D3 allows stay together once they touch; no analysis follows them there.
+// Pillars longer than eq. D3 allows stay together once they touch; no analysis includes that.
 EffectEstimate adhesion_estimate(const ArrayScene& scene) {
   const ArrayGeometry& g = scene.geometry;
   if (g.count == 1 && g.ends == FilmEnds::kFree) return {.reason = "nothing to stick to"};

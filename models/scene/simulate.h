@@ -10,10 +10,11 @@
 namespace viscard {
 
 // Answers a scene with the effects of its plan (plan.h), on meshes of rising degree until every
-// result meets the tolerance (error_control.h). What the plan leaves out is part of every error
-// estimate; effects that no analysis can compute and that may exceed the tolerance are named in the
-// notes. Throws SceneMistake for a scene that contradicts itself or whose load lies beyond
-// buckling, std::runtime_error with the reason if the finest mesh does not meet the tolerance.
+// result meets the tolerance (error_control.h). The estimates of effects that the plan leaves out
+// are part of every error estimate. The notes name effects that no analysis can compute and that
+// may exceed the tolerance. Throws SceneMistake for a scene that contradicts itself or whose load
+// lies beyond buckling, and std::runtime_error with the reason if the finest mesh does not meet the
+// tolerance.
 SceneAnswer simulate(const Scene& scene);
 
 // The scene as it stands, with no plan, on one mesh and without mesh errors. Throws SceneMistake for a
@@ -22,8 +23,8 @@ SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh);
 
 // The solution on a mesh, with the plan's effects, for pictures. Static: displacement (m), axial
 // stress (Pa), with electrodes the potential (V). Modal: the shapes of every family, largest
-// displacement 1. Other analyses and rows of pillars have none. The scene is solved anew. Throws as
-// plan_effects() does.
+// displacement 1. Other analyses and rows of pillars have no picture. The scene is solved again.
+// Throws as plan_effects() does.
 std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisation& mesh);
 
 // Answers all `points` on all cores; done(i, answer) is called for one at a time, in the order in

@@ -150,7 +150,7 @@ EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene) {
           "the pressure bends pillars further that a shear bends; not in the error"};
 }
 
-// Pillars longer than eq. D3 allows stay together once they touch; no analysis follows them there.
+// Pillars longer than eq. D3 allows stay together once they touch; no analysis includes that.
 EffectEstimate adhesion_estimate(const SpaceScene& scene) {
   const double gap_m = smallest_gap_m(scene);
   if (std::isinf(gap_m)) return {.reason = "a single pillar with nothing to stick to"};
@@ -175,8 +175,8 @@ EffectEstimate finite_strain_estimate(const SpaceScene& scene) {
           "small strains are assumed; not in the error"};
 }
 
-// A top lifts where the surface stays above it, and about where a turned top would: Saint-Venant's bending
-// and compression are equal at the rim when the overlap vanishes there.
+// A top lifts where the surface stays above it, and about where a rotated top would: the stresses
+// of bending and compression (Saint-Venant) are equal at the rim when the overlap vanishes there.
 EffectEstimate contact_estimate(const SpaceScene& scene) {
   if (!scene.press) return {.reason = "no shape presses on the pillars"};
   const FoundationPress pressed = foundation_press(scene);

@@ -25,9 +25,9 @@ class DiscCharge {
   // Transform of the charge at equal potential over its sum: how an open electrode weighs the potential
   // under it.
   double weight(double k_1_m) const;
-  // Amplitudes of the charge without net charge that makes the disc equipotential, C/m of the modes,
-  // where the potential that it stands in has the moments `moments` = sum over the waves of its
-  // amplitude times transforms(); a column per load.
+  // Amplitudes of the additional charge, with zero net charge, that makes the disc equipotential:
+  // C/m of the modes. `moments`: of the surrounding potential, sum over the waves of amplitude
+  // times transforms(); a column per load.
   Eigen::MatrixXd induced(int harmonic, const Eigen::MatrixXd& moments) const;
 
  private:

@@ -21,8 +21,9 @@ double stack_thickness_m(const LayeredFilm& film) {
   return sum_m;
 }
 
-// Panels begin where the film has long shed its stretch to the backing, over t E_film/E, and where the
-// farthest pillar sees no phase.
+// The panels begin at a wave number so small that two effects are negligible below it: waves are far
+// longer than t E_film/E, over which the film passes its stretch to the backing, and their phase at
+// the farthest pillar is small.
 double first_break_1_m(const LayeredFilm& film, double far_m) {
   constexpr double kOfPhase = 0.3, kOfStretch = 0.1;
   double smallest_1_m = kOfPhase / far_m;

@@ -14,11 +14,11 @@ namespace viscard {
 // soft backing lets the film bend and stretch over many times its thickness, so that long waves matter.
 class FilmTable {
  public:
-  // Waves k up to largest_kt over the thickness of all layers, for loads that are felt up to `far_m` away;
-  // harmonics L and degree as in PotentialAccuracy (models/array/space).
+  // Waves up to k t = largest_kt, t the thickness of all layers, for loads whose effect reaches up
+  // to `far_m`; harmonics L and degree as in PotentialAccuracy (models/array/space).
   FilmTable(const LayeredFilm& film, double largest_kt, int harmonics, int degree, double far_m);
 
-  // FilmWaves::response by direction. Waves longer than the panels are solved.
+  // FilmWaves::response by direction. Waves longer than the panels are solved directly.
   std::vector<Eigen::Matrix4d> at(double k_1_m) const;
   double smallest_k_1_m() const { return breaks_1_m_.front(); }
   double largest_k_1_m() const { return breaks_1_m_.back(); }

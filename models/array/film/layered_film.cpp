@@ -21,9 +21,9 @@ struct WaveTerm {
 };
 constexpr std::size_t kPhi = 3;
 
-// Rows xx yy zz yz xz xy, E_x E_y E_z of eq. S1. The shears yz and xz and the fields E_x and E_y are i
-// times what stands here; a film of class mm2 about z does not couple them to the other rows, so i
-// cancels against its conjugate in the virtual work.
+// Rows xx yy zz yz xz xy, E_x E_y E_z of eq. S1. The shears yz and xz and the fields E_x and E_y
+// are i times the stored values; a film of class mm2 about z does not couple them to the other
+// rows, so i cancels against its conjugate in the virtual work.
 const std::array<std::vector<WaveTerm>, 9>& wave_rows() {
   static const std::array<std::vector<WaveTerm>, 9> rows = {{
       {{0, 0, 1, -1.0}},

@@ -17,8 +17,8 @@ enum class LayerModel {
   kPlaneStress
 };
 
-// A layer of one elastic material (SceneCommon::pillar) on the film, without lateral end, under a rigid
-// shape without friction.
+// A layer of one elastic material (SceneCommon::pillar) on the film, without lateral ends, under a
+// rigid shape without friction.
 struct LayerScene : SceneCommon {
   LayerModel model = LayerModel::kSpace;
   double thickness_m = 120e-6;
@@ -35,8 +35,8 @@ struct LayerScene : SceneCommon {
 
   ShapePress press;
 
-  // Set by the plan (models/scene/plan.h): the shape only pushes. If not, the face follows it wherever
-  // the shape covers it, and is pulled too.
+  // Set by the plan (models/scene/plan.h): the shape can only push. Otherwise the face follows the
+  // shape wherever the shape covers it, even if it must be pulled.
   bool feels_contact = true;
 
   bool is_plane() const { return model != LayerModel::kSpace; }
@@ -54,7 +54,8 @@ LayerPress press_of(const LayerScene& scene);
 
 // E/(1 - nu^2), in plane stress E: the modulus of a half-space of the layer's material.
 double contact_modulus_Pa(const LayerScene& scene);
-// E (1 - nu)/((1 + nu)(1 - 2 nu)), in plane stress E/(1 - nu^2): of the layer when it cannot widen.
+// E (1 - nu)/((1 + nu)(1 - 2 nu)), in plane stress E/(1 - nu^2): modulus of the layer when it
+// cannot widen.
 double bonded_modulus_Pa(const LayerScene& scene);
 
 // Names of the results that every electrode has: "centre_voltage", "quadrant_1_voltage".

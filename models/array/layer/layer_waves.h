@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// A layer on the film under a pressure p = exp(i k x) on its face: how far the face sinks, and the
+// A layer on the film under a pressure p = exp(i k x) on its face: the sinking of the face, and the
 // potential that is read. The potential has the harmonics 0, 2 and 4 of the wave's direction.
 struct LayerAnswer {
   double sinking_m_Pa = 0.0;  // without the reference of eq. L2, mean over the directions
@@ -46,7 +46,8 @@ class LayerWaves {
   double error_ = 0.0;
 };
 
-// The part of the sinking that is known in closed form, over A: (1 - exp(-k b))/k, b the thickness.
+// The part of the sinking that is known in closed form, divided by A: (1 - exp(-k b))/k, b the
+// thickness.
 double reference_spectrum_m(double k_1_m, double thickness_m);
 
 }  // namespace viscard

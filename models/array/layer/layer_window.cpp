@@ -45,7 +45,7 @@ double overlap_reach_m(const RigidShape& shape, double depth_m) {
   }
 }
 
-// At most the height of the shape's lowest point above the point `at`.
+// Lower bound of the height of the shape's lowest point above the point `at`.
 double lowest_height_m(const RigidShape& shape, const LayerGrid& bounds) {
   if (!std::isfinite(bounds.width_m)) {
     return -shape.radius_m * std::hypot(shape.tilt_x, shape.tilt_y) *
@@ -86,7 +86,7 @@ class WindowSearch {
     return {found.grid, depth_m, depth_m - lowest_m_, found.force_N};
   }
 
-  // A depth at which the force is at least that wanted, and no more than about twice it.
+  // A depth whose force is at least the wanted one, and at most about twice that.
   LayerWindow at_force(double force_N) const {
     double deep_m = 1e-3 * scene_->thickness_m;  // below the lowest point
     LayerWindow window = at_depth(lowest_m_ + deep_m);
@@ -130,7 +130,7 @@ class WindowSearch {
     return contact(grid).to_depth(depth_m);
   }
 
-  // The window around what is touched, with two cells beside it.
+  // The window around the touched cells, with two more cells on each side.
   LayerGrid fitted(const LayerPressure& found) const {
     if (found.touches_rim()) {
       LayerGrid grown = found.grid;

@@ -4,7 +4,7 @@
 
 namespace viscard {
 
-// Where the shape touches the face, found on coarse grids: the square that later grids divide, and the
+// The contact area on the face, found on coarse grids: the square that later grids divide, and the
 // depth there.
 struct LayerWindow {
   LayerGrid grid;  // count is that of the coarse grid

@@ -125,7 +125,7 @@ void LayerSolver::set_results(const LayerPressure& pressed, SceneAnswer& answer)
                               scene_->is_plane() ? "m" : "m2",
                               change + of_rim * rim_cells(pressed.pressure_Pa), 0.0, false});
   }
-  // Counted from the point `at`, which may touch late or never: judged beside the indentation.
+  // Its error is relative to the indentation, because the point `at` may touch late or never.
   if (asks_for(*scene_, "depth")) {
     answer.results.push_back({"depth", pressed.depth_m, "m", 0.0, window_.indentation_m});
   }
@@ -157,7 +157,7 @@ void LayerSolver::set_profiles(const LayerPressure& pressed, SceneAnswer& answer
   if (asks_for(*scene_, kGapProfile)) add_gap(pressed, answer);
 }
 
-// How far the face stays below the shape, along x within the grid and under the shape.
+// Gap between the face and the shape along x, within the grid and under the shape.
 void LayerSolver::add_gap(const LayerPressure& pressed, SceneAnswer& answer) const {
   const LayerGrid& grid = pressed.grid;
   const Eigen::Index middle = pressed.pressure_Pa.cols() / 2;
@@ -182,7 +182,7 @@ void LayerSolver::add_gap(const LayerPressure& pressed, SceneAnswer& answer) con
   answer.curves.push_back(std::move(gap));
 }
 
-// The steepest rise of the shape over the touched cells, and if they reach the shape's end.
+// The steepest rise of the shape over the touched cells, and whether they reach the shape's end.
 std::pair<double, bool> steepest_rise(const LayerScene& scene, const LayerPressure& pressed) {
   const LayerGrid& grid = pressed.grid;
   double steepest = 0.0;

@@ -28,7 +28,7 @@ bool asks_for_voltages(const ArrayScene& scene) {
 }
 
 int modes_for(const ArrayScene& scene, const Discretisation& mesh, double highest_Hz) {
-  constexpr int kLeast = 3;  // linear elements have few that are right
+  constexpr int kLeast = 3;  // linear elements have few modes that are accurate
   const int count = std::max(kLeast, 8 + 5 * (mesh.degree - 3));
   if (highest_Hz == 0.0) return count;
   const double shear_m_s =

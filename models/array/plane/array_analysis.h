@@ -9,7 +9,7 @@
 
 namespace viscard {
 
-// One analysis of a row of pillars: what it needs, what it may be asked for, and its answer on one
+// One analysis of a row of pillars: what it needs, which results it offers, and its answer on one
 // mesh. All other code reads this row and never asks which analysis it is (README.md).
 struct ArrayAnalysis {
   const char* name;  // the word in a scene file
@@ -24,7 +24,7 @@ struct ArrayAnalysis {
   SceneAnswer (*run)(const ArrayScene& scene, const Discretisation& mesh) = nullptr;
   // Throws std::runtime_error for an answer that no mesh improves enough; may be null.
   void (*check_answer)(const ArrayScene& scene, const SceneAnswer& answer) = nullptr;
-  // The drive of each pillar when the plan leaves the film out; null: it never does.
+  // The drive of each pillar alone if the plan leaves the film out; null: the plan never does.
   PillarDrive (*alone)(const ArrayScene& scene) = nullptr;
 };
 
@@ -54,7 +54,7 @@ void check_load(const ArrayScene& scene);
 int modes_for(const ArrayScene& scene, const Discretisation& mesh, double highest_Hz);
 
 // Relative error of a film without inertia: (f/f_film)^2 of its motion, f_film = c_s/(4 t) (eq.
-// A2). Voltages come from the film alone; of a top's displacement only a share does.
+// A2). It applies to a voltage in full, to the displacement of a top only in the film's share.
 double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double frequency_Hz);
 
 std::vector<int> loaded_of(const ArrayScene& scene);  // 0-based

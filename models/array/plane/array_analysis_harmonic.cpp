@@ -18,8 +18,8 @@ void check_row_harmonic(const ArrayScene& scene) {
   check_load(scene);
 }
 
-// All outputs over the frequencies. The tolerance refers to the pillar that moves most, as for
-// static voltages; a neighbour's trace is judged by the same size.
+// All outputs over the frequencies. The tolerance is relative to the pillar that moves most, as for
+// static voltages; the small response of a neighbour is judged by the same value.
 void add_outputs(const ArrayScene& scene, const ArrayTransfer& transfer, SceneAnswer& answer) {
   const std::vector<double>& f = row_harmonic_drive(scene).frequencies_Hz;
   const Eigen::Index n = scene.geometry.count;

@@ -36,7 +36,7 @@ SceneAnswer run_row_modal(const ArrayScene& scene, const Discretisation& mesh) {
   return answer;
 }
 
-// Modes of a row leave the film's own inertia out; no mesh changes that error.
+// Modes of a row neglect the film's own inertia; no mesh reduces that error.
 void refuse_film_modes(const ArrayScene& scene, const SceneAnswer& answer) {
   if (answer.step_error <= scene.tolerance) return;
   throw std::runtime_error(

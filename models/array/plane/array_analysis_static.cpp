@@ -8,13 +8,14 @@
 namespace viscard {
 namespace {
 
-constexpr double kPercentScale = 10.0;  // a tolerance of 1e-3 gives per cents to 0.01 points
+constexpr double kPercentScale = 10.0;  // a tolerance of 1e-3 gives percentages to 0.01 points
 
-// A voltage this much smaller than that of a pillar pressed by as much is zero by symmetry: under a
-// pillar sheared between mirrors. It is no reference for a per cent or for an error.
+// A voltage that is smaller than that of an equally pressed pillar by this factor is zero by
+// symmetry, for example under a pillar sheared between mirrors. No percentage or error can refer to
+// it.
 constexpr double kNoVoltage = 1e-9;
 
-// One pillar that stands alone for each of a row.
+// A model of a single pillar for each pillar of the row.
 ArrayAnswer each_alone(const ArrayAnswer& one, const Eigen::VectorXd& load_Pa) {
   const auto repeated = [&](const Eigen::VectorXd& value) {
     return value.size() == 0 ? value : Eigen::VectorXd(value[0] * load_Pa);
@@ -70,7 +71,7 @@ class Statics {
     const std::string name = stem + "_" + std::to_string(pillar);
     answer_.results.push_back({name, value, unit, 0.0, scale, asks_for(scene_, name)});
   }
-  // `pressed` is the size that values which are zero by symmetry are compared with.
+  // `pressed` is the reference value for values that are zero by symmetry.
   void add_all(const std::string& name, const Eigen::VectorXd& values, const char* unit,
                double pressed) {
     double scale = values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();

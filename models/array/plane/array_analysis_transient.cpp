@@ -38,8 +38,8 @@ int oversampling_for(const ArrayTransfer& transfer, const RowTransient& drive) {
       std::clamp(std::ceil(3.0 * highest_Hz * drive.end_time_s / drive.outputs), 2.0, kMost));
 }
 
-// All outputs over time with the first `shapes` of a loaded pillar's modes. Others are moved by
-// the film alone and need fewer.
+// All outputs over time, with the first `shapes` modes of a loaded pillar. Pillars without a load
+// are moved by the film alone and need fewer.
 Eigen::MatrixXd values_with(const ArrayScene& scene, const ArrayModel& model, int shapes) {
   const RowTransient& drive = row_transient_drive(scene);
   const ArrayTransfer transfer(model, scene.load, loaded_of(scene), scene.pillar,
@@ -48,8 +48,8 @@ Eigen::MatrixXd values_with(const ArrayScene& scene, const ArrayModel& model, in
                           oversampling_for(transfer, drive));
 }
 
-// Answers with all modes and with parts of them (set_left_out). Modes that matter come at irregular
-// distances, so there are three parts.
+// Answers with all modes and with three subsets of them (set_left_out). There are three because the
+// relevant modes have irregular distances.
 struct WaveAnswers {
   Eigen::MatrixXd whole;
   std::vector<Eigen::MatrixXd> part;
@@ -86,14 +86,14 @@ void add_output(SceneCurve curve, double size, double lowest_Hz, const WaveAnswe
   SceneCurve spectrum = spectrum_of(curve);
   set_left_out(kSharesInUse, parts, curve);
   set_left_out(kSharesInUse, part_spectra, spectrum);
-  // The peak of a mode beyond those in use is missing from all parts, and sampling may fold it back
-  // to any frequency. It is no higher than the peaks missing from a part.
+  // The peak of a mode beyond those in use is missing from all subsets, and sampling may alias it
+  // to any frequency. Its height is at most that of the peaks missing from a subset.
   spectrum.left_out.assign(spectrum.value.size(), largest_size(spectrum.left_out));
   curve.span = 1.0 / lowest_Hz;
   spectrum.span = lowest_Hz;
   curve.allowed.assign(curve.value.size(), size);
   spectrum.allowed.assign(spectrum.value.size(), size);
-  // Without its sign, which would change between two peaks of nearly the same size.
+  // Without its sign, because the sign would change between two peaks of nearly the same size.
   const auto peak = std::max_element(curve.value.begin(), curve.value.end(),
                                      [](double a, double b) { return std::abs(a) < std::abs(b); });
   const double peak_at_s = curve.x[static_cast<std::size_t>(peak - curve.value.begin())];
@@ -155,7 +155,7 @@ SceneAnswer answer_with(const ArrayScene& scene, const Discretisation& mesh, Wav
                          {.waves = waves.waves, .load_port = port_of(scene.load)});
   answer.unknowns = model.unknowns();
   const ArrayTransfer statics(model, scene.load, loaded_of(scene), scene.pillar, {1, 1});
-  // Ringing lasts in the lowest modes; the error of the film is that at the third of them.
+  // The ringing consists of the lowest modes; the error of the film is taken at the third of them.
   const Eigen::VectorXd& rad_s = model.pillar().mode_rad_s;
   const double ring_rad_s = rad_s[std::min<Eigen::Index>(2, rad_s.size() - 1)];
   answer.step_error = film_error(scene, statics, ring_rad_s / (2.0 * std::numbers::pi));
@@ -165,7 +165,7 @@ SceneAnswer answer_with(const ArrayScene& scene, const Discretisation& mesh, Wav
   return answer;
 }
 
-// Largest error by modes left out, relative to the size of its curve.
+// Largest error by left-out modes, relative to the size of its curve.
 double left_out_of(const SceneAnswer& answer) {
   double largest = 0.0;
   for (const SceneCurve& curve : answer.curves) {
@@ -175,9 +175,9 @@ double left_out_of(const SceneAnswer& answer) {
   return largest;
 }
 
-// As many modes as leave out half of the tolerance, by trials on a coarse mesh: what they leave out
-// depends little on the mesh. With as many on all meshes, the change from mesh to mesh is the
-// mesh's own.
+// Chooses by trials on a coarse mesh how many modes are needed so that the left-out ones cost half
+// of the tolerance; their effect depends little on the mesh. All meshes then use this number, so
+// the change from mesh to mesh is the error of the mesh alone.
 WaveMesh waves_for(const ArrayScene& scene) {
   WaveMesh found;
   while (true) {

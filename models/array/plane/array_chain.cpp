@@ -8,11 +8,11 @@ namespace viscard {
 
 namespace {
 
-// A pivot that differs from the one a period before by this share is that one: the difference, of
-// the order of rounding, falls further from period to period.
+// A pivot that differs from that of one period before by less than this is taken as equal: the
+// difference, of the order of rounding, decreases further from period to period.
 constexpr double kSamePivot = 1e-14;
 
-// What is this much smaller than the largest movement so far no longer matters to any reading.
+// Movements smaller than this, relative to the largest one so far, no longer matter to any reading.
 constexpr double kArrivesNoMore = 1e-18;
 
 }  // namespace
@@ -49,7 +49,8 @@ void ArrayChain::number_joints(FilmEnds ends) {
   }
 }
 
-// Whether the pieces on both sides of an inner joint are those on both sides of the last but one.
+// True if the pieces on both sides of an inner joint are the same as those of the joint before the
+// last one.
 bool ArrayChain::repeats(std::size_t joint) const {
   return joint >= 3 && joint < pieces_.size() && pieces_[joint - 1] == pieces_[joint - 3] &&
          pieces_[joint] == pieces_[joint - 2];
@@ -58,7 +59,7 @@ bool ArrayChain::repeats(std::size_t joint) const {
 // Block elimination from left to right (Golub & Van Loan, Matrix Computations (2013), 4.5.1).
 void ArrayChain::eliminate() {
   std::vector<Eigen::MatrixXd> pivots;   // of each factor
-  std::vector<Eigen::MatrixXd> carried;  // what each takes off the next pivot
+  std::vector<Eigen::MatrixXd> carried;  // update of the next pivot by each factor
   for (std::size_t joint = 0; joint <= pieces_.size(); ++joint) {
     const bool may_share = repeats(joint);
     const int before = joint < 2 ? -1 : factor_of_[joint - 2];

@@ -8,8 +8,8 @@
 namespace viscard {
 
 // Pieces joined end to end: a block-tridiagonal system in the unknowns of the joints alone. Ports
-// are numbered piece by piece. What one end does to the film decays along it, so that the pivots of
-// a long row of repeating pieces soon repeat too; such joints share one factor.
+// are numbered piece by piece. A disturbance at one end decays along the film, so the pivots of a
+// long row of repeating pieces soon repeat too; such joints share one factor.
 class ArrayChain {
  public:
   // The pieces must outlive the chain; a piece may stand in it many times. With mirror ends the
@@ -25,8 +25,8 @@ class ArrayChain {
   Eigen::MatrixXd compliance(const std::vector<int>& loaded_ports) const;
   // Readings of all ports under loads on all of them.
   Eigen::VectorXd readings(const Eigen::VectorXd& loads) const;
-  // Reading of a port under a unit load on another of the same piece. Joints so far away that
-  // nothing of it arrives are left out.
+  // Reading of a port under a unit load on another port of the same piece. Joints that are too far
+  // away to have an effect are left out.
   double reading_within(std::size_t piece, int read_port, int loaded_port) const;
 
   int unknowns() const;                                              // of the joints
@@ -34,7 +34,7 @@ class ArrayChain {
   long solved_joints() const { return solved_joints_; }  // so far, times the number of loads
 
  private:
-  // Of a joint: its pivot, and the blocks that couple it to the next.
+  // Factors of a joint: its pivot, and the blocks that couple it to the next joint.
   struct Factor {
     LuFactor pivot;
     Eigen::MatrixXd upper;  // pivot^-1 times the block to the next joint

@@ -74,7 +74,8 @@ void validate(const ArrayGeometry& g, const ArrayElectrodes& e) {
 std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double reach_m,
                                    double largest_m, int layers, double ratio) {
   std::vector<double> breaks;
-  // Layers toward a mark; 0: it is not singular. A full single one still sets the length there.
+  // Layers toward a mark; 0: the mark is not singular. A singular mark that is full already still
+  // sets the length of the elements there.
   const auto layers_to = [&](const MeshMark& mark) {
     const int left = layers - mark.fewer_layers;
     return mark.is_singular && (mark.fewer_layers == 0 || left > 1) ? left : 0;
@@ -148,8 +149,8 @@ struct CellEnd {
   bool is_film_end = false;
 };
 
-// Where the film ends its held bottom is a corner: fewer layers there than at the rims of pillars,
-// because less is felt of it with its distance from them.
+// Where the film ends, its held bottom has a corner. It gets fewer layers than the rims of pillars,
+// because its effect decreases with its distance from them.
 MeshMark film_end(double x, double beyond_m, double thickness_m) {
   return {x, true, layers_not_felt(beyond_m, thickness_m)};
 }

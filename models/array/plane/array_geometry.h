@@ -37,18 +37,18 @@ void validate(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
 
 // Half the width of an electrode, for the default that of the pillar.
 double electrode_half_width_m(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
-// The same pillar alone, on a film so wide that its ends are not felt.
+// The same pillar alone, on a film so wide that its ends have no effect.
 ArrayGeometry lone(ArrayGeometry geometry);
 
 // A break of the mesh, and whether stress or field is singular there, so that elements shrink.
 struct MeshMark {
   double x = 0.0;
   bool is_singular = false;
-  int fewer_layers = 0;  // than elsewhere, where little is felt of what happens here
+  int fewer_layers = 0;  // fewer layers than elsewhere, because this place has little effect
 };
-// Breaks from the first mark to the last: `layers` elements shrink by `ratio` over `reach_m` toward
-// each singular mark that has two or more of them left, others are no longer than `largest_m`. Marks
-// ascend.
+// Breaks from the first mark to the last one. Toward each singular mark `layers` elements shrink by
+// `ratio` over `reach_m`, if two or more layers remain; all other elements are no longer than
+// `largest_m`. Marks ascend.
 std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double reach_m,
                                    double largest_m, int layers, double ratio);
 

@@ -43,7 +43,7 @@ std::vector<ArrayMode> array_modes(const ArrayModel& model, int clusters) {
     int& wanted = left[mode.is_lateral ? 1 : 0];
     if (wanted-- > 0) modes.push_back(std::move(mode));
   }
-  // The highest of the pillar's modes are the ones left-out neighbours would change.
+  // Left-out modes would change the highest of the modes in use, so only lower ones are trusted.
   const double trusted_Hz = pillar.mode_rad_s[per_pillar - 1] / (2.0 * std::numbers::pi);
   if (left[0] > 0 || left[1] > 0 || modes.back().frequency_Hz > trusted_Hz) {
     throw std::invalid_argument("the pillars have inertia ports for " + std::to_string(per_pillar) +

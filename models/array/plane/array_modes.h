@@ -27,8 +27,8 @@ std::vector<ArrayMode> array_modes(const ArrayModel& model, int clusters);
 double film_inertia_error(const ArrayModel& model, const ArrayMedia& media,
                           const std::vector<ArrayMode>& modes);
 
-// Pillar modes to give ports so that `clusters` of each family are among the lowest of them and the
-// left-out ones are felt only in the second order of the film's compliance.
+// Number of pillar modes that get ports, so that `clusters` of each family are among the lowest of
+// them and the left-out ones have an effect only in the second order of the film's compliance.
 int inertia_ports_for(int clusters);
 
 }  // namespace viscard

@@ -124,7 +124,7 @@ class InertiaChains {
   int found() const { return found_; }
   bool is_full() const { return found_ == vectors_.cols(); }
   Eigen::MatrixXd vectors() const { return vectors_.leftCols(found_); }
-  // Answers the load and replaces it by the next one; an empty load ends its chain.
+  // Solves for the load and replaces it by the next one; an empty load ends its chain.
   void add(Eigen::VectorXd& load) {
     if (is_full() || load.size() == 0) return;
     Eigen::VectorXd v = pillar_.factor.solve(load);
@@ -149,7 +149,7 @@ class InertiaChains {
 };
 
 // Modes that the load and motions of the base excite: the lowest Ritz pairs of chains (K^-1 M)^j
-// K^-1 f twice as long as wanted, of which a chain of the base has one vector in four. Modes that
+// K^-1 f twice as long as wanted; a chain of the base contributes one vector in four. Modes that
 // nothing excites are never found. Lanczos' method, Parlett (above), ch. 13.
 InertiaPorts wave_ports(const HeldPillar& pillar, const Eigen::VectorXd& top_load, int count) {
   constexpr int kVectorsPerWave = 2;

@@ -12,7 +12,7 @@ namespace viscard {
 // The materials of a row of pillars. Plane stress or plane strain; 1 m thick across the plane.
 struct ArrayMedia {
   Medium pillar;
-  Medium film;  // with a permittivity: the potential is unknown too, coupled both ways (eq. 20)
+  Medium film;  // with a permittivity, the potential is an unknown too, coupled both ways (eq. 20)
   PlaneState plane = PlaneState::kStress;
 };
 
@@ -22,8 +22,9 @@ constexpr int kPressurePort = 0;
 constexpr int kShearPort = 1;
 constexpr int kFirstModePort = 2;
 
-// The shapes of a pillar on a fixed base that get ports for their inertia: none for statics, its
-// lowest modes, or waves: what a load on its top and motions of its base excite, by weight.
+// The shapes of a pillar on a fixed base that get ports for their inertia. Statics need none,
+// vibrations the lowest modes, waves the shapes that a load on the top and motions of the base
+// excite, by weight.
 struct PillarInertia {
   int modes = 0;
   int waves = 0;  // more than 0: instead of modes
@@ -64,8 +65,8 @@ struct CondensedPiece {
   Eigen::MatrixXd matrix;
   int end_size = 0;
   std::vector<bool> end_is_across;  // of the unknowns of an end: displacement along x?
-  // Of both ends: unknowns that the piece does not have, because its electrode reaches the end and
-  // has one voltage, the port's. Their rows are zero, and nothing can be joined there.
+  // For both ends: unknowns that the piece does not have, because its electrode reaches the end and
+  // its single voltage is a port. Their rows are zero, and nothing can be joined there.
   std::vector<bool> end_is_bare;
   int unknowns = 0;
 
@@ -74,7 +75,7 @@ struct CondensedPiece {
 
 // A length of film before it is condensed.
 struct FilmPiece {
-  CellMesh mesh;  // its pillar's columns mean nothing without a pillar
+  CellMesh mesh;  // without a pillar the columns of the pillar have no meaning
   std::vector<PotentialReading> readings;
   const CondensedPillar* pillar = nullptr;
   double electrode_half_width_m = 0.0;  // of an equipotential electrode around x = 0; 0: none
@@ -84,9 +85,9 @@ CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
                               const ArrayMedia& media, FilmFace grounded, int degree);
 // The piece mirrored across x. Its ports must be symmetric, as readings of the potential are.
 CondensedPiece mirrored(const CondensedPiece& piece);
-// The piece with its port `port` held at a reading of 0, such as an electrode at 0 V: the port now
-// reads the load that this takes. Other ports stay. (One sweep of Gauss and Jordan, or principal
-// pivot transform: Tsatsomeros, Linear Algebra Appl. 307 (2000) 151.)
+// The piece with its port `port` held at a reading of 0, such as an electrode at 0 V. This port
+// then reads the load that holds it; the other ports keep their meaning. (One sweep of Gauss and
+// Jordan, or principal pivot transform: Tsatsomeros, Linear Algebra Appl. 307 (2000) 151.)
 CondensedPiece with_port_held(const CondensedPiece& piece, int port);
 
 }  // namespace viscard

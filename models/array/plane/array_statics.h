@@ -26,8 +26,8 @@ class ArrayModel {
   const ArrayGeometry& geometry() const { return geometry_; }
   const CondensedPillar& pillar() const { return pillar_; }
   const ArrayChain& chain() const { return *chain_; }
-  // Readings of all ports under loads on them with every electrode at 0 V; the port of an electrode
-  // reads its load, minus its charge.
+  // Readings of all ports under loads on them, with every electrode at 0 V. The port of an
+  // electrode then reads its load, which is minus its charge.
   Eigen::VectorXd readings_at_0_V(const Eigen::VectorXd& loads) const;
 
   // Ports of pillar i (0-based) on the chain.
@@ -67,8 +67,8 @@ class ArrayModel {
 // Direction of the traction on the tops.
 enum class ArrayLoad { kPressure, kShear };  // on the whole top
 
-// All values of a row under loads on its pillars in Pa, as those of ArrayResponse. Takes time and
-// memory that grow with the number of pillars, not with its square.
+// All values of a row under loads on its pillars in Pa, as in ArrayResponse. Time and memory grow
+// with the number of pillars, not with its square.
 struct ArrayAnswer {
   Eigen::VectorXd centre_V, mean_V, electrode_V, midway_V, top_m;
   Eigen::VectorXd electrode_C;  // all electrodes at 0 V, per metre

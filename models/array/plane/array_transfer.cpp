@@ -153,7 +153,7 @@ Eigen::VectorXd ArrayTransfer::at_once() const {
 Eigen::MatrixXd response_in_time(const ArrayTransfer& transfer,
                                  const std::vector<HistoryPoint>& history, double end_time_s,
                                  int outputs, int oversampling) {
-  // The transform covers twice the time; the shift damps the part that wraps around to 1e-7.
+  // The transform covers twice the time; the shift damps the part that is aliased to 1e-7.
   const int samples = 2 * outputs * oversampling;
   const double period_s = 2.0 * end_time_s;
   const double shift = std::log(1e7) / period_s;

@@ -11,7 +11,7 @@
 namespace viscard {
 namespace {
 
-// One pillar on a rigid base stands for all pillars: no film, no unknowns for it.
+// Used if the plan leaves the film out: one pillar on a rigid base represents all pillars.
 SceneAnswer without_film(const ArrayScene& scene, const Discretisation& mesh) {
   PillarScene one = single_pillar(scene);
   one.drive = analysis_of(scene).alone(scene);

@@ -18,7 +18,8 @@ constexpr int kMostNodes = 100000;
 }  // namespace
 
 QuadrantGains quadrant_gains(const QuadrantResponse& response) {
-  // Columns of size 1: a pressure and a shear may differ by orders of magnitude.
+  // Scales the columns to length 1, because a pressure and a shear may differ by orders of
+  // magnitude.
   const Eigen::Vector3d size = response.colwise().norm().transpose();
   require(size.minCoeff() > 0.0 && size.allFinite(),
           "the quarters read nothing of one of the loads; the film must be piezoelectric");

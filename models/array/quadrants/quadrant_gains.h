@@ -7,7 +7,8 @@
 
 namespace viscard {
 
-// The loads that the four quarters of one electrode tell apart, in this order: pressure, shear along x and along y, Pa.
+// The loads that the four quarters of one electrode can distinguish, in this order: pressure, shear
+// along x and along y, Pa.
 constexpr int kSensedLoads = 3;
 
 // Voltages of the quarters 1 (+,+), 2 (-,+), 3 (-,-) and 4 (+,-) of a pillar per load on it, V/Pa: quarters x loads.
@@ -15,8 +16,8 @@ using QuadrantResponse = Eigen::Matrix<double, 4, kSensedLoads>;
 // Loads per voltage of each quarter, Pa/V: loads x quarters.
 using QuadrantGains = Eigen::Matrix<double, kSensedLoads, 4>;
 
-// The loads that explain four voltages best, (B^T B)^-1 B^T (eq. Q1). Throws std::invalid_argument if the quarters do
-// not tell the loads apart.
+// The loads that fit four voltages best, (B^T B)^-1 B^T (eq. Q1). Throws std::invalid_argument if
+// the quarters cannot distinguish the loads.
 QuadrantGains quadrant_gains(const QuadrantResponse& response);
 
 // Standard deviation of each load, Pa, where the four voltages have independent noise of this rms (eq. Q4).

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostOfPatch = 49;
 
-// What each pillar bears by its own voltages.
+// Load of each pillar as found from its own voltages.
 Eigen::MatrixXd loads_alone_Pa(const std::vector<SourcePoint>& pillars,
                                const std::vector<QuadrantGains>& gains,
                                const Eigen::MatrixXd& quarters_V) {

@@ -11,7 +11,7 @@
 
 namespace viscard {
 
-// An array of pillars over electrodes in quarters, as far as its voltages lead back to its loads.
+// An array of pillars over electrodes in quarters: the data needed to find loads from voltages.
 struct QuadrantArray {
   std::vector<SourcePoint> pillars;  // their kind is the class
   int classes = 1;
@@ -23,20 +23,22 @@ struct QuadrantArray {
   bool by_neighbours = true;  // false: each pillar is read by its own voltages
 };
 
-// By class; those of a pillar that stands alone.
+// By class; gains of a pillar that stands alone.
 std::vector<QuadrantGains> gains_by_class(const QuadrantArray& array);
 
 // The loads behind the voltages of all pillars.
 struct SensedArray {
   Eigen::MatrixXd loads_Pa;  // pillars x loads
   Eigen::MatrixXd alone_Pa;  // the same of each pillar read by its own voltages
-  Eigen::MatrixXd left_V;    // what the loads leave unexplained, pillars x quarters
+  // Part of the voltages that the loads leave unexplained, pillars x quarters.
+  Eigen::MatrixXd left_V;
 };
 // Eq. Q2. Throws as decouple().
 SensedArray sensed_array(const QuadrantArray& array, const std::vector<QuadrantGains>& gains,
                          const Eigen::MatrixXd& quarters_V);
 
-// How noise grows for the pillar nearest to the middle, of its nearest 49 within twice the reach.
+// Amplification of noise for the pillar nearest to the middle, with its nearest 49 within twice the
+// reach.
 NoiseGrowth growth_in_middle(const QuadrantArray& array, const std::vector<QuadrantGains>& gains);
 
 }  // namespace viscard

@@ -30,8 +30,8 @@ Complex sech_of(Complex x) {
   return 2.0 * e / (1.0 + e * e);
 }
 
-// How heat enters the film over the foot: evenly, or as through a foot of one temperature. That of a pillar
-// lies between them.
+// Distribution of the heat that enters the film over the foot: uniform flux, or uniform temperature
+// of the foot. The real distribution lies between the two.
 enum class Flux { kEven, kOneTemperature };
 
 double flux_transform(Flux flux, double kR) {
@@ -76,7 +76,8 @@ Complex potential(const HeatPath& path, double k_1_m, Complex q_1_m) {
          of_y * of_x / (sum * of_cosines);
 }
 
-// The mean temperature of the foot is that of a half-space, and what the base and the time take away.
+// The mean temperature of the foot is that on a half-space, minus the effects of the base and of
+// the finite time.
 FootResponse foot_response(const HeatPath& path, const ElectrodeWeight& weight, double distance_m,
                            Complex s_1_s, const Quadrature& quadrature) {
   const double R_m = path.radius_m, t_m = path.thickness_m;

@@ -23,14 +23,15 @@ struct HeatPath {
   double permittivity_F_m = 0.0;    // along z and across, at constant stress
 };
 
-// A dummy electrode beside, read against the sensor's: V = V_sensor - ratio V_dummy (eq. H4).
+// A dummy electrode beside the sensor, whose voltage is subtracted: V = V_sensor - ratio V_dummy
+// (eq. H4).
 struct DummyElectrode {
   double ratio = 1.0;  // by which its voltage is multiplied
   double mismatch =
-      0.0;  // relative difference of p t/eps of the two, which the ratio does not mend
+      0.0;  // relative difference of p t/eps of the two electrodes, which the ratio cannot correct
 };
 
-// What a scene says of heat: tops that are warmer than the base, at rest or from time 0 on.
+// Heat section of a scene: tops that are warmer than the base, at rest or from time 0 on.
 struct HeatScene {
   double temperature_K = 0.0;  // of the tops above the base
   HeatConductor pillar, film;
@@ -39,7 +40,7 @@ struct HeatScene {
   double end_time_s = 0.0;  // of a curve after the top has become warm; 0: none
 };
 
-// How an electrode weighs the potential under it: 1 at wave number 0.
+// Weight of the potential under an electrode by wave number: 1 at wave number 0.
 using ElectrodeWeight = std::function<double(double k_1_m)>;
 
 // The steady state per kelvin at the top.
@@ -69,11 +70,13 @@ HeatCurve heat_step(const HeatPath& path, const ElectrodeWeight& weight,
 // Reading when pillar, film and base are all 1 K warmer: p t/eps.
 double uniform_heat_V(const HeatPath& path);
 
-// Times after which heat has gone through: t^2/(pi^2 a) with a face that is insulated four times that.
+// Times after which heat has passed through: t^2/(pi^2 a), or four times that if one face is
+// insulated.
 double film_time_s(const HeatPath& path);
 double pillar_time_s(const HeatPath& path);
 
-// What a dummy leaves of 1 K of everything, and of the touch's own heat if it stands `distance_m` away.
+// What remains, with a dummy, of a temperature change of 1 K of everything, and of the touch's own
+// heat if the dummy is `distance_m` away.
 double drift_left_V(const HeatPath& path, const DummyElectrode& dummy);
 // V per 1 K at the top.
 double touch_left_V(const HeatPath& path, const ElectrodeWeight& weight,

@@ -32,7 +32,7 @@ double ThermalNoise::total_V() const {
 ThermalNoise thermal_noise(const NoiseBand& band, const Readout& readout, double capacitance_F) {
   const double kT_J = kBoltzmann_J_K * band.temperature_K;
   const bool is_voltage = readout.kind == ReadoutKind::kVoltage;
-  // What the currents charge: film and input together, or the feedback.
+  // Capacitance that the currents charge: film and input together, or the feedback.
   const double charged_F =
       is_voltage ? capacitance_F + readout.capacitance_F : readout.capacitance_F;
   // The film's leakage lies beside the input; a charge amplifier keeps the film at 0 V, and its current

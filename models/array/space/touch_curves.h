@@ -17,9 +17,9 @@ std::vector<std::string> touch_results(const SpaceScene& scene);
 void add_voltage_curves(const SpaceScene& scene, const SpaceResponse& response,
                         const TouchCourse& course, SceneAnswer& answer);
 
-// Adds to the errors of those curves what the changes of the loads cause and `relative` times what the
-// tolerance refers to, and the curves of the shape and of single tops: depth, contact_force, contacts,
-// pillar_force_3_4. And the peaks and the ends of all of them as results.
+// Adds errors to those curves: the effect of the changes of the loads, and `relative` times the
+// reference value of the tolerance. Also adds the curves of the shape and of single tops: depth,
+// contact_force, contacts, pillar_force_3_4; and the peaks and the ends of all curves as results.
 void finish_curves(const SpaceScene& scene, const TouchCourse& course, double relative,
                    SceneAnswer& answer);
 

@@ -49,7 +49,7 @@ TopLoads rows_of(const TopLoads& all, const std::vector<std::size_t>& rows) {
   return some;
 }
 
-// A top that the shape has turned may be left on one side while the shape is lowered.
+// A top that the shape has turned may lose contact on one side while the shape is lowered.
 bool is_shrinking(const SpaceContact& before, const SpaceContact& after) {
   for (std::size_t i = 0; i < before.pressed.tops.size(); ++i) {
     const TopPressure& a = before.pressed.tops[i];
@@ -128,7 +128,7 @@ double sum_N(const SpaceScene& scene, const std::vector<std::size_t>& touched,
   return sum;
 }
 
-// The last elastic state under its loads as they are then.
+// The last elastic state under its loads at that time.
 SpaceContact relaxed_state(const SpaceScene& scene, const SpaceContact& elastic,
                            const std::vector<std::size_t>& touched, const TopLoads& loads) {
   SpaceContact state = elastic;

@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-// What a shape does to the tops in time, on one grid of them and with one set of steps.
+// Loads on the tops in time, on one grid of the tops and with one set of steps.
 struct GridCourse {
   std::vector<double> depth_m, force_N;  // by sample
   std::vector<int> contacts;
@@ -18,7 +18,7 @@ struct GridCourse {
   // For maps: the end of a contact that grows, otherwise the largest force.
   std::size_t shown_at = 0;
   SpaceContact shown;
-  SpaceContact largest;  // for remarks; without relaxation where the contact grows
+  SpaceContact largest;  // for notes; without relaxation if the contact grows
 };
 
 double area_of(const SpaceScene& scene, std::size_t pillar);  // of its top
@@ -27,8 +27,8 @@ double area_of(const SpaceScene& scene, std::size_t pillar);  // of its top
 std::vector<std::size_t> touched_in(const SpaceScene& scene, const SpaceTops& tops,
                                     const std::vector<TouchSample>& samples);
 
-// By correspondence (eq. S14, S15), with elastic states at so many equal parts of the depth. Nothing if any
-// contact shrinks.
+// By correspondence (eq. S14, S15), from elastic states at the given number of equal steps of
+// depth. Nothing if any contact shrinks.
 std::optional<GridCourse> growing_course(const SpaceScene& scene, const SpaceTops& tops,
                                          const std::vector<TouchSample>& samples,
                                          const std::vector<std::size_t>& touched, int parts);

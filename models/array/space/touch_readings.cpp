@@ -47,7 +47,7 @@ class Voltages {
   const TouchCourse* course_;
 };
 
-// How much electrodes near one influence each other, p12/p11 by distance (eq. S16).
+// Mutual influence of electrodes near one of them, p12/p11 by distance (eq. S16).
 class Influence {
  public:
   Influence(const SpaceScene& scene, const SpaceArray& array)
@@ -86,13 +86,14 @@ class Influence {
   std::map<long, double> known_;
 };
 
-// What drives an electrode's circuit: its own open voltage, and the sum of its neighbours' times p12/p11.
+// What drives an electrode's circuit: its own open voltage, plus p12/p11 times those of its
+// neighbours.
 struct Driven {
   std::vector<double> open_V, mixed_V;
 };
 
-// The electrodes are wired alike. In the reading of one stands what the charges of its neighbours bring,
-// to first order in p12/p11 (eq. S16).
+// All electrodes are wired alike. The reading of one contains the effect of its neighbours'
+// charges, to first order in p12/p11 (eq. S16).
 std::vector<double> reading_from(const Readout& readout, const ReadoutFilter& filter,
                                  const std::vector<double>& time_s, const Driven& driven) {
   std::vector<double> source_V = driven.open_V;
@@ -108,7 +109,7 @@ std::vector<double> reading_from(const Readout& readout, const ReadoutFilter& fi
   return reading_of(filter, time_s, source_V);
 }
 
-// The samples that half as many steps have too.
+// The samples that a run with half as many steps has too.
 std::vector<double> without_new(const TouchCourse& course, const std::vector<double>& values) {
   std::vector<double> kept;
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -117,7 +118,8 @@ std::vector<double> without_new(const TouchCourse& course, const std::vector<dou
   return kept;
 }
 
-// With the change from half as many steps, between which the voltage is taken as linear.
+// Error from the change between half and full number of steps; between samples the voltage is taken
+// as linear.
 void set_reading(const SpaceScene& scene, const TouchCourse& course, const ReadoutFilter& filter,
                  const Driven& driven, PillarCurve& curve) {
   const Readout& readout = *scene.touch->readout;
@@ -141,7 +143,7 @@ std::string place_ending(const SpacePillar& one) {
   return "_" + std::to_string(one.row) + "_" + std::to_string(one.column);
 }
 
-// Those that the scene names, or the one that bears most at the end.
+// The pillars that the scene names, or else the one that bears most at the end.
 std::vector<std::size_t> followed_pillars(const SpaceScene& scene, const TouchCourse& course) {
   std::vector<std::size_t> pillars;
   for (std::size_t i = 0; i < scene.pillars.size(); ++i) {

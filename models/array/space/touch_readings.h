@@ -21,11 +21,11 @@ struct PillarCurve {
   std::string map;  // "mean_voltage", or "reading"
   std::size_t pillar = 0;
   std::vector<double> value;
-  std::vector<double> step_change;  // of a reading: what half as many steps change
+  std::vector<double> step_change;  // of a reading: change from half as many steps
 };
 
-// The voltages and the readings that the scene asks for, under loads in time. is_size: the loads are
-// magnitudes of changes, and so are the values.
+// The voltages and readings that the scene asks for, under loads in time. is_size: the loads are
+// magnitudes of changes, and the returned values are magnitudes too.
 std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse& response,
                                    const TouchCourse& course, const std::vector<TopLoads>& loads_Pa,
                                    bool is_size);

@@ -1,4 +1,4 @@
-// Time steps of a touch, and what its history must be like.
+// Time steps of a touch, and checks of its history.
 #include "models/array/space/touch_steps.h"
 
 #include "models/material/hereditary.h"
@@ -56,7 +56,8 @@ void add_segment(const HistoryPoint& from, const HistoryPoint& to, double first_
   }
 }
 
-// Elastic pillars are as deep under the force int j(t - s) dF(s), j the relative creep compliance.
+// Elastic pillars reach the same depth under the force int j(t - s) dF(s), where j is the relative
+// creep compliance.
 void set_elastic(const SpaceScene& scene, std::vector<TouchSample>& samples) {
   LoadHistory history{true, {}, {}};
   for (TouchSample& sample : samples) {

@@ -7,16 +7,17 @@
 
 namespace viscard {
 
-// Sets the history of a scene's shape, and its deepest state as the depth or force of the shape, which
-// estimates refer to. In creep that is the force which presses elastic pillars as deep.
+// Sets the history of a scene's shape, and its deepest state as the depth or force of the shape, to
+// which estimates refer. In creep that is the force that presses elastic pillars to the same depth.
 void press_in_time(SpaceScene& scene, SpaceTouch touch);
 
 // Throws SceneMistake for a history that does not start at 0 s, for pillars that do not relax alike, and
 // for a readout without electrodes.
 void check_touch(const SpaceScene& scene);
 
-// Share of the moduli that is lost at the end of the history, or of the compliance that is gained, times what
-// the history goes up and down over its peak: at most what relaxation changes in a force or depth.
+// Upper bound of the effect of relaxation on a force or depth: the share of the moduli that is lost
+// at the end of the history (or of the compliance that is gained), times the total variation of the
+// history over its peak.
 double relaxed_share(const SpaceScene& scene);
 
 // The time steps of a shape's history, between which elastic loads are taken as linear.
@@ -31,7 +32,7 @@ struct TouchSample {
 // material and the readout on, with the same number of steps each. A jump has two samples.
 std::vector<TouchSample> touch_samples(const SpaceScene& scene, int steps);
 
-// Contact grows or stays from sample to sample, as far as the shape alone shows.
+// True if the contact grows or stays from sample to sample, judged by the shape alone.
 bool is_growing(const std::vector<TouchSample>& samples);
 
 // The elastic value at the end of a history that never falls, above the given one.
@@ -46,8 +47,8 @@ std::vector<TopLoads> relaxed(const std::vector<MaterialTerm>& terms,
                               const std::vector<TouchSample>& samples,
                               const std::vector<TopLoads>& elastic);
 
-// What half as many steps would change in the reading of a voltage that goes as the force, relative to its
-// largest; 0 without a readout.
+// Change of the reading by half as many steps, relative to its largest value, for a voltage in
+// proportion to the force; 0 without a readout.
 double change_of_reading(const SpaceScene& scene, const std::vector<TouchSample>& samples,
                          const std::vector<double>& force_N);
 

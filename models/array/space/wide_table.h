@@ -11,18 +11,19 @@
 
 namespace viscard {
 
-// What a wave on the film is read as along each direction, per unit (tau_x, tau_y, t_z).
+// Reading of a wave on the film along each direction, per unit (tau_x, tau_y, t_z).
 using DirectionReading = std::function<std::vector<Eigen::Vector4d>(double k_1_m)>;
 DirectionReading potential_reading(const FilmTable& film);
 
 // The spectrum (eq. S4) of graded waves up to `largest`, with panels no longer than `longest`. With
-// `fades`, short waves fade out over the upper half of the k, so that far places do not feel the end.
+// `fades`, the waves in the upper half of the k fade out, so that the truncation is not felt at a
+// distance.
 PotentialSpectrum graded_spectrum(const FilmTable& film, const DirectionReading& reading,
                                   const FootForces& foot, double largest_1_m, double longest_1_m,
                                   bool fades);
 
-// A potential around a loaded pillar at all distances: a table for the near ones, and one for each
-// doubling of the distance beyond, which needs the longer waves only (eq. S10).
+// A potential around a loaded pillar at all distances: one table for near places, and one for each
+// doubling of the distance beyond, where only the longer waves matter (eq. S10).
 class WideTable {
  public:
   explicit WideTable(PotentialTable near) : near_(std::move(near)) {}

@@ -60,7 +60,8 @@ Eigen::MatrixXd integrated_form(const std::vector<HarmonicFields>& parts, const 
     sum += all;
     size += all.cwiseAbs();
   }
-  // What cancels over the angles leaves rounding errors, which would cost time in every element.
+  // Terms that cancel over the angles leave rounding errors, which would cost time in every
+  // element.
   constexpr double kRounding = 1e-13;
   return (sum.array().abs() > kRounding * size.array()).select(sum, 0.0);
 }

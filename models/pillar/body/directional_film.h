@@ -4,7 +4,7 @@
 
 namespace viscard {
 
-// Everything that a pillar on a film with an electrode or a charge-free face does under 1 Pa.
+// Results of a pillar on a film with an electrode or a charge-free face under 1 Pa.
 struct FilmAnswer {
   PiezoAnswer piezo;      // with an electrode
   double centre_V = 0.0;  // charge-free face: potential at its centre

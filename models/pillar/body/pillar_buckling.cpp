@@ -69,9 +69,10 @@ double quotient_Pa(const BucklingPencil& pencil, const Eigen::VectorXd& shape) {
   return softened > 0.0 ? shape.dot(times(pencil.stiffness, shape)) / softened : 0.0;
 }
 
-// Rayleigh quotient iteration from the bent pillar: it converges to the mode next to this shape,
-// past local modes at the rim that lie below or around it, each step with three times the digits.
-// Source: Parlett, The Symmetric Eigenvalue Problem (1998), ch. 4. 0: it has led elsewhere.
+// Rayleigh quotient iteration from the bent pillar. It converges to the mode next to this shape,
+// past local modes at the rim that lie below or around it; each step triples the number of digits.
+// Source: Parlett, The Symmetric Eigenvalue Problem (1998), ch. 4. Returns 0 if it has converged to
+// another mode.
 double iterated_buckling_Pa(const BucklingPencil& pencil, Eigen::VectorXd shape) {
   constexpr int kSteps = 8;
   constexpr double kCloseEnough = 1e-5;  // of the last step; the next error is its cube

@@ -98,10 +98,10 @@ class ModeSearch {
         op, B, model_.system().size(), count,
         {.tolerance = 1e-6, .largest_space = largest_space, .is_quick = largest_space == 0});
   }
-  // Number of modes below the start (Sylvester), without the rigid motions. At nu = 0.5 those of the
-  // penalised matrix are counted, of which no fewer lie there (min-max); where they are as many as
-  // the modes, the pressures have a positive definite equation (inertia of a saddle point: Gould,
-  // Math. Program. 32 (1985) 90).
+  // Number of modes below the start (Sylvester), without the rigid motions. At nu = 0.5 the modes
+  // of the penalised matrix are counted; by min-max there are at least as many as modes of the
+  // body. If the counts agree, the equation of the pressures is positive definite (inertia of a
+  // saddle point: Gould, Math. Program. 32 (1985) 90).
   int left_below() const {
     const auto& options = model_.options();
     return factor_.negative_pivots() -
@@ -159,9 +159,9 @@ class SlicedModes {
       found_.emplace_back(1.0 / pairs.values[i] - shift_1_s2_, pairs.vectors.col(i));
     }
   }
-  // Starts again just below the first mode that has not converged, without those found above there.
-  // How closely depends on how well it is known. The search stays where it was if modes between
-  // would be missed.
+  // Starts again just below the first mode that has not converged, and drops the modes found above
+  // it. The distance depends on how accurately that mode is known. The start is not moved if modes
+  // in between would be missed.
   bool move_below(const EigenPairs& pairs) {
     if (!(pairs.leading < pairs.values.size() && pairs.values[pairs.leading] > 0.0)) return false;
     const double next_1_s2 = 1.0 / pairs.values[pairs.leading] - shift_1_s2_;

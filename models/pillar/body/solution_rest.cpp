@@ -29,8 +29,8 @@ struct GradientForm {
   }
 };
 
-// Energy that is missing above degree p, over that of degrees p and p - 1, if the energy of degree
-// q goes with 1/q^m and those of p - 2 and p - 3 are known too.
+// Ratio of the missing energy above degree p to the energy of degrees p and p - 1, if the energy of
+// degree q is proportional to 1/q^m and the energies of p - 2 and p - 3 are known too.
 double rest_over_high(double high, double low, int p) {
   constexpr double kSlowest = 2.5;  // the edge of an electrode has m = 4 lambda + 1 = 3
   if (!(high > 0.0)) return 0.0;
@@ -58,7 +58,7 @@ SolutionRest::SolutionRest(const PillarModel& model, const Eigen::VectorXd& solu
     Shells shells;
     shells.part = shells.form_of_part = Eigen::VectorXd::Zero(k.field_count * n1 * n1);
     for (int field = 0; field < k.field_count; ++field) {
-      // Of the pillar only the nodes of the bond have a potential, which is the film's.
+      // In the pillar only the nodes of the bond have a potential, which belongs to the film.
       if (field == k.potential_field && e.region != kFilmRegion) continue;
       for (Eigen::Index i = 0; i < n1 * n1; ++i) {
         const int dof = model.system().dofs().dof(field, e.nodes[static_cast<std::size_t>(i)]);

@@ -6,22 +6,23 @@
 
 namespace viscard {
 
-// What a solution lacks because its degree is finite, seen from itself: in every element, the
-// energy of its highest polynomials, and how quickly it falls with the degree. Where the solution is
-// smooth, or layers shrink toward a corner, it falls exponentially; in an element that touches a
-// singular corner without layers it falls as a power of the degree, and much is missing. A mesh
-// that was refined elsewhere does not show this by its change. Source: Mavriplis, A posteriori
-// error estimators for adaptive spectral element techniques, Notes Numer. Fluid Mech. 29 (1990) 333
-// (extrapolation of the spectrum of an element); Houston & Suli, Comput. Methods Appl. Mech. Eng.
-// 194 (2005) 229 (power or exponential).
+// Estimate of what a solution lacks because its degree is finite, from the solution itself: in
+// every element, the energy of its highest polynomials, and how quickly it falls with the degree.
+// If the solution is smooth, or layers shrink toward a corner, it falls exponentially; in an
+// element that touches a singular corner without layers it falls as a power of the degree, and the
+// missing part is large. The change by a mesh that was refined elsewhere does not show this.
+// Source: Mavriplis, A posteriori error estimators for adaptive spectral element techniques, Notes
+// Numer. Fluid Mech. 29 (1990) 333 (extrapolation of the spectrum of an element); Houston & Suli,
+// Comput. Methods Appl. Mech. Eng. 194 (2005) 229 (power or exponential).
 class SolutionRest {
  public:
-  static constexpr int kLeastDegree = 4;  // below, nothing is known and nothing counts as missing
+  // Below this degree no estimate is possible, and nothing counts as missing.
+  static constexpr int kLeastDegree = 4;
 
   SolutionRest(const PillarModel& model, const Eigen::VectorXd& solution);
 
-  // About |a(u - u_h, z - z_h)|: what a functional with the dual solution z misses of u. For the
-  // work of a load u is z. J. Both solutions must be of one model.
+  // About |a(u - u_h, z - z_h)|, J: the error of a functional of u with the dual solution z. For
+  // the work of a load z equals u. Both solutions must belong to one model.
   friend double missing_work(const SolutionRest& u, const SolutionRest& z);
 
  private:

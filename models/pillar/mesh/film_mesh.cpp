@@ -21,9 +21,9 @@ bool is_same(double a, double b, const FilmGeometry& film) {
   return std::abs(a - b) <= 1e-9 * film.radius_m;
 }
 
-// Length of the layers toward a corner at x = from_m, to its inner (side -1) or outer side (1). They
-// end at the next corner or on the axis. The field changes over the distance to the nearest corner
-// on either side, so the layers reach no further than this distance and one layer more.
+// Length of the layers toward a corner at x = from_m, on its inner (side -1) or outer side (1).
+// They end at the next corner or on the axis. The field changes over the distance to the nearest
+// corner on either side, so the layers extend at most one layer beyond this distance.
 double reach_m(const FilmGeometry& film, double bond_radius_m, double ratio, double from_m,
                int side) {
   double nearest_m = film.radius_m;  // corner on either side
@@ -37,8 +37,8 @@ double reach_m(const FilmGeometry& film, double bond_radius_m, double ratio, dou
   return std::min({free_m, bond_radius_m, nearest_m / ratio});
 }
 
-// Adds breaks at distances that shrink toward a corner, to one side of it. Where there are breaks of
-// about that distance already, such as layers toward another corner, these serve as well.
+// Adds breaks at distances that shrink toward a corner, on one side of it. Existing breaks at about
+// such a distance, for example layers toward another corner, are used instead of new ones.
 void grade_side(double corner_m, int side, double length_m, int layers, double ratio,
                 std::vector<double>& breaks) {
   for (int k = 1; k < layers; ++k) {
@@ -78,7 +78,7 @@ std::vector<double> film_heights(const FilmGeometry& film, double bond_radius_m,
                                  const Discretisation& d) {
   const double graded_m = std::min(film.thickness_m, bond_radius_m);
   std::vector<double> breaks = graded_breaks(-graded_m, 0.0, d.layers, d.ratio, true);
-  // Below, the field changes over the distance from the pillar.
+  // Below the bond, the field changes over the distance from the pillar.
   constexpr double kGrowth = 3.0;
   double depth_m = kGrowth * graded_m;
   for (; depth_m * std::sqrt(kGrowth) < film.thickness_m; depth_m *= kGrowth) {

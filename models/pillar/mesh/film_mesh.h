@@ -14,7 +14,8 @@ std::vector<double> film_radii(const FilmGeometry& film, double bond_radius_m,
 std::vector<double> film_heights(const FilmGeometry& film, double bond_radius_m,
                                  const Discretisation& d);
 
-// Layers toward the held corner where a film ends that can be left out, so far from what loads it.
+// Number of layers toward the held corner at the film's end that can be left out, because the
+// corner is far from the loads.
 int layers_not_felt(double from_load_m, double thickness_m);
 
 // Layers of a graded mesh toward the film's own rim, where its held bottom ends: at least 1, which

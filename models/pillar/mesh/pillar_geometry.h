@@ -4,7 +4,7 @@
 
 namespace viscard {
 
-// Lengths of a file that agree to nine digits are meant to be equal; so do meshes take them.
+// Lengths that agree to nine digits are meant to be equal, and meshes treat them so.
 constexpr double kSameLength = 1e-9;
 
 // A film under the pillar, as a disc whose bottom is held. Without a film the base is rigid.

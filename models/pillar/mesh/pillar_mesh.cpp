@@ -23,7 +23,8 @@ std::vector<double> cut(const std::vector<double>& breaks, double size) {
   return fine;
 }
 
-// Divides the range between two breaks into pieces that may grow away from one end: see skin_m.
+// Divides the range between two breaks into pieces whose size may grow with the distance from one
+// end: see skin_m.
 class WaveBreaks {
  public:
   WaveBreaks(const Discretisation& d, double end_m)
@@ -131,10 +132,10 @@ Breaks graded_mesh_breaks(const PillarGeometry& g, const Discretisation& d) {
   return breaks;
 }
 
-// A dead pressure on a top that turns is a shear along it, d_z u times the pressure (eq. 21), which
-// the free side does not bear: at the rim between them the stress goes with the logarithm of the
-// distance, and a rising degree alone gains only a half per step. The corner is weaker than the bond's
-// (displacements grow as r), so half of the layers do.
+// A dead pressure on a top that rotates acts as a shear along it, d_z u times the pressure (eq.
+// 21), while the free side bears none. At the rim between them the stress is logarithmic in the
+// distance, so a rising degree alone only halves the error per step. The corner is weaker than the
+// bond's (displacements grow as r), so half of the layers are enough.
 void grade_toward_top(const Discretisation& d, std::vector<double>& z) {
   const double top_m = z.back();
   z.pop_back();

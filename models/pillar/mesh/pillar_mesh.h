@@ -38,9 +38,9 @@ std::vector<int> nodes_on_break(const Section& section, int break_row, int first
 // holds for quantities that are their own dual (a deflection under its load, a frequency) and
 // others (an electrode's voltage, a stress). Source: Becker & Rannacher, Acta Numerica 10 (2001) 1.
 std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry);
-// For answers that weigh gradients by a stress (eq. 21). What a layer leaves of their error is four
-// times as much, so that each mesh has a layer more than the last; and a mesh of degree 3 with one
-// layer, which may be wrong by a fifth at nu = 0.5, says nothing about the next.
+// For answers that weight gradients by a stress (eq. 21). A layer leaves four times as much of
+// their error, so each mesh has one layer more than the last. A mesh of degree 3 with one layer may
+// be wrong by a fifth at nu = 0.5 and gives no information about the next mesh.
 std::vector<Discretisation> stressed_mesh_sequence(const PillarGeometry& geometry);
 
 // Three meshes that end with the given one. On uniform meshes each halves the elements of the one

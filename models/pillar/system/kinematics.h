@@ -54,7 +54,7 @@ Kinematics kinematics_of(Motion motion);
 Kinematics fourier_kinematics(int harmonic);  // any m >= 1; otherwise throws std::invalid_argument
 
 // The same family with an electric potential as its last field, in units of scale_V
-// (potential_scale_V() in medium.h); without such a scale elimination loses all digits.
+// (potential_scale_V() in medium.h). Without this scaling the elimination loses all digits.
 Kinematics with_potential(Kinematics kinematics, double scale_V);
 
 }  // namespace viscard

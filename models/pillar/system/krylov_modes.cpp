@@ -81,8 +81,8 @@ class LanczosSearch {
   }
 
  private:
-  // What has converged of a search that has not, by its residual: the last restart may have changed
-  // the order.
+  // The converged part of a search that did not converge as a whole, judged by residuals: the last
+  // restart may have changed the order.
   EigenPairs leading_pairs(Eigen::VectorXd values, const Eigen::MatrixXd& vectors,
                            double tolerance) const {
     EigenPairs pairs{std::move(values), {}, false};
@@ -102,8 +102,9 @@ class LanczosSearch {
   double scale_ = 1.0;
 };
 
-// All eigenpairs of a small op: the Lanczos method cannot find all of them. With B = R'R the matrix
-// R op R^-1 is symmetric. Directions without B (no mass) have mu = 0 and no norm: their vector is 0.
+// All eigenpairs of a small op, because the Lanczos method cannot find all of them. With B = R'R
+// the matrix R op R^-1 is symmetric. Directions without mass (B = 0) have mu = 0 and no norm: their
+// vector is 0.
 EigenPairs all_eigenpairs(const PencilMap& op, const LinearMap& B, int size) {
   Eigen::MatrixXd b(size, size);
   Eigen::MatrixXd images(size, size);

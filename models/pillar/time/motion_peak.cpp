@@ -70,8 +70,9 @@ class SampledMotion {
     }
     return s;
   }
-  // Error between i and i + 1 by the value at `end`: the cubic over both its neighbours misses it by
-  // a^2 b^2 y''''/24. Four times what follows, because y'''' is not the same everywhere.
+  // Error of the interpolation between i and i + 1, estimated at the point `end`: the cubic over
+  // both its neighbours deviates there by a^2 b^2 y''''/24. Four times the resulting error is used,
+  // because y'''' varies.
   double error_over(std::size_t i, std::size_t end) const {
     if (end == 0 || end + 1 == t_.size()) return 0.0;
     const HermiteCubic over = cubic(end - 1, end + 1);

@@ -10,7 +10,7 @@ namespace viscard {
 struct MotionPeak {
   double value = 0.0;
   double time_s = 0.0;
-  double error = 0.0;  // by what the motion may pass it between the known times
+  double error = 0.0;  // possible excess of the motion between the known times
 };
 
 // Peak of a motion whose values and rates are known at some times, ascending: of the cubics between

@@ -23,7 +23,7 @@ struct Pair {
   Eigen::VectorXcd y;
 };
 
-// A mode that loses more of its shape while its loss grows is not known to be the same one.
+// If a mode loses more of its shape than this while its loss grows, its identity is lost.
 constexpr double kSameMode = 0.7;
 
 [[noreturn]] void refuse_lost(Complex s) {
@@ -47,8 +47,8 @@ class RelaxedSearch {
     for (const PillarMode& mode : instantaneous_) add(mode.shape);
   }
 
-  // Adds the modes at the storage moduli of this frequency and of the mode with that number. All
-  // modes up to that one are then there: moduli rise with frequency (Voss & Werner 1982).
+  // Adds the modes at the storage moduli of this frequency and of the mode with that number. The
+  // basis then holds all modes up to that one: moduli rise with frequency (Voss & Werner 1982).
   void add_relaxed_shapes(double omega_rad_s, int highest) {
     add_modes_at(omega_rad_s);
     Eigen::VectorXd y;
@@ -77,8 +77,8 @@ class RelaxedSearch {
   double quick_error(const Pair& pair) const;
 
  private:
-  // What a vector adds to the basis may be so small a part of it that its rounding changes the volume
-  // of an incompressible body: that part is projected (in the energy) on motions that keep it.
+  // A vector's contribution to the basis may be so small that its rounding changes the volume of an
+  // incompressible body. It is therefore projected (in the energy) on motions that keep the volume.
   bool add(Eigen::VectorXd v) {
     if (!body_.incompressible) return span_.add(std::move(v));
     if (span_.count() > 0) v -= span_.basis() * (span_.image(1.0, 1.0).transpose() * v);
@@ -89,8 +89,8 @@ class RelaxedSearch {
     const SymmetricSparse stiffness = stiffness_at(body_, m.shear.real(), m.bulk.real());
     for (const PillarMode& mode : lowest_modes(model_, stiffness, known_)) add(mode.shape);
   }
-  // Frequency of a mode if only the storage moduli act, rad/s; 0: none. Sets its vector and the
-  // share of the spectrum that separates it from what the basis lacks.
+  // Frequency of a mode if only the storage moduli act, rad/s; 0: none. Sets its vector, and the
+  // share of the spectrum that separates it from the directions missing in the basis.
   double storage_mode(int number, Eigen::VectorXd& y);
   int rigid_count() const {
     const auto& options = model_.options();
@@ -125,8 +125,8 @@ class RelaxedSearch {
     r.imag() = without_pressures(r.imag());
     return r;
   }
-  // The pressures of an incompressible body balance most of a residual and move nothing. Taken out
-  // first, they do not spoil the digits of what is left.
+  // The pressures of an incompressible body balance most of a residual without moving anything.
+  // They are removed first, so that the rest keeps its digits.
   Eigen::VectorXd without_pressures(Eigen::VectorXd r) const {
     for (int pass = 0; pass < 2; ++pass) {
       Eigen::VectorXd source;

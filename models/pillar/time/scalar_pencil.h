@@ -37,16 +37,16 @@ struct ScalarPencil {
 std::complex<double> root_near(const ScalarPencil& pencil, const Softening& moduli,
                                std::complex<double> s);
 
-// True if a motion exp(s t) swings at all.
+// True if a motion exp(s t) oscillates.
 bool oscillates(std::complex<double> s);
 
 // The oscillating root of a real vector, followed from the undamped one while the terms grow to
-// their shares; 0 if it stops oscillating on the way.
+// their full shares; 0 if it stops oscillating on the way.
 std::complex<double> oscillation_of(const ScalarPencil& pencil,
                                     const std::vector<MaterialTerm>& terms);
 
-// The largest frequency at which the storage stiffness of a real vector carries its inertia, rad/s;
-// 0 if there is none above a millionth of `start_rad_s`.
+// The largest frequency at which the storage stiffness of a real vector balances its inertia,
+// rad/s; 0 if there is none above a millionth of `start_rad_s`.
 double storage_frequency_rad_s(const ScalarPencil& pencil, const std::vector<MaterialTerm>& terms,
                                double start_rad_s);
 

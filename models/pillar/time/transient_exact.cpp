@@ -9,9 +9,11 @@
 namespace viscard {
 namespace {
 
-// Periods below this share of the longest are taken for it: such motions follow the load at once.
+// Shorter periods than this share of the longest one are raised to it: such motions follow the load
+// at once.
 constexpr double kShortestPeriod = 1e-6;
-// A relaxation time below this share of the shortest period has ended before anything moves.
+// Shorter relaxation times than this share of the shortest period are raised to it: such a relaxation
+// ends before anything moves.
 constexpr double kShortestRelaxation = 1e-3;
 
 // The modes a of the instantaneous stiffness, each scaled to the root of its energy, with their

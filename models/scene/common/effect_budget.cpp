@@ -92,8 +92,8 @@ void add_left_out(double left_out, SceneAnswer& answer) {
   }
   for (SceneMode& mode : answer.modes) {
     mode.error_estimate += left_out * mode.frequency_Hz;
-    // A share of the stiffness that does not relax takes it from the damping; the frequency changes
-    // by half of it.
+    // A share of the stiffness that does not relax reduces the damping by that share; the frequency
+    // changes by half of it.
     if (mode.damping_ratio) mode.damping_error += 2.0 * left_out * *mode.damping_ratio;
   }
   for (SceneCurve& curve : answer.curves) {

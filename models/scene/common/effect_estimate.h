@@ -12,9 +12,9 @@ namespace viscard {
 enum class EffectChoice { kAuto, kOn, kOff };
 using EffectChoices = std::map<std::string, EffectChoice>;  // by name, effects.h
 
-// How an effect concerns a scene.
+// Role of an effect in a scene.
 enum class EffectRole {
-  kAbsent,    // the scene has nothing for it to act on: off, at no error
+  kAbsent,    // the scene contains nothing on which it could act: off, without error
   kOptional,  // the estimate decides
   kNeeded,    // the results asked for do not exist without it
   kOutside    // no analysis can compute it; the estimate bounds its influence, as a warning
@@ -36,7 +36,7 @@ struct NamedEstimate {
   EffectEstimate estimate;
 };
 
-// Which effects are taken, and what leaving out the others costs.
+// The effects that are taken into account, and the errors of leaving out the others.
 struct EffectDecisions {
   std::vector<SceneEffect> effects;  // in the order of the estimates
   double left_out = 0.0;             // sum of the estimates of effects left out

@@ -21,9 +21,10 @@ struct SceneResult {
   bool is_wanted = true;        // false: not asked for, and its error is not watched
   // Relative error that the solution itself shows without other meshes; part of the estimate.
   double unresolved = 0.0;
-  std::string curve = {};  // that it is read off; its error is at least the curve's there
-  double x = 0.0;          // where it is read off
-  double left_out = 0.0;   // what it lacks on every mesh, in the unit; part of the estimate
+  // The curve from which it is read; its error is at least the curve's there.
+  std::string curve = {};
+  double x = 0.0;         // where on the curve
+  double left_out = 0.0;  // error that every mesh has, in the unit; part of the estimate
 };
 
 // One mode of vibration.
@@ -64,7 +65,7 @@ struct SceneCurve {
   // Two meshes may agree at a point because their curves cross there, never over this stretch of x:
   // the error at a point is the largest one within it on either side. 0: each point by itself.
   double span = 0.0;
-  // What the answer shows by itself that it lacks at each point, in the unit; part of the error.
+  // Error at each point that the answer itself shows, in the unit; part of the estimate.
   std::vector<double> left_out = {};
 };
 
