@@ -42,7 +42,6 @@ class JointModel final : public SpectralModel {
   void refer_to(const PronySeries& series);
   PronySeries series_of(const SpectralState& state) const;
 
-  std::size_t n_members() const { return members_.size(); }
   const JointMember& member(std::size_t k) const { return members_[k]; }
   Eigen::Index first_row(std::size_t k) const { return places_[k].row; }
   Eigen::Index scale_nuisance(std::size_t k) const { return places_[k].scale; }  // -1: none

@@ -1,12 +1,12 @@
 #include "fit/laws/scatter_levels.h"
 
 #include "fit/laws/nested_likelihood.h"
+#include "models/maths/golden_section.h"
 
 #include <boost/math/special_functions/digamma.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace viscard {
 namespace {
@@ -67,27 +67,9 @@ class DeviationSearch {
   double refined(std::size_t k, Deviations& at, double best) const {
     const double smallest = 1e-4 * likelihood_.scale();
     const double from = at[k] > smallest ? at[k] : 0.05 * likelihood_.scale();
-    double low = std::log(from) - 0.6, high = std::log(from) + 0.6;
-    constexpr double kGolden = 1.0 / std::numbers::phi;
     const auto f = [&](double ln) { return value(k, at, std::exp(ln)); };
-    double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-    double at_a = f(a), at_b = f(b);
-    while (high - low > 2e-3) {
-      if (at_a < at_b) {
-        high = b;
-        b = a;
-        at_b = at_a;
-        a = high - kGolden * (high - low);
-        at_a = f(a);
-      } else {
-        low = a;
-        a = b;
-        at_a = at_b;
-        b = low + kGolden * (high - low);
-        at_b = f(b);
-      }
-    }
-    const double inner = std::exp(at_a < at_b ? a : b);
+    const double ln_from = std::log(from);
+    const double inner = std::exp(golden_section(f, ln_from - 0.6, ln_from + 0.6, 2e-3).best);
     for (const double candidate : {inner, 0.0}) {
       const double now = value(k, at, candidate);
       if (now >= best) continue;

@@ -1,12 +1,12 @@
 #include "fit/laws/touch_pool.h"
 
 #include "models/maths/dense.h"
+#include "models/maths/golden_section.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 namespace viscard {
 namespace {
@@ -116,26 +116,8 @@ double best_spread(const std::function<double(double spread)>& f) {
     }
   }
   if (!std::isfinite(best_ln)) return 0.0;
-  double low = best_ln - kStep, high = best_ln + kStep;
-  constexpr double kGolden = 1.0 / std::numbers::phi;
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = f(std::exp(a)), at_b = f(std::exp(b));
-  while (high - low > 1e-4) {
-    if (at_a > at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - kGolden * (high - low);
-      at_a = f(std::exp(a));
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + kGolden * (high - low);
-      at_b = f(std::exp(b));
-    }
-  }
-  return std::exp(0.5 * (low + high));
+  const auto lack = [&f](double ln) { return -f(std::exp(ln)); };
+  return std::exp(golden_section(lack, best_ln - kStep, best_ln + kStep, 1e-4).middle());
 }
 
 }  // namespace viscard

@@ -7,7 +7,8 @@
 
 namespace viscard {
 
-// What a file is, by its contents, for messages about a file in the place of another.
+// Recognises a file by its contents, for messages about a file that is given in place of another
+// kind.
 enum class FileKind : std::uint8_t {
   kOther,
   kEmpty,

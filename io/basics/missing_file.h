@@ -5,8 +5,9 @@
 
 namespace viscard {
 
-// Why a file cannot be opened, from the error number of open(2), and what to do next: "cannot open: No such
-// file or directory; did you mean 'run_2.csv'?". The nearest name comes from the folder of the file.
+// Why a file cannot be opened, from the error number of open(2), and what to do next: "cannot open:
+// No such file or directory; did you mean 'run_2.csv'?". The nearest name is taken from the folder
+// of the file.
 std::string why_not_opened(const std::filesystem::path& path, int error);
 
 // The file of the same folder whose name is nearest to that of `path`, or "" if none is near.

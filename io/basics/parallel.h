@@ -6,7 +6,7 @@
 
 namespace viscard {
 
-// Somebody asked to end the work, by throwing this from a progress callback.
+// Thrown by a progress callback to end the work at a user's request.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("the work was interrupted") {}

@@ -61,7 +61,7 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// Words that UDUNITS lacks. Most of them count things, so they have no dimension.
+// Words that UDUNITS does not know. Most of them count something, so they have no dimension.
 std::string with_known_words(std::string_view text, bool is_temperature) {
   struct Word {
     std::string_view word, meaning;

@@ -7,8 +7,8 @@
 
 namespace viscard {
 
-// Whether a capture still holds what was written. Every transaction stores a CRC-32 of its rows in
-// each table, so that a bit that the disk or a copy has flipped is noticed.
+// Checks that a capture still holds the data that were written. Every transaction stores a CRC-32
+// of its rows in each table, so a bit flipped by the disk or a copy is noticed.
 struct CaptureCheck {
   bool is_checked = false;  // false: written before captures carried checksums
   std::size_t n_batches = 0;

@@ -75,7 +75,7 @@ class CaptureWriter {
 // or of a newer schema.
 CapturedRun read_capture(const std::filesystem::path& path);
 
-// What a list of captures shows of each; read without its records.
+// Description of a capture for lists; read without its records.
 struct CaptureState {
   std::string status;      // as CapturedRun::status
   std::string started_at;  // ISO 8601

@@ -4,11 +4,10 @@ namespace viscard {
 
 // When the records of a capture must be synced so that a power cut loses at most `interval_s`.
 // Times are in s on any clock that does not jump.
-//
-// A sync protects what was appended before it began, and only once it has ended. What is lost at
-// worst came between the begin of one sync and the end of the next. A slow disk must therefore be
-// asked earlier, by the time that its last sync took. If one sync takes more than half of the
-// interval, syncs follow each other without a pause, and twice that time may be lost.
+// A sync protects the records appended before it began, and only once it has ended. At worst the
+// records between the begin of one sync and the end of the next are lost. A slow disk must
+// therefore be synced earlier, by the duration of its last sync. If one sync takes more than half
+// of the interval, syncs follow each other without a pause, and twice that time may be lost.
 class SyncSchedule {
  public:
   // poll_s: how often is_due() is asked.

@@ -140,8 +140,8 @@ bool has_same_words(const std::string& one, const std::string& other, double tol
   }
 }
 
-// What a header says of the target, for any name of the material: "... for Abaqus". Where nu is
-// from is known only with the material.
+// Statement of a header about the target, for any name of the material: "... for Abaqus". The
+// origin of nu is known only with the material.
 std::string comparable_text(const HeaderLine& line, bool has_reference) {
   const bool is_title = line.key.rfind("viscard ", 0) == 0;
   const std::size_t at = line.text.rfind(" for ");
@@ -149,7 +149,7 @@ std::string comparable_text(const HeaderLine& line, bool has_reference) {
   return line.key == "K0" && !has_reference ? line.text.substr(0, line.text.find(" (")) : line.text;
 }
 
-// Without the material only what the numbers of the card determine.
+// Without the material, only values that the numbers of the card determine are checked.
 bool follows_from_card(const std::string& key) {
   return key.rfind("viscard ", 0) == 0 || key == "CANNOT REPRESENT" || key == "units" ||
          key == "conventions" || key == "E0 (instantaneous)" || key == "K0" ||
@@ -160,13 +160,13 @@ std::string title_key() {
   return std::string("viscard ") + VISCARD_VERSION;
 }
 
-// Whether the line of a header says what viscard writes: nothing if the header has no such line.
+// True if a line of the header is as viscard writes it; nothing if the header has no such line.
 struct HeaderMatch {
   const HeaderLine* line = nullptr;
   bool is_same = false;
 };
 
-// A key that viscard writes once must say the same wherever it stands.
+// A key that viscard writes once must have the same value wherever it stands.
 HeaderMatch match_of(const HeaderLine& wanted, const std::vector<HeaderLine>& found, bool is_only,
                      bool has_reference) {
   // Columns may have rounded the numbers that were read from the card.
@@ -185,7 +185,7 @@ HeaderMatch match_of(const HeaderLine& wanted, const std::vector<HeaderLine>& fo
   return match;
 }
 
-// Terms that were refitted or left out are not seen in the material that is compared.
+// Refitted or omitted terms cannot be seen in the material that is compared.
 bool are_terms_changed(const std::vector<HeaderLine>& header) {
   return std::any_of(header.begin(), header.end(), [](const HeaderLine& line) {
     const bool is_approximated = line.text.rfind("approximated", 0) == 0;

@@ -112,7 +112,8 @@ struct CardTarget {
   bool takes_arrhenius = false;   // has a place for ln a_T = (E_a/R) (1/T - 1/T_ref)
   const char* why_no_wlf = "";    // a reason besides "no place for one", for the refusal
   const char* temperature = "C";  // the unit of temperatures in the card
-  // How a model states its temperature, where a shift needs it and the solver would assume another.
+  // Text that sets the temperature of a model, needed if the card has a shift and the solver would
+  // assume another temperature.
   std::string set_temperature = {};
   // A sentence about the time step that this material needs, for solvers of low order.
   std::string (*step_note)(const Material& material) = nullptr;

@@ -13,7 +13,7 @@
 namespace viscard {
 namespace {
 
-// A band that nobody has named has three digits.
+// A band that the user did not name has three digits.
 FrequencyBand rounded(const FrequencyBand& band) {
   const auto three_digits = [](double f_Hz) {
     return std::strtod(fmt::format("{:.3g}", f_Hz).c_str(), nullptr);

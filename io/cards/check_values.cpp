@@ -24,7 +24,7 @@ double largest_value_mismatch(const std::vector<ValuePair>& pairs) {
   return largest;
 }
 
-// One factor between a value and the expected one that has a name.
+// A known factor between a value and the expected one.
 std::string factor_in_words(double ratio) {
   struct Known {
     double factor;

@@ -113,7 +113,7 @@ WrittenDigits written_digits(double value) {
   return {count, std::pow(10.0, power - count + 1)};
 }
 
-// Whether a number is the other one with fewer digits, rounded or cut off.
+// True if a number is the other one with fewer digits, rounded or cut off.
 bool is_rounding_of(double found, double expected) {
   if (relative_mismatch(found, expected) <= 1e-12) return true;
   const WrittenDigits digits = written_digits(found);

@@ -12,7 +12,7 @@ struct CardLine;
 // Relative; a number typed by hand may have few digits.
 inline constexpr double kHandTyped = 2e-3;
 
-// Text in a card that the solver would take differently from what its author meant.
+// Text in a card that the solver interprets differently from what its author meant.
 struct CardFinding {
   std::string name;  // short and stable: "missing-equilibrium-row"
   std::string text;  // the effect, and what to write instead

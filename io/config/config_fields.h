@@ -17,7 +17,7 @@ namespace viscard {
 // reads TOML into the fields, another writes them as TOML, so that reading and writing cannot
 // differ.
 
-// What values of a quantity are allowed.
+// Allowed values of a quantity.
 enum class Range { kAny, kPositive, kNotNegative, kFraction };  // fraction: [0, 1]
 
 // A number with a unit, as a file has it: "40 um".
@@ -75,7 +75,7 @@ class FieldVisitor {
 // Shows all fields of a struct to a visitor.
 using ShowFields = std::function<void(FieldVisitor&)>;
 
-// A quantity that is not known exactly, as it stands in a file.
+// An uncertain quantity, as it stands in a file.
 struct UncertainField {
   std::string key;   // "geometry.diameter", or "shape.at.2" for the second entry of a list
   std::string text;  // "40 um +- 1 um"
@@ -86,7 +86,7 @@ struct UncertainField {
 using ChooseValue = std::function<double(const UncertainField& field)>;
 
 // Throws std::runtime_error with file, line, key and the expected value; messages show name in
-// place of the file. Quantities that are not known exactly are refused without `choose`.
+// place of the file. Without `choose`, uncertain quantities are refused.
 void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
                       const ChooseValue& choose = {});
 

@@ -11,9 +11,9 @@ namespace viscard {
 // "1", because the user may have meant any. Throws std::invalid_argument saying what is wrong.
 double quantity_from_text(const std::string& text, const char* unit);
 
-// A quantity that is not known exactly, in SI: "40 um +- 1 um", "40 +- 1 um", "1.8 MPa +- 5 %", and with
-// "normal" (the default), "uniform" or "lognormal" at the end. "±" stands for "+-". Nothing if the text
-// has neither. Throws as above.
+// An uncertain quantity, in SI: "40 um +- 1 um", "40 +- 1 um", "1.8 MPa +- 5 %", and with "normal"
+// (the default), "uniform" or "lognormal" at the end. "±" may replace "+-". Nothing if the text has
+// neither. Throws as above.
 std::optional<UncertainNumber> uncertain_from_text(const std::string& text, const char* unit);
 
 }  // namespace viscard

@@ -8,9 +8,9 @@
 
 namespace viscard {
 
-// Refuse values of a file about to be used that no test on a bench can have, such as a modulus of
-// 2 Pa because "MPa" was forgotten. Throw std::runtime_error with file, line, key, the value, the
-// bounds and an example. Files inside old captures are read without these checks.
+// Refuse values in a file that no test on a bench can have, such as a modulus of 2 Pa because "MPa"
+// was forgotten. They throw std::runtime_error with file, line, key, the value, the bounds and an
+// example. Files inside old captures are read without these checks.
 void refuse_senseless(const RigConfig& rig, const std::string& toml, const std::string& name);
 void refuse_senseless(const TestPlan& plan, const std::string& toml, const std::string& name);
 void refuse_senseless(const Specimen& specimen, const std::string& toml, const std::string& name);

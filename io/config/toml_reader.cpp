@@ -175,7 +175,7 @@ class TomlReader final : public FieldVisitor {
     } else {
       fail(node, field.key, "expected " + expected(field));
     }
-    // Nothing here is longer than a metre; a unit that was forgotten makes it so.
+    // No length here exceeds a metre; a longer one shows that a unit was forgotten.
     if (node.is_number() && std::string_view(field.unit) == "m" && std::abs(written) > 1.0) {
       const std::string number = text_from_number(written);
       fail(node, field.key,

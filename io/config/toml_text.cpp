@@ -44,7 +44,7 @@ bool has_decimal_comma(std::string_view value) {
          value.find(',', comma + 1) == std::string_view::npos;
 }
 
-// What is wrong with the value of a key; empty if nothing of this is.
+// Describes a wrong value of a key; empty if no known mistake fits.
 std::string reason_of_value(const std::string& key, std::string_view value) {
   if (value.empty() || value.front() == '#') return "the value of '" + key + "' is missing";
   const bool is_text = value.front() == '"' || value.front() == '\'';

@@ -7,8 +7,8 @@
 
 namespace viscard {
 
-// What a run of so many unknowns costs, learnt from the runs before: within one kind of elements
-// processor time grows as a power of the unknowns.
+// Predicts the cost of a run with a given number of unknowns from earlier runs: within one kind of
+// elements, processor time grows as a power of the unknowns.
 struct CostPower {
   double exponent = 0.0;
   double unknowns = 0.0;  // of the largest run that it goes through

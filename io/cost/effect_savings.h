@@ -9,7 +9,7 @@
 
 namespace viscard {
 
-// What leaving one effect out saves: the scene with all effects on, and without this one, on the
+// Savings by leaving one effect out: the scene with all effects on, and without this one, on the
 // same mesh.
 struct EffectSaving {
   std::string effect;

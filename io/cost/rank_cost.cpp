@@ -8,8 +8,8 @@
 namespace viscard {
 namespace {
 
-// A row and its processor time. Half the tolerance is for the row, half for what the reference
-// itself does not know.
+// A row and its processor time. Half of the tolerance is for the row, half for the error of the
+// reference.
 CostAdvice advice_for(double tolerance, const CostStudy& study) {
   const std::vector<CostRow>& rows = study.rows;
   CostAdvice advice{tolerance, fmt::format("{:g}: none of these is accurate enough", tolerance)};

@@ -13,7 +13,7 @@
 namespace viscard {
 namespace {
 
-// Largest relative error of what the reference is asked for.
+// Largest relative error of the reference's results.
 double relative_error(const SceneAnswer& answer, const SceneAnswer& reference) {
   double largest = 0.0;
   for (const SceneResult& exact : reference.results) {
@@ -41,7 +41,7 @@ double relative_error(const SceneAnswer& answer, const SceneAnswer& reference) {
   return largest;
 }
 
-constexpr double kQuick_s = 0.3;  // rows that take less are repeated
+constexpr double kQuick_s = 0.3;  // rows that take less time are repeated
 // The first rows run although the budget is spent, if they are as quick as this.
 constexpr std::size_t kShown = 3;
 constexpr double kShown_s = 0.1;
@@ -57,7 +57,7 @@ struct Ran {
   SceneAnswer answer;
 };
 
-// Runs trials within a budget of wall time and learns what they cost.
+// Runs trials within a budget of wall time and learns their cost.
 class CostRunner {
  public:
   CostRunner(const CostOptions& options, std::size_t count)
@@ -68,7 +68,7 @@ class CostRunner {
 
   double spent_s() const { return options_.clock.wall_s() - start_wall_s_; }
   double left_s() const { return options_.budget_s - spent_s(); }
-  // Of all processor time that passed by since the start, what this program got.
+  // Processor time of this program over the wall time since the start.
   double share() const {
     const double wall_s = spent_s();
     return wall_s > 0.0 ? (options_.clock.cpu_s() - start_cpu_s_) / wall_s : 1.0;

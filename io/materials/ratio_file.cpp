@@ -107,7 +107,8 @@ RatioForm form_from(const Json& json) {
   return form;
 }
 
-// What would make arrays of any size, or none at all. Every parameter has at least one coefficient.
+// Checks numbers that would allocate arrays of arbitrary size, or empty ones. Every parameter has
+// at least one coefficient.
 void check_sizes(const RatioModel& model) {
   const auto coefficients = static_cast<int>(model.coefficients.size());
   if (model.n_terms < 0 || model.n_terms > (coefficients - 1) / 2) {

@@ -28,7 +28,7 @@ struct MapRange {
 MapRange map_range_of(const SceneMap& map) {
   const auto [low, high] = std::minmax_element(map.value.begin(), map.value.end());
   MapRange range{*low, *high};
-  // Both signs matter where the smaller side is a tenth of the larger one.
+  // Both signs are shown if the smaller side is at least a tenth of the larger one.
   constexpr double kMatters = 0.1;
   const double size = largest_size(map.value);
   range.is_signed = *low<-kMatters * size&& * high> kMatters * size;

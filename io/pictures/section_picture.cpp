@@ -38,7 +38,8 @@ double largest_drawn_m(const SectionGrid& grid) {
     if (grid.z_m[i] > 0.0) radius_m = std::max(radius_m, grid.x_m[i]);
   }
   const double widest_m = *std::max_element(grid.x_m.begin(), grid.x_m.end());
-  constexpr double kDisc = 4.0;  // so much wider than high, the film bends rather than the pillar
+  // If the drawing is this much wider than high, the film bends rather than the pillar.
+  constexpr double kDisc = 4.0;
   if (widest_m > kDisc * length_m) return kSwing * 0.5 * widest_m;
   const double swing_m = kSwing * length_m;
   return grid.harmonic == 1 ? swing_m : std::min(swing_m, kBulge * radius_m);

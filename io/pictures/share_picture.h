@@ -5,7 +5,7 @@
 
 namespace viscard {
 
-// Shares of one total, 0 to 1 each; what they lack of 1 is drawn in grey.
+// Shares of one total, 0 to 1 each; the rest up to 1 is drawn in grey.
 struct ShareBar {
   std::string name;
   std::string text;  // beside the bar

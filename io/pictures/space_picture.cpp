@@ -62,7 +62,8 @@ void draw_pillars(SceneDrawing& d, const SpaceScene& scene) {
   }
 }
 
-// So many pillars that a picture has no room for each: their field, and the loaded ones if they are few.
+// Draws arrays whose pillars are too small for the picture: their field, and the loaded pillars if
+// they are few.
 void draw_field(SceneDrawing& d, const SpaceScene& scene) {
   const FilmExtent film = film_extent(scene);
   const std::vector<bool> loaded = is_loaded(scene);

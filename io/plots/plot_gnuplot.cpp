@@ -59,7 +59,7 @@ class MemoryFile {
   int fd_;
 };
 
-// Our environment with one fixed locale: UTF-8 text, a point in numbers.
+// The environment of this process with one fixed locale: UTF-8 text, a point in numbers.
 std::vector<std::string> plain_environment() {
   std::vector<std::string> variables;
   for (char** entry = environ; *entry != nullptr; ++entry) {

@@ -21,7 +21,8 @@ struct RawQuadrants {
 // [quadrants]: voltages, neighbours, averages, circles, on_circle, noise.
 void show_quadrants(FieldVisitor& quadrants_table, RawQuadrants& raw);
 
-// From geometry.electrode: its kind, and whether it is in quarters. Throws SceneMistake for what cannot be.
+// Kind of electrode from geometry.electrode, and whether it is in quarters. Throws SceneMistake for
+// an impossible combination.
 SpaceElectrode electrode_from(const std::string& kind, bool in_quarters);
 
 // How the scene, which has its pillars, finds forces from voltages. Throws SceneMistake or, for a file that cannot be

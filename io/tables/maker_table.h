@@ -17,12 +17,13 @@ struct MakerTable {
   std::map<std::string, std::string> columns;
 };
 
-// Nothing for an ordinary table. name: the path of the file; the files of RepTate differ by their
-// ending. Throws std::runtime_error that begins with "line N" if a part of the file is not as the
-// maker writes it.
+// Nothing for an ordinary table. name: the path of the file; the files of RepTate are recognised by
+// their ending. Throws std::runtime_error that begins with "line N" if a part of the file differs
+// from the maker's format.
 std::optional<MakerTable> maker_table(std::string_view text, const std::string& name);
 
-// The maker of an ordinary table, by the names in its header; empty if they are nobody's own.
+// The maker of an ordinary table, by the names in its header; empty if the names belong to no
+// maker.
 std::string maker_of_header(std::string_view header_line);
 
 }  // namespace viscard

@@ -123,8 +123,9 @@ void add_fields(matvar_t& variable, std::vector<NamedColumn>& columns) {
   }
 }
 
-// The library reads a file that is cut off without a word. After the header of 128 bytes, each element
-// begins with its type and length; the last two bytes of the header are "IM" in the order of this machine.
+// The library reads a truncated file without an error, so this checks its length. After the header
+// of 128 bytes, each element begins with its type and length; the last two bytes of the header are
+// "IM" in the order of this machine.
 bool is_cut_off(std::string_view bytes) {
   constexpr std::size_t kHeader = 128, kTag = 8;
   if (bytes.size() < kHeader) return true;
@@ -140,7 +141,7 @@ bool is_cut_off(std::string_view bytes) {
 }
 
 ColumnsOfTables columns_of_tables(std::string_view bytes, const std::string& name) {
-  // A damaged file is reported once, by what is missing from it.
+  // A damaged file is reported once, by the first missing part.
   Mat_LogInitFunc("viscard", [](int, char*) {});
   const MemoryFile memory(bytes);
   const MatlabFile file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));

@@ -32,8 +32,8 @@ class DeviceClock {
   // Time since the previous good reading (after kLastWasBad: the one before it); 0 for the first.
   double step_s() const { return step_s_; }
   // Host time minus device time: the smallest of the last window, because delays are not negative.
-  // On a line that falls behind every delay of the window is too large, so that the smallest one of
-  // all before counts, raised by the largest error of a device's clock.
+  // On a line that falls behind every delay of the window is too large. Then the smallest delay of
+  // all readings is used, raised by the largest error of a device's clock.
   double host_minus_device_s() const;
 
  private:

@@ -19,7 +19,7 @@ constexpr std::size_t kFewestNotGrowing = 3;
 constexpr double kTickUnits_s[] = {1e-6, 1e-3};
 constexpr Hx711Format kTickFormats[] = {Hx711Format::kMicrosCounts, Hx711Format::kMillisCounts};
 
-// What a window of lines shows if they are read with and without a clock.
+// Statistics of a window of lines, read with and without a clock.
 struct Window {
   std::size_t n_lines = 0;
   std::vector<double> steps;  // of the clock, modulo 2^32
@@ -75,7 +75,8 @@ std::optional<Hx711Format> clock_format(const Window& window, double rate_Hz) {
     }
   }
   if (window.n_lines < kMostLines) return std::nullopt;
-  // Perhaps the expected rate is wrong: then the steps are even, and as long as those of arrival.
+  // If the expected rate is wrong, the steps are nevertheless even, and as long as those of the
+  // arrivals.
   std::vector<double> sorted = window.steps;
   std::sort(sorted.begin(), sorted.end());
   const double median = sorted[sorted.size() / 2];

@@ -13,7 +13,7 @@ std::string shape_of_line(std::string_view text);
 // Recognises garbled lines of a stream by their shape. A garbled reading is often still a number,
 // but seldom one of the usual shape: a digit after the point is lost, there is one field too many,
 // or the name before the number has another letter. The first 64 lines must have the same shape; a
-// stream whose lines differ from each other by nature is not judged.
+// stream whose lines naturally differ from each other is not judged.
 class LineShape {
  public:
   // False for a line whose shape differs from that of all lines before.

@@ -39,10 +39,11 @@ class LoadCell {
   Transport& transport() { return transport_; }
   // Waits until readings arrive and the format of the lines is known.
   virtual void connect(const Pump& pump) = 0;
-  // True for an instrument that is not polled: its readings can fall behind on a slow line.
+  // True for an instrument that sends by itself: its readings can fall behind on a slow line.
   virtual bool sends_by_itself() const { return false; }
-  // While restarts are accepted, a device that restarts is learnt anew instead of DeviceRestarted;
-  // connect() waits until that is done. Boards reset when their port is opened, and may do so late.
+  // While restarts are accepted, the driver learns a restarted device again instead of throwing
+  // DeviceRestarted; connect() waits until that is done. Boards reset when their port is opened,
+  // and may do so late.
   void accept_restarts(bool is_accepted) { accepts_restarts_ = is_accepted; }
   std::int64_t n_restarts() const { return n_restarts_; }
   // Reads what has arrived and passes each reading to the sink, then to the listener. Call often.
@@ -52,8 +53,8 @@ class LoadCell {
     listener_ = std::move(listener);
   }
 
-  // A thermometer on the same port: the function returns true for a line that is one of its own,
-  // which is then no line of the load cell. Only instruments that send lines by themselves call it.
+  // A thermometer on the same port: the function returns true for a line of the thermometer, which
+  // then is not a line of the load cell. Only instruments that send lines by themselves call it.
   void set_other_lines(std::function<bool(const ReceivedLine&)> take) {
     takes_other_ = std::move(take);
   }
@@ -76,8 +77,8 @@ class LoadCell {
   // Of everything received.
   virtual std::size_t n_bytes() const { return splitter_.n_bytes(); }
   // Best estimate of the rig time at which a reading was made: its device time plus the smallest
-  // offset seen lately (a delay is never negative), or without a clock the time of its arrival, less
-  // what the stream has fallen behind.
+  // recent offset (a delay is never negative). Without a device clock: the time of its arrival,
+  // less the delay of the stream.
   virtual double made_at_s(const LoadSample& sample) const = 0;
 
  protected:
@@ -112,8 +113,8 @@ class LoadCell {
   bool is_connected_ = false;
   bool accepts_restarts_ = false;
   std::int64_t n_restarts_ = 0;
-  // Readings that a restart has cost: numbers that no reading has, so that the numbers of a stream
-  // without a clock still count its time.
+  // Skips the numbers of readings that a restart has cost, so that the numbers of a stream without
+  // a clock still count its time.
   std::int64_t n_skipped_ = 0;
   double period_s_;
   std::string unit_;  // as sent with the readings; may be empty

@@ -109,7 +109,7 @@ void StreamLoadCell::hand_out_at(LoadSample& sample, double time_s) {
   hand_out(sample);
 }
 
-// For a stream of numbered readings: what is missing is known, however late the others are.
+// For a stream of numbered readings: the missing ones are known, even if the others arrive late.
 void StreamLoadCell::take_loss(std::int64_t n_lost, double time_s) {
   note_gap(time_s - last_arrival_s_, 1e300, time_s);
   if (n_lost == 0) return;

@@ -10,9 +10,9 @@
 
 namespace viscard {
 
-// What all instruments have in common that send readings by themselves: the times of the readings,
-// with or without a clock of the device, and what is missing between them. A driver parses what has
-// arrived and calls accept() and hand_out_at() for each reading.
+// The common part of all instruments that send readings by themselves: the times of the readings,
+// with or without a clock of the device, and the missing readings between them. A driver parses
+// what has arrived and calls accept() and hand_out_at() for each reading.
 class StreamLoadCell : public LoadCell {
  public:
   bool sends_by_itself() const override { return true; }
@@ -28,13 +28,12 @@ class StreamLoadCell : public LoadCell {
   // The device's clock starts with this reading, so that a restart right after it is noticed. After
   // a restart it continues the old one: the least delay stays the same.
   void start_clock(double tick_s, const std::optional<double>& ticks, double time_s);
-  bool has_device_clock() const { return device_clock_.has_value(); }
   // A reading as it was sent.
   struct Sent {
     std::optional<double> ticks;  // the device's own time, if it sends one
     std::string unit;             // empty if it sends none
     std::string text;             // for the record of a reading that is left out
-    // Readings that were lost before this one, if their numbers tell.
+    // Number of readings lost before this one, if the readings carry numbers.
     std::optional<std::int64_t> n_lost = {};
   };
   // Judges unit and time of a reading; false if it must be left out.

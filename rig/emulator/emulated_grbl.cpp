@@ -18,10 +18,10 @@ constexpr std::string_view kDefaults =
     "$0=10 $1=255 $2=0 $3=0 $4=0 $5=0 $6=0 $11=0.01 $12=0.002 $21=0 $23=0 $24=25 $25=500 $26=250 "
     "$27=1 $30=1000 $31=0 $32=0";
 
-// The speed that the timer makes of the one asked for (gnea/grbl stepper.c at 16 MHz): the cycles of
-// one step are rounded up and, below 8000 steps/s, divided by 2, 4 or 8 without the rest (AMASS). The
-// timer clears itself after the compared number of cycles (CTC), so each of its periods has one more
-// cycle. At a thousand cycles and more a period, moves are up to 0.1 % slower.
+// The real speed for a requested one, because of the timer (gnea/grbl stepper.c at 16 MHz): the
+// cycles of one step are rounded up and, below 8000 steps/s, divided by 2, 4 or 8 without the rest
+// (AMASS). The timer clears itself after the compared number of cycles (CTC), so each of its
+// periods has one more cycle. At a thousand cycles and more a period, moves are up to 0.1 % slower.
 double timer_speed_m_s(double speed_m_s, double steps_per_m) {
   constexpr double kClock_Hz = 16e6;
   constexpr double kLongest = 65535.0;

@@ -60,8 +60,8 @@ class EmulatedRig {
   void cause(Incident incident);
   void stall(double wall_s);  // the thread does nothing for that time; for a rig on the wall clock
 
-  // Serves something else on the lines of a rig that waits, such as a FaultProxy, again and again: it
-  // gets the time and returns true if bytes have gone to the program.
+  // Serves something else on the lines of a rig that waits, such as a FaultProxy. It is called
+  // repeatedly with the time, and returns true if bytes have gone to the program.
   void serve_too(std::function<bool(double now_s)> serve);
 
  private:

@@ -10,15 +10,15 @@
 
 namespace viscard {
 
-// What an emulated rig consists of, and how its devices behave.
+// The parts of an emulated rig, and how its devices behave.
 struct EmulatedRigOptions {
   EmulatedTruth truth;
   // The true properties of the instruments; drivers, calibration, volts_per_count, axis, direction
   // and clock_speed are used.
   RigConfig config;
   // By default the rig waits for the program that uses it: its time passes only while that program
-  // waits for bytes, and clock_speed is the most by which it may be faster than the wall clock. Then
-  // the answer depends neither on the speed nor on what else the computer does. On the wall clock a
+  // waits for bytes, and clock_speed limits how much faster than the wall clock it may be. The
+  // answer then depends neither on the speed nor on other load of the computer. On the wall clock a
   // busy computer is late, as it would be for a real rig.
   bool is_on_wall_clock = false;
   GrblHabits grbl;

@@ -3,11 +3,11 @@
 namespace viscard {
 
 // How late this program is. It looks at its clock all the time, so a look that comes later than the
-// wait before it explains was delayed by the computer: by other programs or by a freeze of this one.
-// What happened meanwhile could not be watched. Wall times in s.
+// wait before it explains was delayed by the computer: by other programs or by a freeze of this
+// one. In the meantime nothing could be watched. Wall times in s.
 class HostLateness {
  public:
-  // The program is about to wait for so long.
+  // The program is about to wait for this long.
   void expect_wait(double wait_s) { expected_s_ += wait_s; }
   // The program looks at its clock.
   void look(double wall_s);

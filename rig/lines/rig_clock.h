@@ -48,7 +48,7 @@ class RigClock {
   bool waits() const { return rig_ != nullptr; }
   // Precondition: waits().
   void pass(double longest_s) const { rig_->pass(longest_s); }
-  // The program is about to wait for so long (wall time), which is no lateness.
+  // The program is about to wait for this long (wall time); this is no lateness.
   void expect_wait(double wait_s) const { lateness_.expect_wait(wait_s); }
 
  private:

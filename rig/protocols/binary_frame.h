@@ -39,7 +39,6 @@ class FrameFormat {
   std::size_t size() const { return size_; }
   // Duration of one tick of the clock; 0 without a clock.
   double tick_s() const { return tick_s_; }
-  bool has_seq() const { return seq_bits_ > 0; }
   // The number of frames from one seq to another, modulo its range; 1 for the next one.
   std::uint32_t seq_step(std::uint32_t from, std::uint32_t to) const;
   bool has_check() const { return has_check_; }

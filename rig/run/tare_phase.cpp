@@ -42,8 +42,8 @@ void check_rate(TestRun& run, const ForceMean& zero, double duration_s) {
                  ", or correct expected_rate under [load_cell] of the rig file");
 }
 
-// A board that restarts while its zero is measured gives another zero: it is measured again, from
-// the first readings that can be read. From then on a restart ends the run.
+// A board that restarts while its zero is measured has a new zero, which is measured again from the
+// first readings that can be read. After that a restart ends the run.
 ForceMean undisturbed_tare(TestRun& run, double duration_s) {
   LoadCell& cell = run.session.load_cell();
   for (int i = 0; i < kMostRestarts; ++i) {
@@ -180,8 +180,8 @@ void free_punch(TestRun& run, double fell_N) {
   go_on_from_here(run, what);
 }
 
-// The first tare of a run. A force above the limit ends a run, also one that stands still; with
-// --lift the punch is lifted first, and if the force falls, the tare begins again.
+// The first tare of a run. A force above the limit ends a run, even a constant one; with --lift the
+// punch is lifted first, and if the force falls, the tare begins again.
 ForceMean first_tare(TestRun& run, double duration_s) {
   RunSession& session = run.session;
   std::string limit;
@@ -205,7 +205,7 @@ void carry_out_tare(TestRun& run, const TestPhase& phase) {
   ForceMean zero = first_tare(run, phase.duration_s);
   run.outcome.noise_N = zero.sd_N;
   const double most_N = kPressesAtStart * run.rig.calibration.capacity_N;
-  // Away from what presses first: for that the rate of the readings does not matter.
+  // First away from what may press: for this move the rate of the readings does not matter.
   if (std::abs(zero.force_N) <= most_N) check_rate(run, zero, phase.duration_s);
   const ForceMean change = change_when_lifted(run);
   if (change.force_N > felt_N(run, change)) refuse_wrong_way(run, change.force_N);

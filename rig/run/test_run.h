@@ -11,7 +11,7 @@
 
 namespace viscard {
 
-// What the phases of one test share: the session, what was asked for, and what is known so far.
+// Shared by the phases of one test: the session, the plan, and what is known so far.
 struct TestRun {
   RunSession& session;
   const RigConfig& rig;
@@ -24,7 +24,7 @@ struct TestRun {
   bool is_in_contact = false;  // the last move pressed the punch into the specimen
   bool lifts_at_start =
       false;  // a punch that presses before the test is lifted and the test goes on
-  bool presses_at_start = false;  // it did press, and the run ends because of it
+  bool presses_at_start = false;  // it pressed, and the run ends because of that
   bool is_tared = false;          // the zero is known and nothing presses
 };
 

@@ -14,12 +14,11 @@
 
 namespace viscard {
 
-// A thermometer beside the specimen: one that sends lines by itself, one that is asked (SCPI), or one
-// whose lines come between those of the load cell. Sources: rig/protocols/temperature_text.h.
-//
-// It never ends a run: no call throws for its sake. What goes wrong is an event "thermometer" and
-// stays in trouble(). A reading that jumps is handed out only if the next one agrees with it, because
-// text carries no checksum.
+// A thermometer beside the specimen: one that sends lines by itself, one that is queried (SCPI), or
+// one whose lines come between those of the load cell. Sources: rig/protocols/temperature_text.h.
+// It never ends a run: no call throws because of it. A problem is reported by an event
+// "thermometer" and stays in trouble(). A reading that jumps is handed out only if the next one
+// agrees with it, because text carries no checksum.
 class Thermometer {
  public:
   // line: nothing if it could not be opened (trouble: why), or if the thermometer shares the port of
@@ -39,7 +38,6 @@ class Thermometer {
   const std::vector<double>& readings_C() const { return readings_C_; }
   std::optional<double> newest_C() const;
   double newest_s() const { return newest_s_; }  // rig time of the newest reading
-  std::size_t n_unreadable() const { return n_unreadable_; }
   // Longest time without a reading, from the first service() to the last, rig time.
   double longest_silence_s() const { return longest_silence_s_; }
   // Why there are no readings, or none any more; empty if all is well.

@@ -16,7 +16,7 @@ class StageAlarm : public RigError {
   using RigError::RigError;
 };
 
-// How the controller moves according to its own settings.
+// Settings of the controller that determine how it moves.
 struct StageDynamics {
   double steps_per_m = 0.0;
   double acceleration_m_s2 = 0.0;

@@ -128,7 +128,7 @@ std::vector<DeckFile> calculix_deck(const DeckInput& input, const std::string& n
   std::string out =
       keyword_cube() + elements + input.card.text + sections + keyword_rollers_and_ramp(input);
   for (const DeckBlock& block : input.blocks()) {
-    // CalculiX asks for CETOL even with fixed increments, and would stop an increment with more
+    // CalculiX requires CETOL even with fixed increments, and would stop an increment with more
     // creep strain than that (checkconvergence.c).
     out += fmt::format("*STEP, INC=1000000\n*VISCO, DIRECT, CETOL=1.E30\n{}, {}\n",
                        number_of_20(block.step), number_of_20(block.length));

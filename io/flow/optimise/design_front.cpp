@@ -18,8 +18,8 @@ double cost_of(const DesignSpec& spec, const OptimisedDesign& design, std::size_
   return spec.objectives[which].is_largest() ? -logarithm : logarithm;
 }
 
-// Drops designs that another one beats in one objective without loss in the other. What the rounding of dimensions
-// makes is no gain and no loss.
+// Drops designs that another design beats in one objective without loss in the other. Differences
+// of the size of the rounding of dimensions are ignored.
 void keep_undominated(const DesignSpec& spec, std::vector<OptimisedDesign>& designs) {
   constexpr double kSame = 2e-3;
   std::vector<OptimisedDesign> kept;
@@ -41,7 +41,7 @@ void keep_undominated(const DesignSpec& spec, std::vector<OptimisedDesign>& desi
   designs = std::move(kept);
 }
 
-// Largest lack of a margin, as a logarithm; 0 if all are kept.
+// Largest violation of a limit, as a logarithm; 0 if all limits are kept.
 double lack_of(const OptimisedDesign& design) {
   constexpr double kNotAnswered = 100.0;
   double most = 0.0;
@@ -84,7 +84,8 @@ DesignFront front_of(const DesignSpec& spec,
   return front;
 }
 
-// One design of several: the best in the only objective, or the one that lacks least.
+// One design of several: the best one for a single objective, or the one with the smallest
+// violation.
 OptimisedDesign best_of(const DesignSpec& spec, const std::vector<OptimisedDesign>& designs) {
   return *std::min_element(
       designs.begin(), designs.end(), [&](const OptimisedDesign& a, const OptimisedDesign& b) {

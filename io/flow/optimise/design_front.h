@@ -9,10 +9,11 @@
 
 namespace viscard {
 
-// Designs of which none is better in both objectives: the ends, each the best in one objective, and between
-// them the best in the first at even steps of the second (the epsilon-constraint method: Haimes, Lasdon & Wismer,
-// IEEE Trans. Syst. Man Cybern. 1 (1971) 296). With choices, those of all combinations together. With one objective, or if
-// nothing is feasible, a single design: the best, or the one that lacks least.
+// Designs of which none is better than another in both objectives: the two ends, each the best in
+// one objective, and between them the best in the first at even steps of the second (the
+// epsilon-constraint method: Haimes, Lasdon & Wismer, IEEE Trans. Syst. Man Cybern. 1 (1971) 296).
+// With choices, those of all combinations together. With one objective, or if nothing is feasible,
+// a single design: the best one, or the one with the smallest violation.
 struct DesignFront {
   std::vector<OptimisedDesign> designs;  // best in the first objective first
   std::size_t n_solved = 0;

@@ -25,7 +25,8 @@ struct DesignChoice {
   std::vector<std::string> values;  // as they stand in a scene
 };
 
-// What shall be as large or as small as possible: a requirement's quantity or a key with a range.
+// An objective: a requirement's quantity or a key with a range that is to be as large or as small
+// as possible.
 struct DesignObjective {
   std::string quantity;  // "voltage_per_pressure", "geometry.length"
   std::string goal;      // "largest" or "smallest"
@@ -43,7 +44,9 @@ struct DesignSpec {
   StudyValues chosen;  // those values of choices that scene_text already has (design_choices.h)
   std::vector<DesignObjective> objectives;
   double probability =
-      0.0;  // that each requirement holds under the scene's uncertainties; 0: not asked
+      // Probability with which each requirement must hold under the scene's uncertainties; 0: not
+      // required.
+      0.0;
   std::int64_t seed = 1;          // of the search with the formulas
   std::int64_t front_points = 7;  // between two objectives, ends included
 };

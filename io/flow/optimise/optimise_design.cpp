@@ -167,8 +167,9 @@ std::optional<DesignSearch::Model> DesignSearch::model_at(const DesignPoint& poi
   return model;
 }
 
-// What the solver finds beside the centre, by the smallest change of slopes that agrees with it (Broyden, Math.
-// Comput. 19 (1965) 577); the centre moves there if it is better.
+// Adds the solver's values at a trial point to the model, by the smallest change of slopes that
+// agrees with them (Broyden, Math. Comput. 19 (1965) 577). The centre moves to the trial point if
+// that is better.
 void DesignSearch::learn(const DesignPoint& beside, const SolvedPoint& found, bool is_better,
                          Model& model) const {
   const std::vector<double> formulas = log_formulas(solved_, space_, spec_, beside);
@@ -193,9 +194,9 @@ void DesignSearch::learn(const DesignPoint& beside, const SolvedPoint& found, bo
   model.error = found.relative_error;
 }
 
-// Steps within a radius of trust that grows where the model foretells the solver and shrinks where it
-// does not (Conn, Gould & Toint, Trust-Region Methods (2000), ch. 6). They end where a model with slopes of the solver
-// at that very point promises nothing more.
+// Steps within a trust radius that grows if the model predicts the solver well, and shrinks if it
+// does not (Conn, Gould & Toint, Trust-Region Methods (2000), ch. 6). They end when a model with
+// the solver's slopes at the centre predicts no further improvement.
 std::optional<DesignPoint> DesignSearch::follow(const DesignPoint& start, double share_done) {
   std::optional<Model> model = model_at(start);
   if (!model) return std::nullopt;
@@ -227,7 +228,8 @@ std::optional<DesignPoint> DesignSearch::follow(const DesignPoint& start, double
   return model->centre;
 }
 
-// First the best of the formulas, set right in the middle of the ranges, then the middle, then Sobol' points.
+// The starts, in this order: the best point of the formulas after their correction in the middle of
+// the ranges, the middle, and Sobol' points.
 std::vector<DesignPoint> DesignSearch::starts() {
   const std::size_t n = space_.size();
   const DesignPoint middle(n, 0.5);

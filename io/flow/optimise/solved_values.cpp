@@ -34,7 +34,7 @@ SolvedPoint SolvedValues::solve(const Scene& scene) const {
       point.why_not = std::string(kind->key) + " is not answered: " + found.how;
       return point;
     }
-    // A quantity that crosses zero is as small as its error.
+    // The logarithm of a quantity that crosses zero is limited by its error.
     const double size = std::max({std::abs(found.value), found.error_estimate, 1e-300});
     point.log_value.push_back(std::log(size));
     point.relative_error.push_back(found.error_estimate / size);

@@ -23,7 +23,7 @@ class SolvedValues {
  public:
   SolvedValues(const DesignSpec& spec, const DesignSpace& space);
 
-  // Those with a limit, in the order of requirement_kinds(), then objectives without one.
+  // Quantities with a limit, in the order of requirement_kinds(), then objectives without a limit.
   const std::vector<const RequirementKind*>& kinds() const { return kinds_; }
   // At several points, on all cores.
   std::vector<SolvedPoint> at(const std::vector<DesignPoint>& points);

@@ -49,7 +49,7 @@ void run(nlopt::opt& optimiser, std::vector<double>& x) {
   double least = 0.0;
   try {
     optimiser.optimize(x, least);
-  } catch (const nlopt::roundoff_limited&) {  // as good as it gets
+  } catch (const nlopt::roundoff_limited&) {  // no better value is possible
   }
 }
 

@@ -7,12 +7,12 @@
 
 namespace viscard {
 
-// What is asked at a point, as logarithms: the objective to be made small, and margins that must not be
+// Scores at a point, as logarithms: the objective, which is minimised, and margins that must not be
 // negative.
 struct DesignScore {
   double objective = 0.0;
   std::vector<double> margins;
-  // Largest lack of a margin, 0 where all are kept.
+  // Largest violation of a margin; 0 if all are kept.
   double lack() const;
   // With the exact penalty that both stages of the search use.
   double merit() const;

@@ -27,7 +27,7 @@ Material guess_from(const Specimen& specimen) {
   return guess;
 }
 
-// As the stage's controller would be asked.
+// As the controller of the stage would report them.
 StageDynamics dynamics_of(const RigPerformance& performance) {
   StageDynamics dynamics;
   dynamics.steps_per_m = performance.step_m > 0.0 ? 1.0 / performance.step_m : 1e9;

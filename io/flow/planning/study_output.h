@@ -18,7 +18,7 @@ void print_test_study(const TestStudy& study, std::ostream& out);
 // The test file of the advised row, with its origin in a comment.
 std::string toml_of_advice(const TestStudy& study, const std::string& command);
 
-// What keeps quantities from their tolerance in any test, and how to mend it; one sentence each.
+// Why quantities miss their tolerance in every test, and how to change that; one sentence each.
 std::vector<std::string> limits_of(const TestStudy& study);
 // The advised row in a sentence.
 std::string advice_of(const TestStudy& study);

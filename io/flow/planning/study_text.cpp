@@ -1,4 +1,4 @@
-// What a study of tests says in words: its table, its advice, and what no test can mend.
+// The text of a study of tests: its table, its advice, and the limits that no test can change.
 #include "io/flow/planning/study_output.h"
 
 #include <fmt/format.h>

@@ -41,8 +41,8 @@ bool read_line(const std::string& line, std::size_t& point, SweepRow& row) {
   return true;
 }
 
-// Points finish in any order: the answer of a sweep holds each effect as it is at the point where
-// leaving it out costs most.
+// Points finish in any order. The answer of a sweep holds the estimate of each effect at the point
+// where leaving it out costs most.
 void keep_largest(const std::vector<SceneEffect>& point, std::vector<SceneEffect>& sum) {
   if (sum.empty()) sum = point;
   for (std::size_t i = 0; i < sum.size(); ++i) {

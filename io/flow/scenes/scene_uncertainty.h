@@ -19,7 +19,7 @@ struct CauseShare {
   double standard_error = 0.0;  // of a sampled share
 };
 
-// What the inputs of a scene do to one result. The error of the computation stands beside it.
+// Effect of the inputs of a scene on one result, beside the error of the computation.
 struct ResultUncertainty {
   std::string name, unit;
   double value = 0.0;
@@ -37,7 +37,7 @@ struct SceneUncertainty {
   std::vector<std::string> descriptions;  // of the inputs
   std::vector<ResultUncertainty> results;
   bool is_sampled = false;
-  std::string reason;  // why it is sampled, or why it is not
+  std::string reason;  // why the result is sampled, or why it is not
   std::size_t n_answers = 0, n_failed = 0;
   Discretisation mesh;       // that was sampled on
   double mesh_error = 0.0;   // of deviations on it, relative to the standard uncertainty

@@ -12,7 +12,7 @@
 namespace viscard {
 namespace {
 
-// What the plan has chosen for the scene as it is.
+// Effects that the plan has chosen for the scene with its nominal values.
 EffectChoices chosen_effects(const Scene& scene) {
   EffectChoices choices = common(scene).effects;
   for (const SceneEffect& effect : plan_effects(scene).effects) {

@@ -10,8 +10,8 @@
 
 namespace viscard {
 
-// What is not known exactly about a scene: its uncertain quantities, and what the file of its pillars'
-// material states. Each input is one cause; causes are independent of each other.
+// The uncertain inputs of a scene: its uncertain quantities, and the uncertainty that the file of
+// its pillars' material states. Each input is one cause; causes are independent of each other.
 class UncertainScene {
  public:
   // `text` stands in the file `path`; `file` is what was read from it. The tolerance is that of `file`.
@@ -20,7 +20,7 @@ class UncertainScene {
 
   const SceneFile& file() const { return file_; }
   const std::vector<UncertainInput>& inputs() const { return inputs_; }
-  // What an input is in words: "40 um +- 1 um".
+  // Description of an input in words: "40 um +- 1 um".
   const std::vector<std::string>& descriptions() const { return descriptions_; }
   const std::vector<std::string>& notes() const { return notes_; }
 

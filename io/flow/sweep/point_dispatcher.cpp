@@ -40,7 +40,7 @@ bool PointDispatcher::take(int worker, std::int64_t point, double now_s) {
   if (work != busy_.end() && work->second.point == point) busy_.erase(work);
   if (!answered_.insert(point).second) return false;
   if (losses_.count(point) == 0) return true;
-  // It had been taken from a silent worker that answers after all.
+  // The point had been taken from a silent worker, which now answers after all.
   given_up_.erase(point);
   const auto again = std::find(open_.begin(), open_.end(), point);
   if (again != open_.end()) open_.erase(again);

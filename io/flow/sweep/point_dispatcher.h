@@ -17,20 +17,20 @@ struct DispatchedPoint {
   std::int64_t point = 0;
 };
 
-// Who answers which point of a study: each worker gets one point at a time and the next one when it is
-// done, so that workers stay busy however long single points take. A worker that is silent for too long
-// counts as lost, and its point goes to another one. Points that two workers were lost with go to no
-// third one. It knows no clock, no threads and no messages: times are handed in, in seconds since the
-// dispatcher was made.
+// Distributes the points of a study: each worker gets one point at a time and the next one when it
+// has answered, so workers stay busy even if single points take long. A worker that is silent for
+// too long counts as lost, and its point goes to another one. A point with which two workers were
+// lost is not given to a third. The dispatcher has no clock, no threads and no messages: times are
+// passed in, in seconds since it was made.
 class PointDispatcher {
  public:
   // open: the points to answer, in this order. lost_after_s: silence after which a worker counts as
   // lost.
   PointDispatcher(const std::vector<std::int64_t>& open, double lost_after_s);
 
-  // A worker lives, and does what it did.
+  // A sign of life from a worker.
   void hear(int worker, double now_s);
-  // A worker has nothing to do. It gets a point now, or from assign() later.
+  // A worker is idle. It gets a point now, or from assign() later.
   std::optional<std::int64_t> ask(int worker, double now_s);
   // A worker has answered a point. Returns whether this is the point's first answer.
   bool take(int worker, std::int64_t point, double now_s);
@@ -48,7 +48,7 @@ class PointDispatcher {
     return !open_.empty() && busy_.empty() && waiting_.empty() &&
            now_s - last_heard_s_ > lost_after_s_;
   }
-  // Points that two workers were lost with, ascending.
+  // Points with which two workers were lost, ascending.
   const std::set<std::int64_t>& given_up() const { return given_up_; }
   std::size_t n_lost() const { return lost_.size(); }  // workers that are silent now
 

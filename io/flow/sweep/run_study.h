@@ -17,7 +17,7 @@ struct StudyShard {
 // "3/64". Throws std::invalid_argument for anything else.
 StudyShard shard_from(const std::string& text);
 
-// What the points of a shard have become.
+// State of the points of a shard.
 struct StudyOutcome {
   std::int64_t n_points = 0;    // of the study
   std::int64_t n_answered = 0;  // now

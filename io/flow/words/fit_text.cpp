@@ -60,7 +60,7 @@ std::string words_of_parts(const FitResult& fit) {
   return words;
 }
 
-// What frame and load cell do to the shares that relax.
+// Effect of frame and load cell on the shares that relax.
 void print_systematic_of_g(const FitResult& fit, std::ostream& out) {
   std::string words;
   for (std::size_t i = 0; i < fit.terms.size(); ++i) {

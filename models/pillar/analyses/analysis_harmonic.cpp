@@ -1,3 +1,4 @@
+#include "models/maths/golden_section.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/scene_body.h"
@@ -71,34 +72,14 @@ class Response {
     }
   }
 
-  // Frequency near a peak of |y| on the grid where it is largest, by golden section.
+  // Frequency near a peak of |y| on the grid where it is largest.
   double peak_between(double low_Hz, double high_Hz, std::size_t output) const {
-    const auto size = [&](double f) {
+    const auto minus_size = [&](double f) {
       std::vector<Sweep> one(static_cast<std::size_t>(sides_.cols() - 1));
       add(f, one);
-      return std::abs(one[output].value[0]);
+      return -std::abs(one[output].value[0]);
     };
-    const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-    double a = high_Hz - ratio * (high_Hz - low_Hz);
-    double b = low_Hz + ratio * (high_Hz - low_Hz);
-    double at_a = size(a);
-    double at_b = size(b);
-    for (int i = 0; i < 60 && high_Hz - low_Hz > 1e-9 * high_Hz; ++i) {
-      if (at_a > at_b) {
-        high_Hz = b;
-        b = a;
-        at_b = at_a;
-        a = high_Hz - ratio * (high_Hz - low_Hz);
-        at_a = size(a);
-      } else {
-        low_Hz = a;
-        a = b;
-        at_a = at_b;
-        b = low_Hz + ratio * (high_Hz - low_Hz);
-        at_b = size(b);
-      }
-    }
-    return 0.5 * (low_Hz + high_Hz);
+    return golden_section(minus_size, low_Hz, high_Hz, 1e-9 * high_Hz).middle();
   }
 
  private:
