@@ -74,7 +74,7 @@ std::string what_was_met(const Json::parse_error& error) {
   what = from == std::string::npos
              ? what
              : what.substr(from + 3, to == std::string::npos ? to : to - from - 3);
-  return "stands what does not belong there (" + what.substr(0, what.find(';')) +
+  return "the text is unexpected (" + what.substr(0, what.find(';')) +
          "); look for a comma, quotation mark or brace that is missing before it";
 }
 

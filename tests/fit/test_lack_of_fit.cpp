@@ -114,7 +114,7 @@ TEST_CASE("the loading at the start of a table of relaxation is noticed", "[fit]
   CHECK_FALSE(fit.is_trustworthy);
 }
 
-TEST_CASE("a residual of four per cent of the force is a misfit", "[fit]") {
+TEST_CASE("a residual of 4 % of the force is a misfit", "[fit]") {
   IndentationData data =
       indentation_of(kSolid, even_times(400.0, 0.1), ramp_and_hold(2.0), 2e-3, 5);
   for (std::size_t i = 0; i < data.force_N.size(); ++i) {

@@ -46,7 +46,7 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
   add("long", po::bool_switch(&words.is_long),
       "with --list: a table of what each target takes exactly, takes approximately, or refuses");
   add("check", po::value(&words.check)->value_name("CARD"),
-      "read a card back, say what it means, and compare it with the material if one is named");
+      "read a card back, print its meaning, and compare it with the material if one is named");
   add("tolerance", into(words.tolerance)->value_name("X"),
       "largest relative difference of E(t) that --check accepts; if not given 1e-6, or what the "
       "target's columns can hold");

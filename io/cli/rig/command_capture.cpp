@@ -50,7 +50,7 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("resume", po::bool_switch(&words.resumes),
       "skip finished captures, repeat interrupted ones in files beside them");
   add("repeat", po::value(&words.repeats)->default_value(1),
-      "touch each specimen so many times, with a new contact each time; --out is then a folder, "
+      "touch each specimen this many times, with a new contact each time; --out is then a folder, "
       "and "
       "the touches in it are numbered on");
   add("lift-wait", po::value<std::string>(),

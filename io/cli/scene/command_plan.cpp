@@ -105,12 +105,13 @@ nlohmann::json json_from_savings(const std::vector<EffectSaving>& savings) {
 }
 
 CommandSyntax plan_syntax() {
-  CommandSyntax syntax{"viscard plan SCENE.toml [OPTIONS]",
-                       "Says which effects a scene needs at its tolerance, with the number that "
-                       "decides, the error of leaving each out, and what that saves in processor "
-                       "time and unknowns. 'viscard simulate' follows it; [effects] in the scene "
-                       "overrules it.",
-                       "viscard plan data/scenes/pillar_modal.toml"};
+  CommandSyntax syntax{
+      "viscard plan SCENE.toml [OPTIONS]",
+      "Prints the effects that a scene needs at its tolerance, with the number that "
+      "decides, the error of leaving each out, and what that saves in processor "
+      "time and unknowns. 'viscard simulate' follows it; [effects] in the scene "
+      "overrules it.",
+      "viscard plan data/scenes/pillar_modal.toml"};
   add_tolerance_option(syntax.options);
   syntax.positional = {"scene"};
   return syntax;

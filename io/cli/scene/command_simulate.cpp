@@ -86,11 +86,11 @@ CommandSyntax simulate_syntax() {
       "folder for results as JSON and CSV, curves as CSV and pictures; static and modal scenes add "
       "fields as .vtu for ParaView, arrays in the plane pillars.csv and maps as .npy")(
       "uncertainty",
-      "95 % intervals of the results, and which inputs make how much of their variance: quantities "
+      "95 % intervals of the results, and the share of each input in their variance: quantities "
       "such as \"40 um +- 1 um\" (also: uniform, lognormal) and what material files state")(
       "samples", po::value<std::size_t>(),
-      "with --uncertainty: sample with about so many answers, also where the linear answer would "
-      "do; default: 4000 where it would not")("force", "overwrite existing files");
+      "with --uncertainty: sample with about this many answers, even if the linear answer is "
+      "enough; default: 4000 if it is not")("force", "overwrite existing files");
   syntax.may_exist = {"out"};
   syntax.positional = {"scene"};
   return syntax;

@@ -28,7 +28,8 @@ void add_test_options(po::options_description& options) {
       "g_2=5%; also E_inf, sum_g, E_i, tau_i; with a scene one of its results, or voltage "
       "(repeatable)");
   add("guess", po::value<std::string>(),
-      "with --rig: material file of a similar material; its covariance is the doubt in it. "
+      "with --rig: material file of a similar material; its covariance is the uncertainty of the "
+      "guess. "
       "Default: "
       "modulus_guess and relaxation_guess of the specimen");
   add("test", po::value<std::string>(),

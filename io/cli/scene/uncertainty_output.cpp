@@ -82,7 +82,7 @@ std::string picture_of(const SceneUncertainty& uncertainty) {
     bars.push_back(std::move(bar));
   }
   return svg_from_shares(parts, has_rest ? "several inputs together" : "", bars,
-                         "Which inputs make how much of the variance (95 % intervals beside)");
+                         "Share of each input in the variance (95 % intervals beside)");
 }
 
 void print_result(const ResultUncertainty& result, const SceneUncertainty& all, std::ostream& out) {

@@ -250,7 +250,7 @@ SceneUncertainty uncertainty_of(const UncertainScene& scene, const SceneAnswer& 
   const bool is_enough = is_linear_enough(linear, values, tolerance, out.reason);
   if (is_enough && !options.n_samples) return out;
   out.is_sampled = true;
-  if (is_enough) out.reason += "; it was sampled because samples were asked for";
+  if (is_enough) out.reason += "; it was sampled because samples were requested";
   sample(scene, values, linear, options, count, out);
   return out;
 }

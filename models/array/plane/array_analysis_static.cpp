@@ -122,7 +122,7 @@ class Statics {
     if (without_whole_ == 0) return;
     answer_.notes.push_back(
         std::to_string(without_whole_) +
-        " per cents are left out: the voltage that they refer to is zero by symmetry");
+        " percentages are left out: the voltage that they are relative to is zero by symmetry");
   }
   double lone_V() {
     if (lone_V_ == 0.0) {

@@ -184,7 +184,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "where the memory reaches a tenth of the record, intervals are as wide as batch means say",
+    "if the memory reaches a tenth of the record, intervals are as wide as batch means require",
     "[fit]") {
   const Autoregression noise = with_inflation(fading(60, 0.0), 300.0);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

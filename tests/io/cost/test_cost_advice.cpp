@@ -125,7 +125,7 @@ TEST_CASE("what a cost study recommends meets its tolerance", "[io][scene]") {
               1.0);
 }
 
-TEST_CASE("without time a cost study shows a few cheap meshes and says what it left out",
+TEST_CASE("without time a cost study shows a few cheap meshes and lists the rows left out",
           "[io][scene]") {
   const Scene scene = read_scene(VISCARD_SOURCE_DIR "/data/scenes/pillar_buckling.toml").scene;
   const CostStudy study = study_cost(scene, {.budget_s = 1e-9, .repeats = 1});

@@ -136,7 +136,8 @@ TEST_CASE("without time for a second reference no row is recommended", "[io][sce
 }
 
 // The unknowns of every row that a study without time leaves out, against the rows themselves.
-TEST_CASE("unknowns of rows that are left out are predicted to a few per cent", "[io][scene]") {
+TEST_CASE("unknowns of rows that are left out are predicted to within a few per cent",
+          "[io][scene]") {
   const std::string name = GENERATE(as<std::string>{}, "pillar_sensor.toml", "array_voltages.toml");
   CAPTURE(name);
   const Scene scene = read_scene(std::string(VISCARD_SOURCE_DIR "/data/scenes/") + name).scene;

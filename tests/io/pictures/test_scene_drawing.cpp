@@ -90,7 +90,7 @@ TEST_CASE("scene check draws pillars and rows into a file, and overwrites none",
   CHECK(run_command(words).status == 1);
 }
 
-TEST_CASE("a drawing hatches what is held and says what is free", "[io][scene]") {
+TEST_CASE("a drawing hatches held faces and labels free ones", "[io][scene]") {
   PillarScene scene;
   if (GENERATE(false, true)) {
     scene.geometry.film = FilmGeometry{25e-6, 60e-6};

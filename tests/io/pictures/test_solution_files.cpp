@@ -202,7 +202,7 @@ TEST_CASE("every field has a picture with its name, scale and unit", "[pillar][i
   }
 }
 
-TEST_CASE("a scene file's length between quotes needs a unit, and a tolerance is told as written",
+TEST_CASE("a scene file's length in quotes needs a unit, and a tolerance is printed as written",
           "[pillar][io]") {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("viscard_scene_" + std::to_string(getpid()));

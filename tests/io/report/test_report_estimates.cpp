@@ -248,7 +248,7 @@ TEST_CASE("touches on one specimen count once in the spread between specimens", 
   CHECK(html.find(">10 %<") != std::string::npos);  // of 1.0, 1.1 and 0.9
 }
 
-TEST_CASE("the three levels of scatter are in one table, and what is not known says why",
+TEST_CASE("the three levels of scatter are in one table, with the reason for each unknown value",
           "[io][report]") {
   Scatter scatter{.quantity = "ln_E0"};
   scatter.touch.note = "every specimen was touched once";

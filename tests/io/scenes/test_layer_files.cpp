@@ -120,7 +120,8 @@ TEST_CASE("curves of a layer are drawn over the place and over the wavelength",
   std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("the plan of a layer says what it takes into account", "[cli][scene][layer]") {
+TEST_CASE("the plan of a layer lists the effects that it takes into account",
+          "[cli][scene][layer]") {
   const SceneText scene(layer_scene("", kSphere));
   const CommandOutcome outcome = run_command({"plan", scene.path()});
   CHECK(outcome.status == 0);

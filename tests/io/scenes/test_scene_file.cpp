@@ -70,7 +70,7 @@ TEST_CASE("a pulse becomes half a sine", "[io]") {
   CHECK(drive.end_time_s == Approx(5e-5).epsilon(1e-14));
 }
 
-TEST_CASE("mistakes in how a pillar is driven are told with their key", "[io]") {
+TEST_CASE("mistakes in the load of a pillar are reported with their key", "[io]") {
   Files files;
   struct Case {
     const char* rest;

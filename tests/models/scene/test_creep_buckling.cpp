@@ -60,7 +60,7 @@ TEST_CASE("a pillar bears a pressure until E(t) has fallen to it", "[pillar][pla
   CHECK(found->share == Approx(pressure_Pa / kCritical_Pa).epsilon(5e-3));
 }
 
-TEST_CASE("static and modal answers say until when they hold, and buckling what lasts",
+TEST_CASE("static and modal answers state how long they hold, and buckling the long-term pressure",
           "[pillar][plan]") {
   PillarScene scene = relaxing_pillar();
   scene.drive = StaticDrive{.pressure_Pa = 2e4};
@@ -139,7 +139,8 @@ TEST_CASE("a load that swings slowly buckles the pillar in creep within a half c
   CHECK_NOTHROW(simulate(swinging(0.9 * below_Hz, p_Pa)));
 }
 
-TEST_CASE("a row under a pressure at rest says when its pillars buckle in creep", "[array][plan]") {
+TEST_CASE("a row under a pressure at rest states when its pillars buckle in creep",
+          "[array][plan]") {
   ArrayScene row;
   row.pillar = relaxing_pillar().pillar;
   row.film = isotropic_medium(2e9, 0.29, 1780.0);
@@ -151,7 +152,7 @@ TEST_CASE("a row under a pressure at rest says when its pillars buckle in creep"
   CHECK_FALSE(has_note(simulate(row), "buckles in creep"));
 }
 
-TEST_CASE("no answer exceeds its tolerance without a word", "[pillar][plan]") {
+TEST_CASE("no answer exceeds its tolerance silently", "[pillar][plan]") {
   SceneAnswer answer;
   answer.modes = {{"lateral", 1, 1e4, 9.0, {}}};
   answer.results = {{"top_displacement", 1e-6, "m", 0.9e-9}};

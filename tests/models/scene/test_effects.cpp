@@ -200,8 +200,7 @@ TEST_CASE("Engesser's pressure agrees with the solver's within 2 % at three diam
   CHECK(engesser_pressure_Pa(pillar_on_film()) == Approx(29368.9).epsilon(0.02));
 }
 
-TEST_CASE("every effect says what it changes and costs, under a name of its own",
-          "[pillar][plan]") {
+TEST_CASE("every effect states its change and its cost, under a unique name", "[pillar][plan]") {
   std::set<std::string> names;
   for (const Effect& effect : effects()) {
     CHECK(names.insert(effect.name).second);

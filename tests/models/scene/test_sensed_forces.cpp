@@ -133,8 +133,7 @@ TEST_CASE("measured voltages give the forces that made them, within their errors
         1e-2 * voltages_V.cwiseAbs().maxCoeff());
 }
 
-TEST_CASE("means over nodes are offered with a note of what they misread",
-          "[models][array][space]") {
+TEST_CASE("means over nodes come with a note of their error", "[models][array][space]") {
   SpaceScene scene = sheared_quarters();
   scene.rows = scene.columns = 1;
   scene.pillars = {{1, 1, 0.0, 0.0, 0}};

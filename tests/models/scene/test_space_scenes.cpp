@@ -234,7 +234,7 @@ TEST_CASE("far neighbours are left out where the tolerance allows it", "[models]
   CHECK(effect_of(simulate(scene), "crosstalk").on);
 }
 
-TEST_CASE("an array warns of what no analysis computes", "[models][array][space]") {
+TEST_CASE("an array warns of effects that no analysis computes", "[models][array][space]") {
   SpaceScene scene = array_of_the_thesis(2, 2);
   scene.tolerance = 1e-2;
   scene.pressure_Pa = 1e4;

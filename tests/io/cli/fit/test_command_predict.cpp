@@ -225,7 +225,7 @@ TEST_CASE("a material that is not to be trusted gives status 1 unless its flags 
   CHECK(predicted({folder.file("material.json")})["trustworthy"] == true);
 }
 
-TEST_CASE("a strain may be given in per cent, and a large one is warned of", "[cli]") {
+TEST_CASE("a strain may be a percentage, and a large one gives a warning", "[cli]") {
   const std::string material = kData + "materials/pdms_1to10_seed.json";
   const auto stress_of = [&](const char* strain) {
     return predicted({material, "--strain", strain})["curve"]["stress_Pa"];

@@ -11,7 +11,7 @@
 using namespace viscard;
 using namespace viscard::test;
 
-TEST_CASE("the design of the thesis' sensor is told with its limits", "[cli][design]") {
+TEST_CASE("the design of the thesis' sensor is printed with its limits", "[cli][design]") {
   const CommandOutcome outcome = run_command(
       {"design", "--diameter", "40 um", "--spacing", "60 um", "--length", "120 um", "--json"});
   REQUIRE(outcome.status == 0);

@@ -44,7 +44,7 @@ TEST_CASE("a printed value that the answer does not have is refused with the nea
   CHECK_THROWS(compare_printed({{"lateral 1", "4 mV", ""}}, answer()));  // not a frequency
 }
 
-TEST_CASE("per cents are compared in points, with their sign", "[cli]") {
+TEST_CASE("percentages are compared in points, with their sign", "[cli]") {
   SceneAnswer row;
   row.results = {{"coupling_percent_1", -0.0587, "%", 1e-3}};
   const auto rows = compare_printed({{"coupling_percent_1", "-0.06 %", ""}}, row);

@@ -30,7 +30,7 @@ load = { pressure = "10 kPa", on = "top" }
 
 }  // namespace
 
-TEST_CASE("a scene that contradicts itself is told in one line with the line of the file",
+TEST_CASE("a scene that contradicts itself is reported in one line with the line of the file",
           "[cli][scene]") {
   struct Case {
     const char *from, *to, *where, *what;
@@ -96,7 +96,7 @@ TEST_CASE("the plan is one object with every effect, estimate and reason", "[cli
   CHECK(run_command({"plan", scene.path(), "--tol", "2"}).status == 2);
 }
 
-TEST_CASE("the plan shows choices, what leaving them out saves, and why the rest is as it is",
+TEST_CASE("the plan shows choices with their savings, and the reasons for all other effects",
           "[cli][scene]") {
   const SceneText scene(std::string(kSensor) + "[want]\nquantities = [\"electrode_voltage\"]\n");
   const CommandOutcome printed = run_command({"plan", scene.path()});
@@ -121,7 +121,7 @@ TEST_CASE("the plan shows choices, what leaving them out saves, and why the rest
   }
 }
 
-TEST_CASE("what accuracy costs: rows, a front, and advice that keeps what it promises",
+TEST_CASE("the cost of accuracy: rows, a front, and advice that meets its tolerance",
           "[cli][scene]") {
   const SceneText scene(
       replaced(kSensor, "electrode = { face = \"top\", radius = \"20 um\" }\n", "") +

@@ -71,7 +71,7 @@ ArrayScene tapped_row() {
 
 }  // namespace
 
-TEST_CASE("no point of a tapped row's curves is further off than its error says", "[array]") {
+TEST_CASE("no point of a tapped row's curves is further off than its error estimate", "[array]") {
   // Against a finer mesh with three times the modes. Judged point by point, two meshes agree by
   // chance once per oscillation: then 183 of 401 points were beyond their error, the worst 14 times.
   const ArrayScene scene = tapped_row();
@@ -83,7 +83,8 @@ TEST_CASE("no point of a tapped row's curves is further off than its error says"
   CHECK(honest.generosity[honest.generosity.size() / 2] < 12.0);  // the claim is not blindly large
 }
 
-TEST_CASE("curves of rows that are tapped at random are as exact as they say", "[array][slow]") {
+TEST_CASE("errors of curves of rows that are tapped at random are within their estimates",
+          "[array][slow]") {
   std::mt19937 generator(20261123);
   const auto uniform = [&](double a, double b) {
     return std::uniform_real_distribution<double>(a, b)(generator);

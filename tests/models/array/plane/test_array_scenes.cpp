@@ -114,7 +114,7 @@ TEST_CASE("equipotential electrodes: open, shorted and driven answers agree", "[
   CHECK(V[0] == Approx(V[2]).margin(1e-9 * std::abs(V[1])));  // rounding of a deeply graded mesh
 }
 
-TEST_CASE("a per cent of a voltage that is zero by symmetry is left out", "[array]") {
+TEST_CASE("a percentage of a voltage that is zero by symmetry is left out", "[array]") {
   ArrayScene scene = seed_scene();
   scene.load = ArrayLoad::kShear;
   scene.geometry = endless_row(20e-6);

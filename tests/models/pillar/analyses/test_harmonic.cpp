@@ -186,7 +186,8 @@ TEST_CASE("frequencies from a microhertz to ten megahertz are those of a rod",
 }
 
 TEST_CASE(
-    "a pillar with contraction answers from a microhertz to megahertz, and says where it ends",
+    "a pillar with contraction answers from a microhertz to megahertz, and states its highest "
+    "frequency",
     "[pillar][stability]") {
   PillarScene scene = sweep_scene(damped_material(true));
   scene.tolerance = 1e-2;
