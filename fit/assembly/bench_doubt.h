@@ -20,10 +20,10 @@ struct BenchDoubt {
   double geometry_relative_u = 0.0;  // of the force for a modulus: punch, layer, Poisson ratio
 };
 
-// What one standard deviation of each doubt changes in the series that a fit finds. The stage feels
-// specimen and frame in series, whatever is believed of the frame: the specimen's series is what is left
-// when another frame is taken away, or when all forces are larger. With s the stiffness of the specimen over
-// that of the frame, right after loading,
+// Changes of the fitted series by one standard deviation of each uncertainty. The stage feels
+// specimen and frame in series, and this does not depend on the assumed frame. The specimen's
+// series is the remainder when another frame is taken away, or when all forces are larger. With s
+// the stiffness of the specimen over that of the frame, right after loading,
 //   frame softer by u:  d ln E0 = s u,  d ln g = s (1 - sum g) u for one slow term;
 //   forces larger by u: d ln E0 = (1 + s) u, d ln g as for the frame.
 // specimen_N_m: relaxation of the force per depth, N/m. Causes without an effect are left out.

@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-// Limits of what the test can show, for judging each term.
+// Limits of the test, with which each term is judged.
 struct TestWindow {
   double sampling_s = 0.0;          // shortest interval between samples; 0: unknown
   double ramp_s = 0.0;              // duration of loading; 0: a step

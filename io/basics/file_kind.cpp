@@ -18,7 +18,7 @@ using namespace std::string_view_literals;
 struct KindRow {
   FileKind kind;
   const char* what;
-  const char* use;      // what a user does with a file of this kind
+  const char* use;      // commands for a file of this kind
   const char* example;  // how a file of this kind looks, if one can be expected
 };
 

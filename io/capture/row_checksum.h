@@ -33,7 +33,7 @@ RowChecksum checksum_of_rows(Database& database, const std::string& table, std::
 enum class RunPart { kStart, kEnd };
 RowChecksum checksum_of_run(Database& database, RunPart part);
 
-// Names in the table `checksums` of what is not a table of records.
+// Names in the table `checksums` of parts that are not tables of records.
 inline constexpr const char* kRunStart = "run at its start";
 inline constexpr const char* kRunEnd = "run at its end";
 // The tables of records.

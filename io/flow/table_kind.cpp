@@ -36,7 +36,7 @@ bool is_creep(const CsvTable& table, const FitRequest& request) {
   return range("stress_Pa") < kConstant && range("strain") > 2.0 * kConstant;
 }
 
-// True if a column of numbers that change is none of the known quantities.
+// True if a column of varying numbers is none of the known quantities.
 bool has_unknown_numbers(const CsvTable& table, const FitRequest& request) {
   std::vector<char> is_known(table.columns.size(), 0);
   for (const std::string& name : column_names()) {

@@ -61,7 +61,7 @@ SceneReader reader_for(const std::string& text, const std::filesystem::path& pat
   return choice<SceneReader>("geometry.kind", kind, readers());
 }
 
-// What the computation does, and points that somebody wants, are as given.
+// Settings of the computation, and requested points, are exact.
 void refuse_uncertain(const std::string& key) {
   for (const char* const exact : {"tolerance", "discretisation.", "sweep.", "analysis.frequencies",
                                   "analysis.end_time", "materials.pillar.ratio"}) {

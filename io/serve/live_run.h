@@ -16,7 +16,7 @@
 
 namespace viscard {
 
-// What is known of the running capture, or of the last one.
+// State of the running capture, or of the last one.
 struct LiveState {
   std::size_t number = 0;  // of the run since the program began; 0 without one
   bool is_running = false;
@@ -33,8 +33,8 @@ struct LiveState {
   std::string trouble_code;           // as in CommandError
 };
 
-// The one capture that can run at a time, on a thread of its own. Nobody needs to watch it: a page
-// that is closed changes nothing.
+// The one capture that can run at a time, on a thread of its own. It needs no watcher: closing the
+// page changes nothing.
 class LiveRun {
  public:
   LiveRun() = default;

@@ -46,7 +46,7 @@ Json or_trouble(Make&& make) {
   }
 }
 
-// Why a port of the rig cannot be used, as far as its name tells.
+// Why a port of the rig cannot be used, as far as this can be seen without opening it.
 void add_port_troubles(Json& rig) {
   for (const char* device : {"stage", "load_cell"}) {
     if (!rig.contains(device)) continue;

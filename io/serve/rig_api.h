@@ -28,8 +28,8 @@ struct ServeOptions {
   std::string command;           // recorded in the captures as their origin
 };
 
-// What the page asks for, as functions from JSON to JSON (README.md lists them). All state is in the
-// folder and in the running capture; files are read again for each request. Functions throw
+// The requests of the page, as functions from JSON to JSON (README.md lists them). All state is in
+// the folder and in the running capture; files are read again for each request. Functions throw
 // ApiError, or std::exception with a message for a person. Any thread may call them.
 class RigApi {
  public:

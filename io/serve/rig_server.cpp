@@ -140,7 +140,8 @@ class RigServer::Impl {
   bool is_admitted(const httplib::Request& request, httplib::Response& response) const {
     const auto header = [&](const char* name) { return request.get_header_value(name); };
     const bool is_api = request.path.rfind("/api/", 0) == 0;
-    // The page itself may be opened by a link on another page; what it asks for may not.
+    // The page itself may be opened by a link on another page; its requests may not be sent from
+    // there.
     const std::string site = is_api ? header("Sec-Fetch-Site") : std::string();
     const std::string refusal = refusal_of({header("Host"), header("Origin"), site}, port_);
     if (!refusal.empty()) {

@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-// A specimen of a series and what its folder holds about it.
+// A specimen of a series, with the files that belong to it.
 struct SeriesSpecimen {
   struct Capture {
     std::string file;    // name in the folder

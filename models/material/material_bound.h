@@ -10,7 +10,7 @@ enum class IntervalEnd { kLower, kUpper };
 // The material at an end of the 95 % interval of E0, systematic parts included: E0 has the value at
 // that end, and all other parameters have their most likely values for this E0. With the covariance
 // C of the parameters p (moduli, ln tau) and the gradient a of E0 by them,
-//     dp = C a dE0 / (a^T C a)
+//   dp = C a dE0 / (a^T C a)
 // (conditional mean of a normal distribution, e.g. Anderson, An Introduction to Multivariate
 // Statistical Analysis, 2003, theorem 2.5.1). C is the covariance of the fit, widened until its
 // interval of E0 is the stated one, plus that of the systematic parts. Moduli that would become

@@ -17,7 +17,7 @@ struct EffectOn {
   void (*insist)(Body& scene) = nullptr;     // for effects that are forced on
 };
 
-// One effect: what it changes, what it costs, and how each kind of scene treats it.
+// One effect: what it changes, what it costs, and its treatment by each kind of scene.
 struct Effect {
   const char* name;  // key in a scene's [effects]
   const char* changes;

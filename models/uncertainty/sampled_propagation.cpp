@@ -116,7 +116,7 @@ void summarise(const std::vector<Replicate>& replicates, Index result, Index n_p
   for (const double value : all) out.mean += value / static_cast<double>(all.size());
 }
 
-// What the polynomial itself gives.
+// The contributions of the polynomial itself.
 Variances known_variances(const SamplePolynomial& polynomial, Index result, std::size_t n_inputs) {
   Variances known{0.0, std::vector<double>(n_inputs, 0.0), std::vector<double>(n_inputs, 0.0)};
   for (std::size_t k = 0; k < polynomial.terms.size(); ++k) {

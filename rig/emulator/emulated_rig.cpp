@@ -69,7 +69,7 @@ class EmulatedRig::Impl final : public WaitingRig {
   }
 
   EmulatedRigOptions options_;
-  RigClock clock_;  // tells the time only to a rig on the wall clock
+  RigClock clock_;  // read only by a rig on the wall clock
   PtyPort stage_port_;
   PtyPort cell_port_;
   PtyPort thermometer_port_;

@@ -15,7 +15,7 @@ GuardAction ForceGuard::take(double force_N, bool is_doubtful, double time_s, do
                              bool is_moving) {
   constexpr double kDoubtPeriods = 2.0;
   constexpr int kReadingsAfterStop = 2;
-  const double load_N = std::abs(force_N);  // tension harms the cell as well
+  const double load_N = std::abs(force_N);  // tension harms the cell too
   if (is_doubtful) {
     if (doubtful_until_s_) return GuardAction::kHardStop;
     doubtful_until_s_ = time_s + kDoubtPeriods * period_s;

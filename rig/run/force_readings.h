@@ -57,7 +57,7 @@ class ForceReadings {
   void stop_collecting() { collects_from_s_.reset(); }
   int n_collected() const { return static_cast<int>(collected_N_.size()); }
   double collected_until_s() const { return collected_until_s_; }  // time of the last of them
-  // Of what was collected. Precondition: at least two readings.
+  // Of the collected readings. Precondition: at least two readings.
   ForceMean collected_mean() const;
 
  private:

@@ -28,7 +28,7 @@ struct StepError {
   bool vanishes_with_step() const { return remaining <= resolved; }
 };
 
-// Whether the proof would have noticed a wrong term.
+// Shows if the proof would have noticed a wrong term.
 struct TermProof {
   double g = 0.0, tau_s = 0.0;
   double change = 0.0;        // largest relative change of an answer if tau were a tenth longer
@@ -44,8 +44,8 @@ struct TemperatureProof {
 struct SolverDivergence {
   std::string test;  // "relaxation", "creep" or "temperature"
   double reached_s = 0.0;
-  // The same test of the card that viscard writes for this material runs to the end, so the numbers
-  // of the given card are to blame. Otherwise it is a limit of the solver, and nothing is known.
+  // True if the same test runs to the end with the card that viscard writes for this material: then
+  // the numbers of the given card are wrong. Otherwise the cause may be a limit of the solver.
   bool is_card_blamed = false;
 };
 

@@ -27,7 +27,8 @@ struct CardChain {
   ChainLink material;  // empty if the header states none
   std::vector<ChainLink> raw_files;
   bool is_complete() const;  // material and at least one raw file, all unchanged
-  // What the chain lacks, and what to do about it, one sentence each; empty if it is complete.
+  // Missing parts of the chain, and what to do about them, one sentence each; empty if it is
+  // complete.
   std::vector<std::string> missing() const;
 };
 

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Commands = std::vector<std::vector<std::string>>;
 
-// A small strain for solvers of finite strain; what it leaves of their error.
+// A small strain for solvers of finite strain, and the error that it leaves.
 constexpr double kFiniteStrain = 1e-5;
 
 template <CardTarget (*target)()>
@@ -101,7 +101,7 @@ Solver frontistr_solver() {
               "--solver-path",
           .targets = {"frontistr"},
           .test = frontistr_target().deck->test,
-          // What its equilibrium leaves (CONVERG of the model), 3e-8 seen at nu = 0.495.
+          // Error of its equilibrium iteration (CONVERG of the model), 3e-8 seen at nu = 0.495.
           .resolves = 1e-6,
           .model = model_of<frontistr_target>,
           .commands = [](const std::string& program) -> Commands { return {{program}}; },
@@ -111,7 +111,7 @@ Solver frontistr_solver() {
           .version_pattern = "([Vv]ersion[: ]*)?(\\d+\\.\\d+\\S*)"};
 }
 
-// One of the two Python packages. Python's own error names what it lacks.
+// One of the two Python packages. Python's own error names the missing part.
 Solver python_solver(const char* name, const char* code, const char* package,
                      std::vector<DeckFile> (*model)(const std::vector<SolverTask>&)) {
   return {.name = name,

@@ -41,7 +41,8 @@ struct CardWords {
 // UsageError, and what prepare_card_material() throws.
 PreparedMaterial prepared_material(const CardWords& words);
 // The same, changed as the header of a card by viscard states (fewer terms, a bound, one
-// temperature, nu clamped ...), unless the words ask for something else; a note says so.
+// temperature, nu clamped ...), unless the options request something else; a note reports the
+// change.
 PreparedMaterial stated_material(const std::string& card, const CardWords& words,
                                  std::vector<CardFinding>& notes);
 CardOptions card_options(const CardWords& words, const PreparedMaterial& prepared);

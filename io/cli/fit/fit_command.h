@@ -17,7 +17,7 @@ namespace viscard {
 // JSON, and writes a material file.
 int run_fit(const Words& words, Streams& streams);
 
-// viscard predict: what a material does in a test, with its band, beside measured values.
+// viscard predict: predicts a material in a test, with its band, beside measured values.
 int run_predict(const Words& words, Streams& streams);
 
 // The options --weight, --youngs-modulus and --svg.

@@ -44,7 +44,7 @@ class MpiDispatch {
     }
     return outcome_;
   }
-  // Some rank may never say anything again.
+  // Some ranks may be silent for ever.
   bool has_lost() const { return dispatcher_.n_lost() > 0; }
   void check_left() const {
     if (dispatcher_.given_up().empty()) return;

@@ -10,7 +10,7 @@ namespace viscard {
 enum class RanksEnd {
   kNotStarted,  // they wait
   kEnded,       // they wait for this rank in MPI_Finalize
-  kStandingBy   // some are lost, so that nobody may wait for them: they are to quit
+  kStandingBy   // some are lost, so this process must not wait for them: they are to quit
 };
 
 // Rank 0: hands the points of the job out to the other ranks and keeps their answers. With few ranks it

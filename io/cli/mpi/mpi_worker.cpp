@@ -32,8 +32,8 @@ class Dispatcher0 {
     told_ = Clock::now();
     ranks_.send(0, tag, text);
   }
-  // A message that has arrived, but for signs of life. Gives one itself now and then, and ends this
-  // process if rank 0 says so or is lost.
+  // Waits for a message other than a sign of life. Sends signs of life in the meantime, and ends
+  // this process if rank 0 orders it or is lost.
   std::optional<RankMessage> receive() {
     constexpr double kSignsUntilLost = 6.0;
     if (seconds_since(told_) > lost_after_s_ / kSignsUntilLost) send(RankTag::kAlive);

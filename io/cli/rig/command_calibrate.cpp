@@ -68,7 +68,7 @@ std::vector<double> masses_from(const std::string& text) {
   return masses_kg;
 }
 
-// Completes the words that are not options as they stand.
+// Fills in the options whose values are not stored by the parser itself.
 void take_values(const po::variables_map& values, CalibrateWords& words) {
   words.as_json = values.count("json") > 0;
   if (words.id.empty()) words.id = (words.is_compliance ? "frame " : "load cell ") + today();

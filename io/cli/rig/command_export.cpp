@@ -55,7 +55,7 @@ nlohmann::ordered_json summary_of(const CapturedRun& run, const std::string& cap
           {"n_raw_bytes", run.n_raw_bytes}};
 }
 
-// Prints whether the capture holds what was written. A damaged one is a failure.
+// Prints the result of checking the capture. A damaged capture is a failure.
 int verify(const std::string& capture, bool is_json, Streams& streams) {
   const CaptureCheck check = check_capture(capture);
   if (is_json) {

@@ -31,7 +31,8 @@ const char* state_of(const SceneEffect& effect) {
   return effect.on ? "on" : "off";
 }
 
-// A warning that the effect may change everything only repeats that the analysis is not of it.
+// A warning that the effect may change everything adds nothing: the analysis does not compute this
+// effect.
 bool is_warning(const SceneEffect& effect) {
   return effect.is_outside && effect.estimate > 0.0 && effect.estimate < 1.0;
 }

@@ -1,4 +1,4 @@
-// viscard cost --rig: which test to make for what is wanted of a material.
+// viscard cost --rig: choice of the test for the wanted quantities of a material.
 #include "io/cli/scene/cost_of_tests.h"
 
 #include "io/basics/atomic_file.h"

@@ -6,8 +6,8 @@
 
 namespace viscard {
 
-// viscard design SPEC.toml: the scene that keeps what is required and is best in an objective (io/flow/optimise).
-// Returns kFailed if no design is feasible.
+// viscard design SPEC.toml: the scene that meets the requirements and is best in an objective
+// (io/flow/optimise). Returns kFailed if no design is feasible.
 int run_design_optimise(const boost::program_options::variables_map& values, const Words& words,
                         Streams& streams);
 

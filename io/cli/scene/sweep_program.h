@@ -9,7 +9,7 @@
 
 namespace viscard {
 
-// What a program that answers studies is asked to do.
+// The job of a program that answers studies.
 struct SweepJob {
   const Study& study;
   const StudyShard& shard;

@@ -12,7 +12,7 @@ namespace viscard {
 // pressure, and then buckles in creep, when its moduli have fallen so far that the buckling
 // pressure reaches the load. With the modulus E(t) at time t (quasi-elastic), the pressure that is
 // held from 0 to t must stay below
-//     p_cr(t) = p_inf + (p_0 - p_inf) (E(t) - E_inf)/(E_0 - E_inf)   (eq. 21b)
+//   p_cr(t) = p_inf + (p_0 - p_inf) (E(t) - E_inf)/(E_0 - E_inf)   (eq. 21b)
 // which is exact without film at constant Poisson ratio. Source: Bazant & Cedolin, Stability of
 // Structures (1991), ch. 9. p_0 and p_inf are the pillar's own buckling pressures on a coarse mesh
 // if Euler's formula comes near the load; for a strip they are Engesser's (eq. E6).

@@ -32,7 +32,8 @@ constexpr double kSameMode = 0.7;
                            " Hz cannot be followed; ask for fewer modes");
 }
 
-constexpr int kSpare = 2;  // modes above those asked for; they separate what the basis lacks
+// Modes above the requested ones; they separate the directions that the basis lacks.
+constexpr int kSpare = 2;
 
 class RelaxedSearch {
  public:

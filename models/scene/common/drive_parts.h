@@ -6,9 +6,10 @@
 
 namespace viscard {
 
-// A drive is what one analysis does to a scene: its loads, history or frequencies. The drives of a
-// kind of scene form a std::variant with one struct for each analysis. The same thing has the same
-// name in every struct, so that other code asks for the part it needs, not for the analysis:
+// A drive is the load of a scene in one analysis: its loads, history or frequencies. The drives of
+// a kind of scene form a std::variant with one struct for each analysis. Equal quantities have
+// equal names in all structs, so that other code asks for the part it needs and not for the
+// analysis:
 //   part_of(drive,
 //       [](const auto& d) requires requires { d.pressure_Pa; } { return d.pressure_Pa; }, 0.0)
 
