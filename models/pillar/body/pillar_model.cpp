@@ -158,12 +158,23 @@ SymmetricSparse PillarModel::mass() const {
   return system_->form(system_->kinematics().displacement, forms);
 }
 
-void PillarModel::factor(const SymmetricSparse& matrix, StiffnessFactor& factor) const {
-  factor.factor(matrix);
+void PillarModel::factor(const SymmetricSparse& matrix, StiffnessFactor& factor,
+                         double stiffening) const {
   const Medium& pillar = media_[kPillarRegion];
-  if (condenses_pressure(pillar) && std::isinf(pillar.bulk_Pa)) {
-    factor.constrain(system_->volume_form({kPenaltyOverShear * pillar.shear_Pa, 0.0}, true));
+  if (!condenses_pressure(pillar) || !std::isinf(pillar.bulk_Pa)) {
+    factor.factor(matrix);
+    return;
   }
+  SymmetricSparse penalty = system_->volume_form({kPenaltyOverShear * pillar.shear_Pa, 0.0}, true);
+  if (stiffening == 1.0) {
+    factor.factor(matrix);
+  } else {
+    SymmetricSparse stiffer = matrix;
+    stiffer.coeffs() += (stiffening - 1.0) * penalty.coeffs();
+    penalty.coeffs() *= stiffening;
+    factor.factor(stiffer);
+  }
+  factor.constrain(penalty);
 }
 
 PillarState PillarModel::solve(const Eigen::VectorXd& forces) const {

@@ -85,8 +85,10 @@ class PillarModel {
   // penalty; the iteration that factor() sets up removes its error.
   SymmetricSparse stiffness() const;
   SymmetricSparse mass() const;
-  // Factors a matrix of this model (its stiffness plus terms that the caller added).
-  void factor(const SymmetricSparse& matrix, StiffnessFactor& factor) const;
+  // Factors a matrix of this model (its stiffness plus terms that the caller added). At nu = 0.5
+  // `stiffening` multiplies the penalty; the solutions stay the same, up to rounding.
+  void factor(const SymmetricSparse& matrix, StiffnessFactor& factor,
+              double stiffening = 1.0) const;
 
   // Force per unit pressure pulling along +z on the top; axial families only. N per Pa.
   Eigen::VectorXd top_traction() const;

@@ -5,6 +5,7 @@
 #include "models/pillar/system/krylov_modes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -78,14 +79,16 @@ class ModeSearch {
     mass_.prune(0.0);  // has the pattern of the stiffness, with zeros where fields do not couple
   }
 
-  void start_at(double shift_1_s2) {
+  // `stiffening`: of the penalty at nu = 0.5. It leaves the modes as they are, but those of the
+  // penalised matrix, which left_below() counts, come nearer to them.
+  void start_at(double shift_1_s2, double stiffening = 1.0) {
     if (shift_1_s2 == 0.0) {
       model_.factor(stiffness_, factor_);
       return;
     }
     SymmetricSparse shifted = stiffness_;
     shifted.coeffs() += shift_1_s2 * model_.mass().coeffs();
-    model_.factor(shifted, factor_);
+    model_.factor(shifted, factor_, stiffening);
   }
   // From the last start upward; 0 vectors: what converges in a small space.
   EigenPairs find(int count, int largest_space) const {
@@ -152,6 +155,11 @@ class SlicedModes {
 
  private:
   static constexpr int kMostPieces = 6;
+  // How far below the next mode a search starts again, relative to the square of its frequency.
+  static constexpr std::array kFarStarts = {0.02, 0.05, 0.12};
+  static constexpr std::array kNearStarts = {0.0005, 0.002, 0.006};
+  // With ten times the shear modulus as penalty modes of the section lie per cents too low.
+  static constexpr double kStiffening = 100.0;
 
   int left() const { return static_cast<int>(wanted_ - found_.size()); }
   void keep(const EigenPairs& pairs) {
@@ -160,17 +168,18 @@ class SlicedModes {
     }
   }
   // Starts again just below the first mode that has not converged, and drops the modes found above
-  // it. The distance depends on how accurately that mode is known. The start is not moved if modes
-  // in between would be missed.
+  // it. The distance depends on how accurately that mode is known; a search from 2 % below already
+  // knows it better. The start is not moved if modes in between would be missed.
   bool move_below(const EigenPairs& pairs) {
     if (!(pairs.leading < pairs.values.size() && pairs.values[pairs.leading] > 0.0)) return false;
     const double next_1_s2 = 1.0 / pairs.values[pairs.leading] - shift_1_s2_;
-    for (const double below : {0.02, 0.05, 0.12}) {
+    const bool is_near = next_1_s2 + shift_1_s2_ < 0.03 * next_1_s2;
+    for (const double below : is_near ? kNearStarts : kFarStarts) {
       const double start_1_s2 = (1.0 - below) * next_1_s2;
       if (!(start_1_s2 > (1.0 + 0.2 * below) * -shift_1_s2_)) break;
       std::size_t lower = 0;
       while (lower < found_.size() && found_[lower].first < start_1_s2) ++lower;
-      search_.start_at(-start_1_s2);
+      search_.start_at(-start_1_s2, is_near ? kStiffening : 1.0);
       if (search_.left_below() != static_cast<int>(lower)) continue;
       found_.resize(lower);
       shift_1_s2_ = -start_1_s2;

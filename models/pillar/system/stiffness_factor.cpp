@@ -58,21 +58,26 @@ Eigen::VectorXd StiffnessFactor::solve(const Eigen::VectorXd& right_side,
 }
 
 // Conjugate gradients for the pressures, whose force adds to the penalty force C u; u itself serves
-// as the residual. Rounding is reached when the violation of the constraint stops falling.
+// as the residual. Rounding is reached when the violation of the constraint stops falling. Products
+// with C follow the vectors, so that each iteration takes one.
 void StiffnessFactor::constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& added) const {
-  double violation = u.dot(times(penalty_, u));
+  Eigen::VectorXd C_u = times(penalty_, u);
+  double violation = u.dot(C_u);
   Eigen::VectorXd direction = u;
+  Eigen::VectorXd C_direction = C_u;
   constexpr int kIterations = 40;  // each gains a factor of ten or more; see kPenaltyOverShear
   for (int i = 0; i < kIterations && violation > 0.0; ++i) {
-    const Eigen::VectorXd C_direction = times(penalty_, direction);
     const Eigen::VectorXd response = ldlt_.solve(C_direction);
     const double step = violation / C_direction.dot(response);
     const Eigen::VectorXd next = u - step * response;
-    const double remaining = next.dot(times(penalty_, next));
+    C_u = times(penalty_, next);
+    const double remaining = next.dot(C_u);
     if (!(remaining < 0.5 * violation)) break;
     u = next;
     added += step * direction;
-    direction = u + remaining / violation * direction;
+    const double share = remaining / violation;
+    direction = u + share * direction;
+    C_direction = C_u + share * C_direction;
     violation = remaining;
   }
 }
