@@ -109,7 +109,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   add_spikes(result, spikes.size());
   add_end_rows(result, ends, "1/Pa");
   flag_left_out(result);
-  flag_lack_of_fit("1/Pa", result);
+  flag_lack_of_fit({.unit = "1/Pa"}, result);
   return result;
 }
 

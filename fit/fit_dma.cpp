@@ -6,6 +6,7 @@
 #include "fit/curves/dma_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/intervals/kept_rows.h"
+#include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
@@ -59,25 +60,44 @@ struct FittedModel {
   }
 };
 
-// The fit with a dashpot for relaxation far faster than the measured frequencies. It is used if
-// terms within their range leave more than twice the sum of squares and BIC clearly prefers the
-// dashpot.
-void try_dashpot(const FitOptions& options, const std::vector<int>& blocks,
-                 const std::function<std::unique_ptr<DmaModel>()>& model_with,
-                 FittedModel& fitted) {
-  // The profile of E_inf needs E_inf as the first common column; constraints cannot name a dashpot.
-  if (!options.constraints.empty() || options.allow_negative) return;
-  if (options.is_liquid && options.with_profiles) return;
-  FittedModel other{model_with(), {}};
-  other.fit = fit_spectrum(*other.model, blocks, options);
+// True if a model with more in it leaves less than half of the sum of squares and BIC prefers it
+// clearly. Below the rounding of the data all models are equally good.
+bool is_much_better(const FittedModel& other, const FittedModel& fitted) {
   constexpr double kVeryStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
   constexpr double kMuch = 2.0, kRounding = 1e-6;  // relative, of a value
   const double least = std::pow(kRounding, 2) * static_cast<double>(fitted.model->n_rows());
+  return fitted.fit.rss > std::max(kMuch * other.fit.rss, least) &&
+         other.bic() < fitted.bic() - kVeryStrong;
+}
+
+using ModelWith = std::function<std::unique_ptr<DmaModel>(bool with_dashpot, SlowTimes slow)>;
+
+// The fit with a dashpot for what relaxes far faster than the measured frequencies, if terms within
+// their range describe the data much worse.
+void try_dashpot(const FitOptions& options, const std::vector<int>& blocks,
+                 const ModelWith& model_with, SlowTimes slow, FittedModel& fitted) {
+  // The profile of E_inf needs it as the first common column; constraints know no dashpot.
+  if (!options.constraints.empty() || options.allow_negative) return;
+  if (options.is_liquid && options.with_profiles) return;
+  FittedModel other{model_with(/*with_dashpot=*/true, slow), {}};
+  other.fit = fit_spectrum(*other.model, blocks, options);
   const bool is_used = other.fit.state.coefficients[other.model->dashpot()] > 0.0;
-  if (is_used && fitted.fit.rss > std::max(kMuch * other.fit.rss, least) &&
-      other.bic() < fitted.bic() - kVeryStrong) {
-    fitted = std::move(other);
-  }
+  if (is_used && is_much_better(other, fitted)) fitted = std::move(other);
+}
+
+// The fit of a liquid whose slowest time may lie far below the measured frequencies, if orders with a
+// time at the end of the usual range were left out and describe the data much better.
+void try_slow_dashpot(const FitOptions& options, const std::vector<int>& blocks,
+                      const ModelWith& model_with, FittedModel& fitted) {
+  // Laws of few parameters are compared with the series as it is within the usual range.
+  if (!options.is_liquid || options.with_laws || !fitted.fit.scores.wants_slower) return;
+  if (!options.constraints.empty() || options.allow_negative || options.with_profiles) return;
+  FittedModel other{model_with(/*with_dashpot=*/false, SlowTimes::kFarBeyond), {}};
+  other.fit = fit_spectrum(*other.model, blocks, options);
+  try_dashpot(options, blocks, model_with, SlowTimes::kFarBeyond, other);
+  const Eigen::VectorXd& ln_tau = other.fit.state.ln_tau;
+  const bool is_used = ln_tau.size() > 0 && ln_tau.maxCoeff() > fitted.model->ln_tau_max();
+  if (is_used && is_much_better(other, fitted)) fitted = std::move(other);
 }
 
 void report_dashpot(const FittedModel& fitted, FitResult& result) {
@@ -91,6 +111,48 @@ void report_dashpot(const FittedModel& fitted, FitResult& result) {
            text_of(*result.dashpot_Pa_s, 4) +
            " Pa s (a solvent, or relaxation far faster than the measured frequencies). The dashpot "
            "was fitted beside the terms; E0, the terms and the material do not contain it"});
+}
+
+constexpr const char* kSlowDashpot = "slow-dashpot";
+
+// Of a liquid whose slowest time lies beyond the usual range: the record cannot tell its plateau
+// from an equilibrium modulus with a slower relaxation above it.
+void report_slow_dashpot(FitResult& result) {
+  const FittedTerm& slowest = result.terms.back();
+  result.E_inf_interval_95.high =
+      std::max(result.E_inf_interval_95.high, slowest.modulus_Pa_95.high);
+  result.flags.push_back(
+      {kSlowDashpot, 0,
+       "at the lowest frequencies the storage modulus is a plateau of " +
+           text_of(slowest.modulus_Pa, 4) +
+           " Pa, and the loss modulus falls as one over the frequency, as with a dashpot of " +
+           text_of(slowest.modulus_Pa * slowest.tau_s, 3) +
+           " Pa s in series: relaxation slower than the measured frequencies. The slowest term "
+           "stands "
+           "for it. Part of the plateau may be an equilibrium modulus, so the interval of E_inf "
+           "reaches from 0 to the plateau. Lower frequencies would decide it"});
+}
+
+// What a fit says about E_inf = 0 is less sure beside a slow dashpot.
+void drop_liquid_claim(FitResult& result) {
+  const auto is_slow = [](const MaterialFlag& flag) { return flag.name == kSlowDashpot; };
+  if (std::none_of(result.flags.begin(), result.flags.end(), is_slow)) return;
+  std::erase_if(result.flags, [](const MaterialFlag& flag) { return flag.name == "liquid"; });
+}
+
+// Structure in the residuals of both moduli over frequency.
+void examine_moduli(const DmaModel& model, const SpectralFit& fit, FitResult& result) {
+  std::vector<double> at_Hz;
+  for (Index i = 0; i < 2 * model.n_frequencies(); ++i) {
+    at_Hz.push_back(model.frequency_Hz(i % model.n_frequencies()));
+  }
+  result.lack_of_fit = lack_of_fit(model, fit.state, at_Hz, fit.rss);
+  flag_lack_of_fit({.unit = "%",
+                    .scale = 100.0,
+                    .at = "f",
+                    .at_unit = "Hz",
+                    .advice = "a wrong column or shift, or too few terms"},
+                   result);
 }
 
 void add_curves(const DmaModel& model, const SpectralState& state, FitResult& result) {
@@ -111,13 +173,15 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
   // A block is a run of neighbouring frequencies; E' and E'' of one frequency share a block.
   std::vector<int> blocks = log_time_blocks(frequency_Hz, 0.0, 1);
   blocks.insert(blocks.end(), blocks.begin(), blocks.end());
-  const auto model_of = [&](bool with_dashpot) {
-    return std::make_unique<DmaModel>(frequency_Hz, storage_Pa, loss_Pa, options, with_dashpot);
+  const ModelWith model_with = [&](bool with_dashpot, SlowTimes slow) {
+    return std::make_unique<DmaModel>(frequency_Hz, storage_Pa, loss_Pa, options, with_dashpot,
+                                      slow);
   };
-  FittedModel fitted{model_of(/*with_dashpot=*/false), {}};
+  FittedModel fitted{model_with(/*with_dashpot=*/false, SlowTimes::kNearRange), {}};
+  const double usual_ln_tau = fitted.model->ln_tau_max();
   fitted.fit = fit_spectrum(*fitted.model, blocks, options);
-  try_dashpot(
-      options, blocks, [&] { return model_of(/*with_dashpot=*/true); }, fitted);
+  try_dashpot(options, blocks, model_with, SlowTimes::kNearRange, fitted);
+  try_slow_dashpot(options, blocks, model_with, fitted);
   const DmaModel& model = *fitted.model;
   const SpectralFit& fit = fitted.fit;
   FitResult result;
@@ -130,6 +194,8 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
   const TestWindow window{0.0, 0.0, result.fit_from_s, 3.0 * result.fit_to_s};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
   report_dashpot(fitted, result);
+  if (model.ln_tau_max() > usual_ln_tau) report_slow_dashpot(result);
+  examine_moduli(model, fit, result);
   flag_contradiction(model, result);
   if (options.with_curves) add_curves(model, fit.state, result);
   if (options.keep_rows) {
@@ -164,6 +230,7 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   FitResult result = fit_solid_or_liquid(options, [&](const FitOptions& as) {
     return fit_moduli(frequency_Hz, storage_Pa, loss_Pa, as);
   });
+  drop_liquid_claim(result);
   add_left_out(result, left_out::kNotANumber, clean.n_left_out());
   flag_left_out(result);
   return result;

@@ -12,6 +12,7 @@
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/left_out.h"
 #include "fit/laws/law_fit.h"
+#include "fit/samples/chosen_rows.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
 #include "fit/samples/noise_model.h"
@@ -107,23 +108,28 @@ std::optional<TwoPointModulus> two_points(const HistoryInput& input, std::size_t
                            result.noise.sigma);
 }
 
+// Of several ramps with holds between them, all ramps together.
+double ramps_s(const ContactTable& table, const HistoryInput& input) {
+  const std::size_t last = input.time_s.size() - 1;
+  return moving_s(input.time_s, input.input, std::min(table.contact.first, last),
+                  std::min(table.loaded, last));
+}
+
 TestWindow window_of(const ContactTable& table, const HistoryInput& input) {
   const std::size_t last = input.time_s.size() - 1;
   const double zero_s = input.time_s[std::min(table.contact.first, last)];
-  return {shortest_step_s(input.time_s), input.time_s[std::min(table.loaded, last)] - zero_s, 0.0,
-          input.time_s.back() - zero_s};
+  return {shortest_step_s(input.time_s), ramps_s(table, input), 0.0, input.time_s.back() - zero_s};
 }
 
 // Fills window, flags and the two-point modulus.
 void report_table(const IndentationData& data, const ContactTable& table, const HistoryInput& input,
                   const HistoryModel& model, const SpectralFit& fit, FitResult& result) {
   const TableContact& contact = table.contact;
-  const double zero_s = input.time_s[std::min(contact.first, input.time_s.size() - 1)];
   result.fit_from_s = input.time_s.front();
   result.fit_to_s = input.time_s.back();
   if (contact.is_fitted) result.contact_position_m = fit.state.nuisance[0];
   const std::size_t end = std::min(table.loaded, input.time_s.size() - 1);
-  result.fastest_s = std::max(0.0, input.time_s[end] - zero_s);
+  result.fastest_s = ramps_s(table, input);
   add_identifiability_flags(model, fit.state, fit.covariance, window_of(table, input), result);
   flag_saturation(input.output, result);
   flag_table_misfit(input, contact, result);

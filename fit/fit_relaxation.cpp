@@ -13,6 +13,7 @@
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
 #include "fit/samples/end_rows.h"
+#include "fit/samples/rounded_times.h"
 #include "fit/samples/spikes.h"
 #include "models/maths/text_of_number.h"
 
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -41,8 +43,8 @@ double largest_of(std::span<const double> column) {
   return values.size() == 0 ? 0.0 : values.abs().maxCoeff();
 }
 
-TableExtent extent_of(const CleanViews& clean) {
-  return {clean.column(0).back() - clean.column(0).front(), largest_of(clean.column(1)), "Pa"};
+TableExtent extent_of(const CleanViews& clean, const std::string& unit) {
+  return {clean.column(0).back() - clean.column(0).front(), largest_of(clean.column(1)), unit};
 }
 
 FitResult fit_history_once(const HistoryInput& input, const FitOptions& options) {
@@ -113,8 +115,8 @@ FitResult fit_step_once(std::span<const double> time_s, std::span<const double> 
   return result;
 }
 
-FitResult fit_step(const CleanViews& clean, const FitOptions& options) {
-  const TableExtent table = extent_of(clean);
+FitResult fit_step(const CleanViews& clean, const std::string& unit, const FitOptions& options) {
+  const TableExtent table = extent_of(clean, unit);
   FitResult result = fit_with_or_without_drift(options, table, [&](TableDrift drift) {
     FitOptions one = options;
     one.drift = drift;
@@ -143,11 +145,11 @@ std::vector<double> residual_of(const FitResult& fit, std::span<const double> ti
 
 // Fits, then fits again without the spikes that show in the residual. The second fit is made if the
 // comparison with neighbours found spikes or could not be applied.
-FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
+FitResult fit_robustly(CleanViews& clean, const std::string& unit, const FitOptions& options) {
   const EndRows ends = drop_end_rows(clean, StepRecord::kRelaxation);
   const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
   clean.drop(spikes);
-  FitResult result = fit_step(clean, options);
+  FitResult result = fit_step(clean, unit, options);
   std::size_t n_spikes = spikes.size();
   if (n_spikes > 0 || !is_evenly_sampled(clean.column(0))) {
     const auto value = clean.column(1);
@@ -156,11 +158,11 @@ FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
     if (!outliers.empty()) {
       clean.drop(outliers);
       n_spikes += outliers.size();
-      result = fit_step(clean, options);
+      result = fit_step(clean, unit, options);
     }
   }
   add_spikes(result, n_spikes);
-  add_end_rows(result, ends, "Pa");
+  add_end_rows(result, ends, unit);
   return result;
 }
 
@@ -177,11 +179,33 @@ void check_values(std::span<const double> time_s, std::span<const double> value,
   if (is_step) check_sign(value, "a relaxation modulus", "modulus_Pa");
 }
 
+// Rounded times may be off by half a step, all of them together: the zero of time is as uncertain,
+// and E0 = sum E_i exp(t/tau_i) with it.
+void report_rounded_times(double step_s, FitResult& result) {
+  double early_Pa = result.E_inf_Pa, late_Pa = result.E_inf_Pa;
+  for (const FittedTerm& term : result.terms) {
+    early_Pa += term.modulus_Pa * std::exp(-0.5 * step_s / term.tau_s);
+    late_Pa += term.modulus_Pa * std::exp(0.5 * step_s / term.tau_s);
+  }
+  result.E0_interval_95.low += early_Pa - result.E0_Pa;
+  result.E0_interval_95.high += late_Pa - result.E0_Pa;
+  const std::string step = text_of(step_s, 3);
+  result.flags.push_back(
+      {"times-rounded", 0,
+       "the times are rounded to " + step +
+           " s, so that several rows share each: they were spread evenly about it. If the "
+           "instrument cuts times off, all rows are " +
+           text_of(0.5 * step_s, 3) + " s late (--time-zero -" + text_of(0.5 * step_s, 3) +
+           " corrects that); the interval of E0 includes half a step"});
+}
+
 }  // namespace
 
 FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) {
   const bool is_step = data.strain.empty();
-  std::vector<std::span<const double>> columns{data.time_s, data.value};
+  const std::optional<RoundedTimes> rounded =
+      is_step ? rounded_times(data.time_s) : std::optional<RoundedTimes>();
+  std::vector<std::span<const double>> columns{rounded ? rounded->time_s : data.time_s, data.value};
   if (!is_step) columns.emplace_back(data.strain);
   CleanViews clean(columns, kLeastStepRows);
   std::size_t n_early = 0;
@@ -194,11 +218,11 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
   check_values(clean.column(0), clean.column(1), is_step);
   FitResult result;
   if (is_step) {
-    result = fit_robustly(clean, options);
+    result = fit_robustly(clean, data.unit, options);
   } else {
     const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
     clean.drop(spikes);
-    result = fit_with_or_without_drift(options, extent_of(clean), [&](TableDrift drift) {
+    result = fit_with_or_without_drift(options, extent_of(clean, data.unit), [&](TableDrift drift) {
       return fit_strain_history(clean, drift, options);
     });
     add_spikes(result, spikes.size());
@@ -209,6 +233,7 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
         {"samples-before-zero", 0, counted(n_early, "sample") + " before t = 0 left out"});
   }
   add_left_out(result, left_out::kBeforeZero, n_early);
+  if (rounded) report_rounded_times(rounded->step_s, result);
   flag_left_out(result);
   return result;
 }

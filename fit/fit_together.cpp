@@ -140,12 +140,27 @@ FittedTest fitted_test(const MaterialTest& test, const JointTests& joint, std::s
 // Flags of a test's own fit that concern its data. Flags about its window are dropped, because
 // other tests may cover the missing times.
 void carry_flags(const MaterialTest& test, FitResult& result) {
-  constexpr std::array kAboutData{
-      "spikes-left-out",         "first-row-left-out", "last-row-left-out", "samples-before-zero",
-      "step-before-record",      "unloading-left-out", "lack-of-fit",       "misfit",
-      "modulus-rises",           "saturated",          "gap-in-ramp",       "contact-lost",
-      "rows-left-out",           "rows-lost",          "slow-noise",        "drift-fitted",
-      "storage-loss-contradict", "temperature-drift"};
+  constexpr std::array kAboutData{"spikes-left-out",
+                                  "first-row-left-out",
+                                  "last-row-left-out",
+                                  "samples-before-zero",
+                                  "step-before-record",
+                                  "unloading-left-out",
+                                  "lack-of-fit",
+                                  "misfit",
+                                  "modulus-rises",
+                                  "saturated",
+                                  "gap-in-ramp",
+                                  "contact-lost",
+                                  "rows-left-out",
+                                  "rows-lost",
+                                  "slow-noise",
+                                  "drift-fitted",
+                                  "storage-loss-contradict",
+                                  "temperature-drift",
+                                  "history-left-out",
+                                  "history-missing",
+                                  "times-rounded"};
   for (const MaterialFlag& flag : test.own.flags) {
     if (std::find(kAboutData.begin(), kAboutData.end(), flag.name) == kAboutData.end()) continue;
     result.flags.push_back({flag.name, 0, test.name + ": " + flag.text});

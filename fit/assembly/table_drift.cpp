@@ -79,7 +79,7 @@ FitResult fit_with_or_without_drift(const FitOptions& options, const TableExtent
     if (is_better_with(result, with, table)) result = std::move(with);
   }
   if (result.drift) note_drift(table, reason, result);
-  flag_lack_of_fit(table.unit, result);
+  flag_lack_of_fit({.unit = table.unit}, result);
   return result;
 }
 

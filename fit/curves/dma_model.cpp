@@ -24,7 +24,8 @@ Debye debye(double x) {
 }  // namespace
 
 DmaModel::DmaModel(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
-                   std::span<const double> loss_Pa, const FitOptions& options, bool with_dashpot)
+                   std::span<const double> loss_Pa, const FitOptions& options, bool with_dashpot,
+                   SlowTimes slow_times)
     : with_dashpot_(with_dashpot) {
   const auto count = static_cast<Index>(frequency_Hz.size());
   data_.resize(2 * count);
@@ -45,7 +46,8 @@ DmaModel::DmaModel(std::span<const double> frequency_Hz, std::span<const double>
   may_be_negative_ = options.allow_negative;
   const auto [slow, fast] = std::minmax_element(angular_1_s_.begin(), angular_1_s_.end());
   ln_tau_min_ = -std::log(3.0 * *fast);
-  ln_tau_max_ = -std::log(*slow / 3.0);
+  // A loss factor of 1e-3 at the slowest frequency is the least that a weight of 1 % can show.
+  ln_tau_max_ = -std::log(*slow / (slow_times == SlowTimes::kFarBeyond ? 1e3 : 3.0));
 }
 
 double DmaModel::frequency_Hz(Index i) const {

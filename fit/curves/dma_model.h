@@ -13,11 +13,15 @@ namespace viscard {
 // Storage and loss modulus over frequency, fitted together, each with weight 1/value (equal
 // relative errors): E' = E_inf + sum E_i x^2/(1 + x^2), E'' = sum E_i x/(1 + x^2), x = 2 pi f tau_i
 // (fit/README.md, eq. 6). Rows: all E', then all E''. On request with a dashpot, E'' = eta w, which
-// stands for all relaxation far faster than the measured frequencies.
+// stands for all relaxation far faster than the measured frequencies, and with times far beyond the
+// slow end: such a term is a plateau E' = E with a loss E'' = E/(w tau), a dashpot in series.
+enum class SlowTimes { kNearRange, kFarBeyond };
+
 class DmaModel final : public SpectralModel {
  public:
   DmaModel(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
-           std::span<const double> loss_Pa, const FitOptions& options, bool with_dashpot = false);
+           std::span<const double> loss_Pa, const FitOptions& options, bool with_dashpot = false,
+           SlowTimes slow = SlowTimes::kNearRange);
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;

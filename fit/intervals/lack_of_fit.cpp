@@ -83,7 +83,8 @@ void find_worst(const Eigen::VectorXd& structure, const Eigen::VectorXd& fitted,
     double square = 0.0, size = 0.0;
     std::size_t end = first;
     while (end < row_time_s.size() &&
-           (end < first + kFewestRows || row_time_s[end] < kRatio * row_time_s[first])) {
+           (end < first + kFewestRows || row_time_s[end] < kRatio * row_time_s[first]) &&
+           (end == first || row_time_s[end] >= row_time_s[end - 1])) {
       const auto row = static_cast<Index>(end);
       square += structure[row] * structure[row];
       size += fitted[row] * fitted[row];
@@ -95,9 +96,11 @@ void find_worst(const Eigen::VectorXd& structure, const Eigen::VectorXd& fitted,
       continue;
     }
     const double relative = std::sqrt(square / std::max(size, 1e-300));
-    lack.is_far_above_noise |= count >= kLeastShare * static_cast<double>(begins.back()) &&
-                               square > std::pow(kTimesNoise * lack.noise, 2) * count &&
-                               relative > kSmallStructure;
+    // The last few storage moduli of a sweep are no stretch.
+    const bool is_stretch = end - first >= kFewestRows || end == row_time_s.size();
+    lack.is_far_above_noise |=
+        is_stretch && count >= kLeastShare * static_cast<double>(begins.back()) &&
+        square > std::pow(kTimesNoise * lack.noise, 2) * count && relative > kSmallStructure;
     if (square / count > most) {
       most = square / count;
       lack.worst = std::sqrt(most);
@@ -147,6 +150,30 @@ Eigen::VectorXd without_curve(Eigen::VectorXd series, const Eigen::VectorXd& cur
   return series;
 }
 
+// Standard deviation of one value about its neighbours, from differences.
+double neighbours_noise(const Eigen::VectorXd& series) {
+  const Index n = series.size();
+  if (n < 2) return 0.0;
+  return std::sqrt(0.5 * (series.tail(n - 1) - series.head(n - 1)).squaredNorm() /
+                   static_cast<double>(n - 1));
+}
+
+// What is left beside the smooth curve is structure too if it is far above the noise between
+// neighbours, and the memory of the residual is longer than the record or leaves fewer independent
+// values than the fit has parameters.
+struct Rest {
+  double rms = 0.0, noise = 0.0;  // of one sample
+  double n_independent = 0.0;
+  double memory = 0.0;  // in records
+};
+
+bool is_structure(const Rest& rest, double n_parameters, double rms_of_data) {
+  constexpr double kTimesNoise = 2.0;
+  const bool is_remembered = rest.n_independent < n_parameters || rest.memory > 1.0;
+  return is_remembered && rest.rms > kTimesNoise * rest.noise &&
+         rest.rms > kSmallStructure * rms_of_data;
+}
+
 double drift_in(const SpectralModel& model, const SpectralState& state) {
   for (Index j = 0; j < model.n_common(); ++j) {
     if (model.common()[static_cast<std::size_t>(j)].name == kDriftName) {
@@ -168,7 +195,7 @@ std::optional<LackOfFit> lack_of_fit(const SpectralModel& model, const SpectralS
   const Index n_rows = model.n_rows();
   const Index n_parameters = model.n_common() + 2 * state.n_terms() + model.n_nuisances();
   const Index most = (n_rows - n_parameters) / 2;
-  if (n_rows < kFewestRows || most < 4 || model.row_sigma().size() > 0) return std::nullopt;
+  if (n_rows < kFewestRows || most < 4) return std::nullopt;
   const Eigen::VectorXd fitted = model.fitted(state);
   const Eigen::VectorXd residual = model.data() - fitted;
   const double n_samples = model.n_samples();
@@ -187,7 +214,19 @@ std::optional<LackOfFit> lack_of_fit(const SpectralModel& model, const SpectralS
   const double of_rows = rest.squaredNorm() / std::max(1.0, static_cast<double>(n_rows) - used);
   const std::vector<std::size_t> begins = model.row_begins();
   const Eigen::VectorXd series = without_curve(model.residual_series(state), structure, begins);
-  const double chance = std::max(variance * autoregression(series).inflation(), of_rows);
+  const double inflation = autoregression(series).inflation();
+  const double chance = std::max(variance * inflation, of_rows);
+  const double rms_of_data = fitted.norm() / std::sqrt(n_samples);
+  const Rest left{std::sqrt(std::max(0.0, rss - square) / n_samples), neighbours_noise(series),
+                  n_samples / inflation,
+                  autoregression(model.residual_series(state)).memory() / n_samples};
+  if (is_structure(left, static_cast<double>(n_parameters), rms_of_data)) {
+    lack.structure = std::sqrt(rss / n_samples);
+    lack.noise = left.noise;
+    lack.relative = lack.structure / rms_of_data;
+    lack.is_significant = lack.is_far_above_noise = true;
+    return lack;
+  }
   constexpr double kDeviations = 5.0;
   constexpr double kRounding = 1e-6;  // of the data; a smaller structure is that of rounded numbers
   lack.structure = std::sqrt(square / n_samples);
@@ -204,22 +243,21 @@ std::optional<LackOfFit> lack_of_fit(const SpectralModel& model, const SpectralS
   return lack;
 }
 
-void flag_lack_of_fit(const std::string& unit, FitResult& result) {
+void flag_lack_of_fit(const LackOfFitWords& words, FitResult& result) {
   if (!result.lack_of_fit || !result.lack_of_fit->is_significant) return;
   const LackOfFit& lack = *result.lack_of_fit;
-  std::string text = "the residual is not noise: a smooth curve of " + shown(lack.structure) + " " +
-                     unit + " rms is left over, beside noise of " + shown(lack.noise) + " " + unit +
+  const auto size = [&](double value) { return shown(words.scale * value) + " " + words.unit; };
+  std::string text = "the residual is not noise: a smooth curve of " + size(lack.structure) +
+                     " rms is left over, beside noise of " + size(lack.noise) +
                      " between neighbours";
   if (lack.worst > 0.0) {
-    text += " (worst from t = " + shown(lack.worst_from_s) + " to " + shown(lack.worst_to_s) +
-            " s: " + shown(lack.worst) + " " + unit + ")";
+    text += " (worst from " + words.at + " = " + shown(lack.worst_from_s) + " to " +
+            shown(lack.worst_to_s) + " " + words.at_unit + ": " + size(lack.worst) + ")";
   }
   if (lack.is_far_above_noise) {
-    add_defect(result, "misfit",
-               text +
-                   ". The model does not describe this record. Look at the curve: a drift "
-                   "(--drift), a liquid (--liquid), a wrong time zero (--time-zero), or too few "
-                   "terms");
+    add_defect(
+        result, "misfit",
+        text + ". The model does not describe this record. Look at the curve: " + words.advice);
     return;
   }
   result.flags.push_back({"lack-of-fit", 0, text + "; no interval includes it"});
@@ -234,7 +272,8 @@ void flag_rise(double largest, FitResult& result) {
   add_defect(result, "modulus-rises",
              "the modulus rises by " + shown(100.0 * lack.rise) +
                  " % of its largest value, but a relaxation never rises. Is this the time of "
-                 "loading (--time-zero), or another test than a relaxation (--kind)?");
+                 "loading (--time-zero; --crop auto leaves it out), or another test than a "
+                 "relaxation (--kind)?");
 }
 
 }  // namespace viscard

@@ -22,6 +22,8 @@ double way_of(std::span<const double> input, double band) {
   return way;
 }
 
+constexpr double kBand = 0.02;  // of the range of the input
+
 std::vector<Rest> rests_of(std::span<const double> time_s, std::span<const double> input,
                            double band) {
   constexpr double kSlow = 0.2;  // of the mean speed
@@ -48,7 +50,7 @@ std::vector<Rest> rests_of(std::span<const double> time_s, std::span<const doubl
 }  // namespace
 
 std::vector<RowRange> holds_of(std::span<const double> time_s, std::span<const double> input) {
-  constexpr double kBand = 0.02, kLow = 0.1;
+  constexpr double kLow = 0.1;
   std::vector<RowRange> holds;
   if (input.size() < 2) return holds;
   const auto [low, high] = std::minmax_element(input.begin(), input.end());
@@ -62,6 +64,19 @@ std::vector<RowRange> holds_of(std::span<const double> time_s, std::span<const d
     from = is_low ? rest.begin : rest.end;
   }
   return holds;
+}
+
+double moving_s(std::span<const double> time_s, std::span<const double> input, std::size_t first,
+                std::size_t last) {
+  if (last <= first) return 0.0;
+  double moving = time_s[last] - time_s[first];
+  const auto [low, high] = std::minmax_element(input.begin(), input.end());
+  if (!(*high > *low)) return moving;
+  for (const Rest& rest : rests_of(time_s, input, kBand * (*high - *low))) {
+    const std::size_t from = std::max(first, rest.begin), to = std::min(last, rest.end - 1);
+    if (from < to) moving -= time_s[to] - time_s[from];
+  }
+  return std::max(0.0, moving);
 }
 
 RowRange up_to_longest_hold(std::span<const double> time_s, std::span<const double> input) {

@@ -16,6 +16,11 @@ struct RowRange {
 // ramp that leads to the hold.
 std::vector<RowRange> holds_of(std::span<const double> time_s, std::span<const double> input);
 
+// Time from row `first` to row `last` without the stretches of at least ten rows in which depth or
+// strain rests: of several ramps with holds between them, the time of the ramps.
+double moving_s(std::span<const double> time_s, std::span<const double> input, std::size_t first,
+                std::size_t last);
+
 // The part that a fit of one ramp describes: the rows up to the end of the longest hold.
 RowRange up_to_longest_hold(std::span<const double> time_s, std::span<const double> input);
 

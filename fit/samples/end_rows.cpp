@@ -129,9 +129,17 @@ EndRow first_row(std::span<const double> time_s, std::span<const double> value, 
 EndRow last_row(std::span<const double> time_s, std::span<const double> value, StepRecord record) {
   if (value.size() < kFewestForEnds) return {};
   const EndOfRecord end(time_s, value, record, /*is_last=*/true);
-  double largest = 0.0;
-  for (const double one : value) largest = std::max(largest, std::abs(one));
-  const bool is_wrong = is_last_wrong(end, 0, largest) && !is_last_wrong(end, 1, largest);
+  // A larger value widens the margin, so a row that these few do not doubt is right.
+  const auto largest_of = [](std::span<const double> values) {
+    double largest = 0.0;
+    for (const double one : values) largest = std::max(largest, std::abs(one));
+    return largest;
+  };
+  bool is_wrong = is_last_wrong(end, 0, largest_of(end.value));
+  if (is_wrong) {
+    const double largest = largest_of(value);
+    is_wrong = is_last_wrong(end, 0, largest) && !is_last_wrong(end, 1, largest);
+  }
   return judged(end, is_wrong, time_s.back(), record);
 }
 

@@ -25,6 +25,7 @@ struct RelaxationData {
   std::vector<double> time_s;
   std::vector<double> value;   // Pa, or any other unit; the moduli have the same unit
   std::vector<double> strain;  // empty: ideal step
+  std::string unit = "Pa";     // of value, for the words of flags
 };
 
 // Flat-punch indentation, F(t) = c int E(t-s) d(depth)/ds ds + offset + drift t (fit/README.md, eq.

@@ -85,20 +85,25 @@ VISCARD_WIDE_LOOP bool all_samples_finite(const double* values, std::size_t coun
 
 VISCARD_WIDE_LOOP StepRange steps_of_samples(const double* times, std::size_t count) {
   double low = times[1] - times[0], high = low;
-  Lanes lows = {low, low, low, low}, highs = lows;
+  constexpr std::size_t kChains = 4;  // comparisons that do not wait for each other
+  const Lanes first = {low, low, low, low};
+  Lanes lows[kChains] = {first, first, first, first}, highs[kChains] = {first, first, first, first};
   std::size_t i = 1;
-  for (; i + kLanes <= count; i += kLanes) {
-    const Lanes step = *lanes_at(times + i) - *lanes_at(times + i - 1);
-    lows = step < lows ? step : lows;
-    highs = step > highs ? step : highs;
+  for (; i + kChains * kLanes <= count; i += kChains * kLanes) {
+    for (std::size_t k = 0; k < kChains; ++k) {
+      const double* at = times + i + k * kLanes;
+      const Lanes step = *lanes_at(at) - *lanes_at(at - 1);
+      lows[k] = step < lows[k] ? step : lows[k];
+      highs[k] = step > highs[k] ? step : highs[k];
+    }
   }
   for (; i < count; ++i) {
     low = std::min(low, times[i] - times[i - 1]);
     high = std::max(high, times[i] - times[i - 1]);
   }
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    low = std::min(low, lows[k]);
-    high = std::max(high, highs[k]);
+  for (std::size_t k = 0; k < kChains * kLanes; ++k) {
+    low = std::min(low, lows[k / kLanes][k % kLanes]);
+    high = std::max(high, highs[k / kLanes][k % kLanes]);
   }
   return {low, high};
 }

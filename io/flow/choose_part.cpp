@@ -1,3 +1,4 @@
+#include "fit/intervals/flags.h"
 #include "fit/samples/chosen_rows.h"
 #include "io/flow/fit_table.h"
 #include "models/maths/text_of_number.h"
@@ -72,10 +73,22 @@ RowRange cropped(const Course& course) {
   throw std::runtime_error("--crop auto needs depth_m, strain, modulus_Pa, stress_Pa or force_N");
 }
 
+// Whether depth or strain was away from its lowest place before the row, and is there.
+void note_history(const std::vector<double>& input, std::size_t first, ChosenPart& part) {
+  if (input.empty()) return;
+  constexpr double kLow = 0.1;  // of the range
+  const auto [low, high] = std::minmax_element(input.begin(), input.end());
+  const double least = *low + kLow * (*high - *low);
+  const auto is_up = [&](double value) { return value > least; };
+  part.was_loaded =
+      std::any_of(input.begin(), input.begin() + static_cast<std::ptrdiff_t>(first), is_up);
+  part.is_loaded = part.was_loaded && is_up(input[first]);
+}
+
 }  // namespace
 
-std::string choose_part(CsvTable& table, const FitRequest& request) {
-  if (!request.from_s && !request.to_s && request.hold == 0 && !request.crop) return "";
+ChosenPart choose_part(CsvTable& table, const FitRequest& request) {
+  if (!request.from_s && !request.to_s && request.hold == 0 && !request.crop) return {};
   const Course course = course_of(table, request);
   const std::size_t n = course.rows.size();
   RowRange part{0, n};
@@ -85,10 +98,12 @@ std::string choose_part(CsvTable& table, const FitRequest& request) {
   const double from_s = request.from_s.value_or(-kForever), to_s = request.to_s.value_or(kForever);
   std::vector<std::size_t> rows;
   double first_s = kForever, last_s = -kForever;
+  std::size_t first = part.end;
   for (std::size_t i = part.begin; i < part.end; ++i) {
     const double t = course.time_s[i];
     if (t < from_s || t > to_s) continue;
     rows.push_back(course.rows[i]);
+    first = std::min(first, i);
     first_s = std::min(first_s, t);
     last_s = std::max(last_s, t);
   }
@@ -99,8 +114,27 @@ std::string choose_part(CsvTable& table, const FitRequest& request) {
   }
   std::sort(rows.begin(), rows.end());
   table = chosen_rows(table, rows);
-  return counted(rows.size(), "row") + " of " + std::to_string(n) + ", t = " + text_of(first_s) +
-         " to " + text_of(last_s) + " s";
+  ChosenPart chosen{counted(rows.size(), "row") + " of " + std::to_string(n) +
+                    ", t = " + text_of(first_s) + " to " + text_of(last_s) + " s"};
+  note_history(course.input, first, chosen);
+  return chosen;
+}
+
+void flag_history(const ChosenPart& part, FitResult& result) {
+  if (!part.was_loaded) return;
+  const std::string before =
+      "the specimen was loaded before the chosen part, which does not contain that: ";
+  if (!part.is_loaded) {
+    result.flags.push_back({"history-left-out", 0,
+                            before + "what had not recovered by then is not in the fit. Without "
+                                     "--hold, --from and --to the whole record is fitted"});
+    return;
+  }
+  add_defect(result, "history-missing",
+             before +
+                 "it is still loaded where the part begins, and what relaxes from before "
+                 "counts as relaxation of this part. Fit the whole record, or from its first "
+                 "loading on");
 }
 
 }  // namespace viscard

@@ -46,7 +46,7 @@ CsvTable rows_of_segments(CsvTable table, const FitRequest& request) {
   });
   CsvTable all = parts.front();
   for (std::size_t p = 1; p < parts.size(); ++p) {
-    all.lines.insert(all.lines.end(), parts[p].lines.begin(), parts[p].lines.end());
+    for (const std::uint32_t line : parts[p].lines.all()) all.lines.push_back(line);
     for (std::size_t c = 0; c < all.columns.size(); ++c) {
       CsvColumn& to = all.columns[c];
       const CsvColumn& from = parts[p].columns[c];
@@ -126,7 +126,8 @@ FitResult fit_force_table(const CsvTable& table, const FitRequest& request) {
   DepthLaw law{1.0, 1.0};
   if (has_geometry) law = depth_law(request.specimen->contact);
   const double per = request.depth_m ? law.factor * std::pow(*request.depth_m, law.power) : 1.0;
-  RelaxationData data{time_of(table, request), column_SI(table, "force_N", request.columns), {}};
+  RelaxationData data{time_of(table, request), column_SI(table, "force_N", request.columns)};
+  if (!has_geometry) data.unit = request.depth_m ? "N/m" : "N";
   for (double& value : data.value) value /= per;
   FitResult result = fit_relaxation(data, request.options);
   result.is_stiffness = !has_geometry;
@@ -278,15 +279,15 @@ FittedFile fit_table(const std::string& path, const FitRequest& request) {
 }
 
 FittedFile fit_csv(CsvTable all, const FitRequest& request) {
-  const std::string maker = all.maker;
-  const std::size_t n_all = all.lines.size();
+  const auto [maker, n_all] = std::pair(all.maker, all.lines.size());
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
-  std::string chosen = choose_part(table, request);
+  ChosenPart part = choose_part(table, request);
   FittedFile fitted = fit_rows(table, request);
   flag_assumed_units(table, request, fitted.result);
+  flag_history(part, fitted.result);
   fitted.maker = maker;
-  fitted.chosen = std::move(chosen);
+  fitted.chosen = std::move(part.text);
   add_left_out(fitted.result, left_out::kNotChosen, n_in_segments - table.lines.size());
   const std::size_t n_other = n_all - n_in_segments;
   if (request.segments.empty()) fitted.n_before_test = n_other;

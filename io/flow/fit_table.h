@@ -26,9 +26,18 @@ bool is_force_alone(const CsvTable& table, const FitRequest& request);
 // Adds the flag unit-assumed if a column of this kind of test states no unit and was read in SI.
 void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitResult& result);
 
-// Keeps the rows of a table that --from, --to, --hold and --crop choose, and returns a sentence that
-// says which; empty if the request chooses none, so that all stay. Throws std::runtime_error if no
-// row remains, or if the table does not have what the choice needs.
-std::string choose_part(CsvTable& table, const FitRequest& request);
+// What --from, --to, --hold and --crop chose.
+struct ChosenPart {
+  std::string text;  // which rows; empty if the request chooses none, so that all stay
+  // The specimen was loaded before the first chosen row, and perhaps still is.
+  bool was_loaded = false, is_loaded = false;
+};
+
+// Keeps the chosen rows of a table. Throws std::runtime_error if no row remains, or if the table does
+// not have what the choice needs.
+ChosenPart choose_part(CsvTable& table, const FitRequest& request);
+
+// Reports loading that the chosen part does not contain: the fit takes the specimen as at rest.
+void flag_history(const ChosenPart& part, FitResult& result);
 
 }  // namespace viscard

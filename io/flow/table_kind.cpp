@@ -86,7 +86,10 @@ void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitRes
     const std::string unit = quantity_named(name).si_unit;
     headers += (headers.empty() ? "'" : ", '") + header + "'";
     units += (units.empty() ? "" : ", ") + unit;
-    example = header + (unit == "Pa" || unit == "Hz" ? " (k" : " (m") + unit + ")";
+    const std::string other = unit == "1/Pa"                 ? "1/MPa"
+                              : unit == "Pa" || unit == "Hz" ? "k" + unit
+                                                             : "m" + unit;
+    example = header + " (" + other + ")";
   }
   if (headers.empty()) return;
   const bool is_one = headers.find(',') == std::string::npos;

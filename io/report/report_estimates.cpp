@@ -169,6 +169,17 @@ ShownUnit modulus_unit(const std::vector<SpecimenEstimates>& estimates) {
   return shown_unit(estimates.front().is_stiffness ? "N/m" : "Pa", values);
 }
 
+bool have_own_units(const std::vector<SpecimenEstimates>& estimates) {
+  constexpr double kFactor = 300.0;
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const SpecimenEstimates& specimen : estimates) {
+    if (!(specimen.E0_Pa.value > 0.0)) continue;
+    least = std::min(least, specimen.E0_Pa.value);
+    most = std::max(most, specimen.E0_Pa.value);
+  }
+  return most > kFactor * least;
+}
+
 RelaxationBand relaxation_band(const SpecimenEstimates& estimates,
                                const std::vector<double>& time_s, bool is_relative) {
   const PronySeries series = series_from_estimates(estimates);

@@ -45,6 +45,10 @@ SpecimenEstimates estimates_from_specimen(const SpecimenReport& specimen, std::s
 // The unit in which E0 of all specimens is shown.
 ShownUnit modulus_unit(const std::vector<SpecimenEstimates>& estimates);
 
+// True if the moduli of the specimens differ so much (a factor of 300) that tables show each in a
+// unit of its own and figures have a log axis.
+bool have_own_units(const std::vector<SpecimenEstimates>& estimates);
+
 // E(t), or E(t)/E0, with its 95 % band to first order in the covariance C of the moduli and ln tau
 // (variance J C J', J the derivatives by the parameters). The band of E(t)/E0 is narrower because a
 // common factor of all moduli cancels. Without a covariance, low and high are empty.

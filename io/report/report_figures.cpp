@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace viscard {
@@ -124,6 +125,13 @@ std::optional<Plot> relaxation_plot(const ReportInput& input,
   plot.panels.resize(2);
   const char* symbol = estimates.front().is_stiffness ? "stiffness R(t)" : "E(t)";
   plot.panels[0].y.label = fmt::format("{} ({})", symbol, unit.text);
+  if (have_own_units(estimates)) {  // a liquid falls to zero: four decades below the softest
+    constexpr double kDecades = 1e-4;
+    double softest = std::numeric_limits<double>::infinity();
+    for (const SpecimenEstimates& one : estimates) softest = std::min(softest, one.E0_Pa.value);
+    plot.panels[0].y.is_log = true;
+    plot.panels[0].y.min = kDecades * softest * unit.per_si;
+  }
   plot.panels[1].y.label = estimates.front().is_stiffness ? "R(t)/R(0)" : "E(t)/E₀";
   for (PlotPanel& panel : plot.panels) panel.x = {.label = "time t (s)", .is_log = true};
   const std::vector<SpecimenStyle> styles = styles_of(estimates);

@@ -32,6 +32,14 @@ std::string estimate_html(const Estimate& estimate, double per_si) {
   return value_html(estimate, per_si) + (interval.empty() ? "" : "<br>" + interval);
 }
 
+// The same with the unit behind the number, if each specimen has its own.
+std::string estimate_html(const Estimate& estimate, const ShownUnit& unit, bool is_own) {
+  if (!is_own) return estimate_html(estimate, unit.per_si);
+  const std::string interval = interval_html(estimate.interval_95, unit.per_si);
+  return value_html(estimate, unit.per_si) + " <span class=\"unit\">" + escaped_markup(unit.text) +
+         "</span>" + (interval.empty() ? "" : "<br>" + interval);
+}
+
 HtmlTable::RowStyle group_if(bool begins) {
   return begins ? HtmlTable::RowStyle::kBeginsGroup : HtmlTable::RowStyle::kPlain;
 }
@@ -80,7 +88,9 @@ std::string difference_html(const RecoveredParameter& row) {
 }  // namespace
 
 HtmlTable summary_table(const std::vector<SpecimenEstimates>& estimates) {
-  const ShownUnit unit = modulus_unit(estimates);
+  const bool is_own = have_own_units(estimates);
+  const ShownUnit common = modulus_unit(estimates);
+  const std::string in_header = is_own ? "" : common.text;
   const bool has_ratio = std::any_of(estimates.begin(), estimates.end(), [](const auto& specimen) {
     return specimen.mixing_ratio > 0.0;
   });
@@ -90,11 +100,11 @@ HtmlTable summary_table(const std::vector<SpecimenEstimates>& estimates) {
   const char* symbol = estimates.front().is_stiffness ? "R" : "E";
   std::vector<HtmlTable::Column> columns{{"Specimen", false}};
   if (has_ratio) columns.push_back({"Ratio"});
-  columns.push_back({with_unit(fmt::format("<i>{}</i><sub>0</sub>", symbol), unit.text)});
-  columns.push_back({with_unit(fmt::format("<i>{}</i><sub>∞</sub>", symbol), unit.text)});
+  columns.push_back({with_unit(fmt::format("<i>{}</i><sub>0</sub>", symbol), in_header)});
+  columns.push_back({with_unit(fmt::format("<i>{}</i><sub>∞</sub>", symbol), in_header)});
   columns.insert(columns.end(),
                  {{with_unit("Relaxes by", "%")}, {"Terms"}, {with_unit("Systematic, 95 %", "%")}});
-  if (has_two_point) columns.push_back({with_unit("Two-point modulus", unit.text)});
+  if (has_two_point) columns.push_back({with_unit("Two-point modulus", common.text)});
   columns.push_back({"Flags"});
   HtmlTable table(columns);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
@@ -104,14 +114,15 @@ HtmlTable summary_table(const std::vector<SpecimenEstimates>& estimates) {
       row.push_back(specimen.mixing_ratio > 0.0 ? fmt::format("{:g} : 1", specimen.mixing_ratio)
                                                 : "–");
     }
-    row.push_back(estimate_html(specimen.E0_Pa, unit.per_si));
-    row.push_back(estimate_html(specimen.E_inf_Pa, unit.per_si));
+    const ShownUnit unit = is_own ? modulus_unit({specimen}) : common;
+    row.push_back(estimate_html(specimen.E0_Pa, unit, is_own));
+    row.push_back(estimate_html(specimen.E_inf_Pa, unit, is_own));
     row.push_back(estimate_html(specimen.sum_g, 100.0));
     row.push_back(std::to_string(specimen.terms.size()));
     row.push_back(specimen.systematic_relative > 0.0
                       ? fmt::format("±{:.2g}", 196.0 * specimen.systematic_relative)
                       : "–");
-    if (has_two_point) row.push_back(two_point_html(specimen.two_point, unit.per_si));
+    if (has_two_point) row.push_back(two_point_html(specimen.two_point, common.per_si));
     const std::string flags =
         specimen.flags.empty() ? "none" : std::to_string(specimen.flags.size());
     row.push_back(specimen.is_trustworthy ? flags : "<span class=\"no\">not to be trusted</span>");
@@ -126,23 +137,27 @@ HtmlTable terms_table(const std::vector<SpecimenEstimates>& estimates) {
     for (const TermEstimate& term : specimen.terms) moduli.push_back(term.modulus_Pa.value);
   }
   const bool is_stiffness = estimates.front().is_stiffness;
-  const ShownUnit unit = shown_unit(is_stiffness ? "N/m" : "Pa", moduli);
-  HtmlTable table(
-      {{"Specimen", false},
-       {"<i>i</i>"},
-       {"<i>g<sub>i</sub></i>"},
-       {"95 %"},
-       {with_unit("<i>τ<sub>i</sub></i>", "s")},
-       {"95 %"},
-       {with_unit(is_stiffness ? "<i>R<sub>i</sub></i>" : "<i>E<sub>i</sub></i>", unit.text)},
-       {"95 %"}});
+  const ShownUnit common = shown_unit(is_stiffness ? "N/m" : "Pa", moduli);
+  const bool is_own = have_own_units(estimates);
+  HtmlTable table({{"Specimen", false},
+                   {"<i>i</i>"},
+                   {"<i>g<sub>i</sub></i>"},
+                   {"95 %"},
+                   {with_unit("<i>τ<sub>i</sub></i>", "s")},
+                   {"95 %"},
+                   {with_unit(is_stiffness ? "<i>R<sub>i</sub></i>" : "<i>E<sub>i</sub></i>",
+                              is_own ? "" : common.text)},
+                   {"95 %"}});
   for (std::size_t k = 0; k < estimates.size(); ++k) {
+    const ShownUnit unit = is_own ? modulus_unit({estimates[k]}) : common;
+    const std::string behind =
+        is_own ? " <span class=\"unit\">" + escaped_markup(unit.text) + "</span>" : "";
     for (std::size_t i = 0; i < estimates[k].terms.size(); ++i) {
       const TermEstimate& term = estimates[k].terms[i];
       table.add_row(
           {i == 0 ? label_html(estimates[k].label) : "", std::to_string(i + 1),
            value_html(term.g, 1.0), interval_or_dash(term.g, 1.0), value_html(term.tau_s, 1.0),
-           interval_or_dash(term.tau_s, 1.0), value_html(term.modulus_Pa, unit.per_si),
+           interval_or_dash(term.tau_s, 1.0), value_html(term.modulus_Pa, unit.per_si) + behind,
            interval_or_dash(term.modulus_Pa, unit.per_si)},
           group_if(i == 0 && k > 0));
     }

@@ -9,11 +9,11 @@
 namespace viscard {
 namespace {
 
-// Returns the text in lower case; each run of blanks, underscores and hyphens becomes one blank.
+// Returns the text in lower case; each run of blanks, underscores, hyphens and dots becomes one blank.
 std::string plain(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    const bool is_gap = c == ' ' || c == '_' || c == '-' || c == '\t';
+    const bool is_gap = c == ' ' || c == '_' || c == '-' || c == '.' || c == '\t';
     if (is_gap && (out.empty() || out.back() == ' ')) continue;
     out += is_gap ? ' ' : static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   }
@@ -46,12 +46,30 @@ bool has_alias(const Quantity& quantity, const std::string& name) {
 // omega and w are angular frequencies, in rad/s even if the column has no unit.
 bool is_angular(const std::string& name) {
   const std::string text = plain(name);
-  const char* kNames[] = {"omega",         "angular frequency", "ang frequency",
-                          "kreisfrequenz", "pulsation",         "角频率",
-                          "omega rad s",   "frequency rad s",   "angular frequency rad s"};
+  const char* kNames[] = {"omega",
+                          "angular frequency",
+                          "ang frequency",
+                          "angular freq",
+                          "ang freq",
+                          "kreisfrequenz",
+                          "pulsation",
+                          "角频率",
+                          "omega rad s",
+                          "frequency rad s",
+                          "angular frequency rad s",
+                          "omega 1 s",
+                          "angular frequency 1 s"};
   return name == "w" || name == "ω" ||
          std::any_of(std::begin(kNames), std::end(kNames),
                      [&](auto known) { return text == known; });
+}
+
+// A unit as part of a name, without a slash: 1_Pa, 1_per_Pa, per_MPa.
+std::string unit_in_name(const std::string& text) {
+  for (const char* start : {"1_per_", "per_", "1_"}) {
+    if (text.rfind(start, 0) == 0) return "1/" + text.substr(std::string(start).size());
+  }
+  return text;
 }
 
 std::optional<UnitScale> scale_if_fits(const std::string& name, const std::string& unit,
@@ -122,18 +140,36 @@ const std::vector<Quantity>& quantities() {
       {"frequency_Hz",
        "frequency",
        "Hz",
-       {"f", "freq", "frequenz", "fréquence", "频率", "w", "ω", "omega", "angular frequency",
-        "ang frequency", "kreisfrequenz", "pulsation", "角频率", "omega rad s", "frequency rad s",
-        "angular frequency rad s"}},
+       {"f",
+        "freq",
+        "frequenz",
+        "fréquence",
+        "频率",
+        "w",
+        "ω",
+        "omega",
+        "angular frequency",
+        "ang frequency",
+        "angular freq",
+        "ang freq",
+        "kreisfrequenz",
+        "pulsation",
+        "角频率",
+        "omega rad s",
+        "frequency rad s",
+        "angular frequency rad s",
+        "omega 1 s",
+        "angular frequency 1 s"}},
       {"storage_modulus_Pa",
        "storage_modulus",
        "Pa",
-       {"E'", "G'", "e stor", "g stor", "storage", "speichermodul", "module de conservation",
-        "储能模量"}},
+       {"E'", "G'", "ep", "gp", "e prime", "g prime", "e stor", "g stor", "storage",
+        "speichermodul", "module de conservation", "储能模量"}},
       {"loss_modulus_Pa",
        "loss_modulus",
        "Pa",
-       {"E''", "G''", "e loss", "g loss", "loss", "verlustmodul", "module de perte", "损耗模量"}},
+       {"E''", "G''", "epp", "gpp", "e double prime", "g double prime", "e loss", "g loss", "loss",
+        "verlustmodul", "module de perte", "损耗模量"}},
       {"mass_kg", "mass", "kg", {"m", "weight", "masse", "质量"}},
       {"volts_V",
        "volts",
@@ -174,7 +210,8 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity&
   // force_mN, depth_um: the quantity's own name followed by another unit.
   const std::string base = std::string(quantity.base) + "_";
   if (column.name.rfind(base, 0) == 0) {
-    const auto scale = scale_if_fits(quantity.base, column.name.substr(base.size()), quantity);
+    const auto scale =
+        scale_if_fits(quantity.base, unit_in_name(column.name.substr(base.size())), quantity);
     return scale ? std::optional(HeaderMatch{2, *scale}) : std::nullopt;
   }
   // storage_kPa, load_mN: another name of it.

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -65,6 +67,33 @@ std::size_t taken_time(const CsvTable& table, std::vector<std::size_t>& columns)
   return column;
 }
 
+bool names_any(const CsvColumn& column, std::initializer_list<const char*> parts) {
+  std::string text = column.header;
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const char* part) { return text.find(part) != std::string::npos; });
+}
+
+// The first column if its header speaks of a frequency and two more are left.
+std::optional<std::size_t> taken_frequency(const CsvTable& table,
+                                           std::vector<std::size_t>& columns) {
+  if (const auto found = taken(table, columns, "Hz", "frequency_Hz")) return found;
+  const bool is_one = columns.size() == 3 &&
+                      names_any(table.columns[columns[0]], {"freq", "omega", "ω", "hz", "rad"});
+  if (!is_one) return std::nullopt;
+  const std::size_t column = columns.front();
+  columns.erase(columns.begin());
+  return column;
+}
+
+// What a single column beside the time may be.
+const char* lone_quantity(const CsvColumn& column) {
+  return names_any(column, {"compl", "nachgieb", "creep", "kriech", "柔量"}) ? "compliance_1_Pa"
+                                                                             : "modulus_Pa";
+}
+
 }  // namespace
 
 std::string columns_with_values(const CsvTable& table) {
@@ -96,9 +125,17 @@ std::string proposed_words(const CsvTable& table) {
   std::vector<std::size_t> rest = number_columns(table);
   if (rest.size() < 2) return "";
   std::string words;
-  const auto frequency = taken(table, rest, "Hz");
-  const auto storage = taken(table, rest, "Pa", frequency ? nullptr : "modulus_Pa");
-  const auto loss = frequency ? taken(table, rest, "Pa") : std::nullopt;
+  const auto frequency = taken_frequency(table, rest);
+  const auto next = [&] {  // a modulus by its unit, or the next column without one
+    auto found = taken(table, rest, "Pa");
+    if (!found && !rest.empty() && !is_stated(table.columns[rest.front()].unit)) {
+      found = rest.front();
+      rest.erase(rest.begin());
+    }
+    return found;
+  };
+  const auto storage = frequency ? next() : taken(table, rest, "Pa", "modulus_Pa");
+  const auto loss = frequency ? next() : std::nullopt;
   if (frequency && storage && loss) {
     return (word("frequency_Hz", *frequency) + word("storage_modulus_Pa", *storage) +
             word("loss_modulus_Pa", *loss))
@@ -111,7 +148,9 @@ std::string proposed_words(const CsvTable& table) {
   auto depth = taken(table, rest, "m", "depth_m");
   const auto is_without_unit = [&](std::size_t i) { return !is_stated(table.columns[i].unit); };
   std::erase_if(rest, [&](std::size_t i) { return !is_without_unit(i); });
-  if (!force && !depth && rest.size() == 1) return (words + word("modulus_Pa", rest[0])).substr(1);
+  if (!force && !depth && rest.size() == 1) {
+    return (words + word(lone_quantity(table.columns[rest[0]]), rest[0])).substr(1);
+  }
   for (auto* missing : {&force, &depth}) {
     if (*missing || rest.empty()) continue;
     *missing = rest.front();

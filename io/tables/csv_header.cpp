@@ -43,7 +43,8 @@ HeaderParts split_header(std::string_view header) {
     if (is_argument(header, open, inside) || !is_unit(inside)) return whole;
     return {std::string(trimmed(header.substr(0, open))), std::string(inside)};
   }
-  for (const char* mark : {" / ", ", ", "/"}) {  // "Force / N", "Force, N", "F/N"
+  for (const char* mark :
+       {" / ", ", ", " in ", "/"}) {  // "Force / N", "Force, N", "Kraft in N", "F/N"
     const std::size_t at = header.rfind(mark);
     if (at == std::string_view::npos || at == 0) continue;
     const std::string_view unit = trimmed(header.substr(at + std::string_view(mark).size()));

@@ -206,7 +206,6 @@ class TableReader {
   void read_rows() {
     const auto guess = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
     for (CsvColumn& column : table_.columns) column.values.reserve(guess);
-    table_.lines.reserve(guess);
     is_text_ =
         append_rows(text_, {first_at_, first_line_}, dialect_, name_, table_.columns, table_.lines);
     const bool has_text =

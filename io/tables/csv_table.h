@@ -1,9 +1,9 @@
 #pragma once
 
 #include "io/tables/csv_column.h"
+#include "io/tables/line_numbers.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -19,7 +19,7 @@ namespace viscard {
 struct CsvTable {
   std::string file;
   std::vector<CsvColumn> columns;     // all of the same length
-  std::vector<std::uint32_t> lines;   // line of the file, from 1, of each row
+  LineNumbers lines;                  // line of the file, from 1, of each row
   std::vector<std::string> preamble;  // lines before the header, which are not part of the table
   bool has_header = false;
   char separator = ',';  // ' ' for runs of blanks

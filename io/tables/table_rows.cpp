@@ -76,7 +76,7 @@ void row_cells(const TextLine& line, const Dialect& dialect, std::size_t width,
 
 std::vector<char> append_rows(std::string_view text, RowPlace from, const Dialect& dialect,
                               const std::string& name, std::vector<CsvColumn>& columns,
-                              std::vector<std::uint32_t>& lines) {
+                              LineNumbers& lines) {
   const std::size_t width = columns.size();
   std::vector<char> is_text(width, 0);
   std::vector<double> values(width);

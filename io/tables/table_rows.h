@@ -2,9 +2,9 @@
 
 #include "io/tables/csv_column.h"
 #include "io/tables/csv_dialect.h"
+#include "io/tables/line_numbers.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +25,6 @@ struct RowPlace {
 // Returns for each column whether a cell of it is text (then not zero). name: of the file.
 std::vector<char> append_rows(std::string_view text, RowPlace from, const Dialect& dialect,
                               const std::string& name, std::vector<CsvColumn>& columns,
-                              std::vector<std::uint32_t>& lines);
+                              LineNumbers& lines);
 
 }  // namespace viscard

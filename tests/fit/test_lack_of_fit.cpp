@@ -200,3 +200,40 @@ TEST_CASE("a series of few terms for a continuous spectrum is not slow noise", "
   CHECK_FALSE(has_flag(fit, "slow-noise"));
   CHECK(fit.is_trustworthy);
 }
+
+TEST_CASE("a wave in log time of 4 % is a misfit, and noise with a long memory is none", "[fit]") {
+  RelaxationData data;
+  std::mt19937_64 dice(4);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 800; ++i) {
+    const double t_s = 0.1 * std::pow(10.0, 4.0 * i / 799.0);
+    data.time_s.push_back(t_s);
+    data.value.push_back(relaxation_modulus_Pa(kSolid, t_s) *
+                             (1.0 + 0.04 * std::sin(6.0 * std::log(t_s))) +
+                         6e-4 * normal(dice));
+  }
+  const FitResult fit = fit_relaxation(data);
+  CHECK(has_flag(fit, "misfit"));
+  CHECK_FALSE(fit.is_trustworthy);
+  int n_trusted = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    n_trusted +=
+        fit_relaxation(relaxation_of(kSolid, 4000, 1000.0, 0.01, seed, 0.97)).is_trustworthy;
+  }
+  CHECK(n_trusted >= 19);
+}
+
+TEST_CASE("the words of a misfit have the unit of the data", "[fit]") {
+  RelaxationData data;
+  data.unit = "N";
+  for (int i = 0; i < 400; ++i) {
+    data.time_s.push_back(0.1 * i);
+    data.value.push_back(std::min(0.1 * i / 10.0, 1.0));  // a ramp is no relaxation
+  }
+  const FitResult fit = fit_relaxation(data);
+  const auto misfit = std::find_if(fit.flags.begin(), fit.flags.end(),
+                                   [](const auto& flag) { return flag.name == "misfit"; });
+  REQUIRE(misfit != fit.flags.end());
+  CHECK(misfit->text.find(" N rms") != std::string::npos);
+  CHECK(misfit->text.find(" Pa") == std::string::npos);
+}

@@ -113,3 +113,39 @@ TEST_CASE("a modulus that is 5 % off over one decade is found with its place and
   if (noise < 0.005) CHECK(text.find(is_loss ? "the loss" : "the storage") == 0);
   CHECK(text.find("Hz is ") != std::string::npos);
 }
+
+TEST_CASE("relaxation slower than the sweep becomes a slow dashpot, not a bad fit", "[fit]") {
+  const double noise = GENERATE(0.0, 0.001, 0.005);
+  const double E_inf_Pa = GENERATE(0.0, 1e5);
+  CAPTURE(noise, E_inf_Pa);
+  const PronySeries truth{E_inf_Pa, {{3e5, 1e-2}, {2e5, 0.1}, {2e5, 100.0}}};
+  const FitResult fit = fit_dma(sweep(truth, -2.0, 2.0, 10, noise, 3));
+  for (const auto& flag : fit.flags) UNSCOPED_INFO(flag.name + ": " + flag.text);
+  CHECK(fit.is_trustworthy);
+  CHECK(has_flag(fit, "slow-dashpot"));
+  CHECK_FALSE(has_flag(fit, "liquid"));
+  CHECK(fit.noise.sigma < 0.005 + 1.3 * noise);  // terms within the window left 25 %
+  CHECK(holds(fit.E_inf_interval_95, E_inf_Pa));
+  CHECK(fit.E0_Pa == Approx(7e5 + E_inf_Pa).epsilon(0.01));
+  if (E_inf_Pa > 0.0) return;
+  REQUIRE(fit.terms.size() == 3);
+  CHECK(fit.terms[2].tau_s == Approx(100.0).epsilon(0.05));
+  CHECK(fit.terms[2].modulus_Pa == Approx(2e5).epsilon(0.01));
+}
+
+TEST_CASE("a sweep whose residual has structure is not trusted", "[fit]") {
+  const PronySeries truth{0.0, {{3e5, 1e-2}, {2e5, 0.1}, {2e5, 100.0}}};
+  FitOptions options;
+  options.is_solid = true;
+  const FitResult fit = fit_dma(sweep(truth, -2.0, 2.0, 10, 0.001, 3), options);
+  CHECK(has_flag(fit, "misfit"));
+  CHECK_FALSE(fit.is_trustworthy);
+  // A solid within the sweep is trusted, with many noises.
+  const PronySeries solid{1e5, {{3e5, 3e-3}, {2e5, 3e-2}, {2e5, 0.3}, {1e5, 3.0}}};
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const FitResult good = fit_dma(sweep(solid, -2.0, 2.0, 10, 0.01, seed));
+    CAPTURE(seed);
+    CHECK(good.is_trustworthy);
+    CHECK_FALSE(has_flag(good, "slow-dashpot"));
+  }
+}

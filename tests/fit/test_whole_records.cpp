@@ -216,3 +216,10 @@ TEST_CASE("the unloading of a sphere is left out, counted, and a defect if it is
     CHECK(has_flag(fit, "rows-left-out") != is_much);
   }
 }
+
+TEST_CASE("holds between several ramps do not count as ramp", "[fit]") {
+  const Points levels{{0.0, 0.0}, {1.0, 5e-5}, {100.0, 5e-5}, {101.0, 1e-4}, {200.0, 1e-4}};
+  const FitResult fit = fit_indentation(record_of(levels, 0.1, 1e-3));
+  CHECK_FALSE(has_flag(fit, "tau-below-ramp"));  // the times are 0.8 and 40 s
+  CHECK(fit.fastest_s == Approx(2.0).epsilon(0.1));
+}

@@ -143,6 +143,25 @@ TEST_CASE("units take the prefix of the largest value", "[io][report]") {
   CHECK(shown_unit("Pa", {std::numeric_limits<double>::quiet_NaN()}).text == "Pa");
 }
 
+TEST_CASE("specimens of very different moduli are shown each in its own unit", "[io][report]") {
+  SpecimenEstimates rubber = one_term(), gel = one_term();
+  rubber.label = "rubber";
+  rubber.E0_Pa = {1.7e6, {1.6e6, 1.8e6}};
+  rubber.E_inf_Pa = {1.0e6, {0.9e6, 1.1e6}};
+  gel.label = "gel";
+  gel.E0_Pa = {820.0, {590.0, 1050.0}};
+  gel.E_inf_Pa = {26.0, {20.0, 32.0}};
+  CHECK(have_own_units({rubber, gel}));
+  CHECK_FALSE(have_own_units({rubber, rubber}));
+  const std::string own = summary_table({rubber, gel}).html("");
+  CHECK(own.find(">820</data> <span class=\"unit\">Pa</span>") != std::string::npos);
+  CHECK(own.find("</data> <span class=\"unit\">MPa</span>") != std::string::npos);
+  CHECK(own.find("(MPa)") == std::string::npos);
+  const std::string common = summary_table({rubber, rubber}).html("");
+  CHECK(common.find("(MPa)") != std::string::npos);
+  CHECK(common.find("</data> <span") == std::string::npos);
+}
+
 TEST_CASE("depth is the stage's position below contact minus the frame's deflection",
           "[io][report]") {
   const ReportInput input = test::synthetic_report();

@@ -43,6 +43,22 @@ TEST_CASE("columns are found by name and unit", "[io][csv]") {
   CHECK(first("G',G''\n2,3\n", "loss_modulus_Pa") == 3.0);
 }
 
+TEST_CASE("columns of a sweep and of a creep are found as people write them", "[io][csv]") {
+  const double per_Hz = 2.0 * std::numbers::pi;
+  for (const char* header : {"ω in rad/s", "angular_frequency_1_s", "Ang. frequency (rad/s)",
+                             "omega", "Ang. freq. (rad/s)", "omega_1_s"}) {
+    CAPTURE(header);
+    CHECK(first(std::string(header) + ",Gp,Gpp\n3,1,2\n", "frequency_Hz") ==
+          Approx(3.0 / per_Hz).epsilon(1e-15));
+  }
+  CHECK(first("omega,Gp,Gpp\n3,1,2\n", "loss_modulus_Pa") == 2.0);
+  CHECK(first("omega,G prime,G double prime\n3,1,2\n", "storage_modulus_Pa") == 1.0);
+  CHECK(first("Zeit in s,Kraft in mN\n3,1\n", "force_N") == 1e-3);
+  CHECK(first("time_s,compliance_1_per_MPa\n3,1\n", "compliance_1_Pa") ==
+        Approx(1e-6).epsilon(1e-15));
+  CHECK(first("time_s,compliance_per_Pa\n3,1\n", "compliance_1_Pa") == 1.0);
+}
+
 TEST_CASE("columns are found by headers in German, French and Chinese", "[io][csv]") {
   CHECK(first("Prüfzeit;Standardkraft;Standardweg\ns;mN;µm\n1;2;3\n", "force_N") == 2.0 * 1e-3);
   CHECK(first("Prüfzeit;Standardkraft;Standardweg\ns;mN;µm\n1;2;3\n", "depth_m") == 3.0 * 1e-6);
@@ -149,7 +165,7 @@ TEST_CASE("rows of one segment are selected by name", "[io][csv]") {
       csv_from_text("segment,time_s\nextend,oops\npause,1\npause,2\nretract,3\n", "t.csv");
   const CsvTable pause = rows_of_segment(table, "pause");
   CHECK(column_SI(pause, "time_s") == std::vector<double>{1.0, 2.0});  // the bad cell is elsewhere
-  CHECK(pause.lines == std::vector<std::uint32_t>{3, 4});
+  CHECK(pause.lines.all() == std::vector<std::uint32_t>{3, 4});
   CHECK(contains(error_text([&] { column_SI(rows_of_segment(table, "extend"), "time_s"); }),
                  "t.csv:2:"));
   CHECK(error_text([&] { rows_of_segment(table, "hold"); }) ==

@@ -91,7 +91,7 @@ TEST_CASE("lines before the header are kept as notes", "[io][csv]") {
         std::vector<std::string>{"Sample;PDMS 1:10", "Diameter;4,4", "Relaxation"});
   CHECK(table.columns[2].unit == "mm");
   CHECK(table.columns[2].values == std::vector<double>{2.5});
-  CHECK(table.lines == std::vector<std::uint32_t>{6});
+  CHECK(table.lines.all() == std::vector<std::uint32_t>{6});
 }
 
 TEST_CASE("columns of text stay text, and bad cells of numbers are remembered", "[io][csv]") {
@@ -133,4 +133,12 @@ TEST_CASE("a bad number far down in a long table is found with its line", "[io][
 }
 
 }  // namespace
+
+TEST_CASE("each row knows its line, also across comments and blank lines", "[io][csv]") {
+  const CsvTable table = read("time_s,force_N\n0,1\n1,2\n\n# a note\n2,3\n3,4\n4,5\n");
+  CHECK(table.lines.all() == std::vector<std::uint32_t>{2, 3, 6, 7, 8});
+  CHECK(table.lines[2] == 6);
+  CHECK(table.lines.size() == 5);
+}
+
 }  // namespace viscard

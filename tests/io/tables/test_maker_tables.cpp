@@ -110,7 +110,7 @@ TEST_CASE("a workbook gives the sheet with most numbers, or the one that is name
   CHECK(table.maker == "Excel workbook, sheet 'Data' of 2");
   CHECK(column_SI(table, "time_s") == Numbers{0.5, 1.0});
   CHECK(column_SI(table, "force_N")[0] == Approx(0.25e-3).epsilon(1e-15));
-  CHECK(table.lines == std::vector<std::uint32_t>{6, 7});
+  CHECK(table.lines.all() == std::vector<std::uint32_t>{6, 7});
   CHECK(contains(error_text([&] { csv_from_text(bytes, "t.xlsx", "Raw"); }),
                  "t.xlsx: has no sheet 'Raw'; there are Notes, Data"));
   CHECK(contains(error_text([&] { csv_from_text(bytes, "t.xlsx", "Notes"); }),
@@ -127,7 +127,7 @@ TEST_CASE("a JPK force curve gives time, force and depth of all segments", "[io]
   CHECK(column_SI(table, "force_N") == Numbers{-2e-10, 3e-9, 2e-9});
   CHECK(column_SI(table, "depth_m") == Numbers{-2e-5, -1.9e-5, -1.8e-5});
   CHECK(column_text(table, "segment") == std::vector<std::string>{"extend", "extend", "pause"});
-  CHECK(table.lines == std::vector<std::uint32_t>{11, 12, 19});
+  CHECK(table.lines.all() == std::vector<std::uint32_t>{11, 12, 19});
   const std::string cut = kJpk.substr(0, kJpk.size() - 9);
   CHECK(contains(error_text([&] { read(cut); }), "t.txt: line 19: 2 cells"));
 }
@@ -253,6 +253,10 @@ TEST_CASE("columns are shown with first values, and words that read them are pro
   CHECK(proposed_words(read("w (rad/s),a (Pa),b (Pa)\n1,5,1\n2,6,2\n")) ==
         "--column frequency_Hz=1 --column storage_modulus_Pa=2 --column loss_modulus_Pa=3");
   CHECK(proposed_words(read("x\n0\n1\n")).empty());
+  CHECK(proposed_words(read("my time,creep compl. of A\n0,5\n1,6\n")) ==
+        "--column time_s=1 --column compliance_1_Pa=2");
+  CHECK(proposed_words(read("log freq,one,two\n1,5,1\n2,6,2\n")) ==
+        "--column frequency_Hz=1 --column storage_modulus_Pa=2 --column loss_modulus_Pa=3");
 }
 
 TEST_CASE("a file of another kind is refused by what it is", "[io][csv]") {

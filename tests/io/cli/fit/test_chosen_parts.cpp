@@ -21,6 +21,12 @@ nlohmann::json json_of(const std::vector<std::string>& words) {
   return nlohmann::json::parse(ran.out);
 }
 
+std::string flags_of(const nlohmann::json& json) {
+  std::string names;
+  for (const auto& flag : json["flags"]) names += flag["name"].get<std::string>() + " ";
+  return names;
+}
+
 // Two presses of 2 s ramp and 20 s hold, the first to half the depth, each after 5 s in the air.
 // Elastic, 2e4 N/m, with a trace of the last digits in place of noise.
 std::string two_presses() {
@@ -54,6 +60,7 @@ TEST_CASE("a part of a table is chosen by time, by hold or by itself, and printe
   CHECK(second["fit_to_s"].get<double>() == Approx(57.0).margin(0.3));
   CHECK(second["left_out"]["not_chosen"].get<int>() + second["n_samples"].get<int>() == 600);
   CHECK(second["n_rows"] == 600);
+  CHECK(flags_of(second) == "history-left-out ");  // it was unloaded between
   const auto part = json_of({"fit", file, "--from", "1 s", "--to", "25", "--json"});
   CHECK(part["n_samples"] == 241);
   CHECK(part["fit_to_s"].get<double>() == Approx(25.0));
@@ -70,6 +77,32 @@ TEST_CASE("a part of a table is chosen by time, by hold or by itself, and printe
     line.insert(line.end(), words.begin(), words.end());
     CHECK(run_command(line).status == kBadWords);
   }
+}
+
+TEST_CASE("a part that begins under load is not trusted: what was before relaxes in it", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream text;
+  text << "time_s,force_N,depth_m\n";
+  for (int i = 0; i < 1000; ++i) {  // two steps of load, each relaxing by a fifth in 40 s
+    const double t = 0.1 * i;
+    const double depth = 1e-4 * (std::min(1.0, t) + std::clamp(t - 50.0, 0.0, 1.0));
+    double force = 1.6e4 * depth + 1e-5 * ((7 * i) % 11);
+    for (const double at : {0.5, 50.5}) {
+      if (t > at) force += 0.4 * std::exp(-(t - at) / 40.0);
+    }
+    text << t << "," << force << "," << depth << "\n";
+  }
+  const std::string file = folder.write("steps.csv", text.str());
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--hold", "2"}, {"--from", "30 s"}}) {
+    std::vector<std::string> line{"fit", file, "--json"};
+    line.insert(line.end(), words.begin(), words.end());
+    const CommandOutcome ran = run_command(line);
+    CHECK(ran.status != kDone);
+    CHECK_THAT(ran.out, Contains("history-missing"));
+  }
+  const auto first = nlohmann::json::parse(run_command({"fit", file, "--hold", "1", "--json"}).out);
+  CHECK_THAT(flags_of(first), !Contains("history"));
 }
 
 TEST_CASE("a record of force alone gives forces, or stiffnesses with --depth", "[cli]") {

@@ -65,6 +65,8 @@ TEST_CASE("columns without a unit are read in SI, and a flag says so", "[cli]") 
   CHECK(flag_of("time (s),modulus") ==
         "the column 'modulus' states no unit and was read in Pa; write the unit in the header, as "
         "in 'modulus (kPa)'");
+  const std::string creep = flag_of("time (s),compliance", {"--terms", "0"});
+  CHECK_THAT(creep, Contains("'compliance (1/MPa)'"));
   CHECK(flag_of("time_s,modulus_Pa").empty());
   CHECK(flag_of("time_s,modulus_MPa").empty());
   CHECK(flag_of("t [s],E [MPa]").empty());

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace viscard {
+
+// Times of an evenly sampled record whose export rounded them (0, 0, 0, 1, 1, 1, 1, 1, 2, ...).
+struct RoundedTimes {
+  double step_s = 0.0;         // between the rounded times
+  std::vector<double> time_s;  // spread evenly within each step, about the rounded time
+};
+
+// Nothing unless every time is repeated about equally often, two or more rows each (the first and the
+// last may have fewer), in rising order and at equal distances.
+std::optional<RoundedTimes> rounded_times(std::span<const double> time_s);
+
+}  // namespace viscard
