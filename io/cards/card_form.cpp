@@ -231,7 +231,8 @@ bool is_by_viscard(const std::string& text) {
 }  // namespace
 
 std::optional<CardFinding> form_difference(const std::string& text, const ReadCard& read) {
-  if (!is_by_viscard(text)) return std::nullopt;
+  // Modules for Python are by viscard even without their header.
+  if (!is_by_viscard(text) && !read.understood.is_indented) return std::nullopt;
   // Where each number carries its unit, the reader converts them; the header states the system.
   const std::string stated = stated_unit_system(text);
   const bool are_converted = read.understood.numbers_carry_units && !stated.empty();

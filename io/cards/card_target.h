@@ -101,11 +101,12 @@ struct CardTarget {
   BranchNumber branch = BranchNumber::kRelative;
   TimeNumber time = TimeNumber::kTau;
   BulkRule bulk = BulkRule::kOwnNumbers;
-  bool states_equilibrium = false;   // the share that never relaxes stands in the card
-  bool states_density = true;        // false: the density is a comment
-  bool is_case_sensitive = true;     // the solver distinguishes keywords by case
-  bool numbers_carry_units = false;  // each number states its own unit
-  int max_terms = 0;                 // 0: no limit known
+  bool states_equilibrium = false;     // the share that never relaxes stands in the card
+  bool states_density = true;          // false: the density is a comment
+  bool is_case_sensitive = true;       // the solver distinguishes keywords by case
+  bool reads_fortran_numbers = false;  // 1.0D+05 and 1.0+05 are numbers, as in Fortran
+  bool numbers_carry_units = false;    // each number states its own unit
+  int max_terms = 0;                   // 0: no limit known
   bool takes_incompressible = false;
   bool needs_density = false;     // the solver refuses or misuses a density of 0
   bool takes_wlf = false;         // has a place for log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)

@@ -1,5 +1,6 @@
 #include "io/cards/check_card.h"
 
+#include "io/cards/byte_order_mark.h"
 #include "io/cards/card.h"
 #include "io/cards/card_form.h"
 #include "io/cards/list_differences.h"
@@ -50,15 +51,17 @@ double rounding_of_columns(const Material& reference, const CardTarget& target,
   }
 }
 
-// E(t) of a nearly incompressible polymer hardly depends on its bulk modulus, but the deformation
-// of a layer or a pillar does.
+// E(t) of a nearly incompressible polymer hardly depends on K, but a layer's deformation does.
 std::optional<CardFinding> bulk_finding(const ReadCard& read, const Material& reference) {
   const auto bulk_Pa = [](const Material& material) {
     return material.E0_Pa / (3.0 * (1.0 - 2.0 * material.nu));  // infinite at 0.5
   };
   const Material& found = read.material;
   if (!(found.E0_Pa > 0.0) || found.nu == reference.nu) return std::nullopt;
-  const double found_Pa = bulk_Pa(found), expected_Pa = bulk_Pa(reference);
+  // At the material's E0: a wrong modulus has its own finding.
+  Material at_found = reference;
+  at_found.nu = found.nu;
+  const double found_Pa = bulk_Pa(at_found), expected_Pa = bulk_Pa(reference);
   if (std::abs(found_Pa / expected_Pa - 1.0) <= kHandTyped) return std::nullopt;
   return CardFinding{"poisson-ratio",
                      fmt::format("nu is {:g} and the material's {:g}: the bulk modulus is {:.3g} "
@@ -151,6 +154,11 @@ void add_all(const std::vector<CardFinding>& more, CardCheck& check) {
   check.findings.insert(check.findings.end(), more.begin(), more.end());
 }
 
+CardNumbers expected_numbers(const Material& reference, const ReadCard& read) {
+  return numbers_from_material(with_bulk_rule(reference, read.understood.bulk), read.understood,
+                               read.units);
+}
+
 void compare(const Material& reference, CardCheck& check) {
   const bool is_solid = !check.read.material.terms.empty() || check.read.numbers.branches.empty();
   const std::vector<double> times_s = comparison_times_s(reference);
@@ -161,26 +169,25 @@ void compare(const Material& reference, CardCheck& check) {
     check.E_difference_with_bulk = largest_E_difference(check.read.material, reference, times_s);
   }
   add(shift_finding(check.read, reference), check);
-  const std::optional<CardFinding> bulk = bulk_finding(check.read, reference);
-  const std::optional<CardFinding> density = density_finding(check.read, reference);
+  const auto bulk = bulk_finding(check.read, reference);
+  const auto density = density_finding(check.read, reference);
   const bool is_far = !check.E_difference || !(*check.E_difference <= check.tolerance);
   const bool is_density_off = density && density->is_mistake;
   if (!is_far && !bulk && !is_density_off) {
     add(density, check);
+    const CardNumbers expected = expected_numbers(reference, check.read);
+    add_all(near_numbers(check.read.numbers, expected, check.read.understood), check);
     return;
   }
-  // One cause that explains all numbers is reported instead of one finding for each number.
+  // One cause that explains all numbers is reported instead of each number.
   const std::vector<CardFinding> causes = explain_difference(check.read, reference);
   add_all(causes, check);
   if (has_mistake(causes)) return;
   add(bulk, check);
   add(density, check);
   if (!causes.empty() || !is_far || has_mistake(check.findings)) return;
-  const CardNumbers expected =
-      numbers_from_material(with_bulk_rule(reference, check.read.understood.bulk),
-                            check.read.understood, check.read.units);
-  const std::vector<CardFinding> listed =
-      listed_differences(check.read.numbers, expected, check.read.understood);
+  const std::vector<CardFinding> listed = listed_differences(
+      check.read.numbers, expected_numbers(reference, check.read), check.read.understood);
   add_all(listed, check);
   if (!listed.empty()) return;
   check.findings.push_back(
@@ -234,18 +241,16 @@ CardCheck check_table(const std::string& text, const CardTarget& target,
   return check;
 }
 
-}  // namespace
-
-CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
-                     const Material* reference) {
+CardCheck check_plain_card(const std::string& text, const CardTarget& target,
+                           const CheckOptions& options, const Material* reference) {
   if (target.table_difference != nullptr) return check_table(text, target, options, reference);
   if (target.values != nullptr) return check_card_values(text, target, options, reference);
   CardCheck check{.read = read_card(text, target, options.units)};
   check.findings = check.read.findings;
   check.units = check.read.units.name;
   // The reader converts numbers that carry their unit to SI; the header states what they are in.
-  const std::string stated = stated_unit_system(text);
   if (check.read.understood.numbers_carry_units) {
+    const std::string stated = stated_unit_system(text);
     check.units = stated.empty() ? "of each number" : stated;
   }
   if (!check.read.units_were_stated && options.units.empty()) {
@@ -263,7 +268,7 @@ CardCheck check_card(const std::string& text, const CardTarget& target, const Ch
   } else {
     compare_with_header(text, check);
   }
-  // If another mistake is known, "no-solid" is only its consequence.
+  // "no-solid" is only a consequence of any other mistake.
   const bool has_cause = std::any_of(
       check.findings.begin(), check.findings.end(),
       [](const CardFinding& finding) { return finding.is_mistake && finding.name != "no-solid"; });
@@ -276,6 +281,18 @@ CardCheck check_card(const std::string& text, const CardTarget& target, const Ch
   }
   check.agrees = !has_mistake(check.findings) &&
                  (!check.E_difference || *check.E_difference <= check.tolerance);
+  return check;
+}
+
+}  // namespace
+
+CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
+                     const Material* reference) {
+  const std::string plain = without_byte_order_mark(text);
+  CardCheck check = check_plain_card(plain, target, options, reference);
+  if (plain.size() == text.size()) return check;
+  check.findings.insert(check.findings.begin(), byte_order_mark_finding(target));
+  check.agrees = check.agrees && !check.findings.front().is_mistake;
   return check;
 }
 

@@ -151,6 +151,19 @@ std::vector<CardFinding> one_row_too_few(const CardNumbers& found, const CardNum
   return {{"missing-row", "the term " + term + " is missing", true}};
 }
 
+// All numbers that are no rounding of the expected ones to fewer digits.
+std::vector<Difference> unrounded(const CardNumbers& found, const CardNumbers& expected,
+                                  const CardTarget& target) {
+  constexpr double kSame = 1e-12;
+  std::vector<Difference> all = elastic_differences(found, expected, target, kSame);
+  const std::vector<CardBranch> ours = by_time(found.branches), wanted = by_time(expected.branches);
+  for (std::size_t i = 0; i < std::min(ours.size(), wanted.size()); ++i) {
+    compare_branch(ours[i], wanted[i], target, all, kSame);
+  }
+  std::erase_if(all, [](const Difference& one) { return is_rounding_of(one.found, one.expected); });
+  return all;
+}
+
 }  // namespace
 
 std::vector<CardBranch> by_time(std::vector<CardBranch> branches) {
@@ -206,18 +219,19 @@ std::vector<CardFinding> single_difference(const CardNumbers& found, const CardN
 
 std::vector<CardFinding> edited_digits(const CardNumbers& found, const CardNumbers& expected,
                                        const CardTarget& target) {
-  constexpr double kSame = 1e-12;
-  std::vector<Difference> all = elastic_differences(found, expected, target, kSame);
-  const std::vector<CardBranch> ours = by_time(found.branches), wanted = by_time(expected.branches);
-  for (std::size_t i = 0; i < std::min(ours.size(), wanted.size()); ++i) {
-    compare_branch(ours[i], wanted[i], target, all, kSame);
-  }
+  std::vector<Difference> all = unrounded(found, expected, target);
   std::erase_if(all, [](const Difference& one) {
-    const bool has_own_finding = one.what == "nu" || one.what == "the density";
-    return has_own_finding || is_rounding_of(one.found, one.expected);
+    return one.what == "nu" || one.what == "the density";  // they have their own findings
   });
   if (all.empty()) return {};
   return {{all.size() == 1 ? "one-number" : "numbers-differ", differences_in_words(all), true}};
+}
+
+std::vector<CardFinding> near_numbers(const CardNumbers& found, const CardNumbers& expected,
+                                      const CardTarget& target) {
+  const std::vector<Difference> all = unrounded(found, expected, target);
+  if (all.empty()) return {};
+  return {{"digits-differ", differences_in_words(all) + "; within the tolerance", false}};
 }
 
 std::vector<CardFinding> listed_differences(const CardNumbers& found, const CardNumbers& expected,

@@ -24,6 +24,11 @@ std::vector<CardFinding> single_difference(const CardNumbers& found, const CardN
 std::vector<CardFinding> edited_digits(const CardNumbers& found, const CardNumbers& expected,
                                        const CardTarget& target);
 
+// The note "digits-differ" with the numbers that are no rounding of the expected ones, nu and density
+// too: of a card that agrees within the tolerance. Empty if all are.
+std::vector<CardFinding> near_numbers(const CardNumbers& found, const CardNumbers& expected,
+                                      const CardTarget& target);
+
 // "numbers-differ" with all numbers that differ, the first few in words. Empty if none does.
 std::vector<CardFinding> listed_differences(const CardNumbers& found, const CardNumbers& expected,
                                             const CardTarget& target);

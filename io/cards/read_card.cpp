@@ -1,7 +1,9 @@
 #include "io/cards/read_card.h"
 
+#include "io/basics/patterns.h"
 #include "io/cards/card_lines.h"
 
+#include <cctype>
 #include <stdexcept>
 
 namespace viscard {
@@ -22,6 +24,34 @@ bool has_negative_branch(ReadCard& card) {
     return true;
   }
   return false;
+}
+
+// Whether the slow search for a number with that letter is worth it.
+bool has_d_behind_digit(const std::string& line) {
+  for (std::size_t at = line.find_first_of("dD", 1); at != std::string::npos;
+       at = line.find_first_of("dD", at + 1)) {
+    if (std::isdigit(static_cast<unsigned char>(line[at - 1])) != 0 || line[at - 1] == '.') {
+      return true;
+    }
+  }
+  return false;
+}
+
+// A reader in C, C++ or Java takes 1.88D+00 for 1.88, or stops.
+void note_fortran_number(const std::string& text, ReadCard& card) {
+  const CardTarget& target = card.understood;
+  if (target.reads_fortran_numbers) return;
+  for (const CardLine& line : card_lines(text, target.comment)) {
+    if (!has_d_behind_digit(line.text)) continue;
+    const auto found = first_match(
+        line.text,
+        R"((?:^|[^\w.])(\d+\.\d*[dD][-+]?\d+|\d*\.\d+[dD][-+]?\d+|\d+[dD][-+]\d+)(?![\w.]))");
+    if (!found) continue;
+    card.add("fortran-exponent",
+             at_line(line, "'" + found->group[1] + "' has the exponent of Fortran, which " +
+                               target.code + " does not read; write e for D"));
+    return;
+  }
 }
 
 }  // namespace
@@ -48,6 +78,7 @@ ReadCard read_card(const std::string& text, const CardTarget& target, const std:
                                                        : "SI"),
                 .units_were_stated = !stated.empty()};
   target.read(text, card);
+  note_fortran_number(text, card);
   if (target.values != nullptr) return card;
   drop_empty_branches(card.numbers);
   if (!has_negative_branch(card)) {

@@ -34,6 +34,12 @@ const UnitSystem& unit_system(const std::string& name) {
   throw std::invalid_argument(no_such_word("unit system", name, names));
 }
 
+std::string comsol_unit(std::string unit) {
+  if (unit == "Ba") return "dyn/cm^2";
+  if (unit.back() == '3') unit.insert(unit.size() - 1, "^");
+  return unit;
+}
+
 double to_card(double value_SI, int exponent) {
   return exponent < 0 ? value_SI / std::pow(10.0, -exponent) : value_SI * std::pow(10.0, exponent);
 }

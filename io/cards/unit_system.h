@@ -31,6 +31,9 @@ const UnitSystem* find_unit_system(const std::string& name);
 // Throws std::invalid_argument listing the systems.
 const UnitSystem& unit_system(const std::string& name);
 
+// A unit in COMSOL's syntax: "MPa", "t/mm^3".
+std::string comsol_unit(std::string unit);
+
 // SI to card and back.
 double to_card(double value_SI, int exponent);
 double from_card(double value, int exponent);

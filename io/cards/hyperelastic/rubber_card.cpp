@@ -9,9 +9,10 @@
 //   ansys     Ogden's own mu_i/alpha_i; NEO takes the shear modulus 2 C10; d = 2/K, 0 is incompressible.
 //             Source: Mechanical APDL Structural Analysis Guide, TB,HYPER (OGDEN and NEO with examples);
 //             order of BOYCE, GENT and YEOH: Material Reference 4.6.
-// frontistr, lsdyna and openradioss: rubber_rows.cpp.
+// frontistr, lsdyna and openradioss: rubber_rows.cpp; comsol, moose and sfepy: rubber_models.cpp; mfront: rubber_mfront.cpp.
 #include "io/cards/hyperelastic/rubber_card.h"
 
+#include "io/basics/words.h"
 #include "io/cards/hyperelastic/rubber_rows.h"
 #include "io/cards/keyword_lines.h"
 #include "io/cards/unit_system.h"
@@ -164,8 +165,9 @@ RubberNumbers numbers_of(const HyperelasticLaw& law, const RubberCardOptions& op
 }  // namespace
 
 const std::vector<std::string>& rubber_card_targets() {
-  static const std::vector<std::string> kTargets{"abaqus",    "ansys",  "calculix",   "febio",
-                                                 "frontistr", "lsdyna", "openradioss"};
+  static const std::vector<std::string> kTargets{"abaqus", "ansys",       "calculix", "comsol",
+                                                 "febio",  "frontistr",   "lsdyna",   "mfront",
+                                                 "moose",  "openradioss", "sfepy"};
   return kTargets;
 }
 
@@ -180,9 +182,12 @@ std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& opt
   if (options.target == "frontistr") return frontistr_rubber(numbers, options.material_name);
   if (options.target == "lsdyna") return lsdyna_rubber(numbers, options.material_name);
   if (options.target == "openradioss") return openradioss_rubber(numbers, options.material_name);
-  throw std::invalid_argument("there is no card of rubber for '" + options.target +
-                              "'; use abaqus, ansys, calculix, febio, frontistr, lsdyna or "
-                              "openradioss");
+  if (options.target == "comsol") return comsol_rubber(numbers, options.material_name);
+  if (options.target == "mfront") return mfront_rubber(numbers, options.material_name);
+  if (options.target == "moose") return moose_rubber(numbers, options.material_name);
+  if (options.target == "sfepy") return sfepy_rubber(numbers);
+  throw std::invalid_argument("there is no card of rubber for '" + options.target + "'; use " +
+                              listed(rubber_card_targets()));
 }
 
 }  // namespace viscard

@@ -8,8 +8,8 @@
 
 namespace viscard {
 
-// Solvers that a law of rubber is written for: abaqus, ansys, calculix, febio, frontistr,
-// lsdyna, openradioss.
+// Solvers that a law of rubber is written for: abaqus, ansys, calculix, comsol, febio, frontistr,
+// lsdyna, mfront, moose, openradioss, sfepy.
 const std::vector<std::string>& rubber_card_targets();
 
 // Solver, units and what the law does not state.

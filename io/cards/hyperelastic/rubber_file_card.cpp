@@ -46,7 +46,9 @@ std::vector<std::string> header_lines(const HyperelasticFile& file,
 std::string comment_mark(const std::string& target) {
   if (target == "ansys") return "! ";
   if (target == "lsdyna") return "$ ";
-  return target == "openradioss" || target == "frontistr" ? "# " : "** ";
+  if (target == "comsol") return "% ";
+  if (target == "mfront") return "// ";
+  return target == "abaqus" || target == "calculix" ? "** " : "# ";
 }
 
 std::string with_header(const std::vector<std::string>& lines, const std::string& target,

@@ -34,4 +34,12 @@ std::string frontistr_rubber(const RubberNumbers& law, const std::string& materi
 std::string lsdyna_rubber(const RubberNumbers& law, const std::string& material);
 std::string openradioss_rubber(const RubberNumbers& law, const std::string& material);
 
+// Cards that are a part of a model's text: a Python module, blocks of an input file, parameters.
+// Conventions and sources stand in rubber_models.cpp and rubber_mfront.cpp. They throw std::invalid_argument for laws that the
+// solver has not, or for which no public text gives its convention.
+std::string sfepy_rubber(const RubberNumbers& law);
+std::string moose_rubber(const RubberNumbers& law, const std::string& material);
+std::string mfront_rubber(const RubberNumbers& law, const std::string& material);
+std::string comsol_rubber(const RubberNumbers& law, const std::string& material);
+
 }  // namespace viscard

@@ -50,6 +50,9 @@ struct Solver {
   const char* error = "";       // in the log of a run that failed, with any exit status
   std::vector<std::string> version_words;  // arguments that print the version
   const char* version_pattern = "";        // regular expression; its group is the version
+  // For a program that answers with these words and no version: the one beside it that states it.
+  const char* answer = "";
+  const char* neighbour = "";
 };
 
 struct FoundSolver {

@@ -68,11 +68,15 @@ Solver calculix_solver() {
           .version_pattern = "Version (\\S+)"};
 }
 
-// mfront stands beside mtest.
+// The program of this name beside another one, else that of PATH.
+std::string beside(const std::string& program, const std::string& name) {
+  const fs::path path = fs::path(program).parent_path() / name;
+  return fs::exists(path) ? path.string() : name;
+}
+
 Commands mtest_commands(const std::string& program) {
-  const fs::path beside = fs::path(program).parent_path() / "mfront";
-  const std::string mfront = fs::exists(beside) ? beside.string() : "mfront";
-  return {{mfront, "--obuild", "--interface=generic", "card.mfront"}, {program, "deck.mtest"}};
+  return {{beside(program, "mfront"), "--obuild", "--interface=generic", "card.mfront"},
+          {program, "deck.mtest"}};
 }
 
 Solver mtest_solver() {
@@ -89,7 +93,10 @@ Solver mtest_solver() {
           .commands = mtest_commands,
           .samples = mtest_samples,
           .version_words = {"--version"},
-          .version_pattern = "(\\d+\\.\\d+\\S*)"};
+          .version_pattern = "(\\d+\\.\\d+\\S*)",
+          // MTestMain.cxx of TFEL 5.2 states no version.
+          .answer = "mtest is an behaviour testing utility",
+          .neighbour = "mfront"};
 }
 
 Solver frontistr_solver() {
@@ -149,7 +156,12 @@ std::vector<std::string> paths_of(const std::string& program) {
 
 // The version that a program states; empty if it is not this solver.
 std::string version_of(const Solver& solver, const std::string& program) {
-  const auto match = first_match(printed_by(program, solver.version_words), solver.version_pattern);
+  std::string text = printed_by(program, solver.version_words);
+  const bool has_neighbour = *solver.neighbour != '\0';
+  if (has_neighbour && text.find(solver.answer) != std::string::npos) {
+    text = printed_by(beside(program, solver.neighbour), solver.version_words);
+  }
+  const auto match = first_match(text, solver.version_pattern);
   return match ? match->group.back() : "";
 }
 

@@ -124,6 +124,7 @@ CardTarget abaqus_target() {
           .deck = DeckWriter{abaqus_deck, "abaqus job={}"},
           .add_mistakes = add_abaqus_mistakes,
           .is_case_sensitive = false,
+          .reads_fortran_numbers = true,
           .takes_incompressible = true,
           .takes_wlf = true,
           .takes_arrhenius = true,

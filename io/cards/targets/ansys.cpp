@@ -225,6 +225,7 @@ CardTarget ansys_target() {
       .read = read_ansys,
       .deck = DeckWriter{ansys_deck, "mapdl -b -i {}.mac"},
       .is_case_sensitive = false,
+      .reads_fortran_numbers = true,
       .max_terms = 100,
       .takes_wlf = true,
       .set_temperature = "TUNIF or BF,ALL,TEMP (0 if not given)",

@@ -185,6 +185,7 @@ CardTarget calculix_target() {
           .bulk = BulkRule::kConstantBulk,
           .states_equilibrium = true,
           .is_case_sensitive = false,
+          .reads_fortran_numbers = true,
           .step_note = calculix_step_note,
           .evidence = Evidence::kRun,
           .evidence_note = "run by viscard's tests with Debian's ccx",

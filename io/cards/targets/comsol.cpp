@@ -19,13 +19,6 @@
 namespace viscard {
 namespace {
 
-// COMSOL's unit syntax: "MPa", "t/mm^3".
-std::string comsol_unit(std::string unit) {
-  if (unit == "Ba") return "dyn/cm^2";
-  if (unit.back() == '3') unit.insert(unit.size() - 1, "^");
-  return unit;
-}
-
 std::string write_comsol(const CardBody& body) {
   const CardNumbers& numbers = body.numbers;
   const std::string stress = comsol_unit(body.units.stress), time = comsol_unit(body.units.time);

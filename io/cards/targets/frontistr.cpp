@@ -165,6 +165,7 @@ CardTarget frontistr_target() {
                          {.amplitude = 1.0, .steps_per_tau = 8, .ramp_in_tau = 1e-3}},
       .bulk = BulkRule::kConstantBulk,
       .is_case_sensitive = false,
+      .reads_fortran_numbers = true,
       .takes_wlf = true,
       .takes_arrhenius = true,
       .set_temperature = "!INITIAL CONDITION, TYPE=TEMPERATURE and !TEMPERATURE (0 if not given)",

@@ -208,6 +208,7 @@ CardTarget ansys_table_target() {
       .read = read_ansys_table,
       .bulk = BulkRule::kConstantPoisson,
       .is_case_sensitive = false,
+      .reads_fortran_numbers = true,
       .takes_incompressible = true,
       .evidence = Evidence::kDocumentation,
       .evidence_note = "public command reference; the factor of TB,SDAMP not checked; not run",

@@ -268,6 +268,7 @@ CardTarget lsdyna_target() {
       .bulk = BulkRule::kConstantBulk,
       .states_equilibrium = true,
       .is_case_sensitive = false,
+      .reads_fortran_numbers = true,
       .max_terms = 17,
       .needs_density = true,
       .takes_arrhenius = true,

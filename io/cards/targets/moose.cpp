@@ -8,6 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <set>
+#include <string>
+
 namespace viscard {
 namespace {
 
@@ -53,6 +56,7 @@ std::string write_moose(const CardBody& body) {
 
 void check_blocks(const std::string& text);
 void check_integration(const std::string& text, ReadCard& card);
+void check_repeats(const std::string& text, ReadCard& card);
 
 void read_moose(const std::string& commented, ReadCard& card) {
   const std::string text = without_line_comments(commented, "#");
@@ -63,6 +67,7 @@ void read_moose(const std::string& commented, ReadCard& card) {
       "creep_viscosity|creep_ratio|prop_values)\\s*=\\s*('[^']*'|\"[^\"]*\"|[^\\s\\[]+)");
   const auto name = first_match(text, "\\[(?:\\./)?(\\w+)\\]\\s*type\\s*=\\s*(Gen|ComputeIso)");
   if (name) card.name = name->group[1];
+  check_repeats(text, card);
   const bool is_elastic = named.count("young_modulus") == 0;
   card.numbers.young = one_of(named, is_elastic ? "youngs_modulus" : "young_modulus");
   card.numbers.poisson = one_of(named, is_elastic ? "poissons_ratio" : "poisson_ratio");
@@ -100,6 +105,19 @@ void check_blocks(const std::string& text) {
     }
   }
   if (depth > 0) throw std::runtime_error("a [block] of the card is not closed by []");
+}
+
+// MOOSE merges blocks of one name and then refuses the parameters that stand there twice.
+void check_repeats(const std::string& text, ReadCard& card) {
+  std::set<std::string> names;
+  for (const Match& match :
+       all_matches(text, "\\[(?:\\./)?(\\w+)\\]\\s*type\\s*=\\s*(Gen\\w*Maxwell|ComputeIso)")) {
+    if (names.insert(match.group[1]).second) continue;
+    card.add("doubled-block", at_line(line_of(text, match.at[0]),
+                                      "the block [" + match.group[1] +
+                                          "] stands in the card twice; delete one of them"));
+    return;
+  }
 }
 
 void check_integration(const std::string& text, ReadCard& card) {

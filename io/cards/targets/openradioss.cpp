@@ -164,6 +164,7 @@ CardTarget openradioss_target() {
           .bulk = BulkRule::kConstantBulk,
           .states_equilibrium = true,
           .is_case_sensitive = false,
+          .reads_fortran_numbers = true,
           .max_terms = 5,
           .needs_density = true,
           .evidence = Evidence::kSource,

@@ -160,7 +160,8 @@ class RubberFit:
     @_check.arguments
     def card(self, target: str, units: str = "SI", *, bulk_modulus_Pa: Optional[float] = None,
              density_kg_m3: Optional[float] = None, accept_flags: bool = False) -> RubberCard:
-        """A card for a solver: "abaqus", "ansys", "calculix", "febio", "frontistr", "lsdyna" or "openradioss".
+        """A card for a solver: "abaqus", "ansys", "calculix", "comsol", "febio", "frontistr", "lsdyna", "mfront", "moose",
+        "openradioss" or "sfepy".
 
         Parameters
         ----------

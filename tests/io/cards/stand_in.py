@@ -81,9 +81,14 @@ def febio():
                       f"7 {strain if creep else stress:.12g}", file=out)
 
 
+def mfront():
+    if sys.argv[1:] == ["--version"]:
+        print("tfel\nVersion : 5.2.0-stand-in")
+
+
 def mtest():
     if sys.argv[1:] == ["--version"]:
-        return print("tfel mtest 5.2.0-stand-in")
+        return print("mtest is an behaviour testing utility")
     card = re.sub("//.*", "", open("card.mfront").read())
     value = {name: [float(x) for x in re.sub("[{}]", "", text).split(",")] for name, text in
              re.findall(r"@Parameter real (\w+)(?:\[Nt\])? = ([^;]*);", card)}
@@ -168,4 +173,4 @@ def fistr1():
 
 
 name = os.path.basename(sys.argv[0])
-{"febio4": febio, "mtest": mtest, "fistr1": fistr1, "mfront": lambda: None}[name]()
+{"febio4": febio, "mtest": mtest, "fistr1": fistr1, "mfront": mfront}[name]()

@@ -1,0 +1,160 @@
+// An MFront behaviour of any law of models/hyperelastic/hyperelastic_law.h, in the isochoric invariants
+// and stretches of C = F^T F and with the energy K/2 (J - 1)^2 of the volume. With j = J^(-2/3),
+//   S = 2 (W1 A1 + W2 A2) + K (J - 1) J C^-1, A1 = j (I - I1/3 C^-1), A2 = j^2 (I1 I - C - 2/3 I2 C^-1),
+// W1, W2: derivatives of W by the isochoric invariants; each term of Ogden adds
+//   2 mu/alpha J^(-alpha/3) (C^(alpha/2 - 1) - tr(C^(alpha/2))/3 C^-1).
+// Source: Holzapfel, Nonlinear Solid Mechanics (2000), 6.4 and 6.5. The names of MFront are those of TFEL's
+// gallery, Signorini.mfront and Ogden.mfront. The tangent dS/dC is the derivative of S.
+#include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/keyword_lines.h"
+
+#include <fmt/format.h>
+
+namespace viscard {
+namespace {
+
+using RubberForm = HyperelasticForm;
+
+// What differs between laws: parameters, and the derivatives of W by the first and second isochoric
+// invariant; x is the first one minus 3.
+struct MfrontLaw {
+  std::string parameters, derivatives;
+
+  void add(const std::string& name, double value) {
+    parameters += fmt::format("@Parameter real {} = {};\n", name, number_of_20(value));
+  }
+};
+
+// W1 and W11 of the five terms C_i/s_m^(2i - 2) I^i of Arruda and Boyce.
+constexpr const char* kChains =
+    "  const real c[5] = {1. / 2, 1. / 20, 11. / 1050, 19. / 7000, 519. / 673750};\n"
+    "  const real y = (x + 3) / (s_m * s_m);\n"
+    "  real W1 = 0, W11 = 0;\n"
+    "  for (int i = 5; i != 0; --i) {\n"
+    "    W1 = W1 * y + mu * i * c[i - 1];\n"
+    "    if (i > 1) W11 = W11 * y + mu * i * (i - 1) * c[i - 1] / (s_m * s_m);\n"
+    "  }\n";
+
+MfrontLaw mfront_law(const RubberNumbers& law) {
+  MfrontLaw out;
+  const auto& moduli = law.moduli;
+  if (law.form == RubberForm::kYeoh) {
+    out.add("C10", moduli[0]);
+    out.add("C20", moduli[1]);
+    out.add("C30", moduli[2]);
+    out.derivatives =
+        "  const real W1 = C10 + 2 * C20 * x + 3 * C30 * x * x, W11 = 2 * C20 + 6 * C30 * x;\n";
+  } else if (law.form == RubberForm::kArrudaBoyce) {
+    out.add("mu", moduli[0]);
+    out.add("s_m", law.shapes[0]);
+    out.derivatives = kChains;
+  } else if (law.form == RubberForm::kGent) {
+    out.add("mu", moduli[0]);
+    out.add("J_m", law.shapes[0]);
+    out.derivatives = "  const real W1 = mu / 2 / (1 - x / J_m), W11 = W1 / (J_m - x);\n";
+  } else {
+    out.add("C10", moduli[0]);
+    out.derivatives = "  const real W1 = C10, W11 = 0;\n";
+  }
+  const bool has_second = law.form == RubberForm::kMooneyRivlin;
+  if (has_second) out.add("C01", moduli[1]);
+  out.derivatives += has_second ? "  const real W2 = C01;\n" : "  const real W2 = 0;\n";
+  return out;
+}
+
+constexpr const char* kOpening = R"mfront(
+@LocalVariable StiffnessTensor dS_dC;
+
+@Integrator {
+  const auto id = Stensor::Id();
+  const real J = det(F1);
+  const Stensor C = computeRightCauchyGreenTensor(F1);
+  const real I1 = trace(C);
+  const real I2 = (I1 * I1 - trace(square(C))) / 2;
+  const real I3 = J * J;
+  const Stensor iC = (square(C) - I1 * C + I2 * id) / I3;
+  const Stensor4 diC = computeDeterminantSecondDerivative(C) / I3 - (iC ^ iC);
+)mfront";
+
+constexpr const char* kInvariants = R"mfront(  const Stensor A1 = j * (id - (I1 / 3) * iC);
+  const Stensor A2 = j * j * (I1 * id - C - (2 * I2 / 3) * iC);
+  StressStensor S = 2 * (W1 * A1 + W2 * A2);
+  if (computeTangentOperator_) {
+    const Stensor4 dA1 = -(A1 ^ iC) / 3 - (j / 3) * ((iC ^ id) + I1 * diC);
+    const Stensor4 dA2 =
+        -(2 * (A2 ^ iC)) / 3 + j * j * ((id ^ id) - Stensor4::Id() -
+                                        (2 * (iC ^ (I1 * id - C))) / 3 - (2 * I2 / 3) * diC);
+    dS_dC = 2 * (W11 * (A1 ^ A1) + W1 * dA1 + W2 * dA2);
+  }
+)mfront";
+
+constexpr const char* kStretches = R"mfront(  StressStensor S(real(0));
+  dS_dC = Stensor4(real(0));
+  tvector<3u, real> vp;
+  tmatrix<3u, 3u, real> m;
+  std::tie(vp, m) = C.template computeEigenVectors<Stensor::FSESJACOBIEIGENSOLVER>();
+  for (unsigned short i = 0; i != Nt; ++i) {
+    const real a = alpha[i] / 2;
+    const real c = 2 * mu[i] / alpha[i] * std::pow(J, -alpha[i] / 3);
+    tvector<3u, real> p, dp;
+    real f = 0;
+    for (unsigned short n = 0; n != 3; ++n) {
+      p(n) = std::pow(vp(n), a - 1);
+      dp(n) = (a - 1) * p(n) / vp(n);
+      f += p(n) * vp(n);
+    }
+    const Stensor P = Stensor::computeIsotropicFunction(p, m);
+    const Stensor deviator = P - (f / 3) * iC;
+    S += c * deviator;
+    if (computeTangentOperator_) {
+      dS_dC += c * (Stensor::computeIsotropicFunctionDerivative(p, dp, vp, m, 1.e-12) -
+                    (a / 3) * ((deviator ^ iC) + (iC ^ P)) - (f / 3) * diC);
+    }
+  }
+)mfront";
+
+constexpr const char* kClosing = R"mfront(  S += K * (J - 1) * J * iC;
+  sig = convertSecondPiolaKirchhoffStressToCauchyStress(S, F1);
+  if (computeTangentOperator_) {
+    dS_dC += (K * (2 * J - 1) * J / 2) * (iC ^ iC) + (K * (J - 1) * J) * diC;
+  }
+}
+
+@TangentOperator<DS_DC> {
+  static_cast<void>(smt);
+  Dt = dS_dC;
+}
+)mfront";
+
+// Terms of Ogden; MFront makes an array of one a scalar, so a second term without stiffness keeps it an
+// array.
+std::string ogden_parameters(const RubberNumbers& law) {
+  std::vector<double> mu = law.moduli, alpha = law.shapes;
+  if (mu.size() == 1) {
+    mu.push_back(0.0);
+    alpha.push_back(2.0);
+  }
+  const auto array = [](const char* name, const std::vector<double>& values) {
+    std::string cells;
+    for (const double value : values) cells += (cells.empty() ? "" : ", ") + number_of_20(value);
+    return fmt::format("@Parameter real {}[Nt] = {{{}}};\n", name, cells);
+  };
+  return fmt::format("@IntegerConstant Nt = {};\n", mu.size()) + array("mu", mu) +
+         array("alpha", alpha);
+}
+
+}  // namespace
+
+std::string mfront_rubber(const RubberNumbers& law, const std::string& material) {
+  const bool ogden = is_ogden(law.form);
+  const MfrontLaw by_invariants = ogden ? MfrontLaw{} : mfront_law(law);
+  std::string text = "@DSL DefaultFiniteStrain;\n@Behaviour " + material + ";\n" +
+                     fmt::format("@Parameter real K = {};\n", number_of_20(law.bulk));
+  text += ogden ? ogden_parameters(law) : by_invariants.parameters;
+  text += kOpening;
+  if (ogden) return text + kStretches + kClosing;
+  return text + "  const real j = 1 / std::cbrt(I3);\n  const real x = j * I1 - 3;\n" +
+         by_invariants.derivatives + kInvariants + kClosing;
+}
+
+}  // namespace viscard
