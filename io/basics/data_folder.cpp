@@ -1,7 +1,10 @@
 #include "io/basics/data_folder.h"
 
+#include <dlfcn.h>
+
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace fs = std::filesystem;
 
@@ -21,6 +24,18 @@ fs::path data_folder_beside(const fs::path& of_program) {
 }
 
 fs::path data_folder() {
+  // A Python module is not beside the program that runs it: PREFIX/lib/python3/dist-packages/viscard.
+  static const char kHere = 0;
+  Dl_info module{};
+  const bool is_known = ::dladdr(&kHere, &module) != 0 && module.dli_fname != nullptr;
+  if (is_known && fs::path(module.dli_fname).extension() == ".so") {
+    std::error_code error;
+    fs::path above = fs::absolute(module.dli_fname, error).parent_path();
+    for (; above.has_relative_path(); above = above.parent_path()) {
+      const fs::path folder = above / "share" / "viscard";
+      if (fs::is_directory(folder / "demo", error)) return folder;
+    }
+  }
   return data_folder_beside(fs::read_symlink("/proc/self/exe").parent_path());
 }
 

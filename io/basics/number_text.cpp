@@ -1,11 +1,12 @@
 #include "io/basics/number_text.h"
 
+#include "models/maths/leading_number.h"
+
 #include <fmt/format.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace viscard {
@@ -55,7 +56,7 @@ std::string nearest_number(double value, int columns) {
   double best_error = std::numeric_limits<double>::infinity();
   const auto consider = [&](const std::string& text) {
     if (static_cast<int>(text.size()) > columns) return;
-    const double error = std::abs(std::strtod(text.c_str(), nullptr) - value);
+    const double error = std::abs(leading_number(text) - value);
     if (error < best_error || (error == best_error && text.size() < best.size())) {
       best = text;
       best_error = error;
@@ -66,7 +67,7 @@ std::string nearest_number(double value, int columns) {
     consider(scientific);
     if (std::abs(value) < 1e15) {
       const std::string fixed = fmt::format("{:.{}f}", value, digits);
-      if (std::strtod(fixed.c_str(), nullptr) != 0.0) consider(squeezed(fixed));
+      if (leading_number(fixed) != 0.0) consider(squeezed(fixed));
     }
   }
   return best;

@@ -2,12 +2,12 @@
 
 #include "io/cards/card_lines.h"
 #include "io/cards/list_differences.h"
+#include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 
 namespace viscard {
@@ -15,9 +15,7 @@ namespace {
 
 // A band that the user did not name has three digits.
 FrequencyBand rounded(const FrequencyBand& band) {
-  const auto three_digits = [](double f_Hz) {
-    return std::strtod(fmt::format("{:.3g}", f_Hz).c_str(), nullptr);
-  };
+  const auto three_digits = [](double f_Hz) { return leading_number(fmt::format("{:.3g}", f_Hz)); };
   return {three_digits(band.from_Hz), three_digits(band.to_Hz)};
 }
 
@@ -100,11 +98,11 @@ std::string band_line(const FrequencyBand& band, const Material& material) {
 std::optional<FrequencyBand> stated_band(const std::string& text) {
   const std::size_t at = text.find("band: ");
   if (at == std::string::npos) return std::nullopt;
-  char* end = nullptr;
+  std::string_view rest;
   FrequencyBand band;
-  band.from_Hz = std::strtod(text.c_str() + at + 6, &end);
-  if (std::string_view(end).substr(0, 4) != " to ") return std::nullopt;
-  band.to_Hz = std::strtod(end + 4, &end);
+  band.from_Hz = leading_number(std::string_view(text).substr(at + 6), &rest);
+  if (!rest.starts_with(" to ")) return std::nullopt;
+  band.to_Hz = leading_number(rest.substr(4));
   const bool is_band = band.from_Hz > 0.0 && band.to_Hz > band.from_Hz && std::isfinite(band.to_Hz);
   return is_band ? std::optional(band) : std::nullopt;
 }

@@ -5,12 +5,12 @@
 #include "io/cards/card_form.h"
 #include "io/cards/list_differences.h"
 #include "io/cards/material_difference.h"
+#include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 
 namespace viscard {
@@ -202,7 +202,7 @@ void compare_with_header(const std::string& text, CardCheck& check) {
   // The header's number is in the unit system, which the reader of such a card does not know.
   const bool is_comparable = !check.read.understood.numbers_carry_units && found_Pa > 0.0;
   if (at == std::string::npos || !is_comparable) return;
-  const double stated = std::strtod(text.c_str() + at + mark.size(), nullptr);
+  const double stated = leading_number(std::string_view(text).substr(at + mark.size()));
   const double stated_Pa = from_card(stated, check.read.units.stress_exponent);
   // The header has ten digits; columns round E(t) by up to 1e-4 before a card is refused.
   if (std::abs(found_Pa / stated_Pa - 1.0) <= 2e-4) return;

@@ -1,12 +1,12 @@
 #include "io/cards/list_differences.h"
 
+#include "models/maths/leading_number.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 namespace viscard {
@@ -109,7 +109,7 @@ WrittenDigits written_digits(double value) {
   const std::string text = fmt::format("{:.13e}", std::abs(value));
   const std::size_t exponent = text.find('e'), last = text.find_last_not_of('0', exponent - 1);
   const int count = last <= 1 ? 1 : static_cast<int>(last);  // one is the decimal point
-  const double power = std::strtod(text.c_str() + exponent + 1, nullptr);
+  const double power = leading_number(text.substr(exponent + 1));
   return {count, std::pow(10.0, power - count + 1)};
 }
 

@@ -58,6 +58,7 @@ std::string reason_of_value(const std::string& key, std::string_view value) {
   }
   if (is_text) return "";
   const std::string_view bare = trimmed(value.substr(0, value.find('#')));
+  if (bare.front() == '=') return "'=' stands twice behind '" + key + "'";
   if (begins_number(bare) && has_decimal_comma(bare)) {
     return "'" + std::string(bare) + "' has a decimal comma; write a point";
   }

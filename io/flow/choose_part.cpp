@@ -107,8 +107,12 @@ ChosenPart choose_part(CsvTable& table, const FitRequest& request) {
     first_s = std::min(first_s, t);
     last_s = std::max(last_s, t);
   }
-  if (rows.empty()) {
-    throw std::runtime_error("no row lies between --from and --to; the record covers " +
+  constexpr std::size_t kLeast = 4;  // what any fit needs
+  const bool is_cut = request.from_s || request.to_s;
+  if (rows.empty() || (is_cut && rows.size() < kLeast)) {
+    throw std::runtime_error(counted(rows.size(), "row") +
+                             " between --from and --to, and a fit needs at least 4; the "
+                             "record covers " +
                              text_of(course.time_s.front()) + " to " +
                              text_of(course.time_s.back()) + " s");
   }

@@ -33,7 +33,8 @@ std::string json_from_material(const MaterialFile& file) {
   } catch (const Json::exception&) {
     throw std::invalid_argument("material '" + file.material.name +
                                 "' contains text that is not UTF-8 and cannot be written as JSON; "
-                                "correct its name, flags and provenance");
+                                "give the file it was fitted from a name in UTF-8, or correct its "
+                                "name, flags and provenance");
   }
 }
 

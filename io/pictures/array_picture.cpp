@@ -83,7 +83,7 @@ void draw_row(SceneDrawing& d, const ArrayScene& scene, const ShownRow& row) {
   d.legend(fmt::format("orange: {}, {} wide; dashed: ground",
                        has_electrodes ? "one electrode under each pillar"
                                       : "charge-free face, its potential read over each pillar",
-                       micrometres(2.0 * half_m)));
+                       length_text(2.0 * half_m)));
 }
 
 std::string words_of_load(const ArrayScene& scene) {
@@ -113,21 +113,21 @@ void draw_lengths(SceneDrawing& d, const ArrayGeometry& g, const ShownRow& row) 
   const bool is_endless = g.ends == FilmEnds::kMirror;
   if (row.pillars.size() > 1 || is_endless) {
     const double from_m = row.pillars.front().second + half_m;
-    mark(from_m, from_m + g.spacing_m, "s " + micrometres(g.spacing_m));
+    mark(from_m, from_m + g.spacing_m, "s " + length_text(g.spacing_m));
   }
   if (!is_endless && g.film_edge_m > 0.0) {
-    mark(row.pillars.back().second + half_m, row.right_m, "edge " + micrometres(g.film_edge_m));
+    mark(row.pillars.back().second + half_m, row.right_m, "edge " + length_text(g.film_edge_m));
   }
 }
 
 std::string words_of_lengths(const ArrayGeometry& g) {
   std::string words =
-      fmt::format("pillars d {}, l {}", micrometres(g.diameter_m), micrometres(g.length_m));
+      fmt::format("pillars d {}, l {}", length_text(g.diameter_m), length_text(g.length_m));
   if (g.count > 1 || g.ends == FilmEnds::kMirror) {
-    words += fmt::format(", s {} from edge to edge", micrometres(g.spacing_m));
+    words += fmt::format(", s {} from edge to edge", length_text(g.spacing_m));
   }
-  words += fmt::format("; film t {}", micrometres(g.film_thickness_m));
-  if (g.ends == FilmEnds::kFree) words += ", edge " + micrometres(g.film_edge_m);
+  words += fmt::format("; film t {}", length_text(g.film_thickness_m));
+  if (g.ends == FilmEnds::kFree) words += ", edge " + length_text(g.film_edge_m);
   return words;
 }
 

@@ -72,7 +72,7 @@ std::string svg_from_scene(const LayerScene& scene, const std::string& title) {
   d.ground(-half_m, half_m, t_m, scene.grounded);
   draw_shape(d, scene, half_m, top_m);
   d.text(12.0, 40.0,
-         fmt::format("layer {} on film t {}", micrometres(scene.thickness_m), micrometres(t_m)));
+         fmt::format("layer {} on film t {}", length_text(scene.thickness_m), length_text(t_m)));
   d.text(12.0, 60.0, words_of_press(scene.press));
   const char* const models[] = {"section along x of a layer in space", "plane strain",
                                 "plane stress"};

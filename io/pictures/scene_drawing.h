@@ -50,7 +50,7 @@ class SceneDrawing {
 };
 
 // "25 um", "10 kPa", "1 m/s^2": four digits, with a prefix where the unit takes one.
-std::string micrometres(double m);
+std::string length_text(double m);
 std::string pascals(double Pa);
 
 }  // namespace viscard

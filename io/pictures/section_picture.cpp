@@ -2,6 +2,7 @@
 
 #include "io/pictures/colour_scale.h"
 #include "io/plots/plot_svg.h"
+#include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@ namespace {
 constexpr double kSectionWidth_px = 560.0;
 constexpr double kHeight_px = 560.0;
 constexpr double kLeft_px = 30.0, kRight_px = 130.0, kTop_px = 50.0, kBottom_px = 40.0;
+constexpr double kShortestBar_px = 150.0, kLongestBar_px = 0.6 * kHeight_px;
 // Largest displacement drawn: of the height, and of the pillar's radius where it does not swing.
 constexpr double kSwing = 0.15, kBulge = 0.4;
 
@@ -45,6 +47,12 @@ double largest_drawn_m(const SectionGrid& grid) {
   return grid.harmonic == 1 ? swing_m : std::min(swing_m, kBulge * radius_m);
 }
 
+// Three digits without an exponent.
+std::string factor_text(double factor) {
+  const double rounded = leading_number(fmt::format("{:.2e}", factor));
+  return factor < 1000.0 ? fmt::format("{:.3g}", factor) : fmt::format("{:.0f}", rounded);
+}
+
 // "static_stress_zz_Pa" -> "static stress zz"; the unit stands at the bar.
 std::string title_of(std::string name, const std::string& unit) {
   if (unit != "1" && name.ends_with("_" + unit)) name.resize(name.size() - unit.size() - 1);
@@ -64,7 +72,7 @@ Shown shown_of(const SectionGrid& grid, const SectionField& field) {
   const double factor = field.is_vector && largest > 0.0 ? largest_drawn_m(grid) / largest : 0.0;
   if (field.is_vector) {
     shown.note = field.unit == "1" ? "largest displacement is 1"
-                                   : fmt::format("displacement drawn {:.3g} times", factor);
+                                   : "displacement drawn " + factor_text(factor) + " times";
   }
   const bool is_of_film = field.name == "potential_V";
   for (std::size_t q = 0; q < grid.quads.size(); ++q) {
@@ -109,14 +117,14 @@ Range range_of(const Shown& shown) {
   return {-size, size};
 }
 
-std::string scale_bar(const Range& range, const Shown& shown) {
+std::string scale_bar(const Range& range, const Shown& shown, double length_px) {
   const BarUnit unit = bar_unit(shown.unit, std::max(std::abs(range.low), std::abs(range.high)));
   std::vector<ColourTick> ticks;
   for (const double tick : round_ticks(unit.per_si * range.low, unit.per_si * range.high)) {
     ticks.push_back({range.share(tick / unit.per_si), fmt::format("{:.6g}", tick)});
   }
   const double bar_px = kSectionWidth_px - kRight_px + 30.0;
-  return colour_bar(bar_px, kTop_px, 0.6 * kHeight_px, shown.is_signed, ticks) +
+  return colour_bar(bar_px, kTop_px, length_px, shown.is_signed, ticks) +
          fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", bar_px, kTop_px - 12.0,
                      unit.text);
 }
@@ -135,6 +143,9 @@ std::string svg_of(const Shown& shown) {
                                 (kHeight_px - kTop_px - kBottom_px) / (high_z - low_z));
   const double left =
       kLeft_px + 0.5 * (kSectionWidth_px - kLeft_px - kRight_px - scale * (high_x - low_x));
+  const double body_px = scale * (high_z - low_z);
+  const double bar_px = std::clamp(body_px, kShortestBar_px, kLongestBar_px);
+  const double height_px = kTop_px + std::max(body_px, bar_px) + kBottom_px;
   const Range range = range_of(shown);
   std::string body;
   for (const auto& quad : shown.quads) {
@@ -143,7 +154,7 @@ std::string svg_of(const Shown& shown) {
     for (const Corner& c : quad) {
       mean += 0.25 * c.value;
       points += fmt::format("{:.1f},{:.1f} ", left + scale * (c.x_m - low_x),
-                            kHeight_px - kBottom_px - scale * (c.z_m - low_z));
+                            height_px - kBottom_px - scale * (c.z_m - low_z));
     }
     const std::string ink = colour_of(range.share(mean), shown.is_signed);
     body += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"0.6\"/>\n",
@@ -155,8 +166,8 @@ std::string svg_of(const Shown& shown) {
       "<title>{2}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"12\" y=\"24\" font-size=\"15\">{2}</text>\n{3}{4}"
       "<text x=\"12\" y=\"{5:.0f}\" fill=\"#444\">{6}</text>\n</svg>\n",
-      kSectionWidth_px, kHeight_px, escaped_markup(shown.title), body, scale_bar(range, shown),
-      kHeight_px - 14.0, escaped_markup(shown.note));
+      kSectionWidth_px, height_px, escaped_markup(shown.title), body,
+      scale_bar(range, shown, bar_px), height_px - 14.0, escaped_markup(shown.note));
 }
 
 }  // namespace

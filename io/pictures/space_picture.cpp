@@ -91,16 +91,15 @@ FilmExtent film_near_pillars(const SpaceScene& scene) {
 
 std::string words_of_array(const SpaceScene& scene) {
   std::string words =
-      fmt::format("pillars d {}, l {}", micrometres(scene.diameter_m), micrometres(scene.length_m));
+      fmt::format("pillars d {}, l {}", length_text(scene.diameter_m), length_text(scene.length_m));
   if (scene.pillars.size() > 1) {
-    words += ", smallest gap " + micrometres(smallest_gap_m(scene));
+    words += ", smallest gap " + length_text(smallest_gap_m(scene));
   }
   if (!scene.others.empty()) words += fmt::format(", {} other classes", scene.others.size());
-  words += fmt::format("; film t {}, edge {}", micrometres(scene.film_thickness_m),
-                       micrometres(scene.film_edge_m));
+  words += fmt::format("; film t {}, edge {}", length_text(scene.film_thickness_m),
+                       length_text(scene.film_edge_m));
   if (!scene.backing) return words;
-  return words +
-         fmt::format(", on a half-space of {:.3g} MPa", 1e-6 * scene.backing->young_modulus_Pa);
+  return words + ", on a half-space of " + pascals(scene.backing->young_modulus_Pa);
 }
 
 std::string words_of_loads(const SpaceScene& scene) {
@@ -131,9 +130,9 @@ std::string words_of_press(const ShapePress& press) {
   const char* const name =
       press.shape.table.is_random ? "rough surface" : names[static_cast<int>(press.shape.kind)];
   std::string words = fmt::format("a rigid {}", name);
-  if (press.shape.radius_m > 0.0) words += " of radius " + micrometres(press.shape.radius_m);
+  if (press.shape.radius_m > 0.0) words += " of radius " + length_text(press.shape.radius_m);
   if (press.force_N > 0.0) return words + fmt::format(" pressed with {:.4g} N", press.force_N);
-  return words + " pressed " + micrometres(press.depth_m) + " deep";
+  return words + " pressed " + length_text(press.depth_m) + " deep";
 }
 
 std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
@@ -143,7 +142,7 @@ std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
   scene.pillars.size() > kMostDrawn ? draw_field(d, scene) : draw_pillars(d, scene);
   const double low_px = d.y(film.low_m);
   const double bar_m = scale_length_m(film.right_m - film.left_m);
-  d.length_mark(film.left_m, film.left_m + bar_m, low_px + 30.0, micrometres(bar_m));
+  d.length_mark(film.left_m, film.left_m + bar_m, low_px + 30.0, length_text(bar_m));
   const double corner_px = d.x(film.right_m) + 24.0;
   d.arrow(corner_px, low_px, corner_px + 34.0, low_px, false);
   d.arrow(corner_px, low_px, corner_px, low_px - 34.0, false);
@@ -162,7 +161,7 @@ std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
                          scene.electrode == SpaceElectrode::kQuadrants ? "quarters that are read"
                                                                        : "discs that are read",
                          scene.grounded == FilmFace::kTop ? "bottom" : "top",
-                         micrometres(electrode_radius_m(scene))));
+                         length_text(electrode_radius_m(scene))));
   }
   return d.document(title);
 }

@@ -66,8 +66,9 @@ void add_methods(Page& page, const ReportInput& input) {
   if (is_punch) {
     intervals +=
         "If the record shows a drift of the load cell before contact, the intervals of the moduli "
-        "include it. Errors of punch, layer, Poisson ratio, calibration and frame scale all moduli "
-        "of a specimen together; they are reported separately as the systematic part.";
+        "include it. Errors of punch, layer and Poisson ratio scale all moduli of a specimen "
+        "together; those of the frame, and of the calibration on a frame that yields, change "
+        "<i>g</i> and <i>τ</i> as well. They are reported separately as the systematic part.";
   }
   page.add_paragraph(intervals);
   if (!input.law) return;

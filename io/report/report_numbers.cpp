@@ -1,5 +1,7 @@
 #include "io/report/report_numbers.h"
 
+#include "models/maths/leading_number.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -74,7 +76,7 @@ std::string readable_number(double value, int digits) {
   if (exponent >= -4 && exponent < 6) {
     std::string text = fmt::format("{:.{}g}", value, digits);
     // %g writes 1.8e+05 when there are fewer digits than places before the point.
-    if (text.find('e') != std::string::npos) text = fmt::format("{:.0f}", std::stod(text));
+    if (text.find('e') != std::string::npos) text = fmt::format("{:.0f}", leading_number(text));
     return with_true_minus(text);
   }
   std::string text = fmt::format("{:.{}e}", value, std::max(0, digits - 1));

@@ -49,8 +49,9 @@ std::string summary_caption(const std::vector<SpecimenEstimates>& estimates) {
             "modulus.";
   text +=
       " Brackets hold 95 % intervals from the record alone. The systematic part (geometry, "
-      "calibration, frame), also at 95 %, scales all moduli of a specimen together and does not "
-      "change <i>g</i> and <i>τ</i>.";
+      "calibration, frame), also at 95 %, is that of the instantaneous value. Frame and load cell "
+      "change <i>g</i> and <i>τ</i> as well; <code>viscard fit</code> prints the intervals of "
+      "<i>g</i> that include it.";
   const auto with = std::find_if(estimates.begin(), estimates.end(), [](const auto& specimen) {
     return specimen.two_point.has_value();
   });

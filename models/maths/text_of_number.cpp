@@ -4,14 +4,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace viscard {
 
 std::string text_of(double value, int significant_digits) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", significant_digits, value);
-  return text.data();
+  std::array<char, 400> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value,
+                                          std::chars_format::general, significant_digits);
+  return error == std::errc() ? std::string(text.data(), end) : "";
 }
 
 std::string micrometres(double value_m, int significant_digits) {

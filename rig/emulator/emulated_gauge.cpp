@@ -1,12 +1,12 @@
 #include "rig/emulator/emulated_gauge.h"
 
+#include "models/maths/leading_number.h"
 #include "models/maths/text_of_number.h"
 #include "rig/protocols/gauge_protocols.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -24,10 +24,9 @@ struct EmulatedGauge::Instrument {
 
 namespace {
 
-std::string formatted(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
+// "1.500" becomes "01.500": six characters, as these instruments send them.
+std::string with_leading_zeros(const std::string& number) {
+  return std::string(6 - std::min<std::size_t>(6, number.size()), '0') + number;
 }
 
 }  // namespace
@@ -41,13 +40,13 @@ const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string&
        false,
        "",
        [](const Shown& shown) {
-         return formatted("%+.8E\r\n", shown.is_overload ? 9.9e37 : shown.volts);
+         return scpi_text(shown.is_overload ? 9.9e37 : shown.volts, 8) + "\r\n";
        }},
       {"mark10", {"?"}, true, false, "*10\r\n", mark10_text},
       {"mark10-continuous", {"?"}, true, true, "*10\r\n", mark10_text},
       {"sauter", {"9"}, false, false, "", [](const Shown& shown) {
          return (shown.force >= 0.0 ? "0" : "1") +
-                formatted("%06.3f", std::min(std::abs(shown.force), 99.999));
+                with_leading_zeros(text_from_number(std::min(std::abs(shown.force), 99.999), 3));
        }}};
   for (const Instrument& row : kInstruments) {
     if (driver == row.driver) return row;

@@ -1,9 +1,8 @@
 #include "rig/emulator/emulated_thermometer.h"
 
+#include "models/maths/leading_number.h"
 #include "models/maths/text_of_number.h"
 
-#include <array>
-#include <cstdio>
 #include <utility>
 
 namespace viscard {
@@ -38,11 +37,7 @@ std::string EmulatedThermometer::line(double time_s) {
   double temperature_C = habits_.temperature_C + habits_.drift_K_s * time_s;
   if (is_nth(habits_.garble_every)) temperature_C += 40.0;
   if (is_nth(habits_.fail_every)) temperature_C = -127.0;
-  if (config_.driver == "scpi") {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%+.8E\r\n", temperature_C);
-    return text.data();
-  }
+  if (config_.driver == "scpi") return scpi_text(temperature_C, 8) + "\r\n";
   return habits_.before + text_from_number(temperature_C, 2) + habits_.behind + "\r\n";
 }
 

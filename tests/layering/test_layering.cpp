@@ -145,6 +145,29 @@ TEST_CASE("only the command line knows Boost.Program_options", "[layering]") {
   }
 }
 
+// A program that calls setlocale(), such as Python with a window, gets 0,5 from these or reads 0 from 0.5.
+TEST_CASE("numbers become text and text becomes numbers without functions that follow the locale",
+          "[layering]") {
+  static const std::regex kFollowsLocale(
+      R"(\b(strtod|strtof|strtold|stod|stof|stold|atof|sscanf|wcstod)\s*\(|printf\s*\([^;]*%[-+ #0-9.*]*[aefgAEFG])");
+  const auto follows_locale = [](const std::string& line) {
+    const std::string code = line.substr(0, line.find("//"));
+    const auto has = [&](const char* word) { return code.find(word) != std::string::npos; };
+    const bool is_near = has("printf") || has("sto") || has("strto") || has("ato") || has("scanf");
+    return is_near && std::regex_search(code, kFollowsLocale);
+  };
+  REQUIRE(follows_locale("std::snprintf(text, 9, \"%.*g\", digits, value);"));
+  REQUIRE(follows_locale("return std::stod(cell);"));
+  REQUIRE_FALSE(follows_locale("fmt::format(\"{:g}\", value);"));
+  for (const auto& [path, file] : tree().files) {
+    CAPTURE(path);
+    for (const std::string& line : lines_of(file.text)) {
+      CAPTURE(line);
+      CHECK_FALSE(follows_locale(line));
+    }
+  }
+}
+
 TEST_CASE("one file includes the header of the HTTP library, which is expensive to compile",
           "[layering]") {
   std::vector<std::string> places;

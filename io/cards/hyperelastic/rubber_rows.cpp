@@ -14,13 +14,13 @@
 
 #include "io/cards/column_fields.h"
 #include "io/cards/keyword_lines.h"
+#include "models/maths/leading_number.h"
 #include "models/maths/require.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 
 namespace viscard {
@@ -58,7 +58,7 @@ struct ShortRows {
   std::string row(const Row& numbers) {
     for (const double number : numbers) {
       if (number == 0.0) continue;
-      const double written = std::strtod(real(number, kShort).c_str(), nullptr);
+      const double written = leading_number(real(number, kShort));
       loss = std::max(loss, std::abs(written / number - 1.0));
     }
     return row_of(numbers, kShort);

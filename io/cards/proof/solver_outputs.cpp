@@ -2,10 +2,10 @@
 #include "io/basics/atomic_file.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/proof/solvers.h"
+#include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <sstream>
 
 namespace viscard {
@@ -20,7 +20,7 @@ std::string text_of(const fs::path& path) {
 std::vector<double> numbers_in(const std::string& line) {
   std::vector<double> out;
   std::istringstream stream(line);
-  for (std::string word; stream >> word;) out.push_back(std::strtod(word.c_str(), nullptr));
+  for (std::string word; stream >> word;) out.push_back(leading_number(word));
   return out;
 }
 
@@ -45,9 +45,9 @@ std::vector<SolverSample> calculix_samples(const fs::path& folder, const DeckInp
   for (std::string line; std::getline(stream, line);) {
     const std::size_t at = line.find("and time");
     if (at != std::string::npos) {
-      samples.push_back({std::strtod(line.c_str() + at + 8, nullptr), 0.0});
+      samples.push_back({leading_number(line.substr(at + 8)), 0.0});
     } else if (!trimmed(line).empty() && !samples.empty()) {
-      samples.back().value = std::strtod(line.c_str() + line.find_last_of(' '), nullptr);
+      samples.back().value = leading_number(line.substr(line.find_last_of(' ')));
     }
   }
   return samples;
@@ -61,7 +61,7 @@ std::vector<SolverSample> febio_samples(const fs::path& folder, const DeckInput&
   for (std::string line; std::getline(stream, line);) {
     const std::size_t equals = line.find('=');
     if (line.rfind("*Time", 0) == 0 && equals != std::string::npos) {
-      samples.push_back({std::strtod(line.c_str() + equals + 1, nullptr), 0.0});
+      samples.push_back({leading_number(line.substr(equals + 1)), 0.0});
     } else if (!line.empty() && line[0] != '*' && !samples.empty()) {
       const std::vector<double> row = numbers_in(line);
       if (row.size() > 1) samples.back().value = row[1];

@@ -6,10 +6,10 @@
 #include "io/cards/known_mistakes.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
+#include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -19,8 +19,7 @@ namespace {
 // Nine of the ten columns, so that neighbours do not touch, if that costs at most 1e-7 of the number.
 std::string field(double value) {
   const std::string nine = nearest_number(value, 9);
-  const bool is_near =
-      std::abs(std::strtod(nine.c_str(), nullptr) - value) <= 1e-7 * std::abs(value);
+  const bool is_near = std::abs(leading_number(nine) - value) <= 1e-7 * std::abs(value);
   return right(is_near ? nine : nearest_number(value, 10), 10);
 }
 

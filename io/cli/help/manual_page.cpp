@@ -86,7 +86,8 @@ std::string manual_page(const CommandDocument& document) {
   for (const ShownOption& option : shown_options(syntax)) page += option_of(option);
   page += common_end();
   return page + ".SH EXAMPLES\n.nf\n" + line_of(syntax.example) +
-         ".fi\n.SH SEE ALSO\n.BR viscard (1)\n";
+         ".fi\n.SH SEE ALSO\n.BR viscard (1)" +
+         (document.name == "sweep" ? ",\n.BR viscard\\-mpi (1)\n" : "\n");
 }
 
 std::string manual_overview(const CommandDocuments& documents) {

@@ -1,6 +1,7 @@
 #include "io/cli/mpi/mpi_worker.h"
 
 #include "io/flow/sweep/run_study.h"
+#include "models/maths/leading_number.h"
 
 #include <chrono>
 #include <future>
@@ -90,7 +91,7 @@ std::string text_from(const WorkerStart& start) {
 WorkerStart start_from(const std::string& text) {
   WorkerStart start;
   const std::size_t first = text.find('\n'), second = text.find('\n', first + 1);
-  start.lost_after_s = std::stod(text.substr(0, first));
+  start.lost_after_s = leading_number(text.substr(0, first));
   start.fingerprint = text.substr(first + 1, second - first - 1);
   start.study_path = text.substr(second + 1);
   return start;

@@ -94,6 +94,7 @@ void draw_touch(const SceneAnswer& answer, Pictures& pictures) {
   Plot plot;
   plot.title = "the touch in time";
   PlotPanel read;
+  std::vector<double> all_V;
   for (const SceneCurve& curve : answer.curves) {
     if (curve.x_name != "time_s") return;
     const bool is_of_shape =
@@ -107,12 +108,9 @@ void draw_touch(const SceneAnswer& answer, Pictures& pictures) {
     if (curve.unit != "V") continue;
     const std::size_t index = read.series.size();
     PlotSeries line = std::move(panel.series.back());
-    const double of_V = shown_unit("V", curve.value).per_si;
-    if (index == 0) {
-      read.x = panel.x;
-      read.y = {.label = "voltage (V)"};
-    }
-    line.y = times(std::move(line.y), 1.0 / of_V);
+    if (index == 0) read.x = panel.x;
+    line.y = curve.value;
+    all_V.insert(all_V.end(), curve.value.begin(), curve.value.end());
     line.label = curve.name;
     std::replace(line.label.begin(), line.label.end(), '_', ' ');
     line.ink = ink_of_series(index);
@@ -120,6 +118,9 @@ void draw_touch(const SceneAnswer& answer, Pictures& pictures) {
     read.series.push_back(std::move(line));
   }
   if (plot.panels.empty() || read.series.empty()) return;
+  const ShownUnit unit = shown_unit("V", all_V);
+  read.y = {.label = "voltage (" + unit.text + ")"};
+  for (PlotSeries& line : read.series) line.y = times(std::move(line.y), unit.per_si);
   read.height_share = 1.5;
   plot.panels.push_back(std::move(read));
   plot.description = "depth and force of the shape and voltages against time";

@@ -83,6 +83,17 @@ void refuse_unwritable_folder(const NamedPath& output) {
 void refuse_folder_as_file(const NamedPath& output) {
   std::error_code error;
   const std::string where = "cannot write --" + output.option + " '" + output.path.string() + "': ";
+  if (output.path == "-") {
+    throw UsageError(
+        where +
+        "this option takes the name of a file; what a command prints without it goes to "
+        "standard output");
+  }
+  const fs::file_type type = fs::status(output.path, error).type();
+  if (type == fs::file_type::character || type == fs::file_type::fifo) {
+    throw std::runtime_error(where +
+                             "it is a device or pipe, not a file; name a file, and read that");
+  }
   if (fs::is_directory(output.path, error) || !output.path.has_filename()) {
     throw std::runtime_error(where + "it is a folder; name a file in it, such as '" +
                              (output.path / "result").string() + "'");

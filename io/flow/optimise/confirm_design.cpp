@@ -1,6 +1,7 @@
 #include "io/flow/optimise/confirm_design.h"
 
 #include "io/scenes/scene_file.h"
+#include "models/maths/leading_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +34,8 @@ DesignedObjective objective_at(const DesignSpec& spec, const DesignSpace& space,
   for (std::size_t i = 0; i < spec.ranges.size(); ++i) {
     if (spec.ranges[i].key == quantity) {
       // As it stands in the scene, rounded.
-      return {quantity, space.unit_of(i), std::stod(space.values_at(point, kFileDigits)[i].second),
-              0.0};
+      return {quantity, space.unit_of(i),
+              leading_number(space.values_at(point, kFileDigits)[i].second), 0.0};
     }
   }
   DesignedObjective objective{quantity, "", 0.0, 0.0};

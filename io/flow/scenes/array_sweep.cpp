@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/flow/scenes/wanted_results.h"
+#include "models/maths/leading_number.h"
 #include "models/scene/simulate.h"
 
 #include <fmt/format.h>
@@ -24,6 +25,12 @@ std::string line_from_row(std::size_t point, const SweepRow& row) {
   return line + "\n";
 }
 
+bool is_number(const std::string& cell) {
+  std::string_view rest;
+  leading_number(cell, &rest);
+  return !cell.empty() && rest.empty();
+}
+
 // A line that was cut off by a crash is not a row.
 bool read_line(const std::string& line, std::size_t& point, SweepRow& row) {
   std::vector<std::string> cells;
@@ -33,7 +40,9 @@ bool read_line(const std::string& line, std::size_t& point, SweepRow& row) {
   try {
     point = std::stoul(cells[0]);
     for (std::size_t i = 1; i + 3 < cells.size(); i += 4) {
-      row.push_back({cells[i], std::stod(cells[i + 1]), cells[i + 2], std::stod(cells[i + 3])});
+      if (!is_number(cells[i + 1]) || !is_number(cells[i + 3])) return false;
+      row.push_back(
+          {cells[i], leading_number(cells[i + 1]), cells[i + 2], leading_number(cells[i + 3])});
     }
   } catch (const std::exception&) {
     return false;

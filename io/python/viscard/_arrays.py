@@ -54,7 +54,8 @@ def numbers(values, name: str, shape: "tuple[int, ...] | None" = None) -> np.nda
     if _holds_boolean(values) or array.dtype.kind == "b":
         raise TypeError(f"{name} must hold real numbers, not True or False")
     if array.dtype.kind not in "fiu":
-        raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
+        found = "text" if array.dtype.kind in "US" else array.dtype
+        raise TypeError(f"{name} must hold real numbers, not {found}")
     if shape is not None and array.shape != shape:
         raise Error(f"{name} has the shape {array.shape}; it must be {shape}", "input")
     return np.asarray(array, dtype=np.float64, order="C")  # keeps a single number without dimension

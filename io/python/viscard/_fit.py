@@ -198,8 +198,8 @@ class FitResult:
         low, high = self.E0_interval
         n = len(self.json["terms"])
         doubt = "" if self.is_trustworthy else ", not to be trusted"
-        return (f"<viscard.FitResult {self.file}: E0 {self.E0:.4g} {self.unit} "
-                f"(95 % {low:.4g} to {high:.4g}), {n} term{'' if n == 1 else 's'}{doubt}>")
+        return (f"<viscard.FitResult {self.file}: E0 {self.E0:.6g} {self.unit} "
+                f"(95 % {low:.6g} to {high:.6g}), {n} term{'' if n == 1 else 's'}{doubt}>")
 
 
 class JointFit:

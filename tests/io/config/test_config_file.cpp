@@ -217,6 +217,7 @@ TEST_CASE("a mistake in TOML is explained in the words of the file", "[io][confi
   CHECK(reason("port = /dev/ttyUSB0  # the stage") ==
         "'/dev/ttyUSB0' needs quotes, as in port = \"/dev/ttyUSB0\"");
   CHECK(reason("speed = 1,5") == "'1,5' has a decimal comma; write a point");
+  CHECK(reason("speed = = 1") == "'=' stands twice behind 'speed'");
   CHECK(reason("speed =") == "the value of 'speed' is missing");
   CHECK(reason("speed = \"1 mm/s") == "a quote (\") is missing");
   CHECK(reason("speed : 1") == "expected key = value or [section], found 'speed : 1'");

@@ -1,4 +1,5 @@
 // Drawings of scenes: everything that is there is drawn, and nothing hides the electrodes.
+#include "io/cli/scene/answer_pictures.h"
 #include "io/pictures/map_picture.h"
 #include "io/pictures/scene_picture.h"
 #include "tests/io/scenes/scene_text.h"
@@ -78,6 +79,16 @@ TEST_CASE("the electrode of a pillar is drawn over what stands on it", "[io][sce
   CHECK(quarters.find("electrode in quarters") != std::string::npos);
 }
 
+TEST_CASE("the sizes of a pillar that is lower than their words stand below the title",
+          "[io][scene]") {
+  PillarScene scene;
+  scene.film = isotropic_medium(2e9, 0.29, 1780.0);
+  scene.geometry.film = FilmGeometry{25e-6, 60e-6};
+  CHECK(svg_from_scene(scene, "").find("d 40 um, l 120 um") == std::string::npos);
+  scene.geometry.film = FilmGeometry{50e-6, 1e-3};
+  CHECK(svg_from_scene(scene, "").find(">pillar d 40 um, l 120 um</text>") != std::string::npos);
+}
+
 TEST_CASE("scene check draws pillars and rows into a file, and overwrites none", "[cli][scene]") {
   const std::string name =
       GENERATE(as<std::string>{}, "pillar_sweep.toml", "array_map.toml", "space_quadrants.toml");
@@ -142,6 +153,30 @@ TEST_CASE("a drawing of an array in the plane has its pillars, electrodes and lo
   scene.shear_y_Pa = -50.0;
   CHECK(count_of(svg_from_scene(scene, ""), kArrow) == arrows + 3);
   CHECK(count_of(svg_from_scene(array_of(60, 60), ""), "<circle") == 0);  // no room for each
+}
+
+TEST_CASE("large lengths and moduli on a drawing have no exponent", "[io][scene]") {
+  SpaceScene scene = array_of(3, 3);
+  scene.backing = Backing{.young_modulus_Pa = 4e9, .poisson_ratio = 0.3};
+  scene.press = ShapePress{.depth_m = 1.5e-6};
+  scene.press->shape.kind = ShapeKind::kSphere;
+  scene.press->shape.radius_m = 0.1;
+  const std::string svg = svg_from_scene(scene, "array.toml");
+  CHECK(svg.find("on a half-space of 4 GPa") != std::string::npos);
+  CHECK(svg.find("a rigid sphere of radius 100 mm pressed 1.5 um deep") != std::string::npos);
+}
+
+TEST_CASE("the voltages of a touch in time are drawn in one unit with a prefix", "[io][scene]") {
+  SceneAnswer answer;
+  answer.curves = {
+      SceneCurve{.name = "depth", .unit = "m", .x = {0.0, 1.0}, .value = {0.0, 2e-6}},
+      SceneCurve{
+          .name = "electrode_voltage_1_1", .unit = "V", .x = {0.0, 1.0}, .value = {0.0, -0.045}},
+      SceneCurve{.name = "reading_1_1", .unit = "V", .x = {0.0, 1.0}, .value = {0.0, 2e-4}}};
+  const Pictures pictures = pictures_of(answer);
+  if (pictures.empty()) return;  // gnuplot is not here
+  REQUIRE(pictures.back().first == "touch");
+  CHECK(pictures.back().second.find("voltage (mV)") != std::string::npos);
 }
 
 TEST_CASE("a map has a disc for each pillar, or cells if there are many", "[io][scene]") {

@@ -202,6 +202,32 @@ TEST_CASE("every field has a picture with its name, scale and unit", "[pillar][i
   }
 }
 
+TEST_CASE("a picture of a flat body is no higher than the body and its bar of colours", "[io]") {
+  SectionGrid grid = solution_fields(sensor(), kMesh).front();
+  const auto height_px = [&] {
+    const std::string svg = pictures_from_grid(grid).front().second;
+    return std::stod(svg.substr(svg.find("height=\"") + 8));
+  };
+  CHECK(height_px() > 500.0);
+  for (double& x_m : grid.x_m) x_m *= 100.0;
+  CHECK(height_px() < 260.0);
+}
+
+TEST_CASE("the factor of a drawn displacement has no exponent", "[io]") {
+  SectionGrid grid = solution_fields(sensor(), kMesh).front();
+  for (SectionField& field : grid.fields) {
+    for (auto& value : field.value) {
+      for (double& part : value) part *= 1e-5;
+    }
+  }
+  const std::string svg = pictures_from_grid(grid).front().second;
+  const std::size_t at = svg.find("displacement drawn ");
+  REQUIRE(at != std::string::npos);
+  const std::string factor = svg.substr(at + 19, svg.find(" times", at) - at - 19);
+  CHECK(factor.size() > 5);
+  CHECK(factor.find_first_not_of("0123456789") == std::string::npos);
+}
+
 TEST_CASE("a scene file's length in quotes needs a unit, and a tolerance is printed as written",
           "[pillar][io]") {
   const std::filesystem::path path =

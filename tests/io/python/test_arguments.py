@@ -101,7 +101,7 @@ WRONG_ARRAYS = [
     (lambda: MATERIAL.relaxation([1.0, True]), "time_s must hold real numbers, not True or False"),
     (lambda: MATERIAL.relaxation(np.array([True])), "time_s must hold real numbers, not True or False"),
     (lambda: MATERIAL.relaxation([[1.0], [1.0, 2.0]]), "time_s must hold numbers in rows of one length"),
-    (lambda: viscard.forces_from_voltages(ARRAY, "abc"), "voltages must hold real numbers, not <U3"),
+    (lambda: viscard.forces_from_voltages(ARRAY, "abc"), "voltages must hold real numbers, not text"),
     (lambda: viscard.forces_from_voltages({**ARRAY, "analysis": 3}, np.zeros((1, 2, 4))), "analysis must be a dict, not 3"),
 ]
 

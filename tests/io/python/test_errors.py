@@ -79,7 +79,7 @@ def test_names_that_are_nearly_right():
 
 def test_arrays_of_the_wrong_kind(relaxation):
     time_s, modulus_Pa = relaxation
-    with pytest.raises(TypeError, match="modulus_Pa must hold real numbers, not <U"):
+    with pytest.raises(TypeError, match="modulus_Pa must hold real numbers, not text"):
         viscard.fit({"time_s": time_s, "modulus_Pa": modulus_Pa.astype(str)})
     with pytest.raises(TypeError, match="complex128"):
         viscard.fit({"time_s": time_s, "modulus_Pa": modulus_Pa * 1j})
@@ -164,3 +164,16 @@ def test_closed_form_limits_have_the_words_of_the_command_line(program):
         viscard.design(diametre=1)
     with pytest.raises(TypeError, match="diameter must be a text or a number"):
         viscard.design(diameter=[1])
+
+
+def test_messages_name_files_of_this_installation(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # the source has a folder data, which comes first
+    empty = tmp_path / "empty.toml"
+    empty.write_text("")
+    named = str(text_of(viscard.simulate, empty)).split("such as ")[1]
+    assert named == viscard.data_file("scenes/pillar_sensor.toml")
+
+
+def test_the_interval_of_a_fit_is_seen_when_it_is_shown():
+    shown = repr(viscard.fit(EXAMPLE))
+    assert "(95 % 1.87981e+06 to 1.88012e+06)" in shown

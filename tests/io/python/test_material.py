@@ -1,4 +1,5 @@
 """Materials against closed forms."""
+import locale
 import pickle
 
 import numpy as np
@@ -89,3 +90,36 @@ def test_unphysical_materials_are_refused():
     with pytest.raises(TypeError, match="terms must be a whole number, not 0.5"):
         viscard.Material(1e6, 0.49).card("abaqus", terms=0.5)
     assert "without a name" in repr(viscard.Material(1e6, 0.49))
+
+
+@pytest.fixture
+def decimal_comma():
+    """A language with a decimal comma, as programs with windows set it."""
+    before = locale.setlocale(locale.LC_ALL)
+    for name in ("de_DE.UTF-8", "fr_FR.UTF-8", "nl_NL.UTF-8"):
+        try:
+            locale.setlocale(locale.LC_ALL, name)
+            break
+        except locale.Error:
+            continue
+    else:
+        pytest.skip("no language with a decimal comma is installed")  # tests/layering reads the source for it
+    yield lambda: locale.setlocale(locale.LC_ALL, before)
+    locale.setlocale(locale.LC_ALL, before)
+
+
+def test_a_decimal_comma_in_the_language_changes_no_card_and_no_message(decimal_comma):
+    def texts():
+        fitted = viscard.fit("data/demo/example_relaxation.csv")
+        cards = [fitted.summary(), *(flag.text for flag in fitted.flags)]
+        for target in viscard.card_targets():
+            try:
+                text = fitted.material.card(target, "SI").text
+                cards.append([line for line in text.splitlines() if "created" not in line])
+            except viscard.Error as error:
+                cards.append(str(error))
+        return cards
+
+    with_comma = texts()
+    decimal_comma()
+    assert with_comma == texts()

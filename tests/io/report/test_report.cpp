@@ -92,6 +92,12 @@ TEST_CASE("numbers on the page are those of the input", "[io][report]") {
   }
 }
 
+TEST_CASE("the page says that frame and load cell change shares and times", "[io][report]") {
+  const std::string page = full_page();
+  CHECK(page.find("does not change <i>g</i>") == std::string::npos);
+  CHECK(page.find("Frame and load cell change <i>g</i> and <i>τ</i> as well") != std::string::npos);
+}
+
 TEST_CASE("every shown number agrees with its full value to the digits shown", "[io][report]") {
   // moduli stand in MPa or kPa, shares in per cent, all else in SI
   int n_checked = 0;

@@ -89,7 +89,7 @@ TEST_CASE("truth is inside, inside with the systematic part, or outside", "[io][
   CHECK(verdict(12.1) == Recovery::kInsideWithSystematic);
   CHECK(verdict(12.3) == Recovery::kOutside);
   CHECK(verdict(7.85) == Recovery::kInsideWithSystematic);
-  // the systematic part scales moduli only: g gets nothing of it
+  // without its causes the systematic part is taken to scale moduli only
   const auto rows = recovered_parameters(estimates, one_term_truth(10.0, 0.51, 2.0));
   CHECK(rows[2].recovery == Recovery::kOutside);
 }

@@ -67,7 +67,10 @@ TEST_CASE("a part of a table is chosen by time, by hold or by itself, and printe
   const CommandOutcome crop = run_command({"fit", file, "--crop", "auto"});
   CHECK_THAT(crop.out, Contains("chosen: ") && Contains("of 600"));
   CHECK_THAT(run_command({"fit", file, "--hold", "3"}).err, Contains("has 2 holds"));
-  CHECK_THAT(run_command({"fit", file, "--from", "100"}).err, Contains("covers 0 to 59.9 s"));
+  CHECK_THAT(run_command({"fit", file, "--from", "100"}).err,
+             Contains("0 rows between --from and --to") && Contains("covers 0 to 59.9 s"));
+  CHECK_THAT(run_command({"fit", file, "--from", "59.9"}).err,
+             Contains("1 row between --from and --to, and a fit needs at least 4"));
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--hold", "0"},
                                                 {"--crop", "all"},
                                                 {"--from", "2", "--to", "1"},

@@ -60,6 +60,8 @@ def check_manual():
                                   env={**os.environ, "MANWIDTH": columns, "LC_ALL": "C.UTF-8", "MAN_KEEP_FORMATTING": ""})
             if done.returncode != 0 or (done.stderr and columns == "80"):
                 mistakes.append(f"manual page of {name or 'viscard'}: {done.stderr[:300]}")
+            if name == "sweep" and "viscard-mpi" not in done.stdout:
+                mistakes.append("manual page of sweep does not name viscard-mpi")
             if "EXIT STATUS" not in done.stdout:
                 mistakes.append(f"manual page of {name or 'viscard'} has no exit status")
 

@@ -96,6 +96,10 @@ TEST_CASE(
     CHECK(contains(as_folder.err, "it is a folder; name a file in it"));
     words.back() = none;
     CHECK(contains(run_command(words).err, "there is no folder"));
+    words.back() = "-";
+    CHECK(run_command(words).status == kBadWords);
+    words.back() = "/dev/null";
+    CHECK(contains(run_command(words).err, "it is a device or pipe"));
   }
   write_file(folder / "old.json", "{}", false);
   const auto existing = run_command({"fit", "missing.csv", "--out", folder / "old.json"});
