@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/config/config_file.h"
 #include "io/flow/capture_to_file.h"
 #include "io/materials/material_file.h"
@@ -41,17 +42,17 @@ std::string json_from_truth(const EmulatedTruth& truth) {
     json["contact_factor"] = truth.contact_factor;
   }
   json["seed"] = truth.seed;
-  return json.dump(2) + "\n";
+  return text_from_json(json, 2) + "\n";
 }
 
 EmulatedTruth truth_from_file(const std::string& path) {
   if (fs::path(path).extension() != ".json") return read_truth(path);
-  nlohmann::json json = nlohmann::json::parse(read_file(path), nullptr, false);
+  nlohmann::json json = json_or_discarded(read_file(path));
   if (!json.is_object())
     throw std::runtime_error(path + ": is not a truth file; expected a JSON object");
   json["schema"] = "viscard-material/1";  // its material has the same keys
   EmulatedTruth truth;
-  truth.material = material_from_json(json.dump(), path).material;
+  truth.material = material_from_json(text_from_json(json), path).material;
   return truth;
 }
 

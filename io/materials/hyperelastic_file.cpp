@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/json_string.h"
 #include "io/materials/material_json.h"
 
 #include <nlohmann/json.hpp>
@@ -69,7 +70,7 @@ void add_tests(const RubberJson& json, HyperelasticFile& file) {
 }  // namespace
 
 bool looks_like_hyperelastic_file(const std::filesystem::path& path) {
-  const RubberJson json = RubberJson::parse(read_file(path), nullptr, /*allow_exceptions=*/false);
+  const RubberJson json = json_or_discarded(read_file(path));
   return json.is_object() && json.contains("schema") && json["schema"] == kHyperelasticSchema;
 }
 

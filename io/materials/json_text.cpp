@@ -1,3 +1,4 @@
+#include "io/basics/json_string.h"
 #include "io/materials/material_json.h"
 
 #include <algorithm>
@@ -118,7 +119,7 @@ Json parse_json(const std::string& text, const std::string& name) {
   };
   Json json;
   try {
-    json = Json::parse(text, watch);
+    json = ordered_json_from_text(text, watch);
   } catch (const Json::parse_error& error) {
     throw std::runtime_error(name + place_of_fault(text, error.byte) + what_was_met(error));
   } catch (const Json::exception& error) {

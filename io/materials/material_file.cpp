@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/json_string.h"
 #include "io/materials/material_json.h"
 
 namespace viscard {
@@ -29,7 +30,7 @@ std::string json_from_material(const MaterialFile& file) {
     carry_unknown_keys(parse_json(file.original_json, "the material it was read from"), out);
   }
   try {
-    return out.dump(2) + "\n";
+    return text_from_json(out, 2) + "\n";
   } catch (const Json::exception&) {
     throw std::invalid_argument("material '" + file.material.name +
                                 "' contains text that is not UTF-8 and cannot be written as JSON; "

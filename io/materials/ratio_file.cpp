@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/json_string.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
 #include "io/materials/scatter_json.h"
@@ -223,7 +224,7 @@ std::string json_from_ratio_fit(const RatioFit& fit) {
     validate(material);
     out["materials"].push_back(json_from(material));
   }
-  return out.dump(2) + "\n";
+  return text_from_json(out, 2) + "\n";
 }
 
 RatioFit read_ratio_fit(const std::filesystem::path& path) {

@@ -1,5 +1,6 @@
 #include "io/serve/rig_server.h"
 
+#include "io/basics/json_string.h"
 #include "io/flow/command_error.h"
 #include "io/serve/api_error.h"
 #include "io/serve/page_files.h"
@@ -46,8 +47,7 @@ const httplib::Headers& headers_of_all() {
 void answer(httplib::Response& response, int status, const ordered_json& json) {
   response.status = status;
   // Messages may quote bytes of a file that are not UTF-8.
-  response.set_content(json.dump(-1, ' ', false, ordered_json::error_handler_t::replace),
-                       "application/json");
+  response.set_content(printable_text_from_json(json), "application/json");
 }
 
 void answer_error(httplib::Response& response, int status, const CommandError& error) {

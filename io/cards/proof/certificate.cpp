@@ -1,6 +1,7 @@
 #include "io/cards/proof/certificate.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/basics/timestamp.h"
 
 #include <nlohmann/json.hpp>
@@ -160,7 +161,7 @@ std::string certificate_text(const CertificateRequest& request, const CardChain&
   for (const DeckFile& file : proof.models) {
     json["models"].push_back({{"file", file.name}, {"text", file.text}});
   }
-  return json.dump(2) + "\n";
+  return text_from_json(json, 2) + "\n";
 }
 
 }  // namespace viscard

@@ -1,4 +1,5 @@
 // Neutral JSON, schema viscard-card/1: units stand beside the numbers.
+#include "io/basics/json_string.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
 
@@ -54,12 +55,12 @@ std::string write_json(const CardBody& body) {
   derived["K"] = in_units(moduli.K_Pa, units.stress_exponent);
   derived["beta"] = in_units(moduli.beta_1_s, -units.time_exponent);
   json["header"] = body.header;
-  return json.dump(2) + "\n";
+  return text_from_json(json, 2) + "\n";
 }
 
 void read_json(const std::string& text, ReadCard& card) {
   try {
-    const nlohmann::json json = nlohmann::json::parse(text);
+    const nlohmann::json json = json_from_text(text);
     if (json.value("schema", "") != "viscard-card/1") {
       throw std::runtime_error("the card is not of schema viscard-card/1");
     }

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/deck.h"
@@ -144,8 +145,7 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   if (words.json) {
     Words inputs{words.prove};
     if (!words.material.empty()) inputs.push_back(words.material);
-    print_json({"viscard-card-prove/1", inputs}, nlohmann::ordered_json::parse(certificate),
-               streams);
+    print_json({"viscard-card-prove/1", inputs}, ordered_json_from_text(certificate), streams);
   }
   if (!words.json) streams.out << "wrote " << path << "\n";
   return proof.holds() ? kDone : kFailed;

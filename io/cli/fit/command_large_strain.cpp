@@ -1,5 +1,6 @@
 #include "fit/large_strain/large_strain_result.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
@@ -84,7 +85,7 @@ int run_large_strain(const std::vector<LargeStrainFile>& files, const po::variab
                   streams)) {
     print_large_strain(fitted, FittedText(streams));
   }
-  if (out) write_file(*out, json_from_large_strain(fitted).dump(2) + "\n", overwrite);
+  if (out) write_file(*out, text_from_json(json_from_large_strain(fitted), 2) + "\n", overwrite);
   if (svg) {
     write_file(*svg, svg_from_plot(plot_of_large_strain(fitted), "large-strain"), overwrite);
   }

@@ -1,5 +1,6 @@
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
@@ -105,7 +106,7 @@ int run_joint_fit(JointRequest request, const FitOutput& output, Streams& stream
   if (!output.json) print(fit, FittedText(streams));
   if (!output.file.empty()) write_file(output.file, text, output.overwrite);
   if (output.json) {  // the schema is that of the file
-    print_json({"", request.files}, nlohmann::ordered_json::parse(text), streams);
+    print_json({"", request.files}, ordered_json_from_text(text), streams);
   }
   return kDone;
 }

@@ -1,6 +1,7 @@
 #include "io/cli/scene/answer_output.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/map_output.h"
 #include "models/maths/text_of_number.h"
@@ -131,7 +132,7 @@ void write_files(const SceneAnswer& answer, const nlohmann::json& object, const 
   nlohmann::json with_command = object;
   with_command["command"] = command;
   with_command["created_by"] = "viscard " VISCARD_VERSION;
-  write("results.json", with_command.dump(2) + "\n");
+  write("results.json", text_from_json(with_command, 2) + "\n");
   if (!answer.results.empty()) write("results.csv", csv_of_results(answer.results, command));
   if (!answer.modes.empty()) write("modes.csv", csv_of_modes(answer.modes, command));
   for (const SceneCurve& curve : answer.curves) write(curve.name + ".csv", csv_of(curve, command));

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/cli/scene/cost_of_tests.h"
 #include "io/cli/scene/cost_output.h"
 #include "io/cli/scene/scene_commands.h"
@@ -67,7 +68,7 @@ int run_cost(const Words& words, Streams& streams) {
     const std::string command = quoted_command_line("cost", words);
     std::filesystem::create_directories(folder);
     write_file(folder / "cost.csv", csv_from_study(study, command), overwrite);
-    write_file(folder / "cost.json", object.dump(2) + "\n", overwrite);
+    write_file(folder / "cost.json", text_from_json(object, 2) + "\n", overwrite);
     const std::string name = std::filesystem::path(path).filename().string();
     write_file(folder / "cost.svg", svg_from_plot(plot_from_study(study, name), "cost"), overwrite);
   }

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/design_judge.h"
 #include "io/cli/scene/design_optimise.h"
@@ -101,7 +102,7 @@ int run_design(const Words& words, Streams& streams) {
     nlohmann::json stored = object;
     stored["command"] = quoted_command_line("design", words);
     stored["created_by"] = "viscard " VISCARD_VERSION;
-    write_file(folder / "design.json", stored.dump(2) + "\n", overwrite);
+    write_file(folder / "design.json", text_from_json(stored, 2) + "\n", overwrite);
     for (const auto& [name, plot] :
          design_pictures(design.geometry, design.material, design.requirements)) {
       write_file(folder / (name + ".svg"), svg_from_plot(plot, "design-" + name) + "\n", overwrite);

@@ -2,6 +2,7 @@
 #include "io/cli/scene/cost_of_tests.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
@@ -64,7 +65,7 @@ int run_cost_of_tests(const po::variables_map& values, const CommandSyntax& synt
     const bool overwrite = values.count("force") > 0;
     std::filesystem::create_directories(folder);
     write_file(folder / "cost.csv", csv_from_test_study(study, command), overwrite);
-    write_file(folder / "cost.json", object.dump(2) + "\n", overwrite);
+    write_file(folder / "cost.json", text_from_json(object, 2) + "\n", overwrite);
     write_file(folder / "cost.svg", svg_from_plot(plot_from_test_study(study), "cost"), overwrite);
     if (study.protocols.advised) {
       write_file(folder / "test.toml", toml_of_advice(study, command), overwrite);

@@ -3,6 +3,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/data_folder.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/json_string.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
@@ -68,7 +69,7 @@ int run_design_judge(const po::variables_map& values, const Words& words, Stream
     stored["command"] = quoted_command_line("design", words);
     stored["created_by"] = "viscard " VISCARD_VERSION;
     std::filesystem::create_directories(*out);
-    write_file(std::filesystem::path(*out) / "judgement.json", stored.dump(2) + "\n",
+    write_file(std::filesystem::path(*out) / "judgement.json", text_from_json(stored, 2) + "\n",
                values.count("force") > 0);
   }
   if (!print_json(values, head, object, streams)) {

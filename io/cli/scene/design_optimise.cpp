@@ -1,6 +1,7 @@
 #include "io/cli/scene/design_optimise.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
@@ -19,7 +20,7 @@ namespace {
 void write_designs(const DesignSpec& spec, const DesignFront& front, const nlohmann::json& object,
                    const std::filesystem::path& folder, bool overwrite) {
   std::filesystem::create_directories(folder);
-  write_file(folder / "design.json", object.dump(2) + "\n", overwrite);
+  write_file(folder / "design.json", text_from_json(object, 2) + "\n", overwrite);
   write_file(folder / "designs.csv", csv_from_front(spec, front), overwrite);
   for (std::size_t i = 0; i < front.designs.size(); ++i) {
     const std::string name =

@@ -1,5 +1,6 @@
 #include "io/cli/words/json_output.h"
 
+#include "io/basics/json_string.h"
 #include "io/flow/command_error.h"
 
 #include <nlohmann/json.hpp>
@@ -23,7 +24,7 @@ CommandError error_of(const std::exception& error) {
 // Messages and names may hold bytes that are not UTF-8.
 template <typename Json>
 void print_line(const Json& object, Streams& streams, int indent) {
-  streams.out << object.dump(indent, ' ', false, Json::error_handler_t::replace) << "\n";
+  streams.out << printable_text_from_json(object, indent) << "\n";
   streams.has_printed_json = true;
 }
 

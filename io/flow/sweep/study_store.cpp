@@ -1,5 +1,7 @@
 #include "io/flow/sweep/study_store.h"
 
+#include "io/basics/json_string.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sqlite3.h>
@@ -92,8 +94,8 @@ StudyPoint point_from(std::int64_t number, const nlohmann::ordered_json& values,
 }
 
 StudyPoint point_in(const Statement& row) {
-  return point_from(row.integer(0), nlohmann::ordered_json::parse(row.text(1)),
-                    nlohmann::ordered_json::parse(row.text(2)), row.text(3));
+  return point_from(row.integer(0), ordered_json_from_text(row.text(1)),
+                    ordered_json_from_text(row.text(2)), row.text(3));
 }
 
 std::string quoted(std::string text) {
@@ -132,8 +134,8 @@ std::set<std::int64_t> StudyStore::done() {
 }
 
 void StudyStore::add(const StudyPoint& point) {
-  const std::string values = json_from(point.values).dump(),
-                    results = json_from(point.results).dump();
+  const std::string values = text_from_json(json_from(point.values)),
+                    results = text_from_json(json_from(point.results));
   insert_.run_with(point.point, std::string_view(values), std::string_view(results),
                    std::string_view(point.failure));
 }
