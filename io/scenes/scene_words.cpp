@@ -1,6 +1,7 @@
 #include "io/scenes/scene_words.h"
 
 #include "io/basics/named_file.h"
+#include "io/materials/hyperelastic_file.h"
 #include "io/materials/material_file.h"
 #include "models/material/liquid.h"
 
@@ -83,10 +84,41 @@ MediumFile film_medium(const std::string& key, const RawMaterial& raw,
   }
 }
 
+std::optional<HyperelasticLaw> pillar_rubber(const RawMaterial& raw,
+                                             const std::filesystem::path& folder,
+                                             const std::string& key) {
+  if (raw.file.empty()) return std::nullopt;
+  const auto path = named_file(key + ".file", folder, raw.file, FileKind::kMaterial);
+  if (!looks_like_hyperelastic_file(path)) return std::nullopt;
+  const HyperelasticFile file = read_hyperelastic(path);
+  if (!file.is_trustworthy) {
+    const std::string why = file.defects.empty() ? "" : " (" + file.defects.front() + ")";
+    throw SceneMistake(key + ".file", "the law of rubber in '" + raw.file +
+                                          "' is not to be trusted" + why +
+                                          "; fit another law, or more tests");
+  }
+  if (raw.E_Pa > 0.0 || raw.ratio > 0.0) {
+    throw SceneMistake(key, "the modulus comes from the law of rubber; leave out E and ratio");
+  }
+  if (!(raw.nu > 0.0)) {
+    throw SceneMistake(key,
+                       "a law of rubber needs nu beside its file, such as nu = 0.499 (0.5: "
+                       "incompressible), and rho where vibration counts");
+  }
+  return file.law;
+}
+
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder,
                          const std::string& key) {
   if (!raw.file.empty()) {
     const auto path = named_file(key + ".file", folder, raw.file, FileKind::kMaterial);
+    if (const auto rubber = pillar_rubber(raw, folder, key)) {
+      Material material;
+      material.E0_Pa = youngs_modulus_Pa(*rubber);
+      material.nu = raw.nu;
+      material.rho_kg_m3 = raw.rho_kg_m3;
+      return material;
+    }
     const bool is_joint = looks_like_ratio_file(path);
     if (is_joint != (raw.ratio > 0.0)) {
       throw SceneMistake(key, is_joint

@@ -1,5 +1,6 @@
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/large_strain.h"
 #include "models/scene/common/drive_parts.h"
 #include "models/scene/scene_effects.h"
 
@@ -91,8 +92,21 @@ EffectEstimate finite_strain_estimate(const PillarScene& scene) {
     return {.reason = analysis_of(scene).has_inertia ? "small vibrations about the unloaded shape"
                                                      : "no load strains the pillar"};
   }
-  return {EffectRole::kOutside, 2.3 * strain, "strain", strain,
-          "small strains are assumed; not in the error"};
+  if (!scene.rubber) {
+    return {EffectRole::kOutside, 2.3 * strain, "strain", strain,
+            "small strains are assumed; not in the error"};
+  }
+  const bool is_pulled = !is_lateral(scene) && (moves_top(scene) ? *displacement_m(scene) > 0.0
+                                                                 : pressure_Pa(scene) < 0.0);
+  const double error = large_strain_error(scene, is_pulled ? strain : -strain);
+  const char* const why = why_small_strain(scene);
+  if (why != nullptr) return {EffectRole::kOutside, error, "strain", strain, why};
+  return {EffectRole::kOptional, error, "strain", strain,
+          "the law's stress against E0 times the strain"};
+}
+
+void leave_out_finite_strain(PillarScene& scene) {
+  scene.small_strain = true;
 }
 
 namespace {

@@ -24,6 +24,7 @@ EffectEstimate three_dimensional_estimate(const PillarScene& scene);
 EffectEstimate geometric_stiffness_estimate(const PillarScene& scene);
 void leave_out_geometric_stiffness(PillarScene& scene);
 EffectEstimate finite_strain_estimate(const PillarScene& scene);
+void leave_out_finite_strain(PillarScene& scene);
 
 // Adhesion of neighbours whose length is `ratio` times the longest that parts again (row_effects.cpp).
 EffectEstimate adhesion_at(double ratio);

@@ -68,6 +68,10 @@ struct Analysis {
   // nullptr if it need not. Without this function it must, because voltages in time need it.
   const char* (*why_two_way)(const PillarScene& scene) = nullptr;
 
+  // A clause that says why a scene with a law of rubber is not answered at large strain, or nullptr
+  // if it is. Without this function none is.
+  const char* (*why_small_strain)(const PillarScene& scene) = nullptr;
+
   // Estimates of effects that this analysis makes itself; `usual` is the estimate otherwise.
   using Estimate = EffectEstimate (*)(const PillarScene& scene, const EffectEstimate& usual);
   Estimate relaxation = nullptr;           // of a material that relaxes

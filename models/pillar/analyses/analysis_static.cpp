@@ -1,6 +1,7 @@
 #include "models/maths/gauss_legendre.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/large_strain.h"
 #include "models/pillar/analyses/top_load.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/section_grid.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace viscard {
 namespace {
@@ -69,6 +71,12 @@ void run_elastic(const PillarScene& scene, SceneAnswer& answer) {
   const double unresolved = missing_share(rest, rest, traction.dot(per_Pa.unknowns));
   for (SceneResult& result : answer.results) result.unresolved = unresolved;
   add_stresses(axial, state, answer);
+  if (scene.rubber) {  // by equilibrium
+    const double bond_m = bond_radius_m(scene.geometry);
+    answer.results.push_back({"base_stress_mean",
+                              -pressure_Pa * traction.sum() / (std::numbers::pi * bond_m * bond_m),
+                              "Pa"});
+  }
   // Converges slowly: only if asked for by name.
   if (!scene.wanted.empty() && asks_for(scene, "base_stress_rim_mean")) {
     answer.results.push_back({"base_stress_rim_mean", rim_mean_Pa(axial, state), "Pa"});
@@ -109,6 +117,7 @@ void check_static(const PillarScene& scene) {
 
 void run_static(const PillarScene& scene, SceneAnswer& answer) {
   if (is_lateral(scene)) return run_sideways(scene, answer);
+  if (is_large(scene)) return run_large(scene, answer);
   scene.electrodes ? run_static_piezo(scene, answer) : run_elastic(scene, answer);
 }
 
@@ -137,6 +146,7 @@ Names static_names(const PillarScene& scene) {
   if (!scene.electrodes) {
     Names names = top;
     append(names, {"base_stress_at_half_radius", "base_stress_rim_mean"});
+    if (scene.rubber) names.emplace_back("base_stress_mean");
     if (scene.film) names.emplace_back("film_bottom_stress_mean");
     return names;
   }
@@ -177,6 +187,7 @@ PillarState static_state(const PillarScene& scene, const PillarModel& model) {
 
 std::vector<SectionGrid> static_fields(const PillarScene& scene, const Discretisation& mesh) {
   if (is_lateral(scene)) return sideways_fields(scene, mesh);
+  if (is_large(scene)) return large_fields(scene, mesh);
   const PillarModel model = electric_model_of(scene, axial_motion(scene), mesh);
   const PillarState state = static_state(scene, model);
   Sampling at = sampling_of(model);
@@ -223,6 +234,21 @@ const char* static_why_two_way(const PillarScene& scene) {
                               : "the motion per volt is asked for";
 }
 
+// What models/pillar/large does not compute.
+const char* static_why_small_strain(const PillarScene& scene) {
+  const auto wants = [&](const char* name) {
+    return !scene.wanted.empty() && asks_for(scene, name);
+  };
+  if (is_lateral(scene)) return "only loads along the axis are answered at large strain";
+  if (scene.plane) return "only round pillars are answered at large strain";
+  if (!scene.fixed_bottom) return "a free bottom is answered at small strain";
+  if (drive_V(scene) != 0.0) return "a driven film is answered at small strain";
+  if (scene.directional_film) return "a film with a direction is answered at small strain";
+  if (wants("displacement_per_volt")) return "the motion per volt is that of small strain";
+  if (wants("base_stress_rim_mean")) return "the stress at the rim is that of small strain";
+  return nullptr;
+}
+
 }  // namespace
 
 Analysis static_analysis() {
@@ -236,6 +262,7 @@ Analysis static_analysis() {
           .push_Pa = pressure_Pa,
           .fields = static_fields,
           .why_two_way = static_why_two_way,
+          .why_small_strain = static_why_small_strain,
           .film_compliance = static_film_compliance};
 }
 

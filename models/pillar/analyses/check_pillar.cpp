@@ -1,3 +1,4 @@
+#include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/simulate_pillar.h"
@@ -78,6 +79,13 @@ void check_bottom(const PillarScene& scene) {
 void validate(const PillarScene& scene) {
   at_key("geometry", [&] { validate(scene.geometry); });
   at_key("materials.pillar", [&] { validate(scene.pillar); });
+  if (scene.rubber) {
+    at_key("materials.pillar", [&] { validate(*scene.rubber); });
+    at_key("materials.pillar.nu", [&] {
+      require_value(scene.pillar.nu > 0.0, "the Poisson ratio of rubber", scene.pillar.nu, "",
+                    "above 0 and at most 0.5");
+    });
+  }
   check_poisson_ratio(scene);
   check_tolerance(scene.tolerance, PillarScene::kTolerances);
   if (scene.geometry.film.has_value() != scene.film.has_value()) {

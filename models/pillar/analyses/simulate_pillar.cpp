@@ -2,6 +2,7 @@
 
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/large_strain.h"
 #include "models/pillar/analyses/top_load.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 
@@ -25,6 +26,7 @@ SceneAnswer simulate_pillar(const PillarScene& scene) {
   const std::vector<Discretisation> meshes =
       scene.discretisation ? refinements_to(*scene.discretisation)
       : weighs_stress      ? stressed_mesh_sequence(scene.geometry)
+      : is_large(scene)    ? large_mesh_sequence(scene.geometry)
                            : mesh_sequence(scene.geometry);
   const double share_left = weighs_stress ? kShareLeftOfStress : ErrorControl::kShareLeft;
   SceneAnswer answer =

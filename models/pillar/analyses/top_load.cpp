@@ -136,7 +136,8 @@ void add_pressed(const PillarScene& scene, const PiezoAnswer& per_Pa, SceneAnswe
   add_reading(scene, p_Pa * per_Pa.voltage_V, per_Pa.capacitance_F, answer);
 }
 
-// On one mesh, with the film averaged in its plane.
+}  // namespace
+
 FilmAnswer film_answer(const PillarScene& scene, SceneAnswer& answer) {
   const PillarModel coupled = electric_model_of(scene, axial_motion(scene), answer.discretisation);
   std::optional<PillarModel> elastic;
@@ -159,8 +160,6 @@ FilmAnswer film_answer(const PillarScene& scene, SceneAnswer& answer) {
   per_Pa.mean_V = mean_potential_V(coupled, state, z_m, coupled.radius_m());
   return per_Pa;
 }
-
-}  // namespace
 
 void add_film_results(const PillarScene& scene, const FilmAnswer& per_Pa, SceneAnswer& answer) {
   if (scene.electrodes->electrode_radius_m == 0.0) return add_sampled(scene, per_Pa, answer);

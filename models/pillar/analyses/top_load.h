@@ -35,6 +35,8 @@ void add_top_force(const PillarScene& scene, double force_N, double stiffness_N_
 // A static load along the axis of a pillar whose film has an electrode or a charge-free face: adds
 // voltage, charge, capacitance and motion to the answer (eq. 19 to 25).
 void run_static_piezo(const PillarScene& scene, SceneAnswer& answer);
+// Answer of the film to 1 Pa, on one mesh and averaged in its plane.
+FilmAnswer film_answer(const PillarScene& scene, SceneAnswer& answer);
 // Results computed from the answer of the film at 1 Pa.
 void add_film_results(const PillarScene& scene, const FilmAnswer& per_Pa, SceneAnswer& answer);
 

@@ -97,44 +97,73 @@ void require_same_mesh(const PillarModel& elastic, const PillarModel& electric) 
   }
 }
 
+void require_electrode(const PillarModel& electric) {
+  if (electric.electrode_dof() < 0) {
+    throw std::invalid_argument("the film has no electrode; its voltage is undefined");
+  }
+}
+
+// Voltage, charge and capacitance of a film whose elastic body moves by u, in the numbering of the
+// electric model.
+PiezoAnswer answer_of(const FilmPotential& film, const PillarModel& electric,
+                      const Eigen::VectorXd& u) {
+  const int electrode = electric.electrode_dof();
+  const double scale_V = electric.potential_scale_V();
+  PiezoAnswer answer;
+  answer.open.unknowns = u + film.from_strain(u);
+  answer.by_charge = film.from_electrode();
+  answer.voltage_V = answer.open.unknowns[electrode] * scale_V;
+  const double V_per_C = -answer.by_charge[electrode] * scale_V * scale_V;
+  answer.capacitance_F = 1.0 / V_per_C;
+  answer.charge_C = -answer.voltage_V / V_per_C;
+  return answer;
+}
+
 }  // namespace
+
+PillarState potential_from_motion(const PillarModel& elastic, const PillarModel& electric,
+                                  const Eigen::VectorXd& motion) {
+  require_same_mesh(elastic, electric);
+  const Eigen::VectorXd u = renumbered(elastic, electric, motion);
+  const Eigen::VectorXd both = u + FilmPotential(electric).from_strain(u);
+  return {both, both};
+}
+
+PiezoAnswer piezo_from_motion(const PillarModel& elastic, const PillarModel& electric,
+                              const Eigen::VectorXd& motion) {
+  require_same_mesh(elastic, electric);
+  require_electrode(electric);
+  return answer_of(FilmPotential(electric), electric, renumbered(elastic, electric, motion));
+}
 
 PiezoAnswer piezo_one_way(const PillarModel& elastic, const PillarModel& electric,
                           double pressure_Pa) {
   require_same_mesh(elastic, electric);
-  const int electrode = electric.electrode_dof();
-  if (electrode < 0) {
-    throw std::invalid_argument("the film has no electrode; its voltage is undefined");
-  }
-  PiezoAnswer answer;
+  require_electrode(electric);
   const Eigen::VectorXd force = -pressure_Pa * elastic.top_traction();
   StiffnessFactor factor;
   elastic.factor(elastic.stiffness(), factor);
-  answer.open.unknowns = factor.solve(force, &answer.open.pressure_source);
-  answer.top_displacement_m = elastic.mean_top_displacement_m(answer.open);
+  PillarState state;
+  state.unknowns = factor.solve(force, &state.pressure_source);
   const FilmPotential film(electric);
-  const double scale_V = electric.potential_scale_V();
-  const Eigen::VectorXd u = renumbered(elastic, electric, answer.open.unknowns);
-  const Eigen::VectorXd open = u + film.from_strain(u);
-  const Eigen::VectorXd charged = film.from_electrode();
-  answer.voltage_V = open[electrode] * scale_V;
-  const double V_per_C = -charged[electrode] * scale_V * scale_V;
-  answer.capacitance_F = 1.0 / V_per_C;
-  answer.charge_C = -answer.voltage_V / V_per_C;
+  const PiezoAnswer by_film =
+      answer_of(film, electric, renumbered(elastic, electric, state.unknowns));
   const Eigen::VectorXd by_charge =
-      factor.solve(renumbered(electric, elastic, film.forces_of(charged)));
-  const Eigen::VectorXd dual = charged + renumbered(elastic, electric, by_charge);
-  answer.rest = piezo_rest(electric, {open, charged, dual}, force.dot(answer.open.unknowns));
+      factor.solve(renumbered(electric, elastic, film.forces_of(by_film.by_charge)));
+  const Eigen::VectorXd dual = by_film.by_charge + renumbered(elastic, electric, by_charge);
+  PiezoAnswer answer = by_film;
+  answer.by_charge.resize(0);
+  answer.rest = piezo_rest(electric, {by_film.open.unknowns, by_film.by_charge, dual},
+                           force.dot(state.unknowns));
+  answer.top_displacement_m = elastic.mean_top_displacement_m(state);
+  answer.open = state;
   return answer;
 }
 
 PillarState piezo_one_way_sampled(const PillarModel& elastic, const PillarModel& electric,
                                   double pressure_Pa) {
-  require_same_mesh(elastic, electric);
   const PillarState state = elastic.solve(-pressure_Pa * elastic.top_traction());
-  const Eigen::VectorXd u = renumbered(elastic, electric, state.unknowns);
-  const Eigen::VectorXd potential = FilmPotential(electric).from_strain(u);
-  return {u + potential, u + potential};
+  return potential_from_motion(elastic, electric, state.unknowns);
 }
 
 }  // namespace viscard

@@ -62,6 +62,14 @@ double mean_potential_V(const PillarModel& model, const PillarState& state, doub
 PiezoAnswer piezo_one_way(const PillarModel& elastic, const PillarModel& electric,
                           double pressure_Pa);
 
+// The same from a motion of the elastic model's body that something else has found, such as one at
+// large strain: voltage, charge and capacitance; errors and displacements stay 0.
+PiezoAnswer piezo_from_motion(const PillarModel& elastic, const PillarModel& electric,
+                              const Eigen::VectorXd& motion);
+// Its potentials with the electrode open, or with a charge-free face: the unknowns of the electric model.
+PillarState potential_from_motion(const PillarModel& elastic, const PillarModel& electric,
+                                  const Eigen::VectorXd& motion);
+
 // The same with a charge-free face. Returns the unknowns of the electric model, for
 // potential_at_V().
 PillarState piezo_one_way_sampled(const PillarModel& elastic, const PillarModel& electric,

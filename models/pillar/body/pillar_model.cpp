@@ -46,6 +46,9 @@ PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& d
   if (options.rigid_top && !is_axial(options.motion) && !is_sideways(options.motion)) {
     throw std::invalid_argument("a rigid plate on top belongs to axial and sideways motion");
   }
+  if (options.bottom_slides && !is_axial(options.motion)) {
+    throw std::invalid_argument("a bottom that slides belongs to axial motion");
+  }
   media_ = {media.pillar};
   if (media.film) media_.push_back(*media.film);
   Kinematics kinematics = kinematics_of(options.motion);
@@ -95,7 +98,7 @@ DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
   }
   if (options_.fixed_bottom) {
     for (const int node : nodes_on_break(section, 0, 0, columns)) {
-      for (int field = 0; field < kinematics.field_count; ++field) {
+      for (int field = options_.bottom_slides ? 1 : 0; field < kinematics.field_count; ++field) {
         if (field != phi) dofs.fix(field, node);
       }
     }
@@ -133,21 +136,31 @@ double PillarModel::mean_modulus_Pa(int region) const {
   return elastic_form(medium(region)).diagonal().head(6).mean();
 }
 
-SymmetricSparse PillarModel::stiffness() const {
+SymmetricSparse PillarModel::stiffness_of(const std::vector<int>& regions) const {
   const std::vector<OperatorRow> rows = system_->kinematics().strain_and_field();
   const auto n = static_cast<Eigen::Index>(rows.size());
-  std::vector<Eigen::MatrixXd> forms;
-  std::vector<double> bulk_Pa;
-  for (const Medium& medium : media_) {
-    forms.push_back(elastic_form(medium));
+  std::vector<Eigen::MatrixXd> forms(media_.size());
+  std::vector<double> bulk_Pa(media_.size(), 0.0);
+  for (const int region : regions) {
+    const auto i = static_cast<std::size_t>(region);
+    forms[i] = elastic_form(media_[i]);
     // An elastic region among electric ones.
-    if (forms.back().rows() < n) forms.back().conservativeResizeLike(Eigen::MatrixXd::Zero(n, n));
-    bulk_Pa.push_back(condensed_bulk_Pa(medium));
+    if (forms[i].rows() < n) forms[i].conservativeResizeLike(Eigen::MatrixXd::Zero(n, n));
+    bulk_Pa[i] = condensed_bulk_Pa(media_[i]);
   }
   SymmetricSparse matrix = system_->form(rows, forms);
   const bool any = std::any_of(bulk_Pa.begin(), bulk_Pa.end(), [](double K) { return K > 0.0; });
   if (any) matrix.coeffs() += system_->volume_form(bulk_Pa, true).coeffs();
   return matrix;
+}
+
+SymmetricSparse PillarModel::stiffness() const {
+  return media_.size() == 1 ? stiffness_of(std::vector<int>{kPillarRegion})
+                            : stiffness_of(std::vector<int>{kPillarRegion, kFilmRegion});
+}
+
+SymmetricSparse PillarModel::stiffness_of(int region) const {
+  return stiffness_of(std::vector<int>{region});
 }
 
 SymmetricSparse PillarModel::mass() const {

@@ -41,6 +41,8 @@ struct ModelOptions {
   // A free bottom in statics, under loads that balance themselves. Motion is relative to the middle
   // of the bottom and, sideways, also to its rim, which stays level; see rigid_pins().
   bool pin_bottom = false;
+  // A fixed bottom without friction: held along the axis, free to slide. Axial families only.
+  bool bottom_slides = false;
   // A rigid plate without friction on the top. It ties the axial displacement; under sideways
   // motion the plate keeps the top upright and lets it slide.
   bool rigid_top = false;
@@ -84,6 +86,7 @@ class PillarModel {
   // Stiffness. The pressures of media with nu >= 0.45 are condensed. At nu = 0.5 the bulk part is a
   // penalty; the iteration that factor() sets up removes its error.
   SymmetricSparse stiffness() const;
+  SymmetricSparse stiffness_of(int region) const;  // the part of one region
   SymmetricSparse mass() const;
   // Factors a matrix of this model (its stiffness plus terms that the caller added). At nu = 0.5
   // `stiffening` multiplies the penalty; the solutions stay the same, up to rounding.
@@ -115,6 +118,7 @@ class PillarModel {
   DofMap make_dofs(const Kinematics& kinematics);
   bool condenses_pressure(const Medium& medium) const;
   double condensed_bulk_Pa(const Medium& medium) const;  // or its penalty; 0: not condensed
+  SymmetricSparse stiffness_of(const std::vector<int>& regions) const;
   Eigen::MatrixXd elastic_form(const Medium& medium) const;
 
   PillarGeometry geometry_;

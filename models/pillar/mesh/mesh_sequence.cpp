@@ -44,6 +44,10 @@ std::vector<Discretisation> stressed_mesh_sequence(const PillarGeometry& geometr
   return meshes_of(geometry, {{5, 1}, {5, 2}, {5, 3}, {6, 4}, {7, 5}, {8, 6}, {9, 7}});
 }
 
+std::vector<Discretisation> large_mesh_sequence(const PillarGeometry& geometry) {
+  return meshes_of(geometry, {{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 3}});
+}
+
 std::vector<Discretisation> refinements_to(const Discretisation& finest) {
   std::vector<Discretisation> meshes;
   for (int coarser = 2; coarser >= 0; --coarser) {

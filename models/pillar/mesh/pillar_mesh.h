@@ -43,6 +43,10 @@ std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry);
 // be wrong by a fifth at nu = 0.5 and gives no information about the next mesh.
 std::vector<Discretisation> stressed_mesh_sequence(const PillarGeometry& geometry);
 
+// For answers at large strain. Elements that shrink further toward the rim would be turned inside
+// out by its singular strain long before the pillar as a whole is strained.
+std::vector<Discretisation> large_mesh_sequence(const PillarGeometry& geometry);
+
 // Three meshes that end with the given one. On uniform meshes each halves the elements of the one
 // before; on graded ones each has one degree more, and `finest` must have degree 3 or more.
 std::vector<Discretisation> refinements_to(const Discretisation& finest);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/hyperelastic/hyperelastic_law.h"
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/scene/pillar_drives.h"
 #include "models/pillar/time/readout.h"
@@ -24,11 +25,15 @@ struct PillarScene : SceneCommon {
   bool fixed_bottom = true;
   std::optional<Readout> readout;  // the circuit on the electrode; none: open
 
+  // The pillar's law at large strain; none: linear. Its modulus at rest is that of the material.
+  std::optional<HyperelasticLaw> rubber;
+
   PillarDrive drive;
   std::optional<Discretisation> discretisation;  // finest mesh; none: the tolerance decides
 
   // Set by the plan (models/scene/plan.h) for effects that are left out or forced on:
   double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio
+  bool small_strain = false;       // a pillar of rubber is answered as a linear one
   bool one_way_potential = false;  // the film's potential follows its strain and does not act back
 
   static constexpr const char* kKind = "pillar";  // geometry.kind in a scene file

@@ -59,14 +59,28 @@ class DiscreteSystem {
   std::vector<int> element_dofs(const SectionElement& element) const;
   SymmetricSparse zero() const;
 
- private:
-  void order_elements();
-  void build_pattern();
+  // Operator rows at the quadrature points of an element, for forms that are not quadratic.
+  struct ElementRows {
+    Eigen::MatrixXd B;  // of point k: rows k n to (k + 1) n - 1, with n rows; element_dofs() wide
+    Eigen::VectorXd weight;  // of each point, with measure x^x_power dx dz
+    // Legendre products of Q_(p-2), the pressures of eq. 14: points x (p - 1)^2.
+    Eigen::MatrixXd pressure;
+  };
+  ElementRows element_rows(const std::vector<OperatorRow>& rows,
+                           const SectionElement& element) const;
+  // Those Legendre products at a point (x, z) of an element.
+  Eigen::RowVectorXd pressure_basis_at(const SectionElement& element, double x, double z) const;
   // Values on element_dofs(), 0 where held.
   Eigen::VectorXd element_values(const SectionElement& element,
                                  const Eigen::VectorXd& solution) const;
+  // Adds the vector of an element (number in section().elements()) to one of this system.
+  void scatter(std::size_t element, const Eigen::VectorXd& local, Eigen::VectorXd& vector) const;
   // Adds an element matrix to a matrix of this system; only its lower triangle is read.
   void scatter(std::size_t element, const Eigen::MatrixXd& local, SymmetricSparse& matrix) const;
+
+ private:
+  void order_elements();
+  void build_pattern();
   // int L (div N) and int L L of one element, L the Legendre products of Q_(p-2).
   struct Projection {
     int degree = 0;

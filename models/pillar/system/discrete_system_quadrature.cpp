@@ -42,33 +42,77 @@ void fill_rows(const std::vector<OperatorRow>& rows, const PointBasis& at,
   }
 }
 
+// Legendre polynomials of degree 0 to p - 2 at points of an element of a line: points x (p - 1).
+Eigen::MatrixXd legendre_on(const LineMesh& line, int element, const Eigen::VectorXd& points) {
+  std::vector<double> unit;
+  for (const double at : points) {
+    unit.push_back((at - line.breaks()[static_cast<std::size_t>(element)]) / line.length(element));
+  }
+  return legendre_values(std::max(line.degree() - 2, 0), unit);
+}
+
 }  // namespace
+
+DiscreteSystem::ElementRows DiscreteSystem::element_rows(const std::vector<OperatorRow>& rows,
+                                                         const SectionElement& element) const {
+  const auto n_rows = static_cast<Eigen::Index>(rows.size());
+  const LineMesh::ElementRule in_x = section_->x().rule(element.column);
+  const LineMesh::ElementRule in_z = section_->z().rule(element.row);
+  const Eigen::MatrixXd Lx = legendre_on(section_->x(), element.column, in_x.x);
+  const Eigen::MatrixXd Lz = legendre_on(section_->z(), element.row, in_z.x);
+  const Eigen::Index n1 = section_->degree() + 1;
+  const Eigen::Index n_points = in_x.x.size() * in_z.x.size();
+  ElementRows out{Eigen::MatrixXd::Zero(n_points * n_rows, kinematics_.field_count * n1 * n1),
+                  Eigen::VectorXd(n_points), Eigen::MatrixXd(n_points, Lx.cols() * Lz.cols())};
+  Eigen::Index k = 0;
+  for (Eigen::Index kz = 0; kz < in_z.x.size(); ++kz) {
+    const Stretch stretch = section_->stretch_at(element.region, in_z.x[kz]);
+    for (Eigen::Index kx = 0; kx < in_x.x.size(); ++kx, ++k) {
+      const PointBasis at = point_basis<Eigen::RowVectorXd>(
+          in_x.x[kx], stretch, in_x.value.row(kx), in_x.derivative.row(kx), in_z.value.row(kz),
+          in_z.derivative.row(kz));
+      fill_rows(rows, at, out.B.middleRows(k * n_rows, n_rows));
+      out.weight[k] = kinematics_.measure * in_x.weight[kx] * in_z.weight[kz] * stretch.scale *
+                      (kinematics_.x_power == 1 ? at.x : 1.0);
+      for (Eigen::Index i = 0; i < Lz.cols(); ++i) {
+        out.pressure.row(k).segment(i * Lx.cols(), Lx.cols()) = Lz(kz, i) * Lx.row(kx);
+      }
+    }
+  }
+  return out;
+}
+
+Eigen::RowVectorXd DiscreteSystem::pressure_basis_at(const SectionElement& element, double x,
+                                                     double z) const {
+  const double xi = x / section_->stretch_at(element.region, z).scale;
+  const Eigen::MatrixXd Lx =
+      legendre_on(section_->x(), element.column, Eigen::VectorXd::Constant(1, xi));
+  const Eigen::MatrixXd Lz =
+      legendre_on(section_->z(), element.row, Eigen::VectorXd::Constant(1, z));
+  Eigen::RowVectorXd basis(Lx.cols() * Lz.cols());
+  for (Eigen::Index i = 0; i < Lz.cols(); ++i) {
+    basis.segment(i * Lx.cols(), Lx.cols()) = Lz(0, i) * Lx;
+  }
+  return basis;
+}
 
 Eigen::MatrixXd DiscreteSystem::quadrature_form(
     const std::vector<OperatorRow>& rows, const SectionElement& element,
     const std::function<Eigen::MatrixXd(double x, double z)>& D) const {
+  const ElementRows at = element_rows(rows, element);
   const auto n_rows = static_cast<Eigen::Index>(rows.size());
   const LineMesh::ElementRule in_x = section_->x().rule(element.column);
   const LineMesh::ElementRule in_z = section_->z().rule(element.row);
-  const Eigen::Index n1 = section_->degree() + 1;
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(in_x.x.size() * in_z.x.size() * n_rows,
-                                            kinematics_.field_count * n1 * n1);
-  Eigen::MatrixXd DB(B.rows(), B.cols());
-  Eigen::Index start = 0;
+  Eigen::MatrixXd DB(at.B.rows(), at.B.cols());
+  Eigen::Index k = 0;
   for (Eigen::Index kz = 0; kz < in_z.x.size(); ++kz) {
-    const Stretch stretch = section_->stretch_at(element.region, in_z.x[kz]);
-    for (Eigen::Index kx = 0; kx < in_x.x.size(); ++kx, start += n_rows) {
-      const PointBasis at = point_basis<Eigen::RowVectorXd>(
-          in_x.x[kx], stretch, in_x.value.row(kx), in_x.derivative.row(kx), in_z.value.row(kz),
-          in_z.derivative.row(kz));
-      fill_rows(rows, at, B.middleRows(start, n_rows));
-      const double weight = kinematics_.measure * in_x.weight[kx] * in_z.weight[kz] *
-                            stretch.scale * (kinematics_.x_power == 1 ? at.x : 1.0);
-      DB.middleRows(start, n_rows).noalias() =
-          weight * D(at.x, in_z.x[kz]) * B.middleRows(start, n_rows);
+    const double scale = section_->stretch_at(element.region, in_z.x[kz]).scale;
+    for (Eigen::Index kx = 0; kx < in_x.x.size(); ++kx, ++k) {
+      DB.middleRows(k * n_rows, n_rows).noalias() =
+          at.weight[k] * D(scale * in_x.x[kx], in_z.x[kz]) * at.B.middleRows(k * n_rows, n_rows);
     }
   }
-  return B.transpose() * DB;
+  return at.B.transpose() * DB;
 }
 
 SymmetricSparse DiscreteSystem::varying_form(
@@ -85,40 +129,11 @@ SymmetricSparse DiscreteSystem::varying_form(
 
 DiscreteSystem::Projection DiscreteSystem::stretched_projection(
     const SectionElement& element) const {
-  const int q = std::max(section_->degree() - 2, 0);
-  const Eigen::Index nq = q + 1;
-  const Eigen::Index n1 = section_->degree() + 1;
-  const LineMesh::ElementRule in_x = section_->x().rule(element.column);
-  const LineMesh::ElementRule in_z = section_->z().rule(element.row);
-  const auto legendre = [q](const LineMesh& line, int e, const Eigen::VectorXd& points) {
-    std::vector<double> unit;
-    for (const double at : points) {
-      unit.push_back((at - line.breaks()[static_cast<std::size_t>(e)]) / line.length(e));
-    }
-    return legendre_values(q, unit);
-  };
-  const Eigen::MatrixXd Lx = legendre(section_->x(), element.column, in_x.x);
-  const Eigen::MatrixXd Lz = legendre(section_->z(), element.row, in_z.x);
-  Projection p{q, Eigen::MatrixXd::Zero(nq * nq, kinematics_.field_count * n1 * n1),
-               Eigen::MatrixXd::Zero(nq * nq, nq * nq)};
-  Eigen::MatrixXd divergence(1, p.divergence.cols());
-  Eigen::VectorXd pressure(nq * nq);
-  for (Eigen::Index kz = 0; kz < in_z.x.size(); ++kz) {
-    const Stretch stretch = section_->stretch_at(element.region, in_z.x[kz]);
-    for (Eigen::Index kx = 0; kx < in_x.x.size(); ++kx) {
-      const PointBasis at = point_basis<Eigen::RowVectorXd>(
-          in_x.x[kx], stretch, in_x.value.row(kx), in_x.derivative.row(kx), in_z.value.row(kz),
-          in_z.derivative.row(kz));
-      divergence.setZero();
-      fill_rows({kinematics_.divergence}, at, divergence);
-      for (Eigen::Index i = 0; i < nq; ++i) pressure.segment(i * nq, nq) = Lz(kz, i) * Lx.row(kx);
-      const double weight = in_x.weight[kx] * in_z.weight[kz] * stretch.scale *
-                            (kinematics_.x_power == 1 ? at.x : 1.0);
-      p.divergence += weight * pressure * divergence;
-      p.mass += weight * pressure * pressure.transpose();
-    }
-  }
-  return p;
+  const ElementRows at = element_rows({kinematics_.divergence}, element);
+  // The measure of the kinematics cancels.
+  const Eigen::MatrixXd weighted = (at.weight / kinematics_.measure).asDiagonal() * at.pressure;
+  return {std::max(section_->degree() - 2, 0), weighted.transpose() * at.B,
+          weighted.transpose() * at.pressure};
 }
 
 Eigen::VectorXd DiscreteSystem::rows_at(const std::vector<OperatorRow>& rows,

@@ -17,6 +17,12 @@ Eigen::VectorXd DiscreteSystem::element_values(const SectionElement& element,
   return local;
 }
 
+void DiscreteSystem::scatter(std::size_t element, const Eigen::VectorXd& local,
+                             Eigen::VectorXd& vector) const {
+  const auto& [dofs, place] = local_[element];
+  for (std::size_t i = 0; i < dofs.size(); ++i) vector[dofs[i]] += local[place[i]];
+}
+
 double DiscreteSystem::projected_divergence_at(const Eigen::VectorXd& solution,
                                                const SectionElement& element, double x,
                                                double z) const {
@@ -24,20 +30,7 @@ double DiscreteSystem::projected_divergence_at(const Eigen::VectorXd& solution,
   const Eigen::VectorXd local = element_values(element, solution);
   const Eigen::VectorXd coefficient =
       SymmetricFactor(p.mass).solve(Eigen::VectorXd(p.divergence * local));
-  const auto along = [&](const LineMesh& line, int e, double at) {
-    return legendre_values(p.degree,
-                           {(at - line.breaks()[static_cast<std::size_t>(e)]) / line.length(e)});
-  };
-  const double xi = x / section_->stretch_at(element.region, z).scale;
-  const Eigen::MatrixXd in_x = along(section_->x(), element.column, xi);
-  const Eigen::MatrixXd in_z = along(section_->z(), element.row, z);
-  double value = 0.0;
-  for (Eigen::Index kz = 0; kz <= p.degree; ++kz) {
-    for (Eigen::Index kx = 0; kx <= p.degree; ++kx) {
-      value += coefficient[kz * (p.degree + 1) + kx] * in_z(0, kz) * in_x(0, kx);
-    }
-  }
-  return value;
+  return pressure_basis_at(element, x, z).dot(coefficient);
 }
 
 Eigen::VectorXd DiscreteSystem::line_load(int field, int break_row, int first_column,
