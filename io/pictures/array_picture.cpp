@@ -75,7 +75,8 @@ void draw_row(SceneDrawing& d, const ArrayScene& scene, const ShownRow& row) {
                   is_top ? FilmFace::kTop : FilmFace::kBottom);
     }
     d.text(d.x(middle_m), d.y(-g.film_thickness_m) + 24.0, std::to_string(number), "middle");
-    if (analysis_of(scene).is_loaded && (loaded.empty() || loaded.count(number) > 0)) {
+    const bool has_load = analysis_of(scene).is_loaded && !scene.press;
+    if (has_load && (loaded.empty() || loaded.count(number) > 0)) {
       d.load_arrows(middle_m, 0.5 * g.diameter_m, g.length_m, scene.load == ArrayLoad::kShear);
     }
   }
@@ -88,6 +89,7 @@ void draw_row(SceneDrawing& d, const ArrayScene& scene, const ShownRow& row) {
 
 std::string words_of_load(const ArrayScene& scene) {
   if (!analysis_of(scene).is_loaded) return "free vibration";
+  if (scene.press) return words_of_press(*scene.press) + (scene.press->force_N > 0.0 ? "/m" : "");
   std::string words =
       scene.load_Pa != 0.0 ? pascals(scene.load_Pa) : std::string("a history in time");
   if (scene.load == ArrayLoad::kShear) words += ", sideways,";

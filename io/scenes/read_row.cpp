@@ -1,5 +1,6 @@
 #include "io/scenes/raw_drive.h"
 #include "io/scenes/scene_words.h"
+#include "io/scenes/shape_section.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/scene/common/drive_parts.h"
@@ -31,6 +32,7 @@ struct RawArray {
   double pressure_Pa = 0.0, shear_Pa = 0.0;
   std::vector<double> pillars = {kAllPillars};
   RawDrive times{.modes = 3};
+  RawShape shape;
   double surface_energy_J_m2 = 0.02;
   std::map<std::string, std::string> effects;
   std::vector<std::string> quantities;
@@ -86,6 +88,7 @@ void show_array(FieldVisitor& v, RawArray& s) {
       l.quantities({.key = "pillars", .range = Range::kPositive}, s.pillars);
     });
   });
+  v.section("shape", [&](FieldVisitor& one) { show_shape(one, s.shape); });
   v.section("sweep", [&](FieldVisitor& w) {
     w.quantities(length("diameter"), s.sweep.diameter_m);
     w.quantities(length("spacing"), s.sweep.spacing_m);
@@ -177,6 +180,9 @@ ArrayScene scene_from(const RawArray& raw, const std::filesystem::path& folder) 
   scene.effects = choices_of(raw.effects);
   fill_drive(raw.times, scene);
   fill_load(raw, scene);
+  const ArrayGeometry& g = scene.geometry;
+  const double half_m = place_m(g, g.count - 1) + 0.5 * g.diameter_m + g.film_edge_m;
+  scene.press = press_from(raw.shape, folder, {-half_m, half_m, 0.0, 0.0});
   return scene;
 }
 
@@ -200,6 +206,9 @@ void check_wanted(const ArrayScene& scene) {
 // answered, and a hundred thousand take a second for that.
 void check_sweep(const ArraySweep& sweep, const ArrayScene& scene) {
   if (sweep.is_empty()) return;
+  if (scene.press) {
+    throw SceneMistake("sweep", "cannot stand beside a shape; sweeps compare rows under a load");
+  }
   if (analysis_of(scene).relaxes) {
     throw SceneMistake("sweep", "sweeps are made of static and modal analyses");
   }

@@ -103,7 +103,7 @@ void fill_kind(const RawShape& raw, const std::filesystem::path& folder,
 void show_shape(FieldVisitor& v, RawShape& s) {
   v.text({"kind", "sphere"}, s.kind);
   v.quantity({.key = "radius", .unit = "m", .range = Range::kPositive}, s.radius_m);
-  v.quantity({.key = "depth", .unit = "m", .range = Range::kPositive}, s.depth_m);
+  v.quantity({.key = "depth", .unit = "m"}, s.depth_m);
   v.quantity({.key = "force", .unit = "N", .range = Range::kPositive}, s.force_N);
   v.text({"friction", "none"}, s.friction);
   v.quantities({.key = "at", .unit = "m"}, s.at_m);
@@ -115,6 +115,9 @@ void show_shape(FieldVisitor& v, RawShape& s) {
   v.quantity({.key = "correlation_length", .unit = "m", .range = Range::kPositive},
              s.correlation_length_m);
   v.integer("seed", 0, 1'000'000'000, s.seed);
+  v.quantity({.key = "work_of_adhesion", .unit = "J/m2", .range = Range::kPositive},
+             s.work_of_adhesion_J_m2);
+  v.quantities({.key = "before", .unit = "m"}, s.before_m);
 }
 
 std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem::path& folder,
@@ -132,7 +135,8 @@ std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem:
                                   {"edge", ShapeKind::kEdge},
                                   {"table", ShapeKind::kTable},
                                   {kRough, ShapeKind::kTable}});
-  choice<bool>("shape.friction", raw.friction, {{"none", false}});
+  press.friction = choice<Friction>("shape.friction", raw.friction,
+                                    {{"none", Friction::kNone}, {"stick", Friction::kStick}});
   std::tie(shape.x_m, shape.y_m) = pair_of("at", raw.at_m);
   fill_kind(raw, folder, touchable, shape);
   const auto [tilt_x, tilt_y] = pair_of("tilt", raw.tilt_rad);
@@ -143,7 +147,14 @@ std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem:
   shape.tilt_x = std::tan(tilt_x);
   shape.tilt_y = std::tan(tilt_y);
   shape.direction_rad = raw.direction_rad;
+  if (raw.depth_m < 0.0 && raw.before_m.empty()) {
+    throw SceneMistake("shape.depth",
+                       "must be positive: above the tops a shape touches nothing, unless it was "
+                       "deeper before and adhesion holds it (shape.before, work_of_adhesion)");
+  }
   press.depth_m = raw.depth_m;
+  press.work_of_adhesion_J_m2 = raw.work_of_adhesion_J_m2;
+  press.before_m = raw.before_m;
   press.force_N = raw.force_N;
   return press;
 }

@@ -2,7 +2,7 @@
 
 #include "io/config/config_fields.h"
 #include "models/array/contact/rough_surface.h"
-#include "models/array/space/space_scene.h"
+#include "models/array/contact/shape_press.h"
 
 #include <filesystem>
 #include <optional>
@@ -20,6 +20,8 @@ struct RawShape {
   double rms_m = 0.0, correlation_length_m = 0.0;  // of a rough surface
   std::int64_t seed = 0;
   std::vector<double> at_m, tilt_rad;
+  double work_of_adhesion_J_m2 = 0.0;
+  std::vector<double> before_m;
 };
 
 void show_shape(FieldVisitor& visitor, RawShape& shape);

@@ -96,10 +96,15 @@ const std::vector<Effect>& effects() {
        {Pillar{[](const PillarScene&) -> EffectEstimate {
           return {.reason = "no shape presses on the pillar"};
         }},
-        Row{[](const ArrayScene&) -> EffectEstimate {
-          return {.reason = "no shape presses on the pillars"};
-        }},
+        Row{contact_estimate, [](ArrayScene& scene) { scene.feels_contact = false; }},
         Space{contact_estimate, [](SpaceScene& scene) { scene.feels_contact = false; }}}},
+      {"pull_off",
+       "the shape holds tops until they let go",
+       "the depths that it went through",
+       {Pillar{[](const PillarScene&) -> EffectEstimate {
+          return {.reason = "no shape presses on the pillar"};
+        }},
+        Row{pull_off_estimate, leave_out_pull_off}, Space{pull_off_estimate, leave_out_pull_off}}},
   };
   return kEffects;
 }

@@ -1,4 +1,5 @@
 #include "models/array/plane/array_analysis.h"
+#include "models/array/plane/row_contact.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/scene/scene_effects.h"
@@ -36,7 +37,8 @@ double film_share(const ArrayScene& scene) {
       FilmGeometry{scene.geometry.film_thickness_m, 0.5 * scene.geometry.diameter_m + edge_m};
   const FilmShares shares = film_shares(one);
   const double axial = kUnevenTraction * shares.axial;
-  const bool bends = analysis_of(scene).has_inertia || scene.load == ArrayLoad::kShear;
+  const bool bends =
+      analysis_of(scene).has_inertia || scene.load == ArrayLoad::kShear || scene.press.has_value();
   return bends ? std::max(axial, kUnevenTraction * shares.lateral()) : axial;
 }
 
@@ -76,6 +78,10 @@ EffectEstimate crosstalk_estimate(const ArrayScene& scene) {
   if (scene.load == ArrayLoad::kShear && asks_for_voltages(scene)) {
     estimate.role = EffectRole::kNeeded;
     estimate.reason = "a pillar sheared alone gives no voltage in its middle or mean";
+  }
+  if (scene.press && asks_for_voltages(scene)) {
+    estimate.role = EffectRole::kNeeded;
+    estimate.reason = "the tilt of a neighbour's top reads as pressure";
   }
   if (analysis_of(scene).relaxes) {
     estimate.role = EffectRole::kNeeded;
@@ -141,6 +147,7 @@ EffectEstimate adhesion_estimate(const ArrayScene& scene) {
 
 EffectEstimate finite_strain_estimate(const ArrayScene& scene) {
   double peak_Pa = analysis_of(scene).is_loaded ? std::abs(scene.load_Pa) : 0.0;
+  if (scene.press) peak_Pa = row_foundation(scene).largest_Pa;
   for (const HistoryPoint& point : history(scene)) {
     peak_Pa = std::max(peak_Pa, std::abs(point.value));
   }
@@ -173,12 +180,65 @@ EffectEstimate incompressibility_estimate(const ArrayScene& scene) {
           "stresses would lock without pressures of their own"};
 }
 
+namespace {
+
+// The moment at the foot of a cantilever grows by tan(u)/u (eq. E9).
+EffectEstimate stiffness_under_shape(const ArrayScene& scene) {
+  const double pressure_Pa = row_foundation(scene).largest_Pa;
+  if (!(pressure_Pa > 0.0)) return {.reason = "the shape touches no pillar"};
+  const double share = pressure_Pa / engesser_pressure_Pa(single_pillar(scene));
+  if (share >= 1.0) {
+    return {EffectRole::kOutside, 1.0, "p/p_cr", share,
+            "pillars buckle; the answer is that of pillars that stay straight"};
+  }
+  const double u = 0.5 * pi * std::sqrt(std::min(share, 0.99));
+  return {EffectRole::kOutside, std::tan(u) / u - 1.0, "p/p_cr", share,
+          "the pressure bends pillars further whose tops the shape turns; not in the error"};
+}
+
+}  // namespace
+
 EffectEstimate geometric_stiffness_estimate(const ArrayScene& scene) {
   if (!analysis_of(scene).is_loaded || scene.load != ArrayLoad::kPressure) {
     return {.reason = "no pressure on the top"};
   }
+  if (scene.press) return stiffness_under_shape(scene);
   const double share = scene.load_Pa / engesser_pressure_Pa(single_pillar(scene));
   return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "a straight pillar shortens without it"};
+}
+
+// A top lifts where the surface stays above it, and about where a turned top would (space_effects.cpp).
+EffectEstimate contact_estimate(const ArrayScene& scene) {
+  if (!scene.press) return {.reason = "no shape presses on the pillars"};
+  const RowFoundation pressed = row_foundation(scene);
+  EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap over overlap",
+                          pressed.lift, "tops that the shape does not touch are not pulled"};
+  const bool holds = scene.press->work_of_adhesion_J_m2 > 0.0;
+  if (!pressed.covers_all || holds) estimate.role = EffectRole::kNeeded;
+  return estimate;
+}
+
+// What a held top may be pulled by, over what the largest of the elastic foundation bears.
+EffectEstimate pull_off_at(const ShapePress& press, double share) {
+  EffectEstimate estimate{EffectRole::kOptional, std::min(share, 1.0),
+                          "pull-off over largest force", share,
+                          "tops that the shape has touched are pulled when it leaves"};
+  if (press.before_m.empty()) return estimate;
+  estimate.role = EffectRole::kNeeded;
+  estimate.reason = "the depths that the shape went through are given";
+  return estimate;
+}
+
+EffectEstimate pull_off_estimate(const ArrayScene& scene) {
+  if (!scene.press) return {.reason = "no shape presses on the pillars"};
+  if (scene.press->work_of_adhesion_J_m2 == 0.0) return {.reason = "no work of adhesion is given"};
+  const double largest_N_m = row_foundation(scene).largest_Pa * scene.geometry.diameter_m;
+  const double pull_N_m = row_pull_off_N_m(scene, scene.press->work_of_adhesion_J_m2);
+  return pull_off_at(*scene.press, largest_N_m > 0.0 ? pull_N_m / largest_N_m : 1.0);
+}
+
+void leave_out_pull_off(ArrayScene& scene) {
+  if (scene.press) scene.press->work_of_adhesion_J_m2 = 0.0;
 }
 
 void leave_out_piezo_coupling(ArrayScene& scene) {

@@ -29,6 +29,9 @@ void leave_out_finite_strain(PillarScene& scene);
 // Adhesion of neighbours whose length is `ratio` times the longest that parts again (row_effects.cpp).
 EffectEstimate adhesion_at(double ratio);
 
+// Of tops that are pulled with at most this share of the largest force (row_effects.cpp).
+EffectEstimate pull_off_at(const ShapePress& press, double share);
+
 // A row of pillars (row_effects.cpp).
 EffectEstimate film_compliance_estimate(const ArrayScene& scene);
 EffectEstimate piezo_coupling_estimate(const ArrayScene& scene);
@@ -40,6 +43,9 @@ EffectEstimate crosstalk_estimate(const ArrayScene& scene);
 EffectEstimate geometric_stiffness_estimate(const ArrayScene& scene);
 EffectEstimate adhesion_estimate(const ArrayScene& scene);
 EffectEstimate finite_strain_estimate(const ArrayScene& scene);
+EffectEstimate contact_estimate(const ArrayScene& scene);
+EffectEstimate pull_off_estimate(const ArrayScene& scene);
+void leave_out_pull_off(ArrayScene& scene);
 
 // An array in the plane (space_effects.cpp).
 EffectEstimate film_compliance_estimate(const SpaceScene& scene);
@@ -53,6 +59,8 @@ EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene);
 EffectEstimate adhesion_estimate(const SpaceScene& scene);
 EffectEstimate finite_strain_estimate(const SpaceScene& scene);
 EffectEstimate contact_estimate(const SpaceScene& scene);
+EffectEstimate pull_off_estimate(const SpaceScene& scene);
+void leave_out_pull_off(SpaceScene& scene);
 EffectEstimate backing_estimate(const SpaceScene& scene);
 
 }  // namespace viscard

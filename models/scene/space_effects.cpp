@@ -182,12 +182,28 @@ EffectEstimate contact_estimate(const SpaceScene& scene) {
   const FoundationPress pressed = foundation_press(scene);
   EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap over overlap",
                           pressed.lift, "tops that the shape does not touch are not pulled"};
-  if (!pressed.covers_all || scene.backing) estimate.role = EffectRole::kNeeded;
+  const bool holds = scene.press->work_of_adhesion_J_m2 > 0.0;
+  if (!pressed.covers_all || scene.backing || holds) estimate.role = EffectRole::kNeeded;
   if (scene.touch) {
     estimate.role = EffectRole::kNeeded;
     estimate.reason = "the contact grows in time";
   }
   return estimate;
+}
+
+EffectEstimate pull_off_estimate(const SpaceScene& scene) {
+  if (!scene.press) return {.reason = "no shape presses on the pillars"};
+  const double work_J_m2 = scene.press->work_of_adhesion_J_m2;
+  if (work_J_m2 == 0.0) return {.reason = "no work of adhesion is given"};
+  const double largest_Pa = foundation_press(scene).largest_Pa;
+  return pull_off_at(*scene.press, largest_over_classes(scene, [&](const SpaceClass& one) {
+    const double area_m2 = 0.25 * std::numbers::pi * one.diameter_m * one.diameter_m;
+    return largest_Pa > 0.0 ? class_pull_off_N(one, work_J_m2) / (area_m2 * largest_Pa) : 1.0;
+  }));
+}
+
+void leave_out_pull_off(SpaceScene& scene) {
+  if (scene.press) scene.press->work_of_adhesion_J_m2 = 0.0;
 }
 
 // The film's reading of waves from the width of a foot to the extent of the array (eq. S1), and how far the

@@ -74,7 +74,9 @@ CommandSyntax simulate_syntax() {
   CommandSyntax syntax{
       "viscard simulate SCENE.toml [OPTIONS]",
       "Answers a scene: static, modal, buckling, creep, relaxation, harmonic or transient of one "
-      "pillar, on a rigid base or a film; voltages, cross-talk and modes of a row of pillars; or "
+      "pillar, on a rigid base or a film; voltages, cross-talk and modes of a row of pillars, or "
+      "its "
+      "contact with a rigid shape; or "
       "maps of voltages, cross-talk and contact forces over an array in the plane, under loads or "
       "a "
       "rigid shape. "

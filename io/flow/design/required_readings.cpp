@@ -66,6 +66,7 @@ SpaceScene pressed(SpaceScene array, std::optional<std::size_t> pillar) {
 }
 
 ArrayScene pressed(ArrayScene row, std::optional<int> pillar) {
+  row.press.reset();
   row.drive = RowStatic{};
   row.load = ArrayLoad::kPressure;
   row.load_Pa = kUnit_Pa;

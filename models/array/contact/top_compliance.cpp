@@ -36,6 +36,21 @@ std::vector<double> heights(double radius_m, double length_m, int elements) {
   return breaks;
 }
 
+// Those down to a depth below which nothing moves. A load that varies as cos(m theta) decays along the pillar as
+// exp(-m z/R) or faster (its waves J_m(k r) need k R > m), so that what a rigid base at this depth reflects is
+// exp(-24) of it; the whole pillar where it is shorter.
+std::vector<double> heights_that_move(const std::vector<double>& heights_m, double radius_m,
+                                      int harmonic) {
+  constexpr double kDepth = 12.0;
+  const double base_m = heights_m.back() - kDepth * radius_m / std::max(harmonic, 1);
+  std::vector<double> moving;
+  for (const double at_m : heights_m) {
+    if (at_m <= base_m) moving.clear();
+    moving.push_back(at_m);
+  }
+  return moving;
+}
+
 // Their space is two degrees lower, too coarse for elements of degree 2 (1 % at nu = 0.5).
 bool condenses_pressure(const Medium& medium) {
   return medium.is_isotropic && medium.poisson_ratio >= kNearlyIncompressible;
@@ -87,7 +102,7 @@ class TopOfHarmonic {
   static DofMap dofs(const Section& section, const Kinematics& kinematics) {
     DofMap dofs(kinematics.field_count, section.node_count());
     for (int node = 0; node < section.node_count(); ++node) {
-      if (section.node_z(node) == 0.0) {
+      if (section.node_z(node) == section.z().breaks().front()) {
         for (int field = 0; field < kinematics.field_count; ++field) dofs.fix(field, node);
       } else if (section.node_x(node) == 0.0) {
         for (const int field : kinematics.zero_on_axis) dofs.fix(field, node);
@@ -137,15 +152,14 @@ TopCompliance top_compliance(const PillarGeometry& pillar, const Medium& medium,
           "the top of a pillar needs two elements and an even number of angles, four or more");
   const double radius_m = 0.5 * pillar.diameter_m;
   const int degree = condenses_pressure(medium) ? 3 : 2;
-  const Section section(
-      LineMesh(graded_breaks(0.0, radius_m, fineness.elements, 1.0, true), degree),
-      LineMesh(heights(radius_m, pillar.length_m, fineness.elements), degree),
-      [](double, double) { return 0; });
+  const LineMesh across(graded_breaks(0.0, radius_m, fineness.elements, 1.0, true), degree);
+  const std::vector<double> all_m = heights(radius_m, pillar.length_m, fineness.elements);
   TopCompliance top;
   top.angles = fineness.angles;
-  const std::vector<double>& nodes = section.x().nodes();
-  top.radius_m.assign(nodes.begin() + 1, nodes.end());
+  top.radius_m.assign(across.nodes().begin() + 1, across.nodes().end());
   for (int harmonic = 0; harmonic <= fineness.angles / 2; ++harmonic) {
+    const Section section(across, LineMesh(heights_that_move(all_m, radius_m, harmonic), degree),
+                          [](double, double) { return 0; });
     const TopOfHarmonic one(section, harmonic);
     if (harmonic == 0) top.ring_area_m2 = one.ring_areas();
     top.harmonic_m_N.push_back(one.compliance(medium));

@@ -1,5 +1,6 @@
 #include "models/array/contact/top_contact.h"
 
+#include "models/array/contact/point_exchange.h"
 #include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"
 
@@ -19,7 +20,7 @@ double angle_of(int index, int angles) {
   return 2.0 * std::numbers::pi * index / angles;
 }
 
-using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+using Mask = PointMask;
 
 Eigen::MatrixXd masked(const Eigen::MatrixXd& values, const Mask& mask) {
   return mask.select(values, 0.0);
@@ -28,34 +29,6 @@ Eigen::MatrixXd masked(const Eigen::MatrixXd& values, const Mask& mask) {
 double dot(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.cwiseProduct(b).sum();
 }
-
-// Which of the points that pull or overlap change sides: all, as long as their number has fallen within
-// the last sets, otherwise the last one alone. All at once may go round in a circle; one by one ends.
-// Judice & Pires, Computers & Operations Research 21 (1994) 587 (block pivoting); Murty's rule.
-class Exchange {
- public:
-  Mask next(const Mask& wrong) {
-    const Eigen::Index count = wrong.count();
-    if (fewest_ == 0 || count < fewest_) {
-      fewest_ = count;
-      left_ = kChances;
-      return wrong;
-    }
-    if (left_-- > 0) return wrong;
-    Mask last = Mask::Constant(wrong.rows(), wrong.cols(), false);
-    for (Eigen::Index i = wrong.size() - 1; i >= 0; --i) {
-      if (!wrong.data()[i]) continue;
-      last.data()[i] = true;
-      break;
-    }
-    return last;
-  }
-
- private:
-  static constexpr int kChances = 10;
-  Eigen::Index fewest_ = 0;
-  int left_ = kChances;
-};
 
 }  // namespace
 
@@ -117,7 +90,7 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
   Mask touches = f.array() > 0.0;
   if (!touches.any()) touches = overlap_m.array() > 0.0;
   f = masked(f, touches);
-  Exchange exchange;
+  PointExchange exchange;
   for (int set = 0; set < kMostSets; ++set) {
     Eigen::MatrixXd residual = masked(overlap_m - motion(f), touches);
     Eigen::MatrixXd direction = residual;

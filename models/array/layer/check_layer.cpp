@@ -88,6 +88,16 @@ bool is_endless(const LayerScene& scene) {
 void check_layer_press(const LayerScene& scene) {
   const ShapePress& press = scene.press;
   at_key("shape", [&] { validate(press.shape); });
+  if (press.work_of_adhesion_J_m2 > 0.0 || !press.before_m.empty()) {
+    throw SceneMistake(
+        press.before_m.empty() ? "shape.work_of_adhesion" : "shape.before",
+        "is answered for tops of pillars, which let go at once; leave it out for a layer");
+  }
+  if (press.friction != Friction::kNone) {
+    throw SceneMistake("shape.friction",
+                       "sticks, which is answered for rows of pillars in the plane; say friction = "
+                       "\"none\"");
+  }
   if ((press.depth_m > 0.0) == (press.force_N > 0.0)) {
     throw SceneMistake("shape",
                        "needs either a depth, such as depth = \"3 um\", or a force, such "

@@ -22,6 +22,12 @@ const ArrayAnalysis& analysis_of(const ArrayScene& scene) {
 
 bool asks_for_voltages(const ArrayScene& scene) {
   if (!is_electric(scene) || !analysis_of(scene).is_loaded) return false;
+  if (scene.press) {
+    return scene.wanted.empty() ||
+           std::any_of(scene.wanted.begin(), scene.wanted.end(), [](const std::string& name) {
+             return name.find("_voltage") != std::string::npos || name.starts_with("electrode");
+           });
+  }
   return scene.wanted.empty() ||
          std::any_of(scene.wanted.begin(), scene.wanted.end(),
                      [](const std::string& name) { return !name.starts_with("top_displacement"); });

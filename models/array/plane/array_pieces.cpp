@@ -174,10 +174,41 @@ InertiaPorts wave_ports(const HeldPillar& pillar, const Eigen::VectorXd& top_loa
   return pillar.ports_of(vectors * ritz.vectors.leftCols(used), ritz.values.head(used).cwiseSqrt());
 }
 
+// Of a traction P_degree(2 x/d) on the top, along a field.
+Eigen::VectorXd traction_load(const DiscreteSystem& system, int field, int degree) {
+  const Section& section = system.section();
+  const LineMesh& x = section.x();
+  const double from_m = x.breaks().front(), width_m = x.breaks().back() - from_m;
+  const int top = section.z().node_count() - 1;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(system.size());
+  for (int column = 0; column < x.element_count(); ++column) {
+    const LineMesh::ElementRule rule = x.rule(column);
+    std::vector<double> at;
+    for (const double x_m : rule.x) at.push_back((x_m - from_m) / width_m);
+    const Eigen::VectorXd traction = legendre_values(degree, at).col(degree);
+    const Eigen::VectorXd forces = rule.value.transpose() * rule.weight.cwiseProduct(traction);
+    for (int i = 0; i < forces.size(); ++i) {
+      const int node = section.node(column * x.degree() + i, top);
+      load[system.dofs().dof(field, node)] += forces[i];
+    }
+  }
+  return load;
+}
+
+void add_tractions(const DiscreteSystem& system, int top_degree, Eigen::MatrixXd& ports) {
+  ports.conservativeResize(Eigen::NoChange, kFirstModePort + 2 * top_degree);
+  for (int degree = 1; degree <= top_degree; ++degree) {
+    ports.col(traction_port(kPressurePort, degree, top_degree)) =
+        -traction_load(system, kUp, degree);
+    ports.col(traction_port(kShearPort, degree, top_degree)) =
+        traction_load(system, kAcross, degree);
+  }
+}
+
 }  // namespace
 
 CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
-                                 const PillarInertia& inertia) {
+                                 const PillarPorts& extra) {
   const std::vector<double> x(mesh.cell.x.begin() + mesh.cell.first_pillar_column,
                               mesh.cell.x.begin() + mesh.cell.last_pillar_column + 1);
   const Section section(LineMesh(x, degree), LineMesh(mesh.pillar_z, degree),
@@ -190,22 +221,23 @@ CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media,
   Eigen::MatrixXd ports(system.size(), kFirstModePort);
   ports.col(kPressurePort) = -system.line_load(kUp, top, 0, columns);
   ports.col(kShearPort) = system.line_load(kAcross, top, 0, columns);
-  if (inertia.modes + inertia.waves > 0) {
+  if (extra.modes + extra.waves > 0) {
     const HeldPillar held(section, system, form, media.pillar.rho_kg_m3);
-    const InertiaPorts more = inertia.waves > 0
-                                  ? wave_ports(held, ports.col(inertia.load_port), inertia.waves)
-                                  : mode_ports(held, inertia.modes);
+    const InertiaPorts more = extra.waves > 0
+                                  ? wave_ports(held, ports.col(extra.load_port), extra.waves)
+                                  : mode_ports(held, extra.modes);
     ports.conservativeResize(Eigen::NoChange, kFirstModePort + more.loads.cols());
     ports.rightCols(more.loads.cols()) = more.loads;
     pillar.mode_rad_s = more.rad_s;
     pillar.mode_is_lateral = more.is_lateral;
+    pillar.shapes = static_cast<int>(more.loads.cols());
   }
+  if (extra.top_degree > 0) add_tractions(system, extra.top_degree, ports);
   const std::vector<int> base = dofs_on(system, nodes_on_break(section, 0, 0, columns), 2);
   pillar.base_size = static_cast<int>(base.size());
   pillar.unknowns = system.size();
   pillar.matrix = condensed(stiffness_of(system, form), base, ports,
                             Eigen::MatrixXd::Zero(ports.cols(), ports.cols()));
-  pillar.shapes = static_cast<int>(ports.cols()) - kFirstModePort;
   return pillar;
 }
 

@@ -17,19 +17,26 @@ struct ArrayMedia {
 };
 
 // Ports (plane_system.h) of a pillar, in order: 1 Pa of pressure on its top, 1 Pa of shear along +x
-// there, then the inertia of each of its lowest modes on a fixed base (eq. A2), unit mass norm.
+// there, then those of PillarPorts.
 constexpr int kPressurePort = 0;
 constexpr int kShearPort = 1;
 constexpr int kFirstModePort = 2;
 
-// The shapes of a pillar on a fixed base that get ports for their inertia. Statics need none,
-// vibrations the lowest modes, waves the shapes that a load on the top and motions of the base
-// excite, by weight.
-struct PillarInertia {
+// More ports of a pillar. Either the inertia of shapes on a fixed base (eq. A2), of unit mass norm:
+// its lowest modes, or waves, which are the shapes that a load on the top and motions of the base
+// excite, by weight. Or tractions on its top that vary as Legendre polynomials P_1 to P_top_degree of
+// 2 x/d: pressures of all degrees, then shears (eq. A7).
+struct PillarPorts {
   int modes = 0;
   int waves = 0;  // more than 0: instead of modes
   int load_port = kPressurePort;
+  int top_degree = 0;  // more than 0: instead of shapes
 };
+// The port of a traction of that degree on the top.
+constexpr int traction_port(int load_port, int degree, int top_degree) {
+  if (degree == 0) return load_port;
+  return kFirstModePort + (load_port == kShearPort ? top_degree : 0) + degree - 1;
+}
 
 // One pillar condensed to the nodes of its base: matrix on [base, ports].
 struct CondensedPillar {
@@ -49,7 +56,7 @@ struct CondensedPillar {
 // `modes`: how many get ports; 0 for statics. At nu = 0.5 in plane strain the bulk modulus is 1e6
 // shear moduli, which moves answers by about 1e-6. Throws std::runtime_error without convergence.
 CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
-                                 const PillarInertia& inertia = {});
+                                 const PillarPorts& extra = {});
 
 // Mean of the film's potential over [from, to] on the ungrounded face, or its value at from = to.
 struct PotentialReading {

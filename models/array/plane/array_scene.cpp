@@ -15,6 +15,10 @@ bool is_electric(const ArrayScene& scene) {
   return scene.film.has_permittivity();
 }
 
+double place_m(const ArrayGeometry& geometry, int pillar) {
+  return (pillar - 0.5 * (geometry.count - 1)) * (geometry.diameter_m + geometry.spacing_m);
+}
+
 PillarScene single_pillar(const ArrayScene& scene) {
   PillarScene one;
   one.tolerance = scene.tolerance;

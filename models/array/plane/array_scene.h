@@ -1,10 +1,12 @@
 #pragma once
 
+#include "models/array/contact/shape_press.h"
 #include "models/array/plane/array_statics.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/load_history.h"
 #include "models/scene/common/scene_common.h"
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -49,11 +51,15 @@ struct ArrayScene : SceneCommon {
   double load_Pa = 0.0;     // at rest or amplitude
   std::vector<int> loaded;  // numbers from 1; empty: all
 
+  std::optional<ShapePress> press;  // at rest, instead of the load above; its force in N/m
+
   double surface_energy_J_m2 = 0.02;  // of the pillars, which may stick together; PDMS
 
   // Set by the plan (models/scene/plan.h): each pillar as if it stood alone; on a rigid base.
   bool feels_neighbours = true;
   bool feels_film = true;
+  // Set by the plan: a shape only pushes. If not, all tops follow it, also where they must be pulled.
+  bool feels_contact = true;
 
   static constexpr const char* kKind = "array";  // geometry.kind in a scene file
   static constexpr ToleranceRange kTolerances{1e-7, "1e-7 and 1 for a row of pillars"};
@@ -63,6 +69,9 @@ struct ArrayScene : SceneCommon {
 const std::vector<HistoryPoint>& history(const ArrayScene& scene);
 
 bool is_electric(const ArrayScene& scene);  // the film has a permittivity
+
+// Of the pillar's axis from the middle of the row; pillars are numbered from 0.
+double place_m(const ArrayGeometry& geometry, int pillar);
 
 // One pillar of the row, a strip on a rigid base, without load.
 PillarScene single_pillar(const ArrayScene& scene);

@@ -8,14 +8,14 @@ namespace viscard {
 
 ArrayModel::ArrayModel(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes,
                        const ArrayMedia& media, const Discretisation& discretisation,
-                       const PillarInertia& inertia)
+                       const PillarPorts& extra)
     : geometry_(geometry), electrodes_(electrodes), has_potential_(media.film.has_permittivity()) {
   if (electrodes.is_equipotential && !has_potential_) {
     throw std::invalid_argument("electrodes need a film with a permittivity");
   }
   const ArrayMesh mesh = array_mesh(geometry, electrodes, discretisation);
   const int degree = discretisation.degree;
-  pillar_ = condensed_pillar(mesh, media, degree, inertia);
+  pillar_ = condensed_pillar(mesh, media, degree, extra);
   unknowns_ = pillar_.unknowns;
   cells_ = condensed_cells(mesh, media, degree);
   const auto film_only = [&](const std::vector<double>& x_m, double read_m) {
@@ -132,6 +132,14 @@ ArrayAnswer array_answer(const ArrayModel& model, ArrayLoad load, const Eigen::V
   const int port = port_of(load);
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(model.chain().port_count());
   for (int i = 0; i < n; ++i) loads[model.pillar_port(i, port)] = load_Pa[i];
+  ArrayAnswer answer = array_answer(model, loads);
+  answer.top_m = metres_per_reading(load, model.geometry()) *
+                 (port == kPressurePort ? answer.pushed_m2 : answer.sheared_m2);
+  return answer;
+}
+
+ArrayAnswer array_answer(const ArrayModel& model, const Eigen::VectorXd& loads) {
+  const int n = model.geometry().count;
   const auto picked = [&](const Eigen::VectorXd& readings, auto row_of) {
     std::vector<int> rows;
     for (int i = 0; i < n; ++i) {
@@ -146,8 +154,8 @@ ArrayAnswer array_answer(const ArrayModel& model, ArrayLoad load, const Eigen::V
   answer.mean_V = picked(all, [&](int i) { return model.mean_port(i); });
   answer.electrode_V = picked(all, electrode_port);
   answer.midway_V = picked(all, [&](int i) { return model.midway_port(i); });
-  answer.top_m = metres_per_reading(load, model.geometry()) *
-                 picked(all, [&](int i) { return model.pillar_port(i, port); });
+  answer.pushed_m2 = picked(all, [&](int i) { return model.pillar_port(i, kPressurePort); });
+  answer.sheared_m2 = picked(all, [&](int i) { return model.pillar_port(i, kShearPort); });
   if (answer.electrode_V.size() > 0) {
     answer.electrode_C = -picked(model.readings_at_0_V(loads), electrode_port);
   }

@@ -19,7 +19,7 @@ class ArrayModel {
   // Throws std::invalid_argument for a geometry or media that make no sense.
   ArrayModel(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes,
              const ArrayMedia& media, const Discretisation& discretisation,
-             const PillarInertia& inertia = {});
+             const PillarPorts& extra = {});
   ArrayModel(const ArrayModel&) = delete;
   ArrayModel& operator=(const ArrayModel&) = delete;
 
@@ -71,9 +71,12 @@ enum class ArrayLoad { kPressure, kShear };  // on the whole top
 // with the number of pillars, not with its square.
 struct ArrayAnswer {
   Eigen::VectorXd centre_V, mean_V, electrode_V, midway_V, top_m;
-  Eigen::VectorXd electrode_C;  // all electrodes at 0 V, per metre
+  Eigen::VectorXd electrode_C;            // all electrodes at 0 V, per metre
+  Eigen::VectorXd pushed_m2, sheared_m2;  // readings of the tops' pressure and shear ports
 };
 ArrayAnswer array_answer(const ArrayModel& model, ArrayLoad load, const Eigen::VectorXd& load_Pa);
+// Under loads on any ports of the chain; without top_m.
+ArrayAnswer array_answer(const ArrayModel& model, const Eigen::VectorXd& loads);
 // Centre (electrode) voltage of a pillar for 1 Pa on itself alone, beside its neighbours.
 double own_V_per_Pa(const ArrayModel& model, ArrayLoad load, int pillar);
 // Voltage of an equipotential electrode for 1 C on itself alone, all open, per metre.

@@ -1,4 +1,5 @@
 #include "models/array/plane/array_analysis.h"
+#include "models/array/plane/pressed_row.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/buckling_limit.h"
@@ -49,6 +50,7 @@ void validate(const ArrayScene& scene) {
     throw SceneMistake("materials.surface_energy", "the surface energy must be positive");
   }
   const ArrayAnalysis& analysis = analysis_of(scene);
+  if (scene.press) return check_row_press(scene);
   if (analysis.has_inertia) check_density(scene);
   if (analysis.is_loaded) check_loaded(scene);
   if (analysis.check != nullptr) analysis.check(scene);
@@ -72,6 +74,7 @@ void check_load(const ArrayScene& scene) {
 }
 
 std::vector<std::string> result_names(const ArrayScene& scene) {
+  if (scene.press) return pressed_row_names(scene);
   return analysis_of(scene).result_names(scene);
 }
 

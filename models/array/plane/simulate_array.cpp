@@ -1,6 +1,7 @@
 #include "models/array/plane/simulate_array.h"
 
 #include "models/array/plane/array_analysis.h"
+#include "models/array/plane/pressed_row.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/scene/common/error_control.h"
 
@@ -52,11 +53,13 @@ std::vector<Discretisation> array_meshes(const ArrayScene& scene) {
 }
 
 SceneAnswer array_answer_on(const ArrayScene& scene, const Discretisation& mesh) {
+  if (scene.press) return pressed_row_on(scene, mesh);
   return scene.feels_film ? analysis_of(scene).run(scene, mesh) : without_film(scene, mesh);
 }
 
 SceneAnswer simulate_array(const ArrayScene& scene) {
   validate(scene);
+  if (scene.press) return simulate_pressed_row(scene, array_meshes(scene));
   const ArrayAnalysis& analysis = analysis_of(scene);
   return answer_within({scene.tolerance, array_meshes(scene), scene.progress},
                        [&](const Discretisation& mesh) {

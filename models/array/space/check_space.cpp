@@ -55,6 +55,22 @@ void check_size(const SpaceScene& scene) {
   }
 }
 
+void check_adhesion(const SpaceScene& scene) {
+  const ShapePress& press = *scene.press;
+  check_adhesion(press);
+  if (press.work_of_adhesion_J_m2 == 0.0) return;
+  if (scene.backing) {
+    throw SceneMistake("shape.work_of_adhesion",
+                       "is answered on a rigid backing; remove geometry.film.backing");
+  }
+  if (scene.touch) {
+    throw SceneMistake(
+        "analysis.kind",
+        "must be static where tops are held by adhesion; shape.before has the depths "
+        "that the shape went through");
+  }
+}
+
 void check_press(const SpaceScene& scene) {
   const ShapePress& press = *scene.press;
   if (scene.pressure_Pa != 0.0 || scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 ||
@@ -62,7 +78,13 @@ void check_press(const SpaceScene& scene) {
     throw SceneMistake("analysis.load", "cannot stand beside a shape, which itself loads the tops");
   }
   at_key("shape", [&] { validate(press.shape); });
-  if ((press.depth_m > 0.0) == (press.force_N > 0.0)) {
+  if (press.friction != Friction::kNone) {
+    throw SceneMistake("shape.friction",
+                       "sticks, which is answered for rows in the plane (count instead of rows and "
+                       "columns); say friction = \"none\"");
+  }
+  check_adhesion(scene);
+  if ((press.depth_m > 0.0 || !press.before_m.empty()) == (press.force_N > 0.0)) {
     throw SceneMistake(
         "shape",
         "needs either a depth, such as depth = \"3 um\", or a force, such as force = "
@@ -70,7 +92,8 @@ void check_press(const SpaceScene& scene) {
   }
   double longest_m = 0.0;
   for (const SpaceClass& one : classes_of(scene)) longest_m = std::max(longest_m, one.length_m);
-  if (press.depth_m > longest_m) {
+  const std::vector<double> path_m = path_of(press);
+  if (*std::max_element(path_m.begin(), path_m.end()) > longest_m) {
     throw SceneMistake("shape.depth",
                        "is more than the pillars' length of " + micrometres(longest_m));
   }

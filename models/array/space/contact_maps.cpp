@@ -50,6 +50,15 @@ const std::vector<TopMap>& top_maps() {
   return kMaps;
 }
 
+constexpr const char* kReleaseDepth = "release_depth";
+
+// As a column E A/l.
+double stretch_at_release_m(const SpaceScene& scene, double pull_N, std::size_t pillar) {
+  const SpaceClass one = class_of(scene, scene.pillars[pillar]);
+  return pull_N * one.length_m /
+         (0.25 * std::numbers::pi * one.diameter_m * one.diameter_m * one.material.E0_Pa);
+}
+
 std::string name_of(const SpacePillar& one) {
   return "[" + std::to_string(one.row) + ", " + std::to_string(one.column) + "]";
 }
@@ -155,40 +164,47 @@ void note_table(const SpaceScene& scene, std::vector<std::string>& notes) {
                   " pillars lie outside the table of heights, where nothing presses on them");
 }
 
-constexpr const char* kPressureProfile = "pressure_profile";
-constexpr const char* kGapProfile = "gap_profile";
+// Without a shape that only pushes, the work of adhesion of two of the pillars' surfaces.
+void note_pull(const SpaceScene& scene, const SpaceContact& contact,
+               std::vector<std::string>& notes) {
+  const double work_J_m2 = scene.press->work_of_adhesion_J_m2 > 0.0
+                               ? scene.press->work_of_adhesion_J_m2
+                               : 2.0 * scene.surface_energy_J_m2;
+  const Worst worst = worst_of(
+      scene, [&](std::size_t i) { return -contact.pressed.tops[i].force_N; },
+      [&](const SpaceClass& one) { return class_pull_off_N(one, work_J_m2); });
+  if (worst.value <= worst.limit) return;
+  notes.push_back("beyond pull-off: pillar " + name_of(scene.pillars[worst.pillar]) +
+                  " is pulled by " + text_of(worst.value, 4) + " N, and at a work of adhesion of " +
+                  text_of(work_J_m2, 3) + " J/m2 its top lets go at " + text_of(worst.limit, 4) +
+                  " N");
+}
 
-// The pressure on each top and the gap over its middle, along the row that is nearest to the shape's point.
-void add_profiles(const SpaceScene& scene, const SpaceContact& contact, SceneAnswer& answer) {
-  const RigidShape& shape = scene.press->shape;
-  const auto nearest = std::min_element(
-      scene.pillars.begin(), scene.pillars.end(), [&](const SpacePillar& a, const SpacePillar& b) {
-        return std::abs(a.y_m - shape.y_m) < std::abs(b.y_m - shape.y_m);
-      });
-  SceneCurve pressure{.name = kPressureProfile, .unit = "Pa", .x_name = "x_m", .is_watched = false};
-  SceneCurve gap{.name = kGapProfile, .unit = "m", .x_name = "x_m", .is_watched = false};
-  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
-    const SpacePillar& one = scene.pillars[i];
-    if (one.row != nearest->row) continue;
-    const auto at = static_cast<Eigen::Index>(i);
-    pressure.x.push_back(one.x_m);
-    pressure.value.push_back(contact.loads_Pa(at, kPressureColumn));
-    pressure.error.push_back(std::abs(contact.change_Pa(at, kPressureColumn)) +
-                             contact.stiffness_error * std::abs(pressure.value.back()));
-    const double height = height_m(shape, one.x_m, one.y_m);
-    if (!std::isfinite(height)) continue;
-    const SpaceClass kind = class_of(scene, one);
-    // A top that is touched everywhere has no gap; the other tops are as high as without load.
-    const double above_m = kind.length_m - scene.length_m;
-    const bool is_touched = contact.pressed.tops[i].share > 0.0;
-    gap.x.push_back(one.x_m);
-    gap.value.push_back(is_touched ? 0.0
-                                   : std::max(height - contact.pressed.depth_m - above_m, 0.0));
+void note_held(const SpaceContact& contact, std::vector<std::string>& notes) {
+  if (contact.release_m.empty()) return;
+  int held = 0, let_go = 0;
+  for (std::size_t i = 0; i < contact.release_m.size(); ++i) {
+    if (std::isnan(contact.release_m[i])) continue;
+    const bool is_gone = contact.pressed.depth_m < contact.release_m[i];
+    let_go += is_gone ? 1 : 0;
+    held += !is_gone && contact.pressed.tops[i].force_N < 0.0 ? 1 : 0;
   }
-  if (asks_for(scene, kPressureProfile)) answer.curves.push_back(std::move(pressure));
-  // The surface of a backing sinks beside the contact too, but its sinking is computed under the
-  // touched pillars only.
-  if (asks_for(scene, kGapProfile) && !scene.backing) answer.curves.push_back(std::move(gap));
+  notes.push_back("adhesion pulls " + std::to_string(held) + " tops, and " +
+                  std::to_string(let_go) + " have let go; tops that touch are taken to lie flat");
+}
+
+// Where tops that are or were held let go.
+void add_release(const SpaceScene& scene, const SpaceContact& contact, SceneAnswer& answer) {
+  SceneMap map{.name = kReleaseDepth, .unit = "m", .is_watched = false};
+  for (std::size_t i = 0; i < contact.release_m.size(); ++i) {
+    if (std::isnan(contact.release_m[i])) continue;
+    map.pillar.push_back(i);
+    map.value.push_back(contact.release_m[i]);
+    // The stretch at which it lets go is wrong as the stiffness is.
+    map.error.push_back(contact.stiffness_error *
+                        stretch_at_release_m(scene, contact.pull_off_N[i], i));
+  }
+  if (!map.value.empty()) answer.maps.push_back(std::move(map));
 }
 
 }  // namespace
@@ -200,7 +216,8 @@ std::vector<std::string> contact_maps() {
 }
 
 std::vector<std::string> contact_results() {
-  return {"contact_force", "contacts", "depth", "largest_pressure", kPressureProfile, kGapProfile};
+  return {"contact_force",  "contacts",  "depth",      "largest_pressure",
+          kPressureProfile, kGapProfile, kReleaseDepth};
 }
 
 double contact_error(const SpaceContact& contact) {
@@ -224,14 +241,17 @@ void add_contact(const SpaceScene& scene, const SpaceContact& contact, SceneAnsw
     map.is_watched = map.unit != "%";
     answer.maps.push_back(std::move(map));
   }
+  if (asks_for_map(scene, kReleaseDepth)) add_release(scene, contact, answer);
   if (scene.columns > 1 && !scene.wanted.empty()) add_profiles(scene, contact, answer);
-  const auto add = [&](const char* name, double value, const char* unit, double error) {
-    if (asks_for(scene, name)) answer.results.push_back({name, value, unit, error});
+  const auto add = [&](const char* name, double value, const char* unit, double error,
+                       double scale = 0.0) {
+    if (asks_for(scene, name)) answer.results.push_back({name, value, unit, error, scale});
   };
   const bool is_force_given = scene.press->force_N > 0.0;
   const double of_force = is_force_given ? 0.0 : contact.stiffness_error;
   add("contact_force", contact.pressed.force_N, "N",
-      contact.total_change_N + of_force * contact.pressed.force_N);
+      contact.total_change_N + of_force * std::abs(contact.pressed.force_N),
+      contact.largest_force_N());
   if (asks_for(scene, "contacts")) {
     answer.results.push_back({"contacts", static_cast<double>(contact.pressed.contacts), "",
                               static_cast<double>(contact.contact_change), 0.0, false});
@@ -241,13 +261,15 @@ void add_contact(const SpaceScene& scene, const SpaceContact& contact, SceneAnsw
       contact.depth_change_m + of_depth * std::abs(contact.pressed.depth_m));
   add("largest_pressure", largest_pressure_Pa(contact), "Pa",
       contact.change_Pa.col(kPressureColumn).cwiseAbs().maxCoeff() +
-          contact.stiffness_error * largest_pressure_Pa(contact));
+          contact.stiffness_error * largest_pressure_Pa(contact),
+      contact.loads_Pa.col(kPressureColumn).cwiseAbs().maxCoeff());
 }
 
 std::vector<std::string> contact_notes(const SpaceScene& scene, const SpaceContact& contact) {
   std::vector<std::string> notes;
   note_table(scene, notes);
   if (contact.pressed.contacts == 0) {
+    note_held(contact, notes);
     notes.emplace_back("the shape touches no pillar; lower it, or move it over the array");
     return notes;
   }
@@ -255,6 +277,8 @@ std::vector<std::string> contact_notes(const SpaceScene& scene, const SpaceConta
   note_strain(scene, contact, notes);
   note_slope(scene, contact, notes);
   note_sideways(scene, contact, notes);
+  note_pull(scene, contact, notes);
+  note_held(contact, notes);
   return notes;
 }
 

@@ -1,5 +1,6 @@
 #include "models/array/space/space_contact.h"
 
+#include "models/array/contact/pull_off.h"
 #include "models/array/space/foot_motion.h"
 #include "models/maths/gauss_legendre.h"
 
@@ -104,9 +105,27 @@ class Presser {
       return contact_of(press.force_N > 0.0 ? on_base_->with_force(classes, press.force_N)
                                             : on_base_->to_depth(classes, press.depth_m));
     }
+    if (press.work_of_adhesion_J_m2 > 0.0 && scene_->feels_contact) return held(classes, press);
     return contact_of(press.force_N > 0.0
                           ? press_with_force(pillars_, classes, press.shape, press.force_N, bond)
                           : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond));
+  }
+
+  // With adhesion.
+  SpaceContact held(const std::vector<TopContact>& classes, const ShapePress& press) const {
+    std::vector<double> of_class_N;
+    for (const SpaceClass& one : classes_of(*scene_)) {
+      of_class_N.push_back(class_pull_off_N(one, press.work_of_adhesion_J_m2));
+    }
+    const std::vector<TopHold> holds = holds_of(pillars_, classes, press.shape, of_class_N);
+    const std::vector<double> path_m = path_of(press);
+    SpaceContact contact = contact_of(press_along(pillars_, classes, press.shape, holds, path_m));
+    for (std::size_t i = 0; i < holds.size(); ++i) {
+      const bool was_held = is_ever_held(holds[i], path_m);
+      contact.release_m.push_back(was_held ? holds[i].released_m : std::nan(""));
+      contact.pull_off_N.push_back(of_class_N[static_cast<std::size_t>(pillars_[i].of_class)]);
+    }
+    return contact;
   }
 
   SpaceContact contact_of(PressedArray pressed) const {

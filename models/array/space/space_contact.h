@@ -25,6 +25,8 @@ struct SpaceContact {
   int contact_change = 0;
   double stiffness_error = 0.0;  // relative, of every force at a depth, or of the depth of a force
   double settling_share = 0.0;   // of the film in the way of a pressed top
+  // With adhesion, by pillar: where its top lets go, NaN if it was never held; and its pull-off force.
+  std::vector<double> release_m, pull_off_N;
 
   double largest_force_N() const;
 };

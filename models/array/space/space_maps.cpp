@@ -216,4 +216,37 @@ void add_transfer(const SpaceScene& scene, const SpaceResponse& response, double
   }
 }
 
+// The pressure on each top and the gap over its middle, along the row that is nearest to the shape's point.
+void add_profiles(const SpaceScene& scene, const SpaceContact& contact, SceneAnswer& answer) {
+  constexpr auto column = static_cast<Eigen::Index>(TopLoad::kPressure);
+  const RigidShape& shape = scene.press->shape;
+  const auto nearest = std::min_element(
+      scene.pillars.begin(), scene.pillars.end(), [&](const SpacePillar& a, const SpacePillar& b) {
+        return std::abs(a.y_m - shape.y_m) < std::abs(b.y_m - shape.y_m);
+      });
+  SceneCurve pressure{.name = kPressureProfile, .unit = "Pa", .x_name = "x_m", .is_watched = false};
+  SceneCurve gap{.name = kGapProfile, .unit = "m", .x_name = "x_m", .is_watched = false};
+  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+    const SpacePillar& one = scene.pillars[i];
+    if (one.row != nearest->row) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    pressure.x.push_back(one.x_m);
+    pressure.value.push_back(contact.loads_Pa(at, column));
+    pressure.error.push_back(std::abs(contact.change_Pa(at, column)) +
+                             contact.stiffness_error * std::abs(pressure.value.back()));
+    const double height = height_m(shape, one.x_m, one.y_m);
+    if (!std::isfinite(height)) continue;
+    const SpaceClass kind = class_of(scene, one);
+    // A top that is touched everywhere has no gap; the others are as high as they were.
+    const double above_m = kind.length_m - scene.length_m;
+    const bool is_touched = contact.pressed.tops[i].share > 0.0;
+    gap.x.push_back(one.x_m);
+    gap.value.push_back(is_touched ? 0.0
+                                   : std::max(height - contact.pressed.depth_m - above_m, 0.0));
+  }
+  if (asks_for(scene, kPressureProfile)) answer.curves.push_back(std::move(pressure));
+  // A backing sinks beside the contact too, which is known under the touched pillars only.
+  if (asks_for(scene, kGapProfile) && !scene.backing) answer.curves.push_back(std::move(gap));
+}
+
 }  // namespace viscard

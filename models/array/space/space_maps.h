@@ -72,4 +72,10 @@ constexpr std::size_t kMostNamedPillars = 25;
 // value of each map, and the values of single pillars that the scene wants.
 void set_results(const SpaceScene& scene, SceneAnswer& answer);
 
+// Curves along the row under a shape: the pressure on each top, and the gap over its middle.
+constexpr const char* kPressureProfile = "pressure_profile";
+constexpr const char* kGapProfile = "gap_profile";
+struct SpaceContact;
+void add_profiles(const SpaceScene& scene, const SpaceContact& contact, SceneAnswer& answer);
+
 }  // namespace viscard

@@ -1,6 +1,7 @@
 #include "models/array/space/space_scene.h"
 
 #include "models/maths/neighbours.h"
+#include "models/sensor/sensor_design.h"
 
 #include <algorithm>
 #include <cmath>
@@ -161,6 +162,14 @@ double smallest_gap_m(const SpaceScene& scene) {
                            [&](const SpacePillar& a, const SpacePillar& b, double m) {
                              return m - 0.5 * (diameter_m(a) + diameter_m(b));
                            });
+}
+
+double class_pull_off_N(const SpaceClass& one, double work_J_m2) {
+  SensorMaterial material;
+  material.young_modulus_Pa = one.material.E0_Pa;
+  material.poisson_ratio = one.material.nu;
+  material.work_of_adhesion_J_m2 = work_J_m2;
+  return pull_off_force_N(one.diameter_m, material);
 }
 
 }  // namespace viscard

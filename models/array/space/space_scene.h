@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/array/contact/rigid_shape.h"
+#include "models/array/contact/shape_press.h"
 #include "models/array/quadrants/quadrant_gains.h"
 #include "models/array/sensing/heat_response.h"
 #include "models/array/sensing/thermal_noise.h"
@@ -41,14 +41,6 @@ struct SpaceClass {
   double diameter_m = 40e-6;
   double length_m = 120e-6;
   Material material;
-};
-
-// A rigid shape that presses on the tops without friction: its point (x, y) moves to a depth below
-// the tops of the usual pillars, or with a force. The quantity that is not given is 0.
-struct ShapePress {
-  RigidShape shape;
-  double depth_m = 0.0;
-  double force_N = 0.0;
 };
 
 // An array of pillars in the plane on one film, loaded at rest, and the accuracy of the answer. The
@@ -106,6 +98,8 @@ std::optional<std::size_t> index_of(const SpaceScene& scene, RowColumn place);
 // Shape and material of a pillar.
 SpaceClass class_of(const SpaceScene& scene, const SpacePillar& pillar);
 std::vector<SpaceClass> classes_of(const SpaceScene& scene);  // of_class is the index
+// The pull that a top of this class bears at most (models/sensor, eq. D5).
+double class_pull_off_N(const SpaceClass& one, double work_J_m2);
 // Radius of the electrodes, for the default that of the usual pillars.
 double electrode_radius_m(const SpaceScene& scene);
 

@@ -220,3 +220,50 @@ TEST_CASE("a backing of a scene file is a half-space under the film", "[cli][sce
   refuses("{ E = \"10 kPa\", nu = 0.3 }", "geometry.film.backing.E");
   refuses("{ E = \"4 GPa\", nu = 0.3 }, bottom = \"fixed\"", "geometry.film.bottom");
 }
+
+TEST_CASE("a row of a scene file takes a shape with friction, or with adhesion and its way",
+          "[cli][scene][array]") {
+  const auto row = [](const std::string& shape) {
+    std::string text = pressed(shape);
+    text = replaced(text, "model = \"space\"\nrows = 3\ncolumns = 3", "model = \"plane-stress\"");
+    text = replaced(text, "spacing", "count = 3\nspacing");
+    return SceneText(text);
+  };
+  const auto answer_of_row = [&](const std::string& shape) {
+    const SceneText scene = row(shape);
+    const CommandOutcome outcome = run_command({"simulate", scene.path(), "--json"});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return Json::parse(outcome.out);
+  };
+  const std::string kCylinder = "kind = \"cylinder\"\nradius = \"20 mm\"\n";
+  const Json sliding = answer_of_row(kCylinder + "depth = \"2 um\"\n");
+  // k <depth - gap> with k = 6.0295e5 N/m2.
+  CHECK(result_of(sliding, "pillar_force_2") ==
+        Approx(6.0295e5 * (2e-6 - 40e-6 * 40e-6 / 12.0 / 40e-3)).epsilon(1e-3));
+  CHECK(sliding.at("results").at("contact_force").at("unit") == "N/m");
+  CHECK_FALSE(sliding.at("results").contains("shear_force_1"));
+  const Json sticking = answer_of_row(kCylinder + "depth = \"2 um\"\nfriction = \"stick\"\n");
+  CHECK(result_of(sticking, "shear_force_3") > 0.0);
+  CHECK(result_of(sticking, "pillar_force_2") > result_of(sliding, "pillar_force_2"));
+  CHECK(sticking.at("notes").dump().find("full stick") != std::string::npos);
+  const Json held = answer_of_row(kCylinder +
+                                  "depth = \"-1 um\"\nbefore = [\"2 um\"]\n"
+                                  "work_of_adhesion = \"40 mJ/m2\"\n");
+  CHECK(result_of(held, "pillar_force_2") < 0.0);
+  // sqrt(pi E w d) over the stiffness, below the mean of the gap.
+  const double stretch_m = std::sqrt(3.14159265 * 1.8e6 * 0.04 * 40e-6) / 6.0295e5;
+  CHECK(result_of(held, "release_depth_2") ==
+        Approx(40e-6 * 40e-6 / 12.0 / 40e-3 - stretch_m).epsilon(1e-3));
+  const auto refuses = [&](const std::string& shape, const std::string& words) {
+    const SceneText scene = row(shape);
+    const CommandOutcome outcome = run_command({"simulate", scene.path()});
+    CAPTURE(shape);
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.err, Catch::Contains(words));
+  };
+  refuses(kCylinder + "depth = \"1 um\"\nfriction = \"rough\"\n", "shape.friction");
+  refuses(kCylinder + "depth = \"-1 um\"\n", "positive");
+  refuses(kCylinder + "depth = \"1 um\"\nbefore = [\"2 um\"]\n", "shape.before");
+  refuses(kCylinder + "depth = \"1 um\"\ntilt = [\"0 degree\", \"1 degree\"]\n", "section of x");
+}
