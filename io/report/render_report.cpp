@@ -44,6 +44,7 @@ Page page_from_report(const ReportInput& input) {
   Page page;
   add_summary(page, input, estimates);
   add_recovery(page, input, estimates);
+  add_rubbers(page, input, estimates);
   add_pillar(page, input, estimates);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     add_specimen(page, input.specimens[i], estimates[i]);
