@@ -41,13 +41,6 @@ double least_step(const std::vector<double>& time_s, double least) {
 
 }  // namespace
 
-StretchHistory history_of(const LargeStrainTest& test) {
-  StretchHistory history = test.before;
-  history.time_s.insert(history.time_s.end(), test.time_s.begin(), test.time_s.end());
-  history.stretch.insert(history.stretch.end(), test.stretch.begin(), test.stretch.end());
-  return history;
-}
-
 LargeStrainRows::LargeStrainRows(const std::vector<LargeStrainTest>& tests,
                                  const LargeStrainOptions& options) {
   double scale_Pa = 0.0;

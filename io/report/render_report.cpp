@@ -1,6 +1,7 @@
 #include "io/plots/plot_svg.h"
 #include "io/report/report.h"
 #include "io/report/report_estimates.h"
+#include "io/report/report_rubber.h"
 #include "io/report/report_sections.h"
 #include "models/maths/text_of_number.h"
 

@@ -2,7 +2,6 @@
 
 #include "io/plots/plot_svg.h"
 #include "io/report/report_numbers.h"
-#include "io/report/report_sections.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>

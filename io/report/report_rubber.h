@@ -2,6 +2,7 @@
 
 #include "io/report/report.h"
 #include "io/report/report_estimates.h"
+#include "io/report/report_html.h"
 
 #include <string>
 #include <vector>
@@ -25,5 +26,9 @@ std::vector<ModulusComparison> compare_rubbers(const ReportInput& input,
 
 // One sentence for each comparison whose intervals do not overlap.
 std::vector<std::string> rubber_disagreements(const ReportInput& input);
+
+// Linear tests and laws of rubber side by side, and where they disagree; nothing without a law.
+void add_rubbers(Page& page, const ReportInput& input,
+                 const std::vector<SpecimenEstimates>& estimates);
 
 }  // namespace viscard

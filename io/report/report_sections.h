@@ -13,9 +13,6 @@ void add_summary(Page& page, const ReportInput& input,
                  const std::vector<SpecimenEstimates>& estimates);
 void add_recovery(Page& page, const ReportInput& input,
                   const std::vector<SpecimenEstimates>& estimates);
-// Linear tests and laws of rubber side by side, and where they disagree; nothing without a law.
-void add_rubbers(Page& page, const ReportInput& input,
-                 const std::vector<SpecimenEstimates>& estimates);
 void add_pillar(Page& page, const ReportInput& input,
                 const std::vector<SpecimenEstimates>& estimates);
 void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEstimates& estimates);

@@ -13,6 +13,7 @@
 #include "io/materials/hyperelastic_file.h"
 #include "io/report/report.h"
 #include "io/report/report_rubber.h"
+#include "models/hyperelastic/hyperelastic_law.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
