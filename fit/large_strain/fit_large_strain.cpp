@@ -1,7 +1,12 @@
 #include "fit/large_strain/fit_large_strain.h"
 
 #include "fit/large_strain/hyperelastic_search.h"
+#include "fit/large_strain/rubber_band.h"
 #include "fit/large_strain/rubber_checks.h"
+#include "fit/large_strain/rubber_intervals.h"
+#include "fit/large_strain/rubber_series.h"
+#include "fit/large_strain/rubber_term_checks.h"
+#include "fit/large_strain/series_choice.h"
 #include "fit/samples/noise_model.h"
 #include "models/maths/dense.h"
 #include "models/maths/distributions.h"
@@ -44,6 +49,13 @@ std::vector<Index> free_parameters(HyperelasticForm form, const LargeStrainRows&
                            at < bounds.high - kTouch * std::abs(bounds.high);
     if (is_inside && point.moduli[std::min(k, n - 1)] != 0.0) free.push_back(n + k);
   }
+  const Index first = n + n_shapes(form), n_terms = static_cast<Index>(point.terms.size());
+  for (Index i = 0; i < n_terms; ++i) {
+    if (point.terms[static_cast<std::size_t>(i)].g > kTouch) free.push_back(first + i);
+  }
+  for (Index i = 0; i < n_terms; ++i) {
+    if (point.terms[static_cast<std::size_t>(i)].g > kTouch) free.push_back(first + n_terms + i);
+  }
   return free;
 }
 
@@ -67,47 +79,14 @@ Eigen::MatrixXd inverse_normal(const Eigen::MatrixXd& slopes, const std::vector<
   return all;
 }
 
-void add_parameters(FittedRubber& fitted) {
-  std::vector<std::string> names = modulus_names(fitted.law.form);
-  for (const std::string& name : shape_names(fitted.law.form)) names.push_back(name);
-  VectorXd values(fitted.covariance.rows());
-  values << fitted.law.moduli_Pa, fitted.law.shapes;
-  for (Index i = 0; i < values.size(); ++i) {
-    const double se = std::sqrt(fitted.covariance(i, i));
-    fitted.parameters.push_back({names[static_cast<std::size_t>(i)],
-                                 values[i],
-                                 se,
-                                 {values[i] - kNormal95 * se, values[i] + kNormal95 * se}});
-  }
-}
-
-// Young's modulus at rest depends on the moduli, and on the shape of arruda-boyce.
-void add_modulus(FittedRubber& fitted) {
-  const HyperelasticLaw& law = fitted.law;
-  fitted.E0_Pa = youngs_modulus_Pa(law);
-  VectorXd slope = VectorXd::Zero(fitted.covariance.rows());
-  slope.head(law.moduli_Pa.size()) = youngs_columns(law.form, law.shapes);
-  for (Index k = 0; k < law.shapes.size(); ++k) {
-    const double step = 1e-6 * std::max(1.0, std::abs(law.shapes[k]));
-    HyperelasticLaw up = law, down = law;
-    up.shapes[k] += step;
-    down.shapes[k] -= step;
-    slope[law.moduli_Pa.size() + k] =
-        (youngs_modulus_Pa(up) - youngs_modulus_Pa(down)) / (2.0 * step);
-  }
-  fitted.E0_se_Pa = std::sqrt(std::max(0.0, slope.dot(fitted.covariance * slope)));
-  const double half = kNormal95 * fitted.E0_se_Pa;
-  fitted.E0_interval_95 = {fitted.E0_Pa - half, fitted.E0_Pa + half};
-}
-
 // Sum of squared residuals and stresses, in Pa^2.
 void add_residuals(const std::vector<LargeStrainTest>& tests, FittedRubber& fitted) {
   double of_stress = 0.0;
   for (const LargeStrainTest& test : tests) {
+    const std::vector<double> stress_Pa = stresses_Pa(fitted, test);
     for (std::size_t i = 0; i < test.stretch.size(); ++i) {
       const double measured = test.nominal_stress_Pa[i];
-      const double left =
-          measured - nominal_stress_Pa(fitted.law, test.deformation, test.stretch[i]);
+      const double left = measured - stress_Pa[i];
       fitted.rss += left * left;
       of_stress += measured * measured;
     }
@@ -135,38 +114,76 @@ HyperelasticPoint point_of_form(HyperelasticForm form, LargeStrainRows& rows,
   return best_point(form, rows);
 }
 
+// Independent readings, by the memory of the residuals of the point.
+double n_effective_at(HyperelasticForm form, LargeStrainRows rows,
+                      const std::vector<LargeStrainTest>& tests, const HyperelasticPoint& point) {
+  rows.set_terms(point.terms);
+  const VectorXd residual = residuals_of(form, rows, point);
+  return static_cast<double>(residual.size()) / inflation_of(tests, residual);
+}
+
+// The best point with terms, whose number is chosen by BIC or given.
+HyperelasticPoint point_of_series(HyperelasticForm form, LargeStrainRows& rows,
+                                  const std::vector<LargeStrainTest>& tests,
+                                  const LargeStrainOptions& options, int most_terms,
+                                  std::vector<RubberOrder>& orders) {
+  std::vector<HyperelasticPoint> path = series_path(form, rows, options.n_terms, most_terms);
+  if (options.modulus && options.modulus->se_Pa > 0.0) {
+    rows.set_terms(path.back().terms);
+    const VectorXd residual = residuals_of(form, rows, path.back());
+    const double variance = residual.squaredNorm() / static_cast<double>(residual.size());
+    rows.set_scatter(std::sqrt(variance * inflation_of(tests, residual)));
+    rows.set_terms({});
+    path = series_path(form, rows, options.n_terms, most_terms);
+  }
+  const double n_effective = n_effective_at(form, rows, tests, path.back());
+  return path[choose_series(path, rows, n_effective, orders)];
+}
+
+// Takes the covariance of moduli, shapes, g and ln tau apart.
+void add_covariance(const Eigen::MatrixXd& all, FittedRubber& fitted) {
+  const Index n = fitted.law.moduli_Pa.size() + fitted.law.shapes.size();
+  fitted.covariance = all.topLeftCorner(n, n);
+  if (all.rows() > n) fitted.series_covariance = all;
+}
+
 FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
-                      const std::vector<LargeStrainTest>& tests,
-                      const LargeStrainOptions& options) {
-  const HyperelasticPoint point = point_of_form(form, rows, tests, options);
-  const double scale_Pa = rows.stress_scale_Pa();
+                      const std::vector<LargeStrainTest>& tests, const LargeStrainOptions& options,
+                      int most_terms) {
   FittedRubber fitted;
+  const HyperelasticPoint point =
+      most_terms > 0 ? point_of_series(form, rows, tests, options, most_terms, fitted.orders)
+                     : point_of_form(form, rows, tests, options);
+  const double scale_Pa = rows.stress_scale_Pa();
   fitted.law = {form, scale_Pa * point.moduli, point.shapes};
-  const Eigen::MatrixXd slopes = jacobian(form, rows, point);
-  const auto columns = rows.columns(form, point.shapes, false);
-  const VectorXd residual = (columns.values * point.moduli - rows.data()).head(rows.n_readings());
+  for (const RubberTerm& term : point.terms) fitted.terms.push_back({term.g, 0.0, term.tau_s});
+  rows.set_terms(point.terms);
+  const Eigen::MatrixXd slopes =
+      point.terms.empty() ? jacobian(form, rows, point) : series_jacobian(form, rows, point);
+  const VectorXd residual = residuals_of(form, rows, point);
   fitted.inflation = inflation_of(tests, residual);
   const std::vector<Index> free = free_parameters(form, rows, point);
-  fitted.n_parameters = static_cast<int>(n_moduli(form) + n_shapes(form));
+  fitted.n_parameters = static_cast<int>(slopes.cols());
   const double freedom = static_cast<double>(rows.data().size()) - fitted.n_parameters;
   const double variance = freedom > 0.0 ? residual.squaredNorm() / freedom : 0.0;
-  fitted.covariance = variance * fitted.inflation * inverse_normal(slopes, free);
+  Eigen::MatrixXd covariance = variance * fitted.inflation * inverse_normal(slopes, free);
   // So few independent readings determine their own variance only with the error of Student's t.
   constexpr double kLeastFreedom = 4.0;
   const double independent = static_cast<double>(residual.size()) / fitted.inflation;
   const double own = std::max(kLeastFreedom, independent - fitted.n_parameters);
-  fitted.covariance *= std::pow(student_t_975(own) / kNormal95, 2);
+  covariance *= std::pow(student_t_975(own) / kNormal95, 2);
   const Index n = n_moduli(form);
-  fitted.covariance.topRows(n) *= scale_Pa;
-  fitted.covariance.leftCols(n) *= scale_Pa;
-  add_parameters(fitted);
-  add_modulus(fitted);
+  covariance.topRows(n) *= scale_Pa;
+  covariance.leftCols(n) *= scale_Pa;
+  add_covariance(covariance, fitted);
+  add_intervals(fitted);
   add_residuals(tests, fitted);
   for (std::size_t d = 0; d < fitted.stable.size(); ++d) {
     fitted.stable[d] = stable_range(fitted.law, static_cast<Deformation>(d));
   }
   add_rubber_flags(tests, options, point.is_converged,
                    static_cast<int>(free.size()) < fitted.n_parameters, fitted);
+  add_term_flags(tests, fitted);
   return fitted;
 }
 
@@ -207,15 +224,22 @@ std::size_t choice(const std::vector<FittedRubber>& laws) {
 LargeStrainResult fit_large_strain(const std::vector<LargeStrainTest>& tests,
                                    const LargeStrainOptions& options) {
   check_large_strain(tests, options);
-  const LargeStrainRows rows(tests, options);
   LargeStrainResult result;
+  std::vector<MaterialFlag> notes;
+  const int most_terms = most_terms_of(tests, options, notes);
+  std::vector<LargeStrainTest> used = tests;
+  for (LargeStrainTest& test : used) {
+    if (most_terms == 0) test.time_s.clear();  // they may not even ascend
+  }
+  const LargeStrainRows rows(used, options);
   for (const HyperelasticForm form : options.forms) {
-    result.laws.push_back(fit_form(form, rows, tests, options));
+    result.laws.push_back(fit_form(form, rows, tests, options, most_terms));
   }
   add_criteria(tests, result.laws);
   result.chosen = choice(result.laws);
-  result.tests = summaries_of(tests, result.best().law);
+  result.tests = summaries_of(tests, result.best());
   result.notes = notes_of(tests);
+  result.notes.insert(result.notes.end(), notes.begin(), notes.end());
   return result;
 }
 

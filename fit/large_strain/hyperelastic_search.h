@@ -9,6 +9,7 @@ namespace viscard {
 // Parameters of a form in units of the rows' stress, with what the least squares left.
 struct HyperelasticPoint {
   Eigen::VectorXd moduli, shapes;
+  std::vector<RubberTerm> terms;  // of relaxation, by ascending time; empty: elastic
   double rss = std::numeric_limits<double>::infinity();  // weighted, with the row of the modulus
   bool is_converged = false;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 
 #include <cstddef>
@@ -15,15 +16,26 @@ struct LargeStrainTest {
   std::string name;  // for messages: "planar"
   Deformation deformation = Deformation::kUniaxial;
   std::vector<double> stretch, nominal_stress_Pa;
+  std::vector<double> time_s = {};  // of the readings; empty: not known
+  StretchHistory before = {};       // what the body went through before the first reading
 };
+
+// True if the readings have times, so that a relaxation can be fitted.
+inline bool has_times(const LargeStrainTest& test) {
+  return !test.time_s.empty();
+}
+// The history with the readings at its end.
+StretchHistory history_of(const LargeStrainTest& test);
 
 // kEqual: every stress counts alike, so that the largest stresses decide. kRelative: every stress
 // counts by its own size, but not less than a hundredth of the largest one of its test.
 enum class StressWeight { kEqual, kRelative };
 
-// Young's modulus at rest that the law must have, with its standard error; 0: exactly.
+// Young's modulus at rest that the law must have, with its standard error; 0: exactly. Of the
+// instantaneous law, or of the law after all relaxation.
 struct KnownModulus {
   double value_Pa = 0.0, se_Pa = 0.0;
+  bool is_long_term = false;
 };
 
 // Which laws are fitted, and how stresses count.
@@ -31,6 +43,9 @@ struct LargeStrainOptions {
   std::vector<HyperelasticForm> forms = hyperelastic_forms();
   StressWeight weight = StressWeight::kEqual;
   std::optional<KnownModulus> modulus;
+  // Terms of relaxation beside the law: this number, or up to max_terms by BIC. Without both: up to 6
+  // if the tests have times and show more than one rate, otherwise none.
+  std::optional<int> n_terms, max_terms;
 };
 
 }  // namespace viscard

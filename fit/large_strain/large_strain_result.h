@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fit/intervals/fitted_law.h"
+#include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/law_stability.h"
 #include "models/material/material.h"
 #include "models/maths/interval.h"
@@ -13,13 +14,35 @@
 
 namespace viscard {
 
-// One law fitted to all tests.
+// One term of relaxation beside a law: its share of the instantaneous stress, and its time.
+struct FittedRubberTerm {
+  double g = 0.0, g_se = 0.0;
+  double tau_s = 0.0, ln_tau_se = 0.0;
+  Interval g_interval_95, tau_s_interval_95;  // of the time symmetric in the logarithm
+};
+
+// One number of terms that was tried.
+struct RubberOrder {
+  int n_terms = 0;
+  double bic = 0.0;
+  bool is_eligible = true;  // converged, no time at the end of its range
+  bool is_chosen = false;
+};
+
+// One law fitted to all tests. With terms it is the instantaneous law, of which 1 - sum g is left after
+// all relaxation.
 struct FittedRubber {
   HyperelasticLaw law;
   std::vector<LawParameter> parameters;  // moduli, then shapes
   Eigen::MatrixXd covariance;            // of them, in that order; rows of held ones are zero
   double E0_Pa = 0.0, E0_se_Pa = 0.0;    // Young's modulus at rest
   Interval E0_interval_95;
+  std::vector<FittedRubberTerm> terms;  // of relaxation, by ascending time; empty: elastic
+  // Of the parameters, the g and the ln tau, in that order; empty without terms.
+  Eigen::MatrixXd series_covariance;
+  double E_inf_Pa = 0.0, E_inf_se_Pa = 0.0;  // Young's modulus at rest after all relaxation
+  Interval E_inf_interval_95;
+  std::vector<RubberOrder> orders;  // numbers of terms that were tried
   int n_parameters = 0;
   double rss = 0.0;           // Pa^2, unweighted, over all readings
   double rms_relative = 0.0;  // root of rss over the sum of squared stresses
@@ -29,6 +52,13 @@ struct FittedRubber {
   std::vector<MaterialFlag> flags;
   bool is_trustworthy = true;
 };
+
+// The terms of relaxation of a fitted law.
+inline std::vector<RubberTerm> relaxation_of(const FittedRubber& fitted) {
+  std::vector<RubberTerm> terms;
+  for (const FittedRubberTerm& term : fitted.terms) terms.push_back({term.g, term.tau_s});
+  return terms;
+}
 
 // What one test shows of the chosen law.
 struct RubberTestSummary {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -20,6 +21,24 @@ double excess_at(Deformation deformation, double stretch) {
   return sum;
 }
 
+std::shared_ptr<const std::vector<StretchCourse>> courses_of(
+    const std::vector<LargeStrainTest>& tests) {
+  std::vector<StretchCourse> courses;
+  for (const LargeStrainTest& test : tests) {
+    courses.emplace_back(test.deformation, history_of(test));
+  }
+  return std::make_shared<const std::vector<StretchCourse>>(std::move(courses));
+}
+
+// The shortest step, but not above `least` (0: none yet).
+double least_step(const std::vector<double>& time_s, double least) {
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const double step = time_s[i] - time_s[i - 1];
+    if (step > 0.0 && (least == 0.0 || step < least)) least = step;
+  }
+  return least;
+}
+
 }  // namespace
 
 LargeStrainRows::LargeStrainRows(const std::vector<LargeStrainTest>& tests,
@@ -30,22 +49,32 @@ LargeStrainRows::LargeStrainRows(const std::vector<LargeStrainTest>& tests,
   }
   scale_Pa_ = scale_Pa > 0.0 ? scale_Pa : 1.0;
   constexpr double kLeastShare = 0.01;
-  for (const LargeStrainTest& test : tests) {
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const LargeStrainTest& test = tests[t];
     const double least = kLeastShare * largest_stress(test.nominal_stress_Pa) / scale_Pa_;
     for (std::size_t i = 0; i < test.stretch.size(); ++i) {
       const double stress = test.nominal_stress_Pa[i] / scale_Pa_;
       const bool is_relative = options.weight == StressWeight::kRelative;
       const double weight = is_relative ? 1.0 / std::max(std::abs(stress), least) : 1.0;
-      readings_.push_back({test.deformation, test.stretch[i], weight, weight * stress});
+      readings_.push_back({test.deformation, test.stretch[i], weight, weight * stress, t,
+                           test.before.stretch.size() + i});
       largest_excess_ = std::max(largest_excess_, excess_at(test.deformation, test.stretch[i]));
     }
   }
   if (options.modulus) {
     modulus_ = options.modulus->value_Pa / scale_Pa_;
     modulus_se_ = options.modulus->se_Pa / scale_Pa_;
+    is_long_term_ = options.modulus->is_long_term;
     set_scatter(std::numeric_limits<double>::infinity());
   }
   fill_data();
+  if (std::all_of(tests.begin(), tests.end(), has_times)) {
+    courses_ = courses_of(tests);
+    for (const LargeStrainTest& test : tests) {
+      longest_test_s_ = std::max(longest_test_s_, test.time_s.back() - test.time_s.front());
+      least_step_s_ = least_step(test.time_s, least_step_s_);
+    }
+  }
 }
 
 void LargeStrainRows::set_scatter(double scatter) {
@@ -68,6 +97,7 @@ void LargeStrainRows::fill_data() {
 LargeStrainRows::Columns LargeStrainRows::columns(HyperelasticForm form,
                                                   const Eigen::VectorXd& shapes,
                                                   bool with_slopes) const {
+  if (!terms_.empty()) return relaxed_columns(form, shapes, with_slopes);
   Columns out{Eigen::MatrixXd(data_.size(), viscard::n_moduli(form)), {}};
   const Eigen::Index n_slopes = with_slopes ? viscard::n_shapes(form) : 0;
   out.slopes.assign(static_cast<std::size_t>(n_slopes),
@@ -81,18 +111,99 @@ LargeStrainRows::Columns LargeStrainRows::columns(HyperelasticForm form,
           at.weight * unit.shape_slopes.col(k).transpose();
     }
   }
-  if (data_.size() == n_readings()) return out;
+  add_modulus_row(form, shapes, out);
+  return out;
+}
+
+void LargeStrainRows::add_modulus_row(HyperelasticForm form, const Eigen::VectorXd& shapes,
+                                      Columns& out) const {
+  if (data_.size() == n_readings()) return;
   const Eigen::Index last = n_readings();
-  out.values.row(last) = modulus_weight_ * youngs_columns(form, shapes).transpose();
-  for (Eigen::Index k = 0; k < n_slopes; ++k) {
+  const double weight = modulus_weight_ * modulus_share();
+  out.values.row(last) = weight * youngs_columns(form, shapes).transpose();
+  for (std::size_t j = 0; j < out.slopes.size(); ++j) {
+    const auto k = static_cast<Eigen::Index>(j);
     const double step = 1e-6 * std::max(1.0, std::abs(shapes[k]));
     Eigen::VectorXd up = shapes, down = shapes;
     up[k] += step;
     down[k] -= step;
-    out.slopes[static_cast<std::size_t>(k)].row(last) =
-        modulus_weight_ / (2.0 * step) *
-        (youngs_columns(form, up) - youngs_columns(form, down)).transpose();
+    out.slopes[j].row(last) =
+        weight / (2.0 * step) * (youngs_columns(form, up) - youngs_columns(form, down)).transpose();
   }
+}
+
+double LargeStrainRows::modulus_share() const {
+  double share = 1.0;
+  if (is_long_term_) {
+    for (const RubberTerm& term : terms_) share -= term.g;
+  }
+  return share;
+}
+
+LargeStrainRows::Columns LargeStrainRows::relaxed_columns(HyperelasticForm form,
+                                                          const Eigen::VectorXd& shapes,
+                                                          bool with_slopes) const {
+  // All points of each test: the moduli, then the slopes by each shape.
+  std::vector<std::vector<Eigen::MatrixXd>> of_tests;
+  for (const StretchCourse& course : *courses_) {
+    const auto unit = course.unit_stress(form, shapes, with_slopes);
+    std::vector<Eigen::MatrixXd> all;
+    for (std::size_t k = 0; k <= unit.slopes.size(); ++k) {
+      const StretchCourse::Stress& stress = k == 0 ? unit.values : unit.slopes[k - 1];
+      const Eigen::MatrixXd at_once = course.instantaneous(stress);
+      all.push_back(at_once);
+      for (const RubberTerm& term : terms_) {
+        all.back() += term.g * (course.relaxed(stress, term.tau_s, false).values - at_once);
+      }
+    }
+    of_tests.push_back(std::move(all));
+  }
+  const Eigen::MatrixXd blank = Eigen::MatrixXd::Zero(data_.size(), viscard::n_moduli(form));
+  Columns out{blank, std::vector<Eigen::MatrixXd>(of_tests.front().size() - 1, blank)};
+  for (Eigen::Index i = 0; i < n_readings(); ++i) {
+    const Reading& at = readings_[static_cast<std::size_t>(i)];
+    const auto& all = of_tests[at.test];
+    const auto point = static_cast<Eigen::Index>(at.point);
+    out.values.row(i) = at.weight * all[0].row(point);
+    for (std::size_t k = 0; k < out.slopes.size(); ++k) {
+      out.slopes[k].row(i) = at.weight * all[k + 1].row(point);
+    }
+  }
+  add_modulus_row(form, shapes, out);
+  return out;
+}
+
+LargeStrainRows::Parts LargeStrainRows::parts(const HyperelasticLaw& law,
+                                              const std::vector<double>& tau_s,
+                                              bool with_slopes) const {
+  const auto n = static_cast<Eigen::Index>(tau_s.size());
+  std::vector<Parts> of_tests;
+  for (const StretchCourse& course : *courses_) {
+    const auto stress = course.unit_stress(law.form, law.shapes, false).values.times(law.moduli_Pa);
+    Parts one{course.instantaneous(stress), Eigen::MatrixXd(course.size(), n),
+              Eigen::MatrixXd(with_slopes ? course.size() : 0, n)};
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto part = course.relaxed(stress, tau_s[static_cast<std::size_t>(k)], with_slopes);
+      one.relaxed.col(k) = part.values.col(0);
+      if (with_slopes) one.by_ln_tau.col(k) = part.by_ln_tau.col(0);
+    }
+    of_tests.push_back(std::move(one));
+  }
+  Parts out{Eigen::VectorXd(data_.size()), Eigen::MatrixXd::Zero(data_.size(), n),
+            Eigen::MatrixXd::Zero(data_.size(), n)};
+  for (Eigen::Index i = 0; i < n_readings(); ++i) {
+    const Reading& at = readings_[static_cast<std::size_t>(i)];
+    const Parts& one = of_tests[at.test];
+    const auto point = static_cast<Eigen::Index>(at.point);
+    out.at_once[i] = at.weight * one.at_once[point];
+    out.relaxed.row(i) = at.weight * one.relaxed.row(point);
+    if (with_slopes) out.by_ln_tau.row(i) = at.weight * one.by_ln_tau.row(point);
+  }
+  if (data_.size() == n_readings()) return out;
+  // The modulus at rest at once, and what is left of it after all relaxation.
+  const double modulus = modulus_weight_ * youngs_modulus_Pa(law);
+  out.at_once[n_readings()] = modulus;
+  out.relaxed.row(n_readings()).setConstant(is_long_term_ ? 0.0 : modulus);
   return out;
 }
 

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -21,6 +23,19 @@ class LargeStrainRows {
   };
   Columns columns(HyperelasticForm form, const Eigen::VectorXd& shapes, bool with_slopes) const;
 
+  // From now on columns() are those of the law with these terms, which need tests with times.
+  void set_terms(std::vector<RubberTerm> terms) { terms_ = std::move(terms); }
+  // Of a law with moduli in the rows' unit: the readings of its stress at once and, one column for each
+  // time, of the part that relaxed with it (H of finite_viscoelasticity.h) with its derivative by ln tau.
+  struct Parts {
+    Eigen::VectorXd at_once;
+    Eigen::MatrixXd relaxed, by_ln_tau;
+  };
+  Parts parts(const HyperelasticLaw& law, const std::vector<double>& tau_s, bool with_slopes) const;
+  // Shortest time between readings, and the longest time from the first to the last.
+  double least_step_s() const { return least_step_s_; }
+  double longest_test_s() const { return longest_test_s_; }
+
   const Eigen::VectorXd& data() const { return data_; }
   Eigen::Index n_readings() const { return static_cast<Eigen::Index>(readings_.size()); }
   double stress_scale_Pa() const { return scale_Pa_; }
@@ -35,14 +50,25 @@ class LargeStrainRows {
   struct Reading {
     Deformation deformation = Deformation::kUniaxial;
     double stretch = 1.0, weight = 1.0, value = 0.0;  // value: weighted
+    std::size_t test = 0, point = 0;                  // in the histories
   };
   void fill_data();
+  Columns relaxed_columns(HyperelasticForm form, const Eigen::VectorXd& shapes,
+                          bool with_slopes) const;
+  // Adds the row of a known modulus to columns.
+  void add_modulus_row(HyperelasticForm form, const Eigen::VectorXd& shapes, Columns& out) const;
+  // The share of the known modulus that the law of the terms has: all of it, or what never relaxes.
+  double modulus_share() const;
 
   std::vector<Reading> readings_;
   Eigen::VectorXd data_;
   double scale_Pa_ = 1.0, largest_excess_ = 0.0;
   // Known modulus at rest and its standard error; weight 0: none.
   double modulus_ = 0.0, modulus_se_ = 0.0, modulus_weight_ = 0.0;
+  bool is_long_term_ = false;
+  std::vector<RubberTerm> terms_;
+  std::shared_ptr<const std::vector<StretchCourse>> courses_;  // of the tests, if all have times
+  double least_step_s_ = 0.0, longest_test_s_ = 0.0;
 };
 
 }  // namespace viscard

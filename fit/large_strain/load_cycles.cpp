@@ -80,7 +80,12 @@ LargeStrainTest loading_of(const LargeStrainTest& test, const LoadCycle& cycle) 
   for (std::size_t i = cycle.first; i <= cycle.peak; ++i) {
     out.stretch.push_back(test.stretch[i]);
     out.nominal_stress_Pa.push_back(test.nominal_stress_Pa[i]);
+    if (has_times(test)) out.time_s.push_back(test.time_s[i]);
   }
+  if (!has_times(test)) return out;
+  const auto first = static_cast<std::ptrdiff_t>(cycle.first);
+  out.before = {{test.time_s.begin(), test.time_s.begin() + first},
+                {test.stretch.begin(), test.stretch.begin() + first}};
   return out;
 }
 

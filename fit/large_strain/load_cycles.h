@@ -22,7 +22,7 @@ std::vector<LoadCycle> load_cycles(const std::vector<double>& stretch);
 // peak stretches. Nothing for fewer than two cycles.
 std::optional<double> softening(const LargeStrainTest& test, const std::vector<LoadCycle>& cycles);
 
-// The test with only the loading rows of one cycle.
+// The test with only the loading rows of one cycle; with times, the rows before are its history.
 LargeStrainTest loading_of(const LargeStrainTest& test, const LoadCycle& cycle);
 
 }  // namespace viscard

@@ -14,7 +14,7 @@ void add_rubber_flags(const std::vector<LargeStrainTest>& tests, const LargeStra
                       bool is_converged, bool is_on_bound, FittedRubber& fitted);
 
 std::vector<RubberTestSummary> summaries_of(const std::vector<LargeStrainTest>& tests,
-                                            const HyperelasticLaw& law);
+                                            const FittedRubber& fitted);
 
 // What the data cannot show by themselves.
 std::vector<MaterialFlag> notes_of(const std::vector<LargeStrainTest>& tests);

@@ -56,6 +56,28 @@ HyperelasticLaw law_from(const RubberJson& json) {
   return law;
 }
 
+// Files of elastic laws may lack the key.
+std::vector<RubberTerm> terms_from(const RubberJson& json) {
+  std::vector<RubberTerm> terms;
+  if (!json.contains("terms")) return terms;
+  for (const RubberJson& term : json["terms"]) terms.push_back({term.at("g"), term.at("tau_s")});
+  return terms;
+}
+
+// Files of elastic laws may lack some of the intervals; {0, 0} then.
+void add_moduli(const RubberJson& json, HyperelasticFile& file) {
+  const auto interval_of = [&](const char* key) {
+    const bool is_given = json.contains(key) && json[key].at(0).is_number();
+    return is_given ? Interval{json[key].at(0), json[key].at(1)} : Interval{};
+  };
+  file.E0_Pa = youngs_modulus_Pa(file.law);
+  file.E0_interval_95 = interval_of("E0_interval_95");
+  file.E_inf_Pa = file.E0_Pa;
+  for (const RubberTerm& term : file.terms) file.E_inf_Pa -= term.g * file.E0_Pa;
+  file.E_inf_interval_95 =
+      file.terms.empty() ? file.E0_interval_95 : interval_of("E_inf_interval_95");
+}
+
 void add_tests(const RubberJson& json, HyperelasticFile& file) {
   for (const RubberJson& test : json.at("tests")) {
     auto& range =
@@ -63,6 +85,11 @@ void add_tests(const RubberJson& json, HyperelasticFile& file) {
     const double low = test.at("stretch").at(0), high = test.at("stretch").at(1);
     range = range ? HyperelasticFile::Range{std::min(range->low, low), std::max(range->high, high)}
                   : HyperelasticFile::Range{low, high};
+    if (test.contains("time_s") && !test["time_s"].is_null()) {
+      const double step_s = test["time_s"].at(0), all_s = test["time_s"].at(1);
+      file.t_min_s = file.t_min_s > 0.0 ? std::min(file.t_min_s, step_s) : step_s;
+      file.t_max_s = std::max(file.t_max_s, all_s);
+    }
     file.raw_files.push_back({test.at("file"), test.at("sha256")});
   }
 }
@@ -85,6 +112,8 @@ HyperelasticFile hyperelastic_from_json(const std::string& text, const std::stri
       const RubberJson& law = chosen_law(json);
       HyperelasticFile file;
       file.law = law_from(law);
+      file.terms = terms_from(law);
+      add_moduli(law, file);
       file.is_trustworthy = law.at("trustworthy");
       for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
       add_tests(json, file);

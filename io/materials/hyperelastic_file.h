@@ -1,6 +1,8 @@
 #pragma once
 
+#include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/maths/interval.h"
 
 #include <array>
 #include <filesystem>
@@ -13,7 +15,12 @@ namespace viscard {
 // A law of rubber as `viscard fit uniaxial=a.csv ... --out FILE` writes it, schema
 // "viscard-hyperelastic/1".
 struct HyperelasticFile {
-  HyperelasticLaw law;  // the chosen one
+  HyperelasticLaw law;            // the chosen one, at once
+  std::vector<RubberTerm> terms;  // its relaxation; empty: elastic
+  // Young's modulus at rest: at once, and after all relaxation.
+  double E0_Pa = 0.0, E_inf_Pa = 0.0;
+  Interval E0_interval_95, E_inf_interval_95;
+  double t_min_s = 0.0, t_max_s = 0.0;  // shortest step and longest test; 0: without times
   bool is_trustworthy = true;
   std::vector<std::string> defects;  // texts of its flags
   // Measured stretches, in the order of Deformation; nothing where no test measured.

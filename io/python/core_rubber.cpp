@@ -1,3 +1,4 @@
+#include "fit/large_strain/rubber_band.h"
 #include "io/cards/hyperelastic/rubber_file_card.h"
 #include "io/flow/large_strain/large_strain_words.h"
 #include "io/flow/words/option_error.h"
@@ -5,6 +6,7 @@
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
+#include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 
 #include <nlohmann/json.hpp>
@@ -36,12 +38,16 @@ py::dict fit_rubber(const std::vector<std::string>& files, const py::dict& keywo
   py::dict out;
   out["text"] = text.str();
   out["json_text"] = json_from_large_strain(fitted).dump(2) + "\n";
-  py::list tests;
+  py::list tests, times, stresses;
   for (LargeStrainTest& test : fitted.tests) {
+    times.append(array_of(std::vector<double>(test.time_s)));
+    stresses.append(array_of(stresses_Pa(fitted.result.best(), test)));
     tests.append(py::make_tuple(array_of(std::move(test.stretch)),
                                 array_of(std::move(test.nominal_stress_Pa))));
   }
   out["tests"] = tests;
+  out["times"] = times;
+  out["stresses"] = stresses;
   return out;
 }
 
@@ -54,8 +60,12 @@ Deformation deformation_from(const std::string& name) {
 }
 
 py::array rubber_stress(const HyperelasticFile& rubber, const std::string& deformation,
-                        std::vector<double> stretch) {
+                        std::vector<double> stretch,
+                        const std::optional<std::vector<double>>& time_s) {
   const Deformation kind = deformation_from(deformation);
+  if (time_s) {
+    return array_of(nominal_stress_Pa(rubber.law, rubber.terms, kind, {*time_s, stretch}));
+  }
   for (double& value : stretch) value = nominal_stress_Pa(rubber.law, kind, value);
   return array_of(std::move(stretch));
 }

@@ -134,6 +134,8 @@ LargeStrainWords large_strain_words_from(const py::dict& keywords) {
     if (keywords.contains(name)) *text = text_from(name, keywords[name]);
   }
   take_texts(keywords, "column", words.column);
+  take(keywords, "terms", "a whole number", words.terms);
+  take(keywords, "max_terms", "a whole number", words.max_terms);
   return words;
 }
 

@@ -1,6 +1,7 @@
 #include "io/plots/plot_svg.h"
 #include "io/report/report.h"
 #include "io/report/report_estimates.h"
+#include "io/report/report_rubber.h"
 #include "io/report/report_sections.h"
 #include "models/maths/text_of_number.h"
 
@@ -44,6 +45,7 @@ Page page_from_report(const ReportInput& input) {
   Page page;
   add_summary(page, input, estimates);
   add_recovery(page, input, estimates);
+  add_rubbers(page, input, estimates);
   add_pillar(page, input, estimates);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     add_specimen(page, input.specimens[i], estimates[i]);

@@ -68,11 +68,25 @@ struct MixingLaw {
   std::vector<Scatter> scatter;  // between touches, specimens and ratios
 };
 
+// A law of rubber from tests at large strain, to stand beside the linear tests of its material.
+struct RubberReport {
+  std::string name;  // of its file
+  std::string law;   // "yeoh"
+  // Young's modulus at rest: at once, and after all relaxation. Equal without terms.
+  double E0_Pa = 0.0, E_inf_Pa = 0.0;
+  Interval E0_Pa_95, E_inf_Pa_95;
+  std::vector<MaterialTerm> terms;      // g and tau_s; empty: elastic, at a rate that is not known
+  double t_min_s = 0.0, t_max_s = 0.0;  // shortest step and longest test; 0: not known
+  std::string stretches;                // "uniaxial 1 to 3"
+  bool is_trustworthy = true;
+};
+
 struct ReportInput {
   std::string title;
   std::string introduction;  // one paragraph, may be empty
   std::vector<SpecimenReport> specimens;
   std::optional<MixingLaw> law;
+  std::vector<RubberReport> rubbers;
   std::string created_by;  // "viscard 0.1.0"
   std::string created_at;  // ISO 8601; empty in reproducible mode
   std::string command;     // command line that made the page

@@ -235,6 +235,21 @@ StressColumns stress_columns(HyperelasticForm form, const Eigen::VectorXd& shape
   return out;
 }
 
+PrincipalColumns principal_columns(HyperelasticForm form, const Eigen::VectorXd& shapes,
+                                   const Eigen::Vector3d& log_strain, bool with_slopes) {
+  PrincipalColumns out{Eigen::Matrix3Xd(3, n_moduli(form)), {}};
+  const Eigen::Index n_slopes = with_slopes ? n_shapes(form) : 0;
+  out.shape_slopes.assign(static_cast<std::size_t>(n_slopes), out.values);
+  for (Eigen::Index j = 0; j < n_moduli(form); ++j) {
+    out.values.col(j) = unit_term(form, j, shapes, log_strain).gradient;
+    for (Eigen::Index k = 0; k < n_slopes; ++k) {
+      out.shape_slopes[static_cast<std::size_t>(k)].col(j) =
+          gradient_slope(form, j, k, shapes, log_strain);
+    }
+  }
+  return out;
+}
+
 Eigen::VectorXd youngs_columns(HyperelasticForm form, const Eigen::VectorXd& shapes) {
   const Eigen::Vector3d direction = strain_direction(Deformation::kUniaxial);
   Eigen::VectorXd columns(n_moduli(form));

@@ -90,6 +90,15 @@ struct StressColumns {
 StressColumns stress_columns(HyperelasticForm form, const Eigen::VectorXd& shapes,
                              Deformation deformation, double stretch);
 
+// Principal Kirchhoff stresses for a unit of each modulus (columns), up to the pressure, and their
+// derivatives by each shape.
+struct PrincipalColumns {
+  Eigen::Matrix3Xd values;
+  std::vector<Eigen::Matrix3Xd> shape_slopes;  // empty unless they are asked for
+};
+PrincipalColumns principal_columns(HyperelasticForm form, const Eigen::VectorXd& shapes,
+                                   const Eigen::Vector3d& log_strain, bool with_slopes);
+
 // Young's modulus at rest for a unit of each modulus: three times the shear modulus.
 Eigen::VectorXd youngs_columns(HyperelasticForm form, const Eigen::VectorXd& shapes);
 double youngs_modulus_Pa(const HyperelasticLaw& law);

@@ -74,6 +74,12 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
     throw std::runtime_error(name + ": the law is not to be trusted: " + why +
                              ". --accept-flags writes it all the same");
   }
+  if (!file.terms.empty()) {
+    throw std::runtime_error(
+        name + ": the law has " + counted(file.terms.size(), "term") +
+        " of relaxation, which cards of rubber do not carry yet; fit again with "
+        "--terms 0 for an elastic law");
+  }
   return with_header(header_lines(file, options), options.target, rubber_card(file.law, options));
 }
 

@@ -20,9 +20,9 @@ namespace {
 
 // Options of `viscard fit` that have a meaning at large strain.
 void refuse_other_options(const po::variables_map& values) {
-  static const std::set<std::string> kKnown{"file",   "json",   "out",   "force",
-                                            "model",  "column", "sheet", "cycle",
-                                            "weight", "svg",    "help",  "youngs-modulus"};
+  static const std::set<std::string> kKnown{
+      "file",  "json",   "out", "force", "model",          "column", "sheet",
+      "cycle", "weight", "svg", "help",  "youngs-modulus", "terms",  "max-terms"};
   for (const auto& [name, value] : values) {
     if (value.defaulted() || kKnown.count(name) > 0) continue;
     throw UsageError("--" + name + " does not belong to tests at large strain; omit it");
@@ -37,8 +37,7 @@ void add_large_strain_options(po::options_description& options) {
       "at large strain: equal (default; every stress counts alike) or relative (by its own size)");
   add("youngs-modulus", po::value<std::string>(),
       "at large strain: the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 "
-      "MPa "
-      "+- 0.1 MPa\" (95 %)");
+      "MPa +- 0.1 MPa\" (95 %); \"E_inf=1.5 MPa\" is that after all relaxation");
   add("cycle", po::value<std::string>(),
       "at large strain: fit the loading of this cycle of records with unloading (default: the "
       "last), "
@@ -69,7 +68,8 @@ int run_large_strain(const std::vector<LargeStrainFile>& files, const po::variab
     return large_strain_request(
         {given(values, "model"), given(values, "weight"), given(values, "youngs-modulus"),
          given(values, "cycle"), given(values, "sheet"),
-         given<Words>(values, "column").value_or(Words{})},
+         given<Words>(values, "column").value_or(Words{}), given<int>(values, "terms"),
+         values["max-terms"].defaulted() ? std::nullopt : given<int>(values, "max-terms")},
         files);
   });
   const bool overwrite = values.count("force") > 0;

@@ -10,7 +10,10 @@
 #include "io/flow/fit_file.h"
 #include "io/flow/specimen_reports.h"
 #include "io/flow/test_words.h"
+#include "io/materials/hyperelastic_file.h"
 #include "io/report/report.h"
+#include "io/report/report_rubber.h"
+#include "models/hyperelastic/hyperelastic_law.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -30,8 +33,9 @@ CommandSyntax report_syntax() {
   CommandSyntax syntax{
       "viscard report FILE... --out PAGE.html [OPTIONS]",
       "Writes one self-contained HTML page about captures and tables (which it fits), material "
-      "files and a joint fit, or about several tests of one material (relaxation=a.csv "
-      "creep=b.csv): estimates with intervals, raw record, fit and residuals, spectrum, "
+      "files and a joint fit, laws of rubber beside them (viscard fit uniaxial=a.csv --out), or "
+      "about several tests of one material (relaxation=a.csv creep=b.csv): estimates with "
+      "intervals, raw record, fit and residuals, spectrum, "
       "mixing ratios, the pillar, cards and provenance.",
       "viscard report data/materials/pdms_1to10_seed.json --out report.html"};
   auto add = syntax.options.add_options();
@@ -56,8 +60,45 @@ CommandSyntax report_syntax() {
   return syntax;
 }
 
+// A law of rubber as the page shows it.
+RubberReport rubber_report(const std::string& path) {
+  const HyperelasticFile file = read_hyperelastic(path);
+  RubberReport out{fs::path(path).filename().string(),
+                   name_of(file.law.form),
+                   file.E0_Pa,
+                   file.E_inf_Pa,
+                   file.E0_interval_95,
+                   file.E_inf_interval_95,
+                   {},
+                   file.t_min_s,
+                   file.t_max_s,
+                   "",
+                   file.is_trustworthy};
+  for (const RubberTerm& term : file.terms) out.terms.push_back({term.g, 0.0, term.tau_s});
+  for (std::size_t d = 0; d < file.measured.size(); ++d) {
+    if (!file.measured[d]) continue;
+    out.stretches += (out.stretches.empty() ? "" : ", ") + deformation_names()[d] + " " +
+                     text_of(file.measured[d]->low, 3) + " to " +
+                     text_of(file.measured[d]->high, 3);
+  }
+  return out;
+}
+
+// Takes the laws of rubber out of the files.
+std::vector<std::string> take_rubbers(std::vector<std::string>& files) {
+  std::vector<std::string> rubbers, others;
+  std::error_code error;
+  for (const std::string& file : files) {
+    const bool is_law = fs::path(file).extension() == ".json" && fs::is_regular_file(file, error) &&
+                        looks_like_hyperelastic_file(file);
+    (is_law ? rubbers : others).push_back(file);
+  }
+  files = others;
+  return rubbers;
+}
+
 ReportRequest checked_words(const po::variables_map& values, const Words& words,
-                            const CommandSyntax& syntax) {
+                            const CommandSyntax& syntax, std::vector<std::string>& rubbers) {
   ReportRequest report{required<Words>(values, "files", syntax),
                        {},
                        given<Words>(values, "truth").value_or(Words{}),
@@ -65,6 +106,12 @@ ReportRequest checked_words(const po::variables_map& values, const Words& words,
                        values["units"].as<std::string>(),
                        "",
                        quoted_command_line("report", words)};
+  rubbers = take_rubbers(report.files);
+  if (report.files.empty()) {
+    throw UsageError(
+        "a law of rubber stands beside linear tests; give a capture, a table or a material "
+        "file too");
+  }
   try {
     report.tests = tests_from_words(report.files);
   } catch (const std::invalid_argument& error) {
@@ -93,8 +140,8 @@ ReportRequest checked_words(const po::variables_map& values, const Words& words,
   return report;
 }
 
-ReportInput input_from_words(const ReportRequest& words, const std::string& title,
-                             Streams& streams) {
+ReportInput input_from_words(const ReportRequest& words, const std::vector<std::string>& rubbers,
+                             const std::string& title, Streams& streams) {
   ReportInput input;
   input.title = title;
   input.created_by = "viscard " VISCARD_VERSION;
@@ -104,6 +151,7 @@ ReportInput input_from_words(const ReportRequest& words, const std::string& titl
   input.specimens = read_specimens(
       words, [&](double fraction, const std::string& what) { progress.show(fraction, what); });
   input.law = mixing_law_of(words.files, input.specimens);
+  for (const std::string& rubber : rubbers) input.rubbers.push_back(rubber_report(rubber));
   return input;
 }
 
@@ -170,12 +218,14 @@ int run_report(const Words& words, Streams& streams) {
   CommandSyntax syntax = report_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  const ReportRequest report = checked_words(*values, words, syntax);
+  std::vector<std::string> rubbers;
+  const ReportRequest report = checked_words(*values, words, syntax, rubbers);
   const fs::path page = (*values)["out"].as<std::string>();
   const bool is_forced = values->count("force") > 0;
   refuse_existing(page, is_forced);
 
-  const ReportInput input = input_from_words(report, (*values)["title"].as<std::string>(), streams);
+  const ReportInput input =
+      input_from_words(report, rubbers, (*values)["title"].as<std::string>(), streams);
   const RenderedReport rendered = render_report(input);
   std::vector<std::string> pictures;
   if (const auto folder = given(*values, "pictures")) {
@@ -183,16 +233,19 @@ int run_report(const Words& words, Streams& streams) {
   }
   write_file(page, rendered.html, is_forced);
   const std::vector<std::string> defects = defects_of(input);
+  const std::vector<std::string> disagreements = rubber_disagreements(input);
   const nlohmann::json object{{"report", page.string()},
                               {"specimens", json_from_specimens(input)},
                               {"figures", rendered.pictures.size()},
                               {"pictures", pictures},
-                              {"defects", defects}};
+                              {"defects", defects},
+                              {"disagreements", disagreements}};
   if (!print_json(*values, {"viscard-report/1", given_words(*values, {"files", "truth"})}, object,
                   streams)) {
     streams.out << fmt::format(
         "{}: {}, {}, {} kB\n", page.string(), counted(input.specimens.size(), "specimen"),
         counted(rendered.pictures.size(), "figure"), rendered.html.size() / 1024);
+    for (const std::string& line : disagreements) streams.out << "  " << line << "\n";
   }
   for (const std::string& defect : defects) streams.err << "viscard: " << defect << "\n";
   return defects.empty() ? kDone : kFailed;

@@ -1,6 +1,7 @@
 #include "io/flow/large_strain/large_strain_files.h"
 
 #include "fit/large_strain/load_cycles.h"
+#include "fit/large_strain/rubber_term_checks.h"
 #include "io/tables/column_proposal.h"
 #include "io/tables/csv_table.h"
 #include "models/maths/text_of_number.h"
@@ -88,12 +89,16 @@ LargeStrainTest test_of_file(const LargeStrainFile& file, const LargeStrainReque
                        file.deformation, stretches_of(table, request.columns),
                        stresses_of(table, request.columns)};
   if (file.is_compression) turn_compression(test, file.path);
+  if (find_column(table, "time_s", request.columns)) {
+    test.time_s = column_SI(table, "time_s", request.columns);
+  }
   return test;
 }
 
-// Keeps the loading of one cycle, if the record has unloading.
+// Keeps the loading of one cycle, if the record has unloading. Relaxation is fitted to all rows of a
+// record with one cycle.
 CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
-                         const std::optional<int>& wanted) {
+                         const std::optional<int>& wanted, bool relaxes) {
   const std::vector<LoadCycle> cycles = load_cycles(test.stretch);
   const bool is_one_loading =
       cycles.empty() ||
@@ -104,6 +109,7 @@ CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
                              " of loading, so there is no --cycle " + std::to_string(*wanted));
   }
   if (is_one_loading || (wanted && *wanted == 0)) return choice;
+  if (relaxes && !wanted && cycles.size() == 1) return choice;
   choice.fitted = wanted ? static_cast<std::size_t>(*wanted) : cycles.size();
   const std::size_t n_all = test.stretch.size();
   test = loading_of(test, cycles[choice.fitted - 1]);
@@ -159,9 +165,14 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   fitted.files = request.files;
   for (const LargeStrainFile& file : request.files) {
     fitted.tests.push_back(test_of_file(file, request));
-    fitted.cycles.push_back(choose_cycle(fitted.tests.back(), file.path, request.cycle));
   }
   number_names(fitted.tests);
+  std::vector<MaterialFlag> notes;  // those of the fitted rows are made by the fit
+  const bool relaxes = most_terms_of(fitted.tests, request.options, notes) > 0;
+  for (std::size_t i = 0; i < fitted.tests.size(); ++i) {
+    fitted.cycles.push_back(
+        choose_cycle(fitted.tests[i], request.files[i].path, request.cycle, relaxes));
+  }
   fitted.result = fit_large_strain(fitted.tests, request.options);
   for (std::size_t i = 0; i < fitted.tests.size(); ++i) {
     add_mullins_note(fitted.tests[i].name, fitted.cycles[i], fitted.result);

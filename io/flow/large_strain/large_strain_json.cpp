@@ -25,7 +25,31 @@ Json json_of_range(const StableRange& range) {
 
 Json json_of_flags(const std::vector<MaterialFlag>& flags) {
   Json json = Json::array();
-  for (const MaterialFlag& flag : flags) json.push_back({{"name", flag.name}, {"text", flag.text}});
+  for (const MaterialFlag& flag : flags) {
+    json.push_back({{"name", flag.name}, {"text", flag.text}});
+    if (flag.term > 0) json.back()["term"] = flag.term;
+  }
+  return json;
+}
+
+Json json_of_matrix(const Eigen::MatrixXd& matrix) {
+  Json json = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    json.push_back(row);
+  }
+  return json;
+}
+
+Json json_of_terms(const std::vector<FittedRubberTerm>& terms) {
+  Json json = Json::array();
+  for (const FittedRubberTerm& term : terms) {
+    json.push_back({{"g", term.g},
+                    {"g_interval_95", json_of_interval(term.g_interval_95)},
+                    {"tau_s", term.tau_s},
+                    {"tau_s_interval_95", json_of_interval(term.tau_s_interval_95)}});
+  }
   return json;
 }
 
@@ -39,15 +63,20 @@ Json json_of_law(const FittedRubber& fitted) {
                                   {"se", one.se},
                                   {"interval_95", json_of_interval(one.interval_95)}});
   }
-  json["covariance"] = Json::array();
-  for (Eigen::Index i = 0; i < fitted.covariance.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < fitted.covariance.cols(); ++j)
-      row.push_back(fitted.covariance(i, j));
-    json["covariance"].push_back(row);
-  }
+  json["covariance"] = json_of_matrix(fitted.covariance);
   json["E0_Pa"] = fitted.E0_Pa;
   json["E0_interval_95"] = json_of_interval(fitted.E0_interval_95);
+  json["E_inf_Pa"] = fitted.E_inf_Pa;
+  json["E_inf_interval_95"] = json_of_interval(fitted.E_inf_interval_95);
+  json["terms"] = json_of_terms(fitted.terms);
+  json["series_covariance"] = json_of_matrix(fitted.series_covariance);
+  json["orders"] = Json::array();
+  for (const RubberOrder& order : fitted.orders) {
+    json["orders"].push_back({{"n_terms", order.n_terms},
+                              {"bic", order.bic},
+                              {"eligible", order.is_eligible},
+                              {"chosen", order.is_chosen}});
+  }
   json["n_parameters"] = fitted.n_parameters;
   json["rss_Pa2"] = fitted.rss;
   json["rms_relative"] = fitted.rms_relative;
@@ -60,6 +89,17 @@ Json json_of_law(const FittedRubber& fitted) {
   json["flags"] = json_of_flags(fitted.flags);
   json["trustworthy"] = fitted.is_trustworthy;
   return json;
+}
+
+// The shortest step and the duration; null without times.
+Json json_of_times(const LargeStrainTest& test) {
+  if (!has_times(test)) return nullptr;
+  double step_s = 0.0;
+  for (std::size_t i = 1; i < test.time_s.size(); ++i) {
+    const double step = test.time_s[i] - test.time_s[i - 1];
+    if (step > 0.0 && (step_s == 0.0 || step < step_s)) step_s = step;
+  }
+  return Json::array({step_s, test.time_s.back() - test.time_s.front()});
 }
 
 }  // namespace
@@ -83,6 +123,7 @@ nlohmann::ordered_json json_from_large_strain(const FittedLargeStrain& fitted) {
          {"n_readings", test.n_readings},
          {"stretch", Json::array({test.least_stretch, test.largest_stretch})},
          {"rms_Pa", test.rms_Pa},
+         {"time_s", json_of_times(fitted.tests[i])},
          {"n_cycles", fitted.cycles[i].n_cycles},
          {"cycle", fitted.cycles[i].fitted},
          {"n_left_out", fitted.cycles[i].n_left_out},

@@ -1,9 +1,12 @@
 #include "fit/large_strain/rubber_band.h"
 #include "io/flow/large_strain/large_strain_files.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -50,6 +53,57 @@ PlotSeries band_of(const FittedRubber& fitted, Deformation deformation, const Pl
   return band;
 }
 
+// The fitted stress along each test, with its relaxation.
+PlotSeries course_line(const FittedLargeStrain& fitted, Deformation deformation) {
+  PlotSeries line;
+  for (const LargeStrainTest& test : fitted.tests) {
+    if (test.deformation != deformation) continue;
+    const std::vector<double> stress_Pa = stresses_Pa(fitted.result.best(), test);
+    for (std::size_t i = 0; i < stress_Pa.size(); ++i) {
+      line.x.push_back(test.stretch[i]);
+      line.y.push_back(kMPa * stress_Pa[i]);
+    }
+    line.x.push_back(test.stretch.back());
+    line.y.push_back(std::numeric_limits<double>::quiet_NaN());  // breaks the line
+  }
+  return line;
+}
+
+// Stress against time since the start of each test: readings, and the fitted stress with its band.
+PlotPanel time_panel(const FittedLargeStrain& fitted) {
+  PlotPanel panel;
+  panel.x.label = "time since the first reading (s)";
+  panel.x.is_log = true;
+  panel.y.label = "nominal stress (MPa)";
+  for (std::size_t t = 0; t < fitted.tests.size(); ++t) {
+    const LargeStrainTest& test = fitted.tests[t];
+    const std::vector<double> stress_Pa = stresses_Pa(fitted.result.best(), test);
+    const std::vector<double> se_Pa = stress_errors_Pa(fitted.result.best(), test);
+    PlotSeries points, line, band;
+    for (std::size_t i = 0; i < stress_Pa.size(); ++i) {
+      const double time_s = test.time_s[i] - test.time_s.front();
+      if (!(time_s > 0.0)) continue;
+      const double half = kMPa * kNormal95 * se_Pa[i];
+      points.x.push_back(time_s);
+      points.y.push_back(kMPa * test.nominal_stress_Pa[i]);
+      line.y.push_back(kMPa * stress_Pa[i]);
+      band.y_low.push_back(line.y.back() - half);
+      band.y_high.push_back(line.y.back() + half);
+    }
+    line.x = band.x = points.x;
+    points.mark = Mark::kPoints;
+    points.size = 1.5;
+    band.mark = Mark::kBand;
+    line.label = test.name;
+    for (PlotSeries* series : {&band, &points, &line}) {
+      series->ink = ink_of_series(t);
+      series->pattern = static_cast<int>(t);
+      panel.series.push_back(std::move(*series));
+    }
+  }
+  return panel;
+}
+
 PlotSeries readings_of(const FittedLargeStrain& fitted, Deformation deformation) {
   PlotSeries points;
   points.mark = Mark::kPoints;
@@ -86,9 +140,12 @@ void add_deformation(const FittedLargeStrain& fitted, std::size_t index, double 
     panel.series.push_back(std::move(beyond));
   }
   if (!is_measured) return;
-  PlotSeries line = law_line(best, deformation, measured.low, measured.high);
-  add(band_of(best, deformation, line));
-  line.label = name_of(deformation) + ", " + name_of(best.law.form);
+  const bool relaxes = !best.terms.empty();
+  PlotSeries line = relaxes ? course_line(fitted, deformation)
+                            : law_line(best, deformation, measured.low, measured.high);
+  if (!relaxes) add(band_of(best, deformation, line));
+  line.label = name_of(deformation) + ", " + name_of(best.law.form) +
+               (relaxes ? " with " + counted(best.terms.size(), "term") : "");
   add(std::move(line));
   PlotSeries points = readings_of(fitted, deformation);
   points.label = name_of(deformation) + ", measured";
@@ -116,6 +173,13 @@ Plot plot_of_large_strain(const FittedLargeStrain& fitted) {
     add_deformation(fitted, d, highest, panel);
   }
   plot.panels = {panel};
+  if (fitted.result.best().terms.empty()) return plot;
+  plot.title += ", and against time";
+  plot.description +=
+      " The dashed law is that at once. Below: stress against time, with the 95 % band of law and "
+      "terms.";
+  plot.panels.push_back(time_panel(fitted));
+  plot.height_px *= 2;
   return plot;
 }
 

@@ -35,18 +35,48 @@ void print_tests(const FittedLargeStrain& fitted, std::ostream& out) {
   }
 }
 
+// "yeoh + 2": with two terms.
+std::string name_with_terms(const FittedRubber& fitted) {
+  const std::string name = name_of(fitted.law.form);
+  return fitted.terms.empty() ? name : name + " + " + std::to_string(fitted.terms.size());
+}
+
 void print_laws(const LargeStrainResult& result, std::ostream& out) {
   out << fmt::format("\n  {:<14} {:>10} {:>9} {:>10} {:>10} {:>22}   {}\n", "law", "parameters",
                      "rms %", "BIC", "E0 kPa", "95 %", "stable stretches (uniaxial)");
   for (std::size_t i = 0; i < result.laws.size(); ++i) {
     const FittedRubber& law = result.laws[i];
     out << fmt::format("{} {:<14} {:>10} {:>9.3g} {:>10.2f} {:>10.5g} {:>22}   {}{}\n",
-                       i == result.chosen ? "*" : " ", name_of(law.law.form), law.n_parameters,
+                       i == result.chosen ? "*" : " ", name_with_terms(law), law.n_parameters,
                        100.0 * law.rms_relative, law.bic, 1e-3 * law.E0_Pa,
                        fmt::format("{:.5g} to {:.5g}", 1e-3 * law.E0_interval_95.low,
                                    1e-3 * law.E0_interval_95.high),
                        stretches(law.stable[0]), law.is_trustworthy ? "" : "   !");
   }
+}
+
+void print_terms(const FittedRubber& best, std::ostream& out) {
+  if (best.orders.empty()) return;
+  out << "    numbers of terms by BIC:";
+  for (const RubberOrder& order : best.orders) {
+    out << fmt::format(" {}{}: {:.1f}{}", order.is_chosen ? "*" : "", order.n_terms, order.bic,
+                       order.is_eligible ? "" : " (not eligible)");
+  }
+  out << "\n";
+  if (best.terms.empty()) return;
+  for (std::size_t i = 0; i < best.terms.size(); ++i) {
+    const FittedRubberTerm& term = best.terms[i];
+    out << fmt::format("    {:<16} {:>14.6g}   95 % {:.6g} to {:.6g}\n", fmt::format("g_{}", i + 1),
+                       term.g, term.g_interval_95.low, term.g_interval_95.high);
+    out << fmt::format("    {:<16} {:>14.6g}   95 % {:.6g} to {:.6g}\n",
+                       fmt::format("tau_{}_s", i + 1), term.tau_s, term.tau_s_interval_95.low,
+                       term.tau_s_interval_95.high);
+  }
+  out << fmt::format(
+      "    Young's modulus at rest: E0 {:.5g} kPa at once (the law above), E_inf {:.5g} kPa (95 % "
+      "{:.5g} to {:.5g}) after all relaxation\n",
+      1e-3 * best.E0_Pa, 1e-3 * best.E_inf_Pa, 1e-3 * best.E_inf_interval_95.low,
+      1e-3 * best.E_inf_interval_95.high);
 }
 
 void print_best(const LargeStrainResult& result, std::ostream& out) {
@@ -56,6 +86,7 @@ void print_best(const LargeStrainResult& result, std::ostream& out) {
     out << fmt::format("    {:<16} {:>14.6g}   95 % {:.6g} to {:.6g}\n", one.name, one.value,
                        one.interval_95.low, one.interval_95.high);
   }
+  print_terms(best, out);
   if (best.inflation > 1.0) {
     out << fmt::format(
         "    (variances times {:.3g}: the law leaves a structure in the residuals)\n",

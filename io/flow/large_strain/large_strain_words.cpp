@@ -40,13 +40,28 @@ std::optional<int> cycle_from(const LargeStrainWords& words) {
   throw OptionError("--cycle " + *word + " must be a number from 1, or all");
 }
 
-// "1.8 MPa" or "1.8 MPa +- 0.1 MPa".
+// Terms of relaxation.
+std::optional<int> terms_from(const std::optional<int>& number, const char* option) {
+  constexpr int kMost = 20;
+  if (!number || (*number >= 0 && *number <= kMost)) return number;
+  throw OptionError(std::string(option) + " " + std::to_string(*number) + " is outside 0 to " +
+                    std::to_string(kMost) + " for tests at large strain");
+}
+
+// "1.8 MPa" or "1.8 MPa +- 0.1 MPa", of E0, or behind "E_inf=" of what is left after all relaxation.
 std::optional<KnownModulus> modulus_from(const LargeStrainWords& words) {
   const auto& text = words.youngs_modulus;
   if (!text) return std::nullopt;
   try {
-    const std::size_t sign = text->find("+-");
-    KnownModulus known{si_from_text(trimmed(std::string_view(*text).substr(0, sign)), "Pa"), 0.0};
+    const std::size_t sign = text->find("+-"), equals = text->find('=');
+    const std::string which =
+        equals == std::string::npos ? "E0" : std::string(trimmed(text->substr(0, equals)));
+    if (which != "E0" && which != "E_inf") {
+      throw std::invalid_argument("'" + which + "' is neither E0 nor E_inf");
+    }
+    const std::size_t from = equals == std::string::npos ? 0 : equals + 1;
+    KnownModulus known{si_from_text(trimmed(text->substr(from, sign - from)), "Pa"), 0.0,
+                       which == "E_inf"};
     if (sign != std::string::npos) {
       const double half = si_from_text(trimmed(std::string_view(*text).substr(sign + 2)), "Pa");
       if (!(half > 0.0)) throw std::invalid_argument("the error must be positive");
@@ -74,6 +89,8 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   request.options.forms = forms_from(words);
   request.options.weight = weight_from(words);
   request.options.modulus = modulus_from(words);
+  request.options.n_terms = terms_from(words.terms, "--terms");
+  request.options.max_terms = terms_from(words.max_terms, "--max-terms");
   request.cycle = cycle_from(words);
   return request;
 }

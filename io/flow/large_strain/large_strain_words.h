@@ -14,6 +14,7 @@ struct LargeStrainWords {
   using Text = std::optional<std::string>;
   Text model, weight, youngs_modulus, cycle, sheet;
   std::vector<std::string> column;
+  std::optional<int> terms, max_terms;  // of relaxation
 };
 
 // What to fit and how. Throws OptionError for a value that is not allowed.

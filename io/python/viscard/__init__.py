@@ -19,7 +19,7 @@ from ._error import DoubtWarning, Error
 from ._fit import FitResult, Flag, JointFit, fit
 from ._material import Material, Prediction, predict
 from ._planning import TestCost, cost_of_tests
-from ._rubber import Parameter, RubberCard, RubberFit
+from ._rubber import Parameter, RubberCard, RubberFit, RubberTerm
 from ._scene import Answer, Cost, Field, Plan, Value, cost, forces_from_voltages, plan, simulate
 from ._sweep import Sweep, sweep
 from ._table import Capture, Table, read_capture, read_table
@@ -27,7 +27,7 @@ from ._table import Capture, Table, read_capture, read_table
 __version__: str = _core.version
 
 __all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "DesignLimits", "Designs", "DoubtWarning", "Error", "Field", "FitResult",
-           "Flag", "JointFit", "Judgement", "Material", "Parameter", "Plan", "Prediction", "RubberCard", "RubberFit", "Sweep", "Table",
+           "Flag", "JointFit", "Judgement", "Material", "Parameter", "Plan", "Prediction", "RubberCard", "RubberFit", "RubberTerm", "Sweep", "Table",
            "TestCost", "Value", "capture", "card_targets", "cost", "cost_of_tests", "data_file", "design", "fit",
            "forces_from_voltages", "plan", "predict", "read_capture", "read_table", "simulate", "sweep"]
 

@@ -359,13 +359,13 @@ def _fit_rubber(paths, keywords):
     from ._rubber import RubberFit
 
     for name, value in keywords.items():
-        if name not in _RUBBER_ONLY + ("model", "column", "sheet") and value is not False:
+        if name not in _RUBBER_ONLY + ("model", "column", "sheet", "terms", "max_terms") and value is not False:
             raise Error(f"{name} does not belong to tests at large strain; omit it", "usage")
     if isinstance(keywords.get("cycle"), int):
         keywords["cycle"] = str(keywords["cycle"])
     found = _core.fit_rubber(paths, keywords)
     result = RubberFit(found["json_text"], " + ".join(_file_of(path) for path in paths), found["text"],
-                       found["tests"])
+                       found["tests"], found["times"], found["stresses"])
     _warn(result, result._name)
     return result
 

@@ -88,6 +88,8 @@ def plot_rubber(rubber, ax):
         color = ax._get_lines.get_next_color()
         at = np.linspace(*test["stretch"], 200)
         stress = rubber.stress(at, test["deformation"])
+        if rubber.terms and rubber.fitted:  # along the test, with its relaxation
+            at, stress = rubber.tests[i][0], rubber.fitted[i]
         if i == 0:
             factor, unit = _scale("Pa", float(np.nanmax(np.abs(stress))))
         ax.plot(at, stress * factor, "-", color=color, label=f"{rubber.law}, {test['name']}")

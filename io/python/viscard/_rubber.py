@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -26,6 +26,21 @@ class Parameter(NamedTuple):
     name: str
     value: float
     interval: Tuple[float, float]
+
+
+class RubberTerm(NamedTuple):
+    """A term of relaxation beside a law: share of the instantaneous stress and time, with 95 % intervals.
+
+    Examples
+    --------
+    >>> viscard.RubberTerm(0.2, (0.19, 0.21), 1.5, (1.4, 1.6)).tau_s
+    1.5
+    """
+
+    g: float
+    g_interval: Tuple[float, float]
+    tau_s: float
+    tau_s_interval: Tuple[float, float]
 
 
 class RubberCard:
@@ -69,9 +84,17 @@ class RubberFit:
     law : str
         Name of the chosen law, such as "yeoh".
     E0_Pa : float
-        Young's modulus at rest.
+        Young's modulus at rest; with terms, at once.
     E0_interval : (low, high)
         95 %, Pa.
+    E_inf_Pa : float
+        Young's modulus at rest after all relaxation; E0_Pa without terms.
+    E_inf_interval : (low, high)
+        95 %, Pa.
+    terms : list of RubberTerm
+        Relaxation beside the law, of tests with times; empty for an elastic law.
+    series_covariance : array
+        Of the parameters, the g and the ln tau_s, in that order; empty without terms.
     parameters : dict of Parameter
         Of the chosen law, by name.
     covariance : array, shape (parameters, parameters)
@@ -80,6 +103,10 @@ class RubberFit:
         All laws that were tried, by name, with their parameters, BIC and flags.
     tests : list of (stretch, nominal_stress_Pa)
         The fitted readings, arrays of shape (readings,); empty for a law that was loaded.
+    times : list of array
+        time_s of the readings; arrays of no length for tests without times.
+    fitted : list of array
+        Nominal stress of the law, with its terms, at the readings.
     flags : list of Flag
         Of the chosen law, and notes about the data.
     is_trustworthy : bool
@@ -96,17 +123,24 @@ class RubberFit:
     True
     """
 
-    def __init__(self, text: str, name: str, summary: str, tests: "list[Tuple[np.ndarray, np.ndarray]]") -> None:
+    def __init__(self, text: str, name: str, summary: str, tests: "list[Tuple[np.ndarray, np.ndarray]]",
+                 times: "Sequence[np.ndarray]" = (), fitted: "Sequence[np.ndarray]" = ()) -> None:
         self._text, self._name, self._summary = text, name, summary
         self.json: Dict[str, Any] = json.loads(text)
         inputs = [test["file"] for test in self.json["tests"]]
         self.json = _arrays.with_head(self.json["schema"], inputs, self.json)
         self.tests = tests
+        self.times, self.fitted = list(times), list(fitted)
         self.law: str = self.json["law"]
         self.laws: Dict[str, Dict[str, Any]] = {law["name"]: law for law in self.json["laws"]}
         chosen = self.laws[self.law]
         self.E0_Pa: float = chosen["E0_Pa"]
         self.E0_interval = _arrays.pair(chosen["E0_interval_95"])
+        self.E_inf_Pa: float = chosen.get("E_inf_Pa", self.E0_Pa)  # files of elastic laws may lack these
+        self.E_inf_interval = _arrays.pair(chosen.get("E_inf_interval_95", chosen["E0_interval_95"]))
+        self.terms = [RubberTerm(one["g"], _arrays.pair(one["g_interval_95"]), one["tau_s"],
+                                 _arrays.pair(one["tau_s_interval_95"])) for one in chosen.get("terms", [])]
+        self.series_covariance: np.ndarray = np.array(chosen.get("series_covariance", []), dtype=float)
         self.parameters = {one["name"]: Parameter(one["name"], one["value"], _arrays.pair(one["interval_95"]))
                            for one in chosen["parameters"]}
         self.covariance: np.ndarray = np.array(chosen["covariance"], dtype=float)
@@ -136,14 +170,19 @@ class RubberFit:
         return self.json[key]
 
     @_check.arguments
-    def stress(self, stretch, deformation: str = "uniaxial") -> np.ndarray:
+    def stress(self, stretch, deformation: str = "uniaxial", *, time_s=None) -> np.ndarray:
         """Nominal stress in Pa (force over area at rest) at these stretches, shape of `stretch`.
+
+        Without `time_s` it is that of the law at once. With `time_s` the stretches are a history, linear
+        between its times and at rest before the first, and the terms relax.
 
         Parameters
         ----------
         stretch : array
             Length over length at rest, above 0; NaN beyond the limit of a law that has one.
         deformation : "uniaxial", "planar" or "equibiaxial"
+        time_s : array
+            Of the shape of `stretch`; times do not decrease. Two equal times are a jump.
 
         Examples
         --------
@@ -155,7 +194,11 @@ class RubberFit:
         at = _arrays.numbers(stretch, "stretch")
         if not np.all(at > 0.0):
             raise Error("stretch must be above 0", "input")
-        return _core.rubber_stress(self._law, deformation, at.ravel()).reshape(at.shape)
+        times = None if time_s is None else _arrays.numbers(time_s, "time_s")
+        if times is not None and times.shape != at.shape:
+            raise Error(f"time_s has the shape {times.shape}, but stretch {at.shape}", "input")
+        times = times if times is None else times.ravel()
+        return _core.rubber_stress(self._law, deformation, at.ravel(), times).reshape(at.shape)
 
     @_check.arguments
     def card(self, target: str, units: str = "SI", *, bulk_modulus_Pa: Optional[float] = None,

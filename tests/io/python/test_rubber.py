@@ -102,3 +102,54 @@ def test_the_plot_shows_readings_and_law(rubber):
     axes = rubber.plot()
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("stretch", "nominal stress (MPa)")
     assert len(axes.lines) == 6
+
+
+def rate_and_hold(path, stress_Pa_of):
+    time_s = np.arange(0.0, 21.0, 0.1)
+    stretch = np.minimum(2.0, 1.0 + time_s)
+    stress = stress_Pa_of(time_s, stretch)
+    np.savetxt(path, np.column_stack([time_s, stretch, stress]), delimiter=",", comments="",
+               header="time_s,stretch,nominal_stress_Pa")
+    return f"uniaxial={path}"
+
+
+def test_relaxation_beside_the_law(tmp_path):
+    # Neo-Hooke without terms first: its stress with times is that of the law.
+    def elastic(time_s, stretch):
+        return 4e5 * (stretch - stretch**-2) + 100.0 * np.random.default_rng(1).standard_normal(time_s.size)
+
+    rubber = viscard.fit([rate_and_hold(tmp_path / "elastic.csv", elastic)], model="neo-hooke")
+    assert rubber.terms == [] and rubber.E_inf_Pa == rubber.E0_Pa
+    assert rubber.stress([1.0, 1.5], time_s=[0.0, 1.0]) == pytest.approx(rubber.stress([1.0, 1.5]))
+
+    # By the linear convolution of S = 2 C10 (1 - s^-3) (2/3, and -s^3/3 on the side) with exp(-t/tau).
+    def relaxing(time_s, stretch):
+        fine = np.linspace(0.0, 1.0, 4001)
+        s = 1.0 + fine
+        parts = np.array([4e5 * 2 / 3 * (1 - s**-3), -4e5 / 3 * (s**3 - 1)])
+        rate = np.gradient(parts, fine, axis=1)
+        out = []
+        for t, at in zip(time_s, stretch):
+            until = fine <= t + 1e-12
+            kernel = 0.7 + 0.3 * np.exp(-(t - fine[until]) / 2.0)
+            first, side = (np.trapz(kernel * r[until], fine[until]) for r in rate)
+            out.append((at**2 * first - side / at) / at)
+        return np.array(out) + 100.0 * np.random.default_rng(2).standard_normal(time_s.size)
+
+    word = rate_and_hold(tmp_path / "relaxing.csv", relaxing)
+    rubber = viscard.fit([word], model="neo-hooke")
+    (term,) = rubber.terms
+    assert term.g == pytest.approx(0.3, rel=0.01) and term.tau_s == pytest.approx(2.0, rel=0.02)
+    assert term.g_interval[0] < term.g < term.g_interval[1]
+    assert rubber.E_inf_Pa == pytest.approx(0.7 * rubber.E0_Pa, rel=0.01)
+    assert rubber.series_covariance.shape == (3, 3)
+    stretch, _ = rubber.tests[0]
+    assert rubber.stress(stretch, time_s=rubber.times[0]) == pytest.approx(rubber.fitted[0], rel=1e-9, abs=1e-3)
+    rubber.save(tmp_path / "rubber.json")
+    again = viscard.RubberFit.load(tmp_path / "rubber.json")
+    assert again.terms == rubber.terms
+    with pytest.raises(viscard.Error, match="terms? of relaxation"):
+        again.card("abaqus", "mm-t-s")
+    with pytest.raises(viscard.Error, match="time_s has the shape"):
+        rubber.stress([1.0, 2.0], time_s=[0.0])
+    assert viscard.fit([word], model="neo-hooke", terms=0).terms == []

@@ -116,6 +116,10 @@ def check_fit():
     run(["fit", "--kind", "dma", "oscillation.csv", "--terms", "3"], "fit")
     rubber = [f"{kind}={data(f'reference/treloar_{kind}.csv')}" for kind in ("uniaxial", "equibiaxial")]
     run(["fit", *rubber, "--out", "rubber.json"], "hyperelastic")
+    held = [(0.1 * i, min(2.0, 1.0 + 0.1 * i)) for i in range(150)]
+    rows = [f"{t},{s},{4e5 * (s - s**-2) * (1.0 - 0.2 * t / (1.0 + t))}\n" for t, s in held]
+    pathlib.Path("hold.csv").write_text("time_s,stretch,nominal_stress_Pa\n" + "".join(rows))
+    run(["fit", "uniaxial=hold.csv", "--model", "neo-hooke", "--terms", "1"], "hyperelastic")
 
 
 def check_card():

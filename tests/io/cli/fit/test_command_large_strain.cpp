@@ -1,10 +1,13 @@
 // Tests of rubber at large strain: viscard fit uniaxial=a.csv planar=b.csv equibiaxial=c.csv.
+#include "models/hyperelastic/finite_viscoelasticity.h"
 #include "tests/io/cli/fit/table_folder.h"
 #include "tests/support/run_command.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -34,7 +37,88 @@ std::string compression_table() {
   return table.str();
 }
 
+// A Neo-Hooke rubber with one term: loading to a stretch of 2 in 1 s, and a hold of 20 s.
+std::string hold_table(bool with_times) {
+  StretchHistory history;
+  for (int i = 0; i <= 210; ++i) {
+    history.time_s.push_back(0.1 * i);
+    history.stretch.push_back(std::min(2.0, 1.0 + 0.1 * i));
+  }
+  const HyperelasticLaw law{HyperelasticForm::kNeoHooke, Eigen::VectorXd::Constant(1, 2e5), {}};
+  const auto stress_Pa = nominal_stress_Pa(law, {{0.25, 1.5}}, Deformation::kUniaxial, history);
+  std::ostringstream table;
+  table.precision(10);
+  table << (with_times ? "time_s," : "") << "stretch,nominal_stress_Pa\n";
+  for (std::size_t i = 0; i < stress_Pa.size(); ++i) {
+    if (with_times) table << history.time_s[i] << ",";
+    const double noise_Pa = 200.0 * std::sin(12.9898 * static_cast<double>(i * i + 1));
+    table << history.stretch[i] << "," << stress_Pa[i] + noise_Pa << "\n";
+  }
+  return table.str();
+}
+
 }  // namespace
+
+TEST_CASE("tables with times give terms of relaxation beside the law", "[cli]") {
+  const TableFolder folder;
+  const std::string word = "uniaxial=" + folder.write("hold.csv", hold_table(true));
+  const std::string out = folder.file("rubber.json"), svg = folder.file("rubber.svg");
+  const auto printed =
+      run_command({"fit", word, "--model", "neo-hooke", "--json", "--out", out, "--svg", svg});
+  INFO(printed.err);
+  CHECK(printed.status == 0);
+  const auto json = nlohmann::json::parse(printed.out);
+  const auto& law = json["laws"][0];
+  REQUIRE(law["terms"].size() == 1);
+  CHECK(law["terms"][0]["g"].get<double>() == Approx(0.25).epsilon(0.02));
+  CHECK(law["terms"][0]["tau_s"].get<double>() == Approx(1.5).epsilon(0.05));
+  CHECK(law["E0_Pa"].get<double>() == Approx(1.2e6).epsilon(0.01));
+  CHECK(law["E_inf_Pa"].get<double>() == Approx(0.9e6).epsilon(0.01));
+  CHECK(law["series_covariance"].size() == 3);
+  CHECK_THAT(text_of_file(svg),
+             Contains("with 1 term") && Contains("time since the first reading"));
+  CHECK(nlohmann::json::parse(text_of_file(out))["laws"][0]["terms"].size() == 1);
+
+  const auto text = run_command({"fit", word, "--model", "neo-hooke"});
+  CHECK_THAT(text.out, Contains("* neo-hooke + 1") && Contains("E_inf") && Contains("tau_1_s"));
+
+  // A card does not leave the terms out silently.
+  const auto card = run_command({"card", out, "--for", "abaqus"});
+  CHECK(card.status == 1);
+  CHECK_THAT(card.err, Contains("the law has 1 term of relaxation") && Contains("--terms 0"));
+}
+
+TEST_CASE("--terms 0 is the fit of the same table without times", "[cli][reduction]") {
+  const TableFolder folder;
+  const std::string timed = "uniaxial=" + folder.write("timed.csv", hold_table(true));
+  const std::string plain = "uniaxial=" + folder.write("plain.csv", hold_table(false));
+  const auto laws_of = [](const std::vector<std::string>& words) {
+    return nlohmann::json::parse(run_command(words).out)["laws"].dump();
+  };
+  CHECK(laws_of({"fit", timed, "--terms", "0", "--json"}) == laws_of({"fit", plain, "--json"}));
+  const auto asked = run_command({"fit", plain, "--terms", "1"});
+  CHECK(asked.status == 1);
+  CHECK_THAT(asked.err, Contains("the uniaxial test has no times") && Contains("column time_s"));
+  const auto many = run_command({"fit", timed, "--terms", "21"});
+  CHECK(many.status == 2);
+  CHECK_THAT(many.err, Contains("--terms 21 is outside 0 to 20"));
+}
+
+TEST_CASE("a known modulus is that at once or E_inf", "[cli]") {
+  const TableFolder folder;
+  const std::string word = "uniaxial=" + folder.write("hold.csv", hold_table(true));
+  const auto law_with = [&](const std::string& modulus) {
+    const auto run = run_command({"fit", word, "--model", "mooney-rivlin", "--terms", "1",
+                                  "--youngs-modulus", modulus, "--json"});
+    return nlohmann::json::parse(run.out)["laws"][0];
+  };
+  CHECK(law_with("1.1 MPa")["E0_Pa"].get<double>() == Approx(1.1e6).epsilon(1e-6));
+  CHECK(law_with("E0 = 1.1 MPa")["E0_Pa"].get<double>() == Approx(1.1e6).epsilon(1e-6));
+  CHECK(law_with("E_inf=0.8 MPa")["E_inf_Pa"].get<double>() == Approx(0.8e6).epsilon(1e-6));
+  const auto wrong = run_command({"fit", word, "--youngs-modulus", "E_1=1 MPa"});
+  CHECK(wrong.status == 2);
+  CHECK_THAT(wrong.err, Contains("'E_1' is neither E0 nor E_inf"));
+}
 
 TEST_CASE("three tests at large strain give laws, a file and a picture", "[cli]") {
   const TableFolder folder;
