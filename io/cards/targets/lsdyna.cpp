@@ -275,8 +275,7 @@ CardTarget lsdyna_target() {
       .temperature = "K",
       .set_temperature = "*LOAD_THERMAL_CONSTANT or another load, in K (0 if not given)",
       .evidence = Evidence::kParsed,
-      .evidence_note =
-          "readers found the numbers; 18 rows (6 in old versions), one of them beta = 0",
+      .evidence_note = "readers found the numbers; 18 rows (6 in old versions), one with beta = 0",
       .advice =
           "Numbers are rounded to ten columns. The empty line after the first card is card 2.",
       .harmonic = "refused: no public statement that *FREQUENCY_DOMAIN reads it"};
