@@ -16,7 +16,7 @@ namespace viscard {
 
 // One term of relaxation beside a law: its share of the instantaneous stress, and its time.
 struct FittedRubberTerm {
-  double g = 0.0, g_se = 0.0;
+  double g = 0.0, g_se = 0.0;  // pure numbers; se: standard error
   double tau_s = 0.0, ln_tau_se = 0.0;
   Interval g_interval_95, tau_s_interval_95;  // of the time symmetric in the logarithm
 };

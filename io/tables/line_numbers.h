@@ -11,6 +11,7 @@ namespace viscard {
 // entry together: ten million numbers would take 40 MB.
 class LineNumbers {
  public:
+  // The next row stands on this line, counted from 1.
   void push_back(std::uint32_t line) {
     if (runs_.empty() || line != next_) runs_.push_back({size_, line});
     next_ = line + 1;

@@ -58,14 +58,17 @@ class StretchCourse {
     Stress values;
     std::vector<Stress> slopes;
   };
+  // For a law of this form, with its shapes as in HyperelasticLaw; no slopes unless they are asked for.
   UnitStress unit_stress(HyperelasticForm form, const Eigen::VectorXd& shapes,
                          bool with_slopes) const;
 
   // Nominal stress at the points of the history (rows) of S itself, and of H with one time.
   Eigen::MatrixXd instantaneous(const Stress& stress) const;
+  // The nominal stress of H, Pa per unit of each column, and its derivative by ln tau.
   struct Relaxed {
     Eigen::MatrixXd values, by_ln_tau;  // points x columns
   };
+  // Of one time tau_s; without the derivative unless with_slope.
   Relaxed relaxed(const Stress& stress, double tau_s, bool with_slope) const;
 
  private:

@@ -96,6 +96,7 @@ struct PrincipalColumns {
   Eigen::Matrix3Xd values;
   std::vector<Eigen::Matrix3Xd> shape_slopes;  // empty unless they are asked for
 };
+// At principal logarithmic strains.
 PrincipalColumns principal_columns(HyperelasticForm form, const Eigen::VectorXd& shapes,
                                    const Eigen::Vector3d& log_strain, bool with_slopes);
 

@@ -66,6 +66,7 @@ class DiscreteSystem {
     // Legendre products of Q_(p-2), the pressures of eq. 14: points x (p - 1)^2.
     Eigen::MatrixXd pressure;
   };
+  // Of the given rows on one element.
   ElementRows element_rows(const std::vector<OperatorRow>& rows,
                            const SectionElement& element) const;
   // Those Legendre products at a point (x, z) of an element.

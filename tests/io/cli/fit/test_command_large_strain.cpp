@@ -88,7 +88,7 @@ TEST_CASE("tables with times give terms of relaxation beside the law", "[cli]") 
   CHECK_THAT(card.err, Contains("the law has 1 term of relaxation") && Contains("--terms 0"));
 }
 
-TEST_CASE("--terms 0 is the fit of the same table without times", "[cli][reduction]") {
+TEST_CASE("a fit of 0 terms is the fit of the same table without times", "[cli][reduction]") {
   const TableFolder folder;
   const std::string timed = "uniaxial=" + folder.write("timed.csv", hold_table(true));
   const std::string plain = "uniaxial=" + folder.write("plain.csv", hold_table(false));
@@ -155,7 +155,7 @@ TEST_CASE("three tests at large strain give laws, a file and a picture", "[cli]"
   CHECK_THAT(card.out, Contains("*HYPERELASTIC, OGDEN, N=3") &&
                            Contains("** equibiaxial: stretches 1 to 4.45 measured") &&
                            Contains("sha256"));
-  const auto other = run_command({"card", out, "--for", "comsol"});
+  const auto other = run_command({"card", out, "--for", "mujoco"});
   CHECK(other.status == 2);
   CHECK_THAT(other.err, Contains("has no card of rubber"));
 }
@@ -187,12 +187,15 @@ TEST_CASE("words that do not fit tests at large strain are refused", "[cli]") {
     CHECK(run.status == 2);
     CHECK_THAT(run.err, Contains(reason));
   };
-  refused({"--terms", "3"}, "--terms does not belong to tests at large strain");
+  refused({"--diagnose"}, "--diagnose does not belong to tests at large strain");
   refused({"--model", "ogden3"}, "did you mean 'ogden-3'");
   refused({"--weight", "square"}, "use equal or relative");
   refused({"--youngs-modulus", "3 N"}, "--youngs-modulus 3 N");
   refused({"creep=b.csv"}, "is no test at large strain");
   refused({"planar="}, "names no file");
+  const auto timeless = run_command({"fit", uniaxial, "--terms", "3"});
+  CHECK(timeless.status == 1);
+  CHECK_THAT(timeless.err, Contains("has no times") && Contains("add a column time_s"));
   const auto twice = run_command({"fit", uniaxial, "uniaxial=" + treloar("uniaxial")});
   CHECK(twice.status == 1);
   const auto svg = run_command({"fit", treloar("uniaxial"), "--svg", "a.svg"});
