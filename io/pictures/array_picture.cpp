@@ -1,5 +1,6 @@
 #include "io/pictures/scene_drawing.h"
 #include "io/pictures/scene_picture.h"
+#include "io/pictures/shown_row.h"
 #include "models/array/plane/array_analysis.h"
 
 #include <fmt/format.h>
@@ -8,38 +9,6 @@
 
 namespace viscard {
 namespace {
-
-constexpr double kRowWidth_px = 980.0;
-constexpr int kMostPillars = 16;
-
-// The pillars drawn and their middles. A long row shows its first and last ones, with a short gap.
-struct ShownRow {
-  std::vector<std::pair<int, double>> pillars;  // number from 1, middle in m
-  double left_m = 0.0, right_m = 0.0;           // of the film
-  double cut_m = 0.0;                           // middle of the gap
-  bool is_cut = false;
-};
-
-ShownRow shown_row(const ArrayGeometry& g) {
-  const double pitch_m = g.diameter_m + g.spacing_m;
-  ShownRow row;
-  row.is_cut = g.count > kMostPillars;
-  const int places = row.is_cut ? kMostPillars + 1 : g.count;
-  const int half = kMostPillars / 2;
-  for (int place = 0; place < places; ++place) {
-    const double middle_m = (place - 0.5 * (places - 1)) * pitch_m;
-    if (row.is_cut && place == half) {
-      row.cut_m = middle_m;
-      continue;
-    }
-    const int number = row.is_cut && place > half ? g.count - (places - 1 - place) : place + 1;
-    row.pillars.emplace_back(number, middle_m);
-  }
-  const double beyond_m = g.ends == FilmEnds::kMirror ? 0.5 * g.spacing_m : g.film_edge_m;
-  row.left_m = row.pillars.front().second - 0.5 * g.diameter_m - beyond_m;
-  row.right_m = row.pillars.back().second + 0.5 * g.diameter_m + beyond_m;
-  return row;
-}
 
 void draw_pillar(SceneDrawing& d, const ArrayGeometry& g, double middle_m, bool is_image) {
   d.box(middle_m - 0.5 * g.diameter_m, middle_m + 0.5 * g.diameter_m, 0.0, g.length_m,

@@ -46,7 +46,7 @@ std::string colour_bar(double x_px, double top_px, double height_px, bool is_sig
 BarUnit bar_unit(const std::string& unit, double largest) {
   if (unit == "%" || unit == "1" || !(largest > 0.0)) return {1.0, unit == "1" ? "" : unit};
   constexpr std::array<std::pair<double, const char*>, 7> kPrefixes = {
-      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}}};
+      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}};
   for (const auto& [size, letter] : kPrefixes) {
     if (largest >= size) return {1.0 / size, letter + unit};
   }

@@ -70,6 +70,13 @@ std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisatio
   return analysis_of(*pillar).fields(*pillar, mesh);
 }
 
+RowShapes mode_shapes(const Scene& scene, const Discretisation& mesh) {
+  const ScenePlan plan = plan_effects(scene);
+  const auto* row = std::get_if<ArrayScene>(&plan.reduced);
+  if (row == nullptr || !std::holds_alternative<RowModal>(row->drive)) return {};
+  return row_shapes(*row, mesh);
+}
+
 void simulate_all(const std::vector<Scene>& points,
                   const std::function<void(std::size_t, const SceneAnswer&)>& done) {
   std::atomic<std::size_t> next{0};

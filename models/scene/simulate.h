@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/array/plane/row_shapes.h"
 #include "models/pillar/body/section_grid.h"
 #include "models/scene/common/scene_answer.h"
 #include "models/scene/scene.h"
@@ -23,9 +24,13 @@ SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh);
 
 // The solution on a mesh, with the plan's effects, for pictures. Static: displacement (m), axial
 // stress (Pa), with electrodes the potential (V). Modal: the shapes of every family, largest
-// displacement 1. Other analyses and rows of pillars have no picture. The scene is solved again.
-// Throws as plan_effects() does.
+// displacement 1. Other analyses and rows of pillars (mode_shapes()) have none. The scene is solved
+// again. Throws as plan_effects() does.
 std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisation& mesh);
+
+// The modes of a row of pillars, with the plan's effects, for pictures; without modes for every
+// other scene. The scene is solved anew. Throws as plan_effects() does.
+RowShapes mode_shapes(const Scene& scene, const Discretisation& mesh);
 
 // Answers all `points` on all cores; done(i, answer) is called for one at a time, in the order in
 // which they end. The first exception is thrown once all running points have ended.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace viscard {
 
@@ -115,6 +116,25 @@ std::string csv_of_modes(const std::vector<SceneMode>& modes, const std::string&
 }
 
 }  // namespace
+
+std::string csv_of_shapes(const RowShapes& shapes, const std::vector<SceneMode>& modes,
+                          const std::string& command) {
+  std::string text = fmt::format(
+      "# {} (viscard {})\n# motion: mean of the top, sideways along x or up along z; the largest "
+      "of "
+      "a mode is 1\nfamily,mode,frequency_Hz,pillar,motion\n",
+      command, VISCARD_VERSION);
+  std::map<std::string, int> number;
+  for (std::size_t i = 0; i < std::min(shapes.modes.size(), modes.size()); ++i) {
+    const RowShape& shape = shapes.modes[i];
+    const int mode = ++number[shape.family];
+    for (Eigen::Index pillar = 0; pillar < shape.top.size(); ++pillar) {
+      text += fmt::format("{},{},{:.9g},{},{:.6g}\n", shape.family, mode, modes[i].frequency_Hz,
+                          pillar + 1, shape.top[pillar]);
+    }
+  }
+  return text;
+}
 
 void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
                     const std::string& folder, bool overwrite) {

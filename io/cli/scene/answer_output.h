@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/scenes/scene_file.h"
+#include "models/array/plane/row_shapes.h"
 #include "models/scene/common/scene_answer.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -30,6 +31,10 @@ void write_pictures(const std::vector<std::pair<std::string, std::string>>& pict
 // std::runtime_error if a file exists and may not be overwritten.
 void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
                  const std::string& command, bool overwrite);
+
+// The motion of every pillar in every mode of a row: a table with one line for each pair of them.
+std::string csv_of_shapes(const RowShapes& shapes, const std::vector<SceneMode>& modes,
+                          const std::string& command);
 
 // A value that a publication prints, and ours.
 struct PrintedComparison {

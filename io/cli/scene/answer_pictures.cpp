@@ -50,6 +50,12 @@ Abscissa abscissa_of(const SceneCurve& curve) {
   return {curve.x_name.substr(0, end), curve.x_name.substr(end + 1)};
 }
 
+// A length that is zero everywhere is no reason for an axis of metres.
+ShownUnit unit_of_curve(const std::string& unit, const std::vector<double>& values) {
+  return unit == "m" && largest_size(values) == 0.0 ? ShownUnit{1e6, "µm"}
+                                                    : shown_unit(unit, values);
+}
+
 PlotPanel panel_of(const SceneCurve& curve) {
   const Abscissa x = abscissa_of(curve);
   const bool is_frequency = x.unit == "Hz";
@@ -58,7 +64,7 @@ PlotPanel panel_of(const SceneCurve& curve) {
   // Frequencies stay in Hz and logarithmic sizes in the base unit; the rest get a prefix.
   const ShownUnit x_unit = is_frequency ? ShownUnit{1.0, "Hz"} : shown_unit(x.unit, curve.x);
   const ShownUnit y_unit =
-      is_log ? ShownUnit{1.0, curve.unit} : shown_unit(curve.unit, curve.value);
+      is_log ? ShownUnit{1.0, curve.unit} : unit_of_curve(curve.unit, curve.value);
   PlotPanel panel;
   // Waves are shown over their logarithm; times and places start at, or are on both sides of, 0.
   panel.x = {.label = x.name + " (" + x_unit.text + ")",

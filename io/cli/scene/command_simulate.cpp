@@ -11,6 +11,7 @@
 #include "io/flow/scenes/answer_scene.h"
 #include "io/flow/scenes/scene_uncertainty.h"
 #include "io/flow/scenes/wanted_results.h"
+#include "io/pictures/row_picture.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/simulate.h"
@@ -44,6 +45,11 @@ void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutpu
   for (const SectionGrid& grid : solution_fields(scene, answer.discretisation)) {
     write_file(in / (grid.name + ".vtu"), vtu_from_grid(grid), output.overwrite);
     write_pictures(pictures_from_grid(grid), output.folder, output.overwrite);
+  }
+  if (const RowShapes shapes = mode_shapes(scene, answer.discretisation); !shapes.modes.empty()) {
+    write_file(in / "mode_shapes.csv", csv_of_shapes(shapes, answer.modes, output.command),
+               output.overwrite);
+    write_pictures(pictures_from_shapes(shapes, answer.modes), output.folder, output.overwrite);
   }
   const auto* row = std::get_if<ArrayScene>(&scene);
   const std::vector<int> loaded = row == nullptr ? std::vector<int>{} : row->loaded;
@@ -86,7 +92,8 @@ CommandSyntax simulate_syntax() {
   syntax.options.add_options()(
       "out", po::value<std::string>(),
       "folder for results as JSON and CSV, curves as CSV and pictures; static and modal scenes add "
-      "fields as .vtu for ParaView, arrays in the plane pillars.csv and maps as .npy")(
+      "fields as .vtu for ParaView, modes of a row mode_shapes.csv, arrays in the plane "
+      "pillars.csv and maps as .npy")(
       "uncertainty",
       "95 % intervals of the results, and the share of each input in their variance: quantities "
       "such as \"40 um +- 1 um\" (also: uniform, lognormal) and what material files state")(

@@ -83,6 +83,7 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
   if (parts && values->count("shard") > 0) {
     throw UsageError("--merge takes over points and answers none; leave --shard out");
   }
+  if (const auto out = given(*values, "out")) refuse_folder_as_file("out", *out);
   const auto table = given(*values, "csv");
   if (table) refuse_existing(*table, values->count("force") > 0);
   const Study study = read_study(path);

@@ -79,32 +79,6 @@ void refuse_unwritable_folder(const NamedPath& output) {
   }
 }
 
-// A file goes into a folder that exists; its name is not that of a folder.
-void refuse_folder_as_file(const NamedPath& output) {
-  std::error_code error;
-  const std::string where = "cannot write --" + output.option + " '" + output.path.string() + "': ";
-  if (output.path == "-") {
-    throw UsageError(
-        where +
-        "this option takes the name of a file; what a command prints without it goes to "
-        "standard output");
-  }
-  const fs::file_type type = fs::status(output.path, error).type();
-  if (type == fs::file_type::character || type == fs::file_type::fifo) {
-    throw std::runtime_error(where +
-                             "it is a device or pipe, not a file; name a file, and read that");
-  }
-  if (fs::is_directory(output.path, error) || !output.path.has_filename()) {
-    throw std::runtime_error(where + "it is a folder; name a file in it, such as '" +
-                             (output.path / "result").string() + "'");
-  }
-  const fs::path folder = output.path.parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, error)) {
-    throw std::runtime_error(where + "there is no folder '" + folder.string() +
-                             "'; make it first, such as with mkdir -p");
-  }
-}
-
 // --force is an option without value or a switch.
 bool is_forced(const po::variables_map& values) {
   if (values.count("force") == 0) return false;
@@ -114,6 +88,31 @@ bool is_forced(const po::variables_map& values) {
 
 }  // namespace
 
+void refuse_folder_as_file(const std::string& option, const fs::path& output) {
+  std::error_code error;
+  const std::string where = "cannot write --" + option + " '" + output.string() + "': ";
+  if (output == "-") {
+    throw UsageError(
+        where +
+        "this option takes the name of a file; what a command prints without it goes to "
+        "standard output");
+  }
+  const fs::file_type type = fs::status(output, error).type();
+  if (type == fs::file_type::character || type == fs::file_type::fifo) {
+    throw std::runtime_error(where +
+                             "it is a device or pipe, not a file; name a file, and read that");
+  }
+  if (fs::is_directory(output, error) || !output.has_filename()) {
+    throw std::runtime_error(where + "it is a folder; name a file in it, such as '" +
+                             (output / "result").string() + "'");
+  }
+  const fs::path folder = output.parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, error)) {
+    throw std::runtime_error(where + "there is no folder '" + folder.string() +
+                             "'; make it first, such as with mkdir -p");
+  }
+}
+
 void check_output_paths(const po::variables_map& values,
                         const std::vector<std::string>& may_exist) {
   const std::vector<NamedPath> paths = paths_among(values);
@@ -122,7 +121,7 @@ void check_output_paths(const po::variables_map& values,
     refuse_shared_file(path, paths);
     refuse_unwritable_folder(path);
     if (std::find(may_exist.begin(), may_exist.end(), path.option) != may_exist.end()) continue;
-    refuse_folder_as_file(path);
+    refuse_folder_as_file(path.option, path.path);
     refuse_existing(path.path, is_forced(values));
   }
 }

@@ -16,6 +16,9 @@ namespace viscard {
 void check_output_paths(const boost::program_options::variables_map& values,
                         const std::vector<std::string>& may_exist);
 
+// Of check_output_paths(): throws if a file cannot have that name, which is a folder or lies in none.
+void refuse_folder_as_file(const std::string& option, const std::filesystem::path& output);
+
 // Throws std::runtime_error if the output exists and may not be overwritten, before work is lost.
 void refuse_existing(const std::filesystem::path& output, bool overwrite);
 

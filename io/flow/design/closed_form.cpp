@@ -29,11 +29,11 @@ Lattice lattice_of(const std::string& word) {
                               " There are: square, hexagonal, plain");
 }
 
-// No length of a sensor exceeds a metre; a longer one shows that a unit was forgotten.
-void refuse_forgotten_unit(const DesignOption& option, double value) {
+// No length of a sensor exceeds a metre; a longer one shows that a unit was forgotten or mistaken.
+void refuse_mistaken_unit(const DesignOption& option, double value) {
   if (std::string_view(option.unit) != "m" || std::abs(value) <= 1.0) return;
   throw std::invalid_argument(fmt::format(
-      "--{} is {:g} m; lengths without a unit are in metres. Write the unit, such as \"{:g} um\"",
+      "--{} is {:g} m, but no length of a sensor is more than 1 m; did you mean \"{:g} um\"?",
       option.name, value, value));
 }
 
@@ -78,7 +78,7 @@ ClosedFormDesign closed_form_design(
   for (const DesignOption& option : options_of(design)) {
     const std::optional<double> value = given(option.name, option.unit);
     if (!value) continue;
-    refuse_forgotten_unit(option, *value);
+    refuse_mistaken_unit(option, *value);
     *option.value = *value;
     has_adhesion = has_adhesion || option.value == &design.material.work_of_adhesion_J_m2;
   }

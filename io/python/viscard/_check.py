@@ -107,6 +107,13 @@ def _check(name: str, value: Any, hint: Any) -> None:
             raise Error(f"{name} is {shown(number)}; it must be a finite number", "usage")
 
 
+def _no_such_keyword(function: str, name: str, known: "List[str]") -> str:
+    import difflib  # only here, so that import viscard stays short
+    near = difflib.get_close_matches(name, [one for one in known if one != "self"], 1)
+    return f"{function}() has no keyword '{name}'" + (f"; did you mean '{near[0]}'?" if near else
+                                                      f"; help(viscard.{function}) lists them")
+
+
 def arguments(function: _Function) -> _Function:
     """The function, with the types of its arguments checked. Those without annotation it checks itself."""
     parameters = inspect.signature(function).parameters.values()
@@ -120,6 +127,9 @@ def arguments(function: _Function) -> _Function:
 
     @functools.wraps(function)
     def checked(*given: Any, **keywords: Any) -> Any:
+        unknown = [] if others else [name for name in keywords if name not in positional]
+        if unknown:
+            raise TypeError(_no_such_keyword(function.__qualname__, unknown[0], positional))
         for name, value in [*zip(positional, given), *keywords.items()]:
             hint = hints().get(name if name in positional else others)
             if hint is not None:

@@ -102,6 +102,16 @@ class PressureIteration {
 
 }  // namespace
 
+Eigen::Index LayerGrid::cell_at(double middle_m, double at_m) const {
+  constexpr double kRounding = 1e-6;  // of a cell
+  const double from_middle = (at_m - middle_m) / cell_m();
+  const double half = 0.5 * count;
+  if (std::abs(from_middle) > half + kRounding) return -1;
+  const double at = from_middle > 0.0 ? std::ceil(half + from_middle - kRounding) - 1.0
+                                      : std::floor(half + from_middle + kRounding);
+  return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(at), 0, count - 1);
+}
+
 bool LayerPressure::touches_rim() const {
   const Eigen::Index last = pressure_Pa.rows() - 1;
   bool touches = pressure_Pa.row(0).maxCoeff() > 0.0 || pressure_Pa.row(last).maxCoeff() > 0.0;

@@ -18,6 +18,9 @@ struct LayerGrid {
   double place_m(double middle_m, Eigen::Index i) const {
     return middle_m + (static_cast<double>(i) + 0.5) * cell_m() - 0.5 * width_m;
   }
+  // The cell of such an axis that a place lies in, of two beside a face the one nearer the middle, so
+  // that profiles of symmetric answers are symmetric and both ends belong to the grid; -1 outside.
+  Eigen::Index cell_at(double middle_m, double at_m) const;
 };
 
 // What presses on the face.

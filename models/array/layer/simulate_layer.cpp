@@ -143,11 +143,9 @@ void LayerSolver::set_profiles(const LayerPressure& pressed, SceneAnswer& answer
   for (int i = 0; i < kProfilePoints; ++i) {
     const double share = 2.0 * i / (kProfilePoints - 1) - 1.0;
     const double x_m = grid.x_m + share * kProfileReach * grid.width_m;
-    const auto cell = static_cast<Eigen::Index>(
-        std::floor((x_m - grid.place_m(grid.x_m, 0)) / grid.cell_m() + 0.5));
-    const bool is_inside = cell >= 0 && cell < grid.count;
+    const Eigen::Index cell = grid.cell_at(grid.x_m, x_m);
     pressure.x.push_back(x_m);
-    pressure.value.push_back(is_inside ? pressed.pressure_Pa(cell, middle) : 0.0);
+    pressure.value.push_back(cell < 0 ? 0.0 : pressed.pressure_Pa(cell, middle));
     if (!has_voltage) continue;
     voltage.x.push_back(x_m);
     voltage.value.push_back(potential_V(pressed, kernel_, x_m, grid.y_m, LayerReadings::kPoint));
@@ -169,9 +167,7 @@ void LayerSolver::add_gap(const LayerPressure& pressed, SceneAnswer& answer) con
     const double x_m =
         grid.x_m + (static_cast<double>(i) / (kProfilePoints - 1) - 0.5) * grid.width_m;
     if (scene_->width_m > 0.0 && std::abs(x_m) >= 0.5 * scene_->width_m) continue;
-    const auto cell = std::clamp<Eigen::Index>(
-        static_cast<Eigen::Index>(std::floor((x_m - grid.x_m) / grid.cell_m() + 0.5 * grid.count)),
-        0, grid.count - 1);
+    const Eigen::Index cell = grid.cell_at(grid.x_m, x_m);
     const double height = height_m(scene_->press.shape, grid.place_m(grid.x_m, cell),
                                    scene_->is_plane() ? 0.0 : grid.place_m(grid.y_m, middle));
     if (!std::isfinite(height)) continue;

@@ -10,6 +10,31 @@
 
 namespace viscard {
 
+namespace {
+
+// `all` are the readings of all ports under the inertia of unit amplitudes, which `vector` are the
+// amplitudes of. Sums of modes on a fixed base are scaled with them.
+void add_motion(const ArrayModel& model, const Eigen::MatrixXd& all, const Eigen::VectorXd& vector,
+                ArrayMode& mode) {
+  const int n = model.geometry().count;
+  const ArrayLoad load = mode.is_lateral ? ArrayLoad::kShear : ArrayLoad::kPressure;
+  mode.amplitude = vector.reshaped(vector.size() / n, n);
+  mode.top.resize(n);
+  for (int i = 0; i < n; ++i) {
+    mode.top[i] = metres_per_reading(load, model.geometry()) *
+                  all.row(model.pillar_port(i, port_of(load))).dot(vector);
+  }
+  // Of pillars that move as much as each other, the first one moves along the axis.
+  constexpr double kAsMuch = 1.0 - 1e-6;
+  const double largest = mode.top.cwiseAbs().maxCoeff();
+  int first = 0;
+  while (std::abs(mode.top[first]) < kAsMuch * largest) ++first;
+  if (mode.top[first] < 0.0) mode.amplitude = -mode.amplitude;
+  if (largest > 0.0) mode.top /= mode.top[first] < 0.0 ? -largest : largest;
+}
+
+}  // namespace
+
 int inertia_ports_for(int clusters) {
   return 3 * clusters + 6;
 }
@@ -30,8 +55,11 @@ std::vector<ArrayMode> array_modes(const ArrayModel& model, int clusters) {
   int left[2] = {clusters * n, clusters * n};
   for (Eigen::Index j = G.rows() - 1; j >= 0 && (left[0] > 0 || left[1] > 0); --j) {
     const Eigen::VectorXd amplitude = system.vectors.col(j).cwiseAbs2();
-    ArrayMode mode{1.0 / (2.0 * std::numbers::pi * std::sqrt(system.values[j])), false,
-                   Eigen::VectorXd::Zero(n)};
+    ArrayMode mode{1.0 / (2.0 * std::numbers::pi * std::sqrt(system.values[j])),
+                   false,
+                   Eigen::VectorXd::Zero(n),
+                   {},
+                   {}};
     double lateral = 0.0;
     for (Eigen::Index row = 0; row < amplitude.size(); ++row) {
       mode.share[row / per_pillar] += amplitude[row];
@@ -41,7 +69,9 @@ std::vector<ArrayMode> array_modes(const ArrayModel& model, int clusters) {
     }
     mode.is_lateral = lateral > 0.5;
     int& wanted = left[mode.is_lateral ? 1 : 0];
-    if (wanted-- > 0) modes.push_back(std::move(mode));
+    if (wanted-- <= 0) continue;
+    add_motion(model, all, system.vectors.col(j), mode);
+    modes.push_back(std::move(mode));
   }
   // Left-out modes would change the highest of the modes in use, so only lower ones are trusted.
   const double trusted_Hz = pillar.mode_rad_s[per_pillar - 1] / (2.0 * std::numbers::pi);

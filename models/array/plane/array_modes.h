@@ -11,6 +11,10 @@ struct ArrayMode {
   double frequency_Hz = 0.0;
   bool is_lateral = false;
   Eigen::VectorXd share;  // squared amplitude of each pillar; sums to 1
+  Eigen::MatrixXd
+      amplitude;  // of the modes on a fixed base (rows) of each pillar; squares sum to 1
+  // Mean motion of each top, along x if lateral, else along z; the largest is 1.
+  Eigen::VectorXd top;
 };
 
 // The lowest modes, `clusters` times the number of pillars of each family, ascending. With the

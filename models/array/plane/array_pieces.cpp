@@ -28,7 +28,7 @@ DofMap free_dofs(const Section& section, bool fixed_base) {
 // Inertia loads M phi of shapes phi on a fixed base, M-orthonormal, on the unknowns of the free
 // pillar.
 struct InertiaPorts {
-  Eigen::MatrixXd loads;
+  Eigen::MatrixXd loads, shapes;
   Eigen::VectorXd rad_s;
   std::vector<bool> is_lateral;
 };
@@ -53,9 +53,9 @@ struct HeldPillar {
 
   // Modes are symmetric or antisymmetric about the axis; only the latter have momentum along x.
   InertiaPorts ports_of(const Eigen::MatrixXd& shapes, const Eigen::VectorXd& rad_s) const {
-    InertiaPorts ports{Eigen::MatrixXd::Zero(free.size(), shapes.cols()), rad_s, {}};
-    for (const auto& [from, to] : in_free) ports.loads.row(to) = shapes.row(from);
-    ports.loads = (free_mass.selfadjointView<Eigen::Lower>() * ports.loads).eval();
+    InertiaPorts ports{{}, Eigen::MatrixXd::Zero(free.size(), shapes.cols()), rad_s, {}};
+    for (const auto& [from, to] : in_free) ports.shapes.row(to) = shapes.row(from);
+    ports.loads = free_mass.selfadjointView<Eigen::Lower>() * ports.shapes;
     for (Eigen::Index shape = 0; shape < shapes.cols(); ++shape) {
       Eigen::Vector2d momentum = Eigen::Vector2d::Zero();
       for (int node = 0; node < free.section().node_count(); ++node) {
@@ -205,6 +205,26 @@ void add_tractions(const DiscreteSystem& system, int top_degree, Eigen::MatrixXd
   }
 }
 
+// From the left end of the base over the top to the right end.
+std::vector<int> nodes_on_outline(const Section& section) {
+  std::vector<int> nodes = nodes_on_end(section, false);
+  const std::vector<int> top =
+      nodes_on_break(section, section.z().element_count(), 0, section.x().element_count());
+  const std::vector<int> right = nodes_on_end(section, true);
+  nodes.insert(nodes.end(), top.begin() + 1, top.end());  // corners once
+  nodes.insert(nodes.end(), right.rbegin() + 1, right.rend());
+  return nodes;
+}
+
+void add_outline(const DiscreteSystem& system, const Eigen::MatrixXd& shapes,
+                 CondensedPillar& pillar) {
+  const std::vector<int> nodes = nodes_on_outline(system.section());
+  for (const int node : nodes) {
+    pillar.outline_m.emplace_back(system.section().node_x(node), system.section().node_z(node));
+  }
+  pillar.mode_on_outline = shapes(dofs_on(system, nodes, 2), Eigen::all);
+}
+
 }  // namespace
 
 CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
@@ -231,6 +251,7 @@ CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media,
     pillar.mode_rad_s = more.rad_s;
     pillar.mode_is_lateral = more.is_lateral;
     pillar.shapes = static_cast<int>(more.loads.cols());
+    add_outline(system, more.shapes, pillar);
   }
   if (extra.top_degree > 0) add_tractions(system, extra.top_degree, ports);
   const std::vector<int> base = dofs_on(system, nodes_on_break(section, 0, 0, columns), 2);

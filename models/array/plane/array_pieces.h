@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -44,8 +45,12 @@ struct CondensedPillar {
   int base_size = 0;
   Eigen::VectorXd mode_rad_s;         // angular frequencies of the modes on a fixed base, ascending
   std::vector<bool> mode_is_lateral;  // sideways; the others move along the axis
-  int shapes = 0;                     // with a port for their inertia
-  int unknowns = 0;                   // before condensation
+  // Places along the free outline, from the left end of the base over the top to the right end, and
+  // the motion there (x, then z, of one place after the other) in each mode of unit mass norm.
+  std::vector<std::pair<double, double>> outline_m;
+  Eigen::MatrixXd mode_on_outline;
+  int shapes = 0;    // with a port for their inertia
+  int unknowns = 0;  // before condensation
 
   int port_count() const { return static_cast<int>(matrix.rows()) - base_size; }
   // F' K^-1 F of the pillar on a fixed base.

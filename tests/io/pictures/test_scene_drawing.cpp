@@ -179,6 +179,66 @@ TEST_CASE("the voltages of a touch in time are drawn in one unit with a prefix",
   CHECK(pictures.back().second.find("voltage (mV)") != std::string::npos);
 }
 
+TEST_CASE("a length that is zero everywhere has an axis of micrometres", "[io][scene]") {
+  SceneAnswer answer;
+  answer.curves = {SceneCurve{.name = "gap_profile",
+                              .unit = "m",
+                              .x = {-1e-4, 1e-4},
+                              .value = {0.0, 0.0},
+                              .x_name = "x_m"}};
+  const Pictures pictures = pictures_of(answer);
+  if (pictures.empty()) return;  // gnuplot is not here
+  CHECK(pictures[0].second.find("gap profile (µm)") != std::string::npos);
+}
+
+TEST_CASE("a bar of small values has the micro sign of the plots", "[io][scene]") {
+  const SceneMap map{"normal_force", "N", {0, 1}, {2e-6, 4e-6}};
+  CHECK(svg_from_map(array_for_map(1, 2), map, "").find(">µN</text>") != std::string::npos);
+}
+
+TEST_CASE("the modes of a row are drawn pillar by pillar and in a table", "[cli][scene][array]") {
+  const SceneText scene(R"(tolerance = 1e-2
+[geometry]
+kind = "array"
+count = 2
+diameter = "40 um"
+length = "120 um"
+spacing = "20 um"
+film = { thickness = "25 um", edge = "60 um", material = "pvdf" }
+[materials]
+pillar = { E = "1.8 MPa", nu = 0.33, rho = "965 kg/m3" }
+pvdf = { file = "DATA/materials/pvdf_seed.json" }
+[analysis]
+kind = "modal"
+modes = 1
+[effects]
+crosstalk = "on"
+film_compliance = "on"
+)");
+  const std::filesystem::path folder = scene.beside("out");
+  const CommandOutcome outcome = run_command({"simulate", scene.path(), "--out", folder.string()});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  const auto text_of = [&](const char* name) {
+    std::ifstream file(folder / name);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  for (const char* const name : {"lateral_1.svg", "lateral_2.svg", "longitudinal_1.svg"}) {
+    CAPTURE(name);
+    CHECK(count_of(text_of(name), kPillarFill) == 2);
+    CHECK(count_of(text_of(name), R"(stroke-dasharray="4 3")") == 2);  // at rest
+    CHECK(text_of(name).find(" Hz +- ") != std::string::npos);
+    CHECK(text_of(name).find("the 2 modes of this cluster lie within ") != std::string::npos);
+  }
+  // One mode of the two has both tops move alike, the other one against each other.
+  const std::string both = text_of("lateral_1.svg") + text_of("lateral_2.svg");
+  CHECK(count_of(both, ">+1.00</text>") == 3);
+  CHECK(count_of(both, ">-1.00</text>") == 1);
+  CHECK(text_of("mode_shapes.csv").find("family,mode,frequency_Hz,pillar,motion\nlateral,1,") !=
+        std::string::npos);
+  CHECK(count_of(text_of("mode_shapes.csv"), "\nlongitudinal,") == 4);
+}
+
 TEST_CASE("a map has a disc for each pillar, or cells if there are many", "[io][scene]") {
   SceneArray array = array_for_map(3, 3);
   array.pillars[4].pressure_Pa = 1e3;

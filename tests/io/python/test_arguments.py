@@ -112,6 +112,20 @@ def test_wrong_arrays_are_named(call, words):
         call()
 
 
+WRONG_KEYWORDS = [
+    (lambda: viscard.fit(EXAMPLE, term=2), r"^fit\(\) has no keyword 'term'; did you mean 'terms'\?$"),
+    (lambda: viscard.fit(EXAMPLE, qqq=2), r"^fit\(\) has no keyword 'qqq'; help\(viscard.fit\) lists them$"),
+    (lambda: MATERIAL.card("abaqus", aproximate=True), r"^Material.card\(\) has no keyword .*did you mean 'approximate'"),
+    (lambda: viscard.simulate(PRESS, field=True), r"^simulate\(\) has no keyword 'field'; did you mean 'fields'"),
+]
+
+
+@pytest.mark.parametrize("call, words", WRONG_KEYWORDS)
+def test_an_unknown_keyword_gets_the_nearest_name(call, words):
+    with pytest.raises(TypeError, match=words):
+        call()
+
+
 def test_no_times_give_no_values():
     value, low, high = MATERIAL.relaxation([], band=True)
     assert value.shape == low.shape == high.shape == (0,)

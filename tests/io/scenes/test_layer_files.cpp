@@ -99,7 +99,8 @@ TEST_CASE("curves of a layer are drawn over the place and over the wavelength",
   const SceneText scene(layer_scene(
       "model = \"plane-strain\"\nwidth = \"1 mm\"",
       "kind = \"rough\"\nrms = \"0.25 um\"\ncorrelation_length = \"75 um\"\nforce = \"2 N\"",
-      "[want]\nquantities = [\"pressure_profile\", \"voltage_per_pressure\", \"blurring\", "
+      "[want]\nquantities = [\"pressure_profile\", \"gap_profile\", "
+      "\"voltage_per_pressure\", \"blurring\", "
       "\"half_wavelength\"]\n"));
   const CommandOutcome outcome =
       run_command({"simulate", scene.path(), "--out", folder.string(), "--json"});

@@ -147,7 +147,7 @@ TEST_CASE("answers of a study cannot be kept in a folder, in no folder or in ano
     return outcome.err;
   };
   CHECK(error_with(folder).find("is a folder; name a file in it, such as ") != std::string::npos);
-  CHECK(error_with(folder + "/none/x").find("cannot be opened; check that its folder exists") !=
+  CHECK(error_with(folder + "/none/x").find("there is no folder '" + folder + "/none'") !=
         std::string::npos);
   const std::string table = files.scene.beside("table.csv");
   write_file(table, "time_s,force_N\n0,1\n", false);

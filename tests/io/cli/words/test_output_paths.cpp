@@ -87,6 +87,7 @@ TEST_CASE(
                                                     {"scene", "check", "s.toml", "--svg"},
                                                     {"report", "m.json", "--out"},
                                                     {"sweep", "s.toml", "--csv"},
+                                                    {"sweep", "s.toml", "--out"},
                                                     {"calibrate", "--data", "t.csv", "--out"}};
   for (std::vector<std::string> words : lines) {
     words.push_back(here);

@@ -136,6 +136,27 @@ TEST_CASE("a shape beside or above the layer's covered part touches nothing", "[
   CHECK_THROWS_AS(simulate_layer(scene), SceneMistake);
 }
 
+TEST_CASE("profiles under a symmetric shape are symmetric up to both edges", "[layer]") {
+  LayerScene scene = layer_of_the_thesis(LayerModel::kPlaneStrain, 3e-6);
+  scene.press.shape = {};  // a plane, which touches all of the layer
+  scene.width_m = 1e-3;
+  scene.wanted = {"pressure_profile", "gap_profile"};
+  const SceneAnswer answer = layer_answer_on(scene, {.degree = 4, .layers = 2});
+  REQUIRE(answer.curves.size() == 2);
+  const std::vector<double>& x_m = answer.curves[0].x;
+  const std::vector<double>& p_Pa = answer.curves[0].value;
+  const std::size_t count = x_m.size();
+  REQUIRE(count == 61);
+  CHECK(x_m[10] == Approx(-500e-6));
+  CHECK(x_m[50] == Approx(500e-6));
+  for (std::size_t i = 0; i < count; ++i) {
+    CAPTURE(i, x_m[i]);
+    CHECK((p_Pa[i] > 0.0) == (i >= 10 && i <= 50));
+    CHECK(p_Pa[i] == Approx(p_Pa[count - 1 - i]).epsilon(1e-6));
+  }
+  for (const double gap_m : answer.curves[1].value) CHECK(gap_m == 0.0);
+}
+
 TEST_CASE("layers that cannot be answered are refused with their key", "[layer]") {
   const auto key_of = [](const LayerScene& scene) -> std::string {
     try {

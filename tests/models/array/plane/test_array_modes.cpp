@@ -1,4 +1,5 @@
 #include "models/array/plane/array_modes.h"
+#include "models/array/plane/row_shapes.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "tests/models/array/plane/seed_array.h"
 
@@ -77,6 +78,72 @@ TEST_CASE("neighbours at 20 um split the clusters as in an independent code", "[
   CHECK(modes[15].frequency_Hz == Approx(82003.9).epsilon(2e-5));
   CHECK(is_axial->frequency_Hz == Approx(90306.3).epsilon(2e-5));
   CHECK((is_axial + 7)->frequency_Hz == Approx(90306.8).epsilon(2e-5));
+}
+
+TEST_CASE("pillars of a symmetric row move in symmetric and antisymmetric modes", "[array]") {
+  const int count = GENERATE(2, 5);
+  const bool is_lateral = GENERATE(true, false);
+  const std::vector<ArrayMode> modes =
+      modes_of({.count = count, .spacing_m = 10e-6}, 1, PlaneState::kStress, is_lateral);
+  REQUIRE(modes.size() == static_cast<std::size_t>(count));
+  int symmetric = 0;
+  for (const ArrayMode& mode : modes) {
+    CAPTURE(count, is_lateral, mode.frequency_Hz, mode.top.transpose());
+    CHECK(mode.top.maxCoeff() == Approx(1.0).epsilon(2e-6));
+    CHECK(mode.top.minCoeff() > -1.0 - 2e-6);
+    const Eigen::VectorXd mirrored = mode.top.reverse();
+    const double sign = mode.top.dot(mirrored) > 0.0 ? 1.0 : -1.0;
+    CHECK((mode.top - sign * mirrored).cwiseAbs().maxCoeff() < 1e-4);
+    symmetric += sign > 0.0 ? 1 : 0;
+    CHECK(mode.amplitude.squaredNorm() == Approx(1.0).epsilon(1e-12));
+    for (const ArrayMode& other : modes) {  // orthogonal under the mass, other modes take part
+      if (&other == &mode) continue;
+      CHECK(std::abs((mode.amplitude.array() * other.amplitude.array()).sum()) < 1e-12);
+      CHECK(std::abs(mode.top.dot(other.top)) < 1e-2 * mode.top.norm() * other.top.norm());
+    }
+  }
+  CHECK(symmetric == (count + 1) / 2);
+}
+
+TEST_CASE("the outline of a pillar moves as its top does", "[array]") {
+  ArrayScene scene = seed_scene();
+  scene.geometry = {.count = 3, .spacing_m = 20e-6};
+  scene.drive = RowModal{.modes = 2};
+  scene.feels_film = GENERATE(true, false);
+  scene.feels_neighbours = scene.feels_film && GENERATE(true, false);
+  const RowShapes shapes = row_shapes(scene, {.degree = 6, .layers = 2});
+  REQUIRE(shapes.modes.size() == 12);  // two families, two clusters, three pillars
+  const std::size_t places = shapes.outline_m.size();
+  CHECK(shapes.outline_m.front() == std::pair(-20e-6, 0.0));
+  CHECK(shapes.outline_m.back() == std::pair(20e-6, 0.0));
+  for (const RowShape& shape : shapes.modes) {
+    const int axis = shape.family == "lateral" ? 0 : 1;
+    CAPTURE(shape.family, shape.cluster, shape.top.transpose());
+    REQUIRE(shape.outline.rows() == static_cast<Eigen::Index>(2 * places));
+    // The mean over the top, by the trapezoidal rule, in proportion to that of the answer.
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(3);
+    double largest = 0.0;
+    for (std::size_t k = 0; k < places; ++k) {
+      const auto row = static_cast<Eigen::Index>(2 * k);
+      for (int i = 0; i < 3; ++i) {
+        largest = std::max(largest, shape.outline.block(row, i, 2, 1).norm());
+      }
+      const bool is_top = k + 1 < places && shapes.outline_m[k].second > 119.99e-6 &&
+                          shapes.outline_m[k + 1].second > 119.99e-6;
+      if (!is_top) continue;
+      const double width_m = shapes.outline_m[k + 1].first - shapes.outline_m[k].first;
+      mean += 0.5 * width_m / 40e-6 *
+              (shape.outline.row(row + axis) + shape.outline.row(row + 2 + axis)).transpose();
+    }
+    CHECK(largest == Approx(1.0).epsilon(1e-12));
+    CHECK(shape.outline.topRows(2).norm() == 0.0);
+    Eigen::Index most = 0;
+    shape.top.cwiseAbs().maxCoeff(&most);
+    CHECK(mean[most] * shape.top[most] > 0.0);
+    for (int i = 0; i < 3; ++i) {  // modes left out: below 1 % of the motion of the top
+      CHECK(mean[i] == Approx(mean[most] * shape.top[i] / shape.top[most]).margin(1e-2));
+    }
+  }
 }
 
 TEST_CASE("shapes of a cluster share the row between the pillars", "[array]") {

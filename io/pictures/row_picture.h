@@ -1,0 +1,19 @@
+#pragma once
+
+#include "models/array/plane/row_shapes.h"
+#include "models/scene/common/scene_answer.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace viscard {
+
+// Pictures of the modes of a row, name ("lateral_1") and SVG: each pillar at rest and moved, the
+// motion of its top with sign below it, the frequency of `modes` (those of the answer, in the same
+// order) in the title. Of each cluster the first eight modes; a long row shows its first and its last
+// pillars.
+std::vector<std::pair<std::string, std::string>> pictures_from_shapes(
+    const RowShapes& shapes, const std::vector<SceneMode>& modes);
+
+}  // namespace viscard
