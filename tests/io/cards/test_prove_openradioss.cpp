@@ -2,6 +2,7 @@
 #include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/proof/card_proof.h"
+#include "io/cards/proof/certificate.h"
 #include "io/cards/proof/solvers.h"
 #include "io/cards/targets/card_targets.h"
 #include "tests/io/cards/card_materials.h"
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 using namespace viscard;
@@ -83,6 +85,23 @@ TEST_CASE("a right card holds in OpenRadioss' three programs, in any units", "[c
     CHECK_THAT(proof.models[1].text, Contains("/TH/TITLE") && Contains("/TFILE\n"));
     CHECK_THAT(proof.models[2].text, Contains("/CLOAD/1") && Contains("/DAMP/1"));
   }
+}
+
+TEST_CASE("the certificate of a run in OpenRadioss says that only a stand-in was tested",
+          "[cards]") {
+  if (is_python_missing()) return;
+  const ScratchFolder folder;
+  const FoundSolver solver = stand_in_radioss(folder);
+  const fs::path path = folder.path() / "card.rad";
+  const std::string card = radioss_card(two_terms());
+  std::ofstream(path) << card;
+  const CertificateRequest request{path.string(), card, "", "openradioss"};
+  const std::string text = certificate_text(request, chain_of(request), solver, CardProof{});
+  CHECK_THAT(text, Contains("\"caution\": \"OpenRadioss itself has never run this test") &&
+                       Contains("Jan  1 2026"));
+  const FoundSolver other{solver_for("calculix", "calculix"), "", ""};
+  CHECK_THAT(certificate_text(request, chain_of(request), other, CardProof{}),
+             Contains("\"caution\": null"));
 }
 
 TEST_CASE("cards with a rate, a bulk modulus or units off do not hold in OpenRadioss", "[cards]") {
