@@ -49,6 +49,9 @@ ElementTest element_test(const Material& material, const ElementTestOptions& opt
     longest_s = i == 0 ? tau_s : std::max(longest_s, tau_s);
   }
   test.ramp_s = options.ramp_in_tau * shortest_s;
+  if (options.most_ramps > 0.0) {  // the last block ends before 20 times the longest time
+    test.ramp_s = std::max(test.ramp_s, 20.0 * longest_s / options.most_ramps);
+  }
   const int ramp_steps = std::max(1, options.steps_per_tau / 2);
   if (options.most_equal_increments > 0) {
     add_equal_increments(options, ramp_steps, 10.0 * longest_s, test);

@@ -40,6 +40,9 @@ struct ElementTestOptions {
   // All increments are of one length, and the ramp is longer if the test would need more of them
   // than this; 0: increments grow with time.
   int most_equal_increments = 0;
+  // The ramp is longer if the test would last more of its lengths than this; 0: any number. Terms
+  // that are much shorter than the ramp are then not exercised.
+  double most_ramps = 0.0;
 };
 
 // Ramp of a part of the shortest relaxation time, then hold or rise to ten times the longest; increments

@@ -148,6 +148,8 @@ std::vector<PlannedTest> tests_of(const Proving& proving, int steps_per_tau) {
   std::vector<PlannedTest> out;
   ElementTestOptions options = proving.found.solver.test;
   if (steps_per_tau > 0) options.steps_per_tau = steps_per_tau;
+  const Solver& solver = proving.found.solver;
+  if (solver.most_ramps != nullptr) options.most_ramps = solver.most_ramps(proving.material);
   for (const ElementTestKind kind : {ElementTestKind::kRelaxation, ElementTestKind::kCreep}) {
     options.kind = kind;
     plan({element_test(proving.material, options), proving.material}, out);

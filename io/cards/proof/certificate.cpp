@@ -149,7 +149,9 @@ std::string certificate_text(const CertificateRequest& request, const CardChain&
             {"creep", json_of(proof.creep)},
             {"temperature", nullptr},
             {"end_s", proof.end_s},
-            {"increments", proof.increments}};
+            {"increments", proof.increments},
+            {"caution", nullptr}};
+  if (*found.solver.caution != '\0') json["caution"] = found.solver.caution;
   if (const auto& temperature = proof.temperature) {
     json["temperature"] = json_of(temperature->error);
     json["temperature"]["at_C"] = temperature->at_C;

@@ -53,6 +53,11 @@ struct Solver {
   // For a program that answers with these words and no version: the one beside it that states it.
   const char* answer = "";
   const char* neighbour = "";
+  // For a solver whose steps are set by the speed of sound: how many lengths of its ramp a test of
+  // this material may last.
+  double (*most_ramps)(const Material& material) = nullptr;
+  const char* counted = "increments";  // what its samples are
+  const char* caution = "";            // what to know before trusting a run of it
 };
 
 struct FoundSolver {

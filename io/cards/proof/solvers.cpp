@@ -118,6 +118,49 @@ Solver frontistr_solver() {
           .version_pattern = "([Vv]ersion[: ]*)?(\\d+\\.\\d+\\S*)"};
 }
 
+// The engine, and the converter of its time history, beside a starter: the names of all three end
+// alike (HOWTO.md of OpenRadioss, tools/th_to_csv/linux64/build.bash).
+Commands openradioss_commands(const std::string& program) {
+  std::string engine = fs::path(program).filename().string();
+  const std::size_t at = engine.find("starter");
+  const std::string ending = at == std::string::npos ? "" : engine.substr(at + 7);
+  if (at != std::string::npos) engine.replace(at, 7, "engine");
+  std::string converter = beside(program, "th_to_csv" + ending);
+  if (converter.find('/') == std::string::npos) {
+    converter = beside(program, "th_to_csv_linux64_gf");
+  }
+  return {{program, "-i", "deck_0000.rad", "-np", "1"},
+          {beside(program, engine), "-i", "deck_0001.rad"},
+          {converter, "deckT01"}};
+}
+
+Solver openradioss_solver() {
+  return {.name = "openradioss",
+          .code = "OpenRadioss",
+          .programs = {"starter_linux64_gf", "starter_linux64_ifx", "starter_linuxa64"},
+          .install =
+              "Debian has no OpenRadioss; get it from github.com/OpenRadioss/OpenRadioss with its "
+              "tool th_to_csv, set RAD_CFG_PATH and LD_LIBRARY_PATH as its INSTALL.md says, and "
+              "name its starter with --solver-path; engine and th_to_csv are taken from beside it",
+          .targets = {"openradioss"},
+          .test = openradioss_test(),
+          // The strain of 1e-5, and six decimals of 10 (openradioss_model.cpp).
+          .resolves = 2.0 * kFiniteStrain,
+          .model = openradioss_model,
+          .commands = openradioss_commands,
+          .samples = openradioss_samples,
+          .divergence = "ENERGY ERROR LIMIT REACHED",
+          .error = "ERROR TERMINATION",
+          .version_words = {"-version"},
+          // execargcheck.F of the starter states no version but this.
+          .version_pattern = "OpenRadioss Starter[\\s\\S]*Date of build : *(\\S[^\\n]*\\S)",
+          .most_ramps = openradioss_most_ramps,
+          .counted = "times compared",
+          .caution =
+              "OpenRadioss itself has never run this test: its running and reading were tested "
+              "with a stand-in, from its published source"};
+}
+
 // One of the two Python packages. Python's own error names the missing part.
 Solver python_solver(const char* name, const char* code, const char* package,
                      std::vector<DeckFile> (*model)(const std::vector<SolverTask>&)) {
@@ -173,6 +216,7 @@ const std::vector<Solver>& solvers() {
       febio_solver(),
       mtest_solver(),
       frontistr_solver(),
+      openradioss_solver(),
       python_solver("sfepy", "SfePy", "python3-sfepy", sfepy_model),
       python_solver("dolfinx", "dolfinx", "python3-dolfinx", dolfinx_model)};
   return table;

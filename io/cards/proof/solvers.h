@@ -31,5 +31,11 @@ std::vector<SolverSample> frontistr_samples(const std::filesystem::path& folder,
                                             const DeckInput& input, std::size_t number);
 std::vector<SolverSample> python_samples(const std::filesystem::path& folder,
                                          const DeckInput& input, std::size_t number);
+// OpenRadioss (openradioss_model.cpp).
+std::vector<DeckFile> openradioss_model(const std::vector<SolverTask>& tasks);
+std::vector<SolverSample> openradioss_samples(const std::filesystem::path& folder,
+                                              const DeckInput& input, std::size_t number);
+double openradioss_most_ramps(const Material& material);
+ElementTestOptions openradioss_test();
 
 }  // namespace viscard

@@ -5,6 +5,7 @@
 #include "io/cards/column_fields.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/targets/radioss_model.h"
 
 #include <fmt/format.h>
 
@@ -91,57 +92,16 @@ void read_openradioss(const std::string& text, ReadCard& card) {
   }
 }
 
-std::string radioss_boundaries(const DeckInput& input) {
-  std::string out;
-  for (int face = 0; face < kFaces; ++face) {
-    out += fmt::format("/GRNOD/NODE/{0}\nface {0}\n", face + 1) + face_nodes(face);
-  }
-  const char* codes[] = {"100", "010", "001"};
-  for (int face = 0; face < 3; ++face) {
-    out +=
-        fmt::format("/BCS/{0}\nroller {0}\n   {1} 000         0{0:10d}\n", face + 1, codes[face]);
-  }
-  out += "/FUNCT/1\nramp and hold\n" + ramp_rows(input);
-  return out + (input.is_creep()
-                    ? "/CLOAD/1\npull\n"
-                      "#  funct_ID       Dir   skew_ID sensor_ID  grnod_ID            Ascale_x"
-                      "            Fscale_Y\n"
-                      "         1         Z         0         0         4                 1.0"
-                      "                 1.0\n"
-                    : "/IMPDISP/1\npull\n"
-                      "#  funct_ID       Dir   skew_ID sensor_ID  grnod_ID  frame_ID\n"
-                      "         1         Z         0         0         4         0\n"
-                      "                 1.0                 1.0                 0.0              "
-                      "1.0E30\n");
-}
-
 // Explicit: about (end time) * (wave speed) / (edge) cycles, half a minute for a few seconds of
 // PDMS on one element with an edge of 1 mm.
-std::string starter(const DeckInput& input, const std::string& name) {
-  std::string out = "#RADIOSS STARTER\n/BEGIN\n" + name + "\n      2022         0\n" +
-                    unit_row(input.units) + unit_row(input.units) + input.card.text + "/NODE\n" +
-                    node_rows(10, 20) + "/BRICK/1\n         1";
-  for (int node = 1; node <= 8; ++node) out += fmt::format("{:10d}", node);
-  return out +
-         "\n/PART/1\ncube\n#  prop_ID    mat_ID subset_ID\n         1         1         0\n"
-         "/PROP/TYPE14/1\nsolid\n"
-         "#   Isolid    Ismstr               Icpre  Itetra10     Inpts   Itetra4    Iframe"
-         "                  dn\n"
-         "        17         1                   0         0         0         0         0"
-         "                 0.0\n"
-         "                 1.1                0.05                 0.0                 0.0"
-         "                 0.0\n"
-         "                 0.0                 0.0                 0.0                 0.0"
-         "                 0.0\n"
-         "         0         0         0\n" +
-         radioss_boundaries(input) +
-         "/TH/NODE/1\nlength\nDZ\n         7         0\n/TH/BRIC/2\nstress\nSZ\n         1\n"
-         "/END\n";
-}
-
 std::vector<DeckFile> openradioss_deck(const DeckInput& input, const std::string& name) {
   const double end = input.end();
-  return {{name + "_0000.rad", starter(input, name)},
+  const RadiossModel model{.name = name,
+                           .units = unit_row(input.units),
+                           .card = input.card.text,
+                           .curve = ramp_rows(input),
+                           .is_creep = input.is_creep()};
+  return {{name + "_0000.rad", radioss_starter(model)},
           {name + "_0001.rad", "#RADIOSS ENGINE\n/RUN/" + name + "/1\n" + real(end, 20) +
                                    "\n/VERS/2022\n/TFILE\n" + real(end / 1000.0, 20) +
                                    "\n/PRINT/-100000\n"}};

@@ -88,10 +88,10 @@ std::string temperature_of(const Material& material, const FoundSolver& found,
 void print_proof(const CardWords& words, const FoundSolver& found, const Material& material,
                  const CardProof& proof, const CardChain& chain, std::ostream& out) {
   out << fmt::format(
-      "{}: {} {} on one element, {} increments to {:g} s, against the exact answer "
+      "{}: {} {} on one element, {} {} to {:g} s, against the exact answer "
       "of {}\n",
-      words.prove, found.solver.code, found.version, proof.increments, proof.end_s,
-      words.material.empty() ? "the card as read" : words.material);
+      words.prove, found.solver.code, found.version, proof.increments, found.solver.counted,
+      proof.end_s, words.material.empty() ? "the card as read" : words.material);
   if (proof.divergence) {
     out << text_of(*proof.divergence, found.solver.code);
   } else {
@@ -103,6 +103,7 @@ void print_proof(const CardWords& words, const FoundSolver& found, const Materia
         << " ran the numbers that were read from the card, not its text; --check compares the "
            "text\n";
   }
+  if (*found.solver.caution != '\0') out << "  " << found.solver.caution << "\n";
   out << text_of(chain);
 }
 

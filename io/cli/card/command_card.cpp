@@ -54,11 +54,12 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "run a card on one element in a solver against the exact answer, and write a certificate "
       "beside it (CARD.SOLVER.proof.json, or --out)");
   add("solver", po::value(&words.solver)->value_name("NAME"),
-      "with --prove: calculix, febio, mtest, frontistr, or sfepy and dolfinx, which run the "
-      "numbers "
-      "of any card; if not given the one that reads the card");
+      "with --prove: calculix, febio, mtest, frontistr, openradioss, or sfepy and dolfinx, which "
+      "run the numbers of any card; if not given the one that reads the card");
   add("solver-path", po::value(&words.solver_path)->value_name("PATH"),
-      "with --prove: the program, if it is not in PATH");
+      "with --prove: the program, if it is not in PATH; of OpenRadioss its starter, with the "
+      "engine "
+      "and th_to_csv beside it");
   add("deck", po::value(&words.deck)->value_name("TEST"),
       "relaxation or creep: write a one-element model with the expected curve beside it");
   add("approximate", po::bool_switch(&words.may_approximate),
