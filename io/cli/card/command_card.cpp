@@ -63,7 +63,7 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "relaxation or creep: write a one-element model with the expected curve beside it");
   add("approximate", po::bool_switch(&words.may_approximate),
       "write what the target cannot take exactly, with the error in the header; too many terms are "
-      "refitted to fewer");
+      "refitted to fewer; of a law of rubber for lsdyna, terms that hold at small strain");
   add("terms", po::value<std::string>()->value_name("N"), "with --approximate: refit to N terms");
   add("ratio", into(words.ratio)->value_name("R"),
       "mixing ratio, when the material is a joint fit: measured, or between measured ones");

@@ -148,8 +148,17 @@ def test_relaxation_beside_the_law(tmp_path):
     rubber.save(tmp_path / "rubber.json")
     again = viscard.RubberFit.load(tmp_path / "rubber.json")
     assert again.terms == rubber.terms
-    with pytest.raises(viscard.Error, match="terms? of relaxation"):
-        again.card("abaqus", "mm-t-s")
+    assert "*VISCOELASTIC, TIME=PRONY" in again.card("abaqus", "mm-t-s").text
+    with pytest.raises(viscard.Error, match="terms of relaxation.*elastic_only"):
+        again.card("calculix", "mm-t-s")
+    at_rest = again.card("calculix", "mm-t-s", elastic_only="long-term").text.splitlines()
+    row = at_rest[at_rest.index("*HYPERELASTIC, NEO HOOKE") + 1]
+    assert 6e6 * float(row.split(",")[0]) == pytest.approx(again.E_inf_Pa, rel=1e-9)
+    with pytest.raises(viscard.Error, match="approximate=True"):
+        again.card("lsdyna", "mm-t-s", density_kg_m3=1100.0)
+    assert "BETAI" in again.card("lsdyna", "mm-t-s", density_kg_m3=1100.0, approximate=True).text
+    with pytest.raises(viscard.Error, match="use instantaneous or long-term"):
+        again.card("abaqus", elastic_only="later")
     with pytest.raises(viscard.Error, match="time_s has the shape"):
         rubber.stress([1.0, 2.0], time_s=[0.0])
     assert viscard.fit([word], model="neo-hooke", terms=0).terms == []

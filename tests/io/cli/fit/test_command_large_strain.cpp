@@ -82,10 +82,26 @@ TEST_CASE("tables with times give terms of relaxation beside the law", "[cli]") 
   const auto text = run_command({"fit", word, "--model", "neo-hooke"});
   CHECK_THAT(text.out, Contains("* neo-hooke + 1") && Contains("E_inf") && Contains("tau_1_s"));
 
-  // A card does not leave the terms out silently.
   const auto card = run_command({"card", out, "--for", "abaqus"});
-  CHECK(card.status == 1);
-  CHECK_THAT(card.err, Contains("the law has 1 term of relaxation") && Contains("--terms 0"));
+  CHECK(card.status == 0);
+  CHECK_THAT(card.out, Contains("** 1 term of relaxation: Young's modulus at rest") &&
+                           Contains("** terms: the law at once") &&
+                           Contains("*HYPERELASTIC, NEO HOOKE, MODULI=INSTANTANEOUS") &&
+                           Contains("*VISCOELASTIC, TIME=PRONY"));
+  // A card does not leave the terms out silently.
+  const auto refused = run_command({"card", out, "--for", "calculix", "--units", "mm-t-s"});
+  CHECK(refused.status != 0);
+  CHECK_THAT(refused.err, Contains("no Prony series beside *HYPERELASTIC") &&
+                              Contains("--elastic-only long-term"));
+  const auto elastic = run_command({"card", out, "--for", "calculix", "--units", "mm-t-s",
+                                    "--elastic-only", "long-term", "--json"});
+  CHECK(elastic.status == 0);
+  const auto written = nlohmann::json::parse(elastic.out);
+  CHECK(written["terms"] == 0);
+  CHECK(written["E_inf_Pa"] == law["E_inf_Pa"]);
+  CHECK_THAT(
+      written["card"].get<std::string>(),
+      Contains("** elastic: 1 term of relaxation left out, the law after all relaxation kept"));
 }
 
 TEST_CASE("--terms 0 is the fit of the same table without times", "[cli][reduction]") {
