@@ -218,7 +218,10 @@ std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm
   if (options.target == "ansys") return ansys_card(numbers);
   if (options.target == "frontistr") return frontistr_rubber(numbers, options.material_name);
   if (options.target == "lsdyna") return lsdyna_rubber(numbers, options.material_name);
-  if (options.target == "openradioss") return openradioss_rubber(numbers, options.material_name);
+  if (options.target == "openradioss") {
+    return terms.empty() ? openradioss_rubber(numbers, options.material_name)
+                         : openradioss_with_terms(numbers, options.material_name);
+  }
   if (options.target == "comsol") return comsol_rubber(numbers, options.material_name);
   if (options.target == "mfront") return mfront_rubber(numbers, options.material_name);
   if (options.target == "moose") return moose_rubber(numbers, options.material_name);

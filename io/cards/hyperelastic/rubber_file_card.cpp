@@ -1,5 +1,6 @@
 #include "io/cards/hyperelastic/rubber_file_card.h"
 
+#include "io/cards/hyperelastic/check_rubber.h"
 #include "io/cards/hyperelastic/rubber_terms.h"
 #include "io/cards/unit_system.h"
 #include "models/hyperelastic/law_stability.h"
@@ -7,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -34,10 +36,10 @@ std::string relaxation_line(const HyperelasticFile& file, const RubberCardOption
 // What is known about the law, one line each.
 std::vector<std::string> header_lines(const HyperelasticFile& file,
                                       const RubberCardOptions& options) {
-  std::vector<std::string> lines{"viscard card: " + name_of(file.law.form) + " for " +
-                                     options.target + ", units " +
-                                     unit_system(options.units).description,
-                                 relaxation_line(file, options)};
+  std::vector<std::string> lines{
+      "viscard card: " + name_of(file.law.form) + " for " + options.target,
+      fmt::format("units: {} ({})", options.units, unit_system(options.units).description),
+      relaxation_line(file, options)};
   if (!file.terms.empty() && options.elastic_only.empty()) {
     lines.push_back("terms: " + rubber_terms_rule(options.target));
   }
@@ -85,6 +87,24 @@ std::string with_header(const std::vector<std::string>& lines, const std::string
   return text + card;
 }
 
+// Throws if the text does not say what the file does.
+void read_back(const std::string& text, const HyperelasticFile& file, const std::string& name,
+               const RubberCardOptions& options) {
+  const auto& known = readable_rubber_targets();
+  if (std::find(known.begin(), known.end(), options.target) == known.end()) return;
+  const bool has_poisson = options.target == "lsdyna" || options.target == "openradioss";
+  const RubberCheck check =
+      check_rubber_card(text, &file,
+                        {.target = options.target,
+                         .units = options.units,
+                         .bulk_Pa = has_poisson ? std::nullopt : options.bulk_Pa,
+                         .elastic_only = options.elastic_only});
+  if (check.agrees) return;
+  throw std::runtime_error(name + ": the card for " + options.target +
+                           " read back is not the law of the file" +
+                           (check.findings.empty() ? "" : ": " + check.findings[0].text));
+}
+
 }  // namespace
 
 std::string rubber_file_card(const HyperelasticFile& file, const std::string& name,
@@ -96,7 +116,9 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
                              ". --accept-flags writes it all the same");
   }
   const std::string card = rubber_card(file.law, file.terms, options);
-  return with_header(header_lines(file, options), options.target, card);
+  const std::string text = with_header(header_lines(file, options), options.target, card);
+  read_back(text, file, name, options);
+  return text;
 }
 
 }  // namespace viscard

@@ -13,7 +13,6 @@
 #include "io/cards/hyperelastic/rubber_rows.h"
 
 #include "io/cards/column_fields.h"
-#include "io/cards/hyperelastic/rubber_terms.h"
 #include "io/cards/keyword_lines.h"
 #include "models/maths/leading_number.h"
 #include "models/maths/require.h"
@@ -176,7 +175,6 @@ std::string openradioss_rubber(const RubberNumbers& law, const std::string& mate
   require_density(law, "openradioss");
   if (law.form == Law::kGent) refuse_law(law, "openradioss");
   const bool is_yeoh = law.form == Law::kYeoh, is_boyce = law.form == Law::kArrudaBoyce;
-  if (!law.terms.empty()) return openradioss_with_terms(law, material);
   std::string text = radioss_unit_block(law) +
                      fmt::format("/MAT/LAW{}/1/1\n{}\n",
                                  is_yeoh    ? 94
