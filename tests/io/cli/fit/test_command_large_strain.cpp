@@ -120,7 +120,7 @@ TEST_CASE("tables with times give terms of relaxation beside the law", "[cli]") 
       Contains("** elastic: 1 term of relaxation left out, the law after all relaxation kept"));
 }
 
-TEST_CASE("--terms 0 is the fit of the same table without times", "[cli][reduction]") {
+TEST_CASE("the fit with --terms 0 is that of the same table without times", "[cli][reduction]") {
   const TableFolder folder;
   const std::string timed = "uniaxial=" + folder.write("timed.csv", hold_table(true));
   const std::string plain = "uniaxial=" + folder.write("plain.csv", hold_table(false));
