@@ -73,13 +73,18 @@ py::array rubber_stress(const HyperelasticFile& rubber, const std::string& defor
 std::string rubber_card_text(const HyperelasticFile& rubber, const std::string& name,
                              const std::string& target, const std::string& units,
                              std::optional<double> bulk_Pa, std::optional<double> density_kg_m3,
-                             bool accepts_flags) {
+                             bool accepts_flags, bool may_approximate,
+                             const std::string& elastic_only) {
+  if (!elastic_only.empty() && elastic_only != "instantaneous" && elastic_only != "long-term")
+    throw OptionError("--elastic-only is '" + elastic_only + "'; use instantaneous or long-term");
   RubberCardOptions options;
   options.target = target;
   options.units = units;
   options.bulk_Pa = bulk_Pa;
   options.density_kg_m3 = density_kg_m3;
   options.accepts_flags = accepts_flags;
+  options.may_approximate = may_approximate;
+  options.elastic_only = elastic_only;
   return rubber_file_card(rubber, name, options);
 }
 

@@ -9,11 +9,13 @@
 //   ansys     Ogden's own mu_i/alpha_i; NEO takes the shear modulus 2 C10; d = 2/K, 0 is incompressible.
 //             Source: Mechanical APDL Structural Analysis Guide, TB,HYPER (OGDEN and NEO with examples);
 //             order of BOYCE, GENT and YEOH: Material Reference 4.6.
-// frontistr, lsdyna and openradioss: rubber_rows.cpp; comsol, moose and sfepy: rubber_models.cpp; mfront: rubber_mfront.cpp.
+// frontistr, lsdyna and openradioss: rubber_rows.cpp; comsol, moose and sfepy: rubber_models.cpp; mfront: rubber_mfront.cpp;
+// terms of relaxation: rubber_terms.cpp.
 #include "io/cards/hyperelastic/rubber_card.h"
 
 #include "io/basics/words.h"
 #include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/hyperelastic/rubber_terms.h"
 #include "io/cards/keyword_lines.h"
 #include "io/cards/unit_system.h"
 #include "models/maths/require.h"
@@ -73,8 +75,9 @@ std::string keyword_card(const RubberNumbers& law, const std::string& target,
   // abaqus leaves them out for 0; calculix would replace a 0, and with D_1^i they count for nothing.
   const std::size_t n_terms = is_ogden(law.form) || law.form == Form::kYeoh ? law.moduli.size() : 1;
   for (std::size_t i = 1; i < n_terms; ++i) numbers.push_back(target == "calculix" ? 1e10 : 0.0);
+  if (!law.terms.empty()) keyword += ", MODULI=INSTANTANEOUS";
   return "*MATERIAL, NAME=" + material + "\n*HYPERELASTIC, " + keyword + "\n" +
-         rows_of_eight(numbers);
+         rows_of_eight(numbers) + abaqus_terms(law);
 }
 
 std::string tag(const std::string& name, double value) {
@@ -101,6 +104,13 @@ std::string febio_card(const RubberNumbers& law, const std::string& material) {
   } else {  // Neo-Hooke is Mooney-Rivlin without its second constant
     type = "Mooney-Rivlin";
     body = tag("c1", law.moduli[0]) + tag("c2", n > 1 ? law.moduli[1] : 0.0);
+  }
+  if (!law.terms.empty()) {
+    // FEBio takes the bulk modulus of an uncoupled material from its top level.
+    return fmt::format(
+        "<material id=\"1\" name=\"{}\" type=\"uncoupled viscoelastic\">\n{}{}"
+        "<elastic type=\"{}\">\n{}</elastic>\n</material>\n",
+        material, febio_terms(law), tag("k", law.bulk), type, body);
   }
   return fmt::format("<material id=\"1\" name=\"{}\" type=\"{}\">\n{}{}</material>\n", material,
                      type, body, tag("k", law.bulk));
@@ -135,10 +145,11 @@ std::string ansys_card(const RubberNumbers& law) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     text += fmt::format("TBDATA,{},{}\n", i + 1, number_of_20(numbers[i]));
   }
-  return text;
+  return text + ansys_terms(law);
 }
 
-RubberNumbers numbers_of(const HyperelasticLaw& law, const RubberCardOptions& options) {
+RubberNumbers numbers_of(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
+                         const RubberCardOptions& options) {
   const UnitSystem& units = unit_system(options.units);
   RubberNumbers out;
   out.form = law.form;
@@ -159,6 +170,8 @@ RubberNumbers numbers_of(const HyperelasticLaw& law, const RubberCardOptions& op
     require_positive("the density", *options.density_kg_m3, "kg/m3");
     out.density = to_card(*options.density_kg_m3, units.density_exponent);
   }
+  for (const RubberTerm& term : terms)
+    out.terms.push_back({term.g, to_card(term.tau_s, units.time_exponent)});
   return out;
 }
 
@@ -171,9 +184,33 @@ const std::vector<std::string>& rubber_card_targets() {
   return kTargets;
 }
 
+HyperelasticLaw law_without_terms(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
+                                  const std::string& when) {
+  HyperelasticLaw out = law;
+  if (when != "long-term") return out;
+  double share = 1.0;
+  for (const RubberTerm& term : terms) share -= term.g;
+  out.moduli_Pa *= share;
+  return out;
+}
+
 std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& options) {
+  return rubber_card(law, {}, options);
+}
+
+std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
+                        const RubberCardOptions& options) {
   validate(law);
-  const RubberNumbers numbers = numbers_of(law, options);
+  validate(terms);
+  if (!options.elastic_only.empty() && !terms.empty()) {
+    RubberCardOptions elastic = options;
+    elastic.elastic_only.clear();
+    return rubber_card(law_without_terms(law, terms, options.elastic_only), elastic);
+  }
+  const RubberNumbers numbers = numbers_of(law, terms, options);
+  const auto& known = rubber_card_targets();
+  if (std::find(known.begin(), known.end(), options.target) != known.end())
+    require_terms_taken(numbers, options.target, options.may_approximate);
   if (options.target == "abaqus" || options.target == "calculix") {
     return keyword_card(numbers, options.target, options.material_name);
   }
@@ -181,7 +218,10 @@ std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& opt
   if (options.target == "ansys") return ansys_card(numbers);
   if (options.target == "frontistr") return frontistr_rubber(numbers, options.material_name);
   if (options.target == "lsdyna") return lsdyna_rubber(numbers, options.material_name);
-  if (options.target == "openradioss") return openradioss_rubber(numbers, options.material_name);
+  if (options.target == "openradioss") {
+    return terms.empty() ? openradioss_rubber(numbers, options.material_name)
+                         : openradioss_with_terms(numbers, options.material_name);
+  }
   if (options.target == "comsol") return comsol_rubber(numbers, options.material_name);
   if (options.target == "mfront") return mfront_rubber(numbers, options.material_name);
   if (options.target == "moose") return moose_rubber(numbers, options.material_name);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 
 #include <optional>
@@ -19,9 +20,11 @@ struct RubberCardOptions {
   std::string material_name = "RUBBER";
   // None: incompressible for abaqus and ansys (their D or d = 0), and a thousand times the initial
   // shear modulus for the others, which need a number.
-  std::optional<double> bulk_Pa;
-  std::optional<double> density_kg_m3;  // needed by lsdyna and openradioss
-  bool accepts_flags = false;           // write a law that is not to be trusted
+  std::optional<double> bulk_Pa = {};
+  std::optional<double> density_kg_m3 = {};  // needed by lsdyna and openradioss
+  bool accepts_flags = false;                // write a law that is not to be trusted
+  bool may_approximate = false;              // terms that the solver takes at small strain only
+  std::string elastic_only = {};  // "", "instantaneous", "long-term": the law without its terms
 };
 
 // The card of a law. Each solver's convention, with its source, stands in rubber_card.cpp and in the
@@ -29,5 +32,13 @@ struct RubberCardOptions {
 // missing density, a bulk modulus or density that is not positive, and numbers that calculix or
 // frontistr would replace silently.
 std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& options);
+// The law at once with terms of relaxation (Simo 1987); conventions in rubber_terms.cpp. Throws the
+// same, and std::invalid_argument for terms that the target cannot take.
+std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
+                        const RubberCardOptions& options);
+
+// The law without terms: at once, or after all relaxation ("long-term").
+HyperelasticLaw law_without_terms(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
+                                  const std::string& when);
 
 }  // namespace viscard

@@ -1,25 +1,48 @@
 #include "io/cards/hyperelastic/rubber_file_card.h"
 
+#include "io/cards/hyperelastic/check_rubber.h"
+#include "io/cards/hyperelastic/rubber_terms.h"
 #include "io/cards/unit_system.h"
 #include "models/hyperelastic/law_stability.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
 namespace viscard {
 namespace {
 
+std::string relaxation_line(const HyperelasticFile& file, const RubberCardOptions& options) {
+  const std::string E0 = text_of(file.E0_Pa, 5) + " Pa", E_inf = text_of(file.E_inf_Pa, 5) + " Pa";
+  if (file.terms.empty()) {
+    return "elastic at any rate: the law has no relaxation. Young's modulus at rest " + E0;
+  }
+  const std::string count = counted(file.terms.size(), "term") + " of relaxation";
+  if (options.elastic_only == "long-term") {
+    return "elastic: " + count +
+           " left out, the law after all relaxation kept. Young's modulus at rest " + E_inf +
+           ", at once it is " + E0;
+  }
+  if (!options.elastic_only.empty()) {
+    return "elastic: " + count + " left out, the law at once kept. Young's modulus at rest " + E0 +
+           ", after all relaxation it is " + E_inf;
+  }
+  return count + ": Young's modulus at rest " + E0 + " at once, " + E_inf + " after all";
+}
+
 // What is known about the law, one line each.
 std::vector<std::string> header_lines(const HyperelasticFile& file,
                                       const RubberCardOptions& options) {
   std::vector<std::string> lines{
-      "viscard card: " + name_of(file.law.form) + " for " + options.target + ", units " +
-          unit_system(options.units).description,
-      "elastic at any rate: the law has no relaxation. Young's modulus at rest " +
-          text_of(youngs_modulus_Pa(file.law), 5) + " Pa"};
+      "viscard card: " + name_of(file.law.form) + " for " + options.target,
+      fmt::format("units: {} ({})", options.units, unit_system(options.units).description),
+      relaxation_line(file, options)};
+  if (!file.terms.empty() && options.elastic_only.empty()) {
+    lines.push_back("terms: " + rubber_terms_rule(options.target));
+  }
   if (options.bulk_Pa) {
     lines.push_back("bulk modulus " + text_of(*options.bulk_Pa, 5) + " Pa");
   } else if (options.target == "abaqus" || options.target == "ansys") {
@@ -64,6 +87,24 @@ std::string with_header(const std::vector<std::string>& lines, const std::string
   return text + card;
 }
 
+// Throws if the text does not say what the file does.
+void read_back(const std::string& text, const HyperelasticFile& file, const std::string& name,
+               const RubberCardOptions& options) {
+  const auto& known = readable_rubber_targets();
+  if (std::find(known.begin(), known.end(), options.target) == known.end()) return;
+  const bool has_poisson = options.target == "lsdyna" || options.target == "openradioss";
+  const RubberCheck check =
+      check_rubber_card(text, &file,
+                        {.target = options.target,
+                         .units = options.units,
+                         .bulk_Pa = has_poisson ? std::nullopt : options.bulk_Pa,
+                         .elastic_only = options.elastic_only});
+  if (check.agrees) return;
+  throw std::runtime_error(name + ": the card for " + options.target +
+                           " read back is not the law of the file" +
+                           (check.findings.empty() ? "" : ": " + check.findings[0].text));
+}
+
 }  // namespace
 
 std::string rubber_file_card(const HyperelasticFile& file, const std::string& name,
@@ -74,13 +115,10 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
     throw std::runtime_error(name + ": the law is not to be trusted: " + why +
                              ". --accept-flags writes it all the same");
   }
-  if (!file.terms.empty()) {
-    throw std::runtime_error(
-        name + ": the law has " + counted(file.terms.size(), "term") +
-        " of relaxation, which cards of rubber do not carry yet; fit again with "
-        "--terms 0 for an elastic law");
-  }
-  return with_header(header_lines(file, options), options.target, rubber_card(file.law, options));
+  const std::string card = rubber_card(file.law, file.terms, options);
+  const std::string text = with_header(header_lines(file, options), options.target, card);
+  read_back(text, file, name, options);
+  return text;
 }
 
 }  // namespace viscard

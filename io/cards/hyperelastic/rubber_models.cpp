@@ -11,6 +11,7 @@
 //            Material; not run. The page names the numbers of the other laws without their energies, so
 //            they are refused.
 #include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/hyperelastic/rubber_terms.h"
 #include "io/cards/keyword_lines.h"
 #include "io/cards/unit_system.h"
 
@@ -65,7 +66,8 @@ std::string sfepy_rubber(const RubberNumbers& law) {
     values += fmt::format("    \"{}\": {},\n", term.name, term.value);
     terms += fmt::format("    (\"{}\", \"{}\"),\n", term.term, term.name);
   }
-  std::string text = "VALUES = {\n" + values + "}\nTERMS = (\n" + terms + ")\n";
+  std::string text = law.terms.empty() ? "" : "import numpy as np\n\n";
+  text += "VALUES = {\n" + values + "}\nTERMS = (\n" + terms + ")\n";
   if (law.density > 0.0) text += "DENSITY = " + number_of_20(law.density) + "\n";
   if (is_ogden(law.form)) {
     text +=
@@ -87,7 +89,8 @@ std::string sfepy_rubber(const RubberNumbers& law) {
          "        f\"{term}.{integral}.{region}({name}.{value}, {virtual}, {state})\" for term, "
          "value "
          "in TERMS\n"
-         "    )\n";
+         "    )\n" +
+         sfepy_memory(law);
 }
 
 std::string moose_rubber(const RubberNumbers& law, const std::string& material) {

@@ -37,20 +37,6 @@ std::string row_of(const Row& numbers, int width) {
   return text + "\n";
 }
 
-// Moduli mu_i and exponents alpha_i of the Ogden energy that equals the law.
-RubberNumbers as_ogden(const RubberNumbers& law) {
-  RubberNumbers out = law;
-  if (is_ogden(law.form)) return out;
-  for (double& modulus : out.moduli) modulus *= 2.0;  // C10, C01
-  out.shapes = {2.0};
-  if (law.moduli.size() > 1) out.shapes.push_back(-2.0);
-  return out;
-}
-
-double poisson_ratio_of(const RubberNumbers& law) {
-  return (3.0 * law.bulk - 2.0 * law.shear) / (6.0 * law.bulk + 2.0 * law.shear);
-}
-
 // Rows of ten columns, and the largest relative change of a number in them.
 struct ShortRows {
   double loss = 0.0;
@@ -69,7 +55,46 @@ void require_density(const RubberNumbers& law, const std::string& target) {
   require(law.density > 0.0, target + " needs a density: --density \"1.1 g/cm3\"");
 }
 
+// The law after all relaxation.
+RubberNumbers relaxed(RubberNumbers law) {
+  const double share = law.long_term_share();
+  for (double& modulus : law.moduli) modulus *= share;
+  law.shear *= share;
+  return law;
+}
+
+// Rows G_i, BETA_i of 077: shear moduli, and the reciprocal of the time.
+std::string relaxation_rows(const RubberNumbers& law, ShortRows& rows) {
+  if (law.terms.empty()) return "";
+  std::string text = "$       GI     BETAI\n";
+  for (const RubberNumbers::Term& term : law.terms)
+    text += rows.row({term.g * law.shear, 1.0 / term.time});
+  return text;
+}
+
 }  // namespace
+
+RubberNumbers as_ogden(const RubberNumbers& law) {
+  RubberNumbers out = law;
+  if (is_ogden(law.form)) return out;
+  for (double& modulus : out.moduli) modulus *= 2.0;  // C10, C01
+  out.shapes = {2.0};
+  if (law.moduli.size() > 1) out.shapes.push_back(-2.0);
+  return out;
+}
+
+double poisson_ratio_of(const RubberNumbers& law) {
+  return (3.0 * law.bulk - 2.0 * law.shear) / (6.0 * law.bulk + 2.0 * law.shear);
+}
+
+bool has_ogden_form(HyperelasticForm form) {
+  return is_ogden(form) || form == Law::kNeoHooke || form == Law::kMooneyRivlin;
+}
+
+std::string radioss_unit_block(const RubberNumbers& law) {
+  return fmt::format("/UNIT/1\n{}\n", law.units->name) + right(law.units->mass, kWide) +
+         right(law.units->length, kWide) + right(law.units->time, kWide) + "\n";
+}
 
 bool is_ogden(HyperelasticForm form) {
   return form == Law::kOgden1 || form == Law::kOgden2 || form == Law::kOgden3;
@@ -114,8 +139,9 @@ std::string frontistr_rubber(const RubberNumbers& law, const std::string& materi
   return text;
 }
 
-std::string lsdyna_rubber(const RubberNumbers& law, const std::string& material) {
-  require_density(law, "lsdyna");
+std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& material) {
+  require_density(at_once, "lsdyna");
+  const RubberNumbers law = relaxed(at_once);
   if (law.form == Law::kGent || law.form == Law::kArrudaBoyce) refuse_law(law, "lsdyna");
   const bool ogden = is_ogden(law.form);
   ShortRows rows;
@@ -138,6 +164,7 @@ std::string lsdyna_rubber(const RubberNumbers& law, const std::string& material)
             rows.row({law.moduli[0], C01, 0.0, is_yeoh ? law.moduli[1] : 0.0, 0.0,
                       is_yeoh ? law.moduli[2] : 0.0});
   }
+  text += relaxation_rows(at_once, rows);
   return fmt::format(
              "$ numbers: rounded to ten columns, by at most {:.1e}\n*MAT_{}_RUBBER_TITLE\n{}\n",
              rows.loss, ogden ? "OGDEN" : "HYPERELASTIC", material) +
@@ -148,8 +175,7 @@ std::string openradioss_rubber(const RubberNumbers& law, const std::string& mate
   require_density(law, "openradioss");
   if (law.form == Law::kGent) refuse_law(law, "openradioss");
   const bool is_yeoh = law.form == Law::kYeoh, is_boyce = law.form == Law::kArrudaBoyce;
-  std::string text = fmt::format("/UNIT/1\n{}\n", law.units->name) + right(law.units->mass, kWide) +
-                     right(law.units->length, kWide) + right(law.units->time, kWide) + "\n" +
+  std::string text = radioss_unit_block(law) +
                      fmt::format("/MAT/LAW{}/1/1\n{}\n",
                                  is_yeoh    ? 94
                                  : is_boyce ? 92

@@ -17,13 +17,31 @@ struct RubberNumbers {
   double shear = 0.0;  // modulus at rest, in the unit of stress
   double density = 0.0;
   const UnitSystem* units = nullptr;
+  // A share of the law at once that relaxes, and its time in the unit of the card.
+  struct Term {
+    double g = 0.0, time = 0.0;
+  };
+  std::vector<Term> terms;
 
+  // Share that is left after all relaxation.
+  double long_term_share() const {
+    double share = 1.0;
+    for (const Term& term : terms) share -= term.g;
+    return share;
+  }
   double d() const { return bulk > 0.0 ? 2.0 / bulk : 0.0; }
 };
 
 bool is_ogden(HyperelasticForm form);
 // mu_1, alpha_1, mu_2, alpha_2 ...
 std::vector<double> pairs_of(const RubberNumbers& law);
+// Ogden, and the laws that equal one of Ogden: Neo-Hooke and Mooney-Rivlin.
+bool has_ogden_form(HyperelasticForm form);
+// Moduli mu_i and exponents alpha_i of the Ogden energy that equals the law.
+RubberNumbers as_ogden(const RubberNumbers& law);
+double poisson_ratio_of(const RubberNumbers& law);
+// The block /UNIT of OpenRadioss.
+std::string radioss_unit_block(const RubberNumbers& law);
 // Throws std::invalid_argument "target has no ... law".
 [[noreturn]] void refuse_law(const RubberNumbers& law, const std::string& target);
 
@@ -31,7 +49,7 @@ std::vector<double> pairs_of(const RubberNumbers& law);
 // rubber_rows.cpp. They throw std::invalid_argument for laws that the solver has not, for a density that
 // it needs, and for numbers that it would misread.
 std::string frontistr_rubber(const RubberNumbers& law, const std::string& material);
-std::string lsdyna_rubber(const RubberNumbers& law, const std::string& material);
+std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& material);
 std::string openradioss_rubber(const RubberNumbers& law, const std::string& material);
 
 // Cards that are a part of a model's text: a Python module, blocks of an input file, parameters.

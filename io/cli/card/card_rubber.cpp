@@ -37,6 +37,8 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   options.bulk_Pa = words.bulk_Pa;
   options.density_kg_m3 = words.density_kg_m3;
   options.accepts_flags = words.accepts_flags;
+  options.may_approximate = words.may_approximate;
+  options.elastic_only = words.elastic_only;
   const std::string text = rubber_file_card(file, words.material, options);
   if (!words.out.empty()) write_file(words.out, text, words.force);
   if (words.json) {
@@ -45,7 +47,9 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
     json["units"] = options.units;
     json["out"] = words.out;
     json["law"] = name_of(file.law.form);
-    json["E0_Pa"] = youngs_modulus_Pa(file.law);
+    json["E0_Pa"] = file.E0_Pa;
+    json["E_inf_Pa"] = file.E_inf_Pa;
+    json["terms"] = words.elastic_only.empty() ? file.terms.size() : 0;
     if (words.out.empty()) json["card"] = text;
     print_json({"viscard-card-rubber/1", {words.material}}, json, streams);
   } else if (words.out.empty()) {

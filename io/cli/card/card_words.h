@@ -51,6 +51,10 @@ int list_card_targets(const CardWords& words, Streams& streams);
 // True if the words ask for the card of a law of rubber (io/cards/hyperelastic).
 bool is_rubber(const CardWords& words);
 int write_rubber_card(const CardWords& words, Streams& streams);
+// True if --check names a card of rubber, or the law of one is named; takes the target that the card
+// states where --for is missing.
+bool is_rubber_check(CardWords& words);
+int check_rubber_file(const CardWords& words, Streams& streams);
 int write_card_file(const CardWords& words, Streams& streams);
 int check_card_file(const CardWords& words, Streams& streams);
 int prove_card_file(const CardWords& words, Streams& streams);

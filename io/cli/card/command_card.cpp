@@ -1,6 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
 #include "io/basics/words.h"
+#include "io/cards/hyperelastic/read_rubber.h"
 #include "io/cards/proof/solvers.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
@@ -64,7 +65,7 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "relaxation or creep: write a one-element model with the expected curve beside it");
   add("approximate", po::bool_switch(&words.may_approximate),
       "write what the target cannot take exactly, with the error in the header; too many terms are "
-      "refitted to fewer");
+      "refitted to fewer; of a law of rubber for lsdyna, terms that hold at small strain");
   add("terms", po::value<std::string>()->value_name("N"), "with --approximate: refit to N terms");
   add("ratio", into(words.ratio)->value_name("R"),
       "mixing ratio, when the material is a joint fit: measured, or between measured ones");
@@ -128,12 +129,26 @@ void check_band(const CardWords& words) {
                    listed(names) + " have");
 }
 
+// Of --check CARD with a law of rubber.
+void check_rubber_words(const CardWords& words) {
+  if (words.target.empty()) {
+    throw UsageError(words.check + " does not name its solver, as cards by viscard do; add --for " +
+                     listed(readable_rubber_targets()));
+  }
+  if (!words.units.empty()) check_word("unit system", words.units, unit_names());
+  if (!words.elastic_only.empty())
+    check_word("--elastic-only", words.elastic_only, {"instantaneous", "long-term"});
+  if (words.tolerance && !(*words.tolerance > 0.0))
+    throw UsageError("--tolerance must be positive");
+}
+
 void check_words(CardWords& words) {
   const int modes = (words.list ? 1 : 0) + (words.check.empty() ? 0 : 1) +
                     (words.prove.empty() ? 0 : 1) + (words.deck.empty() ? 0 : 1);
   if (modes > 1) throw UsageError("--list, --check, --prove and --deck exclude each other");
   if (words.is_long && !words.list) throw UsageError("--long belongs to --list");
   if (words.list) return;
+  if (is_rubber_check(words)) return check_rubber_words(words);
   const std::string& given_card = words.check.empty() ? words.prove : words.check;
   if (words.target.empty() && !given_card.empty()) {
     const std::string contents = read_file(given_card);
@@ -208,6 +223,7 @@ int run_card(const Words& words, Streams& streams) {
   card.command_line = quoted_command_line("card", words);
   check_words(card);
   if (card.list) return list_card_targets(card, streams);
+  if (is_rubber_check(card)) return check_rubber_file(card, streams);
   if (!card.check.empty()) return check_card_file(card, streams);
   if (!card.prove.empty()) return prove_card_file(card, streams);
   if (!card.deck.empty()) return write_deck_files(card, streams);

@@ -202,7 +202,8 @@ class RubberFit:
 
     @_check.arguments
     def card(self, target: str, units: str = "SI", *, bulk_modulus_Pa: Optional[float] = None,
-             density_kg_m3: Optional[float] = None, accept_flags: bool = False) -> RubberCard:
+             density_kg_m3: Optional[float] = None, accept_flags: bool = False, approximate: bool = False,
+             elastic_only: str = "") -> RubberCard:
         """A card for a solver: "abaqus", "ansys", "calculix", "comsol", "febio", "frontistr", "lsdyna", "mfront", "moose",
         "openradioss" or "sfepy".
 
@@ -216,9 +217,14 @@ class RubberFit:
             LS-DYNA and OpenRadioss need it.
         accept_flags : bool
             Write a law that is not to be trusted too.
+        approximate : bool
+            Write terms of relaxation that the solver ("lsdyna") takes right at small strain only.
+        elastic_only : str
+            "instantaneous" or "long-term": the law without its terms. "abaqus", "ansys", "febio", "openradioss" and
+            "sfepy" take them, "lsdyna" with `approximate`, the others not.
         """
         text = _core.rubber_card(self._law, self._name, target, units, bulk_modulus_Pa, density_kg_m3,
-                                 accept_flags)
+                                 accept_flags, approximate, elastic_only)
         return RubberCard(text, target)
 
     @_check.arguments

@@ -128,6 +128,8 @@ def check_card():
     run(write, "card-write")
     run([*write, "--out", "card.inp"], "card-write")
     run(["card", "rubber.json", "--for", "calculix"], "card-rubber")
+    run(["card", "rubber.json", "--for", "abaqus", "--out", "rubber.inp"], "card-rubber")
+    run(["card", "rubber.json", "--check", "rubber.inp"], "card-rubber-check")
     run(["card", "--list"], "card-list")
     run(["card", "--check", "card.inp"], "card-check")
     run(["card", material, "--check", "card.inp"], "card-check")

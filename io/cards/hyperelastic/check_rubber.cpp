@@ -1,0 +1,288 @@
+#include "io/cards/hyperelastic/check_rubber.h"
+
+#include "io/cards/hyperelastic/rubber_card.h"
+#include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/list_differences.h"
+#include "io/cards/unit_system.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace viscard {
+namespace {
+
+// What two cards are compared by.
+struct RubberParts {
+  HyperelasticLaw law;
+  std::vector<RubberTerm> terms;
+  double bulk_Pa = 0.0;  // 0: not compared
+};
+
+// Neo-Hooke and Mooney-Rivlin as the law of Ogden that they equal, for cards that have only that.
+RubberParts in_form(RubberParts parts, HyperelasticForm wanted) {
+  HyperelasticLaw& law = parts.law;
+  if (law.form == wanted || is_ogden(law.form) || !is_ogden(wanted) || !has_ogden_form(law.form))
+    return parts;
+  const bool has_second = law.form == HyperelasticForm::kMooneyRivlin;
+  law.moduli_Pa *= 2.0;
+  law.shapes.resize(law.moduli_Pa.size());
+  law.shapes[0] = 2.0;
+  if (has_second) law.shapes[1] = -2.0;
+  law.form = has_second ? HyperelasticForm::kOgden2 : HyperelasticForm::kOgden1;
+  return parts;
+}
+
+std::vector<RubberTerm> in_order(std::vector<RubberTerm> terms) {
+  std::sort(terms.begin(), terms.end(),
+            [](const RubberTerm& a, const RubberTerm& b) { return a.tau_s < b.tau_s; });
+  return terms;
+}
+
+// A number of a law by name, with both values.
+struct RubberPair {
+  std::string name;
+  double found = 0.0, expected = 0.0;
+};
+
+// Empty if law or number of terms differ.
+std::vector<RubberPair> pairs_between(const RubberParts& found, const RubberParts& expected) {
+  std::vector<RubberPair> out;
+  if (found.law.form != expected.law.form || found.terms.size() != expected.terms.size())
+    return out;
+  const auto moduli = modulus_names(found.law.form), shapes = shape_names(found.law.form);
+  for (Eigen::Index i = 0; i < found.law.moduli_Pa.size(); ++i)
+    out.push_back(
+        {moduli[static_cast<std::size_t>(i)], found.law.moduli_Pa[i], expected.law.moduli_Pa[i]});
+  for (Eigen::Index i = 0; i < found.law.shapes.size(); ++i)
+    out.push_back(
+        {shapes[static_cast<std::size_t>(i)], found.law.shapes[i], expected.law.shapes[i]});
+  const auto a = in_order(found.terms), b = in_order(expected.terms);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    out.push_back({fmt::format("g_{}", i + 1), a[i].g, b[i].g});
+    out.push_back({fmt::format("tau_{}_s", i + 1), a[i].tau_s, b[i].tau_s});
+  }
+  if (expected.bulk_Pa > 0.0) out.push_back({"bulk modulus", found.bulk_Pa, expected.bulk_Pa});
+  return out;
+}
+
+double largest_mismatch(const RubberParts& found, const RubberParts& expected) {
+  const auto pairs = pairs_between(found, expected);
+  double worst = pairs.empty() ? 1.0 : 0.0;
+  for (const RubberPair& pair : pairs)
+    worst = std::max(worst, relative_mismatch(pair.found, pair.expected));
+  return worst;
+}
+
+double sum_of_shares(const std::vector<RubberTerm>& terms) {
+  double sum = 0.0;
+  for (const RubberTerm& term : terms) sum += term.g;
+  return sum;
+}
+
+// A common mistake, as a change of the right numbers.
+struct RubberMistake {
+  std::string name, text;
+  std::function<void(RubberParts&)> plant;
+};
+
+void scale_law(RubberParts& parts, double factor) {
+  parts.law.moduli_Pa *= factor;
+}
+
+void add_basis_mistakes(std::vector<RubberMistake>& list) {
+  list.push_back({"long-term-for-instantaneous",
+                  "the law after all relaxation stands where the solver takes the law at once",
+                  [](RubberParts& p) { scale_law(p, 1.0 - sum_of_shares(p.terms)); }});
+  list.push_back({"instantaneous-for-long-term",
+                  "the law at once stands where the solver takes the law after all relaxation (in "
+                  "Abaqus without MODULI=INSTANTANEOUS)",
+                  [](RubberParts& p) { scale_law(p, 1.0 / (1.0 - sum_of_shares(p.terms))); }});
+  list.push_back({"branches-on-top",
+                  "the branches stand beside the whole law at once instead of what is left of it "
+                  "(g0 of FEBio at 1, or G_i beside the law at once in LS-DYNA)",
+                  [](RubberParts& p) {
+                    const double whole = 1.0 + sum_of_shares(p.terms);
+                    scale_law(p, whole);
+                    for (RubberTerm& term : p.terms) term.g /= whole;
+                  }});
+  list.push_back({"g-of-long-term", "the shares g are those of the law after all relaxation",
+                  [](RubberParts& p) {
+                    const double rest = 1.0 - sum_of_shares(p.terms);
+                    for (RubberTerm& term : p.terms) term.g /= rest;
+                  }});
+}
+
+void add_term_mistakes(const UnitSystem& units, std::vector<RubberMistake>& list) {
+  list.push_back(
+      {"tau-for-beta", "the times stand as 1/tau, or the reverse", [&units](RubberParts& p) {
+         for (RubberTerm& term : p.terms) {
+           const double in_card = to_card(term.tau_s, units.time_exponent);
+           term.tau_s = from_card(1.0 / in_card, units.time_exponent);
+         }
+       }});
+  list.push_back(
+      {"terms-swapped", "the shares are paired with the wrong times", [](RubberParts& p) {
+         p.terms = in_order(p.terms);
+         std::vector<double> shares;
+         for (const RubberTerm& term : p.terms) shares.push_back(term.g);
+         std::reverse(shares.begin(), shares.end());
+         for (std::size_t i = 0; i < shares.size(); ++i) p.terms[i].g = shares[i];
+       }});
+  list.push_back(
+      {"g-and-tau-exchanged", "g and tau stand in the wrong order", [&units](RubberParts& p) {
+         for (RubberTerm& term : p.terms) {
+           const double g = term.g;
+           term.g = to_card(term.tau_s, units.time_exponent);
+           term.tau_s = from_card(g, units.time_exponent);
+         }
+       }});
+}
+
+void add_law_mistakes(HyperelasticForm form, std::vector<RubberMistake>& list) {
+  if (is_ogden(form)) {
+    const auto by_alpha = [](double power, double factor) {
+      return [power, factor](RubberParts& p) {
+        for (Eigen::Index i = 0; i < p.law.moduli_Pa.size(); ++i)
+          p.law.moduli_Pa[i] *= factor * std::pow(p.law.shapes[i], power);
+      };
+    };
+    list.push_back({"ogden-own-constants",
+                    "the constants are Ogden's own, 2 mu/alpha, where the solver takes mu",
+                    by_alpha(-1.0, 2.0)});
+    list.push_back(
+        {"ogden-shear-moduli",
+         "the constants are shear moduli mu, where the solver takes Ogden's own, 2 mu/alpha",
+         by_alpha(1.0, 0.5)});
+  }
+  list.push_back({"order-exchanged", "the constants stand in the reverse order",
+                  [](RubberParts& p) { p.law.moduli_Pa.reverseInPlace(); }});
+  list.push_back({"double-constants",
+                  "the constants are twice the right ones: shear moduli for C10, or c for mu",
+                  [](RubberParts& p) { scale_law(p, 2.0); }});
+  list.push_back({"half-constants",
+                  "the constants are half the right ones: C10 for a shear modulus, or mu for c",
+                  [](RubberParts& p) { scale_law(p, 0.5); }});
+  if (form == HyperelasticForm::kArrudaBoyce) {
+    list.push_back({"N-for-s_m", "the limit is N = s_m^2, where the solver takes s_m",
+                    [](RubberParts& p) { p.law.shapes[0] *= p.law.shapes[0]; }});
+    list.push_back({"s_m-for-N", "the limit is s_m, where the solver takes N = s_m^2",
+                    [](RubberParts& p) { p.law.shapes[0] = std::sqrt(p.law.shapes[0]); }});
+  }
+}
+
+void add_volume_and_unit_mistakes(const UnitSystem& units, std::vector<RubberMistake>& list) {
+  list.push_back({"K-for-D", "the bulk modulus stands where the solver takes D = 2/K",
+                  [&units](RubberParts& p) {
+                    const double in_card = to_card(p.bulk_Pa, units.stress_exponent);
+                    p.bulk_Pa = from_card(2.0 / in_card, units.stress_exponent);
+                  }});
+  list.push_back({"D-without-2", "D is 1/K, where the solver takes 2/K",
+                  [](RubberParts& p) { p.bulk_Pa *= 2.0; }});
+  for (const UnitSystem& other : unit_systems()) {
+    const int shift = other.stress_exponent - units.stress_exponent;
+    if (shift == 0) continue;
+    list.push_back({"stress-unit", fmt::format("the moduli are in the unit of {}", other.name),
+                    [shift](RubberParts& p) {
+                      scale_law(p, to_card(1.0, shift));
+                      p.bulk_Pa = to_card(p.bulk_Pa, shift);
+                    }});
+  }
+  for (const int shift : {3, -3}) {
+    list.push_back({"time-unit", "the times are in another unit of time", [shift](RubberParts& p) {
+                      for (RubberTerm& term : p.terms) term.tau_s = to_card(term.tau_s, shift);
+                    }});
+  }
+}
+
+// The mistake whose numbers are the card's.
+std::vector<CardFinding> explained(const RubberParts& found, const RubberParts& expected,
+                                   const UnitSystem& units) {
+  if (found.law.form != expected.law.form)
+    return {
+        {"other-law",
+         "the card has the law " + name_of(found.law.form) + ", not " + name_of(expected.law.form),
+         true}};
+  if (found.terms.size() != expected.terms.size())
+    return {{"other-terms",
+             fmt::format("the card has {} terms of relaxation, the law has {}", found.terms.size(),
+                         expected.terms.size()),
+             true}};
+  std::vector<RubberMistake> list;
+  if (!expected.terms.empty()) {
+    add_basis_mistakes(list);
+    add_term_mistakes(units, list);
+  }
+  add_law_mistakes(expected.law.form, list);
+  add_volume_and_unit_mistakes(units, list);
+  const RubberMistake* best = nullptr;
+  double smallest = std::min(kHandTyped, 0.2 * largest_mismatch(found, expected));
+  for (const RubberMistake& mistake : list) {
+    RubberParts planted = expected;
+    mistake.plant(planted);
+    const double off = largest_mismatch(found, planted);
+    if (off < smallest) {
+      smallest = off;
+      best = &mistake;
+    }
+  }
+  if (best != nullptr) return {{best->name, best->text, true}};
+  std::string text;
+  for (const RubberPair& pair : pairs_between(found, expected)) {
+    if (relative_mismatch(pair.found, pair.expected) <= 1e-6) continue;
+    text += fmt::format("{}{} is {:.9g}, not {:.9g}", text.empty() ? "" : "; ", pair.name,
+                        pair.found, pair.expected);
+  }
+  return {{"numbers-differ", text, true}};
+}
+
+// What ten columns of lsdyna lose of the law: the difference that viscard's own card has. At most 1 %.
+double rounding_of(const RubberParts& expected, const RubberCheckOptions& options,
+                   const ReadRubber& read) {
+  if (options.target != "lsdyna") return 0.0;
+  constexpr double kAnyDensity_kg_m3 = 1000.0, kMost = 1e-2;
+  RubberCardOptions writing{.target = options.target, .units = read.units->name};
+  writing.density_kg_m3 = read.density_kg_m3 > 0.0 ? read.density_kg_m3 : kAnyDensity_kg_m3;
+  if (read.bulk_Pa > 0.0) writing.bulk_Pa = read.bulk_Pa;
+  writing.may_approximate = true;
+  const ReadRubber own = read_rubber_card(rubber_card(expected.law, expected.terms, writing),
+                                          options.target, read.units->name);
+  const RubberParts rounded{own.law, own.terms, 0.0};
+  return std::min(kMost, largest_mismatch(rounded, in_form(expected, own.law.form)));
+}
+
+}  // namespace
+
+RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* file,
+                              const RubberCheckOptions& options) {
+  RubberCheck check{.read = read_rubber_card(text, options.target, options.units)};
+  check.findings = check.read.findings;
+  check.tolerance = options.tolerance.value_or(1e-6);
+  if (file != nullptr) {
+    RubberParts expected{file->law, file->terms, options.bulk_Pa.value_or(0.0)};
+    if (!options.elastic_only.empty()) {
+      expected.law = law_without_terms(file->law, file->terms, options.elastic_only);
+      expected.terms.clear();
+    }
+    if (!options.tolerance) {
+      constexpr double kMore = 1.5;  // another program may round the last digit differently
+      check.tolerance =
+          std::max(check.tolerance, kMore * rounding_of(expected, options, check.read));
+    }
+    const RubberParts found{check.read.law, check.read.terms, check.read.bulk_Pa};
+    expected = in_form(expected, found.law.form);
+    check.difference = largest_mismatch(found, expected);
+    if (*check.difference > check.tolerance) {
+      const auto why = explained(found, expected, *check.read.units);
+      check.findings.insert(check.findings.end(), why.begin(), why.end());
+    }
+  }
+  check.agrees = (!check.difference || *check.difference <= check.tolerance) &&
+                 std::none_of(check.findings.begin(), check.findings.end(),
+                              [](const CardFinding& finding) { return finding.is_mistake; });
+  return check;
+}
+
+}  // namespace viscard

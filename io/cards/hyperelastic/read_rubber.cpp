@@ -1,0 +1,106 @@
+#include "io/cards/hyperelastic/read_rubber.h"
+
+#include "io/basics/words.h"
+#include "io/cards/hyperelastic/rubber_readers.h"
+#include "io/cards/unit_system.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+RubberText text_of_target(const std::string& text, const std::string& target) {
+  if (target == "abaqus" || target == "calculix")
+    return read_keyword_rubber(text, target == "calculix");
+  if (target == "ansys") return read_ansys_rubber(text);
+  if (target == "febio") return read_febio_rubber(text);
+  if (target == "lsdyna") return read_lsdyna_rubber(text);
+  if (target == "openradioss") return read_openradioss_rubber(text);
+  throw std::invalid_argument("cards of rubber for " + target + " cannot be read; those for " +
+                              listed(readable_rubber_targets()) + " can");
+}
+
+Eigen::VectorXd vector_of(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                           static_cast<Eigen::Index>(numbers.size()));
+}
+
+// Moduli and shares of the law at once, from those that stand in the card.
+void take_at_once(const RubberText& read, double stress_Pa, ReadRubber& out) {
+  const RubberNumbers& numbers = read.numbers;
+  out.law.form = numbers.form;
+  out.law.moduli_Pa = vector_of(numbers.moduli) * stress_Pa;
+  out.law.shapes = vector_of(numbers.shapes);
+  out.is_long_term = read.is_long_term;
+  validate(out.law);
+  const double shear_Pa = youngs_modulus_Pa(out.law) / 3.0;
+  if (read.poisson > 0.0 && read.poisson < 0.5) {
+    out.bulk_Pa = 2.0 * shear_Pa * (1.0 + read.poisson) / (3.0 * (1.0 - 2.0 * read.poisson));
+  }
+  for (const RubberNumbers::Term& term : numbers.terms)
+    out.terms.push_back({term.g, from_card(term.time, out.units->time_exponent)});
+  double sum = 0.0;
+  for (RubberTerm& term : out.terms) {
+    if (read.has_absolute_terms) term.g *= stress_Pa / shear_Pa;  // of the law after all relaxation
+    sum += term.g;
+  }
+  if (!out.is_long_term) return;
+  if (read.has_absolute_terms) {
+    out.law.moduli_Pa *= 1.0 + sum;
+    for (RubberTerm& term : out.terms) term.g /= 1.0 + sum;
+  } else if (sum < 1.0) {
+    out.law.moduli_Pa /= 1.0 - sum;
+  } else {
+    throw std::runtime_error("the shares of the terms sum to " + std::to_string(sum) +
+                             ": nothing is left after all relaxation");
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& readable_rubber_targets() {
+  static const std::vector<std::string> kTargets{"abaqus", "ansys",  "calculix",
+                                                 "febio",  "lsdyna", "openradioss"};
+  return kTargets;
+}
+
+bool looks_like_rubber_card(const std::string& text) {
+  const auto& words = {"*HYPERELASTIC",  "TB,HYPER",          "*MAT_OGDEN_RUBBER",
+                       "*MAT_077",       "*MAT_HYPERELASTIC", "/MAT/LAW62",
+                       "/MAT/LAW82",     "/MAT/LAW92",        "/MAT/LAW94",
+                       "type=\"Ogden\"", "type=\"Yeoh\"",     "type=\"Arruda-Boyce\""};
+  if (!stated_rubber_target(text).empty()) return true;
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+std::string stated_rubber_target(const std::string& text) {
+  const std::string mark = "viscard card: ";
+  const std::size_t at = text.find(mark);
+  if (at == std::string::npos) return "";
+  const std::string line = text.substr(at, text.find('\n', at) - at);
+  for (const std::string& target : readable_rubber_targets()) {
+    if (const std::size_t found = line.find(" for " + target); found != std::string::npos)
+      return target;
+  }
+  return "";
+}
+
+ReadRubber read_rubber_card(const std::string& text, const std::string& target,
+                            const std::string& units) {
+  const RubberText read = text_of_target(text, target);
+  const std::string stated = stated_unit_system(text);
+  ReadRubber out;
+  out.units_were_stated = !stated.empty();
+  out.units = &unit_system(!units.empty() ? units : !stated.empty() ? stated : "SI");
+  if (read.numbers.bulk > 0.0)
+    out.bulk_Pa = from_card(read.numbers.bulk, out.units->stress_exponent);
+  if (read.numbers.density > 0.0)
+    out.density_kg_m3 = from_card(read.numbers.density, out.units->density_exponent);
+  out.findings = read.findings;
+  take_at_once(read, from_card(1.0, out.units->stress_exponent), out);
+  return out;
+}
+
+}  // namespace viscard

@@ -1,0 +1,173 @@
+// Cards of rubber in columns: LS-DYNA 077 and OpenRadioss; conventions and sources as in rubber_rows.cpp and
+// rubber_terms.cpp.
+#include "io/cards/card_lines.h"
+#include "io/cards/column_fields.h"
+#include "io/cards/hyperelastic/rubber_readers.h"
+#include "io/cards/keyword_lines.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+using ColumnForm = HyperelasticForm;
+using Lines = std::vector<CardLine>;
+
+// Lines from the one that contains one of the words on; throws if there is none.
+Lines lines_from(const Lines& lines, const std::vector<std::string>& words,
+                 const std::string& what) {
+  const auto found = std::find_if(lines.begin(), lines.end(), [&](const CardLine& line) {
+    const std::string text = upper(line.text);
+    return std::any_of(words.begin(), words.end(),
+                       [&](const std::string& word) { return text.rfind(word, 0) == 0; });
+  });
+  require_in_card(found != lines.end(), what);
+  return {found, lines.end()};
+}
+
+// Numbers of a row; blank fields are 0.
+std::vector<double> row_at(const Lines& lines, std::size_t at, std::size_t width) {
+  if (at >= lines.size()) throw std::runtime_error("the card ends before its last row");
+  const auto row = columns(lines[at].text, width);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < row.size(); ++i)
+    out.push_back(cell_number_or_zero(row, i, lines[at], "number"));
+  return out;
+}
+
+double at_or_zero(const std::vector<double>& row, std::size_t i) {
+  return i < row.size() ? row[i] : 0.0;
+}
+
+// 077_H: C10, C01, C11, C20, C02, C30.
+void take_polynomial(std::vector<double> c, RubberNumbers& law) {
+  c.resize(6, 0.0);
+  const bool is_yeoh = c[3] != 0.0 || c[5] != 0.0;
+  if (c[2] != 0.0 || c[4] != 0.0 || (is_yeoh && c[1] != 0.0)) {
+    throw std::runtime_error(
+        "077_H has constants that are neither those of Mooney-Rivlin nor those of Yeoh");
+  }
+  if (is_yeoh) {
+    law.form = ColumnForm::kYeoh;
+    law.moduli = {c[0], c[3], c[5]};
+  } else {
+    law.form = c[1] != 0.0 ? ColumnForm::kMooneyRivlin : ColumnForm::kNeoHooke;
+    law.moduli = {c[0]};
+    if (c[1] != 0.0) law.moduli.push_back(c[1]);
+  }
+}
+
+constexpr std::size_t kTen = 10, kTwenty = 20, kPerLine = 5;
+
+// `count` numbers, five to a line, from line `at`, which moves on.
+std::vector<double> list_at(const Lines& lines, std::size_t& at, std::size_t count) {
+  std::vector<double> out;
+  while (out.size() < count) {
+    std::vector<double> row = row_at(lines, at++, kTwenty);
+    if (row.empty()) throw std::runtime_error(at_line(lines[at - 1], "a row has no numbers"));
+    row.resize(std::min({row.size(), kPerLine, count - out.size()}));
+    out.insert(out.end(), row.begin(), row.end());
+  }
+  return out;
+}
+
+// LAW62: law and terms.
+void read_law62(const Lines& lines, RubberText& out) {
+  const auto head = columns(lines[3].text, kTen);  // nu in two of them, N, M
+  const auto n = static_cast<std::size_t>(cell_integer(head, 2, lines[3], "N")),
+             m = head.size() > 3 && !head[3].empty()
+                     ? static_cast<std::size_t>(cell_integer(head, 3, lines[3], "M"))
+                     : 0;
+  out.poisson = cell_number_or_zero(columns(lines[3].text, kTwenty), 0, lines[3], "nu");
+  std::size_t at = 4;
+  const auto mu = list_at(lines, at, n), alpha = list_at(lines, at, n);
+  take_ogden(mu, alpha, out.numbers);
+  const auto gamma = list_at(lines, at, m), tau = list_at(lines, at, m);
+  for (std::size_t i = 0; i < m; ++i) out.numbers.terms.push_back({gamma[i], tau[i]});
+}
+
+double bulk_from(double d) {
+  return d > 0.0 ? 2.0 / d : 0.0;
+}
+
+}  // namespace
+
+RubberText read_lsdyna_rubber(const std::string& text) {
+  const Lines lines =
+      lines_from(card_lines(text, "$"),
+                 {"*MAT_OGDEN_RUBBER", "*MAT_077_O", "*MAT_HYPERELASTIC_RUBBER", "*MAT_077_H"},
+                 "*MAT_OGDEN_RUBBER or *MAT_HYPERELASTIC_RUBBER");
+  const std::string keyword = upper(lines[0].text);
+  std::size_t at = keyword.find("_TITLE") != std::string::npos ? 2 : 1;
+  RubberText out;
+  RubberNumbers& law = out.numbers;
+  const auto head = row_at(lines, at++, kTen);
+  law.density = at_or_zero(head, 1);
+  out.poisson = at_or_zero(head, 2);
+  if (at_or_zero(head, 3) != 0.0)
+    throw std::runtime_error("N is not 0: LS-DYNA fits the constants, and the card has none");
+  const auto first = row_at(lines, at++, kTen);
+  if (keyword.find("HYPER") != std::string::npos || keyword.find("077_H") != std::string::npos) {
+    take_polynomial(first, law);
+  } else {
+    const auto alpha = row_at(lines, at++, kTen);
+    std::vector<double> moduli, shapes;
+    for (std::size_t i = 0; i < first.size() && i < alpha.size(); ++i) {
+      if (first[i] == 0.0 || alpha[i] == 0.0) break;
+      moduli.push_back(first[i] * alpha[i] / 2.0);  // Ogden's own constants
+      shapes.push_back(alpha[i]);
+    }
+    take_ogden(moduli, shapes, law);
+  }
+  for (; at < lines.size() && !lines[at].text.starts_with('*'); ++at) {
+    const auto row = row_at(lines, at, kTen);
+    if (row.empty() || row[0] == 0.0) continue;
+    if (!(at_or_zero(row, 1) > 0.0))
+      throw std::runtime_error(at_line(lines[at], "a row G_i lacks its BETA_i above 0"));
+    law.terms.push_back({row[0], 1.0 / row[1]});
+  }
+  out.is_long_term = out.has_absolute_terms = !law.terms.empty();
+  return out;
+}
+
+RubberText read_openradioss_rubber(const std::string& text) {
+  const Lines lines =
+      lines_from(card_lines(text, "#"), {"/MAT/LAW62", "/MAT/LAW82", "/MAT/LAW92", "/MAT/LAW94"},
+                 "/MAT/LAW62, 82, 92 or 94");
+  if (lines.size() < 4) throw std::runtime_error("the card ends before its last row");
+  RubberText out;
+  RubberNumbers& law = out.numbers;
+  law.density = at_or_zero(row_at(lines, 2, kTwenty), 0);
+  const std::string number = lines[0].text.substr(8, 2);
+  if (number == "62") {
+    read_law62(lines, out);
+    return out;
+  }
+  Lines rows(lines.begin() + 3, lines.end());
+  std::erase_if(rows, [](const CardLine& line) { return trimmed(line.text).empty(); });
+  if (number == "82") {
+    const auto n = static_cast<std::size_t>(
+        rows.empty() ? 0 : cell_integer(columns(rows[0].text, kTen), 0, rows[0], "N"));
+    std::size_t at = 1;
+    const auto mu = list_at(rows, at, n), alpha = list_at(rows, at, n), d = list_at(rows, at, n);
+    take_ogden(mu, alpha, law);
+    law.bulk = bulk_from(d[0]);
+    return out;
+  }
+  auto first = row_at(rows, 0, kTwenty);
+  first.resize(3, 0.0);
+  if (number == "94") {
+    law.form = ColumnForm::kYeoh;
+    law.moduli = first;
+    law.bulk = bulk_from(at_or_zero(row_at(rows, 1, kTwenty), 0));
+  } else {
+    law.form = ColumnForm::kArrudaBoyce;
+    law.moduli = {first[0]};
+    law.bulk = bulk_from(first[1]);
+    law.shapes = {first[2]};
+  }
+  return out;
+}
+
+}  // namespace viscard

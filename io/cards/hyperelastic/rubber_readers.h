@@ -1,0 +1,32 @@
+#pragma once
+
+#include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/read_card.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// Numbers of a card of rubber in its own units, by viscard's definitions of the parameters.
+struct RubberText {
+  RubberNumbers numbers;  // moduli as they stand in the card: at once, or after all relaxation
+  bool is_long_term = false;
+  // Moduli and shares of terms that are shear moduli, not shares (LS-DYNA).
+  bool has_absolute_terms = false;
+  // Poisson's ratio in the place of the bulk modulus; 0 otherwise.
+  double poisson = 0.0;
+  std::vector<CardFinding> findings;
+};
+
+// Parameters of a law: a reader fills numbers by its form. Throws std::runtime_error if `found` has fewer numbers.
+void take_ogden(const std::vector<double>& moduli, const std::vector<double>& shapes,
+                RubberNumbers& out);
+
+RubberText read_keyword_rubber(const std::string& text, bool is_calculix);
+RubberText read_ansys_rubber(const std::string& text);
+RubberText read_febio_rubber(const std::string& text);
+RubberText read_lsdyna_rubber(const std::string& text);
+RubberText read_openradioss_rubber(const std::string& text);
+
+}  // namespace viscard

@@ -1,0 +1,122 @@
+#include "io/basics/atomic_file.h"
+#include "io/cards/hyperelastic/check_rubber.h"
+#include "io/cards/unit_system.h"
+#include "io/cli/card/card_words.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
+#include "io/materials/hyperelastic_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <ostream>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// Parameters by name, in Pa where they are moduli.
+std::vector<CardValue> parameters_of(const HyperelasticLaw& law) {
+  std::vector<CardValue> out;
+  const auto moduli = modulus_names(law.form), shapes = shape_names(law.form);
+  for (std::size_t i = 0; i < moduli.size(); ++i)
+    out.push_back({moduli[i], law.moduli_Pa[static_cast<Eigen::Index>(i)]});
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    out.push_back({shapes[i], law.shapes[static_cast<Eigen::Index>(i)]});
+  return out;
+}
+
+nlohmann::ordered_json rubber_json(const RubberCheck& check, const CardWords& words) {
+  nlohmann::ordered_json json;
+  json["card"] = words.check;
+  json["target"] = words.target;
+  json["units"] = check.read.units->name;
+  json["agrees"] = check.agrees;
+  json["law"] = name_of(check.read.law.form);
+  json["basis"] = check.read.is_long_term ? "long-term" : "instantaneous";
+  json["parameters"] = nlohmann::ordered_json::array();
+  for (const CardValue& value : parameters_of(check.read.law))
+    json["parameters"].push_back({{"name", value.name}, {"value", value.value}});
+  json["terms"] = nlohmann::ordered_json::array();
+  for (const RubberTerm& term : check.read.terms)
+    json["terms"].push_back({{"g", term.g}, {"tau_s", term.tau_s}});
+  json["bulk_modulus_Pa"] = check.read.bulk_Pa > 0.0 ? nlohmann::ordered_json(check.read.bulk_Pa)
+                                                     : nlohmann::ordered_json(nullptr);
+  json["tolerance"] = check.tolerance;
+  json["difference"] = check.difference ? nlohmann::ordered_json(*check.difference)
+                                        : nlohmann::ordered_json(nullptr);
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const CardFinding& finding : check.findings) {
+    json["findings"].push_back(
+        {{"name", finding.name}, {"mistake", finding.is_mistake}, {"text", finding.text}});
+  }
+  return json;
+}
+
+void print_rubber_check(const RubberCheck& check, const CardWords& words, std::ostream& out) {
+  const ReadRubber& read = check.read;
+  out << words.check << ": " << name_of(read.law.form) << " for " << words.target << ", units "
+      << read.units->name << (read.units_were_stated || !words.units.empty() ? "" : " (not stated)")
+      << "\n";
+  if (read.is_long_term) out << "the card has the law after all relaxation; here it is at once:\n";
+  for (const CardValue& value : parameters_of(read.law))
+    out << fmt::format("  {} = {:.9g}\n", value.name, value.value);
+  for (std::size_t i = 0; i < read.terms.size(); ++i) {
+    out << fmt::format("  term {}: g = {:.9g}, tau = {:.9g} s\n", i + 1, read.terms[i].g,
+                       read.terms[i].tau_s);
+  }
+  out << (read.bulk_Pa > 0.0 ? fmt::format("  bulk modulus = {:.9g} Pa\n", read.bulk_Pa)
+                             : std::string("  incompressible\n"));
+  if (check.difference)
+    out << fmt::format("largest difference of a parameter: {:.2e}\n", *check.difference);
+  for (const CardFinding& finding : check.findings) {
+    out << (finding.is_mistake ? "mistake " : "note ") << finding.name << ": " << finding.text
+        << "\n";
+  }
+  if (!check.agrees) {
+    out << "the card is wrong\n";
+  } else if (check.difference) {
+    out << fmt::format("the card agrees with the law (within {:.1e})\n", check.tolerance);
+  } else {
+    out << "no mistake found; name the file of the law to compare with\n";
+  }
+}
+
+}  // namespace
+
+bool is_rubber_check(CardWords& words) {
+  if (words.check.empty()) return false;
+  const std::string text = read_file(words.check);
+  const bool has_law = !words.material.empty() && looks_like_hyperelastic_file(words.material);
+  if (!has_law && !looks_like_rubber_card(text)) return false;
+  if (words.target.empty()) words.target = stated_rubber_target(text);
+  return true;
+}
+
+int check_rubber_file(const CardWords& words, Streams& streams) {
+  std::optional<HyperelasticFile> file;
+  if (!words.material.empty()) file = read_hyperelastic(words.material);
+  const RubberCheck check = [&] {
+    try {
+      return check_rubber_card(read_file(words.check), file ? &*file : nullptr,
+                               {.target = words.target,
+                                .units = words.units,
+                                .tolerance = words.tolerance,
+                                .bulk_Pa = words.bulk_Pa,
+                                .elastic_only = words.elastic_only});
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(words.check + ": " + error.what());
+    }
+  }();
+  if (words.json) {
+    Words inputs{words.check};
+    if (!words.material.empty()) inputs.push_back(words.material);
+    print_json({"viscard-card-rubber-check/1", inputs}, rubber_json(check, words), streams);
+  } else {
+    print_rubber_check(check, words, FittedText(streams));
+  }
+  return check.agrees ? kDone : kFailed;
+}
+
+}  // namespace viscard
