@@ -21,12 +21,12 @@
 #include "io/cards/column_fields.h"
 #include "io/cards/proof/solvers.h"
 #include "io/cards/targets/radioss_model.h"
+#include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
@@ -127,7 +127,7 @@ std::vector<SolverSample> history_of(const std::string& table, const std::string
     std::vector<double> row;
     std::istringstream cells(line);
     for (std::string cell; std::getline(cells, cell, ',');) {
-      row.push_back(std::strtod(cell.c_str(), nullptr));
+      row.push_back(leading_number(cell));
     }
     if (row.size() <= column || !std::isfinite(row[column])) break;
     rows.push_back({row[0], row[column]});
