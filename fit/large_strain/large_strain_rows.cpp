@@ -61,13 +61,6 @@ LargeStrainRows::LargeStrainRows(const std::vector<LargeStrainTest>& tests,
       largest_excess_ = std::max(largest_excess_, excess_at(test.deformation, test.stretch[i]));
     }
   }
-  if (options.modulus) {
-    modulus_ = options.modulus->value_Pa / scale_Pa_;
-    modulus_se_ = options.modulus->se_Pa / scale_Pa_;
-    is_long_term_ = options.modulus->is_long_term;
-    set_scatter(std::numeric_limits<double>::infinity());
-  }
-  fill_data();
   if (std::all_of(tests.begin(), tests.end(), has_times)) {
     courses_ = courses_of(tests);
     for (const LargeStrainTest& test : tests) {
@@ -75,13 +68,27 @@ LargeStrainRows::LargeStrainRows(const std::vector<LargeStrainTest>& tests,
       least_step_s_ = least_step(test.time_s, least_step_s_);
     }
   }
+  if (options.modulus) {
+    modulus_ = options.modulus->value_Pa / scale_Pa_;
+    modulus_se_ = options.modulus->se_Pa / scale_Pa_;
+    is_long_term_ = options.modulus->is_long_term;
+    set_scatter(std::numeric_limits<double>::infinity());
+  }
+  fill_data();
 }
 
 void LargeStrainRows::set_scatter(double scatter) {
-  // An exact value weighs a million times as much as all readings together.
-  constexpr double kExact = 1e6;
-  const double exact = kExact * std::sqrt(static_cast<double>(readings_.size())) / modulus_;
-  modulus_weight_ = modulus_se_ > 0.0 ? std::min(scatter / modulus_se_, exact) : exact;
+  // An exact value weighs this much more than all readings together, which may move it by the inverse
+  // square. With terms a larger weight leaves their search on a narrow ridge; it holds to 1e-6.
+  known_weight_ =
+      modulus_se_ > 0.0 ? scatter / modulus_se_ : std::numeric_limits<double>::infinity();
+  limit_known_modulus(courses_ ? kExactWithTerms : kExact);
+}
+
+void LargeStrainRows::limit_known_modulus(double share) {
+  if (!(modulus_ > 0.0)) return;
+  const double most = share * std::sqrt(static_cast<double>(readings_.size())) / modulus_;
+  modulus_weight_ = std::min(known_weight_, most);
   fill_data();
 }
 

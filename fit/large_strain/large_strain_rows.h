@@ -43,6 +43,11 @@ class LargeStrainRows {
   double largest_excess() const { return largest_excess_; }
   // A modulus known with an error counts against readings of this weighted scatter.
   void set_scatter(double scatter);
+  // A known modulus weighs at most `share` times as much as all readings together.
+  void limit_known_modulus(double share);
+  bool has_known_modulus() const { return modulus_ > 0.0; }
+  // That share of an exact modulus, for elastic laws and for those with terms.
+  static constexpr double kExact = 1e6, kExactWithTerms = 1e3;
   // At most this number of readings, evenly among those of each test, for a search of starts.
   LargeStrainRows thinned(std::size_t most) const;
 
@@ -65,6 +70,7 @@ class LargeStrainRows {
   double scale_Pa_ = 1.0, largest_excess_ = 0.0;
   // Known modulus at rest and its standard error; weight 0: none.
   double modulus_ = 0.0, modulus_se_ = 0.0, modulus_weight_ = 0.0;
+  double known_weight_ = 0.0;  // by its error; modulus_weight_ has its limit
   bool is_long_term_ = false;
   std::vector<RubberTerm> terms_;
   std::shared_ptr<const std::vector<StretchCourse>> courses_;  // of the tests, if all have times

@@ -43,10 +43,18 @@ std::optional<double> loading_stress(const LargeStrainTest& test, const LoadCycl
   return std::nullopt;
 }
 
+// True if the stretch goes one way from compression to tension, or from tension to compression.
+bool runs_through_rest(const std::vector<double>& stretch) {
+  const bool is_one_way = std::is_sorted(stretch.begin(), stretch.end()) ||
+                          std::is_sorted(stretch.rbegin(), stretch.rend());
+  return is_one_way && (stretch.front() - 1.0) * (stretch.back() - 1.0) < 0.0;
+}
+
 }  // namespace
 
 std::vector<LoadCycle> load_cycles(const std::vector<double>& stretch) {
   if (stretch.size() < 2) return {};
+  if (runs_through_rest(stretch)) return {{0, stretch.size() - 1, stretch.size() - 1}};
   std::vector<double> strain;
   for (const double s : stretch) strain.push_back(std::abs(std::log(s)));
   const auto [low, high] = std::minmax_element(strain.begin(), strain.end());

@@ -14,7 +14,8 @@ struct LoadCycle {
 };
 
 // The cycles of a test by the turning points of its strain |ln s|; a change of direction counts if it
-// is more than a twentieth of the range. A record that begins with unloading has no cycle for it.
+// is more than a twentieth of the range. A record that begins with unloading has no cycle for it. A stretch that
+// goes one way through 1, such as a sorted table from compression to tension, is one cycle of all rows.
 std::vector<LoadCycle> load_cycles(const std::vector<double>& stretch);
 
 // Softening of a rubber by its first loading (Mullins, Rubber Chem. Technol. 42 (1969) 339): one minus

@@ -241,7 +241,9 @@ HyperelasticPoint refined_series(HyperelasticForm form, const LargeStrainRows& r
   return point;
 }
 
-std::vector<HyperelasticPoint> series_path(HyperelasticForm form, const LargeStrainRows& rows,
+namespace {
+
+std::vector<HyperelasticPoint> path_within(HyperelasticForm form, const LargeStrainRows& rows,
                                            std::optional<int> n_terms, int most_terms) {
   const HyperelasticPoint elastic = best_point(form, rows);
   HyperelasticPoint start = first_series(form, rows, elastic);
@@ -263,6 +265,25 @@ std::vector<HyperelasticPoint> series_path(HyperelasticForm form, const LargeStr
     if (best.terms.size() == 1 || (n_terms && best.terms.size() <= most)) break;
   }
   if (!n_terms || path.empty()) path.insert(path.begin(), elastic);
+  return path;
+}
+
+}  // namespace
+
+// A heavy row of a known modulus makes a narrow ridge, on which a search from afar stands still: the
+// path is that of a light row, and its points follow the row as it becomes heavy.
+std::vector<HyperelasticPoint> series_path(HyperelasticForm form, const LargeStrainRows& rows,
+                                           std::optional<int> n_terms, int most_terms) {
+  if (!rows.has_known_modulus()) return path_within(form, rows, n_terms, most_terms);
+  LargeStrainRows light = rows;
+  light.limit_known_modulus(0.1);
+  std::vector<HyperelasticPoint> path = path_within(form, light, n_terms, most_terms);
+  for (const double share : {1.0, 10.0, 100.0, LargeStrainRows::kExactWithTerms}) {
+    light.limit_known_modulus(share);
+    for (HyperelasticPoint& point : path) {
+      point = point.terms.empty() ? best_point(form, light) : refined_series(form, light, point);
+    }
+  }
   return path;
 }
 

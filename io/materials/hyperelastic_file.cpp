@@ -21,7 +21,7 @@ template <typename Names>
 std::size_t index_in(const Names& names, const std::string& name, const char* what) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw std::runtime_error("there is no " + std::string(what) + " '" + name + "'");
+    throw std::invalid_argument("there is no " + std::string(what) + " '" + name + "'");
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -30,7 +30,7 @@ const RubberJson& chosen_law(const RubberJson& json) {
   for (const RubberJson& law : json.at("laws")) {
     if (law.at("name") == name) return law;
   }
-  throw std::runtime_error("'laws' has no '" + name + "', which 'law' names");
+  throw std::invalid_argument("'laws' has no '" + name + "', which 'law' names");
 }
 
 HyperelasticLaw law_from(const RubberJson& json) {
@@ -42,11 +42,12 @@ HyperelasticLaw law_from(const RubberJson& json) {
   for (const std::string& name : shape_names(law.form)) names.push_back(name);
   const RubberJson& parameters = json.at("parameters");
   if (parameters.size() != names.size()) {
-    throw std::runtime_error("'parameters' must be " + std::to_string(names.size()) + " in number");
+    throw std::invalid_argument("'parameters' must be " + std::to_string(names.size()) +
+                                " in number");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (parameters[i].at("name") != names[i]) {
-      throw std::runtime_error("parameter " + std::to_string(i + 1) + " must be " + names[i]);
+      throw std::invalid_argument("parameter " + std::to_string(i + 1) + " must be " + names[i]);
     }
     const double value = parameters[i].at("value");
     const auto k = static_cast<Eigen::Index>(i);
@@ -61,6 +62,7 @@ std::vector<RubberTerm> terms_from(const RubberJson& json) {
   std::vector<RubberTerm> terms;
   if (!json.contains("terms")) return terms;
   for (const RubberJson& term : json["terms"]) terms.push_back({term.at("g"), term.at("tau_s")});
+  validate(terms);
   return terms;
 }
 

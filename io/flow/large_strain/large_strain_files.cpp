@@ -95,6 +95,22 @@ LargeStrainTest test_of_file(const LargeStrainFile& file, const LargeStrainReque
   return test;
 }
 
+// A record of cycles whose times fall as often as it has cycles, or more, is not in the order of the test.
+void check_order(const LargeStrainTest& test, const std::string& file, std::size_t n_cycles) {
+  std::size_t n_falls = 0, row = 0;
+  for (std::size_t i = 1; i < test.time_s.size(); ++i) {
+    if (!(test.time_s[i] < test.time_s[i - 1])) continue;
+    if (n_falls++ == 0) row = i;
+  }
+  if (n_falls < n_cycles || n_falls == 0) return;
+  throw std::runtime_error(
+      file + ": the times do not ascend: they fall " + std::to_string(n_falls) +
+      " times, first from " + text_of(test.time_s[row - 1]) + " s to " + text_of(test.time_s[row]) +
+      " s in reading " + std::to_string(row + 1) +
+      ", so that loading and unloading cannot be told apart; sort the rows by time, or give "
+      "--cycle all");
+}
+
 // Keeps the loading of one cycle, if the record has unloading. Relaxation is fitted to all rows of a
 // record with one cycle.
 CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
@@ -110,6 +126,7 @@ CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
   }
   if (is_one_loading || (wanted && *wanted == 0)) return choice;
   if (relaxes && !wanted && cycles.size() == 1) return choice;
+  check_order(test, file, cycles.size());
   choice.fitted = wanted ? static_cast<std::size_t>(*wanted) : cycles.size();
   const std::size_t n_all = test.stretch.size();
   test = loading_of(test, cycles[choice.fitted - 1]);

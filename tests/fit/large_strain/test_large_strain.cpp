@@ -243,5 +243,12 @@ TEST_CASE("large strain: cycles are counted, and softening is seen at equal stre
   // Compression: strains grow away from 1 downwards.
   CHECK(load_cycles({1.0, 0.9, 0.8, 0.7, 0.8, 0.9, 1.0, 0.8, 0.6}).size() == 2);
   CHECK(load_cycles({1.0, 1.1, 1.2}).size() == 1);
+  // A sorted table through 1 is one loading of all rows.
+  for (const auto& sorted : {std::vector{0.6, 0.8, 1.0, 1.5, 2.5}, {2.5, 1.5, 0.9, 0.6}}) {
+    REQUIRE(load_cycles(sorted).size() == 1);
+    CHECK(load_cycles(sorted)[0].first == 0);
+    CHECK(load_cycles(sorted)[0].last == sorted.size() - 1);
+    CHECK(load_cycles(sorted)[0].peak == sorted.size() - 1);
+  }
   CHECK_FALSE(softening(test, {cycles[0]}).has_value());
 }

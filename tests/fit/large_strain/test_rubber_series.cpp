@@ -189,6 +189,39 @@ TEST_CASE("rubber series: a known modulus is that of the law at once or of what 
   CHECK(fitted.E0_Pa > 1.1 * fitted.E_inf_Pa);
 }
 
+TEST_CASE("rubber series: an exact modulus that is true leads to the true terms", "[fit]") {
+  const HyperelasticLaw law{HyperelasticForm::kNeoHooke, Eigen::VectorXd::Constant(1, 0.3e6), {}};
+  const std::vector<RubberTerm> terms{{0.15, 0.3}, {0.25, 8.0}};
+  for (const bool is_long_term : {false, true}) {
+    for (const double noise_Pa : {0.0, 3e3}) {
+      std::mt19937_64 random(9);
+      std::vector<LargeStrainTest> tests{
+          rate_and_hold(Deformation::kUniaxial, 2.0, 2.0, 60.0, 0.1)};
+      add_stresses(law, terms, noise_Pa, 0.0, random, tests[0]);
+      LargeStrainOptions options = only(HyperelasticForm::kNeoHooke);
+      const double true_Pa = is_long_term ? 1.08e6 : 1.8e6;
+      options.modulus = KnownModulus{true_Pa, 0.0, is_long_term};
+      const FittedRubber fitted = fit_large_strain(tests, options).best();
+      CAPTURE(is_long_term, noise_Pa, fitted.rms_relative);
+      CHECK(fitted.is_trustworthy);
+      CHECK((is_long_term ? fitted.E_inf_Pa : fitted.E0_Pa) == Approx(true_Pa).epsilon(1e-6));
+      // Free of the constraint to four standard errors, which are below this.
+      const auto is_near = [](double found, double truth, double se) {
+        return std::abs(found - truth) < 4.0 * se + 1e-4 * truth;
+      };
+      CHECK(fitted.rms_relative < 1.2 * noise_Pa / 7e5 + 1e-4);
+      CHECK(is_near(fitted.E0_Pa, 1.8e6, fitted.E0_se_Pa));
+      CHECK(is_near(fitted.E_inf_Pa, 1.08e6, fitted.E_inf_se_Pa));
+      REQUIRE(fitted.terms.size() == 2);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const FittedRubberTerm& term = fitted.terms[i];
+        CHECK(is_near(term.g, terms[i].g, term.g_se));
+        CHECK(is_near(std::log(term.tau_s / terms[i].tau_s) + 1.0, 1.0, term.ln_tau_se));
+      }
+    }
+  }
+}
+
 TEST_CASE("rubber series: bad times are refused with what to do", "[fit]") {
   std::mt19937_64 random(8);
   std::vector<LargeStrainTest> tests = true_tests(1e3, 0.0, random);

@@ -134,6 +134,9 @@ TEST_CASE("the fit with --terms 0 is that of the same table without times", "[cl
   const auto many = run_command({"fit", timed, "--terms", "21"});
   CHECK(many.status == 2);
   CHECK_THAT(many.err, Contains("--terms 21 is outside 0 to 20"));
+  const auto both = run_command({"fit", timed, "--terms", "2", "--max-terms", "1"});
+  CHECK(both.status == 2);
+  CHECK_THAT(both.err, Contains("--terms 2 is above --max-terms 1"));
 }
 
 TEST_CASE("a known modulus is that at once or E_inf", "[cli]") {
@@ -267,4 +270,33 @@ TEST_CASE("of a record with cycles at large strain one loading is fitted", "[cli
   CHECK(first["tests"][0]["softening"].get<double>() == Approx(0.2));
   CHECK_THAT(run_command({"fit", word, "--cycle", "3"}).err, Contains("has 2 cycles of loading"));
   CHECK(run_command({"fit", word, "--cycle", "0"}).status == 2);
+}
+
+TEST_CASE("a damaged file of a rubber is refused with its name and what is wrong", "[cli]") {
+  const TableFolder folder;
+  const std::string word = "uniaxial=" + folder.write("hold.csv", hold_table(true));
+  const std::string out = folder.file("whole.json");
+  REQUIRE(run_command({"fit", word, "--model", "neo-hooke", "--out", out}).status == 0);
+  const auto whole = nlohmann::ordered_json::parse(text_of_file(out));
+  const auto error_of = [&](auto&& damage) {
+    nlohmann::ordered_json json = whole;
+    damage(json, json["laws"][0]);
+    const auto run =
+        run_command({"card", folder.write("bad.json", json.dump()), "--for", "abaqus"});
+    CHECK(run.status == 1);
+    CHECK_THAT(run.err, Contains("bad.json"));
+    return run.err;
+  };
+  using Json = nlohmann::ordered_json;
+  CHECK_THAT(error_of([](Json& json, Json&) { json["law"] = "foo"; }),
+             Contains("'laws' has no 'foo'"));
+  CHECK_THAT(error_of([](Json&, Json& law) { law["parameters"].push_back(law["parameters"][0]); }),
+             Contains("'parameters' must be 1 in number"));
+  CHECK_THAT(error_of([](Json&, Json& law) { law["parameters"][0]["name"] = "mu"; }),
+             Contains("parameter 1 must be C10_Pa"));
+  CHECK_THAT(error_of([](Json&, Json& law) { law["terms"][0]["g"] = -0.1; }), Contains("g_1"));
+  CHECK_THAT(error_of([](Json&, Json& law) { law["terms"][0]["g"] = 2.0; }),
+             Contains("the sum of all g"));
+  CHECK_THAT(error_of([](Json&, Json& law) { law["terms"][0]["tau_s"] = -1.0; }),
+             Contains("tau_1"));
 }
