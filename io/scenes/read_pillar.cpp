@@ -204,7 +204,7 @@ PillarScene scene_from(const RawScene& raw, const std::filesystem::path& folder)
   scene.geometry.tip = raw.tip;
   fill_mesh(raw, scene);
   scene.pillar = pillar_material(raw.pillar, folder);
-  scene.rubber = pillar_rubber(raw.pillar, folder);
+  if (const auto rubber = pillar_rubber(raw.pillar, folder)) scene.rubber = rubber->law;
   const bool has_film = !raw.film_material.empty() || raw.film_thickness_m > 0.0 ||
                         raw.film_radius_m > 0.0 || !raw.film_bottom.empty();
   if (has_film) fill_film(raw, folder, scene);

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/config_fields.h"
+#include "io/materials/hyperelastic_file.h"
 #include "io/materials/material_file.h"
 #include "io/scenes/scene_file.h"
 #include "io/scenes/scene_words.h"
@@ -78,8 +79,15 @@ MaterialCauses material_causes(const std::string& text, const std::filesystem::p
   const toml::node_view<const toml::node> material = table["materials"][key];
   const auto ratio = material["ratio"].value<double>();
   const auto file = material["file"].value<std::string>();
-  if (!ratio || !file) return causes_of(common(scene).pillar);
-  return causes_at_ratio(read_ratio_fit(path.parent_path() / *file), *ratio);
+  if (!file) return causes_of(common(scene).pillar);
+  const std::filesystem::path named = path.parent_path() / *file;
+  if (ratio) return causes_at_ratio(read_ratio_fit(named), *ratio);
+  if (!looks_like_hyperelastic_file(named)) return causes_of(common(scene).pillar);
+  return {
+      .causes = {},
+      .left_out =
+          "the errors of the parameters of the law of rubber are not propagated; results vary with "
+          "the other uncertain values alone"};
 }
 
 std::string with_line(const std::string& text, const std::filesystem::path& path,

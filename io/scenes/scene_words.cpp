@@ -1,7 +1,6 @@
 #include "io/scenes/scene_words.h"
 
 #include "io/basics/named_file.h"
-#include "io/materials/hyperelastic_file.h"
 #include "io/materials/material_file.h"
 #include "models/material/liquid.h"
 
@@ -84,13 +83,13 @@ MediumFile film_medium(const std::string& key, const RawMaterial& raw,
   }
 }
 
-std::optional<HyperelasticLaw> pillar_rubber(const RawMaterial& raw,
-                                             const std::filesystem::path& folder,
-                                             const std::string& key) {
+std::optional<HyperelasticFile> pillar_rubber(const RawMaterial& raw,
+                                              const std::filesystem::path& folder,
+                                              const std::string& key) {
   if (raw.file.empty()) return std::nullopt;
   const auto path = named_file(key + ".file", folder, raw.file, FileKind::kMaterial);
   if (!looks_like_hyperelastic_file(path)) return std::nullopt;
-  const HyperelasticFile file = read_hyperelastic(path);
+  HyperelasticFile file = read_hyperelastic(path);
   if (!file.is_trustworthy) {
     const std::string why = file.defects.empty() ? "" : " (" + file.defects.front() + ")";
     throw SceneMistake(key + ".file", "the law of rubber in '" + raw.file +
@@ -105,18 +104,32 @@ std::optional<HyperelasticLaw> pillar_rubber(const RawMaterial& raw,
                        "a law of rubber needs nu beside its file, such as nu = 0.499 (0.5: "
                        "incompressible), and rho where vibration counts");
   }
-  return file.law;
+  return file;
 }
+
+namespace {
+
+// Rubber at small strain. The terms take a share of all stress: nu stays in time, as in a fit of E(t).
+Material linear_part(const HyperelasticFile& rubber, const RawMaterial& raw) {
+  Material material;
+  material.E0_Pa = rubber.E0_Pa;
+  material.nu = raw.nu;
+  material.rho_kg_m3 = raw.rho_kg_m3;
+  for (const RubberTerm& term : rubber.terms) {
+    material.terms.push_back({.g = term.g, .k = term.g, .tau_s = term.tau_s});
+  }
+  return material;
+}
+
+}  // namespace
 
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder,
                          const std::string& key) {
   if (!raw.file.empty()) {
     const auto path = named_file(key + ".file", folder, raw.file, FileKind::kMaterial);
     if (const auto rubber = pillar_rubber(raw, folder, key)) {
-      Material material;
-      material.E0_Pa = youngs_modulus_Pa(*rubber);
-      material.nu = raw.nu;
-      material.rho_kg_m3 = raw.rho_kg_m3;
+      Material material = linear_part(*rubber, raw);
+      refuse_liquid(material, raw.file);
       return material;
     }
     const bool is_joint = looks_like_ratio_file(path);

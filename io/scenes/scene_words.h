@@ -3,9 +3,9 @@
 #include "io/basics/file_kind.h"
 #include "io/basics/words.h"
 #include "io/config/config_fields.h"
+#include "io/materials/hyperelastic_file.h"
 #include "io/materials/piezo_file.h"
 #include "io/scenes/scene_file.h"
-#include "models/hyperelastic/hyperelastic_law.h"
 #include "models/material/material.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/common/effect_estimate.h"
@@ -73,15 +73,15 @@ std::filesystem::path named_file(const std::string& key, const std::filesystem::
 // The film. Throws SceneMistake if the material has neither a file nor a modulus, or is unphysical.
 MediumFile film_medium(const std::string& key, const RawMaterial& raw,
                        const std::filesystem::path& folder);
-// A law of rubber gives its modulus at rest; the scene gives nu and rho.
+// A file of rubber gives the modulus at rest and the terms; the scene gives nu and rho.
 // The material that stands at `key`. Files are looked for in `folder`. Throws SceneMistake for neither file nor
 // modulus.
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder,
                          const std::string& key = "materials.pillar");
-// The law if the material's file is one of rubber, as `viscard fit uniaxial=FILE --out` writes it. Throws SceneMistake for one
+// What the material's file states if it is one of rubber, as `viscard fit uniaxial=FILE --out` writes it. Throws SceneMistake for one
 // that is not to be trusted.
-std::optional<HyperelasticLaw> pillar_rubber(const RawMaterial& raw,
-                                             const std::filesystem::path& folder,
-                                             const std::string& key = "materials.pillar");
+std::optional<HyperelasticFile> pillar_rubber(const RawMaterial& raw,
+                                              const std::filesystem::path& folder,
+                                              const std::string& key = "materials.pillar");
 
 }  // namespace viscard

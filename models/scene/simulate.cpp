@@ -5,6 +5,7 @@
 #include "models/array/space/simulate_space.h"
 #include "models/maths/usable_cores.h"
 #include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/large_strain.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/scene/common/effect_estimate.h"
 #include "models/scene/plan.h"
@@ -45,6 +46,12 @@ SceneAnswer solve_on(const LayerScene& scene, const Discretisation& mesh) {
   return layer_answer_on(scene, mesh);
 }
 
+// The same of other kinds of scenes is empty.
+std::string at_once_note(const Scene& scene, const Scene& reduced) {
+  const auto* pillar = std::get_if<PillarScene>(&scene);
+  return pillar == nullptr ? "" : at_once_note(*pillar, std::get<PillarScene>(reduced));
+}
+
 }  // namespace
 
 SceneAnswer simulate(const Scene& scene) {
@@ -54,6 +61,8 @@ SceneAnswer simulate(const Scene& scene) {
   SceneAnswer answer = std::visit([](const auto& body) { return solve(body); }, plan.reduced);
   const std::string in_creep = creep_buckling_note(scene);
   if (!in_creep.empty()) answer.notes.push_back(in_creep);
+  const std::string at_once = at_once_note(scene, plan.reduced);
+  if (!at_once.empty()) answer.notes.push_back(at_once);
   report_left_out({plan.effects, plan.left_out}, common(scene).tolerance, answer);
   require_tolerance(common(scene).tolerance, answer);
   return answer;

@@ -47,10 +47,12 @@ UncertainScene::UncertainScene(SceneFile file, std::string text, std::filesystem
   add_quantities();
   add_material();
   if (inputs_.empty()) {
-    throw std::runtime_error(path_.string() +
-                             ": nothing is uncertain. Write a quantity as \"40 um +- 1 um\", or "
-                             "name a material file that "
-                             "viscard fit has written");
+    // What the file of the material lacks, which add_material() has noted.
+    const std::string why = notes_.empty() ? "" : " (" + notes_.front() + ")";
+    throw std::runtime_error(
+        path_.string() + ": nothing is uncertain" + why +
+        ". Write a quantity as \"40 um +- 1 um\", or name a linear material file that "
+        "viscard fit has written");
   }
   choices_ = chosen_effects(file_.scene);
 }

@@ -146,6 +146,13 @@ void run_large(const PillarScene& scene, SceneAnswer& answer) {
                    : run_large_elastic(scene, large, answer);
 }
 
+std::string at_once_note(const PillarScene& scene, const PillarScene& reduced) {
+  if (scene.pillar.terms.empty() || !is_large(reduced)) return "";
+  return "large strain is that of the law of rubber at once, right after loading; the relaxation "
+         "of its "
+         "file does not count here (creep, relaxation and vibration have it, at small strain)";
+}
+
 std::vector<SectionGrid> large_fields(const PillarScene& scene, const Discretisation& mesh) {
   const LargeAnswer large(scene, mesh);
   Sampling at = sampling_of(large.model);

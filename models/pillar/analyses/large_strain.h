@@ -4,6 +4,7 @@
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/scene/common/scene_answer.h"
 
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -19,6 +20,8 @@ bool is_large(const PillarScene& scene);
 // is multiplied by what large strain changes one way: the pillar at large strain on the linear film
 // without its field, over the same pillar at small strain.
 void run_large(const PillarScene& scene, SceneAnswer& answer);
+// Says that the relaxation of a scene does not count if the plan reduced it to large strain; otherwise empty.
+std::string at_once_note(const PillarScene& scene, const PillarScene& reduced);
 // The solution for pictures, at places of rest.
 std::vector<SectionGrid> large_fields(const PillarScene& scene, const Discretisation& mesh);
 

@@ -2,13 +2,17 @@
 #include "io/scenes/scene_file.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
+#include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 using namespace viscard;
+using viscard::test::ScratchFolder;
 
 namespace {
 
@@ -44,6 +48,65 @@ TEST_CASE("a law of rubber in a scene needs nu and no modulus", "[io]") {
                     Catch::Contains("leave out E"));
   CHECK_THROWS_WITH(pillar_of(scene_with("file = \"" + kFile + "\", nu = 0.6")),
                     Catch::Contains("Poisson ratio"));
+}
+
+namespace {
+
+// A file of a law with two terms, as viscard fit --terms 2 writes it.
+std::string relaxing_file(const ScratchFolder& folder) {
+  const std::filesystem::path path = folder / "two.json";
+  std::ofstream(path) << R"({"schema": "viscard-hyperelastic/1", "law": "neo-hooke", "laws": [
+    {"name": "neo-hooke", "parameters": [{"name": "C10_Pa", "value": 3e5}], "trustworthy": true,
+     "terms": [{"g": 0.15, "tau_s": 0.3}, {"g": 0.25, "tau_s": 8.0}], "flags": []}], "tests": []})";
+  return path.string();
+}
+
+double value_of(const SceneAnswer& answer, const std::string& name) {
+  for (const SceneResult& result : answer.results) {
+    if (result.name == name) return result.value;
+  }
+  return std::nan("");
+}
+
+std::string notes_of(const PillarScene& scene) {
+  std::string all;
+  for (const std::string& note : simulate(scene).notes) all += note + "\n";
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the terms of a law of rubber relax the pillar", "[io][plan]") {
+  const ScratchFolder folder;
+  const PillarScene creep = pillar_of(
+      "tolerance = 1e-4\n[geometry]\ndiameter = \"40 um\"\nlength = \"120 um\"\n"
+      "[materials]\npillar = { file = \"" +
+      relaxing_file(folder) +
+      "\", nu = 0.499 }\n"
+      "[analysis]\nkind = \"creep\"\n"
+      "history = [[\"0 s\", \"10 kPa\"], [\"20 s\", \"10 kPa\"]]\n");
+  REQUIRE(creep.pillar.terms.size() == 2);
+  CHECK(creep.pillar.E0_Pa == Approx(1.8e6).epsilon(1e-12));
+  CHECK(creep.pillar.terms[1].g == 0.25);
+  CHECK(creep.pillar.terms[1].k == 0.25);
+  CHECK(creep.pillar.terms[1].tau_s == 8.0);
+  // E0 J at 20 s for E/E0 = 0.6 + 0.15 exp(-t/0.3 s) + 0.25 exp(-t/8 s), from the two poles of 1/(s^2 E(s)): at
+  // constant nu every displacement grows as it does.
+  PillarScene elastic = creep;
+  elastic.pillar.terms.clear();
+  const double grown = value_of(simulate(creep), "top_displacement_end") /
+                       value_of(simulate(elastic), "top_displacement_end");
+  CHECK(grown == Approx(1.581622).epsilon(1e-3));
+}
+
+TEST_CASE("large strain says that the terms of a law of rubber do not count", "[io][plan]") {
+  const ScratchFolder folder;
+  PillarScene pressed =
+      pillar_of(scene_with("file = \"" + relaxing_file(folder) + "\", nu = 0.49"));
+  const std::string at_once = "the relaxation of its file does not count";
+  CHECK_THAT(notes_of(pressed), Catch::Contains(at_once));
+  pressed.pillar.terms.clear();
+  CHECK_THAT(notes_of(pressed), !Catch::Contains(at_once));
 }
 
 TEST_CASE("the example of large strain is answered at large strain", "[io][plan]") {

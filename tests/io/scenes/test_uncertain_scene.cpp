@@ -262,6 +262,22 @@ TEST_CASE("a scene without anything uncertain, or with a sweep, is refused",
   CHECK_THAT(alone.err, Catch::Contains("--uncertainty"));
 }
 
+TEST_CASE("the errors of a law of rubber are left out, and the answer says so",
+          "[io][scenes][uncertainty]") {
+  const std::string rubber =
+      "{ file = \"" VISCARD_SOURCE_DIR "/data/materials/treloar_yeoh.json\", nu = 0.49 }";
+  const std::string left_out =
+      "the errors of the parameters of the law of rubber are not propagated";
+  const SceneText pressed(replaced(kPressed, "PILLAR", rubber));
+  const CommandOutcome found = run_command({"simulate", pressed.path(), "--uncertainty"});
+  CHECK(found.status == 0);
+  CHECK_THAT(found.out + found.err, Catch::Contains("materials.pillar: " + left_out));
+  const SceneText exact(replaced(replaced(kPressed, "PILLAR", rubber), "10 kPa +- 1 %", "10 kPa"));
+  const CommandOutcome refused = run_command({"simulate", exact.path(), "--uncertainty"});
+  CHECK(refused.status == 1);
+  CHECK_THAT(refused.err, Catch::Contains("nothing is uncertain") && Catch::Contains(left_out));
+}
+
 TEST_CASE("viscard simulate --uncertainty prints, stores and draws intervals and causes",
           "[io][scenes][uncertainty][cli]") {
   const SceneText text(kModes);
