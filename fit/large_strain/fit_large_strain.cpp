@@ -60,7 +60,8 @@ std::vector<Index> free_parameters(HyperelasticForm form, const LargeStrainRows&
 }
 
 // Inverse of J^T J over the free parameters, zero elsewhere.
-Eigen::MatrixXd inverse_normal(const Eigen::MatrixXd& slopes, const std::vector<Index>& free) {
+Eigen::MatrixXd inverse_normal(const Eigen::MatrixXd& slopes, const std::vector<Index>& free,
+                               UnseenDirections& unseen) {
   Eigen::MatrixXd used(slopes.rows(), static_cast<Index>(free.size()));
   for (std::size_t i = 0; i < free.size(); ++i) {
     used.col(static_cast<Index>(i)) = slopes.col(free[i]);
@@ -70,6 +71,18 @@ Eigen::MatrixXd inverse_normal(const Eigen::MatrixXd& slopes, const std::vector<
   const VectorXd length = used.colwise().norm().cwiseMax(1e-300);
   const Eigen::MatrixXd pseudo = pseudo_inverse(used * length.cwiseInverse().asDiagonal());
   const Eigen::MatrixXd inverse = pseudo * pseudo.transpose();
+  const Eigen::MatrixXd seen = pseudo * used * length.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(seen.rows(), seen.cols()) - seen;
+  constexpr double kRounding = 1e-4;  // a direction that is not seen has the length 1
+  if (rest.norm() > kRounding) {
+    unseen.columns = Eigen::MatrixXd::Zero(slopes.cols(), rest.cols());
+    unseen.step = VectorXd::Zero(slopes.cols());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const auto a = static_cast<Index>(i);
+      unseen.step[free[i]] = 1.0 / length[a];
+      unseen.columns.row(free[i]) = rest.row(a) / length[a];
+    }
+  }
   for (std::size_t i = 0; i < free.size(); ++i) {
     for (std::size_t j = 0; j < free.size(); ++j) {
       const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
@@ -166,7 +179,8 @@ FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
   fitted.n_parameters = static_cast<int>(slopes.cols());
   const double freedom = static_cast<double>(rows.data().size()) - fitted.n_parameters;
   const double variance = freedom > 0.0 ? residual.squaredNorm() / freedom : 0.0;
-  Eigen::MatrixXd covariance = variance * fitted.inflation * inverse_normal(slopes, free);
+  Eigen::MatrixXd covariance =
+      variance * fitted.inflation * inverse_normal(slopes, free, fitted.unseen);
   // So few independent readings determine their own variance only with the error of Student's t.
   constexpr double kLeastFreedom = 4.0;
   const double independent = static_cast<double>(residual.size()) / fitted.inflation;
@@ -175,6 +189,10 @@ FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
   const Index n = n_moduli(form);
   covariance.topRows(n) *= scale_Pa;
   covariance.leftCols(n) *= scale_Pa;
+  if (fitted.unseen.columns.size() > 0) {
+    fitted.unseen.columns.topRows(n) *= scale_Pa;
+    fitted.unseen.step.head(n) *= scale_Pa;
+  }
   add_covariance(covariance, fitted);
   add_intervals(fitted);
   add_residuals(tests, fitted);
@@ -183,7 +201,7 @@ FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
   }
   add_rubber_flags(tests, options, point.is_converged,
                    static_cast<int>(free.size()) < fitted.n_parameters, fitted);
-  add_term_flags(tests, fitted);
+  add_term_flags(tests, options, fitted);
   return fitted;
 }
 

@@ -12,8 +12,8 @@ namespace viscard {
 // covariance at the best point, with the scatter of the residuals and its memory. Tests with times give
 // terms of relaxation beside each law too (models/hyperelastic/finite_viscoelasticity.h), their number by
 // BIC; flags of terms: rubber_term_checks.h. Flags of a law:
-// unstable-in-range, misfit, on-bound (a shape ended at the end of its range), not-converged;
-// notes: unstable-beyond, one-deformation, few-readings, modulus-disagrees. The first four make the
+// unstable-in-range, misfit, on-bound (a shape ended at the end of its range), not-converged, undetermined;
+// notes: unstable-beyond, one-deformation, few-readings, modulus-disagrees. The first five make the
 // law untrustworthy.
 // Throws std::runtime_error for a test with fewer than 3 readings, a stretch that is not positive, a
 // number that is not finite, all stretches 1, or compression with a positive stress throughout.

@@ -29,6 +29,15 @@ struct RubberOrder {
   bool is_chosen = false;
 };
 
+// Directions of the parameters (moduli, shapes, g, ln tau) along which the data do not change: columns,
+// in steps of each parameter that change the rows alike. Empty: none.
+struct UnseenDirections {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd step;
+  // True if a quantity with this gradient by the first parameters is not determined.
+  bool change(const Eigen::VectorXd& gradient) const;
+};
+
 // One law fitted to all tests. With terms it is the instantaneous law, of which 1 - sum g is left after
 // all relaxation.
 struct FittedRubber {
@@ -40,6 +49,7 @@ struct FittedRubber {
   std::vector<FittedRubberTerm> terms;  // of relaxation, by ascending time; empty: elastic
   // Of the parameters, the g and the ln tau, in that order; empty without terms.
   Eigen::MatrixXd series_covariance;
+  UnseenDirections unseen;                   // quantities along them have infinite intervals
   double E_inf_Pa = 0.0, E_inf_se_Pa = 0.0;  // Young's modulus at rest after all relaxation
   Interval E_inf_interval_95;
   std::vector<RubberOrder> orders;  // numbers of terms that were tried

@@ -129,6 +129,12 @@ void add_rubber_flags(const std::vector<LargeStrainTest>& tests, const LargeStra
              "a law with fewer parameters",
              true);
   }
+  if (fitted.unseen.columns.size() > 0) {
+    add_flag(fitted, "undetermined",
+             "the data do not determine all parameters apart from each other, and intervals of "
+             "those are infinite; use a law with fewer parameters, or fewer terms",
+             true);
+  }
   int n_readings = 0;
   for (const LargeStrainTest& test : tests) n_readings += static_cast<int>(test.stretch.size());
   if (n_readings <= fitted.n_parameters + (options.modulus ? -1 : 0)) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,20 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Standard error of a quantity with this gradient; infinite if the data do not determine it.
+double se_of(double variance, const VectorXd& gradient, const FittedRubber& fitted) {
+  return fitted.unseen.change(gradient) ? kInfinity : std::sqrt(std::max(0.0, variance));
+}
+
 void add_parameters(FittedRubber& fitted) {
   std::vector<std::string> names = modulus_names(fitted.law.form);
   for (const std::string& name : shape_names(fitted.law.form)) names.push_back(name);
   VectorXd values(fitted.covariance.rows());
   values << fitted.law.moduli_Pa, fitted.law.shapes;
   for (Index i = 0; i < values.size(); ++i) {
-    const double se = std::sqrt(fitted.covariance(i, i));
+    const double se = se_of(fitted.covariance(i, i), VectorXd::Unit(values.size(), i), fitted);
     fitted.parameters.push_back({names[static_cast<std::size_t>(i)],
                                  values[i],
                                  se,
@@ -37,8 +45,12 @@ void add_series(const VectorXd& slope, FittedRubber& fitted) {
   double left = 1.0;
   for (Index i = 0; i < n_terms; ++i) {
     FittedRubberTerm& term = fitted.terms[static_cast<std::size_t>(i)];
-    term.g_se = std::sqrt(fitted.series_covariance(n + i, n + i));
-    term.ln_tau_se = std::sqrt(fitted.series_covariance(n + n_terms + i, n + n_terms + i));
+    const auto error_of = [&](Index k) {
+      const VectorXd gradient = VectorXd::Unit(n + 2 * n_terms, k);
+      return se_of(fitted.series_covariance(k, k), gradient, fitted);
+    };
+    term.g_se = error_of(n + i);
+    term.ln_tau_se = error_of(n + n_terms + i);
     term.g_interval_95 = {term.g - kNormal95 * term.g_se, term.g + kNormal95 * term.g_se};
     const double factor = std::exp(kNormal95 * term.ln_tau_se);
     term.tau_s_interval_95 = {term.tau_s / factor, term.tau_s * factor};
@@ -48,7 +60,7 @@ void add_series(const VectorXd& slope, FittedRubber& fitted) {
   of_rest.head(n) = left * slope;
   of_rest.segment(n, n_terms).setConstant(-fitted.E0_Pa);
   fitted.E_inf_Pa = left * fitted.E0_Pa;
-  fitted.E_inf_se_Pa = std::sqrt(std::max(0.0, of_rest.dot(fitted.series_covariance * of_rest)));
+  fitted.E_inf_se_Pa = se_of(of_rest.dot(fitted.series_covariance * of_rest), of_rest, fitted);
   const double half = kNormal95 * fitted.E_inf_se_Pa;
   fitted.E_inf_interval_95 = {fitted.E_inf_Pa - half, fitted.E_inf_Pa + half};
 }
@@ -67,13 +79,21 @@ void add_modulus(FittedRubber& fitted) {
     slope[law.moduli_Pa.size() + k] =
         (youngs_modulus_Pa(up) - youngs_modulus_Pa(down)) / (2.0 * step);
   }
-  fitted.E0_se_Pa = std::sqrt(std::max(0.0, slope.dot(fitted.covariance * slope)));
+  fitted.E0_se_Pa = se_of(slope.dot(fitted.covariance * slope), slope, fitted);
   const double half = kNormal95 * fitted.E0_se_Pa;
   fitted.E0_interval_95 = {fitted.E0_Pa - half, fitted.E0_Pa + half};
   add_series(slope, fitted);
 }
 
 }  // namespace
+
+bool UnseenDirections::change(const VectorXd& gradient) const {
+  constexpr double kRounding = 1e-4;
+  if (columns.size() == 0) return false;
+  const VectorXd scaled = gradient.cwiseProduct(step.head(gradient.size()));
+  return (columns.topRows(gradient.size()).transpose() * gradient).norm() >
+         kRounding * scaled.norm();
+}
 
 void add_intervals(FittedRubber& fitted) {
   add_parameters(fitted);

@@ -15,6 +15,8 @@ namespace viscard {
 std::vector<HyperelasticPoint> series_path(HyperelasticForm form, const LargeStrainRows& rows,
                                            std::optional<int> n_terms, int most_terms);
 
+std::vector<double> times_of(const std::vector<RubberTerm>& terms);
+
 // The best of few starts near `start`, which has terms.
 HyperelasticPoint refined_series(HyperelasticForm form, const LargeStrainRows& rows,
                                  const HyperelasticPoint& start);

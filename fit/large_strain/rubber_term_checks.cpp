@@ -124,6 +124,34 @@ void add_flags_of_term(const FittedRubberTerm& term, int number, const Window& w
   }
 }
 
+// Terms of which only the sum of g is known: each g is between 0 and that sum.
+void add_flags_of_pairs(FittedRubber& fitted) {
+  constexpr double kStrong = 0.99;
+  const auto n_terms = static_cast<Eigen::Index>(fitted.terms.size());
+  const Eigen::Index first = fitted.series_covariance.rows() - 2 * n_terms;
+  const auto covariance = [&](Eigen::Index i, Eigen::Index j) {
+    return fitted.series_covariance(first + i, first + j);
+  };
+  for (Eigen::Index i = 0; i < n_terms; ++i) {
+    for (Eigen::Index j = i + 1; j < n_terms; ++j) {
+      const double product = covariance(i, i) * covariance(j, j);
+      const double correlation = product > 0.0 ? covariance(i, j) / std::sqrt(product) : 0.0;
+      if (std::abs(correlation) <= kStrong) continue;
+      auto& a = fitted.terms[static_cast<std::size_t>(i)];
+      auto& b = fitted.terms[static_cast<std::size_t>(j)];
+      for (Interval* interval : {&a.g_interval_95, &b.g_interval_95}) {
+        interval->low = std::min(interval->low, 0.0);
+        interval->high = std::max(interval->high, a.g + b.g);
+      }
+      const std::string number = std::to_string(i + 1);
+      fitted.flags.push_back(
+          {"terms-correlated", static_cast<int>(i) + 1,
+           "terms " + number + " and " + std::to_string(j + 1) +
+               ": only their shares together are determined (correlation above 0.99)"});
+    }
+  }
+}
+
 void add_flag_of_sum(FittedRubber& fitted) {
   const double left = fitted.E_inf_Pa / fitted.E0_Pa;
   if (left < 0.0) {
@@ -178,9 +206,19 @@ int most_terms_of(const std::vector<LargeStrainTest>& tests, const LargeStrainOp
   return 0;
 }
 
-void add_term_flags(const std::vector<LargeStrainTest>& tests, FittedRubber& fitted) {
+void add_term_flags(const std::vector<LargeStrainTest>& tests, const LargeStrainOptions& options,
+                    FittedRubber& fitted) {
+  const auto found = static_cast<int>(fitted.terms.size());
+  if (const int wanted = options.n_terms.value_or(found); found < wanted) {
+    fitted.flags.push_back({"fewer-terms", 0,
+                            counted(static_cast<std::size_t>(wanted), "term") +
+                                (wanted == 1 ? " was" : " were") +
+                                " requested; no fit with more than " + std::to_string(found) +
+                                " that differ in time describes these data better"});
+  }
   if (fitted.terms.empty()) return;
   const Window window = window_of(tests);
+  add_flags_of_pairs(fitted);
   for (std::size_t i = 0; i < fitted.terms.size(); ++i) {
     add_flags_of_term(fitted.terms[i], static_cast<int>(i) + 1, window, fitted.flags);
   }

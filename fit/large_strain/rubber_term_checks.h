@@ -17,9 +17,11 @@ int most_terms_of(const std::vector<LargeStrainTest>& tests, const LargeStrainOp
 bool has_several_rates(const std::vector<LargeStrainTest>& tests);
 
 // Flags of the terms, with the limits and names of the linear fit (fit/intervals/README.md):
-// tau-below-sampling, tau-below-ramp, tau-beyond-window, modulus-may-be-zero; sum-of-g (the interval
+// tau-below-sampling, tau-below-ramp, tau-beyond-window, modulus-may-be-zero, terms-correlated (whose
+// intervals then reach from 0 to their sum), fewer-terms; sum-of-g (the interval
 // reaches 1: nothing may be left after all relaxation); step-before-record; one-rate, which makes the
 // law untrustworthy, as a sum of g above 1 does.
-void add_term_flags(const std::vector<LargeStrainTest>& tests, FittedRubber& fitted);
+void add_term_flags(const std::vector<LargeStrainTest>& tests, const LargeStrainOptions& options,
+                    FittedRubber& fitted);
 
 }  // namespace viscard

@@ -1,4 +1,5 @@
 #include "fit/large_strain/fit_large_strain.h"
+#include "fit/large_strain/rubber_intervals.h"
 
 #include <catch2/catch.hpp>
 
@@ -220,6 +221,45 @@ TEST_CASE("rubber series: an exact modulus that is true leads to the true terms"
       }
     }
   }
+}
+
+TEST_CASE("rubber series: a third term on data of two is one of them", "[fit]") {
+  const HyperelasticLaw law{HyperelasticForm::kNeoHooke, Eigen::VectorXd::Constant(1, 0.3e6), {}};
+  const std::vector<RubberTerm> terms{{0.15, 0.3}, {0.25, 8.0}};
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    std::mt19937_64 random(seed);
+    std::vector<LargeStrainTest> tests{rate_and_hold(Deformation::kUniaxial, 2.0, 2.0, 60.0, 0.1)};
+    add_stresses(law, terms, 3e3, 0.0, random, tests[0]);
+    LargeStrainOptions options = only(HyperelasticForm::kNeoHooke);
+    options.n_terms = 3;
+    const FittedRubber fitted = fit_large_strain(tests, options).best();
+    CAPTURE(seed, fitted.terms.size());
+    // Merged and reported, or known so little that no share is sure.
+    CHECK(has(fitted.flags, "fewer-terms") == (fitted.terms.size() < 3));
+    if (fitted.terms.size() < 3) continue;
+    CHECK((has(fitted.flags, "terms-correlated") || has(fitted.flags, "modulus-may-be-zero") ||
+           has(fitted.flags, "tau-below-sampling") || !fitted.is_trustworthy));
+  }
+}
+
+TEST_CASE("rubber series: parameters that the data cannot tell apart have infinite intervals",
+          "[fit]") {
+  // At an alpha of 2 each, two terms of Ogden are one: the sum of their moduli is known.
+  FittedRubber fitted;
+  fitted.law = {HyperelasticForm::kOgden2, Eigen::Vector2d(1e5, 2e5), Eigen::Vector2d(2.0, 2.0)};
+  fitted.covariance = Eigen::MatrixXd::Identity(4, 4);
+  fitted.unseen.step = Eigen::VectorXd::Ones(4);
+  fitted.unseen.columns = Eigen::MatrixXd::Zero(4, 1);
+  fitted.unseen.columns.col(0) << std::sqrt(0.5), -std::sqrt(0.5), 0.0, 0.0;
+  add_intervals(fitted);
+  CHECK(std::isinf(fitted.parameters[0].se));
+  CHECK(std::isinf(fitted.parameters[1].interval_95.high));
+  CHECK(fitted.parameters[2].se == Approx(1.0));
+  CHECK(std::isfinite(fitted.E0_se_Pa));  // of the sum
+  fitted.unseen.columns.col(0) << 1.0, 0.0, 0.0, 0.0;
+  fitted.parameters.clear();
+  add_intervals(fitted);
+  CHECK(std::isinf(fitted.E0_interval_95.high));
 }
 
 TEST_CASE("rubber series: bad times are refused with what to do", "[fit]") {
