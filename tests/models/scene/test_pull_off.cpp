@@ -127,3 +127,18 @@ TEST_CASE("the plan leaves pull-off out where it cannot matter", "[models][array
         Approx(std::sqrt(std::numbers::pi * 1.8e6 * 0.04 * 40e-6) / (1.8e6 * 40e-6 * 3e-6 / 120e-6))
             .epsilon(0.2));
 }
+
+TEST_CASE("tops that adhere are pulled at the depth 0 of the shape", "[models][array]") {
+  ArrayScene row = pressed_row(cylinder(0.0, Friction::kNone, 20e-3));
+  row.press->work_of_adhesion_J_m2 = 0.02;
+  row.press->before_m = {5e-6};
+  row.tolerance = 2e-2;
+  const auto force_N_m = [&](double depth_m) {
+    row.press->depth_m = depth_m;
+    return test::result_of(simulate(row), "contact_force");
+  };
+  const double force = force_N_m(0.0);
+  CHECK(force < 0.0);
+  // Held tops follow the shape: the force is linear in the depth.
+  CHECK(force == Approx(0.5 * (force_N_m(-0.1e-6) + force_N_m(0.1e-6))).epsilon(1e-6));
+}
