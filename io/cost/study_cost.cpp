@@ -9,6 +9,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -81,13 +85,25 @@ class CostRunner {
   }
   const CostModel& model() const { return model_; }
 
-  // Runs once or, if that was quick, a few times.
-  Ran run(const CostTrial& trial, int repeats) {
-    if (options_.progress) {
+  const std::vector<FailedRow>& failed() const { return failed_; }
+
+  // Runs once or, if that was quick, a few times. Keeps the reason of a mesh that has no answer.
+  std::optional<Ran> run(const CostTrial& trial, int repeats) {
+    if (options_.progress) {  // may throw, to end the study
       options_.progress(static_cast<double>(done_) / static_cast<double>(count_),
                         trial.discretisation);
     }
     ++done_;
+    try {
+      return run_to_end(trial, repeats);
+    } catch (const std::runtime_error& error) {
+      failed_.push_back({trial.discretisation, trial.effects, error.what()});
+      return std::nullopt;
+    }
+  }
+
+ private:
+  Ran run_to_end(const CostTrial& trial, int repeats) {
     Ran ran{{trial.discretisation, trial.effects, trial.mesh}, {}};
     std::vector<double> wall_s, cpu_s;
     do {
@@ -111,12 +127,12 @@ class CostRunner {
     return ran;
   }
 
- private:
   const CostOptions& options_;
   std::size_t count_;
   std::size_t done_ = 0;
   double start_wall_s_, start_cpu_s_;
   CostModel model_;
+  std::vector<FailedRow> failed_;
 };
 
 // The finest reference that half of the budget allows, and one of a lower degree to estimate its
@@ -129,8 +145,15 @@ struct References {
 References references_within(double share_s, const std::vector<CostTrial>& ladder,
                              CostRunner& runner) {
   const double stop_s = runner.spent_s() + share_s;
-  References found{runner.run(ladder.front(), 1), std::nullopt};
-  for (std::size_t at = 0; at + 1 < ladder.size();) {
+  std::size_t at = 0;
+  std::optional<Ran> first_answer = runner.run(ladder.front(), 1);
+  while (!first_answer && ++at < ladder.size()) first_answer = runner.run(ladder[at], 1);
+  if (!first_answer) {
+    throw std::runtime_error("no mesh of the reference has an answer: " +
+                             runner.failed().back().reason);
+  }
+  References found{std::move(*first_answer), std::nullopt};
+  while (at + 1 < ladder.size()) {
     std::size_t next = at;
     for (std::size_t top = ladder.size() - 1; top > at && next == at; --top) {
       const std::size_t first = std::max(top - 1, at + 1);
@@ -139,9 +162,11 @@ References references_within(double share_s, const std::vector<CostTrial>& ladde
       if (runner.spent_s() + needed_s <= stop_s) next = first;
     }
     if (next == at) break;
-    found.coarser = std::move(found.finest.answer);
-    found.finest = runner.run(ladder[next], 1);
     at = next;
+    std::optional<Ran> finer = runner.run(ladder[next], 1);
+    if (!finer) continue;
+    found.coarser = std::move(found.finest.answer);
+    found.finest = std::move(*finer);
   }
   return found;
 }
@@ -185,23 +210,33 @@ CostStudy study_of(const CostTrials& trials, const CostOptions& options) {
   study.machine = this_machine();
   CostRunner runner(options, trials.rows.size() + 3);
   std::vector<std::optional<Ran>> ran(trials.rows.size());
+  std::vector<bool> was_tried(trials.rows.size(), false);
+  const auto run_row = [&](std::size_t i, int repeats) {
+    was_tried[i] = true;
+    ran[i] = runner.run(trials.rows[i], repeats);
+  };
   const std::size_t linear = first_linear(trials);
-  if (linear < ran.size()) ran[linear] = runner.run(trials.rows[linear], options.repeats);
+  if (linear < ran.size()) run_row(linear, options.repeats);
   const References references =
       references_within(kReferenceShare * runner.left_s(), trials.references, runner);
   for (std::size_t i = 0; i < ran.size(); ++i) {
-    if (ran[i]) continue;
+    if (was_tried[i]) continue;
     const bool fits = runner.expected_s(trials.rows[i], options.repeats) <= runner.left_s();
     const bool is_shown = i < kShown && runner.expected_s(trials.rows[i], 1) < kShown_s;
-    if (fits || is_shown) ran[i] = runner.run(trials.rows[i], fits ? options.repeats : 1);
+    if (fits || is_shown) run_row(i, fits ? options.repeats : 1);
   }
   for (std::size_t i = 0; i < ran.size(); ++i) {
-    if (!ran[i]) {
+    if (!was_tried[i]) {
       study.predicted.push_back(predicted(trials.rows[i], runner.model()));
       continue;
     }
+    if (!ran[i]) continue;
     ran[i]->row.error = relative_error(ran[i]->answer, references.finest.answer);
     study.rows.push_back(ran[i]->row);
+  }
+  study.failed = runner.failed();
+  if (study.rows.empty() && !study.failed.empty()) {
+    throw std::runtime_error("no mesh has an answer: " + study.failed.front().reason);
   }
   if (!study.predicted.empty()) study.laws = laws_of(trials, runner.model());
   study.left_out = static_cast<int>(study.predicted.size());

@@ -34,6 +34,11 @@ struct PredictedRow {
   double unknowns = 0.0, cpu_s = 0.0, memory_B = 0.0;
 };
 
+// A row whose mesh has no answer, such as one too coarse for Newton's method.
+struct FailedRow {
+  std::string discretisation, effects, reason;
+};
+
 // Which row to take for one tolerance.
 struct CostAdvice {
   double tolerance = 0.0;
@@ -52,6 +57,7 @@ struct CostLaw {
 struct CostStudy {
   std::vector<CostRow> rows;
   std::vector<PredictedRow> predicted;
+  std::vector<FailedRow> failed;
   std::vector<CostLaw> laws;  // that predicted them, of the kinds that have two rows or more
   std::vector<CostAdvice> advice;
   std::string reference;         // discretisation of the answer that errors refer to
@@ -85,8 +91,9 @@ std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double er
 
 // Ends within the budget plus one row: a row, or a finer reference, only starts if the model of
 // cost predicts that it ends in time. One row of linear elements and the coarsest reference always
-// run, and so do three cheap rows that take less than 0.1 s each. Throws what simulate() throws for
-// a scene that contradicts itself.
+// run, and so do three cheap rows that take less than 0.1 s each. A mesh without an answer does not end
+// the study. Throws what simulate() throws for a scene that contradicts itself, and std::runtime_error if no
+// reference, or no row, has an answer.
 CostStudy study_cost(const Scene& scene, const CostOptions& options);
 CostStudy study_of(const CostTrials& trials, const CostOptions& options);
 

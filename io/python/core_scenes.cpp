@@ -271,6 +271,11 @@ py::dict cost_scene(const std::optional<std::string>& text, const std::string& p
   out["reference"] = study.reference;
   out["reference_error"] = study.reference_error;
   out["rows_left_out"] = study.left_out;
+  py::list failed;
+  for (const FailedRow& row : study.failed) {
+    failed.append(py::make_tuple(row.discretisation, row.effects, row.reason));
+  }
+  out["rows_without_answer"] = failed;
   return out;
 }
 

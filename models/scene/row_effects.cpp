@@ -147,7 +147,10 @@ EffectEstimate adhesion_estimate(const ArrayScene& scene) {
 
 EffectEstimate finite_strain_estimate(const ArrayScene& scene) {
   double peak_Pa = analysis_of(scene).is_loaded ? std::abs(scene.load_Pa) : 0.0;
-  if (scene.press) peak_Pa = row_foundation(scene).largest_Pa;
+  if (scene.press) {  // pulled tops stretch
+    const RowFoundation pressed = row_foundation(scene);
+    peak_Pa = std::max(pressed.largest_Pa, pressed.pull_Pa);
+  }
   for (const HistoryPoint& point : history(scene)) {
     peak_Pa = std::max(peak_Pa, std::abs(point.value));
   }

@@ -165,7 +165,8 @@ EffectEstimate adhesion_estimate(const SpaceScene& scene) {
 
 EffectEstimate finite_strain_estimate(const SpaceScene& scene) {
   const double shear_Pa = std::hypot(scene.shear_x_Pa, scene.shear_y_Pa);
-  const double pressure_Pa = std::abs(top_pressure_Pa(scene));
+  const double pull_Pa = scene.press ? foundation_press(scene).pull_Pa : 0.0;
+  const double pressure_Pa = std::max(std::abs(top_pressure_Pa(scene)), pull_Pa);
   const double strain = largest_over_classes(scene, [&](const SpaceClass& one) {
     // Bending strain at the foot of a cylinder: 8 tau l/(E d).
     const double bending_Pa = 8.0 * shear_Pa * one.length_m / one.diameter_m;

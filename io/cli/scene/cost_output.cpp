@@ -61,6 +61,10 @@ void print_rows(const CostStudy& study, std::ostream& out) {
                        row.discretisation, row.effects, row.unknowns, 1e3 * row.cpu_s, "-",
                        1e-6 * row.memory_B, "-");
   }
+  for (const FailedRow& row : study.failed) {
+    out << fmt::format("- {:<36} {:<28} no answer: {}\n", row.discretisation, row.effects,
+                       row.reason);
+  }
 }
 
 void print_legend(const CostStudy& study, std::ostream& out) {
@@ -83,8 +87,13 @@ void print_legend(const CostStudy& study, std::ostream& out) {
 
 json json_from_study(const CostStudy& study) {
   json rows = json::array(), predicted = json::array(), advice = json::array();
+  json failed = json::array();
   for (const CostRow& row : study.rows) rows.push_back(json_from_row(row));
   for (const PredictedRow& row : study.predicted) predicted.push_back(json_from_prediction(row));
+  for (const FailedRow& row : study.failed) {
+    failed.push_back(
+        {{"discretisation", row.discretisation}, {"effects", row.effects}, {"reason", row.reason}});
+  }
   for (const CostAdvice& one : study.advice) {
     advice.push_back({{"tolerance", one.tolerance},
                       {"row", one.row < 0 ? json() : json(one.row)},
@@ -110,6 +119,7 @@ json json_from_study(const CostStudy& study) {
           {"reference", study.reference},
           {"reference_error", is_known ? json(study.reference_error) : json()},
           {"rows_left_out", study.left_out},
+          {"rows_without_answer", failed},
           {"tolerance", study.tolerance},
           {"budget_s", study.budget_s},
           {"wall_s", study.wall_s},

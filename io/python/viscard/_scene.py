@@ -172,6 +172,7 @@ class Cost:
         No other row takes less processor time and is as accurate.
     recommendations : list of (tolerance, row or -1, text)
     reference, reference_error, rows_left_out
+    rows_without_answer : list of (discretisation, effects, reason)
 
     Examples
     --------

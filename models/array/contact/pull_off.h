@@ -18,6 +18,18 @@ struct TopHold {
 bool is_held_after(const TopHold& hold, const std::vector<double>& path_m);
 bool is_ever_held(const TopHold& hold, const std::vector<double>& path_m);
 
+// A top as a column under the surface, for estimates.
+struct PulledColumn {
+  double lowest_m = 0.0, mean_m = 0.0, highest_m = 0.0;  // of the surface above it, at depth 0
+  double stiffness_Pa_m = 0.0;                           // mean stress per stretch
+  double limit_Pa = 0.0;                                 // mean pull at pull-off
+};
+
+// Largest mean pull on the column from where it is touched to the end of the path, at most its limit. `lets_go`:
+// the depth of its release counts as well, so that a touched top is pulled up to the limit. 0 for a top that is
+// not touched, or not covered.
+double largest_pull_Pa(const PulledColumn& column, const std::vector<double>& path_m, bool lets_go);
+
 // Pull-off force of a strip of that width with a crack at its edge, per metre across the plane; E* of
 // the plane: E in plane stress, E/(1 - nu^2) in plane strain (eq. T8).
 double strip_pull_off_N_m(double width_m, double plane_modulus_Pa, double work_J_m2);

@@ -38,19 +38,15 @@ class RowTops {
         amplitudes_(traction_amplitudes(strip_, kTopDegree)),
         under_Pa_(Eigen::MatrixXd::Zero(kPorts, scene.geometry.count)) {
     if (scene.feels_film) add_film(kFilmMeshes.at(static_cast<std::size_t>(grid)));
-    const Eigen::Index n = strip_.nodes(), count = scene.geometry.count;
-    height_m_.resize(n, count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const double at_m = place_m(scene.geometry, static_cast<int>(i));
-      for (Eigen::Index j = 0; j < n; ++j) {
-        height_m_(j, i) = height_m(scene.press->shape, at_m + strip_.x_m[j], 0.0);
-      }
-    }
+    height_m_ = Eigen::MatrixXd::NullaryExpr(
+        strip_.nodes(), scene.geometry.count, [&](Eigen::Index j, Eigen::Index i) {
+          const double at_m = place_m(scene.geometry, static_cast<int>(i)) + strip_.x_m[j];
+          return height_m(scene.press->shape, at_m, 0.0);
+        });
     if (scene.feels_contact && scene.press->work_of_adhesion_J_m2 > 0.0) set_holds();
   }
 
-  // The forces on all tops at a depth. Neighbours move the film under a pillar by far less than it does
-  // itself, so that their motion is repeated until it stays.
+  // The forces on all tops at a depth. The motion by neighbours is small, and is repeated until it stays.
   const std::vector<StripForces>& press(double depth_m) {
     constexpr int kMostPasses = 200;
     constexpr double kStays = 1e-12;
@@ -61,9 +57,9 @@ class RowTops {
       const Eigen::MatrixXd under_Pa = motion_by_others();
       const double change = (under_Pa - under_Pa_).cwiseAbs().maxCoeff();
       under_Pa_ = under_Pa;
-      const double width_m = scene_->geometry.diameter_m;
-      if (change <= kStays * width_m * std::abs(depth_m) || (pass > 3 && change >= last)) {
-        if (change > 1e-6 * width_m * std::abs(depth_m)) break;
+      const double size_m2 = scene_->geometry.diameter_m * motion_scale_m(depth_m);
+      if (change <= kStays * size_m2 || (pass > 3 && change >= last)) {
+        if (change > 1e-6 * size_m2) break;
         return forces_;
       }
       last = change;
@@ -102,6 +98,13 @@ class RowTops {
     strip_.motion_m2_N += amplitudes_.transpose() * (own_m2_Pa_ - held) * amplitudes_;
   }
 
+  // The largest of the depths and stretches that tops meet: motions are small against it, also at depth 0.
+  double motion_scale_m(double depth_m) const {
+    double scale_m = std::max(let_go_stretch_m_, depth_m - first_touch_m());
+    for (const double at_m : scene_->press->before_m) scale_m = std::max(scale_m, std::abs(at_m));
+    return std::max(scale_m, std::abs(depth_m));
+  }
+
   // The force of a top that lies flat is linear in the depth.
   void set_holds() {
     const double limit_N_m = row_pull_off_N_m(*scene_, scene_->press->work_of_adhesion_J_m2);
@@ -113,6 +116,7 @@ class RowTops {
           .down.sum();
     };
     const double stiffness_Pa = flat_N_m(Eigen::VectorXd::Ones(strip_.nodes()));
+    let_go_stretch_m_ = limit_N_m / stiffness_Pa;
     for (Eigen::Index i = 0; i < height_m_.cols(); ++i) {
       TopHold hold{.touched_m = height_m_.col(i).minCoeff()};
       if (height_m_.col(i).allFinite()) {
@@ -172,7 +176,8 @@ class RowTops {
   std::unique_ptr<ArrayModel> model_;
   Eigen::MatrixXd own_m2_Pa_;  // readings of a pillar's ports under its own loads
   std::vector<StripForces> forces_;
-  std::vector<TopHold> holds_;  // with adhesion
+  std::vector<TopHold> holds_;     // with adhesion
+  double let_go_stretch_m_ = 0.0;  // of a flat top at its pull-off force
 };
 
 RowContact RowTops::contact(double depth_m) const {

@@ -62,6 +62,7 @@ void refuse_missed_row_tips(const ArrayScene& scene, double depth_m);
 struct RowFoundation {
   double depth_m = 0.0;
   double largest_Pa = 0.0;  // largest mean pressure on a top
+  double pull_Pa = 0.0;     // largest mean pull on a top that adheres, along the path of depths
   double shortening = 0.0;  // of a pillar, the largest over its length
   bool touches = false;     // there is a surface above a top
   bool covers_all = true;   // and above every top everywhere

@@ -60,6 +60,31 @@ double row_pull_off_N_m(const ArrayScene& scene, double work_J_m2) {
   return strip_pull_off_N_m(scene.geometry.diameter_m, plane_Pa, work_J_m2);
 }
 
+namespace {
+
+double row_pull_Pa(const ArrayScene& scene, const std::vector<SurfaceAbove>& columns) {
+  const ShapePress& press = *scene.press;
+  if (!(press.work_of_adhesion_J_m2 > 0.0)) return 0.0;
+  const ArrayGeometry& g = scene.geometry;
+  const double limit_Pa = row_pull_off_N_m(scene, press.work_of_adhesion_J_m2) / g.diameter_m;
+  const bool wants_release =
+      scene.wanted.empty() ||
+      std::any_of(scene.wanted.begin(), scene.wanted.end(),
+                  [](const std::string& name) { return name.starts_with("release_depth"); });
+  double pull_Pa = 0.0;
+  for (const SurfaceAbove& one : columns) {
+    const PulledColumn column{.lowest_m = one.lowest_m,
+                              .mean_m = one.mean_m,
+                              .highest_m = one.highest_m,
+                              .stiffness_Pa_m = scene.pillar.E0_Pa / g.length_m,
+                              .limit_Pa = limit_Pa};
+    pull_Pa = std::max(pull_Pa, largest_pull_Pa(column, path_of(press), wants_release));
+  }
+  return pull_Pa;
+}
+
+}  // namespace
+
 RowFoundation row_foundation(const ArrayScene& scene) {
   const ArrayGeometry& g = scene.geometry;
   const ShapePress& press = *scene.press;
@@ -79,6 +104,7 @@ RowFoundation row_foundation(const ArrayScene& scene) {
     lifted_m = std::max(lifted_m, one.highest_m - row.depth_m);
   }
   row.largest_Pa = scene.pillar.E0_Pa * row.shortening;
+  row.pull_Pa = row_pull_Pa(scene, columns);
   if (overlap_m > 0.0) row.lift = std::min(lifted_m / overlap_m, 1.0);
   return row;
 }

@@ -1,5 +1,7 @@
 // The array under its shape as independent columns: an estimate before anything is solved.
+#include "models/array/contact/pull_off.h"
 #include "models/array/space/space_contact.h"
+#include "models/array/space/space_maps.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
@@ -16,6 +18,7 @@ namespace {
 struct Column {
   double lowest_m = 0.0, highest_m = 0.0, mean_m = 0.0;  // of the surface above its top
   double area_m2 = 0.0, stiffness_Pa_m = 0.0, length_m = 0.0;
+  double limit_Pa = 0.0;  // mean pull at pull-off
 
   double force_N(double depth_m) const {
     return std::max(depth_m - mean_m, 0.0) * stiffness_Pa_m * area_m2;
@@ -32,7 +35,8 @@ Column column_under(const RigidShape& shape, const SpacePillar& one, const Space
                 0.5 * centre_m,
                 std::numbers::pi * R_m * R_m,
                 kind.material.E0_Pa / kind.length_m,
-                kind.length_m};
+                kind.length_m,
+                0.0};
   for (int a = 0; a < kAngles; ++a) {
     const double angle = 2.0 * std::numbers::pi * a / kAngles;
     const double rim_m =
@@ -52,7 +56,10 @@ std::vector<Column> columns_under(const SpaceScene& scene) {
   columns.reserve(scene.pillars.size());
   for (const SpacePillar& one : scene.pillars) {
     const SpaceClass& kind = classes[static_cast<std::size_t>(one.of_class)];
-    columns.push_back(column_under(scene.press->shape, one, kind, kind.length_m - scene.length_m));
+    Column column = column_under(scene.press->shape, one, kind, kind.length_m - scene.length_m);
+    const double work_J_m2 = scene.press->work_of_adhesion_J_m2;
+    if (work_J_m2 > 0.0) column.limit_Pa = class_pull_off_N(kind, work_J_m2) / column.area_m2;
+    columns.push_back(column);
   }
   return columns;
 }
@@ -77,6 +84,20 @@ double depth_of_force_m(const std::vector<Column>& columns, double force_N) {
     (sum_N(middle_m) < force_N ? low_m : high_m) = middle_m;
   }
   return high_m;
+}
+
+double space_pull_Pa(const SpaceScene& scene, const std::vector<Column>& columns) {
+  const bool wants_release = asks_for_map(scene, "release_depth");
+  double pull_Pa = 0.0;
+  for (const Column& one : columns) {
+    const PulledColumn column{.lowest_m = one.lowest_m,
+                              .mean_m = one.mean_m,
+                              .highest_m = one.highest_m,
+                              .stiffness_Pa_m = one.stiffness_Pa_m,
+                              .limit_Pa = one.limit_Pa};
+    pull_Pa = std::max(pull_Pa, largest_pull_Pa(column, path_of(*scene.press), wants_release));
+  }
+  return pull_Pa;
 }
 
 }  // namespace
@@ -129,6 +150,7 @@ FoundationPress foundation_press(const SpaceScene& scene) {
     turned_m =
         std::max(turned_m, 0.5 * (std::min(column.highest_m, answer.depth_m) - column.lowest_m));
   }
+  if (scene.press->work_of_adhesion_J_m2 > 0.0) answer.pull_Pa = space_pull_Pa(scene, columns);
   if (!(overlap_m > 0.0)) return answer;
   answer.lift = std::min(lifted_m / overlap_m, 1.0);
   answer.turn = std::min(turned_m / overlap_m, 1.0);

@@ -78,6 +78,7 @@ void refuse_missed_tips(const SpaceScene& scene, double depth_m);
 struct FoundationPress {
   double depth_m = 0.0;
   double largest_Pa = 0.0;  // largest mean pressure on a top
+  double pull_Pa = 0.0;     // largest mean pull on a top that adheres, along the path of depths
   double shortening = 0.0;  // of a pillar, the largest over its length
   double lowest_m = 0.0;    // of the surface over all tops
   // How far a point of any top stays above the surface, and half the rise of the surface over a touched

@@ -19,6 +19,11 @@ constexpr double kNearRounding = 1e-6;  // below, corrections that no longer fal
 constexpr int kMostAugmentations = 12;
 constexpr double kVolumeKept = 1e-11;  // largest relative change of volume at nu = 0.5
 
+// Three digits, without a power of ten for large numbers.
+std::string plain(double value) {
+  return std::abs(value) < 999.5 ? text_of(value, 3) : text_from_number(value, 0);
+}
+
 class NewtonRun {
  public:
   NewtonRun(LargeBody& body, const LargeLoad& load) : body_(body), load_(load) {
@@ -156,15 +161,18 @@ class NewtonRun {
 
   [[noreturn]] void refuse(const std::string& what, double done) const {
     const std::string reached =
+        load_.displacement_m ? "a top displacement of " + plain(1e6 * mean_.dot(state_.u)) + " um"
+                             : "a pressure of " + plain(done * load_.pressure_Pa) + " Pa";
+    const std::string where = done < 1.0 ? "beyond " + plain(100.0 * done) + " % of the load, "
+                                         : "under the whole load, ";
+    const std::string instead =
         load_.displacement_m
-            ? "a top displacement of " + text_of(1e6 * mean_.dot(state_.u), 3) + " um"
-            : "a pressure of " + text_of(done * load_.pressure_Pa, 3) + " Pa";
+            ? "Ask for a smaller displacement"
+            : "Ask for a smaller load, press the top by a displacement instead of a pressure";
     throw std::runtime_error(
-        what + " at large strain beyond " + text_of(100.0 * done, 3) + " % of the load, " +
-        reached + " (" +
-        text_of(100.0 * std::abs(mean_.dot(state_.u)) / body_.model().geometry().length_m, 3) +
-        " % of the length). Ask for a smaller load, press the top by a displacement instead of a "
-        "pressure, or use a law that is stable over this strain");
+        what + " at large strain " + where + reached + " (" +
+        plain(100.0 * std::abs(mean_.dot(state_.u)) / body_.model().geometry().length_m) +
+        " % of the length). " + instead + ", or use a law that is stable over this strain");
   }
 
   // The pressures of an incompressible body.
@@ -176,7 +184,10 @@ class NewtonRun {
         state_.rest = std::max(state_.rest, change);
         return;
       }
-      if (!converge(1.0)) break;
+      const LargeState before = state_;
+      if (converge(1.0)) continue;
+      state_ = before;
+      break;
     }
     refuse("the pressures of the incompressible pillar do not converge", 1.0);
   }

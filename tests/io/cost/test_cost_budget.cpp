@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 using namespace viscard;
 
@@ -91,6 +92,31 @@ TEST_CASE("a row that waited for the processor ranks as high as its work deserve
   CHECK(row->wall_s == Approx(1000.0 * law_s(1600.0)).epsilon(1e-9));
   // Graded p4 is the cheapest for 1e-3: p3 has twice the error that it may have.
   CHECK(study.rows[static_cast<std::size_t>(study.advice[2].row)].discretisation == "graded p4");
+}
+
+TEST_CASE("a mesh without an answer does not end a cost study", "[io][scene]") {
+  Hours hours;
+  const auto fails = [](CostTrial& trial) {
+    trial.run = []() -> SceneAnswer { throw std::runtime_error("no equilibrium"); };
+  };
+  const CostTrials whole = trials_of_law(hours, 1.0);
+  CostTrials trials = whole;
+  fails(trials.rows[1]);
+  fails(trials.references.front());
+  fails(trials.references.back());
+  const CostStudy study = study_of(trials, {.budget_s = 1e6, .clock = hours.clock()});
+  CHECK(study.rows.size() == trials.rows.size() - 1);
+  CHECK(study.predicted.empty());
+  REQUIRE(study.failed.size() == 3);
+  CHECK(study.failed.back().discretisation == trials.rows[1].discretisation);
+  CHECK(study.failed.back().reason == "no equilibrium");
+  CHECK(study.reference == trials.references[trials.references.size() - 2].discretisation);
+  // Between the reference of degree 8 and the first that has an answer.
+  CHECK(study.reference_error == Approx(1e-4).epsilon(1e-2));
+  trials = whole;
+  for (CostTrial& trial : trials.references) fails(trial);
+  CHECK_THROWS_WITH(study_of(trials, {.budget_s = 1e6, .clock = hours.clock()}),
+                    Catch::Contains("no equilibrium"));
 }
 
 TEST_CASE("a cost study ends within its budget plus one row", "[io][scene]") {

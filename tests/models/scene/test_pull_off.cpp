@@ -127,3 +127,47 @@ TEST_CASE("the plan leaves pull-off out where it cannot matter", "[models][array
         Approx(std::sqrt(std::numbers::pi * 1.8e6 * 0.04 * 40e-6) / (1.8e6 * 40e-6 * 3e-6 / 120e-6))
             .epsilon(0.2));
 }
+
+TEST_CASE("tops that adhere are pulled at the depth 0 of the shape", "[models][array]") {
+  ArrayScene row = pressed_row(cylinder(0.0, Friction::kNone, 20e-3));
+  row.press->work_of_adhesion_J_m2 = 0.02;
+  row.press->before_m = {5e-6};
+  row.tolerance = 2e-2;
+  const auto force_N_m = [&](double depth_m) {
+    row.press->depth_m = depth_m;
+    return test::result_of(simulate(row), "contact_force");
+  };
+  const double force = force_N_m(0.0);
+  CHECK(force < 0.0);
+  // Held tops follow the shape: the force is linear in the depth.
+  CHECK(force == Approx(0.5 * (force_N_m(-0.1e-6) + force_N_m(0.1e-6))).epsilon(1e-6));
+}
+
+TEST_CASE("the stretch of pulled tops counts as strain", "[models][array][plan]") {
+  const auto strain = [](const Scene& scene) {
+    const std::vector<SceneEffect> effects = plan_effects(scene).effects;
+    return std::find_if(effects.begin(), effects.end(),
+                        [](const SceneEffect& one) { return one.name == "finite_strain"; })
+        ->value;
+  };
+  // The film and a nearly flat shape aside, a pillar of 120 um is stretched by 2.5 um.
+  ArrayScene row = pressed_row(cylinder(-2.5e-6, Friction::kNone, 10.0));
+  row.press->work_of_adhesion_J_m2 = 0.02;
+  row.press->before_m = {5e-6};
+  row.wanted = {"contact_force"};
+  CHECK(strain(row) == Approx(2.5 / 120.0).epsilon(1e-2));
+  // Where it lets go the mean pull is sqrt(pi E w/d).
+  row.wanted = {"release_depth"};
+  const double limit_Pa = std::sqrt(std::numbers::pi * 1.8e6 * 0.02 / 40e-6);
+  CHECK(strain(row) == Approx(limit_Pa / 1.8e6).epsilon(1e-6));
+  row.wanted = {"contact_force"};
+  row.press->depth_m = -20e-6;
+  CHECK(strain(row) == Approx(limit_Pa / 1.8e6).epsilon(1e-6));
+  // A top that was never touched is not pulled.
+  row.press->before_m = {-1e-6};
+  CHECK(strain(row) == 0.0);
+
+  SpaceScene array = adhesive(3, 3, 10.0, -2.5e-6, {2e-6});
+  array.wanted = {"contact_force"};
+  CHECK(strain(array) == Approx(2.5e-6 / array.length_m).epsilon(1e-2));
+}

@@ -212,6 +212,16 @@ TEST_CASE("a load that no equilibrium bears is refused with the load reached", "
   CHECK_THROWS_WITH(press(1.2 * most_Pa),
                     Catch::Contains("no equilibrium") && Catch::Contains("% of the load") &&
                         Catch::Contains("% of the length") && Catch::Contains("smaller load"));
+  CHECK_THROWS_WITH(press(1.2 * most_Pa),
+                    Catch::Contains("by a displacement instead") && !Catch::Contains("e+"));
+  // Compressed by more than its length.
+  CHECK_THROWS_WITH(
+      [&] {
+        Pillar pillar(law, {.degree = 3, .layers = 1}, {.bottom_slides = true, .rigid_top = true});
+        solve_large(pillar.body, {.displacement_m = -2.0 * pillar.model.geometry().length_m});
+      }(),
+      Catch::Contains("smaller displacement") && !Catch::Contains("instead of a pressure") &&
+          !Catch::Contains("e+"));
   Pillar pillar(law, {.degree = 3, .layers = 1});
   CHECK_THROWS_WITH(solve_large(pillar.body, {.displacement_m = 1e-6, .follows_surface = true}),
                     Catch::Contains("needs its size"));
