@@ -7,6 +7,7 @@
 #include "fit/large_strain/rubber_series.h"
 #include "fit/large_strain/rubber_term_checks.h"
 #include "fit/large_strain/series_choice.h"
+#include "fit/large_strain/series_refine.h"
 #include "fit/samples/noise_model.h"
 #include "models/maths/dense.h"
 #include "models/maths/distributions.h"

@@ -35,7 +35,13 @@ struct UnseenDirections {
   Eigen::MatrixXd columns;
   Eigen::VectorXd step;
   // True if a quantity with this gradient by the first parameters is not determined.
-  bool change(const Eigen::VectorXd& gradient) const;
+  bool change(const Eigen::VectorXd& gradient) const {
+    constexpr double kRounding = 1e-4;
+    if (columns.size() == 0) return false;
+    const Eigen::VectorXd scaled = gradient.cwiseProduct(step.head(gradient.size()));
+    return (columns.topRows(gradient.size()).transpose() * gradient).norm() >
+           kRounding * scaled.norm();
+  }
 };
 
 // One law fitted to all tests. With terms it is the instantaneous law, of which 1 - sum g is left after

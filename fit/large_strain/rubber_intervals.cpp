@@ -87,14 +87,6 @@ void add_modulus(FittedRubber& fitted) {
 
 }  // namespace
 
-bool UnseenDirections::change(const VectorXd& gradient) const {
-  constexpr double kRounding = 1e-4;
-  if (columns.size() == 0) return false;
-  const VectorXd scaled = gradient.cwiseProduct(step.head(gradient.size()));
-  return (columns.topRows(gradient.size()).transpose() * gradient).norm() >
-         kRounding * scaled.norm();
-}
-
 void add_intervals(FittedRubber& fitted) {
   add_parameters(fitted);
   add_modulus(fitted);

@@ -1,5 +1,6 @@
 #include "fit/large_strain/rubber_series.h"
 
+#include "fit/large_strain/series_refine.h"
 #include "fit/search/nnls.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "fit/large_strain/series_choice.h"
 
-#include "fit/large_strain/rubber_series.h"
+#include "fit/large_strain/series_refine.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The refinement of all parameters of a law with terms together.
-#include "fit/large_strain/rubber_series.h"
+#include "fit/large_strain/series_refine.h"
 
 #include <ceres/ceres.h>
 
