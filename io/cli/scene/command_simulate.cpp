@@ -71,8 +71,9 @@ std::optional<SceneUncertainty> uncertainty_of(const po::variables_map& values,
   }
   Progress progress(streams, "uncertainty");
   const UncertainScene scene(file, read_file(path), path);
+  progress.announce(0.0, "answers around the given values");
   return scene_uncertainty(scene, answer, {.n_samples = n_samples, .progress = [&](double done) {
-                                             progress.show(done, "");
+                                             progress.show(done, "answers around the given values");
                                            }});
 }
 

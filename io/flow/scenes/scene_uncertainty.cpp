@@ -28,12 +28,18 @@ constexpr double kNoAnswer = std::numeric_limits<double>::quiet_NaN();
 class AnswerCount {
  public:
   AnswerCount(const std::function<void(double)>& progress) : progress_(progress) {}
+  // Before the first answer.
+  void start(std::size_t at_least) {
+    at_least_ = at_least;
+    if (progress_) progress_(0.0);
+  }
   void expect(std::size_t more) { expected_ += more; }
   void add_one() {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++done_;
     if (progress_) {
-      progress_(std::min(1.0, static_cast<double>(done_) / static_cast<double>(expected_)));
+      const std::size_t expected = std::max(expected_, at_least_);
+      progress_(std::min(1.0, static_cast<double>(done_) / static_cast<double>(expected)));
     }
   }
   // Keeps the first reason why a point has no answer.
@@ -46,7 +52,7 @@ class AnswerCount {
  private:
   const std::function<void(double)>& progress_;
   std::mutex mutex_;
-  std::size_t done_ = 0, expected_ = 0;
+  std::size_t done_ = 0, expected_ = 0, at_least_ = 0;
   std::string why_;
 };
 
@@ -77,7 +83,11 @@ class AnswersOnMesh {
         const auto it = std::find_if(found.begin(), found.end(), [&](const NamedValue& one) {
           return one.name == wanted_[r].name;
         });
-        if (it != found.end()) row[static_cast<Index>(r)] = it->value;
+        if (it != found.end()) {
+          row[static_cast<Index>(r)] = it->value;
+        } else {
+          count_.keep_reason("the answer close to the given values has no " + wanted_[r].name);
+        }
       }
     } catch (const std::exception& error) {
       count_.keep_reason(error.what());
@@ -242,6 +252,12 @@ SceneUncertainty uncertainty_of(const UncertainScene& scene, const SceneAnswer& 
                            .value = one.value,
                            .numerical_error = one.error_estimate});
   }
+  std::size_t n_deviates = 0;
+  for (const UncertainInput& input : out.inputs) {
+    n_deviates += static_cast<std::size_t>(input.n_deviates);
+  }
+  // The value, two steps of each derivative, the ends of the intervals.
+  count.start(1 + 4 * n_deviates + 2 * (n_deviates + values.size()));
   const LinearAnswer linear =
       linear_answer(AnswersOnMesh(scene, values, answer.discretisation, count), out.inputs);
   out.n_answers = linear.n_answers;

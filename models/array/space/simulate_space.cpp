@@ -214,22 +214,32 @@ std::string note_of_shrinking(const TouchCourse& course) {
          text_of(course.time_s[course.shown_at], 4) + " s";
 }
 
-// For mesh studies: the loads are found as for a tolerance, once more for each mesh.
 SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
   const TouchCourse course = touch_course(scene, kShareOfContact * scene.tolerance);
   SceneAnswer answer = voltages_on(scene, course.shown.loads_Pa, mesh, &course);
   add_contact(scene, course.shown, answer);
+  set_results(scene, answer);
+  for (SceneCurve& curve : answer.curves) curve.error.assign(curve.x.size(), 0.0);
+  finish_curves(scene, course, 0.0, answer);
+  return answer;
+}
+
+SceneAnswer pressed_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
+  const SpaceContact contact = contact_on(scene, (mesh.degree - 3) / 2);
+  SceneAnswer answer = voltages_on(scene, contact.loads_Pa, mesh);
+  add_contact(scene, contact, answer);
+  set_results(scene, answer);
   return answer;
 }
 
 }  // namespace
 
 SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
-  if (!scene.press) return voltages_on(scene, loads_of(scene), mesh);
-  if (scene.touch) return touch_answer_on(scene, mesh);
-  const SpaceContact contact = contact_on(scene, (mesh.degree - 3) / 2);
-  SceneAnswer answer = voltages_on(scene, contact.loads_Pa, mesh);
-  add_contact(scene, contact, answer);
+  SceneAnswer answer = scene.touch   ? touch_answer_on(scene, mesh)
+                       : scene.press ? pressed_answer_on(scene, mesh)
+                                     : voltages_on(scene, loads_of(scene), mesh);
+  add_heat_and_noise(scene, answer);
+  if (senses_forces(scene)) finish_sensed(scene, answer);
   return answer;
 }
 
@@ -280,9 +290,8 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   if (senses_forces(scene)) finish_sensed(scene, answer);
   if (contact) answer.notes = contact_notes(scene, course ? course->largest : *contact);
   if (course && course->has_shrunk) answer.notes.push_back(note_of_shrinking(*course));
-  if (senses_forces(scene)) {
-    for (std::string& note : sensed_notes(scene)) answer.notes.push_back(std::move(note));
-  }
+  if (senses_forces(scene))
+    std::ranges::move(sensed_notes(scene), std::back_inserter(answer.notes));
   add_stretching_note(scene, backing, answer);
   return answer;
 }

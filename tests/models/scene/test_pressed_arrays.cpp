@@ -1,6 +1,7 @@
 // Arrays in the plane under a rigid shape, as scenes: forces, voltages, plan and notes.
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
+#include "models/array/space/touch_steps.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
@@ -218,4 +219,27 @@ TEST_CASE("a foot settles into its film by a ten-thousandth of the pillar's shor
   // 6.59692e-11 on a rigid base; another program's Fourier integral of the foot alone: 6.92e-15.
   CHECK(foot_settling_m_Pa(array.film, foot) == Approx(6.97e-15).epsilon(0.02));
   CHECK(foot.sinking_m_Pa == Approx(6.59692e-11).epsilon(1e-5));
+}
+
+TEST_CASE("an answer on one mesh has every result of the answer", "[models][array][space]") {
+  const auto missing_in = [](const SpaceScene& scene) {
+    const SceneAnswer whole = simulate(scene);
+    const SceneAnswer one = answer_on(plan_effects(scene).reduced, whole.discretisation);
+    std::string missing;
+    for (const SceneResult& result : whole.results) {
+      const bool is_there =
+          std::any_of(one.results.begin(), one.results.end(),
+                      [&](const SceneResult& other) { return other.name == result.name; });
+      if (!is_there) missing += result.name + " ";
+    }
+    return missing;
+  };
+  SpaceScene scene = pressed_array(3, 3, paraboloid(20e-3, 2e-6));
+  CHECK(missing_in(scene) == "");
+  scene.wanted = {"mean_voltage_2_2", "pillar_force", "pillar_force_2_2", "contact_force"};
+  CHECK(missing_in(scene) == "");
+  scene.wanted.clear();
+  scene.pillar.terms = {{0.3, 0.3, 0.2}};
+  press_in_time(scene, {.is_creep = false, .history = {{0.0, 0.0}, {1.0, 2e-6}}, .readout = {}});
+  CHECK(missing_in(scene) == "");
 }
