@@ -128,8 +128,7 @@ TEST_CASE("the stress turns with the body", "[pillar][identity]") {
   }
 }
 
-TEST_CASE("a body turned inside out and a strain beyond Gent's limit have no stress",
-          "[pillar]") {
+TEST_CASE("a body turned inside out and a strain beyond Gent's limit have no stress", "[pillar]") {
   const FiniteLaw law = finite_law({HyperelasticForm::kGent, Eigen::VectorXd::Constant(1, 1e5),
                                     Eigen::VectorXd::Constant(1, 2.0)},
                                    0.45);
