@@ -1,5 +1,7 @@
 #include "fit/assembly/parametrisation.h"
 
+#include "fit/search/dense_least_squares.h"
+
 #include <ceres/ceres.h>
 
 #include <algorithm>
@@ -137,19 +139,11 @@ SpectralState solve_in_box(const Parametrisation& form, const Eigen::VectorXd& l
                         new ceres::SubsetManifold(static_cast<int>(theta.size()), fixed));
   }
   problem.AddResidualBlock(new FullCost(form), nullptr, theta.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 500;
-  options.function_tolerance = 1e-15;
-  options.parameter_tolerance = 1e-13;
-  options.gradient_tolerance = 1e-14;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const SearchSummary summary = solve_dense(problem, {.parameter_tolerance = 1e-13});
   SpectralState state = form.state_of(theta);
   const SpectralModel& model = form.model();
   state.rss = (model.fitted(state) - model.data()).squaredNorm();
-  state.is_converged = summary.IsSolutionUsable();
+  state.is_converged = summary.is_usable;
   return state;
 }
 

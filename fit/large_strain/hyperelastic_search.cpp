@@ -1,5 +1,6 @@
 #include "fit/large_strain/hyperelastic_search.h"
 
+#include "fit/search/dense_least_squares.h"
 #include "fit/search/nnls.h"
 
 #include <ceres/ceres.h>
@@ -80,18 +81,11 @@ HyperelasticPoint refined(HyperelasticForm form, const LargeStrainRows& rows,
     }
   }
   problem.AddResidualBlock(new RubberCost(form, rows), nullptr, theta.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 300;
-  options.function_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-12;
-  options.gradient_tolerance = 1e-14;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const SearchSummary summary =
+      solve_dense(problem, {.max_iterations = 300, .function_tolerance = 1e-14});
   // The moduli are solved exactly at the shapes that were found.
   HyperelasticPoint point = at_shapes(form, rows, theta.tail(theta.size() - n));
-  point.is_converged = summary.IsSolutionUsable();
+  point.is_converged = summary.is_usable;
   return point;
 }
 

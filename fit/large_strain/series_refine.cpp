@@ -1,6 +1,8 @@
 // The refinement of all parameters of a law with terms together.
 #include "fit/large_strain/series_refine.h"
 
+#include "fit/search/dense_least_squares.h"
+
 #include <ceres/ceres.h>
 
 #include <algorithm>
@@ -119,18 +121,11 @@ HyperelasticPoint refined_series(HyperelasticForm form, const LargeStrainRows& r
   }
   problem.AddResidualBlock(new SeriesCost(form, rows, static_cast<int>(theta.size())), nullptr,
                            theta.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 100;
-  options.function_tolerance = 1e-11;
-  options.parameter_tolerance = 1e-9;
-  options.gradient_tolerance = 1e-14;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const SearchSummary summary = solve_dense(
+      problem, {.max_iterations = 100, .function_tolerance = 1e-11, .parameter_tolerance = 1e-9});
   HyperelasticPoint point = point_from(form, theta);
-  point.rss = 2.0 * summary.final_cost;
-  point.is_converged = summary.IsSolutionUsable();
+  point.rss = summary.rss;
+  point.is_converged = summary.is_usable;
   std::sort(point.terms.begin(), point.terms.end(),
             [](const RubberTerm& a, const RubberTerm& b) { return a.tau_s < b.tau_s; });
   return point;

@@ -1,6 +1,7 @@
 #include "fit/search/separable.h"
 
 #include "fit/samples/sample_passes.h"
+#include "fit/search/dense_least_squares.h"
 #include "fit/search/nnls.h"
 #include "fit/search/projection.h"
 #include "models/maths/dense.h"
@@ -101,18 +102,12 @@ SpectralState refine(const SpectralModel& model, const SpectralState& start,
   }
   problem.AddResidualBlock(new ProjectedCost(model, n_terms), nullptr, p.data());
 
-  ceres::Solver::Options ceres_options;
-  ceres_options.linear_solver_type = ceres::DENSE_QR;
-  ceres_options.max_num_iterations = options.max_iterations;
-  ceres_options.function_tolerance = options.tolerance;
-  ceres_options.parameter_tolerance = 1e-12;
-  ceres_options.gradient_tolerance = 1e-30;
-  ceres_options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(ceres_options, &problem, &summary);
+  const SearchSummary summary = solve_dense(problem, {.max_iterations = options.max_iterations,
+                                                      .function_tolerance = options.tolerance,
+                                                      .gradient_tolerance = 1e-30});
 
   SpectralState state = solve_coefficients(model, p.head(n_terms), nuisance_from(model, p));
-  state.is_converged = summary.termination_type == ceres::CONVERGENCE;
+  state.is_converged = summary.has_converged;
   return sorted_by_time(std::move(state), model.n_common());
 }
 

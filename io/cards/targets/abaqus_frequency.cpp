@@ -137,53 +137,55 @@ void read_abaqus_table(const std::string& text, ReadCard& card) {
   }
 }
 
+// What both cards of the frequency domain share.
+CardTarget frequency_target(const std::string& name, const std::string& how,
+                            std::string (&write)(const CardBody& body),
+                            void (&read)(const std::string& text, ReadCard& card)) {
+  return {.name = name,
+          .code = "Abaqus, steady-state dynamics with a " + how,
+          .extension = ".inp",
+          .comment = "**",
+          .write = write,
+          .read = read,
+          .at = ModulusAt::kLongTerm,
+          .is_case_sensitive = false,
+          .reads_fortran_numbers = true,
+          .takes_incompressible = true,
+          .evidence = Evidence::kDocumentation,
+          .evidence_note = "public keyword manual; not run"};
+}
+
 }  // namespace
 
 CardTarget abaqus_frequency_target() {
-  return {.name = "abaqus-frequency",
-          .code = "Abaqus, steady-state dynamics with a Prony series",
-          .extension = ".inp",
-          .comment = "**",
-          .write = write_frequency_prony,
-          .read = read_frequency_prony,
-          .at = ModulusAt::kLongTerm,
-          .is_case_sensitive = false,
-          .reads_fortran_numbers = true,
-          .takes_incompressible = true,
-          .evidence = Evidence::kDocumentation,
-          .evidence_note = "public keyword manual; not run",
-          .advice =
-              "Use *STEADY STATE DYNAMICS, DIRECT (or SUBSPACE PROJECTION); mode-based steps "
-              "ignore the damping of the material.",
-          .harmonic = "exact: *STEADY STATE DYNAMICS, DIRECT",
-          .cannot_represent =
-              "tests in time (*VISCO, *DYNAMIC): card abaqus has the same material "
-              "for them"};
+  CardTarget target = frequency_target("abaqus-frequency", "Prony series", write_frequency_prony,
+                                       read_frequency_prony);
+  target.advice =
+      "Use *STEADY STATE DYNAMICS, DIRECT (or SUBSPACE PROJECTION); mode-based steps ignore the "
+      "damping of the "
+      "material.";
+  target.harmonic = "exact: *STEADY STATE DYNAMICS, DIRECT";
+  target.cannot_represent =
+      "tests in time (*VISCO, *DYNAMIC): card abaqus has the same material for them";
+  return target;
 }
 
 CardTarget abaqus_table_target() {
-  return {.name = "abaqus-table",
-          .code = "Abaqus, steady-state dynamics with a table over frequency",
-          .extension = ".inp",
-          .comment = "**",
-          .write = write_abaqus_table,
-          .read = read_abaqus_table,
-          .at = ModulusAt::kLongTerm,
-          .is_case_sensitive = false,
-          .reads_fortran_numbers = true,
-          .takes_incompressible = true,
-          .evidence = Evidence::kDocumentation,
-          .evidence_note = "public keyword manual; not run",
-          .advice =
-              "Use *STEADY STATE DYNAMICS, DIRECT (or SUBSPACE PROJECTION). The first two "
-              "columns of a row are G''/G_inf and 1 - G'/G_inf, the next two those of K.",
-          .cannot_represent = "tests in time, and frequencies outside the table",
-          .conventions =
-              "long-term E, nu; rows Re(wg*) = G''/G_inf, Im(wg*) = 1 - G'/G_inf, the "
-              "same of K, frequency in cycles per time",
-          .values = abaqus_table_values,
-          .rows_per_decade = 20,
-          .band_note = table_note};
+  CardTarget target = frequency_target("abaqus-table", "table over frequency", write_abaqus_table,
+                                       read_abaqus_table);
+  target.advice =
+      "Use *STEADY STATE DYNAMICS, DIRECT (or SUBSPACE PROJECTION). The first two columns of a row "
+      "are "
+      "G''/G_inf and 1 - G'/G_inf, the next two those of K.";
+  target.cannot_represent = "tests in time, and frequencies outside the table";
+  target.conventions =
+      "long-term E, nu; rows Re(wg*) = G''/G_inf, Im(wg*) = 1 - G'/G_inf, the same of K, frequency "
+      "in cycles "
+      "per time";
+  target.values = abaqus_table_values;
+  target.rows_per_decade = 20;
+  target.band_note = table_note;
+  return target;
 }
 
 }  // namespace viscard
