@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace viscard {
 namespace {
@@ -69,6 +70,38 @@ std::vector<LoadCycle> load_cycles(const std::vector<double>& stretch) {
     cycles.push_back({points[k - 1], points[k], points[k]});
   }
   return cycles;
+}
+
+LargeStrainTest sorted_by_stretch(const LargeStrainTest& test) {
+  std::vector<std::size_t> order(test.stretch.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return test.stretch[a] < test.stretch[b]; });
+  LargeStrainTest out = test;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    out.stretch[i] = test.stretch[order[i]];
+    out.nominal_stress_Pa[i] = test.nominal_stress_Pa[order[i]];
+    if (has_times(test)) out.time_s[i] = test.time_s[order[i]];
+  }
+  return out;
+}
+
+bool is_unsorted_curve(const LargeStrainTest& test) {
+  const std::vector<double>& stretch = test.stretch;
+  if (has_times(test) || std::is_sorted(stretch.begin(), stretch.end()) ||
+      std::is_sorted(stretch.rbegin(), stretch.rend()))
+    return false;
+  const LargeStrainTest sorted = sorted_by_stretch(test);
+  return std::adjacent_find(sorted.stretch.begin(), sorted.stretch.end()) == sorted.stretch.end() &&
+         std::is_sorted(sorted.nominal_stress_Pa.begin(), sorted.nominal_stress_Pa.end());
+}
+
+double share_of_turns(const std::vector<double>& stretch) {
+  if (stretch.size() < 3) return 0.0;
+  std::size_t turns = 0;
+  for (std::size_t i = 1; i + 1 < stretch.size(); ++i)
+    turns += (stretch[i] - stretch[i - 1]) * (stretch[i + 1] - stretch[i]) < 0.0 ? 1 : 0;
+  return static_cast<double>(turns) / static_cast<double>(stretch.size() - 2);
 }
 
 std::optional<double> softening(const LargeStrainTest& test, const std::vector<LoadCycle>& cycles) {

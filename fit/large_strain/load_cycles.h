@@ -18,6 +18,14 @@ struct LoadCycle {
 // goes one way through 1, such as a sorted table from compression to tension, is one cycle of all rows.
 std::vector<LoadCycle> load_cycles(const std::vector<double>& stretch);
 
+// A table without times in any order of its rows: no stretch stands twice, and the stress never falls with
+// it, so that its rows are one curve. Cycles have hysteresis or repeat a stretch.
+bool is_unsorted_curve(const LargeStrainTest& test);
+// The same rows in ascending order of the stretch.
+LargeStrainTest sorted_by_stretch(const LargeStrainTest& test);
+// Share of the inner rows at which the stretch turns: 2/3 on average in a shuffled table.
+double share_of_turns(const std::vector<double>& stretch);
+
 // Softening of a rubber by its first loading (Mullins, Rubber Chem. Technol. 42 (1969) 339): one minus
 // the ratio of the stresses of the last and the first cycle, while loading, at the smaller of their
 // peak stretches. Nothing for fewer than two cycles.

@@ -209,7 +209,9 @@ FileKind kind_of_file(std::string_view contents) {
   const std::size_t inside = text.find_first_not_of(" \t\r\n", 1);
   if (text.front() == '{' &&
       (inside == std::string_view::npos || text[inside] == '"' || text[inside] == '}')) {
-    return json_kind(text);
+    // The schema may be the last key, behind "terms".
+    const bool has_schema = text.find("\"schema\"") != std::string_view::npos;
+    return json_kind(has_schema ? text : contents);
   }
   const bool is_list =
       text.front() == '[' && inside != std::string_view::npos &&

@@ -1,6 +1,7 @@
 // Any bytes are read as a card of a law of rubber or refused by one exception with a text. The
 // environment variable VISCARD_FUZZ_TARGET names the reader, else the first byte picks it.
 #include "io/cards/hyperelastic/check_rubber.h"
+#include "io/cards/hyperelastic/rubber_card.h"
 
 #include <cstdint>
 #include <cstdlib>
@@ -11,7 +12,7 @@ namespace {
 
 const std::string& reader(std::uint8_t first) {
   static const char* const name = std::getenv("VISCARD_FUZZ_TARGET");
-  const auto& all = viscard::readable_rubber_targets();
+  const auto& all = viscard::rubber_card_targets();
   static const std::string named = name != nullptr ? name : "";
   return name != nullptr ? named : all[first % all.size()];
 }

@@ -1,6 +1,7 @@
 #include "io/cards/hyperelastic/read_rubber.h"
 
 #include "io/basics/words.h"
+#include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/hyperelastic/rubber_readers.h"
 #include "io/cards/unit_system.h"
 
@@ -17,8 +18,13 @@ RubberText text_of_target(const std::string& text, const std::string& target) {
   if (target == "febio") return read_febio_rubber(text);
   if (target == "lsdyna") return read_lsdyna_rubber(text);
   if (target == "openradioss") return read_openradioss_rubber(text);
+  if (target == "frontistr") return read_frontistr_rubber(text);
+  if (target == "sfepy") return read_sfepy_rubber(text);
+  if (target == "mfront") return read_mfront_rubber(text);
+  if (target == "moose") return read_moose_rubber(text);
+  if (target == "comsol") return read_comsol_rubber(text);
   throw std::invalid_argument("cards of rubber for " + target + " cannot be read; those for " +
-                              listed(readable_rubber_targets()) + " can");
+                              listed(rubber_card_targets()) + " can");
 }
 
 Eigen::VectorXd vector_of(const std::vector<double>& numbers) {
@@ -59,17 +65,13 @@ void take_at_once(const RubberText& read, double stress_Pa, ReadRubber& out) {
 
 }  // namespace
 
-const std::vector<std::string>& readable_rubber_targets() {
-  static const std::vector<std::string> kTargets{"abaqus", "ansys",  "calculix",
-                                                 "febio",  "lsdyna", "openradioss"};
-  return kTargets;
-}
-
 bool looks_like_rubber_card(const std::string& text) {
-  const auto& words = {"*HYPERELASTIC",  "TB,HYPER",          "*MAT_OGDEN_RUBBER",
-                       "*MAT_077",       "*MAT_HYPERELASTIC", "/MAT/LAW62",
-                       "/MAT/LAW82",     "/MAT/LAW92",        "/MAT/LAW94",
-                       "type=\"Ogden\"", "type=\"Yeoh\"",     "type=\"Arruda-Boyce\""};
+  const auto& words = {"*HYPERELASTIC",      "TB,HYPER",          "*MAT_OGDEN_RUBBER",
+                       "*MAT_077",           "*MAT_HYPERELASTIC", "/MAT/LAW62",
+                       "/MAT/LAW82",         "/MAT/LAW92",        "/MAT/LAW94",
+                       "type=\"Ogden\"",     "type=\"Yeoh\"",     "type=\"Arruda-Boyce\"",
+                       "!HYPERELASTIC",      "dw_tl_he_",         "ComputeNeoHookeanStress",
+                       "DefaultFiniteStrain"};
   if (!stated_rubber_target(text).empty()) return true;
   return std::any_of(words.begin(), words.end(),
                      [&](const char* word) { return text.find(word) != std::string::npos; });
@@ -80,7 +82,7 @@ std::string stated_rubber_target(const std::string& text) {
   const std::size_t at = text.find(mark);
   if (at == std::string::npos) return "";
   const std::string line = text.substr(at, text.find('\n', at) - at);
-  for (const std::string& target : readable_rubber_targets()) {
+  for (const std::string& target : rubber_card_targets()) {
     if (const std::size_t found = line.find(" for " + target); found != std::string::npos)
       return target;
   }
@@ -93,7 +95,12 @@ ReadRubber read_rubber_card(const std::string& text, const std::string& target,
   const std::string stated = stated_unit_system(text);
   ReadRubber out;
   out.units_were_stated = !stated.empty();
-  out.units = &unit_system(!units.empty() ? units : !stated.empty() ? stated : "SI");
+  if (read.has_own_units) {
+    out.units = &unit_system("SI");
+    out.units_were_stated = true;
+  } else {
+    out.units = &unit_system(!units.empty() ? units : !stated.empty() ? stated : "SI");
+  }
   if (read.numbers.bulk > 0.0)
     out.bulk_Pa = from_card(read.numbers.bulk, out.units->stress_exponent);
   if (read.numbers.density > 0.0)

@@ -22,10 +22,6 @@ struct ReadRubber {
   std::vector<CardFinding> findings;
 };
 
-// Solvers whose cards of rubber are read: abaqus, ansys, calculix, febio, lsdyna (077), openradioss (LAW62,
-// 82, 92, 94).
-const std::vector<std::string>& readable_rubber_targets();
-
 // True for a text with a law of rubber of any of them, or a card of rubber by viscard. A Mooney-Rivlin of
 // FEBio alone is not: it may be the child of a linear card.
 bool looks_like_rubber_card(const std::string& text);

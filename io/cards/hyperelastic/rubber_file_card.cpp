@@ -90,8 +90,6 @@ std::string with_header(const std::vector<std::string>& lines, const std::string
 // Throws if the text does not say what the file does.
 void read_back(const std::string& text, const HyperelasticFile& file, const std::string& name,
                const RubberCardOptions& options) {
-  const auto& known = readable_rubber_targets();
-  if (std::find(known.begin(), known.end(), options.target) == known.end()) return;
   const bool has_poisson = options.target == "lsdyna" || options.target == "openradioss";
   const RubberCheck check =
       check_rubber_card(text, &file,

@@ -3,7 +3,11 @@
 //   S = 2 (W1 A1 + W2 A2) + K (J - 1) J C^-1, A1 = j (I - I1/3 C^-1), A2 = j^2 (I1 I - C - 2/3 I2 C^-1),
 // W1, W2: derivatives of W by the isochoric invariants; each term of Ogden adds
 //   2 mu/alpha J^(-alpha/3) (C^(alpha/2 - 1) - tr(C^(alpha/2))/3 C^-1).
-// Source: Holzapfel, Nonlinear Solid Mechanics (2000), 6.4 and 6.5. The names of MFront are those of TFEL's
+// Terms of relaxation act on the isochoric S_e, formula (2) of models/hyperelastic/finite_viscoelasticity.h:
+//   S_iso = (1 - sum g_i) S_e + sum g_i H_i, H_i <- exp(-x) H_i + phi (S_e - S_e,old), x = dt/tau_i,
+// with phi = (1 - exp(-x))/x, and the tangent is multiplied by 1 - sum g_i + sum g_i phi_i.
+// Source: Holzapfel, Nonlinear Solid Mechanics (2000), 6.4 and 6.5; Simo & Hughes, Computational Inelasticity
+// (1998), 10.3. The names of MFront are those of TFEL's
 // gallery, Signorini.mfront and Ogden.mfront. The tangent dS/dC is the derivative of S.
 #include "io/cards/hyperelastic/rubber_rows.h"
 #include "io/cards/keyword_lines.h"
@@ -61,6 +65,30 @@ MfrontLaw mfront_law(const RubberNumbers& law) {
   out.derivatives += has_second ? "  const real W2 = C01;\n" : "  const real W2 = 0;\n";
   return out;
 }
+
+constexpr const char* kHistory = R"mfront(
+@AuxiliaryStateVariable StressStensor Se;
+@AuxiliaryStateVariable StressStensor H[Nv];
+)mfront";
+
+constexpr const char* kRelaxation = R"mfront(  const StressStensor rise = S - Se;
+  Se = S;
+  real stiffness = 1;
+  for (unsigned short i = 0; i != Nv; ++i) {
+    stiffness -= g[i];
+  }
+  S = stiffness * Se;
+  for (unsigned short i = 0; i != Nv; ++i) {
+    const real y = dt / tau[i];
+    const real phi = y > 1.e-300 ? -std::expm1(-y) / y : real(1);
+    H[i] = std::exp(-y) * H[i] + phi * rise;
+    S += g[i] * H[i];
+    stiffness += g[i] * phi;
+  }
+  if (computeTangentOperator_) {
+    dS_dC = stiffness * dS_dC;
+  }
+)mfront";
 
 constexpr const char* kOpening = R"mfront(
 @LocalVariable StiffnessTensor dS_dC;
@@ -126,6 +154,14 @@ constexpr const char* kClosing = R"mfront(  S += K * (J - 1) * J * iC;
 }
 )mfront";
 
+// "@Parameter real name[size] = {...};"
+std::string array_of(const char* name, const char* size, const std::vector<double>& values) {
+  std::string cells_text;
+  for (const double value : values)
+    cells_text += (cells_text.empty() ? "" : ", ") + number_of_20(value);
+  return fmt::format("@Parameter real {}[{}] = {{{}}};\n", name, size, cells_text);
+}
+
 // Terms of Ogden; MFront makes an array of one a scalar, so a second term without stiffness keeps it an
 // array.
 std::string ogden_parameters(const RubberNumbers& law) {
@@ -134,13 +170,24 @@ std::string ogden_parameters(const RubberNumbers& law) {
     mu.push_back(0.0);
     alpha.push_back(2.0);
   }
-  const auto array = [](const char* name, const std::vector<double>& values) {
-    std::string cells;
-    for (const double value : values) cells += (cells.empty() ? "" : ", ") + number_of_20(value);
-    return fmt::format("@Parameter real {}[Nt] = {{{}}};\n", name, cells);
-  };
-  return fmt::format("@IntegerConstant Nt = {};\n", mu.size()) + array("mu", mu) +
-         array("alpha", alpha);
+  return fmt::format("@IntegerConstant Nt = {};\n", mu.size()) + array_of("mu", "Nt", mu) +
+         array_of("alpha", "Nt", alpha);
+}
+
+// Terms of relaxation; a second one without a share keeps one an array.
+std::string relaxation_parameters(const RubberNumbers& law) {
+  if (law.terms.empty()) return "";
+  std::vector<double> g, tau;
+  for (const RubberNumbers::Term& term : law.terms) {
+    g.push_back(term.g);
+    tau.push_back(term.time);
+  }
+  if (g.size() == 1) {
+    g.push_back(0.0);
+    tau.push_back(tau[0]);
+  }
+  return fmt::format("@IntegerConstant Nv = {};\n", g.size()) + array_of("g", "Nv", g) +
+         array_of("tau", "Nv", tau) + kHistory;
 }
 
 }  // namespace
@@ -151,10 +198,11 @@ std::string mfront_rubber(const RubberNumbers& law, const std::string& material)
   std::string text = "@DSL DefaultFiniteStrain;\n@Behaviour " + material + ";\n" +
                      fmt::format("@Parameter real K = {};\n", number_of_20(law.bulk));
   text += ogden ? ogden_parameters(law) : by_invariants.parameters;
-  text += kOpening;
-  if (ogden) return text + kStretches + kClosing;
+  text += relaxation_parameters(law) + kOpening;
+  const std::string closing = (law.terms.empty() ? std::string() : kRelaxation) + kClosing;
+  if (ogden) return text + kStretches + closing;
   return text + "  const real j = 1 / std::cbrt(I3);\n  const real x = j * I1 - 3;\n" +
-         by_invariants.derivatives + kInvariants + kClosing;
+         by_invariants.derivatives + kInvariants + closing;
 }
 
 }  // namespace viscard

@@ -16,17 +16,26 @@ struct RubberText {
   bool has_absolute_terms = false;
   // Poisson's ratio in the place of the bulk modulus; 0 otherwise.
   double poisson = 0.0;
+  // Every number states its unit, so that numbers are in SI (COMSOL).
+  bool has_own_units = false;
   std::vector<CardFinding> findings;
 };
 
 // Parameters of a law: a reader fills numbers by its form. Throws std::runtime_error if `found` has fewer numbers.
 void take_ogden(const std::vector<double>& moduli, const std::vector<double>& shapes,
                 RubberNumbers& out);
+// Neo-Hooke, or Mooney-Rivlin if C01 is not 0.
+void take_invariant_law(double C10, double C01, RubberNumbers& out);
 
 RubberText read_keyword_rubber(const std::string& text, bool is_calculix);
 RubberText read_ansys_rubber(const std::string& text);
 RubberText read_febio_rubber(const std::string& text);
 RubberText read_lsdyna_rubber(const std::string& text);
 RubberText read_openradioss_rubber(const std::string& text);
+RubberText read_frontistr_rubber(const std::string& text);
+RubberText read_sfepy_rubber(const std::string& text);
+RubberText read_mfront_rubber(const std::string& text);
+RubberText read_moose_rubber(const std::string& text);
+RubberText read_comsol_rubber(const std::string& text);
 
 }  // namespace viscard

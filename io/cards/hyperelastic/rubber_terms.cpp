@@ -17,6 +17,7 @@
 //   lsdyna       077: the law after all relaxation, rows G_i = g_i G_0, BETA_i = 1/tau_i. Fields as in PyDYNA.
 //                The shear moduli act on the strain, not on the law's own stress, so the terms are right
 //                at small strain only. No public text with the strain that they act on was found.
+//   mfront       the behaviour has state variables for the stress at once and for H_i; rubber_mfront.cpp.
 //   sfepy        no term of SfePy has a memory; the module integrates Simo's rule in numpy.
 #include "io/cards/hyperelastic/rubber_terms.h"
 
@@ -72,7 +73,9 @@ constexpr std::array<TermsRule, 11> kTermsRules{{
     {"comsol", false, false, 0, "the parameters are those of the law alone"},
     {"frontistr", false, false, 0,
      "the last of !HYPERELASTIC and !VISCOELASTIC decides on the material"},
-    {"mfront", false, false, 0, "its behaviour has no memory"},
+    {"mfront", true, false, 0,
+     "the law at once, g_i of its deviator, constant bulk modulus, tau_i; the behaviour integrates "
+     "Simo's rule, exact for a stress that is linear in each step"},
     {"moose", false, false, 0, "ComputeNeoHookeanStress has no memory"},
 }};
 

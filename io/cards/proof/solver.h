@@ -4,6 +4,7 @@
 #include "io/cards/one_element.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,11 @@ struct FoundSolver {
 // one line if the program is missing, stops, takes more than ten minutes of processor time, or prints
 // nothing.
 std::vector<SolverRun> run_solver(const FoundSolver& found, const std::vector<SolverTask>& tasks);
+
+// Runs the solver's commands on these files in a temporary folder, and calls `read` with its path before it is
+// removed. False if the solution diverged. Throws as run_solver() does.
+bool run_files(const FoundSolver& found, const std::vector<DeckFile>& files,
+               const std::function<void(const std::filesystem::path&)>& read);
 
 // What the program prints for these arguments, in at most 30 s of processor time; "" if it cannot be
 // run.

@@ -141,24 +141,32 @@ void scale_samples(const Solver& solver, const DeckInput& input, SolverRun& run)
 std::vector<SolverRun> run_in_folder(const FoundSolver& found,
                                      const std::vector<SolverTask>& tasks) {
   const Solver& solver = found.solver;
-  const TemporaryFolder folder;
-  for (const DeckFile& file : solver.model(tasks)) {
-    std::ofstream(folder.path() / file.name) << file.text;
-  }
-  const bool has_diverged = !run_commands(found, folder.path());
   std::vector<SolverRun> runs;
-  for (const SolverTask& task : tasks) {
-    SolverRun run{solver.samples(folder.path(), task.input, runs.size()), has_diverged};
-    if (run.samples.empty() && !run.diverged) {
+  const auto read = [&](const std::filesystem::path& folder) {
+    for (const SolverTask& task : tasks)
+      runs.push_back({solver.samples(folder, task.input, runs.size())});
+  };
+  const bool has_diverged = !run_files(found, solver.model(tasks), read);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    runs[i].diverged = has_diverged;
+    if (runs[i].samples.empty() && !has_diverged) {
       throw std::runtime_error(solver.code + " ran but printed no result");
     }
-    scale_samples(solver, task.input, run);
-    runs.push_back(std::move(run));
+    scale_samples(solver, tasks[i].input, runs[i]);
   }
   return runs;
 }
 
 }  // namespace
+
+bool run_files(const FoundSolver& found, const std::vector<DeckFile>& files,
+               const std::function<void(const std::filesystem::path&)>& read) {
+  const TemporaryFolder folder;
+  for (const DeckFile& file : files) std::ofstream(folder.path() / file.name) << file.text;
+  const bool has_finished = run_commands(found, folder.path());
+  read(folder.path());
+  return has_finished;
+}
 
 std::string printed_by(const std::string& program, const std::vector<std::string>& words) {
   const TemporaryFolder folder;

@@ -83,15 +83,25 @@ void print_rubber_check(const RubberCheck& check, const CardWords& words, std::o
   }
 }
 
-}  // namespace
-
-bool is_rubber_check(CardWords& words) {
-  if (words.check.empty()) return false;
-  const std::string text = read_file(words.check);
+// True if the law of a card is one of rubber, or the file that it is compared with; takes the target that it
+// states.
+bool is_card_of_rubber(const std::string& path, CardWords& words) {
+  if (path.empty()) return false;
+  const std::string text = read_file(path);
   const bool has_law = !words.material.empty() && looks_like_hyperelastic_file(words.material);
   if (!has_law && !looks_like_rubber_card(text)) return false;
   if (words.target.empty()) words.target = stated_rubber_target(text);
   return true;
+}
+
+}  // namespace
+
+bool is_rubber_check(CardWords& words) {
+  return is_card_of_rubber(words.check, words);
+}
+
+bool is_rubber_proof(CardWords& words) {
+  return is_card_of_rubber(words.prove, words);
 }
 
 int check_rubber_file(const CardWords& words, Streams& streams) {

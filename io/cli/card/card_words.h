@@ -55,6 +55,9 @@ int write_rubber_card(const CardWords& words, Streams& streams);
 // states where --for is missing.
 bool is_rubber_check(CardWords& words);
 int check_rubber_file(const CardWords& words, Streams& streams);
+// The same of --prove.
+bool is_rubber_proof(CardWords& words);
+int prove_rubber_file(const CardWords& words, Streams& streams);
 int write_card_file(const CardWords& words, Streams& streams);
 int check_card_file(const CardWords& words, Streams& streams);
 int prove_card_file(const CardWords& words, Streams& streams);

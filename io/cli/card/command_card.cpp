@@ -1,7 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
 #include "io/basics/words.h"
-#include "io/cards/hyperelastic/read_rubber.h"
+#include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/proof/solvers.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
@@ -53,7 +53,7 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "target's columns can hold");
   add("prove", po::value(&words.prove)->value_name("CARD"),
       "run a card on one element in a solver against the exact answer, and write a certificate "
-      "beside it (CARD.SOLVER.proof.json, or --out)");
+      "beside it (CARD.SOLVER.proof.json, or --out); of a law of rubber calculix and sfepy run");
   add("solver", po::value(&words.solver)->value_name("NAME"),
       "with --prove: calculix, febio, mtest, frontistr, openradioss, or sfepy and dolfinx, which "
       "run the numbers of any card; if not given the one that reads the card");
@@ -129,11 +129,12 @@ void check_band(const CardWords& words) {
                    listed(names) + " have");
 }
 
-// Of --check CARD with a law of rubber.
+// Of --check or --prove CARD with a law of rubber.
 void check_rubber_words(const CardWords& words) {
   if (words.target.empty()) {
-    throw UsageError(words.check + " does not name its solver, as cards by viscard do; add --for " +
-                     listed(readable_rubber_targets()));
+    throw UsageError((words.check.empty() ? words.prove : words.check) +
+                     " does not name its solver, as cards by viscard do; add --for " +
+                     listed(rubber_card_targets()));
   }
   if (!words.units.empty()) check_word("unit system", words.units, unit_names());
   if (!words.elastic_only.empty())
@@ -148,7 +149,10 @@ void check_words(CardWords& words) {
   if (modes > 1) throw UsageError("--list, --check, --prove and --deck exclude each other");
   if (words.is_long && !words.list) throw UsageError("--long belongs to --list");
   if (words.list) return;
-  if (is_rubber_check(words)) return check_rubber_words(words);
+  if (words.prove.empty() && (!words.solver.empty() || !words.solver_path.empty())) {
+    throw UsageError("--solver and --solver-path belong to --prove CARD");
+  }
+  if (is_rubber_check(words) || is_rubber_proof(words)) return check_rubber_words(words);
   const std::string& given_card = words.check.empty() ? words.prove : words.check;
   if (words.target.empty() && !given_card.empty()) {
     const std::string contents = read_file(given_card);
@@ -174,9 +178,6 @@ void check_words(CardWords& words) {
   if (!words.deck.empty()) check_word("--deck", words.deck, {"relaxation", "creep"});
   if (!words.elastic_only.empty()) {
     check_word("--elastic-only", words.elastic_only, {"instantaneous", "long-term"});
-  }
-  if (words.prove.empty() && (!words.solver.empty() || !words.solver_path.empty())) {
-    throw UsageError("--solver and --solver-path belong to --prove CARD");
   }
   if (words.terms && !words.may_approximate) {
     throw UsageError("--terms changes the material; say --approximate too");
@@ -225,6 +226,7 @@ int run_card(const Words& words, Streams& streams) {
   if (card.list) return list_card_targets(card, streams);
   if (is_rubber_check(card)) return check_rubber_file(card, streams);
   if (!card.check.empty()) return check_card_file(card, streams);
+  if (is_rubber_proof(card)) return prove_rubber_file(card, streams);
   if (!card.prove.empty()) return prove_card_file(card, streams);
   if (!card.deck.empty()) return write_deck_files(card, streams);
   if (is_rubber(card)) return write_rubber_card(card, streams);

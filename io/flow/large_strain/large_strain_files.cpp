@@ -111,10 +111,27 @@ void check_order(const LargeStrainTest& test, const std::string& file, std::size
       "--cycle all");
 }
 
+// Puts the rows of a table without times in order, where they are one curve. Throws for rows that jump back
+// and forth and are none: neither cycles nor a loading can be told from them.
+void check_rows(LargeStrainTest& test, const std::string& file) {
+  constexpr double kMostTurns = 0.5;
+  if (is_unsorted_curve(test)) {
+    test = sorted_by_stretch(test);
+  } else if (const double turns = share_of_turns(test.stretch);
+             !has_times(test) && turns > kMostTurns) {
+    throw std::runtime_error(
+        file + ": the stretch turns back in " + text_of(100.0 * turns, 2) +
+        " % of the readings, so that they are no cycles of loading and unloading (at most " +
+        text_of(100.0 * kMostTurns, 2) +
+        " %); sort the rows by stretch, add a column time_s, or give --cycle all");
+  }
+}
+
 // Keeps the loading of one cycle, if the record has unloading. Relaxation is fitted to all rows of a
 // record with one cycle.
 CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
                          const std::optional<int>& wanted, bool relaxes) {
+  if (!wanted || *wanted != 0) check_rows(test, file);
   const std::vector<LoadCycle> cycles = load_cycles(test.stretch);
   const bool is_one_loading =
       cycles.empty() ||

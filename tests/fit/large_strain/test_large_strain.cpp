@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -251,4 +252,26 @@ TEST_CASE("large strain: cycles are counted, and softening is seen at equal stre
     CHECK(load_cycles(sorted)[0].peak == sorted.size() - 1);
   }
   CHECK_FALSE(softening(test, {cycles[0]}).has_value());
+}
+
+TEST_CASE(
+    "large strain: a table without times in any order of its rows is one curve, cycles are not",
+    "[fit]") {
+  LargeStrainTest test{"uniaxial", Deformation::kUniaxial, {1.0, 1.6, 1.2, 2.0, 1.4, 1.8}, {}};
+  for (const double s : test.stretch) test.nominal_stress_Pa.push_back(1e5 * (s - 1.0 / (s * s)));
+  CHECK(load_cycles(test.stretch).size() > 1);  // what the rows look like
+  REQUIRE(is_unsorted_curve(test));
+  CHECK(share_of_turns(test.stretch) == 1.0);
+  const LargeStrainTest sorted = sorted_by_stretch(test);
+  CHECK(sorted.stretch == std::vector<double>{1.0, 1.2, 1.4, 1.6, 1.8, 2.0});
+  CHECK(std::is_sorted(sorted.nominal_stress_Pa.begin(), sorted.nominal_stress_Pa.end()));
+  CHECK_FALSE(is_unsorted_curve(sorted));
+  // A stretch with two stresses is hysteresis, and with times the order is known.
+  LargeStrainTest cycle = test;
+  cycle.stretch = {1.0, 1.5, 2.0, 1.4, 1.1, 1.9};
+  cycle.nominal_stress_Pa = {0.0, 1e5, 2e5, 5e4, 6e4, 1.8e5};
+  CHECK_FALSE(is_unsorted_curve(cycle));
+  test.time_s = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0};
+  CHECK_FALSE(is_unsorted_curve(test));
+  CHECK(share_of_turns({1.0, 1.5, 2.0, 1.5, 1.0}) == Approx(1.0 / 3.0));
 }

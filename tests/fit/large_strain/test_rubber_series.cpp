@@ -278,7 +278,8 @@ TEST_CASE("rubber series: bad times are refused with what to do", "[fit]") {
 TEST_CASE("rubber series: 95 % of the intervals of rate-and-hold records hold", "[fit]") {
   const Counts counts = coverage(20, 3e3, 0.0, 11);
   CHECK(counts.right_order >= 18);
-  CHECK(counts.share() >= 0.88);  // of 20 records; the slow test counts 240
+  // 105 of 120 or fewer: probability 0.001 at a coverage of 0.95, 0.81 at 0.85 (binomial, independent).
+  CHECK(counts.share() >= 0.88);
 }
 
 TEST_CASE("rubber series: coverage of 240 rate-and-hold records with white and AR(1) noise",

@@ -1,6 +1,7 @@
 // Cards of laws of rubber for MFront: the formula of their stress by a second implementation, and MTest
 // itself where it is installed.
 #include "io/cards/hyperelastic/rubber_card.h"
+#include "tests/io/cards/rubber_rules.h"
 
 #include <catch2/catch.hpp>
 
@@ -75,23 +76,40 @@ class PointFolder {
     if (deformation == Deformation::kPlanar) impose("FYY", 1.0, 1.0);
     if (deformation == Deformation::kEquibiaxial) impose("FXX", stretch, 1.0);
     for (const char* shear : {"FXY", "FYX", "FXZ", "FZX", "FYZ", "FZY"}) impose(shear, 0.0, 0.0);
-    test << "@Times {0, 1 in 10};\n@OutputFilePrecision 15;\n@OutputFile 'point.res';\n";
-    std::ofstream(path_ / "point.mtest") << test.str();
-    REQUIRE(std::system(("cd '" + path_.string() + "' && mtest point.mtest >log 2>&1").c_str()) ==
-            0);
-    std::ifstream lines(path_ / "point.res");
-    std::vector<double> last;
-    for (std::string line; std::getline(lines, line);) {
-      if (line.empty() || line[0] == '#') continue;
-      std::istringstream cells(line);
-      last.clear();
-      for (double value = 0.0; cells >> value;) last.push_back(value);
-    }
-    REQUIRE(last.size() >= 16);  // time, nine of F, six stresses XX YY ZZ ...
-    return last[12] * last[1] * last[2];
+    return nominal_stresses(test.str() + "@Times {0, 1 in 10};\n").back();
+  }
+  // Nominal stresses of 40 steps of a uniaxial ramp of half a second to 1.8, and at 1 s and 6 s of a hold.
+  std::vector<double> held_stresses(double bulk) const {
+    std::ostringstream test;
+    test << "@Behaviour<generic> 'src/libBehaviour.so' 'RUBBER';\n@Parameter 'K' " << bulk
+         << ";\n@ExternalStateVariable 'Temperature' 293.15;\n"
+         << "@ImposedDeformationGradient 'FZZ' {0: 1, 0.5: 1.8, 6: 1.8};\n";
+    for (const char* shear : {"FXY", "FYX", "FXZ", "FZX", "FYZ", "FZY"})
+      test << "@ImposedDeformationGradient '" << shear << "' 0;\n";
+    return nominal_stresses(test.str() + "@Times {0, 0.5 in 40, 1 in 1, 6 in 1};\n");
   }
 
  private:
+  // Nominal stresses along z of all steps of an MTest file.
+  std::vector<double> nominal_stresses(const std::string& test) const {
+    std::ofstream(path_ / "point.mtest")
+        << test << "@OutputFilePrecision 15;\n@OutputFile 'point.res';\n";
+    REQUIRE(std::system(("cd '" + path_.string() + "' && mtest point.mtest >log 2>&1").c_str()) ==
+            0);
+    std::ifstream lines(path_ / "point.res");
+    std::vector<double> out;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.empty() || line[0] == '#') continue;
+      std::istringstream cells(line);
+      std::vector<double> row;
+      for (double value = 0.0; cells >> value;) row.push_back(value);
+      REQUIRE(row.size() >= 16);  // time, nine of F, six stresses XX YY ZZ ...
+      if (row[0] > 0.0) out.push_back(row[12] * row[1] * row[2]);
+    }
+    REQUIRE(!out.empty());
+    return out;
+  }
+
   std::filesystem::path path_;
 };
 
@@ -155,6 +173,70 @@ TEST_CASE("rubber cards: MFront's numbers with the formula of its stress give th
     CHECK(parameters(card, "K") == std::vector<double>{2000.0});
     CHECK(mfront_tension(card, stretch) ==
           Approx(1e-6 * nominal_stress_Pa(law, Deformation::kUniaxial, stretch)).epsilon(1e-12));
+  }
+}
+
+// Formula (2) of finite_viscoelasticity.h with what stands in the behaviour.
+TEST_CASE("rubber cards: MFront's terms with the recursion of its H give the law's stress",
+          "[io]") {
+  using namespace viscard::test;
+  for (const Rubber& rubber : rubbers()) {
+    CAPTURE(name_of(rubber.law.form));
+    const std::string card = card_of(rubber, "mfront");
+    Written law;
+    if (card.find("alpha[Nt]") != std::string::npos) {
+      law.energy = ogden_energy(parameters(card, "mu[Nt]"), parameters(card, "alpha[Nt]"),
+                                [](double mu, double alpha) { return 2.0 * mu / (alpha * alpha); });
+    } else {
+      std::vector<double> c = parameters(card, "C10");
+      if (card.find(" C20 ") != std::string::npos) {
+        c.push_back(parameters(card, "C20")[0]);
+        c.push_back(parameters(card, "C30")[0]);
+      }
+      law.energy = [c](double a, double b) {
+        const double x = a * a + 2.0 * b * b - 3.0;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < c.size(); ++i) sum += c[i] * std::pow(x, double(i + 1));
+        return sum;
+      };
+    }
+    law.g = parameters(card, "g[Nv]");
+    law.tau = parameters(card, "tau[Nv]");
+    Recursion rule{1.0, [](double x) { return (1.0 - std::exp(-x)) / x; }};
+    for (const double g : law.g) rule.share -= g;
+    const auto expected_MPa = fitted_MPa(rubber);
+    for (std::size_t i = 0; i < rule_times_s().size(); ++i)
+      CHECK(recursive_stress(law, rule, rule_times_s()[i]) ==
+            Approx(expected_MPa[i]).epsilon(2e-6));
+  }
+}
+
+TEST_CASE("rubber cards: MTest relaxes the law with its terms where it is installed",
+          "[io][slow]") {
+  using namespace viscard::test;
+  if (std::system("command -v mtest >/dev/null && command -v mfront >/dev/null") != 0) {
+    WARN("mtest and mfront are not installed; they are not run");
+    return;
+  }
+  for (const Rubber& rubber : rubbers()) {
+    CAPTURE(name_of(rubber.law.form));
+    const PointFolder folder;
+    folder.build(card_of(rubber, "mfront"));
+    const double bulk_MPa = 4e-3 * youngs_modulus_Pa(rubber.law) / 3.0;
+    const auto soft_MPa = folder.held_stresses(bulk_MPa),
+               hard_MPa = folder.held_stresses(2.0 * bulk_MPa);
+    StretchHistory history{{0.0}, {1.0}};
+    for (int i = 1; i <= 42; ++i) {
+      history.time_s.push_back(i <= 40 ? 0.5 * i / 40 : i == 41 ? 1.0 : 6.0);
+      history.stretch.push_back(1.0 + 0.8 * std::min(i, 40) / 40.0);
+    }
+    const auto exact_Pa =
+        nominal_stress_Pa(rubber.law, rubber.terms, Deformation::kUniaxial, history);
+    REQUIRE(soft_MPa.size() == 42);
+    for (const std::size_t step :
+         {std::size_t{20}, std::size_t{40}, std::size_t{41}, std::size_t{42}})
+      CHECK(2.0 * hard_MPa[step - 1] - soft_MPa[step - 1] ==
+            Approx(1e-6 * exact_Pa[step]).epsilon(5e-6));
   }
 }
 

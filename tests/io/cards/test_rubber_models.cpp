@@ -198,6 +198,25 @@ TEST_CASE("rubber cards: COMSOL's parameters carry their units", "[io]") {
              Contains("RUBBER_C10 0.15[MPa]") && Contains("RUBBER_C01 0.02[MPa]"));
 }
 
+// Its energies: mu/2 (I1 - 3), and C10 (I1 - 3) + C01 (I2 - 3), of isochoric invariants (User's Guide, Hyperelastic
+// Material, Neo-Hookean and Mooney-Rivlin, two parameters).
+TEST_CASE("rubber cards: COMSOL's energies with the card's numbers give the law's stress", "[io]") {
+  const double s = 1.7;
+  const auto number = [](const std::string& card, const std::string& name) {
+    const std::size_t at = card.find("RUBBER_" + name + " ");
+    REQUIRE(at != std::string::npos);
+    return std::strtod(card.c_str() + at + name.size() + 8, nullptr);
+  };
+  const auto exact_MPa = [&](const HyperelasticLaw& law) {
+    return 1e-6 * nominal_stress_Pa(law, Deformation::kUniaxial, s);
+  };
+  CHECK(number(model_card(neo_hooke(), "comsol", 2e9), "mu") * (s - 1.0 / (s * s)) ==
+        Approx(exact_MPa(neo_hooke())).epsilon(1e-12));
+  const std::string card = model_card(mooney_rivlin(), "comsol", 2e9);
+  CHECK(2.0 * (s - 1.0 / (s * s)) * (number(card, "C10") + number(card, "C01") / s) ==
+        Approx(exact_MPa(mooney_rivlin())).epsilon(1e-12));
+}
+
 TEST_CASE("rubber cards: laws that SfePy, MOOSE or COMSOL cannot take are refused", "[io]") {
   const HyperelasticLaw chains = rubber(HyperelasticForm::kArrudaBoyce, {2.7e5}, {3.2});
   CHECK_THROWS_WITH(model_card(chains, "sfepy", 2e9), Contains("sfepy has no arruda-boyce law"));

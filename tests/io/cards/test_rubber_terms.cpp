@@ -105,7 +105,7 @@ TEST_CASE("rubber cards: terms that a solver cannot take are refused with the re
   CHECK_THROWS_WITH(card_of(neo_hooke, "calculix"), Contains("calculix cannot take the terms") &&
                                                         Contains("no Prony series") &&
                                                         Contains("--elastic-only long-term"));
-  for (const char* target : {"comsol", "frontistr", "mfront", "moose"}) {
+  for (const char* target : {"comsol", "frontistr", "moose"}) {
     CAPTURE(target);
     CHECK_THROWS_WITH(card_of(neo_hooke, target), Contains("cannot take the terms of relaxation"));
     // Without terms they are the cards of the scaled law and of the law itself.

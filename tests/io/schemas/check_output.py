@@ -130,6 +130,8 @@ def check_card():
     run(["card", "rubber.json", "--for", "calculix"], "card-rubber")
     run(["card", "rubber.json", "--for", "abaqus", "--out", "rubber.inp"], "card-rubber")
     run(["card", "rubber.json", "--check", "rubber.inp"], "card-rubber-check")
+    run(["card", "rubber.json", "--for", "calculix", "--units", "mm-t-s", "--out", "rubber_ccx.inp"], "card-rubber")
+    run(["card", "rubber.json", "--prove", "rubber_ccx.inp"], "card-rubber-prove")
     run(["card", "--list"], "card-list")
     run(["card", "--check", "card.inp"], "card-check")
     run(["card", material, "--check", "card.inp"], "card-check")

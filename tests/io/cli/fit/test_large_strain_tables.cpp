@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <numeric>
 #include <random>
 #include <sstream>
@@ -72,4 +73,59 @@ TEST_CASE("cycles whose rows are not in the order of time are refused with their
   CHECK_THAT(run.err, Contains("shuffled.csv: the times do not ascend") &&
                           Contains("sort the rows by time"));
   CHECK(run_command({"fit", word, "--model", "neo-hooke", "--cycle", "all"}).status == 0);
+}
+
+TEST_CASE("an unsorted table of one curve without times is sorted, not taken for cycles", "[cli]") {
+  const TableFolder folder;
+  std::vector<double> stretches;
+  for (int i = 0; i < 20; ++i) stretches.push_back(1.0 + 0.05 * i);
+  const auto printed = [&](double softening, const std::vector<std::string>& more) {
+    std::ostringstream table;
+    table << "stretch,nominal_stress_Pa\n";
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      const double s = stretches[i];
+      table << s << "," << (i % 2 == 0 ? 1.0 : 1.0 - softening) * 4e5 * (s - 1.0 / (s * s)) << "\n";
+    }
+    std::vector<std::string> words{"fit", "uniaxial=" + folder.write("rows.csv", table.str()),
+                                   "--model", "neo-hooke", "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_command(words);
+  };
+  const std::string sorted = printed(0.0, {}).out;
+  std::mt19937_64 random(3);
+  std::shuffle(stretches.begin(), stretches.end(), random);
+  const auto shuffled = printed(0.0, {});
+  CHECK(shuffled.status == 0);
+  CHECK(shuffled.out == sorted);
+  CHECK_THAT(shuffled.out, Contains("20 readings") && !Contains("left out"));
+  // Rows that are neither a curve nor cycles.
+  const auto neither = printed(0.3, {});
+  CHECK(neither.status == 1);
+  CHECK_THAT(neither.err, Contains("rows.csv: the stretch turns back in") &&
+                              Contains("sort the rows by stretch"));
+  CHECK_THAT(printed(0.3, {"--cycle", "all"}).out, Contains("20 readings"));
+}
+
+TEST_CASE("a damaged file of a rubber whose schema is its last key is not called a material",
+          "[cli]") {
+  const TableFolder folder;
+  std::ostringstream table;
+  table << "stretch,nominal_stress_Pa\n";
+  for (int i = 0; i < 20; ++i) {
+    const double s = 1.0 + 0.05 * i;
+    table << s << "," << 4e5 * (s - 1.0 / (s * s)) << "\n";
+  }
+  const std::string out = folder.file("whole.json");
+  REQUIRE(run_command({"fit", "uniaxial=" + folder.write("rows.csv", table.str()), "--model",
+                       "neo-hooke", "--out", out})
+              .status == 0);
+  std::ifstream file(out);
+  auto json = nlohmann::ordered_json::parse(file);
+  const auto schema = json["schema"];
+  json.erase("schema");
+  json["schema"] = schema;
+  json["laws"][0]["parameters"][0]["name"] = "mu";
+  const auto run = run_command({"card", folder.write("bad.json", json.dump()), "--for", "abaqus"});
+  CHECK(run.status == 1);
+  CHECK_THAT(run.err, Contains("parameter 1 must be C10_Pa") && !Contains("is a material"));
 }

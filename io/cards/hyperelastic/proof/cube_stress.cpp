@@ -1,0 +1,58 @@
+#include "io/cards/hyperelastic/proof/cube_stress.h"
+
+#include "io/cards/hyperelastic/rubber_rows.h"
+
+#include <cmath>
+#include <limits>
+
+namespace viscard {
+namespace {
+
+// Principal Kirchhoff stresses without the pressure.
+Eigen::Vector3d deviator_Pa(const HyperelasticLaw& law, const Eigen::Vector3d& log_strain,
+                            VolumeRule rule) {
+  const double volume = log_strain.sum();  // ln J
+  const Eigen::Vector3d shape = log_strain.array() - volume / 3.0;
+  Eigen::VectorXd moduli_Pa = law.moduli_Pa;
+  if (rule == VolumeRule::kWholeOgden && is_ogden(law.form))
+    moduli_Pa.array() *= ((law.shapes.array() - 2.0) * volume / 3.0).exp();
+  const Eigen::Vector3d stress =
+      principal_columns(law.form, law.shapes, shape, false).values * moduli_Pa;
+  return stress.array() - stress.mean();
+}
+
+// Logarithms of the stretches with those of the free sides.
+Eigen::Vector3d with_sides(Deformation deformation, double measured, double side) {
+  if (deformation == Deformation::kPlanar) return {measured, 0.0, side};
+  if (deformation == Deformation::kEquibiaxial) return {measured, measured, side};
+  return {measured, side, side};
+}
+
+}  // namespace
+
+double cube_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, Deformation deformation,
+                      double stretch, VolumeRule rule) {
+  if (rule == VolumeRule::kIncompressible) return nominal_stress_Pa(law, deformation, stretch);
+  const double measured = std::log(stretch);
+  // Kirchhoff stress of a free side, which rises with its stretch.
+  const auto side_Pa = [&](double side) {
+    const Eigen::Vector3d strain = with_sides(deformation, measured, side);
+    const double J = std::exp(strain.sum());
+    return deviator_Pa(law, strain, rule)[2] + bulk_Pa * J * (J - 1.0);
+  };
+  const double isochoric = strain_direction(deformation)[2] * measured;
+  double low = isochoric - 0.5, high = isochoric + 0.5;
+  if (!(side_Pa(low) < 0.0) || !(side_Pa(high) > 0.0))
+    return std::numeric_limits<double>::quiet_NaN();
+  constexpr int kHalvings = 60;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (side_Pa(middle) < 0.0 ? low : high) = middle;
+  }
+  const Eigen::Vector3d strain = with_sides(deformation, measured, 0.5 * (low + high));
+  // tau_3 = 0, so that the pressure is minus its deviator.
+  const Eigen::Vector3d stress_Pa = deviator_Pa(law, strain, rule);
+  return (stress_Pa[0] - stress_Pa[2]) / stretch;
+}
+
+}  // namespace viscard

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "models/hyperelastic/hyperelastic_law.h"
+
+namespace viscard {
+
+// What a solver makes of a law at a change of volume.
+enum class VolumeRule {
+  kUnitVolume,      // W at the stretches s_i J^(-1/3)
+  kWholeOgden,      // SfePy 2021.4: Ogden's principal Kirchhoff stresses, times J^((alpha - 2)/3)
+  kIncompressible,  // J = 1
+};
+
+// Nominal stress of a cube along its measured stretch, Pa, with the energy W + (K/2) (J - 1)^2 per volume at
+// rest: closed but for the stretch of the free sides, whose stress is zero. The principal Kirchhoff stresses
+// are tau_i = dev(dW/d ln s_i) + K J (J - 1), and the nominal stress is tau_1/s_1. Source: Holzapfel, Nonlinear
+// Solid Mechanics (2000), 6.4. nan where no sides are free of stress (beyond the law's limit).
+double cube_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, Deformation deformation,
+                      double stretch, VolumeRule rule);
+
+}  // namespace viscard

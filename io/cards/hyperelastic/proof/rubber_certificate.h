@@ -1,0 +1,21 @@
+#pragma once
+
+#include "io/cards/hyperelastic/proof/rubber_proof.h"
+
+#include <string>
+
+namespace viscard {
+
+// What was proven, with what.
+struct RubberCertificateRequest {
+  std::string card_path, law_path;  // without a law the card was compared with its own numbers
+  std::string target;
+};
+
+// The certificate beside a card: solver, errors, and SHA-256 of the card, of the file of its law and of the
+// tables that the law was fitted to.
+std::string rubber_certificate_text(const RubberCertificateRequest& request,
+                                    const HyperelasticFile* file, const FoundSolver& found,
+                                    const RubberProof& proof);
+
+}  // namespace viscard

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "io/cards/proof/solver.h"
+#include "models/hyperelastic/deformation.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A cube of edge 1 that is stretched from rest to `top` in equal steps.
+struct CubeTest {
+  std::string name;  // "uniaxial", "compression", "planar", "equibiaxial"
+  Deformation deformation = Deformation::kUniaxial;
+  double top = 1.0;
+  int steps = 0;
+};
+
+// Uniaxial loading in equal steps of the stretch and of the time, then holds to the given times.
+struct CubeHold {
+  double top = 1.0, ramp = 0.0;  // in the card's unit of time
+  int steps = 0;
+  std::vector<double> until;  // ends of the holds
+};
+
+// Rows that a solver printed, in the units of the card.
+struct CubeRow {
+  double at = 0.0;      // stretch; of a hold the time
+  double stress = 0.0;  // nominal
+  // Force that the iteration left on the free sides, relative to that of the stretch.
+  double unbalanced = 0.0;
+  // Of a hold: extrapolated from two bulk moduli instead of three.
+  double coarser = 0.0;
+};
+
+// The model of CalculiX for one test.
+std::vector<DeckFile> calculix_cube(const std::string& card, const CubeTest& test);
+// Sums of the forces of all increments, at their stretches. ccx accepts an increment after two iterations, so that
+// the first ones may be out of balance by some 1e-5.
+std::vector<CubeRow> calculix_rows(const std::filesystem::path& folder, const CubeTest& test);
+
+// The script of SfePy for all tests, beside the module card.py; with a hold, of CubeHold too.
+std::vector<DeckFile> sfepy_cubes(const std::string& card, const std::vector<CubeTest>& tests,
+                                  const CubeHold* hold);
+// Test `number`; that of the hold follows the others.
+std::vector<CubeRow> sfepy_rows(const std::filesystem::path& folder, std::size_t number);
+
+}  // namespace viscard

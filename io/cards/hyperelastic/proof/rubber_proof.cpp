@@ -1,0 +1,288 @@
+#include "io/cards/hyperelastic/proof/rubber_proof.h"
+
+#include "io/basics/words.h"
+#include "io/cards/hyperelastic/proof/cube_stress.h"
+#include "io/cards/hyperelastic/rubber_card.h"
+#include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/unit_system.h"
+#include "models/hyperelastic/law_stability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// What the card should be, as the cubes are compared with it.
+struct WantedRubber {
+  HyperelasticLaw law;
+  std::vector<RubberTerm> terms;
+  double bulk_Pa = 0.0;
+  VolumeRule rule = VolumeRule::kUnitVolume;
+
+  double stress_Pa(const CubeTest& test, double stretch) const {
+    return cube_stress_Pa(law, bulk_Pa, test.deformation, stretch, rule);
+  }
+};
+
+constexpr double kUsualTop = 1.8;
+// Of the stretch. CalculiX iterates twice, so that its steps are small; a step of SfePy takes some 10 ms.
+constexpr double kCalculixStep = 0.04, kSfepyStep = 0.1;
+
+// Between 10 and 80 steps.
+int steps_to(double top, double step) {
+  return static_cast<int>(std::clamp(std::ceil(std::abs(top - 1.0) / step), 10.0, 80.0));
+}
+
+CubeProof compared(const CubeTest& test, const std::vector<CubeRow>& rows,
+                   const WantedRubber& wanted, const UnitSystem& units, double resolves) {
+  CubeProof out{.test = test, .resolved = resolves};
+  if (static_cast<int>(rows.size()) < test.steps)
+    throw std::runtime_error("the run of the " + test.name + " cube ended after " +
+                             counted(rows.size(), "step") + " of " + std::to_string(test.steps));
+  for (const CubeRow& row : rows) {
+    if (row.unbalanced > resolves) continue;
+    ++out.compared;
+    const double exact_Pa = wanted.stress_Pa(test, row.at);
+    const double error = std::abs(from_card(row.stress, units.stress_exponent) / exact_Pa - 1.0);
+    if (error <= out.error) continue;  // nan counts as the largest
+    out.error = error;
+    out.at_stretch = row.at;
+  }
+  return out;
+}
+
+double largest_change(const WantedRubber& wanted, const WantedRubber& changed,
+                      const std::vector<CubeProof>& cubes) {
+  double largest = 0.0;
+  for (const CubeProof& cube : cubes) {
+    for (int i = 1; i <= cube.test.steps; ++i) {
+      const double s = 1.0 + (cube.test.top - 1.0) * i / cube.test.steps;
+      const double ratio = changed.stress_Pa(cube.test, s) / wanted.stress_Pa(cube.test, s);
+      if (std::isfinite(ratio)) largest = std::max(largest, std::abs(ratio - 1.0) / cube.resolved);
+    }
+  }
+  return largest;
+}
+
+// Each modulus, shape, and the bulk modulus a tenth larger.
+void note_constants(const WantedRubber& wanted, RubberProof& proof) {
+  constexpr double kMore = 1.1, kTwice = 2.0;
+  const double resolved = proof.cubes.front().resolved;
+  const auto note = [&](const std::string& name, double value, const WantedRubber& changed) {
+    const double in_resolved = largest_change(wanted, changed, proof.cubes);
+    proof.constants.push_back({name, value, in_resolved * resolved, in_resolved >= kTwice});
+  };
+  const auto moduli = modulus_names(wanted.law.form), shapes = shape_names(wanted.law.form);
+  for (std::size_t i = 0; i < moduli.size() + shapes.size(); ++i) {
+    WantedRubber changed = wanted;
+    const bool is_modulus = i < moduli.size();
+    const auto k = static_cast<Eigen::Index>(is_modulus ? i : i - moduli.size());
+    double& value = is_modulus ? changed.law.moduli_Pa[k] : changed.law.shapes[k];
+    const double old = value;
+    value *= kMore;
+    note(is_modulus ? moduli[i] : shapes[i - moduli.size()], old, changed);
+  }
+  WantedRubber changed = wanted;
+  changed.bulk_Pa *= kMore;
+  note("bulk modulus", wanted.bulk_Pa, changed);
+}
+
+// A ramp of half the shortest time, and four holds per decade to five times the longest. Stretches rise by less
+// than 0.02 a step, so that nominal_stress_Pa() divides no step, and both integrate the same polygon.
+CubeHold hold_of(const std::vector<RubberTerm>& terms, double top) {
+  constexpr double kStep = 0.0199, kMost = 1.4, kPerDecade = 4.0, kLast = 5.0;
+  const auto by_tau = [](const RubberTerm& a, const RubberTerm& b) { return a.tau_s < b.tau_s; };
+  const auto [least, most] = std::minmax_element(terms.begin(), terms.end(), by_tau);
+  CubeHold hold{std::min(top, kMost), 0.5 * least->tau_s, 0, {}};
+  hold.steps = static_cast<int>(std::ceil((hold.top - 1.0) / kStep));
+  const int n =
+      static_cast<int>(std::ceil(kPerDecade * std::log10(kLast * most->tau_s / hold.ramp)));
+  for (int i = 1; i <= n; ++i)
+    hold.until.push_back(hold.ramp * std::pow(kLast * most->tau_s / hold.ramp, double(i) / n));
+  return hold;
+}
+
+StretchHistory history_of(const CubeHold& hold) {
+  StretchHistory history{{0.0}, {1.0}};
+  for (int i = 1; i <= hold.steps; ++i) {
+    history.time_s.push_back(hold.ramp * i / hold.steps);
+    history.stretch.push_back(1.0 + (hold.top - 1.0) * i / hold.steps);
+  }
+  for (const double end_s : hold.until) {
+    history.time_s.push_back(end_s);
+    history.stretch.push_back(hold.top);
+  }
+  return history;
+}
+
+HoldProof compared_hold(const CubeHold& hold, const std::vector<CubeRow>& rows,
+                        const WantedRubber& wanted, const UnitSystem& units, double resolves) {
+  const StretchHistory history = history_of(hold);
+  const auto stresses_of = [&](const std::vector<RubberTerm>& terms) {
+    return nominal_stress_Pa(wanted.law, terms, Deformation::kUniaxial, history);
+  };
+  const auto exact_Pa = stresses_of(wanted.terms);
+  if (rows.size() + 1 != exact_Pa.size())
+    throw std::runtime_error("the run of the relaxing cube ended after " +
+                             counted(rows.size(), "step"));
+  HoldProof out{.end_s = history.time_s.back(), .resolved = resolves};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double found_Pa = from_card(rows[i].stress, units.stress_exponent);
+    const double error = std::abs(found_Pa / exact_Pa[i + 1] - 1.0);
+    out.resolved = std::max(out.resolved, std::abs(rows[i].coarser / rows[i].stress - 1.0));
+    if (error <= out.error) continue;
+    out.error = error;
+    out.at_s = history.time_s[i + 1];
+  }
+  constexpr double kLonger = 1.1, kTwice = 2.0;
+  for (std::size_t k = 0; k < wanted.terms.size(); ++k) {
+    std::vector<RubberTerm> terms = wanted.terms;
+    terms[k].tau_s *= kLonger;
+    const auto changed_Pa = stresses_of(terms);
+    double change = 0.0;
+    for (std::size_t i = 1; i < changed_Pa.size(); ++i)
+      change = std::max(change, std::abs(changed_Pa[i] / exact_Pa[i] - 1.0));
+    out.terms.push_back(
+        {wanted.terms[k].g, wanted.terms[k].tau_s, change, change >= kTwice * out.resolved});
+  }
+  return out;
+}
+
+WantedRubber wanted_of(const ReadRubber& read, const HyperelasticFile* file,
+                       const std::string& elastic_only) {
+  WantedRubber out{read.law, read.terms, read.bulk_Pa};
+  if (file != nullptr) {
+    out.law = file->law;
+    out.terms = file->terms;
+    if (!elastic_only.empty()) {
+      out.law = law_without_terms(file->law, file->terms, elastic_only);
+      out.terms.clear();
+    }
+  }
+  constexpr double kUsual = 1000.0;
+  if (out.bulk_Pa == 0.0) out.bulk_Pa = kUsual * youngs_modulus_Pa(out.law) / 3.0;
+  return out;
+}
+
+// Each test by a run of its own.
+void run_calculix(const std::string& card, const std::vector<CubeTest>& tests,
+                  const WantedRubber& wanted, const ReadRubber& read, const FoundSolver& found,
+                  RubberProof& proof) {
+  for (const CubeTest& test : tests) {
+    const auto files = calculix_cube(card, test);
+    proof.models.push_back({test.name + "/" + files[0].name, files[0].text});
+    std::vector<CubeRow> rows;
+    const bool has_finished =
+        run_files(found, files, [&](const auto& folder) { rows = calculix_rows(folder, test); });
+    if (!has_finished) {
+      proof.diverged = test.name;
+      return;
+    }
+    proof.cubes.push_back(compared(test, rows, wanted, *read.units, found.solver.resolves));
+  }
+}
+
+// All tests by one run.
+void run_sfepy(const std::string& card, const std::string& target,
+               const std::vector<CubeTest>& tests, const WantedRubber& wanted,
+               const ReadRubber& read, const FoundSolver& found, RubberProof& proof) {
+  const std::string module =
+      target == "sfepy"
+          ? card
+          : rubber_card(read.law, read.terms,
+                        {.target = "sfepy", .units = read.units->name, .bulk_Pa = wanted.bulk_Pa});
+  CubeHold hold;
+  if (!read.terms.empty()) {
+    hold = hold_of(read.terms, tests.front().top);
+    const int exponent = read.units->time_exponent;
+    CubeHold in_card = hold;
+    in_card.ramp = to_card(hold.ramp, exponent);
+    for (double& end : in_card.until) end = to_card(end, exponent);
+    proof.models = sfepy_cubes(module, tests, &in_card);
+  } else {
+    proof.models = sfepy_cubes(module, tests, nullptr);
+  }
+  std::vector<std::vector<CubeRow>> rows;
+  run_files(found, proof.models, [&](const auto& folder) {
+    for (std::size_t i = 0; i <= tests.size(); ++i) rows.push_back(sfepy_rows(folder, i));
+  });
+  const double resolves = found.solver.resolves;
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    proof.cubes.push_back(compared(tests[i], rows[i], wanted, *read.units, resolves));
+  if (!read.terms.empty())
+    proof.hold = compared_hold(hold, rows.back(), wanted, *read.units, resolves);
+}
+
+}  // namespace
+
+bool RubberProof::agrees() const {
+  return diverged.empty() && (!hold || hold->agrees()) &&
+         std::all_of(cubes.begin(), cubes.end(),
+                     [](const CubeProof& cube) { return cube.agrees(); });
+}
+
+bool RubberProof::exercises_all() const {
+  const auto is_seen = [](const auto& one) { return one.is_exercised; };
+  return std::all_of(constants.begin(), constants.end(), is_seen) &&
+         (!hold || std::all_of(hold->terms.begin(), hold->terms.end(), is_seen));
+}
+
+std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticFile* file,
+                                 double step) {
+  std::vector<CubeTest> out;
+  constexpr double kLeast = 0.02, kShare = 0.95;
+  const auto add = [&](const std::string& name, Deformation deformation, double top) {
+    const StableRange stable = stable_range(law, deformation);
+    const double edge =
+        top > 1.0 ? 1.0 + kShare * (stable.high - 1.0) : 1.0 - kShare * (1.0 - stable.low);
+    top = top > 1.0 ? std::min(top, edge) : std::max(top, edge);
+    if (std::abs(top - 1.0) > kLeast) out.push_back({name, deformation, top, steps_to(top, step)});
+  };
+  for (std::size_t d = 0; d < deformation_names().size(); ++d) {
+    HyperelasticFile::Range measured;
+    if (file != nullptr && file->measured[d]) measured = *file->measured[d];
+    const bool is_pulled = measured.high > 1.0 + kLeast;
+    add(deformation_names()[d], static_cast<Deformation>(d), is_pulled ? measured.high : kUsualTop);
+    if (d == 0 && measured.low < 1.0 - kLeast)
+      add("compression", Deformation::kUniaxial, measured.low);
+  }
+  return out;
+}
+
+const std::vector<std::string>& rubber_solvers() {
+  static const std::vector<std::string> kSolvers{"calculix", "sfepy"};
+  return kSolvers;
+}
+
+bool runs_text_of(const std::string& solver, const std::string& target) {
+  return solver == target;
+}
+
+RubberProof prove_rubber_card(const std::string& card, const std::string& target,
+                              const ReadRubber& read, const HyperelasticFile* file,
+                              const std::string& elastic_only, const FoundSolver& found) {
+  WantedRubber wanted = wanted_of(read, file, elastic_only);
+  if (read.terms.empty() && !wanted.terms.empty())
+    throw std::runtime_error(
+        "the card has no terms of relaxation and the law has " +
+        std::to_string(wanted.terms.size()) +
+        "; --elastic-only instantaneous or long-term says which law without them it should be");
+  const bool is_sfepy = found.solver.name == "sfepy";
+  if (is_sfepy) wanted.rule = VolumeRule::kWholeOgden;
+  RubberProof proof{.bulk_Pa = wanted.bulk_Pa};
+  const std::vector<CubeTest> tests =
+      cube_tests(wanted.law, file, is_sfepy ? kSfepyStep : kCalculixStep);
+  if (tests.empty())
+    throw std::runtime_error("the law is not stable at any stretch that could be run");
+  if (is_sfepy) {
+    run_sfepy(card, target, tests, wanted, read, found, proof);
+  } else {
+    run_calculix(card, tests, wanted, read, found, proof);
+  }
+  if (proof.diverged.empty()) note_constants(wanted, proof);
+  return proof;
+}
+
+}  // namespace viscard

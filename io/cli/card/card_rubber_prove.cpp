@@ -1,0 +1,139 @@
+#include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
+#include "io/basics/words.h"
+#include "io/cards/hyperelastic/proof/rubber_certificate.h"
+#include "io/cards/hyperelastic/rubber_card.h"
+#include "io/cards/proof/solvers.h"
+#include "io/cli/card/card_words.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
+#include "io/cli/words/output_paths.h"
+#include "io/materials/hyperelastic_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <ostream>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// What was done to the law, by the header of a card by viscard.
+std::string stated_elastic_only(const std::string& text) {
+  if (text.find("left out, the law after all relaxation kept") != std::string::npos)
+    return "long-term";
+  return text.find("left out, the law at once kept") != std::string::npos ? "instantaneous" : "";
+}
+
+const Solver& rubber_solver(const CardWords& words) {
+  const auto& known = rubber_solvers();
+  std::string name = words.solver;
+  if (name.empty() && std::find(known.begin(), known.end(), words.target) != known.end())
+    name = words.target;
+  if (name.empty()) {
+    throw UsageError("viscard runs no solver that reads cards of rubber for " + words.target +
+                     "; --solver sfepy runs the numbers that are read from the card");
+  }
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw UsageError("--solver " + name + " runs no cards of rubber; " + listed(known) + " do");
+  if (name == "calculix" && words.target != "calculix") {
+    throw UsageError("CalculiX does not read cards of rubber for " + words.target +
+                     "; --solver sfepy runs the numbers of any card");
+  }
+  return solver_for(name, name == "calculix" ? name : "");
+}
+
+void print_constants(const RubberProof& proof, std::ostream& out) {
+  for (const ConstantProof& constant : proof.constants) {
+    out << fmt::format("  {} = {:.6g}: {}; a value 10 % off changes a stress by {:.1e}\n",
+                       constant.name, constant.value,
+                       constant.is_exercised ? "exercised" : "NOT exercised", constant.change);
+  }
+  if (!proof.hold) return;
+  for (std::size_t i = 0; i < proof.hold->terms.size(); ++i) {
+    const TermProof& term = proof.hold->terms[i];
+    out << fmt::format(
+        "  term {}: g = {:g}, tau = {:g} s: {}; a tau 10 % off changes the stress by {:.1e}\n",
+        i + 1, term.g, term.tau_s, term.is_exercised ? "exercised" : "NOT exercised", term.change);
+  }
+}
+
+std::string verdict_of(const RubberProof& proof) {
+  if (!proof.diverged.empty()) {
+    return "nothing is proven: the " + proof.diverged + " cube did not converge\n";
+  }
+  if (!proof.agrees()) return "the card does not hold: its stress is not that of the law\n";
+  if (!proof.exercises_all()) {
+    return "the stresses agree, but nothing is proven of the constants that were not exercised: an "
+           "error in them would be smaller than what the run resolves\n";
+  }
+  return "the card holds: every stress is that of the law, and every constant was exercised\n";
+}
+
+void print_rubber_proof(const CardWords& words, const FoundSolver& found, const RubberProof& proof,
+                        std::ostream& out) {
+  out << fmt::format(
+      "{}: {} {} on one cube, bulk modulus {:.6g} Pa, against the closed form of {}\n", words.prove,
+      found.solver.code, found.version, proof.bulk_Pa,
+      words.material.empty() ? "the card as read" : words.material);
+  for (const CubeProof& cube : proof.cubes) {
+    out << fmt::format(
+        "  {:<12} to a stretch of {:.4g}, {} of {} steps compared: {:.1e} at {:.4g} (resolves "
+        "{:.1e})\n",
+        cube.test.name, cube.test.top, cube.compared, cube.test.steps, cube.error, cube.at_stretch,
+        cube.resolved);
+  }
+  if (proof.hold) {
+    out << fmt::format("  {:<12} ramp and hold to {:g} s: {:.1e} at {:g} s (resolves {:.1e})\n",
+                       "relaxation", proof.hold->end_s, proof.hold->error, proof.hold->at_s,
+                       proof.hold->resolved);
+  }
+  print_constants(proof, out);
+  out << verdict_of(proof);
+  if (!runs_text_of(found.solver.name, words.target)) {
+    out << "  " << found.solver.code
+        << " ran the numbers that were read from the card, not its text; --check compares the "
+           "text\n";
+  }
+}
+
+}  // namespace
+
+int prove_rubber_file(const CardWords& words, Streams& streams) {
+  const Solver& solver = rubber_solver(words);
+  const std::string path =
+      words.out.empty() ? words.prove + "." + solver.name + ".proof.json" : words.out;
+  refuse_existing(path, words.force);
+  const std::string text = read_file(words.prove);
+  std::optional<HyperelasticFile> file;
+  if (!words.material.empty()) file = read_hyperelastic(words.material);
+  const std::string elastic_only =
+      words.elastic_only.empty() ? stated_elastic_only(text) : words.elastic_only;
+  const FoundSolver found = find_solver(solver, words.solver_path);
+  const RubberProof proof = [&] {
+    try {
+      const ReadRubber read = read_rubber_card(text, words.target, words.units);
+      return prove_rubber_card(text, words.target, read, file ? &*file : nullptr, elastic_only,
+                               found);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(words.prove + ": " + error.what());
+    }
+  }();
+  const std::string certificate = rubber_certificate_text(
+      {words.prove, words.material, words.target}, file ? &*file : nullptr, found, proof);
+  if (!words.json) print_rubber_proof(words, found, proof, FittedText(streams));
+  write_file(path, certificate, words.force);
+  if (words.json) {
+    Words inputs{words.prove};
+    if (!words.material.empty()) inputs.push_back(words.material);
+    print_json({"viscard-card-rubber-prove/1", inputs}, ordered_json_from_text(certificate),
+               streams);
+  } else {
+    streams.out << "wrote " << path << "\n";
+  }
+  return proof.holds() ? kDone : kFailed;
+}
+
+}  // namespace viscard

@@ -1,0 +1,211 @@
+// viscard card --prove of cards of rubber: the closed form of a cube, and runs of CalculiX and SfePy.
+#include "io/cards/hyperelastic/proof/cube_stress.h"
+#include "io/cards/hyperelastic/proof/rubber_certificate.h"
+#include "io/cards/proof/solvers.h"
+#include "io/cards/unit_system.h"
+#include "tests/io/cards/rubber_rules.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+HyperelasticFile law_file(const Rubber& rubber) {
+  HyperelasticFile file;
+  file.law = rubber.law;
+  file.terms = rubber.terms;
+  return file;
+}
+
+// The proof of a card in the units mm-t-s, beside the law.
+RubberProof proof_of(const std::string& card, const Rubber& rubber, const std::string& target,
+                     const char* solver, const std::string& elastic_only = "") {
+  const HyperelasticFile file = law_file(rubber);
+  const FoundSolver found = find_solver(solver_for(solver, solver == target ? target : ""), "");
+  return prove_rubber_card(card, target, read_rubber_card(card, target, "mm-t-s"), &file,
+                           elastic_only, found);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+bool has_sfepy() {
+  if (std::system("/usr/bin/python3 -c 'import sfepy' >/dev/null 2>&1") == 0) return true;
+  WARN("sfepy is not installed for /usr/bin/python3; it is not run");
+  return false;
+}
+
+// Energy of a Mooney-Rivlin cube (C10, C01, K) at stretches s, b, b.
+double mooney_energy(double C10, double C01, double K, double s, double b) {
+  const double J = s * b * b, shape = std::pow(J, -1.0 / 3.0);
+  const double a = s * shape, c = b * shape;
+  return C10 * (a * a + 2.0 * c * c - 3.0) + C01 * (1.0 / (a * a) + 2.0 / (c * c) - 3.0) +
+         0.5 * K * (J - 1.0) * (J - 1.0);
+}
+
+// Its least value over the stretch of the sides, by golden section.
+double least_energy(double C10, double C01, double K, double s) {
+  double low = 0.5 / std::sqrt(s), high = 1.5 / std::sqrt(s);
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  for (int i = 0; i < 60; ++i) {
+    const double one = high - ratio * (high - low), two = low + ratio * (high - low);
+    (mooney_energy(C10, C01, K, s, one) < mooney_energy(C10, C01, K, s, two) ? high : low) =
+        mooney_energy(C10, C01, K, s, one) < mooney_energy(C10, C01, K, s, two) ? two : one;
+  }
+  return mooney_energy(C10, C01, K, s, 0.5 * (low + high));
+}
+
+}  // namespace
+
+TEST_CASE("rubber proofs: the stress of a cube is the slope of its least energy", "[io]") {
+  const double C10 = 1.5e5, C01 = 2e4, step = 1e-4;
+  const HyperelasticLaw law = rubber_of(HyperelasticForm::kMooneyRivlin, {C10, C01}, {}, {}).law;
+  for (const double K : {1e6, 3.4e8}) {
+    for (const double s : {0.7, 1.3, 2.0}) {
+      CAPTURE(K, s);
+      const double slope =
+          (least_energy(C10, C01, K, s + step) - least_energy(C10, C01, K, s - step)) /
+          (2.0 * step);
+      CHECK(cube_stress_Pa(law, K, Deformation::kUniaxial, s, VolumeRule::kUnitVolume) ==
+            Approx(slope).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("rubber proofs: the stress of a cube tends to the incompressible one and to Hooke's law",
+          "[io][reduction]") {
+  for (const Rubber& rubber : rubbers()) {
+    CAPTURE(name_of(rubber.law.form));
+    const double G = youngs_modulus_Pa(rubber.law) / 3.0;
+    for (const auto deformation :
+         {Deformation::kUniaxial, Deformation::kPlanar, Deformation::kEquibiaxial}) {
+      CAPTURE(name_of(deformation));
+      for (const auto rule : {VolumeRule::kUnitVolume, VolumeRule::kWholeOgden}) {
+        const auto error = [&](double ratio) {
+          return cube_stress_Pa(rubber.law, ratio * G, deformation, 1.8, rule) /
+                     nominal_stress_Pa(rubber.law, deformation, 1.8) -
+                 1.0;
+        };
+        CHECK(std::abs(error(1e3)) < 3e-3);
+        CHECK(error(1e3) / error(2e3) == Approx(2.0).epsilon(5e-3));  // of first order in G/K
+      }
+    }
+    // E = 9 K G/(3 K + G); of a strain of 1e-6 the next order is 1e-6 of it.
+    const double K = 3.0 * G, strain = 1e-6;
+    CHECK(cube_stress_Pa(rubber.law, K, Deformation::kUniaxial, 1.0 + strain,
+                         VolumeRule::kUnitVolume) /
+              strain ==
+          Approx(9.0 * K * G / (3.0 * K + G)).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("rubber proofs: CalculiX proves cards of three materials, and finds a wrong number",
+          "[io][golden]") {
+  for (const Rubber& rubber : rubbers()) {
+    for (const std::string when : {"instantaneous", "long-term"}) {
+      CAPTURE(name_of(rubber.law.form), when);
+      const RubberProof proof =
+          proof_of(card_of(rubber, "calculix", false, when), rubber, "calculix", "calculix", when);
+      REQUIRE(proof.cubes.size() == 3);
+      for (const CubeProof& cube : proof.cubes) {
+        CAPTURE(cube.test.name, cube.error, cube.at_stretch);
+        CHECK(cube.error < 3e-6);
+        CHECK(cube.error > 0.0);
+      }
+      CHECK_FALSE(proof.hold.has_value());
+      CHECK(proof.holds());
+    }
+  }
+  const Rubber& yeoh = rubbers()[1];
+  const std::string card = card_of(yeoh, "calculix", false, "instantaneous");
+  const auto of = [&](const std::string& text) {
+    return proof_of(text, yeoh, "calculix", "calculix", "instantaneous");
+  };
+  CHECK_FALSE(of(replaced(card, ", -0.0014,", ", -0.0015,")).agrees());
+  // A card that is right for another moment of the relaxation.
+  CHECK_FALSE(proof_of(card, yeoh, "calculix", "calculix", "long-term").agrees());
+  CHECK_THROWS_WITH(proof_of(card, yeoh, "calculix", "calculix"),
+                    Contains("has no terms of relaxation and the law has 2"));
+}
+
+TEST_CASE("rubber proofs: SfePy proves laws and memory of three materials, and finds wrong numbers",
+          "[io]") {
+  if (!has_sfepy()) return;
+  for (const Rubber& rubber : rubbers()) {
+    CAPTURE(name_of(rubber.law.form));
+    const RubberProof proof = proof_of(card_of(rubber, "sfepy"), rubber, "sfepy", "sfepy");
+    REQUIRE(proof.cubes.size() == 3);
+    for (const CubeProof& cube : proof.cubes) {
+      CAPTURE(cube.test.name, cube.error, cube.at_stretch);
+      CHECK(cube.error < 1e-8);
+    }
+    REQUIRE(proof.hold.has_value());
+    CHECK(proof.hold->error < 1e-6);
+    CHECK(proof.hold->resolved < 2e-5);
+    CHECK(proof.hold->terms.size() == rubber.terms.size());
+    CHECK(proof.holds());
+  }
+  const Rubber& neo_hooke = rubbers()[0];
+  const std::string card = card_of(neo_hooke, "sfepy");
+  const RubberProof late =
+      proof_of(replaced(card, "TAU = [0.4]", "TAU = [0.401]"), neo_hooke, "sfepy", "sfepy");
+  CHECK(late.cubes[0].agrees());
+  CHECK_FALSE(late.hold->agrees());
+  CHECK_FALSE(late.holds());
+  // The rule of the memory itself.
+  CHECK_FALSE(
+      proof_of(replaced(card, "np.exp(-x[i])", "np.exp(-2 * x[i])"), neo_hooke, "sfepy", "sfepy")
+          .hold->agrees());
+}
+
+TEST_CASE("rubber proofs: SfePy runs the numbers of a card for Abaqus, and finds its wrong basis",
+          "[io]") {
+  if (!has_sfepy()) return;
+  const Rubber& neo_hooke = rubbers()[0];
+  const std::string card = rubber_card(neo_hooke.law, neo_hooke.terms,
+                                       {.target = "abaqus", .units = "mm-t-s", .bulk_Pa = 3e8});
+  const RubberProof proof = proof_of(card, neo_hooke, "abaqus", "sfepy");
+  CHECK(proof.holds());
+  CHECK(proof.bulk_Pa == Approx(3e8));
+  CHECK_FALSE(proof_of(replaced(card, ", MODULI=INSTANTANEOUS", ""), neo_hooke, "abaqus", "sfepy")
+                  .agrees());
+}
+
+TEST_CASE("rubber proofs: a constant that no stress shows is reported as not exercised", "[io]") {
+  Rubber mooney = rubber_of(HyperelasticForm::kMooneyRivlin, {1.5e5, 1e-3}, {}, {});
+  const RubberProof proof = proof_of(card_of(mooney, "calculix"), mooney, "calculix", "calculix");
+  CHECK(proof.agrees());
+  CHECK_FALSE(proof.holds());
+  REQUIRE(proof.constants.size() == 3);
+  CHECK(proof.constants[0].is_exercised);
+  CHECK_FALSE(proof.constants[1].is_exercised);
+  CHECK(proof.constants[2].name == "bulk modulus");
+  CHECK(proof.constants[2].is_exercised);
+}
+
+TEST_CASE("rubber proofs: cubes go as far as the tests of the law did, and stay where it is stable",
+          "[io]") {
+  HyperelasticFile file = law_file(rubbers()[0]);
+  file.measured[0] = HyperelasticFile::Range{0.6, 3.0};
+  const auto tests = cube_tests(file.law, &file, 0.04);
+  REQUIRE(tests.size() == 4);
+  CHECK(tests[0].top == 3.0);
+  CHECK(tests[0].steps == 50);
+  CHECK(tests[1].name == "compression");
+  CHECK(tests[1].top == 0.6);
+  CHECK(tests[2].top == 1.8);
+  // Yeoh with a negative C20 alone softens until it is unstable.
+  const auto soft = rubber_of(HyperelasticForm::kYeoh, {2e5, -4e4, 1.0}, {}, {}).law;
+  for (const CubeTest& test : cube_tests(soft, nullptr, 0.04)) CHECK(test.top < 1.8);
+}

@@ -1,0 +1,86 @@
+// viscard card --prove of cards of rubber on the command line.
+#include "tests/io/cli/fit/table_folder.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <sstream>
+
+using namespace viscard::test;
+using Catch::Contains;
+
+namespace {
+
+std::string text_in(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The file of a Mooney-Rivlin rubber that was fitted up to a stretch of 2.
+std::string fitted_mooney(const TableFolder& folder) {
+  std::ostringstream table;
+  table.precision(12);
+  table << "stretch,nominal_stress_Pa\n";
+  for (int i = 1; i <= 40; ++i) {
+    const double s = 1.0 + 0.025 * i;
+    table << s << "," << 2.0 * (s - 1.0 / (s * s)) * (1.5e5 + 4e4 / s) << "\n";
+  }
+  const std::string out = folder.file("rubber.json");
+  REQUIRE(run_command({"fit", "uniaxial=" + folder.write("pull.csv", table.str()), "--model",
+                       "mooney-rivlin", "--out", out})
+              .status == 0);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("--prove runs a card of rubber in CalculiX, and its certificate says what held",
+          "[cli]") {
+  const TableFolder folder;
+  const std::string law = fitted_mooney(folder), card = folder.file("rubber.inp");
+  REQUIRE(
+      run_command({"card", law, "--for", "calculix", "--units", "mm-t-s", "--out", card}).status ==
+      0);
+  const auto run = run_command({"card", law, "--prove", card});
+  INFO(run.err);
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("CalculiX") && Contains("uniaxial     to a stretch of 2, ") &&
+                          Contains("the card holds") && Contains("bulk modulus = "));
+  const auto proof = nlohmann::json::parse(text_in(card + ".calculix.proof.json"));
+  CHECK(proof["holds"] == true);
+  CHECK(proof["ran_text"] == true);
+  CHECK(proof["cubes"].size() == 3);
+  CHECK(proof["cubes"][0]["error"].get<double>() < 3e-6);
+  CHECK(proof["chain"]["raw_files"][0]["file"].get<std::string>().find("pull.csv") !=
+        std::string::npos);
+  CHECK_THAT(proof["models"][0]["text"].get<std::string>(), Contains("*HYPERELASTIC"));
+  // The same certificate is not replaced, and a wrong card does not hold.
+  CHECK_THAT(run_command({"card", law, "--prove", card}).err, Contains("exists"));
+  std::string text = text_in(card);
+  const std::size_t at = text.find("MOONEY-RIVLIN\n") + 14;
+  text.replace(at, text.find(',', at) - at, "0.151");
+  const auto wrong = run_command({"card", law, "--prove", folder.write("wrong.inp", text)});
+  CHECK(wrong.status == 1);
+  CHECK_THAT(wrong.out, Contains("the card does not hold"));
+}
+
+TEST_CASE("--prove of a card of rubber without its solver says which one runs the numbers",
+          "[cli]") {
+  const TableFolder folder;
+  const std::string law = fitted_mooney(folder), card = folder.file("rubber.inp");
+  REQUIRE(run_command({"card", law, "--for", "abaqus", "--out", card}).status == 0);
+  const auto error_of = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"card", law, "--prove", card};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto run = run_command(words);
+    CHECK(run.status == 2);
+    return run.err;
+  };
+  CHECK_THAT(error_of({}), Contains("no solver that reads cards of rubber for abaqus") &&
+                               Contains("--solver sfepy"));
+  CHECK_THAT(error_of({"--solver", "calculix"}),
+             Contains("CalculiX does not read cards of rubber for abaqus"));
+  CHECK_THAT(error_of({"--solver", "febio"}), Contains("--solver febio runs no cards of rubber"));
+}
