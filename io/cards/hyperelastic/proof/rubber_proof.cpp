@@ -6,6 +6,7 @@
 #include "io/cards/hyperelastic/rubber_rows.h"
 #include "io/cards/unit_system.h"
 #include "models/hyperelastic/law_stability.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
