@@ -20,9 +20,11 @@ RelaxingTops::RelaxingTops(const std::vector<TouchedPillar>& pillars,
   for (const TouchedPillar& one : pillars) {
     Top top;
     top.contact = &classes_[static_cast<std::size_t>(one.of_class)];
-    top.reach_m = top.contact->overlaps([&](double x_m, double y_m) {
+    TopContact::PointOverlap points = top.contact->overlaps([&](double x_m, double y_m) {
       return one.above_m - height_m(shape, one.x_m + x_m, one.y_m + y_m);
     });
+    top.reach_m = std::move(points.overlap_m);
+    top.softness_m_N = std::move(points.softness_m_N);
     top.largest_reach_m = top.reach_m.maxCoeff();
     top.branch_m.resize(terms);
     tops_.push_back(std::move(top));
@@ -78,7 +80,7 @@ void RelaxingTops::press(Top& top, double depth_m) const {
   }
   Eigen::MatrixXd overlap_m = now_ * (top.reach_m.array() + depth_m).matrix();
   if (top.is_touched) overlap_m += top.carried_m;
-  top.force_N = top.contact->pushing_forces(overlap_m, top.force_N);
+  top.force_N = top.contact->pushing_forces(overlap_m, top.force_N, top.softness_m_N);
 }
 
 PressedArray RelaxingTops::pressed_at(double depth_m) {

@@ -33,6 +33,7 @@ class RelaxingTops {
   struct Top {
     const TopContact* contact = nullptr;
     Eigen::MatrixXd reach_m;  // of the surface at depth 0 below the top at rest, rings x angles
+    Eigen::MatrixXd softness_m_N;  // of points that the surface covers in part, or empty
     double largest_reach_m = 0.0;
     bool is_touched = false;  // in any step up to now; the rest is empty before
     Eigen::MatrixXd motion_m;

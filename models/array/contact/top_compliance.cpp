@@ -58,12 +58,14 @@ bool condenses_pressure(const Medium& medium) {
 
 class TopOfHarmonic {
  public:
-  TopOfHarmonic(const Section& section, int harmonic)
-      : system_(section, kinematics(harmonic), dofs(section, kinematics(harmonic))),
-        normal_(harmonic == 0 ? 1 : 2) {}
+  TopOfHarmonic(const Section& section, const Kinematics& kinematics)
+      : system_(section, kinematics, dofs(section, kinematics)),
+        normal_(kinematics.field_count - 1) {}
 
   // S_m on the nodes of the top that lie off the axis.
-  Eigen::MatrixXd compliance(const Medium& medium) const {
+  Eigen::MatrixXd compliance(const Medium& medium) const { return compliance(medium, {normal_}); }
+  // Motion of these fields under forces on them; the field is the slowest index.
+  Eigen::MatrixXd compliance(const Medium& medium, const std::vector<int>& fields) const {
     const Section& section = system_.section();
     SymmetricSparse stiffness;
     if (condenses_pressure(medium)) {
@@ -78,8 +80,12 @@ class TopOfHarmonic {
     factor.analyse(stiffness);
     require(factor.factor(stiffness), "the stiffness of a pillar's top is singular");
     const int rings = section.x().node_count() - 1;
-    Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(system_.size(), rings);
-    for (int ring = 0; ring < rings; ++ring) forces(top_dof(ring), ring) = 1.0;
+    Eigen::MatrixXd forces =
+        Eigen::MatrixXd::Zero(system_.size(), rings * static_cast<Eigen::Index>(fields.size()));
+    Eigen::Index column = 0;
+    for (const int field : fields) {
+      for (int ring = 0; ring < rings; ++ring) forces(top_dof(field, ring), column++) = 1.0;
+    }
     const Eigen::MatrixXd half = factor.forward(forces);
     return half.transpose() * factor.pivots().cwiseInverse().asDiagonal() * half;
   }
@@ -91,14 +97,11 @@ class TopOfHarmonic {
         system_.line_load(normal_, section.z().element_count(), 0, section.x().element_count());
     const int rings = section.x().node_count() - 1;
     Eigen::VectorXd areas(rings);
-    for (int ring = 0; ring < rings; ++ring) areas[ring] = load[top_dof(ring)];
+    for (int ring = 0; ring < rings; ++ring) areas[ring] = load[top_dof(normal_, ring)];
     return areas;
   }
 
  private:
-  static Kinematics kinematics(int harmonic) {
-    return harmonic == 0 ? kinematics_of(Motion::kLongitudinal) : fourier_kinematics(harmonic);
-  }
   static DofMap dofs(const Section& section, const Kinematics& kinematics) {
     DofMap dofs(kinematics.field_count, section.node_count());
     for (int node = 0; node < section.node_count(); ++node) {
@@ -111,17 +114,100 @@ class TopOfHarmonic {
     dofs.number();
     return dofs;
   }
-  int top_dof(int ring) const {
+  int top_dof(int field, int ring) const {
     const Section& section = system_.section();
-    return system_.dofs().dof(normal_, section.node(ring + 1, section.z().node_count() - 1));
+    return system_.dofs().dof(field, section.node(ring + 1, section.z().node_count() - 1));
   }
 
   DiscreteSystem system_;
-  int normal_ = 1;  // field of u_z
+  int normal_ = 1;  // field of u_z, the last
 };
+
+// The mesh of one pillar's top; its sections, by harmonic.
+class TopMesh {
+ public:
+  TopMesh(const PillarGeometry& pillar, const Medium& medium, const TopFineness& fineness)
+      : degree_(condenses_pressure(medium) ? 3 : 2),
+        radius_m_(0.5 * pillar.diameter_m),
+        across_(graded_breaks(0.0, radius_m_, fineness.elements, 1.0, true), degree_),
+        heights_m_(heights(radius_m_, pillar.length_m, fineness.elements)) {}
+
+  Section section(int harmonic) const {
+    return {across_, LineMesh(heights_that_move(heights_m_, radius_m_, harmonic), degree_),
+            [](double, double) { return 0; }};
+  }
+  std::vector<double> ring_radii_m() const {
+    return {across_.nodes().begin() + 1, across_.nodes().end()};
+  }
+
+ private:
+  int degree_;
+  double radius_m_;
+  LineMesh across_;
+  std::vector<double> heights_m_;
+};
+
+Kinematics normal_kinematics(int harmonic) {
+  return harmonic == 0 ? kinematics_of(Motion::kLongitudinal) : fourier_kinematics(harmonic);
+}
 
 bool is_straight(const PillarGeometry& pillar) {
   return !pillar.film && pillar.foot.width_m == 0.0 && pillar.tip.width_m == 0.0;
+}
+
+void check_top(const PillarGeometry& pillar, const TopFineness& fineness) {
+  require(is_straight(pillar), "the top of a pillar is found for a straight pillar without a film");
+  require(fineness.elements >= 2 && fineness.angles >= 4 && fineness.angles % 2 == 0,
+          "the top of a pillar needs two elements and an even number of angles, four or more");
+}
+
+// C_m: u_r = (a + b)/2, u_theta = (a - b)/2 (eq. 12), and down is -w.
+Eigen::MatrixXd in_directions(const Eigen::MatrixXd& of_fields) {
+  const Eigen::Index n = of_fields.rows() / 3;
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  turn.block(0, 0, n, n) = 0.5 * one;
+  turn.block(0, n, n, n) = 0.5 * one;
+  turn.block(n, 0, n, n) = 0.5 * one;
+  turn.block(n, n, n, n) = -0.5 * one;
+  turn.block(2 * n, 2 * n, n, n) = -one;
+  return turn * of_fields * turn.transpose();
+}
+
+// C_0: along r and down by the longitudinal family, theta by torsion.
+Eigen::MatrixXd axial_directions(const Eigen::MatrixXd& longitudinal,
+                                 const Eigen::MatrixXd& torsion) {
+  const Eigen::Index n = torsion.rows();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  all.block(0, 0, n, n) = longitudinal.topLeftCorner(n, n);
+  all.block(2 * n, 2 * n, n, n) = longitudinal.bottomRightCorner(n, n);
+  all.block(0, 2 * n, n, n) = -longitudinal.topRightCorner(n, n);
+  all.block(2 * n, 0, n, n) = -longitudinal.bottomLeftCorner(n, n);
+  all.block(n, n, n, n) = torsion;
+  return all;
+}
+
+// Of one ring-wise top: a unit force down, along x, and a unit moment; and the rigid motions that do their work.
+struct RigidTop {
+  Eigen::VectorXd pressure, shear, tilt;  // forces, C_0 and C_1
+  Eigen::VectorXd sink, move, turn;       // motions
+};
+RigidTop rigid_top(const std::vector<double>& radius_m, const Eigen::VectorXd& area_m2) {
+  const Eigen::Index n = area_m2.size();
+  const Eigen::Map<const Eigen::VectorXd> r(radius_m.data(), n);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(3 * n);
+  RigidTop top{zero, zero, zero, zero, zero, zero};
+  const double all_m2 = area_m2.sum();
+  const Eigen::VectorXd lever = area_m2.cwiseProduct(r);
+  top.pressure.tail(n) = area_m2 / all_m2;
+  top.shear.head(n) = 0.5 * area_m2 / all_m2;
+  top.shear.segment(n, n) = -0.5 * area_m2 / all_m2;
+  top.tilt.tail(n) = lever / lever.dot(r);
+  top.sink.tail(n).setOnes();
+  top.move.head(n).setOnes();
+  top.move.segment(n, n).setConstant(-1.0);
+  top.turn.tail(n) = r;
+  return top;
 }
 
 }  // namespace
@@ -145,24 +231,60 @@ void TopCompliance::adjust(double sinking, double turning) {
   harmonic_m_N[1] += more * (r * r.transpose());
 }
 
+StickingCompliance::Means StickingCompliance::means() const {
+  const RigidTop top = rigid_top(radius_m, ring_area_m2);
+  const Eigen::MatrixXd& C_1 = harmonic_m_N[1];
+  return {.sinking_m_N = top.pressure.dot(harmonic_m_N[0] * top.pressure),
+          .sideways_m_N = top.shear.dot(C_1 * top.shear),
+          .turning_rad_N = top.tilt.dot(C_1 * top.shear),
+          .turning_rad_Nm = top.tilt.dot(C_1 * top.tilt)};
+}
+
+void StickingCompliance::adjust(const Means& wanted) {
+  const RigidTop top = rigid_top(radius_m, ring_area_m2);
+  const Means is = means();
+  harmonic_m_N[0] += (wanted.sinking_m_N - is.sinking_m_N) * (top.sink * top.sink.transpose());
+  const Eigen::MatrixXd mixed = top.move * top.turn.transpose();
+  harmonic_m_N[1] +=
+      (wanted.sideways_m_N - is.sideways_m_N) * (top.move * top.move.transpose()) +
+      (wanted.turning_rad_N - is.turning_rad_N) * (mixed + mixed.transpose()) +
+      (wanted.turning_rad_Nm - is.turning_rad_Nm) * (top.turn * top.turn.transpose());
+}
+
 TopCompliance top_compliance(const PillarGeometry& pillar, const Medium& medium,
                              const TopFineness& fineness) {
-  require(is_straight(pillar), "the top of a pillar is found for a straight pillar without a film");
-  require(fineness.elements >= 2 && fineness.angles >= 4 && fineness.angles % 2 == 0,
-          "the top of a pillar needs two elements and an even number of angles, four or more");
-  const double radius_m = 0.5 * pillar.diameter_m;
-  const int degree = condenses_pressure(medium) ? 3 : 2;
-  const LineMesh across(graded_breaks(0.0, radius_m, fineness.elements, 1.0, true), degree);
-  const std::vector<double> all_m = heights(radius_m, pillar.length_m, fineness.elements);
+  check_top(pillar, fineness);
+  const TopMesh mesh(pillar, medium, fineness);
   TopCompliance top;
   top.angles = fineness.angles;
-  top.radius_m.assign(across.nodes().begin() + 1, across.nodes().end());
+  top.radius_m = mesh.ring_radii_m();
   for (int harmonic = 0; harmonic <= fineness.angles / 2; ++harmonic) {
-    const Section section(across, LineMesh(heights_that_move(all_m, radius_m, harmonic), degree),
-                          [](double, double) { return 0; });
-    const TopOfHarmonic one(section, harmonic);
+    const Section section = mesh.section(harmonic);
+    const TopOfHarmonic one(section, normal_kinematics(harmonic));
     if (harmonic == 0) top.ring_area_m2 = one.ring_areas();
     top.harmonic_m_N.push_back(one.compliance(medium));
+  }
+  return top;
+}
+
+StickingCompliance sticking_compliance(const PillarGeometry& pillar, const Medium& medium,
+                                       const TopFineness& fineness) {
+  check_top(pillar, fineness);
+  const TopMesh mesh(pillar, medium, fineness);
+  StickingCompliance top;
+  top.angles = fineness.angles;
+  top.radius_m = mesh.ring_radii_m();
+  for (int harmonic = 0; harmonic <= fineness.angles / 2; ++harmonic) {
+    const Section section = mesh.section(harmonic);
+    const TopOfHarmonic one(section, normal_kinematics(harmonic));
+    if (harmonic > 0) {
+      top.harmonic_m_N.push_back(in_directions(one.compliance(medium, {0, 1, 2})));
+      continue;
+    }
+    top.ring_area_m2 = one.ring_areas();
+    const TopOfHarmonic twisted(section, kinematics_of(Motion::kTorsion));
+    top.harmonic_m_N.push_back(
+        axial_directions(one.compliance(medium, {0, 1}), twisted.compliance(medium)));
   }
   return top;
 }

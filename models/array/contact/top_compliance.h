@@ -33,8 +33,32 @@ struct TopCompliance {
   void adjust(double sinking_m_N, double turning_rad_Nm);
 };
 
+// The same under forces in three directions, for tops that stick: motions along r, theta and down under forces
+// along them, which vary as (cos m theta, sin m theta, cos m theta), or a quarter of a wave further as (sin, -cos,
+// sin). Rows and columns of C_m: rings along r, then theta, then down (eq. T9). What lies below six diameters is left
+// out; of longer pillars, adjust() adds it.
+struct StickingCompliance {
+  std::vector<double> radius_m;
+  Eigen::VectorXd ring_area_m2;
+  std::vector<Eigen::MatrixXd> harmonic_m_N;  // C_m; m = 0 to angles/2
+  int angles = 0;
+
+  // Motion of a top under a pressure, or under a shear along x and a tilting traction, as means over the top.
+  struct Means {
+    double sinking_m_N = 0.0;
+    double sideways_m_N = 0.0;    // along x under a force along x
+    double turning_rad_N = 0.0;   // toward +x by that force; and sideways under a moment
+    double turning_rad_Nm = 0.0;  // under a moment int p x dA
+  };
+  Means means() const;
+  // Adds what the grid or a base that yields leaves out, so that means() become the given one.
+  void adjust(const Means& wanted);
+};
+
 // Throws std::invalid_argument for a geometry with a film, a fillet or a mushroom tip, or a bad grid.
 TopCompliance top_compliance(const PillarGeometry& pillar, const Medium& medium,
                              const TopFineness& fineness);
+StickingCompliance sticking_compliance(const PillarGeometry& pillar, const Medium& medium,
+                                       const TopFineness& fineness);
 
 }  // namespace viscard

@@ -1,6 +1,9 @@
 #include "models/array/contact/top_contact.h"
 
+#include "models/array/contact/cut_top.h"
 #include "models/array/contact/point_exchange.h"
+#include "models/array/contact/point_waves.h"
+#include "models/array/contact/sticking_top.h"
 #include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"
 
@@ -32,25 +35,26 @@ double dot(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 }  // namespace
 
-TopContact::TopContact(TopCompliance compliance) : compliance_(std::move(compliance)) {
+TopContact::TopContact(TopCompliance compliance)
+    : compliance_(std::move(compliance)), waves_(unit_waves(compliance_.angles)) {
   const int angles = compliance_.angles;
   for (const Eigen::MatrixXd& block : compliance_.harmonic_m_N) {
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(block.rows(), block.cols());
     stiffness_N_m_.push_back(Cholesky(block).solve(identity));
   }
-  waves_.resize(angles, angles);
-  for (int column = 0; column < angles; ++column) {
-    const int m = (column + 1) / 2;
-    const bool is_sine = column % 2 == 0 && column > 0;
-    const bool is_single = m == 0 || 2 * m == angles;
-    for (int a = 0; a < angles; ++a) {
-      const double phase = m * angle_of(a, angles);
-      waves_(a, column) = (is_sine ? std::sin(phase) : std::cos(phase)) *
-                          std::sqrt((is_single ? 1.0 : 2.0) / angles);
-    }
-    harmonic_of_.push_back(m);
-  }
+  for (int column = 0; column < angles; ++column) harmonic_of_.push_back((column + 1) / 2);
   radius_m_ = compliance_.radius_m.back();
+  point_stiffness_N_m_ = Eigen::VectorXd::Zero(compliance_.ring_area_m2.size());
+  for (int column = 0; column < angles; ++column) {
+    const int m = harmonic_of_[static_cast<std::size_t>(column)];
+    point_stiffness_N_m_ += std::pow(waves_(0, column), 2) / ((m == 0 ? 1.0 : 0.5) * angles) *
+                            stiffness_N_m_[static_cast<std::size_t>(m)].diagonal();
+  }
+}
+
+TopContact::TopContact(TopCompliance compliance, std::shared_ptr<const StickingTop> sticking)
+    : TopContact(std::move(compliance)) {
+  sticking_ = std::move(sticking);
 }
 
 // The compliance is a circulant over the angles: its eigenvalue is angles S_0 or angles/2 S_m.
@@ -81,7 +85,12 @@ Eigen::MatrixXd TopContact::forces(const Eigen::MatrixXd& motion_m) const {
 // Conjugate gradients on the points that touch; points that pull are let go, points that overlap are
 // taken in, until neither happens.
 Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
-                                              const Eigen::MatrixXd& start) const {
+                                              const Eigen::MatrixXd& start,
+                                              const Eigen::MatrixXd& softness_m_N) const {
+  const auto moved_by = [&](const Eigen::MatrixXd& forces_N) -> Eigen::MatrixXd {
+    if (softness_m_N.size() == 0) return motion(forces_N);
+    return motion(forces_N) + softness_m_N.cwiseProduct(forces_N);
+  };
   constexpr int kMostSets = 2000, kMostSteps = 2000;
   constexpr double kResidual = 1e-13;
   const double size_m = std::max(overlap_m.maxCoeff(), 0.0);
@@ -92,12 +101,12 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
   f = masked(f, touches);
   PointExchange exchange;
   for (int set = 0; set < kMostSets; ++set) {
-    Eigen::MatrixXd residual = masked(overlap_m - motion(f), touches);
+    Eigen::MatrixXd residual = masked(overlap_m - moved_by(f), touches);
     Eigen::MatrixXd direction = residual;
     double square = dot(residual, residual);
     const double enough = std::pow(kResidual * size_m, 2) * static_cast<double>(f.size());
     for (int step = 0; step < kMostSteps && square > enough; ++step) {
-      const Eigen::MatrixXd moved = masked(motion(direction), touches);
+      const Eigen::MatrixXd moved = masked(moved_by(direction), touches);
       const double along = square / dot(direction, moved);
       f += along * direction;
       residual -= along * moved;
@@ -107,7 +116,7 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
     }
     const double pull_N = 1e-10 * f.maxCoeff();
     const Mask pulls = touches && f.array() < -pull_N;
-    const Eigen::MatrixXd left_m = overlap_m - motion(masked(f.cwiseMax(0.0), touches));
+    const Eigen::MatrixXd left_m = overlap_m - moved_by(masked(f.cwiseMax(0.0), touches));
     const Mask overlaps = !touches && left_m.array() > 1e-9 * size_m;
     const Mask wrong = pulls || overlaps;
     if (!wrong.any()) return f.cwiseMax(0.0);
@@ -137,6 +146,7 @@ void TopContact::add_resultants(const Eigen::MatrixXd& forces_N, TopPressure& pr
 }
 
 TopPressure TopContact::follow(const Overlap& overlap) const {
+  if (sticking_) return sticking_->follow(overlap);
   constexpr int kRings = 10, kAngles = 24;
   const QuadratureRule rule = gauss_legendre(kRings);
   double mean_m = 0.0, first_x_m2 = 0.0, first_y_m2 = 0.0;
@@ -161,18 +171,14 @@ TopPressure TopContact::follow(const Overlap& overlap) const {
   return pressure;
 }
 
-Eigen::MatrixXd TopContact::overlaps(const Overlap& overlap) const {
-  const auto rings = static_cast<Eigen::Index>(compliance_.radius_m.size());
-  Eigen::MatrixXd overlap_m(rings, compliance_.angles);
-  for (Eigen::Index ring = 0; ring < rings; ++ring) {
-    const double r_m = compliance_.radius_m[static_cast<std::size_t>(ring)];
-    for (int a = 0; a < compliance_.angles; ++a) {
-      const double angle = angle_of(a, compliance_.angles);
-      overlap_m(ring, a) =
-          std::max(overlap(r_m * std::cos(angle), r_m * std::sin(angle)), kAbove_m);
-    }
-  }
-  return overlap_m;
+TopContact::PointOverlap TopContact::overlaps(const Overlap& overlap) const {
+  PointCover cover = point_cover(overlap, compliance_.radius_m, compliance_.angles);
+  PointOverlap points{
+      .overlap_m = cover.overlap_m.cwiseMax(kAbove_m), .softness_m_N = {}, .share = {}};
+  if (!cover.is_cut) return points;
+  points.softness_m_N = viscard::softness_m_N(cover, point_stiffness_N_m_);
+  points.share = std::move(cover.share);
+  return points;
 }
 
 bool TopContact::is_full(const Eigen::MatrixXd& overlap_m, Eigen::MatrixXd& everywhere) const {
@@ -182,16 +188,19 @@ bool TopContact::is_full(const Eigen::MatrixXd& overlap_m, Eigen::MatrixXd& ever
 }
 
 Eigen::MatrixXd TopContact::pushing_forces(const Eigen::MatrixXd& overlap_m,
-                                           const Eigen::MatrixXd& guess) const {
+                                           const Eigen::MatrixXd& guess,
+                                           const Eigen::MatrixXd& softness_m_N) const {
   if (!(overlap_m.maxCoeff() > 0.0)) {
     return Eigen::MatrixXd::Zero(overlap_m.rows(), overlap_m.cols());
   }
   Eigen::MatrixXd everywhere;
   if (is_full(overlap_m, everywhere)) return everywhere;
-  if (guess.size() > 0) return unilateral_forces(overlap_m, guess);
-  if (everywhere.size() > 0) return unilateral_forces(overlap_m, everywhere);
-  return unilateral_forces(overlap_m, overlap_m.cwiseMax(0.0) / compliance_.sinking_m_N() /
-                                          static_cast<double>(overlap_m.size()));
+  if (guess.size() > 0) return unilateral_forces(overlap_m, guess, softness_m_N);
+  if (everywhere.size() > 0) return unilateral_forces(overlap_m, everywhere, softness_m_N);
+  return unilateral_forces(
+      overlap_m,
+      overlap_m.cwiseMax(0.0) / compliance_.sinking_m_N() / static_cast<double>(overlap_m.size()),
+      softness_m_N);
 }
 
 TopPressure TopContact::pressure_of(const Eigen::MatrixXd& forces_N) const {
@@ -205,16 +214,25 @@ TopPressure TopContact::pressure_of(const Eigen::MatrixXd& forces_N) const {
 }
 
 TopPressure TopContact::press(const Overlap& overlap) const {
-  const Eigen::MatrixXd overlap_m = overlaps(overlap);
-  if (!(overlap_m.maxCoeff() > 0.0)) return {};
+  const PointOverlap points = overlaps(overlap);
+  if (!(points.overlap_m.maxCoeff() > 0.0)) return {};
   Eigen::MatrixXd everywhere;
-  if (is_full(overlap_m, everywhere)) {
+  const bool fills = points.share.size() == 0 && is_full(points.overlap_m, everywhere);
+  // The points that touch without friction are nearly those that touch with it.
+  if (fills && sticking_) return sticking_->press(overlap);
+  if (fills) {
     TopPressure pressure = follow(overlap);
     pressure.largest_Pa = pressure_of(everywhere).largest_Pa;
     return pressure;
   }
-  TopPressure pressure = pressure_of(pushing_forces(overlap_m, everywhere));
+  const Eigen::MatrixXd forces_N =
+      pushing_forces(points.overlap_m, everywhere, points.softness_m_N);
+  if (sticking_) return sticking_->press(overlap, forces_N.array() > 0.0);
+  TopPressure pressure = pressure_of(forces_N);
   pressure.is_partial = true;
+  if (points.share.size() == 0) return pressure;
+  pressure.is_cut = true;
+  pressure.share = share_of(forces_N, points.share, compliance_.ring_area_m2);
   return pressure;
 }
 

@@ -1,28 +1,16 @@
 #pragma once
 
 #include "models/array/contact/top_compliance.h"
+#include "models/array/contact/top_pressure.h"
 
 #include <Eigen/Core>
 
-#include <functional>
+#include <memory>
+#include <vector>
 
 namespace viscard {
 
-// What a rigid surface does to the top of one pillar, without friction.
-struct TopPressure {
-  double force_N = 0.0;      // down
-  double moment_x_Nm = 0.0;  // int p x dA: turns the top toward +x
-  double moment_y_Nm = 0.0;
-  double share = 0.0;  // of the top's area that is touched
-  // Of the share: half a ring along the rim of the touched area, whose points touch or do not.
-  double share_error = 0.0;
-  double largest_Pa = 0.0;  // pressure at a point of the grid
-  bool is_partial = false;  // some of the top, but not all, is touched
-};
-
-// How far the surface reaches below the unloaded top at a point of it, m; negative where it stays above,
-// and -infinity where there is no surface.
-using Overlap = std::function<double(double x_m, double y_m)>;
+class StickingTop;
 
 // The contact of one kind of top: overlaps to pressures. On a top that is touched everywhere, force and
 // moments follow from the mean of the overlap (eq. T2), otherwise from the pressures at the points of a
@@ -30,6 +18,8 @@ using Overlap = std::function<double(double x_m, double y_m)>;
 class TopContact {
  public:
   explicit TopContact(TopCompliance compliance);
+  // press() and follow() are those of a top that sticks.
+  TopContact(TopCompliance compliance, std::shared_ptr<const StickingTop> sticking);
 
   TopPressure press(const Overlap& overlap) const;
   // The top follows the surface everywhere, also where it must be pulled (eq. T2).
@@ -39,14 +29,19 @@ class TopContact {
   // Motion of the points under forces on them, rings x angles (eq. T1); and the forces that give it.
   Eigen::MatrixXd motion(const Eigen::MatrixXd& forces_N) const;
   Eigen::MatrixXd forces(const Eigen::MatrixXd& motion_m) const;
-  // Forces that do not pull, where the overlap is reached or less than it (eq. T3). `start` is a guess.
-  Eigen::MatrixXd unilateral_forces(const Eigen::MatrixXd& overlap_m,
-                                    const Eigen::MatrixXd& start) const;
+  // Forces that do not pull, where the overlap is reached or less than it (eq. T3). `start` is a guess,
+  // `softness_m_N` that of points that a surface covers in part (cut_top.h), or empty.
+  Eigen::MatrixXd unilateral_forces(const Eigen::MatrixXd& overlap_m, const Eigen::MatrixXd& start,
+                                    const Eigen::MatrixXd& softness_m_N = {}) const;
 
-  // The overlap at the points, and the forces that it causes there; without a guess if that is empty.
-  Eigen::MatrixXd overlaps(const Overlap& overlap) const;
-  Eigen::MatrixXd pushing_forces(const Eigen::MatrixXd& overlap_m,
-                                 const Eigen::MatrixXd& guess) const;
+  // The overlap at the points with the softness of points that it covers in part (or empty), and the forces that it
+  // causes there; without a guess if that is empty.
+  struct PointOverlap {
+    Eigen::MatrixXd overlap_m, softness_m_N, share;
+  };
+  PointOverlap overlaps(const Overlap& overlap) const;
+  Eigen::MatrixXd pushing_forces(const Eigen::MatrixXd& overlap_m, const Eigen::MatrixXd& guess,
+                                 const Eigen::MatrixXd& softness_m_N = {}) const;
   TopPressure pressure_of(const Eigen::MatrixXd& forces_N) const;
 
  private:
@@ -60,7 +55,9 @@ class TopContact {
   std::vector<Eigen::MatrixXd> stiffness_N_m_;  // inverse of each S_m
   Eigen::MatrixXd waves_;                       // orthonormal cosines and sines: angles x angles
   std::vector<int> harmonic_of_;                // of each column of waves_
+  Eigen::VectorXd point_stiffness_N_m_;         // by ring, of a point while all others are held
   double radius_m_ = 0.0;
+  std::shared_ptr<const StickingTop> sticking_;  // or nothing
 };
 
 }  // namespace viscard

@@ -71,6 +71,19 @@ void check_adhesion(const SpaceScene& scene) {
   }
 }
 
+void check_friction(const SpaceScene& scene) {
+  const ShapePress& press = *scene.press;
+  if (press.friction == Friction::kNone) return;
+  const auto refuse = [](const std::string& beside) {
+    throw SceneMistake("shape.friction", "sticks, which is not answered " + beside +
+                                             "; say friction = \"none\", or remove the other");
+  };
+  if (scene.backing) refuse("on a backing, where a film also moves sideways");
+  if (scene.touch) refuse("in time; full stick is for a depth that only grows");
+  if (press.work_of_adhesion_J_m2 > 0.0 || !press.before_m.empty())
+    refuse("beside adhesion for arrays in the plane");
+}
+
 void check_press(const SpaceScene& scene) {
   const ShapePress& press = *scene.press;
   if (scene.pressure_Pa != 0.0 || scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 ||
@@ -78,11 +91,7 @@ void check_press(const SpaceScene& scene) {
     throw SceneMistake("analysis.load", "cannot stand beside a shape, which itself loads the tops");
   }
   at_key("shape", [&] { validate(press.shape); });
-  if (press.friction != Friction::kNone) {
-    throw SceneMistake("shape.friction",
-                       "sticks, which is answered for rows in the plane (count instead of rows and "
-                       "columns); say friction = \"none\"");
-  }
+  check_friction(scene);
   check_adhesion(scene);
   if ((press.depth_m > 0.0 || !press.before_m.empty()) == (press.force_N > 0.0)) {
     throw SceneMistake(

@@ -1,9 +1,6 @@
 #include "models/array/space/contact_maps.h"
 
 #include "models/array/space/space_maps.h"
-#include "models/maths/text_of_number.h"
-#include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,16 +19,24 @@ struct TopMap {
   const char* name;
   const char* unit;
   double (*value)(const TopPressure&);
-  double (*error)(const SpaceContact&, std::size_t pillar, double quarter_area_m3);
+  double (*error)(const SpaceContact&, std::size_t pillar, double R_m);
 };
 
-double moment_change(const SpaceContact& contact, std::size_t pillar, TopLoad load,
-                     double quarter_area_m3) {
-  return std::abs(contact.change_Pa(static_cast<Eigen::Index>(pillar), static_cast<int>(load))) *
-         quarter_area_m3;
+double moment_change(const SpaceContact& contact, std::size_t pillar, TopLoad load, double R_m) {
+  const auto row = static_cast<Eigen::Index>(pillar);
+  return std::abs(contact.change_Pa(row, static_cast<int>(load))) * 0.25 * std::numbers::pi * R_m *
+         R_m * R_m;
 }
 
-const std::vector<TopMap>& top_maps() {
+double shear_change(const SpaceContact& contact, std::size_t pillar, TopLoad load, double R_m) {
+  const auto row = static_cast<Eigen::Index>(pillar);
+  return std::abs(contact.change_Pa(row, static_cast<int>(load))) * std::numbers::pi * R_m * R_m +
+         contact.stiffness_error * std::abs(contact.loads_Pa(row, static_cast<int>(load))) *
+             std::numbers::pi * R_m * R_m;
+}
+
+// Those of tops that stick are the last two.
+std::vector<TopMap> top_maps(const SpaceScene& scene) {
   static const std::vector<TopMap> kMaps = {
       {"pillar_force", "N", [](const TopPressure& top) { return top.force_N; },
        [](const SpaceContact& c, std::size_t i, double) {
@@ -40,14 +45,24 @@ const std::vector<TopMap>& top_maps() {
       {"contact_share_percent", "%", [](const TopPressure& top) { return 100.0 * top.share; },
        [](const SpaceContact& c, std::size_t i, double) { return 100.0 * c.share_change[i]; }},
       {"moment_x", "N m", [](const TopPressure& top) { return top.moment_x_Nm; },
-       [](const SpaceContact& c, std::size_t i, double area) {
-         return moment_change(c, i, TopLoad::kTiltX, area);
+       [](const SpaceContact& c, std::size_t i, double R_m) {
+         return moment_change(c, i, TopLoad::kTiltX, R_m);
        }},
       {"moment_y", "N m", [](const TopPressure& top) { return top.moment_y_Nm; },
-       [](const SpaceContact& c, std::size_t i, double area) {
-         return moment_change(c, i, TopLoad::kTiltY, area);
+       [](const SpaceContact& c, std::size_t i, double R_m) {
+         return moment_change(c, i, TopLoad::kTiltY, R_m);
+       }},
+      {"shear_force_x", "N", [](const TopPressure& top) { return top.shear_x_N; },
+       [](const SpaceContact& c, std::size_t i, double R_m) {
+         return shear_change(c, i, TopLoad::kShearX, R_m);
+       }},
+      {"shear_force_y", "N", [](const TopPressure& top) { return top.shear_y_N; },
+       [](const SpaceContact& c, std::size_t i, double R_m) {
+         return shear_change(c, i, TopLoad::kShearY, R_m);
        }}};
-  return kMaps;
+  std::vector<TopMap> maps = kMaps;
+  if (scene.press->friction == Friction::kNone) maps.resize(maps.size() - 2);
+  return maps;
 }
 
 constexpr const char* kReleaseDepth = "release_depth";
@@ -59,138 +74,8 @@ double stretch_at_release_m(const SpaceScene& scene, double pull_N, std::size_t 
          (0.25 * std::numbers::pi * one.diameter_m * one.diameter_m * one.material.E0_Pa);
 }
 
-std::string name_of(const SpacePillar& one) {
-  return "[" + std::to_string(one.row) + ", " + std::to_string(one.column) + "]";
-}
-
 double largest_pressure_Pa(const SpaceContact& contact) {
   return std::max(contact.loads_Pa.col(kPressureColumn).maxCoeff(), 0.0);
-}
-
-// The pillar that uses the largest share of the limit of its class.
-struct Worst {
-  std::size_t pillar = 0;
-  double value = 0.0;
-  double limit = 0.0;
-};
-template <typename Value, typename Limit>
-Worst worst_of(const SpaceScene& scene, const Value& value, const Limit& limit_of_class) {
-  std::vector<double> limits;
-  for (const SpaceClass& one : classes_of(scene)) limits.push_back(limit_of_class(one));
-  Worst worst;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
-    const double limit = limits[static_cast<std::size_t>(scene.pillars[i].of_class)];
-    if (value(i) / limit <= largest) continue;
-    largest = value(i) / limit;
-    worst = {i, value(i), limit};
-  }
-  return worst;
-}
-
-void note_buckling(const SpaceScene& scene, const SpaceContact& contact,
-                   std::vector<std::string>& notes) {
-  const Worst worst = worst_of(
-      scene,
-      [&](std::size_t i) {
-        return contact.loads_Pa(static_cast<Eigen::Index>(i), kPressureColumn);
-      },
-      [&](const SpaceClass& one) { return engesser_pressure_Pa(single_pillar(scene, one)); });
-  if (worst.value <= worst.limit) return;
-  const bool is_beyond_plate = worst.value > 4.0 * worst.limit;
-  notes.push_back("beyond buckling: pillar " + name_of(scene.pillars[worst.pillar]) + " bears " +
-                  text_of(worst.value, 4) + " Pa; with a free top it buckles at " +
-                  text_of(worst.limit, 4) + " Pa, under a plate that slides at about " +
-                  text_of(4.0 * worst.limit, 3) +
-                  (is_beyond_plate ? " Pa, which is exceeded too" : " Pa") +
-                  ". The answer is that of pillars that stay straight");
-}
-
-void note_strain(const SpaceScene& scene, const SpaceContact& contact,
-                 std::vector<std::string>& notes) {
-  constexpr double kLargest = 0.05;
-  const Worst worst = worst_of(
-      scene,
-      [&](std::size_t i) {
-        return contact.loads_Pa(static_cast<Eigen::Index>(i), kPressureColumn);
-      },
-      [&](const SpaceClass& one) { return kLargest * one.material.E0_Pa; });
-  if (worst.value <= worst.limit) return;
-  notes.push_back("large strain: pillar " + name_of(scene.pillars[worst.pillar]) + " shortens by " +
-                  text_of(100.0 * kLargest * worst.value / worst.limit, 3) +
-                  " %; the answer is that of small strains");
-}
-
-void note_slope(const SpaceScene& scene, const SpaceContact& contact,
-                std::vector<std::string>& notes) {
-  constexpr double kLargest = 0.2;
-  double steepest = 0.0;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
-    if (contact.pressed.tops[i].share == 0.0) continue;
-    const SpacePillar& one = scene.pillars[i];
-    const double slope =
-        largest_slope(scene.press->shape, one.x_m, one.y_m, 0.5 * class_of(scene, one).diameter_m);
-    if (std::isfinite(slope) && slope > steepest) {
-      steepest = slope;
-      at = i;
-    }
-  }
-  if (steepest <= kLargest) return;
-  notes.push_back("steep shape: its surface rises by " + text_of(steepest, 2) + " over pillar " +
-                  name_of(scene.pillars[at]) +
-                  "; tops are taken to be nearly level, and their sides do not touch");
-}
-
-void note_sideways(const SpaceScene& scene, const SpaceContact& contact,
-                   std::vector<std::string>& notes) {
-  const double gap_m = smallest_gap_m(scene);
-  const auto largest = std::max_element(contact.sideways_m.begin(), contact.sideways_m.end());
-  if (!(*largest > 0.5 * gap_m)) return;
-  const auto at = static_cast<std::size_t>(largest - contact.sideways_m.begin());
-  notes.push_back("neighbours meet: the top of pillar " + name_of(scene.pillars[at]) + " moves " +
-                  micrometres(*largest, 3) + " sideways, more than half of the smallest gap of " +
-                  micrometres(gap_m, 4) + "; contact of their sides is not followed");
-}
-
-void note_table(const SpaceScene& scene, std::vector<std::string>& notes) {
-  if (scene.press->shape.kind != ShapeKind::kTable) return;
-  const auto outside =
-      std::count_if(scene.pillars.begin(), scene.pillars.end(), [&](const SpacePillar& one) {
-        return !std::isfinite(height_m(scene.press->shape, one.x_m, one.y_m));
-      });
-  if (outside == 0) return;
-  notes.push_back(std::to_string(outside) + " of " + std::to_string(scene.pillars.size()) +
-                  " pillars lie outside the table of heights, where nothing presses on them");
-}
-
-// Without a shape that only pushes, the work of adhesion of two of the pillars' surfaces.
-void note_pull(const SpaceScene& scene, const SpaceContact& contact,
-               std::vector<std::string>& notes) {
-  const double work_J_m2 = scene.press->work_of_adhesion_J_m2 > 0.0
-                               ? scene.press->work_of_adhesion_J_m2
-                               : 2.0 * scene.surface_energy_J_m2;
-  const Worst worst = worst_of(
-      scene, [&](std::size_t i) { return -contact.pressed.tops[i].force_N; },
-      [&](const SpaceClass& one) { return class_pull_off_N(one, work_J_m2); });
-  if (worst.value <= worst.limit) return;
-  notes.push_back("beyond pull-off: pillar " + name_of(scene.pillars[worst.pillar]) +
-                  " is pulled by " + text_of(worst.value, 4) + " N, and at a work of adhesion of " +
-                  text_of(work_J_m2, 3) + " J/m2 its top lets go at " + text_of(worst.limit, 4) +
-                  " N");
-}
-
-void note_held(const SpaceContact& contact, std::vector<std::string>& notes) {
-  if (contact.release_m.empty()) return;
-  int held = 0, let_go = 0;
-  for (std::size_t i = 0; i < contact.release_m.size(); ++i) {
-    if (std::isnan(contact.release_m[i])) continue;
-    const bool is_gone = contact.pressed.depth_m < contact.release_m[i];
-    let_go += is_gone ? 1 : 0;
-    held += !is_gone && contact.pressed.tops[i].force_N < 0.0 ? 1 : 0;
-  }
-  notes.push_back("adhesion pulls " + std::to_string(held) + " tops, and " +
-                  std::to_string(let_go) + " have let go; tops that touch are taken to lie flat");
 }
 
 // Where tops that are or were held let go.
@@ -209,9 +94,9 @@ void add_release(const SpaceScene& scene, const SpaceContact& contact, SceneAnsw
 
 }  // namespace
 
-std::vector<std::string> contact_maps() {
+std::vector<std::string> contact_maps(const SpaceScene& scene) {
   std::vector<std::string> names;
-  for (const TopMap& map : top_maps()) names.emplace_back(map.name);
+  for (const TopMap& map : top_maps(scene)) names.emplace_back(map.name);
   return names;
 }
 
@@ -228,16 +113,17 @@ double contact_error(const SpaceContact& contact) {
 
 void add_contact(const SpaceScene& scene, const SpaceContact& contact, SceneAnswer& answer) {
   const double largest_N = largest_pressure_Pa(contact) > 0.0 ? contact.largest_force_N() : 0.0;
-  for (const TopMap& one : top_maps()) {
+  for (const TopMap& one : top_maps(scene)) {
     if (!asks_for_map(scene, one.name)) continue;
     SceneMap map{.name = one.name, .unit = one.unit};
     for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
       const double R_m = 0.5 * class_of(scene, scene.pillars[i]).diameter_m;
       map.pillar.push_back(i);
       map.value.push_back(one.value(contact.pressed.tops[i]));
-      map.error.push_back(one.error(contact, i, 0.25 * std::numbers::pi * R_m * R_m * R_m));
+      map.error.push_back(one.error(contact, i, R_m));
     }
     if (map.unit == "N m") map.scale = 0.25 * scene.diameter_m * largest_N;
+    if (map.name.starts_with("shear_")) map.scale = 0.25 * largest_N;  // as for a row
     map.is_watched = map.unit != "%";
     answer.maps.push_back(std::move(map));
   }
@@ -263,23 +149,6 @@ void add_contact(const SpaceScene& scene, const SpaceContact& contact, SceneAnsw
       contact.change_Pa.col(kPressureColumn).cwiseAbs().maxCoeff() +
           contact.stiffness_error * largest_pressure_Pa(contact),
       contact.loads_Pa.col(kPressureColumn).cwiseAbs().maxCoeff());
-}
-
-std::vector<std::string> contact_notes(const SpaceScene& scene, const SpaceContact& contact) {
-  std::vector<std::string> notes;
-  note_table(scene, notes);
-  if (contact.pressed.contacts == 0) {
-    note_held(contact, notes);
-    notes.emplace_back("the shape touches no pillar; lower it, or move it over the array");
-    return notes;
-  }
-  note_buckling(scene, contact, notes);
-  note_strain(scene, contact, notes);
-  note_slope(scene, contact, notes);
-  note_sideways(scene, contact, notes);
-  note_pull(scene, contact, notes);
-  note_held(contact, notes);
-  return notes;
 }
 
 }  // namespace viscard

@@ -12,8 +12,9 @@ namespace viscard {
 //   pillar_force           N, down
 //   contact_share_percent  of the area of a top
 //   moment_x, moment_y     N m, int p x dA and int p y dA
+//   shear_force_x, _y      N, on tops that stick
 //   contact_force          N, of the whole array; contacts; depth, m; largest_pressure, Pa, on one top
-std::vector<std::string> contact_maps();
+std::vector<std::string> contact_maps(const SpaceScene& scene);
 std::vector<std::string> contact_results();
 
 // Adds the maps and results that the scene wants to an answer that already has its array. Errors

@@ -145,4 +145,28 @@ YieldingBase FootMotion::under(const std::vector<std::size_t>& pillars) const {
   };
 }
 
+double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot) {
+  constexpr int kAngles = 3;  // 0, 45 and 90 degrees: harmonics 0, 2 and 4 of the angle
+  constexpr double kLargestkR = 16.0;
+  constexpr int kPanels = 8, kPoints = 5, kDegree = 6;
+  const double R_m = foot.radius_m.back();
+  const QuadratureRule rule = gauss_legendre(kPoints);
+  const double step_1_m = kLargestkR / R_m / kPanels;
+  double work_m3_Pa = 0.0;  // twice the work of 1 Pa, by Parseval
+  for (int j = 0; j < kAngles; ++j) {
+    const double share = j == 1 ? 0.5 : 0.25;  // trapezium over a quarter turn
+    const FilmWaves waves(film, 0.25 * std::numbers::pi * j, kLargestkR / R_m, kDegree);
+    for (int panel = 0; panel < kPanels; ++panel) {
+      for (std::size_t q = 0; q < rule.points.size(); ++q) {
+        const double k_1_m = (panel + rule.points[q]) * step_1_m;
+        const AxialTransform t = transform(foot.pressure, foot.radius_m, k_1_m);
+        const Eigen::Vector4d load(t.tau_x, 0.0, t.t_z, 0.0);
+        work_m3_Pa += share * rule.weights[q] * step_1_m * k_1_m / (2.0 * std::numbers::pi) *
+                      load.dot(waves.response(k_1_m) * load);
+      }
+    }
+  }
+  return work_m3_Pa / (std::numbers::pi * R_m * R_m);
+}
+
 }  // namespace viscard

@@ -39,4 +39,8 @@ class FootMotion {
   std::vector<std::vector<WideTable>> works_;
 };
 
+// How far the foot of a pillar sinks into the film under a pressure on its top, m/Pa: the work of its
+// traction on the film (eq. S9).
+double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot);
+
 }  // namespace viscard

@@ -1,4 +1,4 @@
-// The array under its shape as independent columns: an estimate before anything is solved.
+// The array under its shape as independent columns, an estimate before anything is solved; and forces on tops as loads.
 #include "models/array/contact/pull_off.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/space_maps.h"
@@ -155,6 +155,35 @@ FoundationPress foundation_press(const SpaceScene& scene) {
   answer.lift = std::min(lifted_m / overlap_m, 1.0);
   answer.turn = std::min(turned_m / overlap_m, 1.0);
   return answer;
+}
+
+Eigen::Matrix<double, 1, kTopLoads> load_of(const TopPressure& top, double R_m) {
+  Eigen::Matrix<double, 1, kTopLoads> load = Eigen::Matrix<double, 1, kTopLoads>::Zero();
+  const double area_m2 = std::numbers::pi * R_m * R_m;
+  load[static_cast<int>(TopLoad::kPressure)] = top.force_N / area_m2;
+  const double of_moment = -1.0 / (0.25 * area_m2 * R_m);
+  load[static_cast<int>(TopLoad::kTiltX)] = of_moment * top.moment_x_Nm;
+  load[static_cast<int>(TopLoad::kTiltY)] = of_moment * top.moment_y_Nm;
+  load[static_cast<int>(TopLoad::kShearX)] = top.shear_x_N / area_m2;
+  load[static_cast<int>(TopLoad::kShearY)] = top.shear_y_N / area_m2;
+  return load;
+}
+
+TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& tops,
+                       const std::vector<std::size_t>& pillars) {
+  TopLoads loads(static_cast<Eigen::Index>(tops.size()), kTopLoads);
+  for (std::size_t i = 0; i < tops.size(); ++i) {
+    const double d_m = class_of(scene, scene.pillars[pillars[i]]).diameter_m;
+    loads.row(static_cast<Eigen::Index>(i)) = load_of(tops[i], 0.5 * d_m);
+  }
+  return loads;
+}
+
+double SpaceContact::largest_force_N() const {
+  double largest_N = 0.0;
+  for (const TopPressure& top : pressed.tops)
+    largest_N = std::max(largest_N, std::abs(top.force_N));
+  return largest_N;
 }
 
 }  // namespace viscard

@@ -34,71 +34,6 @@ SpaceAccuracy accuracy_for(const SpaceScene& scene, const SpaceArray& array,
   return accuracy;
 }
 
-// Relative errors that do not depend on the accuracy level of the array: eq. S5, S7 and S8.
-struct ConstantErrors {
-  double foot = 0.0;          // of a voltage
-  double electrodes = 0.0;    // of a voltage
-  double neighbour = 0.0;     // share of a load's field at its nearest neighbour
-  std::vector<double> edge;   // by pillar
-  double largest_edge = 0.0;  // of them
-};
-
-ConstantErrors constant_errors(const SpaceScene& scene) {
-  ConstantErrors errors;
-  errors.foot = rigid_foot_error(scene);
-  errors.electrodes = electrode_error(scene);
-  errors.neighbour = neighbour_influence(smallest_gap_m(scene) / scene.film_thickness_m,
-                                         scene.film_thickness_m / scene.diameter_m);
-  errors.edge = film_edge_errors(scene);
-  errors.largest_edge = *std::max_element(errors.edge.begin(), errors.edge.end());
-  return errors;
-}
-
-// The part of a map's error, in its unit, that is common to all pillars, and that of the film's
-// edge. A small error of a foot's traction acts on the neighbours like a load, as a fraction of its
-// field there.
-double common_error_of(const SceneMap& map, const ConstantErrors& errors) {
-  if (map.unit != "%") return (errors.foot + errors.electrodes) * size_of(map);
-  return 100.0 * errors.electrodes + 200.0 * errors.foot * errors.neighbour;
-}
-// Reference value of the relative error at the film's edge, in the unit of the map.
-double edge_size_of(const SceneMap& map) {
-  return map.unit != "%" ? size_of(map) : 100.0;
-}
-
-// The largest of these errors, relative to the reference value of the tolerance.
-double largest_constant_error(const SpaceScene& scene, const ConstantErrors& errors) {
-  SceneMap voltage{.name = "", .unit = "V", .scale = 1.0};
-  const double of_voltages = common_error_of(voltage, errors) + errors.largest_edge;
-  if (!has_crosstalk(scene) || !asks_for_map(scene, kCrosstalk)) return of_voltages;
-  const SceneMap crosstalk{.name = kCrosstalk, .unit = "%", .scale = kCrosstalkScale};
-  return std::max(of_voltages, (common_error_of(crosstalk, errors) +
-                                errors.largest_edge * edge_size_of(crosstalk)) /
-                                   kCrosstalkScale);
-}
-
-[[noreturn]] void refuse(const SpaceScene& scene, double error, const ConstantErrors& parts) {
-  const std::string size = " of about " + text_of(error, 2) + ", too much for a tolerance of " +
-                           text_of(scene.tolerance, 2) + "; ask for a larger one, or for a ";
-  if (parts.electrodes > std::max(parts.largest_edge, parts.foot)) {
-    throw SceneMistake(
-        "geometry.electrode.radius",
-        "the electrodes lie so close that the charges of all influence each other, which "
-        "leaves a relative error" +
-            size + "smaller radius");
-  }
-  if (parts.largest_edge > parts.foot) {
-    throw SceneMistake(
-        "geometry.film.edge",
-        "the film is solved without its edge, which lies " + micrometres(scene.film_edge_m, 4) +
-            " from the outer pillars. That leaves a relative error" + size + "wider film");
-  }
-  throw SceneMistake("materials",
-                     "the pillars are solved on a rigid base. On this film that leaves a relative "
-                     "error" +
-                         size + "stiffer film");
-}
-
 }  // namespace
 
 std::vector<std::string> result_names(const SpaceScene& scene) {
@@ -114,7 +49,7 @@ std::vector<std::string> result_names(const SpaceScene& scene) {
   }
   for (const std::string& of_sensing : sensing_results(scene)) names.push_back(of_sensing);
   if (!scene.press) return names;
-  for (const auto& of_contact : {contact_maps(), contact_results()}) {
+  for (const auto& of_contact : {contact_maps(scene), contact_results()}) {
     names.insert(names.end(), of_contact.begin(), of_contact.end());
   }
   for (const std::string& of_touch : touch_results(scene)) names.push_back(of_touch);
@@ -247,7 +182,8 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   validate(scene);
   const ConstantErrors parts = constant_errors(scene);
   const double constant = largest_constant_error(scene, parts);
-  if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance) refuse(scene, constant, parts);
+  if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance)
+    refuse_constant(scene, constant, parts);
   std::optional<SpaceContact> contact;
   std::optional<TouchCourse> course;
   if (scene.press && scene.progress) scene.progress(0.0, "which tops touch");
@@ -265,9 +201,13 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   const double left = std::max(scene.tolerance - constant - of_contact - backing.edge,
                                0.5 * kShareOfAccuracy * scene.tolerance);
   SceneAnswer answer =
-      answer_within({left, space_meshes(scene), scene.progress}, [&](const Discretisation& mesh) {
-        return voltages_on(scene, loads_Pa, mesh, course ? &*course : nullptr);
-      });
+      answer_within({.tolerance = left,
+                     .meshes = space_meshes(scene),
+                     .progress = scene.progress,
+                     .step_error_falls = true},  // with the reach, which grows
+                    [&](const Discretisation& mesh) {
+                      return voltages_on(scene, loads_Pa, mesh, course ? &*course : nullptr);
+                    });
   if (contact) add_change_of_loads(scene, *contact, answer);
   for (SceneMap& map : answer.maps) {
     const double of_all = common_error_of(map, parts) + backing.edge * edge_size_of(map);

@@ -60,6 +60,25 @@ void add_stretching_note(const SpaceScene& scene, const BackingEffect& effect, S
 // Relative error of the voltages of equipotential electrodes that influence each other (eq. S5).
 double electrode_error(const SpaceScene& scene);
 
+// Relative errors that do not depend on the accuracy level of the array: eq. S5, S7 and S8.
+struct ConstantErrors {
+  double foot = 0.0;          // of a voltage
+  double electrodes = 0.0;    // of a voltage
+  double neighbour = 0.0;     // share of a load's field at its nearest neighbour
+  std::vector<double> edge;   // by pillar
+  double largest_edge = 0.0;  // of them
+};
+
+ConstantErrors constant_errors(const SpaceScene& scene);
+// The part of a map's error, in its unit, that is common to all pillars; and the reference value of the
+// error at the film's edge.
+double common_error_of(const SceneMap& map, const ConstantErrors& errors);
+double edge_size_of(const SceneMap& map);
+// The largest of these errors, relative to the reference value of the tolerance; and its refusal.
+double largest_constant_error(const SpaceScene& scene, const ConstantErrors& errors);
+[[noreturn]] void refuse_constant(const SpaceScene& scene, double error,
+                                  const ConstantErrors& parts);
+
 // Upper bound of the relative change of a voltage by a neighbour, or by an end of the film, at a
 // distance x in units of the film's thickness (eq. A4, models/array/plane).
 double neighbour_influence(double x, double thickness_over_diameter);

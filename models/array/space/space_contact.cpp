@@ -1,8 +1,8 @@
 #include "models/array/space/space_contact.h"
 
 #include "models/array/contact/pull_off.h"
+#include "models/array/contact/sticking_top.h"
 #include "models/array/space/foot_motion.h"
-#include "models/maths/gauss_legendre.h"
 
 #include <algorithm>
 #include <array>
@@ -39,17 +39,6 @@ double disc_m2(double radius_m) {
   return std::numbers::pi * radius_m * radius_m;
 }
 
-// A pressure and two tilts with the force and the moments of a top. Tilting tractions point up, pressures
-// down.
-Eigen::Matrix<double, 1, kTopLoads> load_of(const TopPressure& top, double R_m) {
-  Eigen::Matrix<double, 1, kTopLoads> load = Eigen::Matrix<double, 1, kTopLoads>::Zero();
-  load[static_cast<int>(TopLoad::kPressure)] = top.force_N / disc_m2(R_m);
-  const double of_moment = -1.0 / (0.25 * disc_m2(R_m) * R_m);
-  load[static_cast<int>(TopLoad::kTiltX)] = of_moment * top.moment_x_Nm;
-  load[static_cast<int>(TopLoad::kTiltY)] = of_moment * top.moment_y_Nm;
-  return load;
-}
-
 }  // namespace
 
 // Presses the shape of a scene on its array.
@@ -74,7 +63,10 @@ class Presser {
                             foot.sinking_m_Pa);
       settling_share_ = std::max(settling_share_, settling_m_Pa / foot.sinking_m_Pa);
       turning_rad_Nm_.push_back(foot.tilt_by_tilt_1_Pa / (0.25 * area_m2 * R_m));
-      sideways_m_Pa_.push_back(std::abs(foot.sideways_by_tilt_m_Pa));
+      // Pushed toward +x, a top turns down on that side, where its tilt falls.
+      sheared_.push_back(
+          {foot.sideways_by_shear_m_Pa / area_m2, -foot.tilt_by_shear_1_Pa / area_m2});
+      sideways_m_Pa_.push_back(foot.sideways_by_tilt_m_Pa);
     }
     if (!array_.film.backing) return;
     base_.emplace(array_);
@@ -92,9 +84,22 @@ class Presser {
       TopCompliance top =
           top_compliance(one.geometry, one.medium, kGrids.at(static_cast<std::size_t>(grid)));
       top.adjust(sinking_m_N_[i], turning_rad_Nm_[i]);
-      classes.emplace_back(std::move(top));
+      classes.emplace_back(std::move(top), sticking_on(i, grid));
     }
     return classes;
+  }
+
+  // Of a class of tops that sticks, else nothing.
+  std::shared_ptr<const StickingTop> sticking_on(std::size_t of_class, int grid) const {
+    if (scene_->press->friction == Friction::kNone) return nullptr;
+    const PillarClass& one = array_.classes[of_class];
+    StickingCompliance top =
+        sticking_compliance(one.geometry, one.medium, kGrids.at(static_cast<std::size_t>(grid)));
+    top.adjust({.sinking_m_N = sinking_m_N_[of_class],
+                .sideways_m_N = sheared_[of_class].first,
+                .turning_rad_N = sheared_[of_class].second,
+                .turning_rad_Nm = turning_rad_Nm_[of_class]});
+    return std::make_shared<const StickingTop>(std::move(top));
   }
 
   SpaceContact on(int grid) const { return pressed(classes_on(grid), *scene_->press); }
@@ -154,10 +159,16 @@ class Presser {
     for (std::size_t i = 0; i < tops.size(); ++i) {
       const auto of_class = static_cast<std::size_t>(pillars_[i].of_class);
       auto load = contact.loads_Pa.row(static_cast<Eigen::Index>(i));
-      load = load_of(tops[i], 0.5 * array_.classes[of_class].geometry.diameter_m);
-      contact.sideways_m.push_back(sideways_m_Pa_[of_class] *
-                                   std::hypot(load[static_cast<int>(TopLoad::kTiltX)],
-                                              load[static_cast<int>(TopLoad::kTiltY)]));
+      const double R_m = 0.5 * array_.classes[of_class].geometry.diameter_m;
+      load = load_of(tops[i], R_m);
+      contact.twist_Pa.push_back(2.0 * std::abs(tops[i].torque_Nm) / (disc_m2(R_m) * R_m));
+      const double by_shear_m_Pa = sheared_[of_class].first * disc_m2(R_m);
+      const auto way_m = [&](TopLoad shear, TopLoad tilt) {
+        return by_shear_m_Pa * load[static_cast<int>(shear)] +
+               sideways_m_Pa_[of_class] * load[static_cast<int>(tilt)];
+      };
+      contact.sideways_m.push_back(std::hypot(way_m(TopLoad::kShearX, TopLoad::kTiltX),
+                                              way_m(TopLoad::kShearY, TopLoad::kTiltY)));
     }
   }
 
@@ -169,6 +180,7 @@ class Presser {
   double error_ = 0.0;                          // relative, of the stiffness
   double settling_share_ = 0.0;
   std::vector<double> sinking_m_N_, turning_rad_Nm_, sideways_m_Pa_;  // by class
+  std::vector<std::pair<double, double>> sheared_;                    // m/N and rad/N, by class
 };
 
 namespace {
@@ -183,20 +195,50 @@ void compare(const SpaceContact& coarse, SpaceContact& fine) {
     const TopPressure& b = fine.pressed.tops[i];
     fine.force_change_N[i] = std::abs(b.force_N - a.force_N);
     fine.share_change[i] = std::abs(b.share - a.share) + b.share_error;
+    // A twist about the axis of a top is not among its loads; its readings count as an error, those of a shear
+    // that is as large at the rim.
+    const auto at = static_cast<Eigen::Index>(i);
+    for (const TopLoad shear : {TopLoad::kShearX, TopLoad::kShearY}) {
+      double& change_Pa = fine.change_Pa(at, static_cast<int>(shear));
+      change_Pa += std::copysign(fine.twist_Pa[i], change_Pa);
+    }
   }
+}
+
+// A chance agreement of two grids does not pass where the surface ends above tops: its edge lies among their points
+// differently on each grid, so that a change is at least half the one before (the error falls as the elements' size).
+void keep_half(const SpaceContact& before, SpaceContact& fine) {
+  bool is_cut = false;
+  for (std::size_t i = 0; i < fine.pressed.tops.size(); ++i) {
+    if (!fine.pressed.tops[i].is_cut) continue;
+    is_cut = true;
+    const auto row = static_cast<Eigen::Index>(i);
+    for (int load = 0; load < kTopLoads; ++load) {
+      double& now_Pa = fine.change_Pa(row, load);
+      const double half_Pa = 0.5 * before.change_Pa(row, load);
+      if (std::abs(now_Pa) < std::abs(half_Pa)) now_Pa = half_Pa;
+    }
+    fine.force_change_N[i] = std::max(fine.force_change_N[i], 0.5 * before.force_change_N[i]);
+    fine.share_change[i] = std::max(fine.share_change[i], 0.5 * before.share_change[i]);
+  }
+  if (!is_cut) return;
+  fine.total_change_N = std::max(fine.total_change_N, 0.5 * before.total_change_N);
+  fine.depth_change_m = std::max(fine.depth_change_m, 0.5 * before.depth_change_m);
+}
+
+// Tops that stick have three times as many unknowns; the last grid would take minutes.
+int grids_of(const SpaceScene& scene) {
+  return scene.press->friction == Friction::kStick ? kContactGrids - 1 : kContactGrids;
+}
+
+int known_grid(int grid) {
+  return std::clamp(grid, 0, kContactGrids - 1);
 }
 
 }  // namespace
 
-double SpaceContact::largest_force_N() const {
-  double largest_N = 0.0;
-  for (const TopPressure& top : pressed.tops)
-    largest_N = std::max(largest_N, std::abs(top.force_N));
-  return largest_N;
-}
-
 SpaceContact contact_on(const SpaceScene& scene, int grid) {
-  return Presser(scene).on(std::clamp(grid, 0, kContactGrids - 1));
+  return Presser(scene).on(std::clamp(grid, 0, grids_of(scene) - 1));
 }
 
 struct SpaceTops::Parts {
@@ -205,14 +247,6 @@ struct SpaceTops::Parts {
   ShapePress press;
   std::size_t pillars = 0;
 };
-
-namespace {
-
-int known_grid(int grid) {
-  return std::clamp(grid, 0, kContactGrids - 1);
-}
-
-}  // namespace
 
 SpaceTops::SpaceTops(const SpaceScene& scene, int grid) {
   const auto presser = std::make_shared<const Presser>(scene);
@@ -247,51 +281,18 @@ SpaceContact SpaceTops::contact_of(const PressedArray& some,
   return parts_->presser->contact_of(std::move(all));
 }
 
-TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& tops,
-                       const std::vector<std::size_t>& pillars) {
-  TopLoads loads(static_cast<Eigen::Index>(tops.size()), kTopLoads);
-  for (std::size_t i = 0; i < tops.size(); ++i) {
-    const double d_m = class_of(scene, scene.pillars[pillars[i]]).diameter_m;
-    loads.row(static_cast<Eigen::Index>(i)) = load_of(tops[i], 0.5 * d_m);
-  }
-  return loads;
-}
-
 SpaceContact contact_within(const SpaceScene& scene, double tolerance) {
   Presser presser(scene);
   SpaceContact contact = presser.on(0);
-  for (int grid = 1; grid < kContactGrids; ++grid) {
+  for (int grid = 1; grid < grids_of(scene); ++grid) {
     SpaceContact finer = presser.on(grid);
     compare(contact, finer);
+    keep_half(contact, finer);
     contact = std::move(finer);
     const double largest_Pa = contact.loads_Pa.cwiseAbs().maxCoeff();
     if (contact.change_Pa.cwiseAbs().maxCoeff() <= tolerance * largest_Pa) break;
   }
   return contact;
-}
-
-double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot) {
-  constexpr int kAngles = 3;  // 0, 45 and 90 degrees: harmonics 0, 2 and 4 of the angle
-  constexpr double kLargestkR = 16.0;
-  constexpr int kPanels = 8, kPoints = 5, kDegree = 6;
-  const double R_m = foot.radius_m.back();
-  const QuadratureRule rule = gauss_legendre(kPoints);
-  const double step_1_m = kLargestkR / R_m / kPanels;
-  double work_m3_Pa = 0.0;  // twice the work of 1 Pa, by Parseval
-  for (int j = 0; j < kAngles; ++j) {
-    const double share = j == 1 ? 0.5 : 0.25;  // trapezium over a quarter turn
-    const FilmWaves waves(film, 0.25 * std::numbers::pi * j, kLargestkR / R_m, kDegree);
-    for (int panel = 0; panel < kPanels; ++panel) {
-      for (std::size_t q = 0; q < rule.points.size(); ++q) {
-        const double k_1_m = (panel + rule.points[q]) * step_1_m;
-        const AxialTransform t = transform(foot.pressure, foot.radius_m, k_1_m);
-        const Eigen::Vector4d load(t.tau_x, 0.0, t.t_z, 0.0);
-        work_m3_Pa += share * rule.weights[q] * step_1_m * k_1_m / (2.0 * std::numbers::pi) *
-                      load.dot(waves.response(k_1_m) * load);
-      }
-    }
-  }
-  return work_m3_Pa / disc_m2(R_m);
 }
 
 }  // namespace viscard

@@ -19,7 +19,8 @@ struct SpaceContact {
   std::vector<double> force_change_N;
   std::vector<double> share_change;  // and what a grid leaves open
   TopLoads change_Pa;
-  std::vector<double> sideways_m;  // how far a tilted top moves
+  std::vector<double> sideways_m;  // how far a tilted or sheared top moves
+  std::vector<double> twist_Pa;    // shear at its rim by a torque (tops that stick)
   double total_change_N = 0.0;
   double depth_change_m = 0.0;
   int contact_change = 0;
@@ -31,7 +32,7 @@ struct SpaceContact {
   double largest_force_N() const;
 };
 
-// Grids of the tops, each with elements half as large as the one before.
+// Grids of the tops, each with elements half as large as the one before; one less for tops that stick.
 constexpr int kContactGrids = 4;
 
 // On one of the grids, 0 to kContactGrids - 1; without changes.
@@ -56,6 +57,9 @@ class SpaceTops {
   std::shared_ptr<const Parts> parts_;
 };
 
+// A pressure, two tilts and two shears with the forces and the moments of a top of radius R. Tilting
+// tractions point up, pressures down.
+Eigen::Matrix<double, 1, kTopLoads> load_of(const TopPressure& top, double R_m);
 // The loads of tops: those of the pillars, in their order.
 TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& tops,
                        const std::vector<std::size_t>& pillars);
@@ -63,10 +67,6 @@ TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& 
 // Refines the grids until no force changes by more than the tolerance times the largest force, or
 // until the finest grid is reached. Tops that are touched everywhere have no error.
 SpaceContact contact_within(const SpaceScene& scene, double tolerance);
-
-// How far the foot of a pillar sinks into the film under a pressure on its top, m/Pa: the work of its
-// traction on the film (eq. S9).
-double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot);
 
 // Throws SceneMistake if a table of heights has a tip that the finest grid of a top does not
 // resolve: a node of the table that reaches below the top, while no grid point is even half as

@@ -2,6 +2,7 @@
 #include "models/array/film/disc_charge.h"
 #include "models/array/space/potential_spectrum.h"
 #include "models/array/space/simulate_space.h"
+#include "models/array/space/space_maps.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -83,7 +84,8 @@ BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa) 
       effect.edge = std::max(effect.edge, std::abs(response.voltage_at_V(x, y, loads_Pa)));
     }
   }
-  effect.edge *= kOfEdge / largest_V;
+  // A sheared pillar has no voltage of its own: the least that the tolerance refers to (space_maps.h).
+  effect.edge *= kOfEdge / std::max(largest_V, least_voltage_V(response, loads_Pa, 0));
   array.film.backing.reset();
   const Eigen::VectorXd rigid_V =
       SpaceResponse(array, space_accuracies(array)[1]).voltages_V(loads_Pa).col(0);
@@ -118,6 +120,101 @@ void add_stretching_note(const SpaceScene& scene, const BackingEffect& effect,
       text_of(100.0 * change_V / std::abs(effect.rigid_V), 3) +
       " %): on this backing the film reads how it is stretched by all pillars, not the pressure on "
       "one; take a stiffer backing");
+}
+
+namespace {
+
+// The largest reading that a pressed pillar causes from the smallest pitch on, over its own: a bound like eq. A4,
+// but on this film and for the pillars as they are.
+double largest_influence(const SpaceScene& scene) {
+  constexpr int kDistances = 24, kDirections = 4;  // of a quarter turn
+  const SpaceArray array = array_of(scene);
+  const SpaceResponse response(array, space_accuracies(array)[1]);
+  const double pitch_m = smallest_pitch_m(scene);
+  const double step_m = std::max(response.reach_m() - pitch_m, 0.0) / kDistances;
+  double largest = 0.0;
+  for (std::size_t c = 0; c < array.classes.size(); ++c) {
+    const auto reading = [&](double x_m, double y_m) {
+      return response.kernel(static_cast<int>(c), x_m, y_m)
+          .col(static_cast<int>(TopLoad::kPressure))
+          .cwiseAbs()
+          .eval();
+    };
+    const Eigen::VectorXd own = reading(0.0, 0.0);
+    for (int i = 0; i <= kDistances; ++i) {
+      for (int d = 0; d <= kDirections; ++d) {
+        const double angle = 0.5 * std::numbers::pi * d / kDirections;
+        const double r_m = pitch_m + i * step_m;
+        largest = std::max(
+            largest,
+            reading(r_m * std::cos(angle), r_m * std::sin(angle)).cwiseQuotient(own).maxCoeff());
+      }
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+ConstantErrors constant_errors(const SpaceScene& scene) {
+  ConstantErrors errors;
+  errors.foot = rigid_foot_error(scene);
+  errors.electrodes = electrode_error(scene);
+  errors.neighbour = neighbour_influence(smallest_gap_m(scene) / scene.film_thickness_m,
+                                         scene.film_thickness_m / scene.diameter_m);
+  // Where that bound alone takes a large part of the tolerance, it is replaced by the reading itself.
+  constexpr double kLargePart = 0.2;
+  const double of_crosstalk = 200.0 * errors.foot * errors.neighbour / kCrosstalkScale;
+  if (has_crosstalk(scene) && of_crosstalk > kLargePart * scene.tolerance)
+    errors.neighbour = std::min(errors.neighbour, largest_influence(scene));
+  errors.edge = film_edge_errors(scene);
+  errors.largest_edge = *std::max_element(errors.edge.begin(), errors.edge.end());
+  return errors;
+}
+
+// The part of a map's error, in its unit, that is common to all pillars, and that of the film's
+// edge. A small error of a foot's traction acts on the neighbours like a load, as a fraction of its
+// field there.
+double common_error_of(const SceneMap& map, const ConstantErrors& errors) {
+  if (map.unit != "%") return (errors.foot + errors.electrodes) * size_of(map);
+  return 100.0 * errors.electrodes + 200.0 * errors.foot * errors.neighbour;
+}
+// Reference value of the relative error at the film's edge, in the unit of the map.
+double edge_size_of(const SceneMap& map) {
+  return map.unit != "%" ? size_of(map) : 100.0;
+}
+
+// The largest of these errors, relative to the reference value of the tolerance.
+double largest_constant_error(const SpaceScene& scene, const ConstantErrors& errors) {
+  SceneMap voltage{.name = "", .unit = "V", .scale = 1.0};
+  const double of_voltages = common_error_of(voltage, errors) + errors.largest_edge;
+  if (!has_crosstalk(scene) || !asks_for_map(scene, kCrosstalk)) return of_voltages;
+  const SceneMap crosstalk{.name = kCrosstalk, .unit = "%", .scale = kCrosstalkScale};
+  return std::max(of_voltages, (common_error_of(crosstalk, errors) +
+                                errors.largest_edge * edge_size_of(crosstalk)) /
+                                   kCrosstalkScale);
+}
+
+void refuse_constant(const SpaceScene& scene, double error, const ConstantErrors& parts) {
+  const std::string size = " of about " + text_of(error, 2) + ", too much for a tolerance of " +
+                           text_of(scene.tolerance, 2) + "; ask for a larger one, or for a ";
+  if (parts.electrodes > std::max(parts.largest_edge, parts.foot)) {
+    throw SceneMistake(
+        "geometry.electrode.radius",
+        "the electrodes lie so close that the charges of all influence each other, which "
+        "leaves a relative error" +
+            size + "smaller radius");
+  }
+  if (parts.largest_edge > parts.foot) {
+    throw SceneMistake(
+        "geometry.film.edge",
+        "the film is solved without its edge, which lies " + micrometres(scene.film_edge_m, 4) +
+            " from the outer pillars. That leaves a relative error" + size + "wider film");
+  }
+  throw SceneMistake("materials",
+                     "the pillars are solved on a rigid base. On this film that leaves a relative "
+                     "error" +
+                         size + "stiffer film");
 }
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #include "models/array/space/space_maps.h"
 
+#include "models/array/space/foot_motion.h"
 #include "models/array/space/space_contact.h"
 
 #include <algorithm>
@@ -111,19 +112,24 @@ SceneArray array_of_answer(const SpaceScene& scene, const TopLoads& loads_Pa) {
   return array;
 }
 
+double least_voltage_V(const SpaceResponse& response, const TopLoads& loads_Pa,
+                       Eigen::Index reading) {
+  const double per_pressure =
+      response.kernel(0, 0.0, 0.0)(reading, static_cast<int>(TopLoad::kPressure));
+  return kOfPressed * std::abs(per_pressure) * loads_Pa.cwiseAbs().maxCoeff();
+}
+
 std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& response,
                               const TopLoads& loads_Pa, const Eigen::MatrixXd& voltages) {
   const DiscReading disc = disc_reading(scene);
-  const double pressed_V =
-      std::abs(response.kernel(0, 0.0, 0.0)(disc.row, static_cast<int>(TopLoad::kPressure))) *
-      loads_Pa.cwiseAbs().maxCoeff();
+  const double least_V = least_voltage_V(response, loads_Pa, disc.row);
   const std::vector<std::string> names = reading_names(scene.electrode);
   std::vector<SceneMap> maps;
   const bool senses = senses_forces(scene);  // whose error equals that of the voltages
   SceneMap mean;
   double largest_quarter_V = 0.0;
   for (std::size_t r = 0; r < names.size(); ++r) {
-    SceneMap map{names[r] + "_voltage", "V", {}, {}, {}, kOfPressed * pressed_V};
+    SceneMap map{names[r] + "_voltage", "V", {}, {}, {}, least_V};
     for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
       map.pillar.push_back(i);
       map.value.push_back(voltages(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)));

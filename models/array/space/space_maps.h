@@ -21,6 +21,10 @@ bool has_crosstalk(const SpaceScene& scene);
 // The pillars and the loads on their tops, as an answer shows them.
 SceneArray array_of_answer(const SpaceScene& scene, const TopLoads& loads_Pa);
 
+// The least voltage that the tolerance refers to, also where pillars are only sheared: 1 % of what the
+// largest load would give as a pressure.
+double least_voltage_V(const SpaceResponse& response, const TopLoads& loads_Pa,
+                       Eigen::Index reading);
 // The maps of voltages and of cross-talk that the scene asks for, without errors. The readings are those of
 // SpaceResponse under the loads.
 std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& response,

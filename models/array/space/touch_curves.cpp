@@ -1,7 +1,6 @@
 #include "models/array/space/touch_curves.h"
 
 #include "models/array/space/space_maps.h"
-#include "models/array/space/touch_readings.h"
 
 #include <algorithm>
 #include <cmath>

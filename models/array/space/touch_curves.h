@@ -4,6 +4,7 @@
 #include "models/array/space/touch_course.h"
 #include "models/scene/common/scene_answer.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,29 @@ void add_voltage_curves(const SpaceScene& scene, const SpaceResponse& response,
 // contact_force, contacts, pillar_force_3_4; and the peaks and the ends of all curves as results.
 void finish_curves(const SpaceScene& scene, const TouchCourse& course, double relative,
                    SceneAnswer& answer);
+
+constexpr const char* kTouchReading = "reading";
+
+std::string place_ending(const SpacePillar& one);  // "_3_4"
+
+// The pillars that the scene names in its results, or the one that bears most at the end.
+std::vector<std::size_t> followed_pillars(const SpaceScene& scene, const TouchCourse& course);
+
+// One quantity of one pillar at the times of the course.
+struct PillarCurve {
+  std::string map;  // "mean_voltage", or "reading"
+  std::size_t pillar = 0;
+  std::vector<double> value;
+  std::vector<double> step_change;  // of a reading: change from half as many steps
+};
+
+// The voltages and readings that the scene asks for, under loads in time. is_size: the loads are
+// magnitudes of changes, and the returned values are magnitudes too.
+std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse& response,
+                                   const TouchCourse& course, const std::vector<TopLoads>& loads_Pa,
+                                   bool is_size);
+
+// Sum of p12/p11 over the neighbours of an electrode (eq. S16).
+double influence_of_neighbours(const SpaceScene& scene, std::size_t pillar);
 
 }  // namespace viscard

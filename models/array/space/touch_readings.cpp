@@ -1,8 +1,7 @@
 // Voltages and readings of single pillars in time.
-#include "models/array/space/touch_readings.h"
-
 #include "models/array/film/disc_charge.h"
 #include "models/array/space/space_maps.h"
+#include "models/array/space/touch_curves.h"
 #include "models/maths/neighbours.h"
 
 #include <algorithm>

@@ -210,7 +210,8 @@ SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_
     if (tracker.compared_twice() && answer.largest_relative_error <= control.tolerance) {
       return answer;
     }
-    if (mesh.degree >= kNoLongerCoarse && answer.step_error > control.tolerance) break;
+    const bool stays = mesh.degree >= kNoLongerCoarse && !control.step_error_falls;
+    if (stays && answer.step_error > control.tolerance) break;
   }
   if (answer.step_error > control.tolerance) {
     throw std::runtime_error(

@@ -25,6 +25,8 @@ struct ErrorControl {
   std::function<void(double, const std::string&)> progress;
   // Least share of the last change that is assumed to remain if the mesh gained a layer at the rim.
   double share_left = kShareLeft;
+  // The answer's own step error falls from mesh to mesh, too: finer ones are tried although it is large.
+  bool step_error_falls = false;
 
   static constexpr double kShareLeft = 0.1;
 };

@@ -72,6 +72,11 @@ TEST_CASE("shapes of a scene file press with their depth or their force", "[cli]
   const Json by_force =
       answer_of("kind = \"sphere\"\nradius = \"20 mm\"\nforce = \"" + force + " uN\"\n");
   CHECK(result_of(by_force, "depth") == Approx(2e-6).epsilon(1e-6));
+  const Json held =
+      answer_of("kind = \"sphere\"\nradius = \"20 mm\"\ndepth = \"2 um\"\nfriction = \"stick\"\n");
+  CHECK(result_of(held, "pillar_force_2_2") > result_of(sphere, "pillar_force_2_2"));
+  CHECK(result_of(held, "shear_force_x_2_3") > 0.0);
+  CHECK_FALSE(sphere.at("results").contains("shear_force_x_2_3"));
   // A cylinder along x touches the middle row alone, moved by a pitch the first one.
   const Json cylinder = answer_of(
       "kind = \"cylinder\"\nradius = \"1 mm\"\ndepth = \"2 um\"\ndirection = \"90 degree\"\n"
@@ -125,7 +130,10 @@ TEST_CASE("mistakes in a shape name the key and the way out", "[cli][scene][arra
   refuses("kind = \"plane\"\n", "either a depth");
   refuses("kind = \"plane\"\ndepth = \"1 um\"\nforce = \"1 mN\"\n", "either a depth");
   refuses("kind = \"plane\"\ndepth = \"-1 um\"\n", "positive");
-  refuses("kind = \"plane\"\ndepth = \"1 um\"\nfriction = \"stick\"\n", "shape.friction");
+  refuses(
+      "kind = \"plane\"\ndepth = \"1 um\"\nfriction = \"stick\"\n"
+      "work_of_adhesion = \"40 mJ/m2\"\n",
+      "shape.friction");
   refuses("kind = \"plane\"\ndepth = \"1 um\"\nat = [\"1 um\"]\n", "two values");
   refuses("kind = \"plane\"\ndepth = \"1 um\"\ntilt = [\"60 degree\", \"0 degree\"]\n",
           "45 degrees");

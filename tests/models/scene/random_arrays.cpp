@@ -95,6 +95,15 @@ void draw_electrode(Draw& draw, SpaceScene& scene) {
   }
 }
 
+// Electrodes that influence each other less than the tolerance (eq. S5).
+void keep_electrodes_apart(SpaceScene& scene) {
+  if (scene.electrode != SpaceElectrode::kEquipotential) return;
+  for (int i = 0; i < 8 && electrode_error(scene) > 0.3 * scene.tolerance; ++i) {
+    scene.electrode_radius_m = 0.85 * electrode_radius_m(scene);
+  }
+  if (electrode_error(scene) > 0.3 * scene.tolerance) scene.electrode = SpaceElectrode::kSampled;
+}
+
 // Within what the answers state: a foot that the film holds (eq. S7), a film whose edge is not felt (eq. S8).
 void keep_limits(Draw& draw, SpaceScene& scene) {
   const double film_Pa = elasticity_of(scene.film).young_Pa;
@@ -106,18 +115,14 @@ void keep_limits(Draw& draw, SpaceScene& scene) {
   scene.shear_y_Pa *= softer;
   scene.film_edge_m =
       scene.film_thickness_m * (draw.uniform(1.0, 3.0) + 0.6 * std::log(10.0 / scene.tolerance));
-  // Electrodes that influence each other less than the tolerance (eq. S5).
-  if (scene.electrode == SpaceElectrode::kEquipotential) {
-    for (int i = 0; i < 8 && electrode_error(scene) > 0.3 * scene.tolerance; ++i) {
-      scene.electrode_radius_m = 0.85 * electrode_radius_m(scene);
-    }
-    if (electrode_error(scene) > 0.3 * scene.tolerance) scene.electrode = SpaceElectrode::kSampled;
-  }
+  keep_electrodes_apart(scene);
   if (scene.electrode == SpaceElectrode::kSampled) scene.grounded = FilmFace::kTop;
   if (!draw.chance(0.25)) return;
   scene.backing = Backing{film_Pa * draw.log_uniform(2.0, 50.0), draw.uniform(0.2, 0.45)};
   scene.tolerance = std::max(scene.tolerance, 2e-3);
   scene.film_edge_m *= 10.0;
+  keep_electrodes_apart(scene);  // which a backing lets influence each other more
+  if (scene.electrode == SpaceElectrode::kSampled) scene.grounded = FilmFace::kTop;
 }
 
 }  // namespace
@@ -136,6 +141,7 @@ SpaceScene random_touch(std::mt19937_64& random) {
   scene.pressure_Pa = scene.shear_x_Pa = scene.shear_y_Pa = 0.0;
   scene.loaded.clear();
   draw_press(draw, scene);
+  if (!scene.backing && draw.chance(0.25)) scene.press->friction = Friction::kStick;
   return scene;
 }
 

@@ -146,14 +146,56 @@ TEST_CASE("loads that change around a top do not reach down to where the mesh en
   }
 }
 
-TEST_CASE("an edge over the middle of a top needs finer grids", "[models][convergence][slow]") {
+// 1.503e-5 N is the limit of 8, 16 and 32 elements over which the points of the grid lie on the edge.
+TEST_CASE("an edge over the middle of a top converges, and does not turn the top along itself",
+          "[models][convergence]") {
   const Overlap edge = [](double x, double) { return x >= -1e-12 ? 1e-6 : -HUGE_VAL; };
-  // The error falls as the size of the elements: 1.5032e-5 N is the limit of 8, 16 and 32 elements.
-  const double coarse_N = contact_of({.elements = 8, .angles = 24}).press(edge).force_N;
-  const double middle_N = contact_of({.elements = 16, .angles = 48}).press(edge).force_N;
-  const double fine_N = contact_of({.elements = 32, .angles = 96}).press(edge).force_N;
-  CHECK((coarse_N - middle_N) / (middle_N - fine_N) == Approx(2.0).epsilon(0.15));
-  CHECK(2.0 * fine_N - middle_N == Approx(1.503e-5).epsilon(3e-3));
+  const TopPressure coarse = contact_of({.elements = 6, .angles = 16}).press(edge);
+  const TopPressure middle = contact_of({.elements = 12, .angles = 32}).press(edge);
+  const TopPressure fine = contact_of({.elements = 24, .angles = 64}).press(edge);
+  CHECK((coarse.force_N - middle.force_N) / (middle.force_N - fine.force_N) ==
+        Approx(2.0).epsilon(0.15));
+  CHECK(fine.force_N == Approx(1.503e-5).epsilon(3e-3));
+  CHECK(std::abs(fine.moment_y_Nm) < 1e-9 * fine.moment_x_Nm);
+  CHECK(fine.is_cut);
+  CHECK(fine.is_partial);
+  CHECK(fine.share < 0.5);  // its far side lifts
+}
+
+TEST_CASE("edges between the points of a top converge to two thousandths",
+          "[models][convergence][slow]") {
+  const TopContact coarse = contact_of({.elements = 24, .angles = 64});
+  const TopContact fine = contact_of({.elements = 48, .angles = 128});
+  struct Line {
+    double direction, at_m;
+  };
+  for (const Line& one :
+       {Line{0.0, 0.0}, Line{0.05, 0.0}, Line{0.3, 0.3e-6}, Line{0.7, -2e-6}, Line{0.2, 7e-6}}) {
+    CAPTURE(one.direction, one.at_m);
+    const Overlap edge = [&](double x, double y) {
+      const double across_m = x * std::cos(one.direction) + y * std::sin(one.direction);
+      return across_m >= one.at_m ? 1e-6 : -HUGE_VAL;
+    };
+    const TopPressure a = coarse.press(edge), b = fine.press(edge);
+    CHECK(a.force_N == Approx(b.force_N).epsilon(2.5e-3));
+    // Moments are judged by the largest force at half a radius, where a top begins to lift.
+    CHECK(std::abs(a.moment_x_Nm - b.moment_x_Nm) < 2.5e-3 * 0.5 * kRadius_m * b.force_N);
+    CHECK(std::abs(a.moment_y_Nm - b.moment_y_Nm) < 2.5e-3 * 0.5 * kRadius_m * b.force_N);
+  }
+}
+
+// The same surface, turned by any angle and moved by any part of the distance of points.
+TEST_CASE("the force under an edge changes evenly as the edge moves", "[models][stability]") {
+  const TopContact top = contact_of({.elements = 12, .angles = 32});
+  double last_N = 0.0;
+  for (double at_m = 12e-6; at_m > -12e-6; at_m -= 0.25e-6) {
+    const double force_N =
+        top.press([&](double x, double) { return x >= at_m ? 1e-6 : -HUGE_VAL; }).force_N;
+    CAPTURE(at_m);
+    CHECK(force_N > last_N);
+    if (last_N > 0.0) CHECK(force_N - last_N < 0.04e-5);
+    last_N = force_N;
+  }
 }
 
 }  // namespace
