@@ -3,6 +3,7 @@
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/pressed_modes.h"
+#include "models/pillar/analyses/slender_rounding.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/body/section_grid.h"
@@ -149,8 +150,14 @@ void run_modal(const PillarScene& scene, SceneAnswer& answer) {
   // lowest degrees resolve all of them.
   if (!scene.discretisation) {
     answer.discretisation.longest_m = scene.geometry.length_m / (modal_drive(scene).modes - 0.5);
+    // Ovalling modes of a long pillar end within a diameter of its top.
+    const double two_diameters_m = 2.0 * scene.geometry.diameter_m;
+    if (scene.geometry.length_m > 40.0 * two_diameters_m) {
+      answer.discretisation.longest_m = std::min(answer.discretisation.longest_m, two_diameters_m);
+    }
   }
   if (!scene.discretisation) answer.discretisation.grades_top = is_pressed(scene);
+  const double rounding = avoid_rounding(scene, answer.discretisation);
   const std::unique_ptr<PillarModel> axial = pressed_model(scene, answer.discretisation);
   try {
     for (const ModeFamily& family : mode_families(scene))
@@ -158,6 +165,7 @@ void run_modal(const PillarScene& scene, SceneAnswer& answer) {
   } catch (const BeyondBuckling& beyond) {
     judge_buckling(scene, beyond);
   }
+  add_rounding(scene, rounding, answer);
   note_rigid_motions(scene, answer);
 }
 

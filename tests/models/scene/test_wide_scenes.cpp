@@ -28,6 +28,7 @@ struct Tally {  // of one analysis
 struct Judged {
   std::string name;
   double of_claim = 0.0;
+  double value = 0.0, exact = 0.0, claim = 0.0;
 };
 
 double processor_s() {
@@ -40,7 +41,7 @@ std::vector<Judged> judged(const SceneAnswer& answer, const SceneAnswer& fine, d
   const auto judge = [&](const std::string& name, double value, double exact, double size,
                          double claim) {
     const double error = std::max(0.0, std::abs(value - exact) - slack * size);
-    all.push_back({name, error == 0.0 ? 0.0 : error / claim});
+    all.push_back({name, error == 0.0 ? 0.0 : error / claim, value, exact, claim});
   };
   for (const SceneResult& mine : answer.results) {
     for (const SceneResult& other : fine.results) {
@@ -115,7 +116,9 @@ void study_one(const PillarScene& scene, const std::string& name, Study& study) 
       ++tally.numbers;
       tally.honest += one.of_claim <= 1.0 ? 1 : 0;
       tally.worst = std::max(tally.worst, one.of_claim);
-      if (one.of_claim > 1.0) doubt(fmt::format("{}: {:.2f} of its claim", one.name, one.of_claim));
+      if (one.of_claim <= 1.0) continue;
+      doubt(fmt::format("{}: {:.2f} of its claim ({:.9g} +- {:.2g}, finer {:.9g})", one.name,
+                        one.of_claim, one.value, one.claim, one.exact));
     }
   } catch (const std::exception& refusal) {
     doubt(std::string("there is no finer answer: ") + refusal.what());
