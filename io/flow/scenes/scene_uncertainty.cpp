@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 
 namespace viscard {
@@ -61,7 +62,12 @@ class AnswersOnMesh {
  public:
   AnswersOnMesh(const UncertainScene& scene, const std::vector<NamedValue>& wanted,
                 const Discretisation& mesh, AnswerCount& count)
-      : scene_(scene), wanted_(wanted), mesh_(mesh), count_(count) {}
+      : AnswersOnMesh(scene, wanted, count,
+                      [mesh](const Scene& one) { return answer_on(one, mesh); }) {}
+  // Those that a function gives for a scene.
+  AnswersOnMesh(const UncertainScene& scene, const std::vector<NamedValue>& wanted,
+                AnswerCount& count, std::function<std::optional<SceneAnswer>(const Scene&)> answer)
+      : scene_(scene), wanted_(wanted), answer_(std::move(answer)), count_(count) {}
 
   MatrixXd operator()(const MatrixXd& deviates) const {
     count_.expect(static_cast<std::size_t>(deviates.rows()));
@@ -78,7 +84,9 @@ class AnswersOnMesh {
   VectorXd answer_at(const VectorXd& deviates) const {
     VectorXd row = VectorXd::Constant(static_cast<Index>(wanted_.size()), kNoAnswer);
     try {
-      const auto found = named_values(answer_on(scene_.reduced_at(deviates), mesh_));
+      const std::optional<SceneAnswer> answer = answer_(scene_.reduced_at(deviates));
+      if (!answer) return row;
+      const std::vector<NamedValue> found = named_values(*answer);
       for (std::size_t r = 0; r < wanted_.size(); ++r) {
         const auto it = std::find_if(found.begin(), found.end(), [&](const NamedValue& one) {
           return one.name == wanted_[r].name;
@@ -97,9 +105,18 @@ class AnswersOnMesh {
 
   const UncertainScene& scene_;
   const std::vector<NamedValue>& wanted_;
-  const Discretisation& mesh_;
+  std::function<std::optional<SceneAnswer>(const Scene&)> answer_;
   AnswerCount& count_;
 };
+
+// Answers to first order that reuse one solution of the scene; empty if it has none.
+BatchFunction first_order_of(const UncertainScene& scene, const std::vector<NamedValue>& values,
+                             const Discretisation& mesh, AnswerCount& count) {
+  const VectorXd nominal = VectorXd::Zero(count_deviates(scene.inputs()));
+  const auto answer = first_order_answers(scene.reduced_at(nominal), mesh);
+  if (!answer) return {};
+  return AnswersOnMesh(scene, values, count, answer);
+}
 
 // Coarser meshes of one pillar, cheapest first, that may serve for samples; the last is `finest`.
 std::vector<Discretisation> coarser_meshes(const Scene& scene, const Discretisation& finest) {
@@ -178,6 +195,12 @@ void take_linear(const LinearAnswer& linear, SceneUncertainty& out) {
   const VectorXd deviation = standard_uncertainty(linear);
   const MatrixXd shares = variance_shares(linear, out.inputs);
   const std::vector<Interval> intervals = intervals_95(linear, out.inputs);
+  for (const Index first : first_deviates(out.inputs)) {
+    if (out.by_solver.size() == out.inputs.size()) break;
+    const auto from = linear.by_solver.begin() + first;
+    const auto n = out.inputs[out.by_solver.size()].n_deviates;
+    out.by_solver.push_back(std::all_of(from, from + n, [](bool is) { return is; }));
+  }
   for (std::size_t r = 0; r < out.results.size(); ++r) {
     ResultUncertainty& result = out.results[r];
     const auto row = static_cast<Index>(r);
@@ -258,9 +281,12 @@ SceneUncertainty uncertainty_of(const UncertainScene& scene, const SceneAnswer& 
   }
   // The value, two steps of each derivative, the ends of the intervals.
   count.start(1 + 4 * n_deviates + 2 * (n_deviates + values.size()));
+  constexpr double kSlopes = 1e-6;  // of the standard uncertainty
   const LinearAnswer linear =
-      linear_answer(AnswersOnMesh(scene, values, answer.discretisation, count), out.inputs);
-  out.n_answers = linear.n_answers;
+      linear_answer(AnswersOnMesh(scene, values, answer.discretisation, count), out.inputs, kSlopes,
+                    first_order_of(scene, values, answer.discretisation, count));
+  out.n_answers = linear.n_answers - linear.n_first_order;
+  out.n_first_order = linear.n_first_order;
   take_linear(linear, out);
   const double tolerance = common(scene.file().scene).tolerance;
   const bool is_enough = is_linear_enough(linear, values, tolerance, out.reason);

@@ -51,6 +51,7 @@ int modes_of_family(const PillarScene& scene, const PillarModel& model) {
 std::vector<PillarMode> family_modes(const PillarScene& scene, const PillarModel& model,
                                      const PillarModel* axial) {
   const int wanted = modes_of_family(scene, model);
+  if (model.nearby() != nullptr) return modes_nearby(model, wanted);
   return axial != nullptr
              ? modes_under_pressure(*axial, model, modal_drive(scene).pressure_Pa, wanted)
              : lowest_modes(model, wanted);
@@ -133,9 +134,12 @@ void add_family(const PillarScene& scene, const ModeFamily& family, const Pillar
     return;
   }
   for (const PillarMode& mode : family_modes(scene, model, axial)) {
-    const double omega_1_s = 2.0 * std::numbers::pi * mode.frequency_Hz;
-    const SolutionRest rest(model, mode.shape);  // omega^2 is the work of a unit mass norm
-    const double unresolved = 0.5 * missing_share(rest, rest, omega_1_s * omega_1_s);
+    double unresolved = 0.0;
+    if (model.nearby() == nullptr) {
+      const double omega_1_s = 2.0 * std::numbers::pi * mode.frequency_Hz;
+      const SolutionRest rest(model, mode.shape);  // omega^2 is the work of a unit mass norm
+      unresolved = 0.5 * missing_share(rest, rest, omega_1_s * omega_1_s);
+    }
     answer.modes.push_back({.family = family.name,
                             .harmonic = family.harmonic,
                             .frequency_Hz = mode.frequency_Hz,
@@ -144,13 +148,29 @@ void add_family(const PillarScene& scene, const ModeFamily& family, const Pillar
   }
 }
 
-void run_modal(const PillarScene& scene, SceneAnswer& answer) {
-  // The n-th mode of a clamped bar has n - 1/2 half waves; with an element for each, even the
-  // lowest degrees resolve all of them.
-  if (!scene.discretisation) {
-    answer.discretisation.longest_m = scene.geometry.length_m / (modal_drive(scene).modes - 0.5);
+// The n-th mode of a clamped bar has n - 1/2 half waves; with an element for each, even the lowest
+// degrees resolve all of them.
+Discretisation modal_mesh(const PillarScene& scene, Discretisation mesh) {
+  if (scene.discretisation) return mesh;
+  mesh.longest_m = scene.geometry.length_m / (modal_drive(scene).modes - 0.5);
+  mesh.grades_top = is_pressed(scene);
+  return mesh;
+}
+
+// Modes under a pressure depend on a stress as well, and those of a material that relaxes on moduli at
+// their own frequency.
+NearbyPillars modal_nearby(const PillarScene& scene, const Discretisation& mesh) {
+  NearbyPillars nearby;
+  if (is_pressed(scene) || !scene.pillar.terms.empty()) return nearby;
+  for (const ModeFamily& family : mode_families(scene)) {
+    nearby.push_back(nearby_model_of(scene, family.motion, modal_mesh(scene, mesh)));
+    nearby.back()->find_modes(modes_of_family(scene, nearby.back()->model()));
   }
-  if (!scene.discretisation) answer.discretisation.grades_top = is_pressed(scene);
+  return nearby;
+}
+
+void run_modal(const PillarScene& scene, SceneAnswer& answer) {
+  answer.discretisation = modal_mesh(scene, answer.discretisation);
   const std::unique_ptr<PillarModel> axial = pressed_model(scene, answer.discretisation);
   try {
     for (const ModeFamily& family : mode_families(scene))
@@ -261,6 +281,7 @@ Analysis modal_analysis() {
           .run = run_modal,
           .push_Pa = pressure_Pa,
           .fields = modal_fields,
+          .solve_nearby = modal_nearby,
           .relaxation = modal_relaxation,
           .film_compliance = modal_film_compliance,
           .geometric_stiffness = modal_geometric_stiffness};

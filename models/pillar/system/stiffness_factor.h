@@ -3,9 +3,12 @@
 #include "models/pillar/system/discrete_system.h"
 #include "models/pillar/system/supernodal_factor.h"
 
+#include <functional>
 #include <utility>
 
 namespace viscard {
+
+struct NearbySolutions;
 
 // L D L^T of a symmetric matrix that is positive definite or quasi-definite (elasticity coupled to
 // an electric potential). For such matrices the factors exist in any elimination order. Source:
@@ -22,6 +25,13 @@ class StiffnessFactor {
   // `penalty` is the matrix C, scaled as it is in the factored matrix.
   void constrain(const SymmetricSparse& penalty) { penalty_ = penalty; }
 
+  // Instead of factor(): for a matrix close to one that is factored already. solve() is then exact to
+  // first order in the difference and costs one solution with the known factors (nearby_solutions.h).
+  // product(u, source) is the matrix times u; the part of a constraint acts on the source of the
+  // pressures. `known` must outlive this.
+  using Product = std::function<Eigen::VectorXd(const Eigen::VectorXd&, const Eigen::VectorXd&)>;
+  void approximate(const NearbySolutions& known, Product product);
+
   // With a constraint, `pressure_source` (if given) receives the w whose penalty force C w equals
   // the force of the pressures; the pressures are the penalty modulus times the projected div w.
   // Without a constraint it receives u.
@@ -32,11 +42,15 @@ class StiffnessFactor {
   int negative_pivots() const;
 
  private:
+  Eigen::VectorXd solve_nearby(const Eigen::VectorXd& right_side,
+                               Eigen::VectorXd* pressure_source) const;
   void constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& source) const;
 
   SupernodalFactor ldlt_;
   bool is_analysed_ = false;
   SymmetricSparse penalty_;  // empty: no constraint
+  const NearbySolutions* known_ = nullptr;
+  Product product_;  // with known_
 };
 
 // y = A x for the stored lower triangle.
