@@ -65,6 +65,15 @@ SceneCurve spectrum_of(const SceneCurve& curve) {
           "frequency_Hz"};
 }
 
+const NearbyPillar* nearby_of(const PillarScene& scene, Motion motion, bool is_electric) {
+  if (scene.nearby == nullptr) return nullptr;
+  for (const auto& one : *scene.nearby) {
+    const ModelOptions& its = one->model().options();
+    if (its.motion == motion && its.electrodes.has_value() == is_electric) return one.get();
+  }
+  throw NotNearby("no nearby pillar moves like this one");
+}
+
 namespace {
 
 ModelOptions electric_options_of(const PillarScene& scene, Motion motion) {
@@ -73,21 +82,12 @@ ModelOptions electric_options_of(const PillarScene& scene, Motion motion) {
   return options;
 }
 
-// Null unless the scene is answered to first order.
-const NearbyPillar* nearby_of(const PillarScene& scene, const ModelOptions& options) {
-  if (scene.nearby == nullptr) return nullptr;
-  for (const auto& one : *scene.nearby) {
-    const ModelOptions& its = one->model().options();
-    if (its.motion == options.motion &&
-        its.electrodes.has_value() == options.electrodes.has_value())
-      return one.get();
-  }
-  throw NotNearby("no nearby pillar moves like this one");
-}
-
 PillarModel model_with(const PillarScene& scene, const ModelOptions& options,
                        const Discretisation& mesh) {
-  return PillarModel(scene.geometry, mesh, media_of(scene), options, nearby_of(scene, options));
+  const NearbyPillar* nearby = nearby_of(scene, options.motion, options.electrodes.has_value());
+  return PillarModel(scene.geometry, mesh, media_of(scene), options,
+                     nearby == nullptr ? nullptr : &nearby->model(),
+                     nearby == nullptr ? nullptr : &nearby->solutions());
 }
 
 }  // namespace

@@ -99,6 +99,8 @@ ModelOptions options_of(const PillarScene& scene, Motion motion);
 // model_of() and electric_model_of() do not count unknowns; the caller does.
 PillarModel model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
 PillarModel electric_model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
+// The nearby pillar in a family of motion; null unless the scene is answered to first order.
+const NearbyPillar* nearby_of(const PillarScene& scene, Motion motion, bool is_electric);
 // The same with all that first-order answers need, not solved.
 std::unique_ptr<NearbyPillar> nearby_model_of(const PillarScene& scene, Motion motion,
                                               const Discretisation& mesh);

@@ -51,7 +51,9 @@ int modes_of_family(const PillarScene& scene, const PillarModel& model) {
 std::vector<PillarMode> family_modes(const PillarScene& scene, const PillarModel& model,
                                      const PillarModel* axial) {
   const int wanted = modes_of_family(scene, model);
-  if (model.nearby() != nullptr) return modes_nearby(model, wanted);
+  if (const NearbyPillar* nearby = nearby_of(scene, model.options().motion, false)) {
+    return modes_nearby(model, nearby->modes(), wanted);
+  }
   return axial != nullptr
              ? modes_under_pressure(*axial, model, modal_drive(scene).pressure_Pa, wanted)
              : lowest_modes(model, wanted);

@@ -19,8 +19,8 @@ void NearbyPillar::find_modes(int count) {
   modes_ = lowest_modes(model_, count);
 }
 
-std::vector<PillarMode> modes_nearby(const PillarModel& model, int count) {
-  std::vector<PillarMode> modes = model.nearby()->modes();
+std::vector<PillarMode> modes_nearby(const PillarModel& model, std::vector<PillarMode> modes,
+                                     int count) {
   if (static_cast<int>(modes.size()) != count) throw NotNearby("there are other modes");
   for (PillarMode& mode : modes) {
     const Eigen::VectorXd& x = mode.shape;
@@ -30,23 +30,6 @@ std::vector<PillarMode> modes_nearby(const PillarModel& model, int count) {
     mode.shape /= std::sqrt(mass);
   }
   return modes;
-}
-
-void PillarModel::require_nearby(const DofMap& dofs) const {
-  const PillarModel& other = nearby_->model();
-  const bool has_same_elements =
-      mesh_.section.elements() == other.mesh_.section.elements() && dofs == other.system().dofs();
-  if (!has_same_elements) throw NotNearby("the mesh has other elements");
-  for (std::size_t i = 0; i < media_.size(); ++i) {
-    if (condenses_pressure(media_[i]) != condenses_pressure(other.media_[i])) {
-      throw NotNearby("pressures are condensed in one of two materials alone");
-    }
-    const bool is_incompressible = std::isinf(media_[i].bulk_Pa);
-    if (is_incompressible != std::isinf(other.media_[i].bulk_Pa) ||
-        (is_incompressible && !(geometry_ == other.geometry_))) {
-      throw NotNearby("an incompressible pillar has other lengths");
-    }
-  }
 }
 
 }  // namespace viscard

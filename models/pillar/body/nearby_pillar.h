@@ -2,7 +2,7 @@
 
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
-#include "models/pillar/system/nearby_solutions.h"
+#include "models/pillar/system/stiffness_factor.h"
 
 #include <memory>
 #include <vector>
@@ -19,7 +19,7 @@ class NearbyPillar {
       : model_(geometry, discretisation, media, options) {}
 
   // Factors the stiffness and solves for a force on the top and for a charge on the electrode, as far as
-  // the family of motion has them (nearby_solutions.h).
+  // the family of motion has them (NearbySolutions).
   void solve();
   // Finds the lowest modes, whose Rayleigh quotients with other matrices are stationary.
   void find_modes(int count);
@@ -37,8 +37,9 @@ class NearbyPillar {
 // The pillars that an analysis needs, each in a family of motion of its own.
 using NearbyPillars = std::vector<std::unique_ptr<NearbyPillar>>;
 
-// The modes of a model with a nearby one: f^2 = (x K x)/(x M x)/(2 pi)^2 with its shapes x, exact to first
-// order. Source: Parlett, The Symmetric Eigenvalue Problem (1998), ch. 1 and 4.
-std::vector<PillarMode> modes_nearby(const PillarModel& model, int count);
+// The modes of a model near one with these: f^2 = (x K x)/(x M x)/(2 pi)^2 with their shapes x, exact to
+// first order. Source: Parlett, The Symmetric Eigenvalue Problem (1998), ch. 1 and 4.
+std::vector<PillarMode> modes_nearby(const PillarModel& model, std::vector<PillarMode> modes,
+                                     int count);
 
 }  // namespace viscard

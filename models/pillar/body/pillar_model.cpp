@@ -1,7 +1,6 @@
 #include "models/pillar/body/pillar_model.h"
 
 #include "models/maths/text_of_number.h"
-#include "models/pillar/body/nearby_pillar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,15 +37,16 @@ PillarState operator*(double factor, PillarState state) {
 
 PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
                          const PillarMedia& media, const ModelOptions& options)
-    : PillarModel(geometry, discretisation, media, options, nullptr) {}
+    : PillarModel(geometry, discretisation, media, options, nullptr, nullptr) {}
 
 PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
                          const PillarMedia& media, const ModelOptions& options,
-                         const NearbyPillar* nearby)
+                         const PillarModel* nearby, const NearbySolutions* solutions)
     : geometry_(with_electrode_edge(geometry, options.electrodes)),
       options_(options),
       mesh_(pillar_mesh(geometry_, discretisation)),
-      nearby_(nearby) {
+      nearby_(nearby),
+      nearby_solutions_(solutions) {
   if (geometry.film.has_value() != media.film.has_value()) {
     throw std::invalid_argument("a film needs its material, and a material its film");
   }
@@ -69,8 +69,8 @@ PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& d
   DofMap dofs = make_dofs(kinematics);
   if (nearby != nullptr) {
     require_nearby(dofs);
-    system_ = std::make_unique<DiscreteSystem>(mesh_.section, std::move(kinematics),
-                                               nearby->model().system());
+    system_ =
+        std::make_unique<DiscreteSystem>(mesh_.section, std::move(kinematics), nearby->system());
     return;
   }
   system_ = std::make_unique<DiscreteSystem>(mesh_.section, std::move(kinematics), std::move(dofs));
@@ -123,6 +123,23 @@ DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
   }
   dofs.number();
   return dofs;
+}
+
+void PillarModel::require_nearby(const DofMap& dofs) const {
+  const PillarModel& other = *nearby_;
+  const bool has_same_elements =
+      mesh_.section.elements() == other.mesh_.section.elements() && dofs == other.system().dofs();
+  if (!has_same_elements) throw NotNearby("the mesh has other elements");
+  for (std::size_t i = 0; i < media_.size(); ++i) {
+    if (condenses_pressure(media_[i]) != condenses_pressure(other.media_[i])) {
+      throw NotNearby("pressures are condensed in one of two materials alone");
+    }
+    const bool is_incompressible = std::isinf(media_[i].bulk_Pa);
+    if (is_incompressible != std::isinf(other.media_[i].bulk_Pa) ||
+        (is_incompressible && !(geometry_ == other.geometry_))) {
+      throw NotNearby("an incompressible pillar has other lengths");
+    }
+  }
 }
 
 bool PillarModel::is_plane_stress() const {

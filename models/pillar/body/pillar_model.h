@@ -66,8 +66,6 @@ struct PillarState {
 // The state times a pure number, the factor.
 PillarState operator*(double factor, PillarState state);
 
-class NearbyPillar;
-
 // Thrown for a pillar that cannot be answered to first order from a nearby one.
 class NotNearby : public std::runtime_error {
  public:
@@ -81,11 +79,12 @@ class PillarModel {
   // film, or a rigid top or electrodes in a family that does not support them (torsion, ovalling).
   PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
               const PillarMedia& media, const ModelOptions& options);
-  // The same with solutions to first order from those of `nearby` (nearby_pillar.h), if it is not null.
-  // It must outlive the model. Throws NotNearby if the mesh does not have the same elements, if a
+  // The same with solutions to first order from the given ones of `nearby`, unless it is null. Both must
+  // outlive the model. Throws NotNearby if the mesh does not have the same elements, if a
   // pressure is condensed in only one of them, and at nu = 0.5 for other lengths.
   PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
-              const PillarMedia& media, const ModelOptions& options, const NearbyPillar* nearby);
+              const PillarMedia& media, const ModelOptions& options, const PillarModel* nearby,
+              const NearbySolutions* solutions);
   PillarModel(const PillarModel&) = delete;
   PillarModel& operator=(const PillarModel&) = delete;
 
@@ -108,7 +107,7 @@ class PillarModel {
               double stiffening = 1.0) const;
   // The factored stiffness, or what stands for it close to a nearby pillar.
   StiffnessFactor factored() const;
-  const NearbyPillar* nearby() const { return nearby_; }
+  const PillarModel* nearby() const { return nearby_; }
   // Stiffness times u without the matrix; at nu = 0.5 the pressures are those of the source.
   Eigen::VectorXd stiffness_times(const Eigen::VectorXd& u, const Eigen::VectorXd& source) const;
   Eigen::VectorXd mass_times(const Eigen::VectorXd& u) const;
@@ -157,7 +156,8 @@ class PillarModel {
   std::vector<Medium> media_;
   double potential_scale_V_ = 1.0;
   int electrode_handle_ = -1;
-  const NearbyPillar* nearby_ = nullptr;
+  const PillarModel* nearby_ = nullptr;
+  const NearbySolutions* nearby_solutions_ = nullptr;
   std::unique_ptr<DiscreteSystem> system_;
 };
 

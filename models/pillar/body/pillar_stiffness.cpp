@@ -1,5 +1,4 @@
 // Stiffness and mass of a pillar, and the solution of its statics.
-#include "models/pillar/body/nearby_pillar.h"
 #include "models/pillar/body/pillar_model.h"
 
 #include <algorithm>
@@ -93,7 +92,7 @@ void PillarModel::factor(const SymmetricSparse& matrix, StiffnessFactor& factor,
 StiffnessFactor PillarModel::factored() const {
   StiffnessFactor factored;
   if (nearby_ != nullptr) {
-    factored.approximate(nearby_->solutions(),
+    factored.approximate(*nearby_solutions_,
                          [this](const Eigen::VectorXd& u, const Eigen::VectorXd& w) {
                            return stiffness_times(u, w);
                          });

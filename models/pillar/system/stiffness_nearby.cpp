@@ -1,4 +1,5 @@
-#include "models/pillar/system/nearby_solutions.h"
+// Solutions of a matrix close to a factored one.
+#include "models/pillar/system/stiffness_factor.h"
 
 #include <cmath>
 #include <utility>
