@@ -140,7 +140,15 @@ class CostRunner {
 struct References {
   Ran finest;
   std::optional<SceneAnswer> coarser;
+  std::string why_alone;  // without a coarser one
 };
+
+// Whether meshes failed, or the budget ended the search, or both.
+std::string why_alone(const std::string& failure, bool is_out_of_budget) {
+  if (failure.empty()) return "the budget allowed no second one";
+  return "no second one has an answer (" + failure + ")" +
+         (is_out_of_budget ? ", and the budget allowed no other" : "");
+}
 
 References references_within(double share_s, const std::vector<CostTrial>& ladder,
                              CostRunner& runner) {
@@ -152,7 +160,8 @@ References references_within(double share_s, const std::vector<CostTrial>& ladde
     throw std::runtime_error("no mesh of the reference has an answer: " +
                              runner.failed().back().reason);
   }
-  References found{std::move(*first_answer), std::nullopt};
+  References found{std::move(*first_answer), std::nullopt, ""};
+  std::string failure = runner.failed().empty() ? "" : runner.failed().back().reason;
   while (at + 1 < ladder.size()) {
     std::size_t next = at;
     for (std::size_t top = ladder.size() - 1; top > at && next == at; --top) {
@@ -164,10 +173,14 @@ References references_within(double share_s, const std::vector<CostTrial>& ladde
     if (next == at) break;
     at = next;
     std::optional<Ran> finer = runner.run(ladder[next], 1);
-    if (!finer) continue;
+    if (!finer) {
+      failure = runner.failed().back().reason;
+      continue;
+    }
     found.coarser = std::move(found.finest.answer);
     found.finest = std::move(*finer);
   }
+  if (!found.coarser) found.why_alone = why_alone(failure, at + 1 < ladder.size());
   return found;
 }
 
@@ -244,6 +257,7 @@ CostStudy study_of(const CostTrials& trials, const CostOptions& options) {
   study.reference_error = references.coarser
                               ? relative_error(*references.coarser, references.finest.answer)
                               : std::numeric_limits<double>::infinity();
+  study.why_alone = references.why_alone;
   rank_by_processor_time(study);
   study.machine.share = runner.share();
   study.wall_s = runner.spent_s();

@@ -62,6 +62,7 @@ struct CostStudy {
   std::vector<CostAdvice> advice;
   std::string reference;         // discretisation of the answer that errors refer to
   double reference_error = 0.0;  // relative change of the reference from a lower degree
+  std::string why_alone;         // why there is no lower degree; empty if there is
   int left_out = 0;              // rows for which the budget was too short
   double tolerance = 0.0;        // of the scene
   double budget_s = 0.0;

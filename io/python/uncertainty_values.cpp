@@ -8,9 +8,10 @@ namespace py = pybind11;
 
 py::object uncertainty_object(const std::optional<SceneUncertainty>& found) {
   if (!found) return py::none();
-  py::dict out, inputs, results;
+  py::dict out, inputs, results, derivatives;
   for (std::size_t i = 0; i < found->inputs.size(); ++i) {
     inputs[py::str(found->inputs[i].name)] = found->descriptions[i];
+    derivatives[py::str(found->inputs[i].name)] = found->by_solver[i] ? "solver" : "differences";
   }
   for (const ResultUncertainty& result : found->results) {
     py::dict one, shares, errors;
@@ -31,7 +32,9 @@ py::object uncertainty_object(const std::optional<SceneUncertainty>& found) {
   out["reason"] = found->reason;
   out["inputs"] = inputs;
   out["results"] = results;
+  out["derivatives"] = derivatives;
   out["answers"] = found->n_answers;
+  out["first_order_answers"] = found->n_first_order;
   out["failed"] = found->n_failed;
   out["notes"] = found->notes;
   return out;

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace viscard {
@@ -70,6 +71,15 @@ SceneAnswer simulate(const Scene& scene) {
 
 SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh) {
   return std::visit([&](const auto& body) { return solve_on(body, mesh); }, scene);
+}
+
+std::function<std::optional<SceneAnswer>(const Scene&)> first_order_answers(
+    const Scene& scene, const Discretisation& mesh) {
+  const auto* pillar = std::get_if<PillarScene>(&scene);
+  if (pillar == nullptr) return {};
+  const FirstOrderAnswers answers = first_order_answers(*pillar, mesh);
+  if (!answers) return {};
+  return [answers](const Scene& close) { return answers(std::get<PillarScene>(close)); };
 }
 
 std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisation& mesh) {

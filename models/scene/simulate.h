@@ -6,6 +6,7 @@
 #include "models/scene/scene.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -21,6 +22,13 @@ SceneAnswer simulate(const Scene& scene);
 // The scene as it stands, with no plan, on one mesh and without mesh errors. Throws SceneMistake for a
 // scene that contradicts itself.
 SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh);
+
+// Answers on the mesh, to first order in the difference, of scenes that differ from this one in quantities
+// alone, as answer_on() gives them: the scene is solved once, and its solutions are reused. Empty if the
+// scene has no such answers; other kinds than single pillars have none. There is none where only an answer
+// of its own will do (models/pillar/analyses/simulate_pillar.h).
+std::function<std::optional<SceneAnswer>(const Scene&)> first_order_answers(
+    const Scene& scene, const Discretisation& mesh);
 
 // The solution on a mesh, with the plan's effects, for pictures. Static: displacement (m), axial
 // stress (Pa), with electrodes the potential (V). Modal: the shapes of every family, largest

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace viscard {
@@ -62,30 +63,34 @@ void extrapolate(const VectorXd& difference, Tableau& tableau) {
   tableau.last_row = std::move(row);
 }
 
-void take_slopes(const std::vector<Tableau>& tableaus, LinearAnswer& answer) {
-  for (std::size_t d = 0; d < tableaus.size(); ++d) {
-    answer.slope.col(static_cast<Index>(d)) = tableaus[d].best;
-    answer.slope_error.col(static_cast<Index>(d)) = tableaus[d].error;
+void take_slopes(const std::vector<Tableau>& tableaus, const std::vector<Index>& deviates,
+                 LinearAnswer& answer) {
+  for (const Index d : deviates) {
+    answer.slope.col(d) = tableaus[static_cast<std::size_t>(d)].best;
+    answer.slope_error.col(d) = tableaus[static_cast<std::size_t>(d)].error;
   }
 }
 
-// Deviates whose derivatives are not settled. Rounding limits what a difference can show.
-std::vector<Index> unsettled(const LinearAnswer& answer, double tolerance) {
+// Those of the deviates whose derivatives are not settled. Rounding limits what a difference can show.
+std::vector<Index> unsettled(const LinearAnswer& answer, const std::vector<Index>& deviates,
+                             double tolerance) {
   constexpr double kRounding = 1e-12;
   const VectorXd allowed =
       (tolerance * standard_uncertainty(answer)).cwiseMax(kRounding * answer.value.cwiseAbs());
   std::vector<Index> left;
-  for (Index d = 0; d < answer.slope.cols(); ++d) {
+  for (const Index d : deviates) {
     if ((answer.slope_error.col(d).array() > allowed.array()).any()) left.push_back(d);
   }
   return left;
 }
 
-void find_slopes(const BatchFunction& function, double tolerance, LinearAnswer& answer) {
+// Derivatives by these deviates. Returns those by which the function has none, because it has no answer at
+// a point near 0.
+std::vector<Index> find_slopes(const BatchFunction& function, const std::vector<Index>& deviates,
+                               double tolerance, LinearAnswer& answer) {
   const Index count = answer.slope.cols();
   std::vector<Tableau> tableaus(static_cast<std::size_t>(count));
-  std::vector<Index> left;
-  for (Index d = 0; d < count; ++d) left.push_back(d);
+  std::vector<Index> left = deviates, taken, lost;
   double step = kFirstStep;
   for (int level = 0; level < kLevels && !left.empty(); ++level, step *= 0.5) {
     const auto n = static_cast<Index>(left.size());
@@ -95,17 +100,52 @@ void find_slopes(const BatchFunction& function, double tolerance, LinearAnswer& 
       points(2 * i + 1, left[static_cast<std::size_t>(i)]) = -step;
     }
     const MatrixXd found = answers_at(function, points, answer);
-    if (!found.allFinite()) {
-      throw std::runtime_error("the answer does not exist close to the values that are given");
-    }
+    taken.clear();
     for (Index i = 0; i < n; ++i) {
+      const Index d = left[static_cast<std::size_t>(i)];
+      if (!found.middleRows(2 * i, 2).allFinite()) {
+        lost.push_back(d);
+        continue;
+      }
+      taken.push_back(d);
       const VectorXd difference = (found.row(2 * i) - found.row(2 * i + 1)) / (2.0 * step);
-      extrapolate(difference,
-                  tableaus[static_cast<std::size_t>(left[static_cast<std::size_t>(i)])]);
+      extrapolate(difference, tableaus[static_cast<std::size_t>(d)]);
     }
-    take_slopes(tableaus, answer);
-    if (level > 0) left = unsettled(answer, tolerance);
+    take_slopes(tableaus, taken, answer);
+    left = level > 0 ? unsettled(answer, taken, tolerance) : taken;
   }
+  return lost;
+}
+
+// Whether the first-order function has the answer's value. Solvers that iterate agree to
+// about 1e-8.
+bool has_value_of(const LinearAnswer& answer, const VectorXd& value) {
+  constexpr double kSameValue = 1e-6;  // relative
+  const VectorXd off = (value - answer.value).cwiseAbs();
+  return (off.array() <= kSameValue * answer.value.array().abs()).all();
+}
+
+// Takes what derivatives it can from first-order answers; returns the deviates that are left.
+std::vector<Index> find_first_order_slopes(const BatchFunction& first_order,
+                                           const std::vector<Index>& deviates, double tolerance,
+                                           LinearAnswer& answer) {
+  const std::size_t before = answer.n_answers;
+  const MatrixXd zero = MatrixXd::Zero(1, answer.slope.cols());
+  std::vector<Index> left = deviates;
+  if (has_value_of(answer, answers_at(first_order, zero, answer).row(0).transpose())) {
+    left = find_slopes(first_order, deviates, tolerance, answer);
+    // Where the mesh jumps between two points the differences of its answers do not settle.
+    constexpr double kSettled = 1e-4;  // of the standard uncertainty
+    for (const Index d : unsettled(answer, deviates, std::max(tolerance, kSettled))) {
+      if (std::find(left.begin(), left.end(), d) == left.end()) left.push_back(d);
+    }
+  }
+  answer.n_first_order = answer.n_answers - before;
+  for (const Index d : deviates) {
+    answer.by_solver[static_cast<std::size_t>(d)] =
+        std::find(left.begin(), left.end(), d) == left.end();
+  }
+  return left;
 }
 
 // Each input at either end of its interval, then the points where each linear result has its ends.
@@ -153,7 +193,7 @@ void find_disagreement(const BatchFunction& function, const std::vector<bool>& a
 }  // namespace
 
 LinearAnswer linear_answer(const BatchFunction& function, const std::vector<UncertainInput>& inputs,
-                           double tolerance) {
+                           double tolerance, const BatchFunction& first_order) {
   const Index count = count_deviates(inputs);
   LinearAnswer answer;
   answer.value = answers_at(function, MatrixXd::Zero(1, count), answer).row(0);
@@ -162,7 +202,13 @@ LinearAnswer linear_answer(const BatchFunction& function, const std::vector<Unce
   }
   answer.slope = MatrixXd::Zero(answer.value.size(), count);
   answer.slope_error = answer.slope;
-  find_slopes(function, tolerance, answer);
+  answer.by_solver.assign(static_cast<std::size_t>(count), false);
+  std::vector<Index> deviates(static_cast<std::size_t>(count));
+  std::iota(deviates.begin(), deviates.end(), Index{0});
+  if (first_order) deviates = find_first_order_slopes(first_order, deviates, tolerance, answer);
+  if (!find_slopes(function, deviates, tolerance, answer).empty()) {
+    throw std::runtime_error("the answer does not exist close to the values that are given");
+  }
   find_disagreement(function, uniform_deviates(inputs), answer);
   return answer;
 }

@@ -147,7 +147,7 @@ void print_study(const CostStudy& study, const std::string& path, std::ostream& 
   out << fmt::format("{}; reference {}, {}\non {}\n", path, study.reference,
                      std::isfinite(study.reference_error)
                          ? fmt::format("known to {:.1e}", study.reference_error)
-                         : "whose error is not known: the budget allowed no second one",
+                         : "whose error is not known: " + study.why_alone,
                      text_of_machine(study.machine));
   print_rows(study, out);
   print_legend(study, out);

@@ -52,6 +52,22 @@ std::string interval_words(const ResultUncertainty& result) {
                      text_of(result.interval_95.high, 4), result.unit == "1" ? "" : result.unit);
 }
 
+// Which way derivatives were taken.
+std::string derivative_words(const SceneUncertainty& all) {
+  std::string by_differences;
+  std::size_t by_solver = 0;
+  for (std::size_t i = 0; i < all.inputs.size(); ++i) {
+    if (all.by_solver[i]) {
+      ++by_solver;
+    } else {
+      by_differences += (by_differences.empty() ? "" : ", ") + all.inputs[i].name;
+    }
+  }
+  if (by_solver == 0) return "derivatives: differences of whole answers";
+  return "derivatives: from one solution of the solver" +
+         (by_differences.empty() ? "" : "; differences of whole answers for " + by_differences);
+}
+
 std::string csv_of(const SceneUncertainty& uncertainty, const std::string& command) {
   std::string text = fmt::format(
       "# {} (viscard {})\nresult,unit,value,low_95,high_95,standard_uncertainty,numerical_error,"
@@ -109,7 +125,9 @@ void print_result(const ResultUncertainty& result, const SceneUncertainty& all, 
 nlohmann::json json_from_uncertainty(const SceneUncertainty& uncertainty) {
   nlohmann::json inputs = nlohmann::json::array(), results = nlohmann::json::array();
   for (std::size_t i = 0; i < uncertainty.inputs.size(); ++i) {
-    inputs.push_back({{"name", uncertainty.inputs[i].name}, {"text", uncertainty.descriptions[i]}});
+    inputs.push_back({{"name", uncertainty.inputs[i].name},
+                      {"text", uncertainty.descriptions[i]},
+                      {"derivatives", uncertainty.by_solver[i] ? "solver" : "differences"}});
   }
   for (const ResultUncertainty& one : uncertainty.results) {
     results.push_back(json_of(one, uncertainty));
@@ -119,6 +137,7 @@ nlohmann::json json_from_uncertainty(const SceneUncertainty& uncertainty) {
           {"inputs", inputs},
           {"results", results},
           {"answers", uncertainty.n_answers},
+          {"first_order_answers", uncertainty.n_first_order},
           {"failed", uncertainty.n_failed},
           {"derivative_error", uncertainty.slope_error},
           {"mesh",
@@ -136,6 +155,7 @@ void print_uncertainty(const SceneUncertainty& uncertainty, std::ostream& out) {
   for (const ResultUncertainty& result : uncertainty.results) {
     print_result(result, uncertainty, out);
   }
+  out << "  " << derivative_words(uncertainty) << "\n";
   out << "  " << uncertainty.reason << "\n";
   if (uncertainty.is_sampled) {
     out << fmt::format(

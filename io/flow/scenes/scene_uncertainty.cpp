@@ -1,6 +1,7 @@
 #include "io/flow/scenes/scene_uncertainty.h"
 
 #include "io/basics/parallel.h"
+#include "io/flow/scenes/answers_on_mesh.h"
 #include "io/flow/scenes/named_values.h"
 #include "models/maths/dense.h"
 #include "models/scene/simulate.h"
@@ -9,10 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <limits>
-#include <mutex>
 #include <stdexcept>
 
 namespace viscard {
@@ -22,84 +20,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNoAnswer = std::numeric_limits<double>::quiet_NaN();
-
-// Counts the answers for the progress, from several threads.
-class AnswerCount {
- public:
-  AnswerCount(const std::function<void(double)>& progress) : progress_(progress) {}
-  // Before the first answer.
-  void start(std::size_t at_least) {
-    at_least_ = at_least;
-    if (progress_) progress_(0.0);
-  }
-  void expect(std::size_t more) { expected_ += more; }
-  void add_one() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++done_;
-    if (progress_) {
-      const std::size_t expected = std::max(expected_, at_least_);
-      progress_(std::min(1.0, static_cast<double>(done_) / static_cast<double>(expected)));
-    }
-  }
-  // Keeps the first reason why a point has no answer.
-  void keep_reason(const std::string& why) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (why_.empty()) why_ = why;
-  }
-  const std::string& why() const { return why_; }
-
- private:
-  const std::function<void(double)>& progress_;
-  std::mutex mutex_;
-  std::size_t done_ = 0, expected_ = 0, at_least_ = 0;
-  std::string why_;
-};
-
-// The answers of a scene on one mesh, so that they vary smoothly with the inputs.
-class AnswersOnMesh {
- public:
-  AnswersOnMesh(const UncertainScene& scene, const std::vector<NamedValue>& wanted,
-                const Discretisation& mesh, AnswerCount& count)
-      : scene_(scene), wanted_(wanted), mesh_(mesh), count_(count) {}
-
-  MatrixXd operator()(const MatrixXd& deviates) const {
-    count_.expect(static_cast<std::size_t>(deviates.rows()));
-    MatrixXd answers(deviates.rows(), static_cast<Index>(wanted_.size()));
-    for_each_in_parallel(static_cast<std::size_t>(deviates.rows()), [&](std::size_t i) {
-      const auto row = static_cast<Index>(i);
-      answers.row(row) = answer_at(deviates.row(row)).transpose();
-      count_.add_one();
-    });
-    return answers;
-  }
-
- private:
-  VectorXd answer_at(const VectorXd& deviates) const {
-    VectorXd row = VectorXd::Constant(static_cast<Index>(wanted_.size()), kNoAnswer);
-    try {
-      const auto found = named_values(answer_on(scene_.reduced_at(deviates), mesh_));
-      for (std::size_t r = 0; r < wanted_.size(); ++r) {
-        const auto it = std::find_if(found.begin(), found.end(), [&](const NamedValue& one) {
-          return one.name == wanted_[r].name;
-        });
-        if (it != found.end()) {
-          row[static_cast<Index>(r)] = it->value;
-        } else {
-          count_.keep_reason("the answer close to the given values has no " + wanted_[r].name);
-        }
-      }
-    } catch (const std::exception& error) {
-      count_.keep_reason(error.what());
-    }
-    return row;
-  }
-
-  const UncertainScene& scene_;
-  const std::vector<NamedValue>& wanted_;
-  const Discretisation& mesh_;
-  AnswerCount& count_;
-};
+// Answers to first order that reuse one solution of the scene; empty if it has none.
+BatchFunction first_order_of(const UncertainScene& scene, const std::vector<NamedValue>& values,
+                             const Discretisation& mesh, AnswerCount& count) {
+  const VectorXd nominal = VectorXd::Zero(count_deviates(scene.inputs()));
+  const auto answer = first_order_answers(scene.reduced_at(nominal), mesh);
+  if (!answer) return {};
+  return AnswersOnMesh(scene, values, count, answer);
+}
 
 // Coarser meshes of one pillar, cheapest first, that may serve for samples; the last is `finest`.
 std::vector<Discretisation> coarser_meshes(const Scene& scene, const Discretisation& finest) {
@@ -178,6 +106,12 @@ void take_linear(const LinearAnswer& linear, SceneUncertainty& out) {
   const VectorXd deviation = standard_uncertainty(linear);
   const MatrixXd shares = variance_shares(linear, out.inputs);
   const std::vector<Interval> intervals = intervals_95(linear, out.inputs);
+  for (const Index first : first_deviates(out.inputs)) {
+    if (out.by_solver.size() == out.inputs.size()) break;
+    const auto from = linear.by_solver.begin() + first;
+    const auto n = out.inputs[out.by_solver.size()].n_deviates;
+    out.by_solver.push_back(std::all_of(from, from + n, [](bool is) { return is; }));
+  }
   for (std::size_t r = 0; r < out.results.size(); ++r) {
     ResultUncertainty& result = out.results[r];
     const auto row = static_cast<Index>(r);
@@ -258,9 +192,12 @@ SceneUncertainty uncertainty_of(const UncertainScene& scene, const SceneAnswer& 
   }
   // The value, two steps of each derivative, the ends of the intervals.
   count.start(1 + 4 * n_deviates + 2 * (n_deviates + values.size()));
+  constexpr double kSlopes = 1e-6;  // of the standard uncertainty
   const LinearAnswer linear =
-      linear_answer(AnswersOnMesh(scene, values, answer.discretisation, count), out.inputs);
-  out.n_answers = linear.n_answers;
+      linear_answer(AnswersOnMesh(scene, values, answer.discretisation, count), out.inputs, kSlopes,
+                    first_order_of(scene, values, answer.discretisation, count));
+  out.n_answers = linear.n_answers - linear.n_first_order;
+  out.n_first_order = linear.n_first_order;
   take_linear(linear, out);
   const double tolerance = common(scene.file().scene).tolerance;
   const bool is_enough = is_linear_enough(linear, values, tolerance, out.reason);

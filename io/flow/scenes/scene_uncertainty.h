@@ -38,10 +38,14 @@ struct SceneUncertainty {
   std::vector<ResultUncertainty> results;
   bool is_sampled = false;
   std::string reason;  // why the result is sampled, or why it is not
+  // Of each input: its derivatives come from the solver, which reuses one solution; otherwise they are
+  // differences of answers.
+  std::vector<bool> by_solver;
   std::size_t n_answers = 0, n_failed = 0;
-  Discretisation mesh;       // that was sampled on
-  double mesh_error = 0.0;   // of deviations on it, relative to the standard uncertainty
-  double slope_error = 0.0;  // largest, likewise
+  std::size_t n_first_order = 0;  // answers that reuse the solution, not among n_answers
+  Discretisation mesh;            // that was sampled on
+  double mesh_error = 0.0;        // of deviations on it, relative to the standard uncertainty
+  double slope_error = 0.0;       // largest, likewise
   std::vector<std::string> notes;
 };
 

@@ -65,14 +65,51 @@ SceneCurve spectrum_of(const SceneCurve& curve) {
           "frequency_Hz"};
 }
 
+const NearbyPillar* nearby_of(const PillarScene& scene, Motion motion, bool is_electric) {
+  if (scene.nearby == nullptr) return nullptr;
+  for (const auto& one : *scene.nearby) {
+    const ModelOptions& its = one->model().options();
+    if (its.motion == motion && its.electrodes.has_value() == is_electric) return one.get();
+  }
+  throw NotNearby("no nearby pillar moves like this one");
+}
+
+namespace {
+
+ModelOptions electric_options_of(const PillarScene& scene, Motion motion) {
+  ModelOptions options = options_of(scene, motion);
+  options.electrodes = scene.electrodes;
+  return options;
+}
+
+PillarModel model_with(const PillarScene& scene, const ModelOptions& options,
+                       const Discretisation& mesh) {
+  const NearbyPillar* nearby = nearby_of(scene, options.motion, options.electrodes.has_value());
+  return PillarModel(scene.geometry, mesh, media_of(scene), options,
+                     nearby == nullptr ? nullptr : &nearby->model(),
+                     nearby == nullptr ? nullptr : &nearby->solutions());
+}
+
+}  // namespace
+
 PillarModel model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh) {
-  return PillarModel(scene.geometry, mesh, media_of(scene), options_of(scene, motion));
+  return model_with(scene, options_of(scene, motion), mesh);
 }
 
 PillarModel electric_model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh) {
-  ModelOptions options = options_of(scene, motion);
-  options.electrodes = scene.electrodes;
-  return PillarModel(scene.geometry, mesh, media_of(scene), options);
+  return model_with(scene, electric_options_of(scene, motion), mesh);
+}
+
+std::unique_ptr<NearbyPillar> nearby_model_of(const PillarScene& scene, Motion motion,
+                                              const Discretisation& mesh) {
+  return std::make_unique<NearbyPillar>(scene.geometry, mesh, media_of(scene),
+                                        options_of(scene, motion));
+}
+
+std::unique_ptr<NearbyPillar> nearby_electric_model_of(const PillarScene& scene, Motion motion,
+                                                       const Discretisation& mesh) {
+  return std::make_unique<NearbyPillar>(scene.geometry, mesh, media_of(scene),
+                                        electric_options_of(scene, motion));
 }
 
 std::vector<std::string> moving_names(const PillarScene& scene, const std::string& first,

@@ -7,6 +7,7 @@
 #include "models/scene/common/error_control.h"
 #include "models/scene/common/scene_answer.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,9 @@ struct Analysis {
   // The solution on a mesh, for pictures; null: has no picture.
   std::vector<SectionGrid> (*fields)(const PillarScene& scene,
                                      const Discretisation& mesh) = nullptr;
+  // The pillars whose solutions or modes give answers to first order in all that differs, on a mesh; null
+  // or an empty list: this analysis or scene has no such answers.
+  NearbyPillars (*solve_nearby)(const PillarScene& scene, const Discretisation& mesh) = nullptr;
   // The reason why the field must act back on the film's strain if the potential is asked for, or
   // nullptr if it need not. Without this function it must, because voltages in time need it.
   const char* (*why_two_way)(const PillarScene& scene) = nullptr;
@@ -95,6 +99,13 @@ ModelOptions options_of(const PillarScene& scene, Motion motion);
 // model_of() and electric_model_of() do not count unknowns; the caller does.
 PillarModel model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
 PillarModel electric_model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
+// The nearby pillar in a family of motion; null unless the scene is answered to first order.
+const NearbyPillar* nearby_of(const PillarScene& scene, Motion motion, bool is_electric);
+// The same with all that first-order answers need, not solved.
+std::unique_ptr<NearbyPillar> nearby_model_of(const PillarScene& scene, Motion motion,
+                                              const Discretisation& mesh);
+std::unique_ptr<NearbyPillar> nearby_electric_model_of(const PillarScene& scene, Motion motion,
+                                                       const Discretisation& mesh);
 void count_unknowns(const PillarModel& model, SceneAnswer& answer);
 // Spectrum of a curve over equally spaced times, without its last point.
 SceneCurve spectrum_of(const SceneCurve& curve);

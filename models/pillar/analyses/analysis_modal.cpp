@@ -2,6 +2,7 @@
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/modal_mesh.h"
 #include "models/pillar/analyses/pressed_modes.h"
 #include "models/pillar/analyses/slender_rounding.h"
 #include "models/pillar/body/pillar_model.h"
@@ -52,6 +53,9 @@ int modes_of_family(const PillarScene& scene, const PillarModel& model) {
 std::vector<PillarMode> family_modes(const PillarScene& scene, const PillarModel& model,
                                      const PillarModel* axial) {
   const int wanted = modes_of_family(scene, model);
+  if (const NearbyPillar* nearby = nearby_of(scene, model.options().motion, false)) {
+    return modes_nearby(model, nearby->modes(), wanted);
+  }
   return axial != nullptr
              ? modes_under_pressure(*axial, model, modal_drive(scene).pressure_Pa, wanted)
              : lowest_modes(model, wanted);
@@ -134,9 +138,12 @@ void add_family(const PillarScene& scene, const ModeFamily& family, const Pillar
     return;
   }
   for (const PillarMode& mode : family_modes(scene, model, axial)) {
-    const double omega_1_s = 2.0 * std::numbers::pi * mode.frequency_Hz;
-    const SolutionRest rest(model, mode.shape);  // omega^2 is the work of a unit mass norm
-    const double unresolved = 0.5 * missing_share(rest, rest, omega_1_s * omega_1_s);
+    double unresolved = 0.0;
+    if (model.nearby() == nullptr) {
+      const double omega_1_s = 2.0 * std::numbers::pi * mode.frequency_Hz;
+      const SolutionRest rest(model, mode.shape);  // omega^2 is the work of a unit mass norm
+      unresolved = 0.5 * missing_share(rest, rest, omega_1_s * omega_1_s);
+    }
     answer.modes.push_back({.family = family.name,
                             .harmonic = family.harmonic,
                             .frequency_Hz = mode.frequency_Hz,
@@ -145,19 +152,21 @@ void add_family(const PillarScene& scene, const ModeFamily& family, const Pillar
   }
 }
 
-void run_modal(const PillarScene& scene, SceneAnswer& answer) {
-  // The n-th mode of a clamped bar has n - 1/2 half waves; with an element for each, even the
-  // lowest degrees resolve all of them.
-  if (!scene.discretisation) {
-    answer.discretisation.longest_m = scene.geometry.length_m / (modal_drive(scene).modes - 0.5);
-    // Ovalling modes of a long pillar end within a diameter of its top.
-    const double two_diameters_m = 2.0 * scene.geometry.diameter_m;
-    if (scene.geometry.length_m > 40.0 * two_diameters_m) {
-      answer.discretisation.longest_m = std::min(answer.discretisation.longest_m, two_diameters_m);
-    }
+// Modes under a pressure depend on a stress as well, and those of a material that relaxes on moduli at
+// their own frequency.
+NearbyPillars modal_nearby(const PillarScene& scene, const Discretisation& mesh) {
+  NearbyPillars nearby;
+  if (is_pressed(scene) || !scene.pillar.terms.empty()) return nearby;
+  for (const ModeFamily& family : mode_families(scene)) {
+    nearby.push_back(nearby_model_of(scene, family.motion, modal_mesh(scene, mesh).mesh));
+    nearby.back()->find_modes(modes_of_family(scene, nearby.back()->model()));
   }
-  if (!scene.discretisation) answer.discretisation.grades_top = is_pressed(scene);
-  const double rounding = avoid_rounding(scene, answer.discretisation);
+  return nearby;
+}
+
+void run_modal(const PillarScene& scene, SceneAnswer& answer) {
+  const ModalMesh modal = modal_mesh(scene, answer.discretisation);
+  answer.discretisation = modal.mesh;
   const std::unique_ptr<PillarModel> axial = pressed_model(scene, answer.discretisation);
   try {
     for (const ModeFamily& family : mode_families(scene))
@@ -165,7 +174,7 @@ void run_modal(const PillarScene& scene, SceneAnswer& answer) {
   } catch (const BeyondBuckling& beyond) {
     judge_buckling(scene, beyond);
   }
-  add_rounding(scene, rounding, answer);
+  add_rounding(scene, modal.rounding, answer);
   note_rigid_motions(scene, answer);
 }
 
@@ -269,6 +278,7 @@ Analysis modal_analysis() {
           .run = run_modal,
           .push_Pa = pressure_Pa,
           .fields = modal_fields,
+          .solve_nearby = modal_nearby,
           .relaxation = modal_relaxation,
           .film_compliance = modal_film_compliance,
           .geometric_stiffness = modal_geometric_stiffness};

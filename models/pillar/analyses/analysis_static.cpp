@@ -67,9 +67,11 @@ void run_elastic(const PillarScene& scene, SceneAnswer& answer) {
   } else {
     answer.results.push_back({"top_displacement", moved_m * pressure_Pa, "m"});
   }
-  const SolutionRest rest(axial, per_Pa.unknowns);
-  const double unresolved = missing_share(rest, rest, traction.dot(per_Pa.unknowns));
-  for (SceneResult& result : answer.results) result.unresolved = unresolved;
+  if (scene.nearby == nullptr) {
+    const SolutionRest rest(axial, per_Pa.unknowns);
+    const double unresolved = missing_share(rest, rest, traction.dot(per_Pa.unknowns));
+    for (SceneResult& result : answer.results) result.unresolved = unresolved;
+  }
   add_stresses(axial, state, answer);
   if (scene.rubber) {  // by equilibrium
     const double bond_m = bond_radius_m(scene.geometry);
@@ -198,6 +200,20 @@ std::vector<SectionGrid> static_fields(const PillarScene& scene, const Discretis
   return {at.grid};
 }
 
+NearbyPillars static_nearby(const PillarScene& scene, const Discretisation& mesh) {
+  NearbyPillars nearby;
+  if (is_large(scene)) return nearby;
+  if (is_lateral(scene)) {
+    nearby.push_back(nearby_electric_model_of(scene, lateral_motion(scene), mesh));
+  } else if (!scene.electrodes) {
+    nearby.push_back(nearby_model_of(scene, axial_motion(scene), mesh));
+  } else if (!scene.one_way_potential) {
+    nearby.push_back(nearby_electric_model_of(scene, axial_motion(scene), mesh));
+  }
+  for (const auto& one : nearby) one->solve();
+  return nearby;
+}
+
 // Change of the stress at half the radius over E_pillar/E_film times min(1, t/R); the factor is the
 // largest seen over random scenes.
 constexpr double kStressShare = 2.0;
@@ -261,6 +277,7 @@ Analysis static_analysis() {
           .run = run_static,
           .push_Pa = pressure_Pa,
           .fields = static_fields,
+          .solve_nearby = static_nearby,
           .why_two_way = static_why_two_way,
           .why_small_strain = static_why_small_strain,
           .film_compliance = static_film_compliance};

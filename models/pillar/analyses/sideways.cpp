@@ -110,8 +110,10 @@ void run_sideways(const PillarScene& scene, SceneAnswer& answer) {
   } else {
     answer.results.push_back({"top_displacement", force_N * moved_m, "m"});
   }
-  const SolutionRest rest(model, unit.unknowns);
-  note_unresolved_sideways(missing_share(rest, rest, moved_m), 0.0, answer);
+  if (scene.nearby == nullptr) {
+    const SolutionRest rest(model, unit.unknowns);
+    note_unresolved_sideways(missing_share(rest, rest, moved_m), 0.0, answer);
+  }
   if (!scene.electrodes) return;
   const double mean_V = quadrant_mean_V(model, unit, free_face_m(scene), model.radius_m());
   answer.results.push_back({"quadrant_voltage", force_N * mean_V, "V"});

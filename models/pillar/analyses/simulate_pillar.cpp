@@ -6,6 +6,9 @@
 #include "models/pillar/analyses/top_load.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 
+#include <memory>
+#include <optional>
+
 namespace viscard {
 
 SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mesh) {
@@ -15,6 +18,22 @@ SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mes
   // Only the errors of results that the scene wants are watched.
   for (SceneResult& result : answer.results) result.is_wanted = asks_for(scene, result.name);
   return answer;
+}
+
+FirstOrderAnswers first_order_answers(const PillarScene& scene, const Discretisation& mesh) {
+  const Analysis& analysis = analysis_of(scene);
+  if (analysis.solve_nearby == nullptr) return {};
+  const auto nearby = std::make_shared<const NearbyPillars>(analysis.solve_nearby(scene, mesh));
+  if (nearby->empty()) return {};
+  return [nearby, mesh](const PillarScene& other) -> std::optional<SceneAnswer> {
+    PillarScene close = other;
+    close.nearby = nearby;
+    try {
+      return pillar_answer_on(close, mesh);
+    } catch (const NotNearby&) {
+      return std::nullopt;
+    }
+  };
 }
 
 SceneAnswer simulate_pillar(const PillarScene& scene) {

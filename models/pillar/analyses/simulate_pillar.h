@@ -3,6 +3,8 @@
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/scene/common/scene_answer.h"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,5 +25,12 @@ SceneAnswer simulate_pillar(const PillarScene& scene);
 
 // The same on one mesh, without mesh errors.
 SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mesh);
+
+// Answers on the mesh, to first order in the difference, of scenes that differ from this one in
+// quantities alone. The scene is solved once, and every answer reuses its solutions: models/pillar/README.md,
+// eq. 26. Empty if the analysis has no such answers. There is none where only an answer of its own will
+// do: if the mesh gets other elements, and for other lengths at nu = 0.5.
+using FirstOrderAnswers = std::function<std::optional<SceneAnswer>(const PillarScene&)>;
+FirstOrderAnswers first_order_answers(const PillarScene& scene, const Discretisation& mesh);
 
 }  // namespace viscard

@@ -15,8 +15,7 @@ QuadrantAnswer piezo_quadrants(const PillarModel& lateral, double force_N) {
   const Eigen::VectorXd push = unit_top_force(lateral);
   Eigen::VectorXd unit_charge = Eigen::VectorXd::Zero(push.size());
   unit_charge[electrode] = 1.0;
-  StiffnessFactor factor;
-  lateral.factor(lateral.stiffness(), factor);
+  const StiffnessFactor factor = lateral.factored();
   Eigen::VectorXd source_by_charge;
   const Eigen::VectorXd by_charge = factor.solve(unit_charge, &source_by_charge);
   QuadrantAnswer answer;
@@ -35,6 +34,7 @@ QuadrantAnswer piezo_quadrants(const PillarModel& lateral, double force_N) {
   const double per_V = 4.0 / std::numbers::pi / (by_charge[electrode] * scale_V);
   answer.driven_per_V = {per_V * by_charge, per_V * source_by_charge};
   answer.displacement_per_V_m = push.dot(answer.driven_per_V.unknowns);
+  if (lateral.nearby() != nullptr) return answer;  // its errors are those of the nearby pillar
   const SolutionRest shorted(lateral, state.unknowns);
   answer.rest.displacement = missing_share(shorted, shorted, force_N * answer.top_displacement_m);
   answer.rest.charge = missing_share(shorted, SolutionRest(lateral, by_charge), open_potential);

@@ -46,11 +46,10 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
   if (electrode < 0) {
     throw std::invalid_argument("the film has no electrode; its voltage is undefined");
   }
-  StiffnessFactor factor;
-  model.factor(model.stiffness(), factor);
   const Eigen::VectorXd traction = model.top_traction();
   PiezoAnswer answer =
-      piezo_answer(factor, traction, electrode, model.potential_scale_V(), pressure_Pa);
+      piezo_answer(model.factored(), traction, electrode, model.potential_scale_V(), pressure_Pa);
+  if (model.nearby() != nullptr) return answer;  // its errors are those of the nearby pillar
   answer.rest = piezo_rest(model, {answer.open.unknowns, answer.by_charge, {}},
                            pressure_Pa * traction.dot(answer.open.unknowns));
   return answer;

@@ -37,9 +37,16 @@ PillarState operator*(double factor, PillarState state) {
 
 PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
                          const PillarMedia& media, const ModelOptions& options)
+    : PillarModel(geometry, discretisation, media, options, nullptr, nullptr) {}
+
+PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
+                         const PillarMedia& media, const ModelOptions& options,
+                         const PillarModel* nearby, const NearbySolutions* solutions)
     : geometry_(with_electrode_edge(geometry, options.electrodes)),
       options_(options),
-      mesh_(pillar_mesh(geometry_, discretisation)) {
+      mesh_(pillar_mesh(geometry_, discretisation)),
+      nearby_(nearby),
+      nearby_solutions_(solutions) {
   if (geometry.film.has_value() != media.film.has_value()) {
     throw std::invalid_argument("a film needs its material, and a material its film");
   }
@@ -60,6 +67,12 @@ PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& d
     kinematics = with_potential(kinematics, potential_scale_V_);
   }
   DofMap dofs = make_dofs(kinematics);
+  if (nearby != nullptr) {
+    require_nearby(dofs);
+    system_ =
+        std::make_unique<DiscreteSystem>(mesh_.section, std::move(kinematics), nearby->system());
+    return;
+  }
   system_ = std::make_unique<DiscreteSystem>(mesh_.section, std::move(kinematics), std::move(dofs));
 }
 
@@ -112,6 +125,23 @@ DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
   return dofs;
 }
 
+void PillarModel::require_nearby(const DofMap& dofs) const {
+  const PillarModel& other = *nearby_;
+  const bool has_same_elements =
+      mesh_.section.elements() == other.mesh_.section.elements() && dofs == other.system().dofs();
+  if (!has_same_elements) throw NotNearby("the mesh has other elements");
+  for (std::size_t i = 0; i < media_.size(); ++i) {
+    if (condenses_pressure(media_[i]) != condenses_pressure(other.media_[i])) {
+      throw NotNearby("pressures are condensed in one of two materials alone");
+    }
+    const bool is_incompressible = std::isinf(media_[i].bulk_Pa);
+    if (is_incompressible != std::isinf(other.media_[i].bulk_Pa) ||
+        (is_incompressible && !(geometry_ == other.geometry_))) {
+      throw NotNearby("an incompressible pillar has other lengths");
+    }
+  }
+}
+
 bool PillarModel::is_plane_stress() const {
   return options_.plane == PlaneState::kStress && (options_.motion == Motion::kPlaneSymmetric ||
                                                    options_.motion == Motion::kPlaneAntisymmetric);
@@ -134,68 +164,6 @@ Eigen::MatrixXd PillarModel::elastic_form(const Medium& medium) const {
 
 double PillarModel::mean_modulus_Pa(int region) const {
   return elastic_form(medium(region)).diagonal().head(6).mean();
-}
-
-SymmetricSparse PillarModel::stiffness_of(const std::vector<int>& regions) const {
-  const std::vector<OperatorRow> rows = system_->kinematics().strain_and_field();
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  std::vector<Eigen::MatrixXd> forms(media_.size());
-  std::vector<double> bulk_Pa(media_.size(), 0.0);
-  for (const int region : regions) {
-    const auto i = static_cast<std::size_t>(region);
-    forms[i] = elastic_form(media_[i]);
-    // An elastic region among electric ones.
-    if (forms[i].rows() < n) forms[i].conservativeResizeLike(Eigen::MatrixXd::Zero(n, n));
-    bulk_Pa[i] = condensed_bulk_Pa(media_[i]);
-  }
-  SymmetricSparse matrix = system_->form(rows, forms);
-  const bool any = std::any_of(bulk_Pa.begin(), bulk_Pa.end(), [](double K) { return K > 0.0; });
-  if (any) matrix.coeffs() += system_->volume_form(bulk_Pa, true).coeffs();
-  return matrix;
-}
-
-SymmetricSparse PillarModel::stiffness() const {
-  return media_.size() == 1 ? stiffness_of(std::vector<int>{kPillarRegion})
-                            : stiffness_of(std::vector<int>{kPillarRegion, kFilmRegion});
-}
-
-SymmetricSparse PillarModel::stiffness_of(int region) const {
-  return stiffness_of(std::vector<int>{region});
-}
-
-SymmetricSparse PillarModel::mass() const {
-  std::vector<Eigen::MatrixXd> forms;
-  for (const Medium& medium : media_) {
-    forms.push_back(medium.rho_kg_m3 * Eigen::MatrixXd::Identity(3, 3));
-  }
-  return system_->form(system_->kinematics().displacement, forms);
-}
-
-void PillarModel::factor(const SymmetricSparse& matrix, StiffnessFactor& factor,
-                         double stiffening) const {
-  const Medium& pillar = media_[kPillarRegion];
-  if (!condenses_pressure(pillar) || !std::isinf(pillar.bulk_Pa)) {
-    factor.factor(matrix);
-    return;
-  }
-  SymmetricSparse penalty = system_->volume_form({kPenaltyOverShear * pillar.shear_Pa, 0.0}, true);
-  if (stiffening == 1.0) {
-    factor.factor(matrix);
-  } else {
-    SymmetricSparse stiffer = matrix;
-    stiffer.coeffs() += (stiffening - 1.0) * penalty.coeffs();
-    penalty.coeffs() *= stiffening;
-    factor.factor(stiffer);
-  }
-  factor.constrain(penalty);
-}
-
-PillarState PillarModel::solve(const Eigen::VectorXd& forces) const {
-  StiffnessFactor factored;
-  factor(stiffness(), factored);
-  PillarState state;
-  state.unknowns = factored.solve(forces, &state.pressure_source);
-  return state;
 }
 
 Eigen::VectorXd PillarModel::top_traction() const {

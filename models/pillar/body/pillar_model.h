@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace viscard {
@@ -65,6 +66,12 @@ struct PillarState {
 // The state times a pure number, the factor.
 PillarState operator*(double factor, PillarState state);
 
+// Thrown for a pillar that cannot be answered to first order from a nearby one.
+class NotNearby : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // Mesh, unknowns and matrices of one pillar in one family of motion. Cannot be moved or copied.
 class PillarModel {
  public:
@@ -72,6 +79,12 @@ class PillarModel {
   // film, or a rigid top or electrodes in a family that does not support them (torsion, ovalling).
   PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
               const PillarMedia& media, const ModelOptions& options);
+  // The same with solutions to first order from the given ones of `nearby`, unless it is null. Both must
+  // outlive the model. Throws NotNearby if the mesh does not have the same elements, if a
+  // pressure is condensed in only one of them, and at nu = 0.5 for other lengths.
+  PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
+              const PillarMedia& media, const ModelOptions& options, const PillarModel* nearby,
+              const NearbySolutions* solutions);
   PillarModel(const PillarModel&) = delete;
   PillarModel& operator=(const PillarModel&) = delete;
 
@@ -92,6 +105,12 @@ class PillarModel {
   // `stiffening` multiplies the penalty; the solutions stay the same, up to rounding.
   void factor(const SymmetricSparse& matrix, StiffnessFactor& factor,
               double stiffening = 1.0) const;
+  // The factored stiffness, or what stands for it close to a nearby pillar.
+  StiffnessFactor factored() const;
+  const PillarModel* nearby() const { return nearby_; }
+  // Stiffness times u without the matrix; at nu = 0.5 the pressures are those of the source.
+  Eigen::VectorXd stiffness_times(const Eigen::VectorXd& u, const Eigen::VectorXd& source) const;
+  Eigen::VectorXd mass_times(const Eigen::VectorXd& u) const;
 
   // Force per unit pressure pulling along +z on the top; axial families only. N per Pa.
   Eigen::VectorXd top_traction() const;
@@ -116,9 +135,19 @@ class PillarModel {
 
  private:
   DofMap make_dofs(const Kinematics& kinematics);
+  void require_nearby(const DofMap& dofs) const;
   bool condenses_pressure(const Medium& medium) const;
   double condensed_bulk_Pa(const Medium& medium) const;  // or its penalty; 0: not condensed
   SymmetricSparse stiffness_of(const std::vector<int>& regions) const;
+  // Forms and condensed bulk moduli of regions, which make the stiffness.
+  struct StiffnessParts {
+    std::vector<Eigen::MatrixXd> forms;
+    std::vector<double> bulk_Pa;
+    bool condenses() const;
+  };
+  std::vector<Eigen::MatrixXd> mass_forms() const;
+  StiffnessParts stiffness_parts(const std::vector<int>& regions) const;
+  std::vector<int> all_regions() const;
   Eigen::MatrixXd elastic_form(const Medium& medium) const;
 
   PillarGeometry geometry_;
@@ -127,6 +156,8 @@ class PillarModel {
   std::vector<Medium> media_;
   double potential_scale_V_ = 1.0;
   int electrode_handle_ = -1;
+  const PillarModel* nearby_ = nullptr;
+  const NearbySolutions* nearby_solutions_ = nullptr;
   std::unique_ptr<DiscreteSystem> system_;
 };
 

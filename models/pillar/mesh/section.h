@@ -22,6 +22,7 @@ struct SectionElement {
   int row = 0;
   int region = 0;
   std::vector<int> nodes;  // (p + 1)^2, x fastest
+  bool operator==(const SectionElement&) const = default;
 };
 
 // The elements and nodes of a section.

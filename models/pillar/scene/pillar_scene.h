@@ -1,11 +1,13 @@
 #pragma once
 
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/pillar/body/nearby_pillar.h"
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/scene/pillar_drives.h"
 #include "models/pillar/time/readout.h"
 #include "models/scene/common/scene_common.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -35,6 +37,9 @@ struct PillarScene : SceneCommon {
   double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio
   bool small_strain = false;       // a pillar of rubber is answered as a linear one
   bool one_way_potential = false;  // the film's potential follows its strain and does not act back
+
+  // Set for answers to first order (first_order_answers() of analyses/simulate_pillar.h).
+  std::shared_ptr<const NearbyPillars> nearby;
 
   static constexpr const char* kKind = "pillar";  // geometry.kind in a scene file
   static constexpr ToleranceRange kTolerances{1e-9, "1e-9 and 1"};

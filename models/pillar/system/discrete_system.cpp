@@ -1,76 +1,14 @@
 #include "models/pillar/system/discrete_system.h"
 
 #include "models/maths/dense.h"
+#include "models/pillar/system/kronecker_form.h"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <utility>
 
 namespace viscard {
 namespace {
-
-// int x^(x_power - k) d^di d^dj on every element of a line: [element][k][di][dj].
-class LineIntegrals {
- public:
-  LineIntegrals(const LineMesh& line, int x_power, int inverse_powers) {
-    for (int e = 0; e < line.element_count(); ++e) {
-      auto& of_element = values_.emplace_back();
-      for (int k = 0; k < inverse_powers; ++k) {
-        for (int di = 0; di < 2; ++di) {
-          for (int dj = 0; dj < 2; ++dj) {
-            of_element[index(k, di, dj)] = line.integral(e, x_power - k, di, dj);
-          }
-        }
-      }
-    }
-  }
-  const Eigen::MatrixXd& operator()(int element, int k, int di, int dj) const {
-    return values_[static_cast<std::size_t>(element)][index(k, di, dj)];
-  }
-
- private:
-  static std::size_t index(int k, int di, int dj) {
-    return static_cast<std::size_t>(4 * k + 2 * di + dj);
-  }
-  std::vector<std::array<Eigen::MatrixXd, 12>> values_;
-};
-
-// Coefficients of one pair of fields: [dz_i][dz_j] -> list of (inverse power, dx_i, dx_j, factor).
-struct XTerm {
-  int inverse_x, dx_i, dx_j;
-  double factor;
-};
-struct FieldPair {
-  std::array<std::vector<XTerm>, 4> by_dz;
-};
-
-std::vector<FieldPair> field_pairs(const std::vector<OperatorRow>& rows, const Eigen::MatrixXd& D,
-                                   int field_count) {
-  std::vector<FieldPair> pairs(static_cast<std::size_t>(field_count * field_count));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = 0; j < rows.size(); ++j) {
-      const double d = D(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      if (d == 0.0) continue;
-      for (const OperatorTerm& a : rows[i]) {
-        for (const OperatorTerm& b : rows[j]) {
-          auto& list = pairs[static_cast<std::size_t>(a.field * field_count + b.field)]
-                           .by_dz[static_cast<std::size_t>(2 * a.dz + b.dz)];
-          const int k = a.inverse_x + b.inverse_x;
-          const auto same = std::find_if(list.begin(), list.end(), [&](const XTerm& t) {
-            return t.inverse_x == k && t.dx_i == a.dx && t.dx_j == b.dx;
-          });
-          if (same != list.end()) {
-            same->factor += d * a.factor * b.factor;
-          } else {
-            list.push_back({k, a.dx, b.dx, d * a.factor * b.factor});
-          }
-        }
-      }
-    }
-  }
-  return pairs;
-}
 
 // block += kron(z, x) with x fastest.
 void add_kronecker(const Eigen::MatrixXd& z, const Eigen::MatrixXd& x,
@@ -93,9 +31,18 @@ void add_kronecker(const Eigen::MatrixXd& z, const Eigen::MatrixXd& x,
 DiscreteSystem::DiscreteSystem(const Section& section, Kinematics kinematics, DofMap dofs)
     : section_(&section), kinematics_(std::move(kinematics)), dofs_(std::move(dofs)) {
   if (dofs_.count() == 0) throw std::invalid_argument("every unknown is held; nothing can move");
-  order_elements();
-  build_pattern();
+  const auto structure = std::make_shared<Structure>();
+  order_elements(*structure);
+  build_pattern(*structure);
+  structure_ = structure;
 }
+
+DiscreteSystem::DiscreteSystem(const Section& section, Kinematics kinematics,
+                               const DiscreteSystem& like)
+    : section_(&section),
+      kinematics_(std::move(kinematics)),
+      dofs_(like.dofs_),
+      structure_(like.structure_) {}
 
 std::vector<int> DiscreteSystem::element_dofs(const SectionElement& element) const {
   std::vector<int> dofs;
@@ -106,7 +53,7 @@ std::vector<int> DiscreteSystem::element_dofs(const SectionElement& element) con
   return dofs;
 }
 
-void DiscreteSystem::order_elements() {
+void DiscreteSystem::order_elements(Structure& structure) const {
   std::vector<std::pair<int, int>> found;  // unknown, local number
   for (const SectionElement& element : section_->elements()) {
     found.clear();
@@ -120,23 +67,24 @@ void DiscreteSystem::order_elements() {
       order.dofs.push_back(dof);
       order.local.push_back(local);
     }
-    local_.push_back(std::move(order));
+    structure.local.push_back(std::move(order));
   }
 }
 
-void DiscreteSystem::build_pattern() {
+void DiscreteSystem::build_pattern(Structure& structure) const {
+  const std::vector<LocalOrder>& local = structure.local;
   std::vector<std::vector<int>> elements_of(static_cast<std::size_t>(size()));
   std::size_t most = 0;  // entries of all elements; shared ones count repeatedly
-  for (std::size_t e = 0; e < local_.size(); ++e) {
-    most += local_[e].dofs.size() * (local_[e].dofs.size() + 1) / 2;
+  for (std::size_t e = 0; e < local.size(); ++e) {
+    most += local[e].dofs.size() * (local[e].dofs.size() + 1) / 2;
     int last = -1;
-    for (const int dof : local_[e].dofs) {
+    for (const int dof : local[e].dofs) {
       if (dof != last) elements_of[static_cast<std::size_t>(dof)].push_back(static_cast<int>(e));
       last = dof;
     }
   }
-  column_start_.assign(1, 0);
-  row_.reserve(most);
+  structure.column_start.assign(1, 0);
+  structure.row.reserve(most);
   std::vector<int> seen(elements_of.size(), -1);
   std::vector<int> rows;
   for (int column = 0; column < size(); ++column) {
@@ -146,7 +94,7 @@ void DiscreteSystem::build_pattern() {
     if (column == 0 || *own != *(own - 1)) {
       rows.clear();
       for (const int e : *own) {
-        for (const int row : local_[static_cast<std::size_t>(e)].dofs) {
+        for (const int row : local[static_cast<std::size_t>(e)].dofs) {
           if (row < column || seen[static_cast<std::size_t>(row)] == column) continue;
           seen[static_cast<std::size_t>(row)] = column;
           rows.push_back(row);
@@ -155,23 +103,24 @@ void DiscreteSystem::build_pattern() {
       std::sort(rows.begin(), rows.end());
     }
     const auto first = std::lower_bound(rows.begin(), rows.end(), column);
-    row_.insert(row_.end(), first, rows.end());
-    column_start_.push_back(static_cast<int>(row_.size()));
+    structure.row.insert(structure.row.end(), first, rows.end());
+    structure.column_start.push_back(static_cast<int>(structure.row.size()));
   }
 }
 
 SymmetricSparse DiscreteSystem::zero() const {
+  const std::vector<int>&column_start = structure_->column_start, &row = structure_->row;
   SymmetricSparse matrix(size(), size());
-  matrix.resizeNonZeros(static_cast<Eigen::Index>(row_.size()));
-  std::copy(column_start_.begin(), column_start_.end(), matrix.outerIndexPtr());
-  std::copy(row_.begin(), row_.end(), matrix.innerIndexPtr());
+  matrix.resizeNonZeros(static_cast<Eigen::Index>(row.size()));
+  std::copy(column_start.begin(), column_start.end(), matrix.outerIndexPtr());
+  std::copy(row.begin(), row.end(), matrix.innerIndexPtr());
   matrix.coeffs().setZero();
   return matrix;
 }
 
 void DiscreteSystem::scatter(std::size_t element, const Eigen::MatrixXd& block,
                              SymmetricSparse& matrix) const {
-  const auto& [dofs, local] = local_[element];
+  const auto& [dofs, local] = structure_->local[element];
   const int* outer = matrix.outerIndexPtr();
   const int* inner = matrix.innerIndexPtr();
   double* values = matrix.valuePtr();
@@ -191,40 +140,21 @@ SymmetricSparse DiscreteSystem::form(const std::vector<OperatorRow>& rows,
   const int fields = kinematics_.field_count;
   const Eigen::Index n1 = section_->degree() + 1;
   const Eigen::Index nn = n1 * n1;
-  const LineIntegrals in_x(section_->x(), kinematics_.x_power, kinematics_.x_power == 1 ? 3 : 1);
-  const LineIntegrals in_z(section_->z(), 0, 1);
-  std::vector<std::vector<FieldPair>> pairs;
-  for (const Eigen::MatrixXd& D : per_region) {
-    pairs.push_back(D.size() == 0 ? std::vector<FieldPair>{}
-                                  : field_pairs(rows, kinematics_.measure * D, fields));
-  }
+  const KroneckerForm products(*section_, kinematics_, rows, per_region);
   SymmetricSparse matrix = zero();
   Eigen::MatrixXd block(fields * nn, fields * nn);
-  Eigen::MatrixXd x(n1, n1);
   for (std::size_t e = 0; e < section_->elements().size(); ++e) {
     const SectionElement& element = section_->elements()[e];
-    const auto& of_region = pairs.at(static_cast<std::size_t>(element.region));
-    if (of_region.empty()) continue;
+    if (products.is_empty(element.region)) continue;
     if (section_->is_stretched(element.region)) {
       const Eigen::MatrixXd& D = per_region[static_cast<std::size_t>(element.region)];
       scatter(e, quadrature_form(rows, element, [&](double, double) { return D; }), matrix);
       continue;
     }
     block.setZero();
-    for (int f = 0; f < fields; ++f) {
-      for (int g = 0; g <= f; ++g) {  // the lower triangle
-        const FieldPair& pair = of_region[static_cast<std::size_t>(f * fields + g)];
-        for (int dz = 0; dz < 4; ++dz) {
-          const auto& terms = pair.by_dz[static_cast<std::size_t>(dz)];
-          if (terms.empty()) continue;
-          x.setZero();
-          for (const XTerm& t : terms)
-            x += t.factor * in_x(element.column, t.inverse_x, t.dx_i, t.dx_j);
-          add_kronecker(in_z(element.row, 0, dz / 2, dz % 2), x,
-                        block.block(f * nn, g * nn, nn, nn));
-        }
-      }
-    }
+    products.each(element, [&](int f, int g, const Eigen::MatrixXd& z, const Eigen::MatrixXd& x) {
+      add_kronecker(z, x, block.block(f * nn, g * nn, nn, nn));
+    });
     scatter(e, block, matrix);
   }
   return matrix;

@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace viscard {
@@ -22,6 +23,8 @@ class DiscreteSystem {
  public:
   // The section must outlive the system.
   DiscreteSystem(const Section& section, Kinematics kinematics, DofMap dofs);
+  // On a section that differs from that of `like` only in the places of its nodes.
+  DiscreteSystem(const Section& section, Kinematics kinematics, const DiscreteSystem& like);
 
   const Section& section() const { return *section_; }
   const Kinematics& kinematics() const { return kinematics_; }
@@ -36,6 +39,13 @@ class DiscreteSystem {
   // discontinuous Q_(p-2); this is a pressure of that space, condensed per element (eq. 14). Degree
   // 1 projects on constants. Source: Stenberg & Suri, Math. Comp. 65 (1996) 1.
   SymmetricSparse volume_form(const std::vector<double>& per_region, bool projected) const;
+
+  // The same forms applied to a vector, element by element without their matrices.
+  Eigen::VectorXd form_times(const std::vector<OperatorRow>& rows,
+                             const std::vector<Eigen::MatrixXd>& per_region,
+                             const Eigen::VectorXd& solution) const;
+  Eigen::VectorXd volume_form_times(const std::vector<double>& per_region, bool projected,
+                                    const Eigen::VectorXd& solution) const;
 
   // int value(field) over the part of the horizontal line z = breaks[row] between the columns
   // [first, last), weighted with x^power: force per unit traction, m^2, for power = 0.
@@ -80,8 +90,6 @@ class DiscreteSystem {
   void scatter(std::size_t element, const Eigen::MatrixXd& local, SymmetricSparse& matrix) const;
 
  private:
-  void order_elements();
-  void build_pattern();
   // int L (div N) and int L L of one element, L the Legendre products of Q_(p-2).
   struct Projection {
     int degree = 0;
@@ -97,15 +105,21 @@ class DiscreteSystem {
   const Section* section_;
   Kinematics kinematics_;
   DofMap dofs_;
-  std::vector<int> column_start_;  // the pattern of all matrices, as they store it
-  std::vector<int> row_;
   // Unknowns of an element that are not held, ascending (tied ones appear several times), and the
   // local number of each, which is its index in element_dofs().
   struct LocalOrder {
     std::vector<int> dofs;
     std::vector<int> local;
   };
-  std::vector<LocalOrder> local_;
+  struct Structure {
+    std::vector<int> column_start;  // the pattern of all matrices, as they store it
+    std::vector<int> row;
+    std::vector<LocalOrder> local;
+  };
+  void order_elements(Structure& structure) const;
+  void build_pattern(Structure& structure) const;
+  std::shared_ptr<const Structure>
+      structure_;  // systems that differ in the places of nodes share it
 };
 
 }  // namespace viscard

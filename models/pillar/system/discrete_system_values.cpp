@@ -19,7 +19,7 @@ Eigen::VectorXd DiscreteSystem::element_values(const SectionElement& element,
 
 void DiscreteSystem::scatter(std::size_t element, const Eigen::VectorXd& local,
                              Eigen::VectorXd& vector) const {
-  const auto& [dofs, place] = local_[element];
+  const auto& [dofs, place] = structure_->local[element];
   for (std::size_t i = 0; i < dofs.size(); ++i) vector[dofs[i]] += local[place[i]];
 }
 

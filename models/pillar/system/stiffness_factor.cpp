@@ -49,6 +49,7 @@ void StiffnessFactor::factor(const SymmetricSparse& matrix) {
 
 Eigen::VectorXd StiffnessFactor::solve(const Eigen::VectorXd& right_side,
                                        Eigen::VectorXd* pressure_source) const {
+  if (known_ != nullptr) return solve_nearby(right_side, pressure_source);
   Eigen::VectorXd u = ldlt_.solve(right_side);
   if (penalty_.size() == 0 && pressure_source == nullptr) return u;
   Eigen::VectorXd added = Eigen::VectorXd::Zero(u.size());

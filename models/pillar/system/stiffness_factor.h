@@ -3,9 +3,13 @@
 #include "models/pillar/system/discrete_system.h"
 #include "models/pillar/system/supernodal_factor.h"
 
+#include <functional>
 #include <utility>
+#include <vector>
 
 namespace viscard {
+
+struct NearbySolutions;
 
 // L D L^T of a symmetric matrix that is positive definite or quasi-definite (elasticity coupled to
 // an electric potential). For such matrices the factors exist in any elimination order. Source:
@@ -22,6 +26,13 @@ class StiffnessFactor {
   // `penalty` is the matrix C, scaled as it is in the factored matrix.
   void constrain(const SymmetricSparse& penalty) { penalty_ = penalty; }
 
+  // Instead of factor(): for a matrix close to one that is factored already. solve() is then exact to
+  // first order in the difference and costs one solution with the known factors (NearbySolutions).
+  // product(u, source) is the matrix times u; the part of a constraint acts on the source of the
+  // pressures. `known` must outlive this.
+  using Product = std::function<Eigen::VectorXd(const Eigen::VectorXd&, const Eigen::VectorXd&)>;
+  void approximate(const NearbySolutions& known, Product product);
+
   // With a constraint, `pressure_source` (if given) receives the w whose penalty force C w equals
   // the force of the pressures; the pressures are the penalty modulus times the projected div w.
   // Without a constraint it receives u.
@@ -32,11 +43,30 @@ class StiffnessFactor {
   int negative_pivots() const;
 
  private:
+  Eigen::VectorXd solve_nearby(const Eigen::VectorXd& right_side,
+                               Eigen::VectorXd* pressure_source) const;
   void constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& source) const;
 
   SupernodalFactor ldlt_;
   bool is_analysed_ = false;
   SymmetricSparse penalty_;  // empty: no constraint
+  const NearbySolutions* known_ = nullptr;
+  Product product_;  // with known_
+};
+
+// A factored matrix K0 and some of its solutions, from which those of a matrix K close to it follow: with
+// u0 of K0 u0 = f0 and a load f close to f0,
+//   u = u0 + K0^-1 (f - K u0),
+// one step of iterative refinement. Its value at K = K0 and its derivatives,
+//   u' = K0^-1 (f' - K' u0),
+// are those of K^-1 f, so differences of it give the derivatives of the solution with no further
+// factorisation (eq. 26). Source: Haftka & Gurdal, Elements of Structural Optimization (1992), 7.2.
+struct NearbySolutions {
+  StiffnessFactor factor;
+  std::vector<Eigen::VectorXd> loads, solutions, sources;  // sources of the pressures
+
+  // Solves for a load and keeps the solution.
+  void add(const Eigen::VectorXd& load);
 };
 
 // y = A x for the stored lower triangle.

@@ -113,6 +113,7 @@ TEST_CASE("a mesh without an answer does not end a cost study", "[io][scene]") {
   CHECK(study.reference == trials.references[trials.references.size() - 2].discretisation);
   // Between the reference of degree 8 and the first that has an answer.
   CHECK(study.reference_error == Approx(1e-4).epsilon(1e-2));
+  CHECK(study.why_alone.empty());
   trials = whole;
   for (CostTrial& trial : trials.references) fails(trial);
   CHECK_THROWS_WITH(study_of(trials, {.budget_s = 1e6, .clock = hours.clock()}),
@@ -153,11 +154,25 @@ TEST_CASE("rows that are left out are predicted from those that ran", "[io][scen
   CHECK(law->seconds == Approx(kPerUnknown_s).epsilon(1e-4));
 }
 
+TEST_CASE(
+    "a reference that stands alone because finer ones failed says so, not that time was short",
+    "[io][scene]") {
+  Hours hours;
+  CostTrials trials = trials_of_law(hours, 1.0);
+  for (std::size_t i = 1; i < trials.references.size(); ++i) {
+    trials.references[i].run = []() -> SceneAnswer { throw std::runtime_error("no equilibrium"); };
+  }
+  const CostStudy study = study_of(trials, {.budget_s = 1e6, .clock = hours.clock()});
+  CHECK(std::isinf(study.reference_error));
+  CHECK(study.why_alone == "no second one has an answer (no equilibrium)");
+}
+
 TEST_CASE("without time for a second reference no row is recommended", "[io][scene]") {
   Hours hours;
   const CostStudy study =
       study_of(trials_of_law(hours, 1.0), {.budget_s = 1e-3, .clock = hours.clock()});
   CHECK(std::isinf(study.reference_error));
+  CHECK(study.why_alone == "the budget allowed no second one");
   for (const CostAdvice& advice : study.advice) CHECK(advice.row == -1);
 }
 

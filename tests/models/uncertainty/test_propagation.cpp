@@ -74,6 +74,32 @@ TEST_CASE("derivatives are extrapolated to the rounding of the function",
   CHECK(found.disagreement[1] < 1e-12);
 }
 
+TEST_CASE("derivatives come from a function to first order where it has answers that settle",
+          "[models][uncertainty][gradient]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Formula own = [](const VectorXd& s) {
+    return 2.0 + std::sin(0.1 * s[0]) + 0.3 * s[1] + 0.2 * s[2];
+  };
+  const auto with = [&](const Formula& first_order) {
+    return linear_answer(batch_of({own}), kThree, 1e-6, batch_of({first_order}));
+  };
+  // The tangent of its sine, no answers off the values by "b", and a jump beside the value by "c".
+  const LinearAnswer found = with([&](const VectorXd& s) {
+    return s[1] != 0.0 ? nan : 2.0 + 0.1 * s[0] + 0.2 * s[2] + (s[2] > 1e-3 ? 0.5 : 0.0);
+  });
+  CHECK(found.by_solver == std::vector<bool>{true, false, false});
+  CHECK(found.slope(0, 0) == Approx(0.1).epsilon(1e-10));
+  CHECK(found.slope(0, 1) == Approx(0.3).epsilon(1e-10));
+  CHECK(found.slope(0, 2) == Approx(0.2).epsilon(1e-10));
+  CHECK(found.n_first_order > 6);
+  CHECK(found.n_first_order < found.n_answers);
+  // A function of another value is not the answer's.
+  const LinearAnswer other = with([](const VectorXd& s) { return 2.001 + s[0] + s[1] + s[2]; });
+  CHECK(other.by_solver == std::vector<bool>{false, false, false});
+  CHECK(other.slope(0, 0) == Approx(0.1).epsilon(1e-9));
+  CHECK(other.n_first_order == 1);
+}
+
 TEST_CASE("the linear interval of a sum is that of its distribution", "[models][uncertainty]") {
   const std::vector<UncertainInput> normal{{"a"}, {"b", 2}};
   const auto sum = [](const VectorXd& s) { return 1.0 + 3.0 * s[0] + 4.0 * s[2]; };
