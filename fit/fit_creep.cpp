@@ -8,14 +8,17 @@
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/time_rounding.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/end_rows.h"
+#include "fit/samples/rounded_times.h"
 #include "fit/samples/spikes.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/maths/text_of_number.h"
 
 #include <cmath>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -91,6 +94,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     throw std::runtime_error("the first time is " + text_of(clean.column(0).front()) +
                              " s; t = 0 must be the step of stress (set it with --time-zero)");
   }
+  const std::optional<double> rounded_s = rounding_step_s(clean.column(0));
   const EndRows ends = drop_end_rows(clean, StepRecord::kCreep);
   const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
   clean.drop(spikes);
@@ -108,6 +112,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   add_left_out(result, left_out::kNotANumber, clean.n_left_out());
   add_spikes(result, spikes.size());
   add_end_rows(result, ends, "1/Pa");
+  if (rounded_s) report_time_rounding(*rounded_s, /*is_spread=*/false, result);
   flag_left_out(result);
   flag_lack_of_fit({.unit = "1/Pa"}, result);
   return result;

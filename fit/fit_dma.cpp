@@ -2,6 +2,7 @@
 
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/kramers_kronig.h"
+#include "fit/assembly/slow_doubt.h"
 #include "fit/assembly/solid_or_liquid.h"
 #include "fit/curves/dma_model.h"
 #include "fit/intervals/flags.h"
@@ -31,8 +32,8 @@ namespace {
 using Index = Eigen::Index;
 
 // Adds a flag if storage and loss modulus cannot belong to one linear material.
-void flag_contradiction(const DmaModel& model, FitResult& result) {
-  const std::optional<KramersKronigBreak> found = kramers_kronig_break(model);
+void flag_contradiction(const DmaModel& model, const SpectralState& state, FitResult& result) {
+  const std::optional<KramersKronigBreak> found = kramers_kronig_break(model, state.ln_tau);
   if (!found) return;
   const auto percent = [](double share) { return text_of(100.0 * std::abs(share), 2); };
   const bool is_above = found->excess > 0.0;
@@ -90,7 +91,10 @@ void try_dashpot(const FitOptions& options, const std::vector<int>& blocks,
 void try_slow_dashpot(const FitOptions& options, const std::vector<int>& blocks,
                       const ModelWith& model_with, FittedModel& fitted) {
   // Laws of few parameters are compared with the series as it is within the usual range.
-  if (!options.is_liquid || options.with_laws || !fitted.fit.scores.wants_slower) return;
+  if (!options.is_liquid || options.with_laws) return;
+  const Eigen::VectorXd& usual = fitted.fit.state.ln_tau;
+  const bool is_at_end = usual.size() > 0 && fitted.model->is_longest(usual.maxCoeff());
+  if (!fitted.fit.scores.wants_slower && !is_at_end) return;
   if (!options.constraints.empty() || options.allow_negative || options.with_profiles) return;
   FittedModel other{model_with(/*with_dashpot=*/false, SlowTimes::kFarBeyond), {}};
   other.fit = fit_spectrum(*other.model, blocks, options);
@@ -193,10 +197,12 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
   result.fit_to_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.front());
   const TestWindow window{0.0, 0.0, result.fit_from_s, 3.0 * result.fit_to_s};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
+  carry_slow_doubt(model, fit, 2.0 * std::numbers::pi * frequency_Hz.front(), result);
+  report_highest_storage(frequency_Hz.back(), result);
   report_dashpot(fitted, result);
   if (model.ln_tau_max() > usual_ln_tau) report_slow_dashpot(result);
   examine_moduli(model, fit, result);
-  flag_contradiction(model, result);
+  flag_contradiction(model, fit.state, result);
   if (options.with_curves) add_curves(model, fit.state, result);
   if (options.keep_rows) {
     KeptRows kept{.shape = KeptRows::Shape::kOscillation, .window = window};

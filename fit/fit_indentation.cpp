@@ -11,11 +11,13 @@
 #include "fit/intervals/flags.h"
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/time_rounding.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/chosen_rows.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
 #include "fit/samples/noise_model.h"
+#include "fit/samples/rounded_times.h"
 #include "fit/search/separable.h"
 #include "models/material/systematic_parts.h"
 #include "models/maths/text_of_number.h"
@@ -56,7 +58,9 @@ void flag_saturation(const Column& force_N, FitResult& result) {
 
 void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, FitResult& result) {
   if (time_s.size() < contact + 1 + kLeastContactRows || loaded <= contact) return;
-  const double usual_s = usual_step_s({time_s.data() + contact, time_s.size() - contact});
+  // Rows that share a rounded time are no closer than its step.
+  const double usual_s = std::max(usual_step_s({time_s.data() + contact, time_s.size() - contact}),
+                                  rounding_step_s(time_s).value_or(0.0));
   const double ramp_s = time_s[loaded] - time_s[contact];
   for (std::size_t i = contact + 1; i <= loaded; ++i) {
     const double step_s = time_s[i] - time_s[i - 1];
@@ -209,6 +213,22 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
       });
 }
 
+// A table whose export may have rounded the times.
+FitResult fit_depth_table(const IndentationData& data, const FitOptions& options) {
+  std::optional<RoundedTimes> rounded = rounded_times(data.time_s);
+  if (rounded) {
+    IndentationData spread = data;
+    spread.time_s = std::move(rounded->time_s);
+    FitResult result = fit_measured_depth(spread, options);
+    report_time_rounding(rounded->step_s, /*is_spread=*/true, result);
+    return result;
+  }
+  FitResult result = fit_measured_depth(data, options);
+  const std::optional<double> step_s = rounding_step_s(data.time_s);
+  if (step_s) report_time_rounding(*step_s, /*is_spread=*/false, result);
+  return result;
+}
+
 // Stated uncertainties of frame, load cell and geometry, and their effect on the result.
 void add_systematic_parts_to(const IndentationData& data, FitResult& result) {
   BenchDoubt doubt{.frame_stiffness_N_m = data.frame_stiffness_N_m,
@@ -237,7 +257,7 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
         "its table of force and depth for a sphere or cone");
   }
   FitResult result =
-      data.moves.empty() ? fit_measured_depth(data, options) : fit_stage_indentation(data, options);
+      data.moves.empty() ? fit_depth_table(data, options) : fit_stage_indentation(data, options);
   result.kind = FitKind::kIndentation;
   add_systematic_parts_to(data, result);
   add_left_out(result, left_out::kSaturated, data.n_saturated);

@@ -211,11 +211,15 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
   result.kind = data.loss_Pa.empty() ? FitKind::kRelaxation : FitKind::kDma;
   fill_result(*shifts.model, fit, relaxation_series_of(*shifts.model, options.is_liquid), result);
   result.n_samples = data.argument.size() - all.n_left_out;
-  add_left_out(result, left_out::kNotANumber, all.n_left_out);
+  add_left_out(result, left_out::kNotANumber, all.n_left_out - all.n_of_isotherms);
+  add_left_out(result, left_out::kIsotherm, all.n_of_isotherms);
   flag_left_out(result);
   fill_window(all.segments, curve.factors, result);
   add_identifiability_flags(*shifts.model, fit.state, fit.covariance,
                             {0.0, 0.0, result.fit_from_s, result.fit_to_s}, result);
+  if (result.kind == FitKind::kDma) {
+    report_highest_storage(1.0 / (2.0 * std::numbers::pi * result.fit_from_s), result);
+  }
   flag_left_out(all, result);
   flag_shifts(shifts, curve);
   flag_law(curve);

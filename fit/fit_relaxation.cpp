@@ -9,6 +9,7 @@
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/time_rounding.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
@@ -179,32 +180,13 @@ void check_values(std::span<const double> time_s, std::span<const double> value,
   if (is_step) check_sign(value, "a relaxation modulus", "modulus_Pa");
 }
 
-// Rounded times may be off by half a step, all of them together: the zero of time is as uncertain,
-// and E0 = sum E_i exp(t/tau_i) with it.
-void report_rounded_times(double step_s, FitResult& result) {
-  double early_Pa = result.E_inf_Pa, late_Pa = result.E_inf_Pa;
-  for (const FittedTerm& term : result.terms) {
-    early_Pa += term.modulus_Pa * std::exp(-0.5 * step_s / term.tau_s);
-    late_Pa += term.modulus_Pa * std::exp(0.5 * step_s / term.tau_s);
-  }
-  result.E0_interval_95.low += early_Pa - result.E0_Pa;
-  result.E0_interval_95.high += late_Pa - result.E0_Pa;
-  const std::string step = text_of(step_s, 3);
-  result.flags.push_back(
-      {"times-rounded", 0,
-       "the times are rounded to " + step +
-           " s, so that several rows share each: they were spread evenly about it. If the "
-           "instrument cuts times off, all rows are " +
-           text_of(0.5 * step_s, 3) + " s late (--time-zero -" + text_of(0.5 * step_s, 3) +
-           " corrects that); the interval of E0 includes half a step"});
-}
-
 }  // namespace
 
 FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) {
   const bool is_step = data.strain.empty();
-  const std::optional<RoundedTimes> rounded =
-      is_step ? rounded_times(data.time_s) : std::optional<RoundedTimes>();
+  const std::optional<RoundedTimes> rounded = rounded_times(data.time_s);
+  const std::optional<double> step_s =
+      rounded ? std::optional(rounded->step_s) : rounding_step_s(data.time_s);
   std::vector<std::span<const double>> columns{rounded ? rounded->time_s : data.time_s, data.value};
   if (!is_step) columns.emplace_back(data.strain);
   CleanViews clean(columns, kLeastStepRows);
@@ -233,7 +215,7 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
         {"samples-before-zero", 0, counted(n_early, "sample") + " before t = 0 left out"});
   }
   add_left_out(result, left_out::kBeforeZero, n_early);
-  if (rounded) report_rounded_times(rounded->step_s, result);
+  if (step_s) report_time_rounding(*step_s, rounded.has_value(), result);
   flag_left_out(result);
   return result;
 }

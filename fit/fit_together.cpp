@@ -2,6 +2,7 @@
 
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/joint_spectrum.h"
+#include "fit/assembly/slow_doubt.h"
 #include "fit/assembly/solid_or_liquid.h"
 #include "fit/compare_tests.h"
 #include "fit/intervals/flags.h"
@@ -231,6 +232,10 @@ FitResult fit_as(const std::vector<MaterialTest>& tests, const FitOptions& optio
     result.n_samples += tests[k].own.n_samples;
   }
   report_window(tests, *joint.model, fit, result);
+  const bool are_sweeps = std::all_of(tests.begin(), tests.end(), [](const MaterialTest& test) {
+    return test.own.kind == FitKind::kDma;
+  });
+  if (are_sweeps) carry_slow_doubt(*joint.model, fit, 1.0 / result.fit_to_s, result);
   flag_few_rows(joint, tests, result);
   const Eigen::VectorXd used = leverage_by_group(*joint.model, fit.state, joint.groups);
   compare_tests(joint, fit, noise_freedom(joint, used), result);

@@ -74,6 +74,7 @@ MasterSegments segments_of(const MasterData& data) {
     if (rows.size() < kLeastRows) {
       const std::string number = rows.empty() ? "no row" : "only " + counted(rows.size(), "row");
       all.left_out.push_back(celsius(temperature_C) + " (" + number + " with all values)");
+      all.n_of_isotherms += rows.size();
       continue;
     }
     std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
@@ -106,6 +107,7 @@ void leave_out(MasterSegments& all, std::size_t first, std::size_t last,
   for (std::size_t k = first; k < last; ++k) {
     all.left_out.push_back(celsius(all.segments[k].temperature_C) + " (" + reason + ")");
     all.n_left_out += all.segments[k].value.size();
+    all.n_of_isotherms += all.segments[k].value.size();
   }
   const auto begin = all.segments.begin();
   all.segments.erase(begin + static_cast<std::ptrdiff_t>(first),

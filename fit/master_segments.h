@@ -14,6 +14,7 @@ namespace viscard {
 struct MasterSegments {
   std::vector<MasterSegment> segments;  // ascending temperature
   std::size_t n_left_out = 0;           // rows
+  std::size_t n_of_isotherms = 0;       // those of isotherms that were left out
   std::vector<std::string> left_out;    // isotherms with the reason: "25 C (2 rows)"
 };
 

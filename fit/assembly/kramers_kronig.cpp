@@ -15,16 +15,16 @@ namespace {
 using Index = Eigen::Index;
 
 // Times in ln s. The outermost two stand for a dashpot and a plateau: at 1e-9 of the fastest
-// measured time a term's storage modulus is 1e-9 of its loss modulus.
-Eigen::VectorXd wide_grid(const DmaModel& model) {
+// measured time a term's storage modulus is 1e-9 of its loss modulus. Then the fitted times.
+Eigen::VectorXd wide_grid(const DmaModel& model, const Eigen::VectorXd& fitted) {
   constexpr double kPerDecade = 8.0, kBeyond = 3.0, kFar = 9.0;
   const double ln_10 = std::log(10.0);
   const double low = model.ln_tau_min() - kBeyond * ln_10;
   const double high = model.ln_tau_max() + kBeyond * ln_10;
   const auto inner = static_cast<Index>(std::ceil((high - low) / ln_10 * kPerDecade)) + 1;
-  Eigen::VectorXd grid(inner + 2);
+  Eigen::VectorXd grid(inner + 2 + fitted.size());
   grid << model.ln_tau_min() - kFar * ln_10, Eigen::VectorXd::LinSpaced(inner, low, high),
-      model.ln_tau_max() + kFar * ln_10;
+      model.ln_tau_max() + kFar * ln_10, fitted;
   return grid;
 }
 
@@ -108,10 +108,12 @@ Range best_range(const DmaModel& model, const SpectrumFit& fit, Index begin) {
 
 }  // namespace
 
-std::optional<KramersKronigBreak> kramers_kronig_break(const DmaModel& model) {
+std::optional<KramersKronigBreak> kramers_kronig_break(const DmaModel& model,
+                                                       const Eigen::VectorXd& fitted_ln_tau) {
   if (model.may_be_negative()) return std::nullopt;
+  const Eigen::VectorXd grid = wide_grid(model, fitted_ln_tau);
   const Eigen::MatrixXd spectrum =
-      normalised(model.columns(wide_grid(model), Eigen::VectorXd(0), /*with_slopes=*/false).values);
+      normalised(model.columns(grid, Eigen::VectorXd(0), /*with_slopes=*/false).values);
   const SpectrumFit together = spectrum_fit(spectrum, model.data(), /*last_is_free=*/false);
   const Index count = model.n_frequencies();
   const Range storage = best_range(model, together, 0);

@@ -1,5 +1,5 @@
+#include "fit/assembly/slow_doubt.h"
 #include "fit/assembly/spectral_fit.h"
-#include "fit/curves/model_variant.h"
 #include "fit/intervals/uncertainty.h"
 #include "fit/search/separable.h"
 
@@ -27,9 +27,8 @@ bool starts_at_zero(const SpectralModel& model, const SpectralState& state) {
   return model.n_common() > 0 && model.common()[0].name == "J_g" && !(state.coefficients[0] > 0.0);
 }
 
-// The lowest E_inf at which the sum of squares rises by at most 3.84 variances if one more term at
-// the end of the range replaces part of E_inf. The steps double; the root is interpolated linearly.
-double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, double step) {
+// With one more term at the end of the range, whose time the search may move.
+double lowest_with_late_term(const SpectralModel& fine, const SpectralFit& fit, double step) {
   const std::unique_ptr<SpectralModel> coarse = fine.coarse();
   const SpectralModel& model = coarse ? *coarse : fine;
   const double least_rss =
@@ -37,25 +36,8 @@ double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, dou
   SpectralState slower = fit.state;
   slower.ln_tau.conservativeResize(slower.n_terms() + 1);
   slower.ln_tau[slower.ln_tau.size() - 1] = model.ln_tau_max();
-  const double best = fit.state.coefficients[0];
-  double last = best, last_root = 0.0;
-  for (double distance = step; distance > 0.0; distance *= 2.0) {
-    const double value = std::max(0.0, best - distance);
-    const PinnedEquilibrium lowered(model, value, 1e4 * std::sqrt(fit.variance) / step);
-    slower.nuisance = fit.state.nuisance;
-    const SpectralState refitted = quick_search(
-        lowered, slower, {.max_iterations = 30, .tolerance = 1e-6, .unseen_variances = 1e-2});
-    const double rise = (refitted.rss - least_rss) / fit.variance;
-    const double root = std::sqrt(std::max(0.0, rise));
-    if (rise >= kChiSquare95) {
-      const double share = (std::sqrt(kChiSquare95) - last_root) / (root - last_root);
-      return last + share * (value - last);
-    }
-    if (value == 0.0) return 0.0;
-    last = value;
-    last_root = root;
-  }
-  return best;
+  return lowest_equilibrium(model, slower,
+                            {.least_rss = least_rss, .variance = fit.variance, .step = step});
 }
 
 }  // namespace
@@ -96,7 +78,7 @@ void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
       fit.state.coefficients[0] > 0.0 && result.E_inf_se_Pa > 0.0;
   if (!is_own || model.may_be_negative()) return;
   result.E_inf_interval_95.low =
-      std::min(result.E_inf_interval_95.low, lowest_equilibrium(model, fit, result.E_inf_se_Pa));
+      std::min(result.E_inf_interval_95.low, lowest_with_late_term(model, fit, result.E_inf_se_Pa));
 }
 
 }  // namespace viscard

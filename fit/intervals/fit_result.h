@@ -59,6 +59,13 @@ struct FirstModulus {
   Interval interval_95;
 };
 
+// The fitted storage modulus at the highest frequency of an oscillation. E0 is extrapolated from it.
+struct HighestStorage {
+  double frequency_Hz = 0.0;  // of a master curve: reduced
+  double modulus_Pa = 0.0, se_Pa = 0.0;
+  Interval interval_95;
+};
+
 // Modulus from two points of the loading curve, P = E d h/(1 - nu^2). It ignores relaxation during
 // the ramp, and the layer's thickness unless the contact includes it. A cross-check with a known
 // bias, reported beside the fit.
@@ -184,7 +191,8 @@ struct FitResult {
   double fit_from_s = 0.0, fit_to_s = 0.0;
   // Duration of the fastest loading; the modulus before that time is extrapolated.
   double fastest_s = 0.0;
-  std::optional<FirstModulus> first;  // nothing: not a record in time, or a captured run
+  std::optional<FirstModulus> first;      // nothing: not a record in time, or a captured run
+  std::optional<HighestStorage> highest;  // nothing: not an oscillation
   std::optional<TwoPointModulus> two_point;
   std::optional<double> contact_position_m;
   // True speed of the stage over the commanded one, for captures. The errors above include its own.

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
 
 namespace viscard {
 namespace {
@@ -46,6 +49,48 @@ double correlation(const Eigen::MatrixXd& covariance, Index i, Index j) {
   return scale > 0.0 && std::isfinite(scale) ? covariance(i, j) / scale : 0.0;
 }
 
+// The part of a term's modulus that a test shows at one point, and its derivative by ln tau.
+struct TermShare {
+  double share = 0.0, slope = 0.0;
+};
+
+struct SumOfTerms {
+  double modulus_Pa = 0.0, se_Pa = 0.0;
+};
+
+// E_inf + sum E_i share(tau_i) with its standard error. Nothing for a result without covariance.
+std::optional<SumOfTerms> value_of_terms(const FitResult& result,
+                                         const std::function<TermShare(double)>& share_of) {
+  const auto n_terms = static_cast<Index>(result.terms.size());
+  if (result.covariance.rows() != 1 + 2 * n_terms) return std::nullopt;
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(1 + 2 * n_terms);  // by E_inf, E_i, ln tau_i
+  gradient[0] = 1.0;
+  SumOfTerms sum{result.E_inf_Pa, 0.0};
+  for (Index i = 0; i < n_terms; ++i) {
+    const FittedTerm& term = result.terms[static_cast<std::size_t>(i)];
+    const TermShare part = share_of(term.tau_s);
+    gradient[1 + i] = part.share;
+    gradient[1 + n_terms + i] = term.modulus_Pa * part.slope;
+    sum.modulus_Pa += term.modulus_Pa * part.share;
+  }
+  sum.se_Pa = std::sqrt(std::max(0.0, gradient.dot(result.covariance * gradient)));
+  return sum;
+}
+
+Interval interval_of(const SumOfTerms& sum) {
+  return {sum.modulus_Pa - kNormal95 * sum.se_Pa, sum.modulus_Pa + kNormal95 * sum.se_Pa};
+}
+
+// Adds the flag E0-extrapolated if the modulus where the test ends is below the interval of E0.
+void flag_extrapolated(double modulus_Pa, const std::string& what, const std::string& to_where,
+                       FitResult& result) {
+  if (modulus_Pa >= result.E0_interval_95.low) return;
+  result.flags.push_back({"E0-extrapolated", 0,
+                          what + " is " + number(100.0 * (1.0 - modulus_Pa / result.E0_Pa)) +
+                              " % below E0, more than the interval of E0: E0 is an extrapolation " +
+                              to_where});
+}
+
 }  // namespace
 
 void judge(FitResult& result, const std::string& advice) {
@@ -79,28 +124,33 @@ void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double p
 }
 
 void report_first_modulus(double time_s, FitResult& result) {
-  const auto n_terms = static_cast<Index>(result.terms.size());
-  if (result.covariance.rows() != 1 + 2 * n_terms || !(time_s >= 0.0)) return;
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(1 + 2 * n_terms);  // by E_inf, E_i, ln tau_i
-  gradient[0] = 1.0;
-  FirstModulus first{time_s, result.E_inf_Pa, 0.0, {}};
-  for (Index i = 0; i < n_terms; ++i) {
-    const FittedTerm& term = result.terms[static_cast<std::size_t>(i)];
-    const double x = time_s / term.tau_s;
-    gradient[1 + i] = std::exp(-x);
-    gradient[1 + n_terms + i] = term.modulus_Pa * x * std::exp(-x);
-    first.modulus_Pa += term.modulus_Pa * std::exp(-x);
-  }
-  first.se_Pa = std::sqrt(std::max(0.0, gradient.dot(result.covariance * gradient)));
-  first.interval_95 = {first.modulus_Pa - kNormal95 * first.se_Pa,
-                       first.modulus_Pa + kNormal95 * first.se_Pa};
-  result.first = first;
-  if (first.modulus_Pa >= result.E0_interval_95.low || !(time_s > 0.0)) return;
-  result.flags.push_back(
-      {"E0-extrapolated", 0,
-       "the modulus at the first sample (t = " + number(time_s) + " s) is " +
-           number(100.0 * (1.0 - first.modulus_Pa / result.E0_Pa)) +
-           " % below E0, more than the interval of E0: E0 is an extrapolation to t = 0"});
+  if (!(time_s >= 0.0)) return;
+  const auto value = value_of_terms(result, [&](double tau_s) {
+    const double x = time_s / tau_s;
+    return TermShare{std::exp(-x), x * std::exp(-x)};
+  });
+  if (!value) return;
+  result.first = FirstModulus{time_s, value->modulus_Pa, value->se_Pa, interval_of(*value)};
+  if (!(time_s > 0.0)) return;
+  flag_extrapolated(value->modulus_Pa,
+                    "the modulus at the first sample (t = " + number(time_s) + " s)", "to t = 0",
+                    result);
+}
+
+void report_highest_storage(double frequency_Hz, FitResult& result) {
+  if (!(frequency_Hz > 0.0)) return;
+  const auto value = value_of_terms(result, [&](double tau_s) {
+    const double x = 2.0 * std::numbers::pi * frequency_Hz * tau_s;
+    const double loss = 1.0 / (x + 1.0 / x);  // x/(1 + x^2)
+    return TermShare{x * loss, 2.0 * loss * loss};
+  });
+  if (!value) return;
+  result.highest =
+      HighestStorage{frequency_Hz, value->modulus_Pa, value->se_Pa, interval_of(*value)};
+  flag_extrapolated(
+      value->modulus_Pa,
+      "the storage modulus at the highest frequency (" + number(frequency_Hz) + " Hz)",
+      "to infinite frequency", result);
 }
 
 void flag_step_before(std::optional<double> step_s, double first_s, FitResult& result) {

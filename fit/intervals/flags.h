@@ -33,6 +33,9 @@ void judge(FitResult& result, const std::string& advice = "Use fewer terms");
 // of E0.
 void report_first_modulus(double time_s, FitResult& result);
 
+// The same for an oscillation: the storage modulus at the highest frequency.
+void report_highest_storage(double frequency_Hz, FitResult& result);
+
 // Adds the flag with the number of samples left out as spikes, if there are any.
 void add_spikes(FitResult& result, std::size_t count);
 

@@ -19,6 +19,8 @@ struct Reason {
 
 constexpr std::array kReasons{
     Reason{left_out::kNotANumber, Kind::kLost, "without a number"},
+    Reason{left_out::kIsotherm, Kind::kLost, "of isotherms outside the master curve",
+           "of an isotherm outside the master curve"},
     Reason{left_out::kSpike, Kind::kLost, "that are spikes", "that is a spike"},
     Reason{left_out::kDepthSpike, Kind::kLost, "whose depth jumps away and back without the force"},
     Reason{left_out::kSaturated, Kind::kLost, "at the end of the converter's range"},

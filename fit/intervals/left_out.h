@@ -10,6 +10,7 @@ namespace viscard {
 // Why rows of the input are not fitted: the keys of the JSON object `left_out`.
 namespace left_out {
 inline constexpr const char* kNotANumber = "not_a_number";
+inline constexpr const char* kIsotherm = "isotherm";
 inline constexpr const char* kSpike = "spike";
 inline constexpr const char* kDepthSpike = "depth_spike";
 inline constexpr const char* kSaturated = "saturated";

@@ -100,7 +100,7 @@ bool describes_structure(const FittedLaw& law, const FitResult& result) {
 void drop_answers_of_series(const FittedLaw& law, FitResult& result) {
   std::vector<std::string> names{"order-uncertain", "slower-relaxation", "faster-relaxation",
                                  "fewer-terms",     "E0-extrapolated",   "E0-unknown",
-                                 "liquid",          "solid-or-liquid"};
+                                 "liquid",          "solid-or-liquid",   "slow-term-hidden"};
   if (describes_structure(law, result)) {
     names.insert(names.end(), {"misfit", "lack-of-fit"});
     result.lack_of_fit.reset();
@@ -132,6 +132,7 @@ void take_law(const std::string& name, FitResult& result) {
   drop_answers_of_series(*found, result);
   take_series(*found, result);
   if (result.first) report_first_modulus(result.first->time_s, result);
+  if (result.highest) report_highest_storage(result.highest->frequency_Hz, result);
   result.flags.push_back(
       {"law-as-series", 0,
        text_of_law(*found) + " is written as a Prony series: within " +

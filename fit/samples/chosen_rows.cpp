@@ -100,4 +100,16 @@ RowRange from_largest(std::span<const double> values) {
   return {static_cast<std::size_t>(largest - values.begin()), values.size()};
 }
 
+std::optional<std::size_t> begin_of_rise(std::span<const double> values, std::size_t peak) {
+  constexpr double kRisen = 0.05;
+  if (peak == 0 || !(values[peak] > 0.0)) return std::nullopt;
+  const double least = std::min(
+      0.0, *std::min_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(peak)));
+  const double limit = least + kRisen * (values[peak] - least);
+  for (std::size_t i = peak; i-- > 0;) {
+    if (values[i] <= limit) return i;
+  }
+  return std::nullopt;
+}
+
 }  // namespace viscard

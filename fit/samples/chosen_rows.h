@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,5 +27,9 @@ RowRange up_to_longest_hold(std::span<const double> time_s, std::span<const doub
 
 // Without a depth: the rows from the largest value on, where relaxation begins.
 RowRange from_largest(std::span<const double> values);
+
+// The last row before `peak` at which the value has not yet risen by a twentieth: there the loading
+// begins. Nothing if the record begins later than that.
+std::optional<std::size_t> begin_of_rise(std::span<const double> values, std::size_t peak);
 
 }  // namespace viscard

@@ -32,7 +32,68 @@ bool are_even(std::span<const double> time_s, const std::vector<std::size_t>& be
   return step_s > 0.0 && fewest >= 2 && most <= fewest + 1 && std::max(first, last) <= most;
 }
 
+// The distances between rows in steps; empty if a row is not on the grid or time goes back.
+std::vector<double> steps_between(std::span<const double> time_s, double step_s) {
+  constexpr double kOff = 1e-3;  // of a step, as decimal digits leave
+  std::vector<double> steps;
+  double last = 0.0;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const double place = (time_s[i] - time_s[0]) / step_s;
+    const double at = std::round(place);
+    if (!(std::abs(place - at) < kOff) || at < last) return {};
+    steps.push_back(at - last);
+    last = at;
+  }
+  return steps;
+}
+
+// True for distances as rounding makes them from nearly even ones, or for shared times.
+bool are_rounded(const std::vector<double>& steps) {
+  constexpr double kLeastShare = 0.05, kMostShare = 0.95, kLongest = 4.0;
+  constexpr std::size_t kFewest = 6;
+  std::size_t n_zero = 0, n_short = 0, n_changes = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    n_zero += steps[i] == 0.0 ? 1 : 0;
+    n_short += steps[i] <= kLongest ? 1 : 0;
+    n_changes += i > 0 && steps[i] != steps[i - 1] ? 1 : 0;
+  }
+  const auto least =
+      std::max(kFewest, static_cast<std::size_t>(kLeastShare * static_cast<double>(steps.size())));
+  if (n_zero >= least) return true;
+  // One missing row makes two changes.
+  const bool is_mixed = n_changes >= 2 * least;
+  return is_mixed && static_cast<double>(n_short) > kMostShare * static_cast<double>(steps.size());
+}
+
+// The shortest distance of two rows with different times; 0 if all distances at the begin are equal.
+double shortest_if_uneven(std::span<const double> time_s) {
+  constexpr std::size_t kLook = 2000;
+  constexpr double kEqual = 1e-6;
+  double least_s = 0.0, most_s = 0.0;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const double step_s = time_s[i] - time_s[i - 1];
+    most_s = std::max(most_s, step_s);
+    if (step_s > 0.0 && (least_s == 0.0 || step_s < least_s)) least_s = step_s;
+    const bool has_shared = time_s[1] == time_s[0] || step_s == 0.0;
+    if (i == kLook && !has_shared && most_s - least_s < kEqual * most_s) return 0.0;
+  }
+  return least_s;
+}
+
 }  // namespace
+
+std::optional<double> rounding_step_s(std::span<const double> time_s) {
+  constexpr std::size_t kFewestRows = 20;
+  if (time_s.size() < kFewestRows) return std::nullopt;
+  const double least_s = shortest_if_uneven(time_s);
+  if (!(least_s > 0.0)) return std::nullopt;
+  for (const double part : {1.0, 2.0, 3.0}) {
+    const std::vector<double> steps = steps_between(time_s, least_s / part);
+    if (steps.empty()) continue;
+    return are_rounded(steps) ? std::optional(least_s / part) : std::nullopt;
+  }
+  return std::nullopt;
+}
 
 std::optional<RoundedTimes> rounded_times(std::span<const double> time_s) {
   constexpr std::size_t kFewestRuns = 6;

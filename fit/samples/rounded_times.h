@@ -16,4 +16,9 @@ struct RoundedTimes {
 // last may have fewer), in rising order and at equal distances.
 std::optional<RoundedTimes> rounded_times(std::span<const double> time_s);
 
+// The step to which times were rounded, if that shows: all times lie on a grid no finer than a third
+// of the shortest distance of two rows, and rows of about equal distances stand now one, now two
+// steps apart, or share a time. Nothing for even times, also if rows are missing here and there.
+std::optional<double> rounding_step_s(std::span<const double> time_s);
+
 }  // namespace viscard

@@ -1,4 +1,5 @@
 #include "fit/intervals/flags.h"
+#include "fit/intervals/time_rounding.h"
 #include "fit/samples/chosen_rows.h"
 #include "io/flow/fit_table.h"
 #include "models/maths/text_of_number.h"
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace viscard {
@@ -73,6 +75,16 @@ RowRange cropped(const Course& course) {
   throw std::runtime_error("--crop auto needs depth_m, strain, modulus_Pa, stress_Pa or force_N");
 }
 
+// When the load rose, if --crop auto begins at its largest value and no time of the step was given.
+std::optional<Interval> rise_of(const Course& course, const FitRequest& request) {
+  if (!request.crop || !course.input.empty() || course.value.empty()) return std::nullopt;
+  if (request.time_zero_s != 0.0 || request.from_s) return std::nullopt;
+  const std::size_t peak = from_largest(course.value).begin;
+  const std::optional<std::size_t> begin = begin_of_rise(course.value, peak);
+  if (!begin || !(course.time_s[peak] > course.time_s[*begin])) return std::nullopt;
+  return Interval{course.time_s[*begin], course.time_s[peak]};
+}
+
 // Whether depth or strain was away from its lowest place before the row, and is there.
 void note_history(const std::vector<double>& input, std::size_t first, ChosenPart& part) {
   if (input.empty()) return;
@@ -116,15 +128,23 @@ ChosenPart choose_part(CsvTable& table, const FitRequest& request) {
                              text_of(course.time_s.front()) + " to " +
                              text_of(course.time_s.back()) + " s");
   }
+  const std::optional<Interval> rise_s = rise_of(course, request);
   std::sort(rows.begin(), rows.end());
   table = chosen_rows(table, rows);
   ChosenPart chosen{counted(rows.size(), "row") + " of " + std::to_string(n) +
                     ", t = " + text_of(first_s) + " to " + text_of(last_s) + " s"};
+  chosen.rise_s = rise_s;
   note_history(course.input, first, chosen);
   return chosen;
 }
 
+FitRequest with_zero_in(const Interval& rise_s, FitRequest request) {
+  request.time_zero_s = 0.5 * (rise_s.low + rise_s.high);
+  return request;
+}
+
 void flag_history(const ChosenPart& part, FitResult& result) {
+  if (part.rise_s) report_rise(part.rise_s->low, part.rise_s->high, result);
   if (!part.was_loaded) return;
   const std::string before =
       "the specimen was loaded before the chosen part, which does not contain that: ";

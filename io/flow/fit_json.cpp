@@ -51,10 +51,9 @@ Json orders_of(const FitResult& fit) {
 Json flags_of(const FitResult& fit) {
   Json flags = Json::array();
   for (const MaterialFlag& flag : fit.flags) {
-    Json row{{"name", flag.name}};
+    Json& row = flags.emplace_back(Json{{"name", flag.name}});
     if (flag.term > 0) row["term"] = flag.term;
     row["text"] = flag.text;
-    flags.push_back(row);
   }
   return flags;
 }
@@ -88,12 +87,11 @@ Json json_of(const TemperatureShift& shift, double chi2, double bic) {
 Json json_of(const std::vector<ShiftFactor>& factors, bool has_vertical_shift) {
   Json rows = Json::array();
   for (const ShiftFactor& factor : factors) {
-    Json row{{"temperature_C", number(factor.temperature_C)},
-             {"ln_a", number(factor.ln_a)},
-             {"ln_a_se", number(factor.ln_a_se)}};
+    Json& row = rows.emplace_back(Json{{"temperature_C", number(factor.temperature_C)},
+                                       {"ln_a", number(factor.ln_a)},
+                                       {"ln_a_se", number(factor.ln_a_se)}});
     if (has_vertical_shift) row["ln_b"] = number(factor.ln_b);
     if (has_vertical_shift) row["ln_b_se"] = number(factor.ln_b_se);
-    rows.push_back(row);
   }
   return rows;
 }
@@ -252,6 +250,11 @@ Json json_from_fit(const FittedFile& fitted) {
     json[letter + "_first_sample" + unit] = number(fit.first->modulus_Pa);
     json[letter + "_first_sample_interval_95"] = json_from(fit.first->interval_95);
     json["first_sample_s"] = number(fit.first->time_s);
+  }
+  if (fit.highest) {
+    json[letter + "_storage_highest" + unit] = number(fit.highest->modulus_Pa);
+    json[letter + "_storage_highest_interval_95"] = json_from(fit.highest->interval_95);
+    json["highest_frequency_Hz"] = number(fit.highest->frequency_Hz);
   }
   if (fit.drift) {
     json["drift"] = {{"per_s", number(fit.drift->per_s)},

@@ -283,7 +283,7 @@ FittedFile fit_csv(CsvTable all, const FitRequest& request) {
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
   ChosenPart part = choose_part(table, request);
-  FittedFile fitted = fit_rows(table, request);
+  FittedFile fitted = fit_rows(table, part.rise_s ? with_zero_in(*part.rise_s, request) : request);
   flag_assumed_units(table, request, fitted.result);
   flag_history(part, fitted.result);
   fitted.maker = maker;

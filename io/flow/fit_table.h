@@ -2,7 +2,9 @@
 
 #include "io/flow/fit_request.h"
 #include "io/tables/csv_table.h"
+#include "models/maths/interval.h"
 
+#include <optional>
 #include <string>
 
 namespace viscard {
@@ -31,13 +33,20 @@ struct ChosenPart {
   std::string text;  // which rows; empty if the request chooses none, so that all stay
   // The specimen was loaded before the first chosen row, and perhaps still is.
   bool was_loaded = false, is_loaded = false;
+  // Of --crop auto without a depth: when the load rose before the first chosen row, in the table's
+  // time. The middle becomes t = 0.
+  std::optional<Interval> rise_s;
 };
 
 // Keeps the chosen rows of a table. Throws std::runtime_error if no row remains, or if the table does
 // not have what the choice needs.
 ChosenPart choose_part(CsvTable& table, const FitRequest& request);
 
-// Reports loading that the chosen part does not contain: the fit takes the specimen as at rest.
+// The request with t = 0 in the middle of the rise.
+FitRequest with_zero_in(const Interval& rise_s, FitRequest request);
+
+// Reports loading that the chosen part does not contain: the fit takes the specimen as at rest, or
+// the rise before the part as a step.
 void flag_history(const ChosenPart& part, FitResult& result);
 
 }  // namespace viscard

@@ -43,25 +43,34 @@ bool has_alias(const Quantity& quantity, const std::string& name) {
   });
 }
 
-// omega and w are angular frequencies, in rad/s even if the column has no unit.
+// Names of angular frequencies, in rad/s even if the column has no unit.
+constexpr const char* kAngular[] = {"w",
+                                    "ω",
+                                    "omega",
+                                    "angular frequency",
+                                    "ang frequency",
+                                    "angular freq",
+                                    "ang freq",
+                                    "kreisfrequenz",
+                                    "pulsation",
+                                    "角频率",
+                                    "omega rad s",
+                                    "frequency rad s",
+                                    "angular frequency rad s",
+                                    "omega 1 s",
+                                    "angular frequency 1 s"};
+
 bool is_angular(const std::string& name) {
   const std::string text = plain(name);
-  const char* kNames[] = {"omega",
-                          "angular frequency",
-                          "ang frequency",
-                          "angular freq",
-                          "ang freq",
-                          "kreisfrequenz",
-                          "pulsation",
-                          "角频率",
-                          "omega rad s",
-                          "frequency rad s",
-                          "angular frequency rad s",
-                          "omega 1 s",
-                          "angular frequency 1 s"};
-  return name == "w" || name == "ω" ||
-         std::any_of(std::begin(kNames), std::end(kNames),
-                     [&](auto known) { return text == known; });
+  return std::any_of(std::begin(kAngular), std::end(kAngular), [&](const std::string& known) {
+    return (known.size() == 1 ? name : text) == known;
+  });
+}
+
+std::vector<const char*> frequency_names() {
+  std::vector<const char*> names{"f", "freq", "frequenz", "fréquence", "频率"};
+  names.insert(names.end(), std::begin(kAngular), std::end(kAngular));
+  return names;
 }
 
 // A unit as part of a name, without a slash: 1_Pa, 1_per_Pa, per_MPa.
@@ -96,19 +105,38 @@ const std::vector<Quantity>& quantities() {
       {"time_s",
        "time",
        "s",
-       {"t", "elapsed time", "test time", "run time", "zeit", "prüfzeit", "versuchszeit", "temps",
-        "时间", "试验时间", "测试时间"}},
+       {"t", "elapsed time", "test time", "run time", "seconds", "zeit", "prüfzeit", "versuchszeit",
+        "temps", "时间", "试验时间", "测试时间"}},
       {"force_N",
        "force",
        "N",
-       {"F", "load", "normal force", "standard force", "kraft", "normalkraft", "standardkraft",
-        "prüfkraft", "force normale", "力", "试验力", "载荷", "负荷", "法向力"}},
+       {"F", "load", "normal force", "standard force", "compressive load", "tensile load", "kraft",
+        "normalkraft", "standardkraft", "prüfkraft", "force normale", "力", "试验力", "载荷",
+        "负荷", "法向力"}},
       {"depth_m",
        "depth",
        "m",
-       {"h", "indentation", "indentation depth", "displacement", "extension", "penetration",
-        "standard travel", "weg", "standardweg", "traversenweg", "eindringtiefe", "déplacement",
-        "deplacement", "enfoncement", "profondeur", "位移", "压入深度", "深度"}},
+       {"h",
+        "indentation",
+        "indentation depth",
+        "displacement",
+        "extension",
+        "penetration",
+        "standard travel",
+        "compressive extension",
+        "compressive displacement",
+        "tensile extension",
+        "weg",
+        "standardweg",
+        "traversenweg",
+        "eindringtiefe",
+        "déplacement",
+        "deplacement",
+        "enfoncement",
+        "profondeur",
+        "位移",
+        "压入深度",
+        "深度"}},
       {"modulus_Pa",
        "modulus",
        "Pa",
@@ -138,29 +166,7 @@ const std::vector<Quantity>& quantities() {
        "1/Pa",
        {"J", "D", "j(t)", "d(t)", "creep compliance", "kriechnachgiebigkeit", "nachgiebigkeit",
         "complaisance", "柔量"}},
-      {"frequency_Hz",
-       "frequency",
-       "Hz",
-       {"f",
-        "freq",
-        "frequenz",
-        "fréquence",
-        "频率",
-        "w",
-        "ω",
-        "omega",
-        "angular frequency",
-        "ang frequency",
-        "angular freq",
-        "ang freq",
-        "kreisfrequenz",
-        "pulsation",
-        "角频率",
-        "omega rad s",
-        "frequency rad s",
-        "angular frequency rad s",
-        "omega 1 s",
-        "angular frequency 1 s"}},
+      {"frequency_Hz", "frequency", "Hz", frequency_names()},
       {"storage_modulus_Pa",
        "storage_modulus",
        "Pa",

@@ -3,6 +3,7 @@
 #include "io/basics/number_text.h"
 #include "io/basics/units.h"
 #include "io/tables/column_names.h"
+#include "io/tables/header_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +22,13 @@ bool is_rising(const CsvColumn& column) {
          column.values.front() < column.values.back();
 }
 
-// The columns that hold numbers only.
+// The columns that hold numbers only and do not just count the rows.
 std::vector<std::size_t> number_columns(const CsvTable& table) {
   std::vector<std::size_t> columns;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const CsvColumn& column = table.columns[i];
-    if (column.first_bad_line == 0 && !column.values.empty()) columns.push_back(i);
+    const bool is_usable = column.first_bad_line == 0 && !column.values.empty();
+    if (is_usable && !is_counter(column)) columns.push_back(i);
   }
   return columns;
 }
@@ -35,15 +37,35 @@ std::string word(const char* quantity, std::size_t column) {
   return std::string(" --column ") + quantity + "=" + std::to_string(column + 1);
 }
 
-// Takes the first of the columns that its header names as the quantity, or else the first with a unit
-// of that kind.
+bool may_have_unit(const CsvColumn& column, const char* si_unit) {
+  return !is_stated(column.unit) || is_unit_of(column.unit, si_unit);
+}
+
+// Takes the first of the columns that its header names as the quantity, or else the first whose
+// header contains a name of it.
+std::optional<std::size_t> taken_by_name(const CsvTable& table, std::vector<std::size_t>& columns,
+                                         const char* quantity_name) {
+  const Quantity& quantity = quantity_named(quantity_name);
+  auto at = std::find_if(columns.begin(), columns.end(), [&](std::size_t i) {
+    return match_header(table.columns[i], quantity).has_value();
+  });
+  if (at == columns.end()) {
+    at = std::find_if(columns.begin(), columns.end(), [&](std::size_t i) {
+      return speaks_of(table.columns[i], quantity) &&
+             may_have_unit(table.columns[i], quantity.si_unit);
+    });
+  }
+  if (at == columns.end()) return std::nullopt;
+  const std::size_t column = *at;
+  columns.erase(at);
+  return column;
+}
+
+// By name, or else the first with a unit of that kind.
 std::optional<std::size_t> taken(const CsvTable& table, std::vector<std::size_t>& columns,
                                  const char* si_unit, const char* quantity = nullptr) {
-  for (auto i = columns.begin(); quantity != nullptr && i != columns.end(); ++i) {
-    if (!match_header(table.columns[*i], quantity_named(quantity))) continue;
-    const std::size_t column = *i;
-    columns.erase(i);
-    return column;
+  if (quantity != nullptr) {
+    if (const auto named = taken_by_name(table, columns, quantity)) return named;
   }
   for (auto i = columns.begin(); i != columns.end(); ++i) {
     const std::string& unit = table.columns[*i].unit;
@@ -55,13 +77,15 @@ std::optional<std::size_t> taken(const CsvTable& table, std::vector<std::size_t>
   return std::nullopt;
 }
 
-// Takes the column of time: by its unit, or the first that only rises, or the first.
-std::size_t taken_time(const CsvTable& table, std::vector<std::size_t>& columns) {
-  if (const auto column = taken(table, columns, "s", "time_s")) return *column;
-  auto at = std::find_if(columns.begin(), columns.end(), [&](std::size_t i) {
-    return !is_stated(table.columns[i].unit) && is_rising(table.columns[i]);
-  });
-  if (at == columns.end()) at = columns.begin();
+// Takes the column of time: by name or unit, or else the first without a unit that only rises, or the
+// first without a unit.
+std::optional<std::size_t> taken_time(const CsvTable& table, std::vector<std::size_t>& columns) {
+  if (const auto column = taken(table, columns, "s", "time_s")) return column;
+  const auto is_plain = [&](std::size_t i) { return !is_stated(table.columns[i].unit); };
+  auto at = std::find_if(columns.begin(), columns.end(),
+                         [&](std::size_t i) { return is_plain(i) && is_rising(table.columns[i]); });
+  if (at == columns.end()) at = std::find_if(columns.begin(), columns.end(), is_plain);
+  if (at == columns.end()) return std::nullopt;
   const std::size_t column = *at;
   columns.erase(at);
   return column;
@@ -94,6 +118,48 @@ const char* lone_quantity(const CsvColumn& column) {
                                                                              : "modulus_Pa";
 }
 
+// Words for force and depth beside those for the time; force alone if there is no other column.
+std::string words_of_contact(const CsvTable& table, const std::string& words, std::size_t force,
+                             std::optional<std::size_t> depth) {
+  const std::string with_force = words + word("force_N", force);
+  if (!depth) return with_force.substr(1);
+  // The force rises with the depth; a separation falls.
+  const std::vector<double>& forces = table.columns[force].values;
+  const std::vector<double>& depths = table.columns[*depth].values;
+  const auto peak = std::max_element(forces.begin(), forces.end()) - forces.begin();
+  const bool falls = depths[static_cast<std::size_t>(peak)] < depths.front();
+  return (with_force + " --column depth_m=" + (falls ? "-" : "") + std::to_string(*depth + 1))
+      .substr(1);
+}
+
+// Words for a force and a depth that the headers name, whatever else the table holds.
+std::optional<std::string> named_contact(const CsvTable& table, std::vector<std::size_t> columns) {
+  const auto force = taken_by_name(table, columns, "force_N");
+  const auto depth = taken_by_name(table, columns, "depth_m");
+  if (!force || !depth) return std::nullopt;
+  const auto time = taken_time(table, columns);
+  if (!time) return std::nullopt;
+  return words_of_contact(table, word("time_s", *time), *force, depth);
+}
+
+// Words for an oscillation: storage and loss modulus by name, by unit, or in the order of the columns.
+std::optional<std::string> named_sweep(const CsvTable& table, std::vector<std::size_t> columns) {
+  const auto frequency = taken_frequency(table, columns);
+  if (!frequency) return std::nullopt;
+  auto storage = taken_by_name(table, columns, "storage_modulus_Pa");
+  auto loss = taken_by_name(table, columns, "loss_modulus_Pa");
+  for (auto* missing : {&storage, &loss}) {
+    if (!*missing) *missing = taken(table, columns, "Pa");
+    if (*missing || columns.empty() || is_stated(table.columns[columns.front()].unit)) continue;
+    *missing = columns.front();
+    columns.erase(columns.begin());
+  }
+  if (!storage || !loss) return std::nullopt;
+  return (word("frequency_Hz", *frequency) + word("storage_modulus_Pa", *storage) +
+          word("loss_modulus_Pa", *loss))
+      .substr(1);
+}
+
 }  // namespace
 
 std::string columns_with_values(const CsvTable& table) {
@@ -124,26 +190,13 @@ std::string columns_with_values(const CsvTable& table) {
 std::string proposed_words(const CsvTable& table) {
   std::vector<std::size_t> rest = number_columns(table);
   if (rest.size() < 2) return "";
-  std::string words;
-  const auto frequency = taken_frequency(table, rest);
-  const auto next = [&] {  // a modulus by its unit, or the next column without one
-    auto found = taken(table, rest, "Pa");
-    if (!found && !rest.empty() && !is_stated(table.columns[rest.front()].unit)) {
-      found = rest.front();
-      rest.erase(rest.begin());
-    }
-    return found;
-  };
-  const auto storage = frequency ? next() : taken(table, rest, "Pa", "modulus_Pa");
-  const auto loss = frequency ? next() : std::nullopt;
-  if (frequency && storage && loss) {
-    return (word("frequency_Hz", *frequency) + word("storage_modulus_Pa", *storage) +
-            word("loss_modulus_Pa", *loss))
-        .substr(1);
-  }
-  if (rest.empty()) return "";
-  words = word("time_s", taken_time(table, rest));
-  if (storage) return (words + word("modulus_Pa", *storage)).substr(1);
+  if (const auto sweep = named_sweep(table, rest)) return *sweep;
+  if (const auto contact = named_contact(table, rest)) return *contact;
+  const auto modulus = taken(table, rest, "Pa", "modulus_Pa");
+  const auto time = taken_time(table, rest);
+  if (!time) return "";
+  const std::string words = word("time_s", *time);
+  if (modulus) return (words + word("modulus_Pa", *modulus)).substr(1);
   auto force = taken(table, rest, "N", "force_N");
   auto depth = taken(table, rest, "m", "depth_m");
   const auto is_without_unit = [&](std::size_t i) { return !is_stated(table.columns[i].unit); };
@@ -156,15 +209,7 @@ std::string proposed_words(const CsvTable& table) {
     *missing = rest.front();
     rest.erase(rest.begin());
   }
-  if (!force || !depth) return "";
-  // The force rises with the depth; a separation falls.
-  const std::vector<double>& forces = table.columns[*force].values;
-  const std::vector<double>& depths = table.columns[*depth].values;
-  const auto peak = std::max_element(forces.begin(), forces.end()) - forces.begin();
-  const bool falls = depths[static_cast<std::size_t>(peak)] < depths.front();
-  return (words + word("force_N", *force) + " --column depth_m=" + (falls ? "-" : "") +
-          std::to_string(*depth + 1))
-      .substr(1);
+  return force ? words_of_contact(table, words, *force, depth) : "";
 }
 
 }  // namespace viscard

@@ -60,7 +60,8 @@ class TableReader {
     });
   }
 
-  // Finds the number of cells that most lines with numbers have.
+  // Finds the number of cells that most lines with numbers have, and how many of them are empty at
+  // the end of all these lines.
   void find_width() {
     std::map<std::size_t, std::size_t> counts;
     std::vector<std::string_view> cells;
@@ -77,11 +78,33 @@ class TableReader {
     for (const auto& [width, count] : counts) {
       if (count > counts[width_]) width_ = width;
     }
+    n_empty_end_ = width_;
+    for (const TextLine& line : sample_) {
+      split_cells(line, dialect_.separator, cells);
+      if (!has_number(cells) || cells.size() != width_) continue;
+      std::size_t n_empty = 0;
+      while (n_empty < width_ && cells[width_ - 1 - n_empty].empty()) ++n_empty;
+      n_empty_end_ = std::min(n_empty_end_, n_empty);
+    }
   }
 
   // Without the empty cells that separators at the end of a line make.
   void fit_to_width(std::vector<std::string_view>& cells) const {
     while (cells.size() > width_ && cells.back().empty()) cells.pop_back();
+  }
+
+  // The names or units of a line, with the empty cells at the end that only lines of numbers have.
+  std::vector<std::string_view> names_of(const TextLine& line) const {
+    std::vector<std::string_view> names = header_cells(line, dialect_.separator);
+    fit_to_width(names);
+    const bool is_short = names.size() < width_ && names.size() + n_empty_end_ >= width_;
+    if (is_short && !names.empty() && !names.back().empty()) names.resize(width_);
+    return names;
+  }
+
+  static bool are_empty(const std::vector<std::string_view>& cells) {
+    return std::all_of(cells.begin(), cells.end(),
+                       [](std::string_view cell) { return cell.empty(); });
   }
 
   // The line of the header: the line of text above a row of units, or else the first one, with as
@@ -100,14 +123,13 @@ class TableReader {
     };
     for (const TextLine& line : sample_) {
       split_cells(line, dialect_.separator, cells);
-      std::vector<std::string_view> names = header_cells(line, dialect_.separator);
+      const std::vector<std::string_view> names = names_of(line);
       fit_to_width(cells);
-      fit_to_width(names);
       if (has_number(cells)) {
         if (cells.size() == width_) ++run.n_rows;
         continue;
       }
-      if (names.size() != width_) continue;
+      if (names.size() != width_ || are_empty(names)) continue;
       if (run.n_rows > 0) {
         choose();
         run = {};
@@ -134,10 +156,10 @@ class TableReader {
     bool has_units = false;
     while (lines.next(line)) {
       split_cells(line, dialect_.separator, cells);
-      std::vector<std::string_view> names = header_cells(line, dialect_.separator);
+      const std::vector<std::string_view> names = names_of(line);
       fit_to_width(cells);
-      fit_to_width(names);
       const bool is_text = !has_number(cells);
+      if (line.number > header && header != 0 && are_empty(cells)) continue;
       if (line.number == header) {
         take_header(names);
       } else if (is_text && table_.has_header && !has_units && is_row_of_units(names)) {
@@ -182,7 +204,7 @@ class TableReader {
   }
 
   bool is_row_of_units(const std::vector<std::string_view>& cells) const {
-    return cells.size() == width_ &&
+    return cells.size() == width_ && !are_empty(cells) &&
            std::all_of(cells.begin(), cells.end(),
                        [](std::string_view cell) { return is_unit(without_brackets(cell)); });
   }
@@ -250,6 +272,7 @@ class TableReader {
   std::vector<TextLine> sample_;
   std::vector<char> is_text_;
   std::size_t width_ = 0;
+  std::size_t n_empty_end_ = 0;
   std::size_t first_line_ = 0;  // of numbers: its number from 1, and ...
   std::size_t first_at_ = 0;    // ... the character at which it begins
 };

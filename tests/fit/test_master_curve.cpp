@@ -275,6 +275,8 @@ TEST_CASE("isotherms that are left out are named", "[fit][master]") {
   CHECK(curve.factors.size() == 6);
   REQUIRE(curve.left_out.size() == 2);
   CHECK(curve.fit.n_left_out == 7);
+  REQUIRE(curve.fit.left_out.size() == 1);  // by the right reason
+  CHECK(curve.fit.left_out[0].reason == "isotherm");
   REQUIRE(has_flag(curve.fit, "isotherms-left-out"));
   for (const MaterialFlag& flag : curve.fit.flags) {
     if (flag.name != "isotherms-left-out") continue;

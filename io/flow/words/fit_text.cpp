@@ -204,6 +204,12 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
                        letter, fit.first->modulus_Pa * shown.factor, shown.unit,
                        range(fit.first->interval_95, shown.factor, 6), fit.first->time_s);
   }
+  if (fit.highest) {
+    out << fmt::format(
+        "  {}'(f_n) {:>9.6g} {}   95 % {}   at the highest frequency, f_n = {:.3g} Hz\n", letter,
+        fit.highest->modulus_Pa * shown.factor, shown.unit,
+        range(fit.highest->interval_95, shown.factor, 6), fit.highest->frequency_Hz);
+  }
   out << fmt::format("  {}_inf  {:>10.6g} {}   95 % {}\n", letter, fit.E_inf_Pa * shown.factor,
                      shown.unit, range(fit.E_inf_interval_95, shown.factor, 6));
   if (const auto viscosity = viscosity_of(fit)) {

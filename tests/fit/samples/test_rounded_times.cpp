@@ -1,3 +1,5 @@
+#include "fit/fit_creep.h"
+#include "fit/fit_indentation.h"
 #include "fit/fit_relaxation.h"
 #include "fit/samples/rounded_times.h"
 #include "models/material/prony_series.h"
@@ -6,8 +8,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 using namespace viscard;
@@ -56,4 +60,111 @@ TEST_CASE("a relaxation with times rounded to seconds states E0 and its doubt", 
     n_held += holds(fit.E0_interval_95, 1.8) ? 1 : 0;
   }
   CHECK(n_held >= 18);
+}
+
+namespace {
+
+std::string text_of_rounding(const FitResult& fit) {
+  const auto found = std::find_if(fit.flags.begin(), fit.flags.end(), [](const MaterialFlag& flag) {
+    return flag.name == "times-rounded";
+  });
+  return found == fit.flags.end() ? "" : found->text;
+}
+
+double to_tenths(double time_s) {
+  return std::round(10.0 * time_s) / 10.0;
+}
+
+// Terms of 0.3 and 5 s; E0 2.0.
+PronySeries quick_material() {
+  return {1.2, {{0.5, 0.3}, {0.3, 5.0}}};
+}
+
+}  // namespace
+
+TEST_CASE("the step of rounded times is found, and even or missing rows are not rounded", "[fit]") {
+  std::vector<double> sevenths, logarithmic, lossy, two_rates;
+  for (int i = 0; i < 300; ++i) {
+    sevenths.push_back(to_tenths(i / 7.0));
+    logarithmic.push_back(to_tenths(0.02 * std::pow(1500.0, i / 299.0)));
+    if (i % 23 != 7) lossy.push_back(0.1 * i);
+    two_rates.push_back(i < 200 ? 0.1 * i : 20.0 + 0.2 * (i - 200));
+  }
+  CHECK(rounding_step_s(sevenths).value_or(0.0) == Approx(0.1));
+  CHECK(rounding_step_s(logarithmic).value_or(0.0) == Approx(0.1));
+  CHECK_FALSE(rounding_step_s(lossy));
+  CHECK_FALSE(rounding_step_s(two_rates));
+  CHECK_FALSE(rounding_step_s(even_times(30.0, 0.1)));
+  CHECK_FALSE(rounding_step_s(std::vector<double>{0.0, 0.1, 0.3}));
+}
+
+TEST_CASE("times rounded or cut off to 0.1 s widen E0 by half a step and say by how much",
+          "[fit]") {
+  const PronySeries truth = quick_material();
+  const bool is_cut = GENERATE(false, true);
+  const double rate_Hz = GENERATE(7.0, 13.0);
+  int n_held = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::mt19937_64 dice(seed);
+    std::normal_distribution<double> normal;
+    RelaxationData data;
+    for (int i = 0; i < static_cast<int>(30.0 * rate_Hz); ++i) {
+      const double t = (i + 0.3) / rate_Hz;
+      data.time_s.push_back(is_cut ? std::floor(10.0 * t) / 10.0 : to_tenths(t));
+      data.value.push_back(relaxation_modulus_Pa(truth, t) + 1e-3 * normal(dice));
+    }
+    const FitResult fit = fit_relaxation(data);
+    CHECK_THAT(text_of_rounding(fit),
+               Catch::Contains("rounded to 0.1 s") && Catch::Contains("half a step changes E0 by"));
+    n_held += holds(fit.E0_interval_95, 2.0) ? 1 : 0;
+  }
+  CHECK(n_held >= 19);
+}
+
+TEST_CASE("a ramp shorter than the rounding of its times does not make E0 sure", "[fit]") {
+  const PronySeries truth = quick_material();
+  const auto [ramp_s, rate_Hz] =
+      GENERATE(table<double, double>({{0.05, 20.0}, {0.3, 7.0}, {0.3, 20.0}}));
+  std::vector<double> time_s;
+  for (int i = 0; i < static_cast<int>(31.0 * rate_Hz); ++i) time_s.push_back(i / rate_Hz - 0.99);
+  const double rise_s = ramp_s;
+  const auto strain = [rise_s](double t) { return 0.01 * std::clamp(t / rise_s, 0.0, 1.0); };
+  int n_held = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const IndentationData made = indentation_of(truth, time_s, strain, 1e-3, seed);
+    RelaxationData data{time_s, made.force_N, made.depth_m};
+    std::transform(time_s.begin(), time_s.end(), data.time_s.begin(), to_tenths);
+    const FitResult fit = fit_relaxation(data);
+    CHECK_THAT(text_of_rounding(fit), Catch::Contains("rounded to 0.1 s"));
+    n_held += holds(fit.E0_interval_95, 2.0) ? 1 : 0;
+  }
+  CHECK(n_held >= 9);
+}
+
+TEST_CASE("rounded times of an indentation and of a creep are named too", "[fit]") {
+  const PronySeries truth = quick_material();
+  std::vector<double> time_s;
+  for (int i = 0; i < 620; ++i) time_s.push_back(i / 20.0 - 0.99);
+  IndentationData data = indentation_of(truth, time_s, ramp_and_hold(0.5), 1e-3, 3);
+  std::transform(time_s.begin(), time_s.end(), data.time_s.begin(), to_tenths);
+  const FitResult fit = fit_indentation(data, {});
+  CHECK_THAT(text_of_rounding(fit), Catch::Contains("spread evenly"));
+  CHECK_FALSE(has_flag(fit, "gap-in-ramp"));
+  // Times that share a step unevenly (1, 2 or 3 rows) are no gap either.
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    data.time_s[i] = to_tenths(time_s[i] + 0.02 * std::sin(static_cast<double>(i * i)));
+  }
+  std::sort(data.time_s.begin(), data.time_s.end());
+  CHECK_FALSE(has_flag(fit_indentation(data, {}), "gap-in-ramp"));
+  CHECK(holds(fit.E0_interval_95, 2.0));
+
+  CreepData creep;
+  for (int i = 0; i < 210; ++i) {
+    const double t = (i + 0.3) / 7.0;
+    creep.time_s.push_back(to_tenths(t));
+    creep.compliance_1_Pa.push_back(1.0 - 0.3 * std::exp(-t / 0.4) - 0.2 * std::exp(-t / 6.0));
+  }
+  const FitResult crept = fit_creep(creep, {});
+  CHECK_THAT(text_of_rounding(crept), Catch::Contains("half a step changes E0"));
+  CHECK(holds(crept.E0_interval_95, 2.0));
 }

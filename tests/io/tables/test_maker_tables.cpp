@@ -259,6 +259,27 @@ TEST_CASE("columns are shown with first values, and words that read them are pro
         "--column frequency_Hz=1 --column storage_modulus_Pa=2 --column loss_modulus_Pa=3");
 }
 
+TEST_CASE("proposed words follow the names within headers, not the order of the columns",
+          "[io][csv]") {
+  CHECK(proposed_words(read("Time,CalculatedValue,AdjustedForce\n0,1,5\n1,2,6\n")) ==
+        "--column time_s=1 --column force_N=3 --column depth_m=2");
+  CHECK(proposed_words(
+            read("Elapsed,CalculatedValue,AdjustedForce,Raw_Displacement\n0,1,5,1\n1,2,6,2\n")) ==
+        "--column time_s=1 --column force_N=3 --column depth_m=4");
+  // A value in Pa is no modulus beside a force and a depth with their names.
+  CHECK(proposed_words(read("Time (s),CalculatedValue (kPa),AdjustedForce (N),Extension (mm)\n"
+                            "0,1,5,1\n1,2,6,2\n")) ==
+        "--column time_s=1 --column force_N=3 --column depth_m=4");
+  // A number of the row is no time, and a force alone is a force.
+  CHECK(proposed_words(read("Point No.,TestTime,AdjustedForce\n1,0,5\n2,1,6\n3,2,7\n")) ==
+        "--column time_s=2 --column force_N=3");
+  CHECK(proposed_words(read("CalculatedValue,AdjustedForce,Seconds\n1,5,0\n2,6,1\n")) ==
+        "--column time_s=3 --column force_N=2 --column depth_m=1");
+  CHECK(proposed_words(read("Point,AdjustedForce\n1,5\n2,6\n3,7\n")).empty());
+  CHECK(proposed_words(read("AngularFrequency,MyLossModulus,MyStorageModulus\n1,5,1\n2,6,2\n")) ==
+        "--column frequency_Hz=1 --column storage_modulus_Pa=3 --column loss_modulus_Pa=2");
+}
+
 TEST_CASE("a file of another kind is refused by what it is", "[io][csv]") {
   const auto refusal = [](const std::string& bytes) {
     return error_text([&] { csv_from_text(bytes, "f"); });

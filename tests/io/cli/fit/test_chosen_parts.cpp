@@ -132,6 +132,42 @@ TEST_CASE("a record of force alone gives forces, or stiffnesses with --depth", "
              Contains("--column time_s=1 --column force_N=2 --column depth_m=-3"));
 }
 
+TEST_CASE("--crop auto of a force alone puts t = 0 into the rise before its largest value",
+          "[cli]") {
+  // A baseline of 5 s, a ramp, then the relaxation of E0 2 N after ramp and hold (exact).
+  const TableFolder folder;
+  const double ramp_s = GENERATE(0.1, 1.0);
+  const auto force_N = [&](double since) {
+    if (since <= 0.0) return 0.0;
+    const double up = std::min(since, ramp_s);
+    double sum = 1.2 * up;
+    for (const auto& [modulus, tau] : {std::pair{0.5, 0.8}, {0.3, 8.0}}) {
+      sum += modulus * tau * (std::exp(-(since - up) / tau) - std::exp(-since / tau));
+    }
+    return sum / ramp_s;
+  };
+  std::ostringstream text;
+  text.precision(12);
+  text << "time_s,force_N\n";
+  for (int i = 0; i < 1200; ++i) {
+    const double t = 0.05 * i;
+    text << t << "," << force_N(t - 5.0) + 1e-4 * ((7 * i) % 11 - 5) << "\n";
+  }
+  const std::string file = folder.write("F.csv", text.str());
+  const auto fit = json_of({"fit", file, "--crop", "auto", "--json"});
+  CHECK_THAT(flags_of(fit), Contains("time-zero-chosen"));
+  CHECK(fit["F0_interval_95"][0].get<double>() < 2.0);
+  CHECK(fit["F0_interval_95"][1].get<double>() > 2.0);
+  CHECK(fit["F0_N"].get<double>() == Approx(2.0).epsilon(0.1));
+  CHECK(fit["first_sample_s"].get<double>() == Approx(0.5 * ramp_s).margin(0.03));
+  CHECK(fit["F_inf_N"].get<double>() == Approx(1.2).epsilon(0.01));
+  CHECK_THAT(run_command({"fit", file, "--crop", "auto"}).out,
+             Contains("counts as a step at t = ") && Contains("half the rise changes E0"));
+  // A time of the step that the user gives stays.
+  const auto given = json_of({"fit", file, "--crop", "auto", "--time-zero", "5 s", "--json"});
+  CHECK_THAT(flags_of(given), !Contains("time-zero-chosen"));
+}
+
 TEST_CASE("a constant stress with a changing strain is a creep test", "[cli]") {
   const TableFolder folder;
   std::ostringstream text;

@@ -238,6 +238,26 @@ TEST_CASE("rows that are not fitted are counted by reason in text and JSON", "[c
              Contains("2 of 103 rows left out: 2 rows before t = 0"));
 }
 
+TEST_CASE("an oscillation states E' at its highest frequency beside E0", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream table;
+  table << "frequency_Hz,storage_modulus_Pa,loss_modulus_Pa\n";
+  for (int i = 0; i <= 30; ++i) {  // 1 MPa and 0.5 MPa at 0.01 s, to 10 Hz
+    const double f = std::pow(10.0, -1.0 + i / 15.0), x = 0.02 * 3.141592653589793 * f;
+    const double off = 1.0 + 1e-3 * ((7 * i) % 11 - 5);
+    table << f << "," << 1e6 + 5e5 * off * x * x / (1.0 + x * x) << ","
+          << 5e5 * off * x / (1.0 + x * x) << "\n";
+  }
+  const std::string file = folder.write("sweep.csv", table.str());
+  const auto json = nlohmann::json::parse(run_command({"fit", file, "--json"}).out);
+  CHECK(json["highest_frequency_Hz"].get<double>() == Approx(10.0));
+  CHECK(json["E_storage_highest_Pa"].get<double>() == Approx(1.1415e6).epsilon(0.002));
+  CHECK(json["E_storage_highest_interval_95"].size() == 2);
+  CHECK_FALSE(json.contains("first_sample_s"));
+  CHECK_THAT(run_command({"fit", file}).out,
+             Contains("E'(f_n)") && Contains("at the highest frequency, f_n = 10 Hz"));
+}
+
 TEST_CASE("a drift is fitted by itself, on request or never, and a misfit gets no card", "[cli]") {
   const TableFolder folder;
   std::ostringstream table;

@@ -1,0 +1,61 @@
+#include "fit/intervals/time_rounding.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace viscard {
+
+namespace {
+
+// Widens the interval of E0 for a zero of time that is uncertain by half_s. Returns the change of E0
+// between both ends.
+double widen_for_zero(double half_s, FitResult& result) {
+  double early_Pa = result.E_inf_Pa, late_Pa = result.E_inf_Pa;
+  for (const FittedTerm& term : result.terms) {
+    early_Pa += term.modulus_Pa * std::exp(-half_s / term.tau_s);
+    late_Pa += term.modulus_Pa * std::exp(half_s / term.tau_s);
+  }
+  result.E0_interval_95.low += early_Pa - result.E0_Pa;
+  result.E0_interval_95.high += late_Pa - result.E0_Pa;
+  return late_Pa - early_Pa;
+}
+
+std::string percent_of_E0(double change_Pa, const FitResult& result) {
+  return text_of(50.0 * change_Pa / result.E0_Pa, 2) + " %";
+}
+
+}  // namespace
+
+void report_time_rounding(double step_s, bool is_spread, FitResult& result) {
+  constexpr double kVisible = 0.25;
+  const double before = result.E0_interval_95.high - result.E0_interval_95.low;
+  const double change_Pa = widen_for_zero(0.5 * step_s, result);
+  if (!is_spread && !(change_Pa > kVisible * before)) return;
+  const std::string step = text_of(step_s, 3), half = text_of(0.5 * step_s, 3);
+  const std::string how =
+      is_spread ? ", so that several rows share each: they were spread evenly about it"
+                : ", which is coarse for this record";
+  result.flags.push_back(
+      {"times-rounded", 0,
+       "the times are rounded to " + step + " s" + how +
+           ". If the instrument cuts times off, all rows are " + half + " s late (--time-zero -" +
+           half + " corrects that); half a step changes E0 by " + percent_of_E0(change_Pa, result) +
+           ", which its interval includes. Export more digits of the time"});
+}
+
+void report_rise(double begin_s, double end_s, FitResult& result) {
+  const double change_Pa = widen_for_zero(0.5 * (end_s - begin_s), result);
+  result.flags.push_back(
+      {"time-zero-chosen", 0,
+       "the load rose from t = " + text_of(begin_s, 4) + " to " + text_of(end_s, 4) +
+           " s and counts as a step at t = " + text_of(0.5 * (begin_s + end_s), 4) +
+           " s, where the fit begins its time (--time-zero moves that); half the rise changes E0 "
+           "by " +
+           percent_of_E0(change_Pa, result) +
+           ", which its interval includes. With a column of depth the rise itself is fitted"});
+}
+
+}  // namespace viscard
