@@ -162,12 +162,9 @@ void print_master(const MasterCurve& curve, std::ostream& out) {
   }
 }
 
-}  // namespace
-
-void print_fit(const FittedFile& fitted, std::ostream& out) {
+// What was fitted, and which rows of the file are not part of it.
+void print_source(const FittedFile& fitted, std::ostream& out) {
   const FitResult& fit = fitted.result;
-  const Shown shown = shown_modulus(fitted);
-  const char* letter = fitted.has_no_depth ? "F" : fit.is_stiffness ? "K" : "E";
   out << fmt::format("{}: {}, {}\n", fitted.path,
                      fit.tests.empty() ? std::string(name_of_kind(fit.kind))
                                        : counted(fit.tests.size(), "test") + " together",
@@ -197,6 +194,12 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   } else if (fit.is_stiffness) {
     out << "  stiffnesses in N/m: no punch geometry was given (--specimen, or --punch-diameter)\n";
   }
+}
+
+void print_moduli(const FittedFile& fitted, std::ostream& out) {
+  const FitResult& fit = fitted.result;
+  const Shown shown = shown_modulus(fitted);
+  const char* letter = fitted.has_no_depth ? "F" : fit.is_stiffness ? "K" : "E";
   out << fmt::format("  {}0     {:>10.6g} {}   95 % {}\n", letter, fit.E0_Pa * shown.factor,
                      shown.unit, range(fit.E0_interval_95, shown.factor, 6));
   if (fit.first && fit.first->time_s > 0.0) {
@@ -239,6 +242,11 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
                        fit.two_point->modulus_Pa * shown.factor, shown.unit,
                        fit.two_point->half_space_modulus_Pa * shown.factor, fit.two_point->bias);
   }
+}
+
+// Noise, drift and temperature of the record.
+void print_conditions(const FittedFile& fitted, std::ostream& out) {
+  const FitResult& fit = fitted.result;
   const std::string sigma_unit = fit.kind == FitKind::kDma ? "(relative)" : fitted.fitted_unit;
   if (fit.tests.empty()) {
     out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for autocorrelation\n",
@@ -254,6 +262,15 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
                        measured.mean_C, measured.min_C, measured.max_C,
                        counted(measured.n_readings, "reading"));
   }
+}
+
+}  // namespace
+
+void print_fit(const FittedFile& fitted, std::ostream& out) {
+  const FitResult& fit = fitted.result;
+  print_source(fitted, out);
+  print_moduli(fitted, out);
+  print_conditions(fitted, out);
   if (fitted.master) print_master(*fitted.master, out);
   if (fitted.fractional) print_fractional(*fitted.fractional, out);
   if (!fit.tests.empty()) print_tests(fitted, out);

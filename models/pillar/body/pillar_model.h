@@ -110,6 +110,7 @@ class PillarModel {
   const PillarModel* nearby() const { return nearby_; }
   // Stiffness times u without the matrix; at nu = 0.5 the pressures are those of the source.
   Eigen::VectorXd stiffness_times(const Eigen::VectorXd& u, const Eigen::VectorXd& source) const;
+  // Mass times u without the matrix, kg times the unit of u.
   Eigen::VectorXd mass_times(const Eigen::VectorXd& u) const;
 
   // Force per unit pressure pulling along +z on the top; axial families only. N per Pa.

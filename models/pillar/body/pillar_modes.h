@@ -8,6 +8,7 @@
 
 namespace viscard {
 
+// An undamped mode of free vibration.
 struct PillarMode {
   double frequency_Hz = 0.0;
   Eigen::VectorXd shape;  // unknowns of the model, unit mass norm

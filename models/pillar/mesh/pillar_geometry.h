@@ -13,7 +13,7 @@ struct FilmGeometry {
   double radius_m = 0.0;            // outer edge, free; at least the radius of the pillar
   double electrode_radius_m = 0.0;  // the mesh is graded toward its edge; 0: none
   bool electrode_is_below = false;  // on the bottom of the film
-  bool operator==(const FilmGeometry&) const = default;
+  bool operator==(const FilmGeometry&) const = default;  // all lengths equal to the last bit
 };
 
 // One end of a pillar that becomes wider: over `height` toward the end the radius grows by `width`,
@@ -22,7 +22,7 @@ struct FilmGeometry {
 struct Flare {
   double width_m = 0.0;
   double height_m = 0.0;
-  bool operator==(const Flare&) const = default;
+  bool operator==(const Flare&) const = default;  // all lengths equal to the last bit
 };
 
 // Lengths of a pillar, with the film under it.
@@ -32,7 +32,7 @@ struct PillarGeometry {
   std::optional<FilmGeometry> film;
   Flare foot;
   Flare tip;
-  bool operator==(const PillarGeometry&) const = default;
+  bool operator==(const PillarGeometry&) const = default;  // all lengths equal to the last bit
 };
 
 // Graded (the default): elements shrink by `ratio` toward the rim of the bond, where the stress is

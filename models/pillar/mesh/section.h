@@ -21,8 +21,8 @@ struct SectionElement {
   int column = 0;
   int row = 0;
   int region = 0;
-  std::vector<int> nodes;  // (p + 1)^2, x fastest
-  bool operator==(const SectionElement&) const = default;
+  std::vector<int> nodes;                                  // (p + 1)^2, x fastest
+  bool operator==(const SectionElement&) const = default;  // the same cell with the same nodes
 };
 
 // The elements and nodes of a section.

@@ -35,15 +35,17 @@ class DiscreteSystem {
   SymmetricSparse form(const std::vector<OperatorRow>& rows,
                        const std::vector<Eigen::MatrixXd>& per_region) const;
 
-  // factor * int (div u)(div v), the factor of each region in per_region. With a projection, div u enters as its L2 projection on
-  // discontinuous Q_(p-2); this is a pressure of that space, condensed per element (eq. 14). Degree
-  // 1 projects on constants. Source: Stenberg & Suri, Math. Comp. 65 (1996) 1.
+  // factor * int (div u)(div v) with the factor of each region in per_region (a modulus, Pa). With a
+  // projection, div u enters as its L2 projection on discontinuous Q_(p-2); this is a pressure of that
+  // space, condensed per element (eq. 14). Degree 1 projects on constants.
+  // Source: Stenberg & Suri, Math. Comp. 65 (1996) 1.
   SymmetricSparse volume_form(const std::vector<double>& per_region, bool projected) const;
 
-  // The same forms applied to a vector, element by element without their matrices.
+  // form() applied to a vector, element by element without the matrix.
   Eigen::VectorXd form_times(const std::vector<OperatorRow>& rows,
                              const std::vector<Eigen::MatrixXd>& per_region,
                              const Eigen::VectorXd& solution) const;
+  // volume_form() applied to a vector; the factor of each region in per_region, Pa.
   Eigen::VectorXd volume_form_times(const std::vector<double>& per_region, bool projected,
                                     const Eigen::VectorXd& solution) const;
 

@@ -22,6 +22,7 @@ class DofMap {
   int tied_dof(int handle) const { return tied_[static_cast<std::size_t>(handle)]; }
   int count() const { return count_; }
   int field_count() const { return field_count_; }
+  // The same unknowns at the same nodes, so that vectors of one fit the other.
   bool operator==(const DofMap&) const = default;
 
  private:

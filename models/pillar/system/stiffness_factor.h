@@ -26,11 +26,11 @@ class StiffnessFactor {
   // `penalty` is the matrix C, scaled as it is in the factored matrix.
   void constrain(const SymmetricSparse& penalty) { penalty_ = penalty; }
 
+  // product(u, source): the matrix times u; the part of a constraint acts on the source of the pressures.
+  using Product = std::function<Eigen::VectorXd(const Eigen::VectorXd&, const Eigen::VectorXd&)>;
   // Instead of factor(): for a matrix close to one that is factored already. solve() is then exact to
   // first order in the difference and costs one solution with the known factors (NearbySolutions).
-  // product(u, source) is the matrix times u; the part of a constraint acts on the source of the
-  // pressures. `known` must outlive this.
-  using Product = std::function<Eigen::VectorXd(const Eigen::VectorXd&, const Eigen::VectorXd&)>;
+  // `known` must outlive this.
   void approximate(const NearbySolutions& known, Product product);
 
   // With a constraint, `pressure_source` (if given) receives the w whose penalty force C w equals

@@ -1,21 +1,19 @@
 // Cards of laws of rubber that are a part of a model's text: SfePy itself, and MOOSE's energy by a
 // second implementation.
 #include "io/cards/hyperelastic/rubber_card.h"
+#include "tests/io/cards/sfepy_cube.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 using namespace viscard;
 using Catch::Matchers::Contains;
+using viscard::test::has_sfepy;
+using viscard::test::numbers_from_sfepy;
 
 namespace {
-
-namespace files = std::filesystem;
 
 HyperelasticLaw rubber(HyperelasticForm form, std::vector<double> moduli_Pa,
                        std::vector<double> shapes) {
@@ -41,88 +39,16 @@ std::string model_card(const HyperelasticLaw& law, const char* target, double bu
       law, {.target = target, .units = "mm-t-s", .bulk_Pa = bulk_Pa, .density_kg_m3 = 1100.0});
 }
 
-// Stretches a cube of one element with the card "rubber.py" in every deformation, with its bulk modulus and
-// with twice of it; prints the nominal stresses.
-constexpr const char* kScript = R"python(import sys
-import numpy as np
-from sfepy.base.base import output
-output.set_output(quiet=True)
-from sfepy.discrete import Equation, Equations, FieldVariable, Integral, Material, Problem
-from sfepy.discrete.conditions import Conditions, EssentialBC
-from sfepy.discrete.fem import FEDomain, Field
-from sfepy.mesh.mesh_generators import gen_block_mesh
-from sfepy.solvers.ls import ScipyDirect
-from sfepy.solvers.nls import Newton
-from sfepy.terms import Term
-import rubber
+// Nominal stresses of a cube of one element with the card's bulk modulus and with twice of it, in the order of
+// Deformation.
+constexpr const char* kThreeStretches = R"python(import numpy as np
+import cube
 
-
-def nominal_stress(mode, last, factor):
-    domain = FEDomain("cube", gen_block_mesh([1, 1, 1], [2, 2, 2], [0.5, 0.5, 0.5], verbose=False))
-    omega = domain.create_region("Omega", "all")
-    face = {
-        axis + end: domain.create_region(axis + end, f"vertices in ({axis} {rule})", "facet")
-        for axis in "xyz" for end, rule in (("0", "< 0.001"), ("1", "> 0.999"))
-    }
-    field = Field.from_args("f", np.float64, "vector", omega, approx_order=1)
-    u = FieldVariable("u", "unknown", field)
-    v = FieldVariable("v", "test", field, primary_var_name="u")
-    numbers = rubber.material()
-    numbers["K"] *= factor
-    values, integral = Material("rubber", values=numbers), Integral("i", order=2)
-    balance = None
-    for text in rubber.terms():
-        term = Term.new(text, integral, omega, rubber=values, v=v, u=u)
-        balance = term if balance is None else balance + term
-    problem = Problem("p", equations=Equations([Equation("balance", balance)]))
-    problem.set_solver(Newton({"i_max": 40, "eps_a": 1e-9, "eps_r": 1.0}, lin_solver=ScipyDirect({})))
-    state = None
-    for stretch in np.linspace(1.0, last, 6)[1:]:
-        held = [("x0", "u.0", 0.0), ("y0", "u.1", 0.0), ("z0", "u.2", 0.0), ("z1", "u.2", stretch - 1)]
-        held += [("y1", "u.1", 0.0)] if mode == "planar" else []
-        held += [("x1", "u.0", stretch - 1)] if mode == "equibiaxial" else []
-        bcs = [EssentialBC(region, face[region], {dof: value}) for region, dof, value in held]
-        problem.set_bcs(ebcs=Conditions(bcs))
-        options = {"save_results": False, "verbose": False}
-        state = problem.solve(**options) if state is None else problem.solve(state0=state, **options)
-    problem.remove_bcs()
-    force = problem.get_evaluator().eval_residual(state(), is_full=True).reshape(-1, 3)
-    return float(force[problem.domain.get_mesh_coors()[:, 2] > 0.999, 2].sum())
-
-
+ramp = np.linspace(1.0, 1.8, 6)[1:]
 for mode in ("uniaxial", "planar", "equibiaxial"):
     for factor in (1.0, 2.0):
-        print(repr(nominal_stress(mode, float(sys.argv[1]), factor)))
+        print(repr(float(cube.stresses(mode, ramp, factor)[-1])))
 )python";
-
-class ScriptFolder {
- public:
-  ScriptFolder() {
-    std::string name = (files::temp_directory_path() / "viscard-rubber-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-    std::ofstream(path_ / "cube.py") << kScript;
-  }
-  ~ScriptFolder() { files::remove_all(path_); }
-  ScriptFolder(const ScriptFolder&) = delete;
-  ScriptFolder& operator=(const ScriptFolder&) = delete;
-
-  // In the order of Deformation: the stress with K, and that with 2 K.
-  std::vector<double> stresses(const std::string& card, double stretch) const {
-    std::ofstream(path_ / "rubber.py") << card;
-    const std::string command = "cd '" + path_.string() +
-                                "' && /usr/bin/python3 -B -W ignore cube.py " +
-                                std::to_string(stretch) + " >answer 2>log";
-    REQUIRE(std::system(command.c_str()) == 0);
-    std::ifstream answer(path_ / "answer");
-    std::vector<double> out;
-    for (double value = 0.0; answer >> value;) out.push_back(value);
-    return out;
-  }
-
- private:
-  files::path path_;
-};
 
 // The number behind "name = " in MOOSE's input.
 double parameter(const std::string& text, const std::string& name) {
@@ -148,18 +74,14 @@ double moose_tension(double lambda, double mu, double stretch) {
 }  // namespace
 
 TEST_CASE("rubber cards: SfePy gives the nominal stress of the law in every deformation", "[io]") {
-  if (std::system("/usr/bin/python3 -c 'import sfepy' >/dev/null 2>&1") != 0) {
-    WARN("sfepy is not installed for /usr/bin/python3; it is not run");
-    return;
-  }
-  const ScriptFolder folder;
+  if (!has_sfepy()) return;
   const double stretch = 1.8;
   for (const HyperelasticLaw& law :
        {neo_hooke(), mooney_rivlin(), rubber(HyperelasticForm::kYeoh, {1.8e5, -1.4e3, 40.0}, {}),
         rubber(HyperelasticForm::kOgden3, {3.45e5, 6.2e3, 4.2}, {1.9, -2.2, 8.5})}) {
     const double shear_Pa = youngs_modulus_Pa(law) / 3.0;
     const std::vector<double> all_MPa =
-        folder.stresses(model_card(law, "sfepy", 4e3 * shear_Pa), stretch);
+        numbers_from_sfepy(model_card(law, "sfepy", 4e3 * shear_Pa), kThreeStretches);
     REQUIRE(all_MPa.size() == 6);
     for (std::size_t i = 0; i < 3; ++i) {
       const auto deformation = static_cast<Deformation>(i);

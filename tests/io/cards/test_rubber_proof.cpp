@@ -4,13 +4,11 @@
 #include "io/cards/proof/solvers.h"
 #include "io/cards/unit_system.h"
 #include "tests/io/cards/rubber_rules.h"
+#include "tests/io/cards/sfepy_cube.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -38,12 +36,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   const std::size_t at = text.find(from);
   REQUIRE(at != std::string::npos);
   return text.replace(at, from.size(), to);
-}
-
-bool has_sfepy() {
-  if (std::system("/usr/bin/python3 -c 'import sfepy' >/dev/null 2>&1") == 0) return true;
-  WARN("sfepy is not installed for /usr/bin/python3; it is not run");
-  return false;
 }
 
 // Energy of a Mooney-Rivlin cube (C10, C01, K) at stretches s, b, b.

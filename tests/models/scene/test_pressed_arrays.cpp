@@ -1,6 +1,6 @@
 // Arrays in the plane under a rigid shape, as scenes: forces, voltages, plan and notes.
-#include "models/array/space/simulate_space.h"
 #include "models/array/space/foot_motion.h"
+#include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/touch_steps.h"
 #include "models/pillar/mesh/scene_mistake.h"

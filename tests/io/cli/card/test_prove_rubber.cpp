@@ -36,7 +36,7 @@ std::string fitted_mooney(const TableFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("--prove runs a card of rubber in CalculiX, and its certificate says what held",
+TEST_CASE("card --prove runs a card of rubber in CalculiX, and its certificate says what held",
           "[cli]") {
   const TableFolder folder;
   const std::string law = fitted_mooney(folder), card = folder.file("rubber.inp");
@@ -66,7 +66,7 @@ TEST_CASE("--prove runs a card of rubber in CalculiX, and its certificate says w
   CHECK_THAT(wrong.out, Contains("the card does not hold"));
 }
 
-TEST_CASE("--prove of a card of rubber without its solver says which one runs the numbers",
+TEST_CASE("card --prove of a card of rubber without its solver says which one runs the numbers",
           "[cli]") {
   const TableFolder folder;
   const std::string law = fitted_mooney(folder), card = folder.file("rubber.inp");

@@ -132,7 +132,7 @@ TEST_CASE("a record of force alone gives forces, or stiffnesses with --depth", "
              Contains("--column time_s=1 --column force_N=2 --column depth_m=-3"));
 }
 
-TEST_CASE("--crop auto of a force alone puts t = 0 into the rise before its largest value",
+TEST_CASE("fit --crop auto of a force alone puts t = 0 into the rise before its largest value",
           "[cli]") {
   // A baseline of 5 s, a ramp, then the relaxation of E0 2 N after ramp and hold (exact).
   const TableFolder folder;
