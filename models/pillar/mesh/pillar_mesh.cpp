@@ -56,10 +56,10 @@ class WaveBreaks {
     const double a = count_to(std::abs(from - end_m_));
     const double b = count_to(std::abs(to - end_m_));
     const int pieces = static_cast<int>(std::ceil(std::abs(b - a) * (1.0 - 1e-9)));
+    // The middle decides the side: one of the two breaks may be the end itself, up to rounding.
+    const double side = 0.5 * (from + to) > end_m_ ? 1.0 : -1.0;
     for (int i = 1; i < pieces; ++i) {
-      const double distance_m = distance_of(a + (b - a) * i / pieces);
-      append_breaks(all,
-                    {to > end_m_ || from > end_m_ ? end_m_ + distance_m : end_m_ - distance_m});
+      append_breaks(all, {end_m_ + side * distance_of(a + (b - a) * i / pieces)});
     }
   }
 
