@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -75,6 +76,24 @@ TEST_CASE("many pillars under a wide paraboloid are an elastic foundation", "[mo
   CHECK(array.force_N ==
         Approx(std::numbers::pi * k_N_m * R_m * depth_m * depth_m / (pitch_m * pitch_m))
             .epsilon(5e-3));
+}
+
+// 188 tops whose mean overlap is positive bear 5.37716e-3 N, the most loaded 45.08 kPa (mean-gap law).
+TEST_CASE("a paraboloid at a depth of 3 um on 100 x 100 pillars bears as the mean-gap law says",
+          "[models]") {
+  const PressedArray array =
+      press_to_depth(square(100), {usual_contact()}, paraboloid(0.1), 3.0 * kUm);
+  int pressed = 0;
+  double most_N = 0.0;
+  for (const TouchedPillar& one : square(100)) {
+    const double mean_m = 3.0 * kUm - (one.x_m * one.x_m + one.y_m * one.y_m + 2e-10) / (2.0 * 0.1);
+    pressed += mean_m > 0.0 ? 1 : 0;
+  }
+  for (const TopPressure& top : array.tops) most_N = std::max(most_N, top.force_N);
+  CHECK(pressed == 188);
+  CHECK(array.contacts >= pressed);
+  CHECK(array.force_N == Approx(5.37716e-3).epsilon(1e-3));
+  CHECK(most_N / (std::numbers::pi * 400e-12) == Approx(45.08e3).epsilon(2e-4));
 }
 
 TEST_CASE("the force of a depth leads back to the depth", "[models][stability]") {

@@ -46,13 +46,17 @@ TEST_CASE("a convolution on a grid is the sum over its points", "[maths]") {
 TEST_CASE("a sphere on a layer bonded to a rigid base bears what the integral equation says",
           "[layer]") {
   struct Row {
-    double a_H, depth_R_a2, force;
+    double nu, a_H, depth_R_a2, force;
   };
-  const double nu = 0.33;
-  const LayerWaves waves(layer_on_rigid_base(nu, kH_m), false);
-  for (const Row& row : {Row{0.1, 0.940713, 1.000551}, Row{0.5, 0.753481, 1.054096},
-                         Row{1.0, 0.640892, 1.271405}, Row{5.0, 0.522115, 4.177367}}) {
-    CAPTURE(row.a_H);
+  // 0.499999 stands for 0.5: 5 times as wide as thick, such a layer yields by its volume 1e-5 of what it does.
+  for (const Row& row :
+       {Row{0.33, 0.1, 0.940713, 1.000551}, Row{0.33, 0.5, 0.753481, 1.054096},
+        Row{0.33, 1.0, 0.640892, 1.271405}, Row{0.33, 5.0, 0.522115, 4.177367},
+        Row{0.499999, 0.1, 0.925775, 1.000802}, Row{0.499999, 0.5, 0.696246, 1.078906},
+        Row{0.499999, 1.0, 0.559415, 1.410500}, Row{0.499999, 5.0, 0.359125, 9.946303}}) {
+    const double nu = row.nu;
+    const LayerWaves waves(layer_on_rigid_base(nu, kH_m), false);
+    CAPTURE(nu, row.a_H);
     const double a_m = row.a_H * kH_m;
     const double hertz_N = 4.0 / 3.0 * kE_Pa / (1.0 - nu * nu) * a_m * a_m * a_m / kR_m;
     const LayerKernel kernel(waves, false, 3.5 * a_m, {});
@@ -69,6 +73,27 @@ TEST_CASE("a sphere on a layer bonded to a rigid base bears what the integral eq
     CHECK((found.pressure_Pa - mirrored).cwiseAbs().maxCoeff() < 1e-8 * largest_Pa);
     CHECK((found.pressure_Pa - found.pressure_Pa.transpose()).cwiseAbs().maxCoeff() <
           1e-8 * largest_Pa);
+  }
+}
+
+// The same equation, for the thesis' profile at 10 um: radius of contact and force.
+TEST_CASE("the thesis' profile on a bonded layer in space is that of the integral equation",
+          "[layer]") {
+  struct Row {
+    double nu, a_m, force_N;
+  };
+  for (const Row& row :
+       {Row{0.33, 254.900e-6, 2.461489e-2}, Row{0.499999, 290.891e-6, 7.061755e-2}}) {
+    CAPTURE(row.nu);
+    const LayerWaves waves(layer_on_rigid_base(row.nu, kH_m), false);
+    LayerPress press;
+    press.shape.kind = ShapeKind::kParaboloid;
+    press.shape.radius_m = kR_m;
+    const LayerContact contact(LayerKernel(waves, false, 3.5 * row.a_m, {}), press,
+                               {0.0, 0.0, 2.2 * row.a_m, 128});
+    const LayerPressure found = contact.to_depth(10e-6);
+    CHECK(found.force_N == Approx(row.force_N).epsilon(1e-4));
+    CHECK(std::sqrt(found.contact_m2 / std::numbers::pi) == Approx(row.a_m).epsilon(4e-3));
   }
 }
 
@@ -154,14 +179,16 @@ TEST_CASE("a face that follows the thesis' profile is that of finite elements", 
   scene.tolerance = 1e-2;
   scene.wanted = {"contact_force", "centre_voltage"};
   scene.electrodes_m.clear();
-  for (int i = 0; i <= 5; ++i) scene.electrodes_m.emplace_back(50e-6 * i, 0.0);
+  for (int i = 0; i <= 8; ++i) scene.electrodes_m.emplace_back(50e-6 * i, 0.0);
   const SceneAnswer answer = simulate_layer(scene);
   const SceneResult& force = result_of(answer, "contact_force");
   CHECK(std::abs(force.value - 40.471) <= 1.1 * force.error_estimate);
   CHECK(force.value == Approx(40.471).epsilon(2e-3));
-  const double mV[] = {-904.513, -872.768, -777.457, -618.086, -393.629, -108.193};
-  for (std::size_t i = 0; i < 6; ++i) {
+  const double mV[] = {-904.513, -872.768, -777.457, -618.086, -393.629,
+                       -108.193, 193.784,  361.446,  274.487};
+  for (std::size_t i = 0; i < 9; ++i) {
     const SceneResult& voltage = result_of(answer, "centre_voltage_" + std::to_string(i + 1));
-    CHECK(1e3 * voltage.value == Approx(mV[i]).margin(0.05));
+    // Near the end at 370 um, where the pressure is singular, two programs differ by 0.6 %.
+    CHECK(1e3 * voltage.value == Approx(mV[i]).margin(i < 6 ? 0.05 : 0.01 * std::abs(mV[i])));
   }
 }

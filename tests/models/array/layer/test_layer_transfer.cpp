@@ -31,24 +31,27 @@ TEST_CASE("a layer passes waves of pressure as an independent program finds", "[
     bool is_plane_stress;
     double long_waves_V_m;  // V/(p t)
     std::array<double, 8> share;
-    double half_um;
+    double half_um, tenth_um;
   };
   for (const Case& one :
        {Case{0.33,
              false,
              0.188301,
              {0.94296, 0.81120, 0.71151, 0.51748, 0.20287, 0.06362, 0.01794, 0.00477},
-             293.4},
+             293.4,
+             165.6},
         Case{0.33,
              true,
              0.224348,
              {0.93561, 0.76957, 0.65665, 0.45869, 0.17156, 0.05280, 0.01477, 0.00391},
-             317.0},
+             317.0,
+             172.8},
         Case{0.49,
              false,
              0.188300,
              {0.92457, 0.83115, 0.75462, 0.57812, 0.23870, 0.07565, 0.02134, 0.00566},
-             272.5}}) {
+             272.5,
+             159.2}}) {
     CAPTURE(one.nu, one.is_plane_stress);
     const LayerWaves waves = waves_of(one.nu, one.is_plane_stress);
     const double longest = layer_transfer(waves, 0.0).reading_V_Pa;
@@ -58,9 +61,18 @@ TEST_CASE("a layer passes waves of pressure as an independent program finds", "[
       CHECK(share == Approx(one.share[i]).margin(1e-4));
     }
     CHECK(1e6 * half_wavelength_m(waves) == Approx(one.half_um).epsilon(3e-4));
+    const double tenth = layer_transfer(waves, k_of(one.tenth_um)).reading_V_Pa / longest;
+    CHECK(tenth == Approx(0.1).margin(2e-4));
   }
-  CHECK(1e6 * half_wavelength_m(waves_of(0.33, false, 60e-6)) == Approx(165.9).epsilon(5e-4));
-  CHECK(1e6 * half_wavelength_m(waves_of(0.33, false, 30e-6)) == Approx(114.5).epsilon(5e-4));
+  struct Thin {
+    double thickness_m, half_um, at_200_um;
+  };
+  for (const Thin& one : {Thin{60e-6, 165.9, 0.65191}, Thin{30e-6, 114.5, 0.85884}}) {
+    const LayerWaves waves = waves_of(0.33, false, one.thickness_m);
+    CHECK(1e6 * half_wavelength_m(waves) == Approx(one.half_um).epsilon(5e-4));
+    const double share = layer_transfer(waves, k_of(200)).reading_V_Pa;
+    CHECK(share / layer_transfer(waves, 0.0).reading_V_Pa == Approx(one.at_200_um).margin(2e-5));
+  }
 }
 
 TEST_CASE("a layer sinks under waves as an independent program finds", "[models]") {

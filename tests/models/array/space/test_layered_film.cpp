@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -90,6 +91,21 @@ TEST_CASE("a film on a backing of its own material is a half-space", "[models]")
   }
 }
 
+TEST_CASE("a film alone passes waves along its stretch as an independent program finds",
+          "[models]") {
+  // Share of the reading of long waves, p-elements of another program; half of it at 81.35 um.
+  const FilmWaves waves(film_of_the_thesis(), 0.0, 10.0 / kThickness_m, 10);
+  const double longest_V_Pa = waves.reading(0.0)[2];
+  const std::pair<double, double> expected[] = {
+      {1000, 0.99669}, {500, 0.98554}, {400, 0.97628}, {300, 0.95469}, {200, 0.88939},
+      {150, 0.80350},  {120, 0.70979}, {100, 0.61727}, {81.35, 0.5},   {37.84, 0.1}};
+  for (const auto& [wavelength_um, share] : expected) {
+    CAPTURE(wavelength_um);
+    const double k_1_m = 4.0 * kHalfPi / (1e-6 * wavelength_um);
+    CHECK(waves.reading(k_1_m)[2] / longest_V_Pa == Approx(share).margin(6e-5));
+  }
+}
+
 TEST_CASE("a film on soft rubber reads what plane finite elements read", "[models]") {
   LayeredFilm film = film_of_the_thesis(12.5e-12, 12.5e-12);
   film.backing = Backing{1.8e6, 0.49};
@@ -97,6 +113,9 @@ TEST_CASE("a film on soft rubber reads what plane finite elements read", "[model
   // FreeFEM, P2, coupled, on a half-space of finite depth; still converging in the last digits.
   CHECK(waves.reading(0.5 / kThickness_m)[2] / kThickness_m == Approx(0.179735).epsilon(5e-4));
   CHECK(waves.reading(1.0 / kThickness_m)[2] / kThickness_m == Approx(0.138746).epsilon(5e-4));
+  // p-elements of another program.
+  CHECK(waves.reading(0.5 / kThickness_m)[2] / kThickness_m == Approx(0.179684).margin(1e-6));
+  CHECK(waves.reading(1.0 / kThickness_m)[2] / kThickness_m == Approx(0.138713).margin(1e-6));
 }
 
 TEST_CASE("what a film reads of a load is how a charge moves it", "[models]") {

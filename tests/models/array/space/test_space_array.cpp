@@ -5,8 +5,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace viscard {
 namespace {
@@ -236,6 +238,36 @@ TEST_CASE("pillars of an endless lattice pass waves as an independent program fi
   const double per_height_V_m = 29.20e3 * (1.0 - 0.00354);
   CHECK(std::abs(height.value.back()) == Approx(per_height_V_m).epsilon(1e-3));
   CHECK(std::abs(height.value.front()) == Approx(1.01410 * 0.95146 * per_height_V_m).epsilon(5e-4));
+}
+
+// Fourier p-elements of another program, by Poisson's sum over the reciprocal lattice: what all pillars of an endless
+// lattice read of waves of 200 um, over the same sum for long waves.
+TEST_CASE("short waves along and across the stretch read as an independent program finds",
+          "[models]") {
+  constexpr double kPitch_m = 100e-6;
+  constexpr int kReach = 5;
+  SpaceArray array = square_array(2 * kReach + 1, 60e-6, film_of_the_thesis());
+  const SpaceResponse response(array, space_accuracies(array)[3]);
+  std::array<double, 2> all{}, along{}, across{};
+  for (int i = -kReach; i <= kReach; ++i) {
+    for (int j = -kReach; j <= kReach; ++j) {
+      const auto V_Pa = response.kernel(0, i * kPitch_m, j * kPitch_m);
+      for (const std::size_t reading : {0U, 1U}) {
+        const double one = V_Pa(static_cast<int>(reading), 0);
+        all[reading] += one;
+        along[reading] += i % 2 == 0 ? one : -one;
+        across[reading] += j % 2 == 0 ? one : -one;
+      }
+    }
+  }
+  // Per pressure over the lattice and thickness: P^2/A of what a pillar reads.
+  const double of_lattice = kPitch_m * kPitch_m / (std::numbers::pi * 400e-12) / 25e-6;
+  CHECK(-all[0] * of_lattice == Approx(0.76268).epsilon(1e-4));
+  CHECK(-all[1] * of_lattice == Approx(0.61110).epsilon(1e-4));
+  CHECK(along[0] / all[0] == Approx(1.01178).margin(2e-4));
+  CHECK(along[1] / all[1] == Approx(1.01410).margin(2e-4));
+  CHECK(across[0] / all[0] == Approx(0.99786).margin(2e-4));
+  CHECK(across[1] / all[1] == Approx(0.99593).margin(2e-4));
 }
 
 }  // namespace
