@@ -44,6 +44,21 @@ void bessel(double x, Eigen::VectorXd& values) {
   }
 }
 
+// What waves beyond the last one add to the reading: if the sums over the last three octaves fall evenly, they go on as
+// a geometric series (eq. S6). Zero if not, as under an electrode whose rim does not lie on that of the foot.
+double shorter_waves_V(const std::vector<PotentialSpectrum::OwnWave>& own,
+                       const AxialReading& reading) {
+  constexpr double kLeastRatio = 0.2, kMostRatio = 0.6;
+  std::array<double, 3> octave_V{};  // the last one first
+  for (const PotentialSpectrum::OwnWave& wave : own) {
+    const auto i = static_cast<std::size_t>(std::log2(own.back().k_1_m / wave.k_1_m));
+    if (i < octave_V.size()) octave_V[i] += wave.amplitude * reading(wave.k_1_m);
+  }
+  const double ratio = octave_V[0] / octave_V[1], before = octave_V[1] / octave_V[2];
+  const auto is_even = [](double of) { return of > kLeastRatio && of < kMostRatio; };
+  return is_even(ratio) && is_even(before) ? octave_V[0] * ratio / (1.0 - ratio) : 0.0;
+}
+
 }  // namespace
 
 AxialReading point_reading() {
@@ -82,10 +97,11 @@ PotentialTable::PotentialTable(const PotentialSpectrum& spectrum,
     // An electrode without net charge does not change the voltage that it reads.
     for (std::size_t r = 0; r < factors.size(); ++r) own_V_[r] -= factors[r] * induced[i](0, 0);
   }
-  for (const PotentialSpectrum::OwnWave& wave : spectrum.own) {
-    for (std::size_t r = 0; r < readings.size(); ++r) {
+  for (std::size_t r = 0; r < readings.size(); ++r) {
+    for (const PotentialSpectrum::OwnWave& wave : spectrum.own) {
       own_V_[r] += wave.amplitude * readings[r](wave.k_1_m);
     }
+    own_V_[r] += shorter_waves_V(spectrum.own, readings[r]);
   }
 }
 

@@ -81,6 +81,19 @@ TEST_CASE("an open electrode under the pillar agrees with coupled elements", "[m
   CHECK(response.capacitance_F() == Approx(12.2289e-15).epsilon(5e-5));
 }
 
+TEST_CASE("waves shorter than those of the sum are added under an electrode as wide as the foot",
+          "[models][convergence]") {
+  // Without what lies beyond them, 7e-5 of the voltage lacks at degree 7.
+  const SpaceArray array = pillars_with_electrodes(film_of_the_manual(), 20e-6);
+  const std::vector<SpaceAccuracy> levels = space_accuracies(array);
+  const auto read_V = [&](std::size_t level) {
+    return SpaceResponse(array, levels[level]).voltages_V(pressed(array, 1e4))(0, 0);
+  };
+  const double finest_V = read_V(6);
+  CHECK(read_V(3) == Approx(finest_V).epsilon(1e-4));
+  CHECK(read_V(4) == Approx(finest_V).epsilon(1e-5));
+}
+
 TEST_CASE("open electrodes beside a pressed pillar feel the charge that its own one gained",
           "[models]") {
   SpaceArray array = pillars_with_electrodes(film_of_the_manual(), 20e-6);
