@@ -67,11 +67,18 @@ namespace {
 // What pillars beyond the reach would add, relative to the reference value of the tolerance.
 // Comparing two accuracies does not show it for a pillar that neither of them reaches.
 double beyond_reach(const SpaceScene& scene, const SpaceResponse& response,
-                    const TopLoads& loads_Pa, const SceneAnswer& answer) {
+                    const TopLoads& loads_Pa, const Eigen::MatrixXd& readings_V,
+                    const SceneAnswer& answer) {
   const Eigen::VectorXd beyond_V = response.beyond_reach_V(loads_Pa);
   const std::vector<std::string> names = reading_names(scene.electrode);
   double share = 0.0;
   for (const SceneMap& map : answer.maps) {
+    if (map.name == kCrosstalk && size_of(map) > 0.0) {
+      // Per cent of the reading of a disc (space_maps.cpp).
+      const Eigen::Index disc = scene.electrode == SpaceElectrode::kEquipotential ? 0 : 1;
+      const double own_V = readings_V.col(disc).cwiseAbs().maxCoeff();
+      if (own_V > 0.0) share = std::max(share, 100.0 * beyond_V[disc] / own_V / size_of(map));
+    }
     for (std::size_t r = 0; r < names.size(); ++r) {
       if (map.name != names[r] + "_voltage" || !(size_of(map) > 0.0)) continue;
       share = std::max(share, beyond_V[static_cast<Eigen::Index>(r)] / size_of(map));
@@ -97,7 +104,8 @@ SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
   }
   if (senses_forces(scene)) add_sensed(scene, response, loads_Pa, readings_V, answer);
   if (course != nullptr) add_voltage_curves(scene, response, *course, answer);
-  if (scene.feels_neighbours) answer.step_error = beyond_reach(scene, response, loads_Pa, answer);
+  if (scene.feels_neighbours)
+    answer.step_error = beyond_reach(scene, response, loads_Pa, readings_V, answer);
   set_results(scene, answer);
   add_transfer(scene, response, accuracy.potential.reach_m, answer);
   return answer;

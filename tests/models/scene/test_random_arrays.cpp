@@ -203,6 +203,12 @@ TEST_CASE("many random arrays under a shape meet their tolerance with honest est
   study_pressed_arrays(60, 4);
 }
 
+// Percentages are judged at 10 %, the voltage that distant neighbours add at all of the own one.
+TEST_CASE("cross-talk from beyond the reach of an accuracy lies within its estimate",
+          "[models][array][space]") {
+  study_touch(107, 1, 5);
+}
+
 TEST_CASE("300 random touches are answered, within their tolerance and honest",
           "[models][array][space][slow]") {
   study_touch(0, 300, 5);
