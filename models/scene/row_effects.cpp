@@ -214,7 +214,7 @@ EffectEstimate geometric_stiffness_estimate(const ArrayScene& scene) {
 EffectEstimate contact_estimate(const ArrayScene& scene) {
   if (!scene.press) return {.reason = "no shape presses on the pillars"};
   const RowFoundation pressed = row_foundation(scene);
-  EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap over overlap",
+  EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap or pull over overlap",
                           pressed.lift, "tops that the shape does not touch are not pulled"};
   const bool holds = scene.press->work_of_adhesion_J_m2 > 0.0;
   if (!pressed.covers_all || holds) estimate.role = EffectRole::kNeeded;

@@ -176,12 +176,12 @@ EffectEstimate finite_strain_estimate(const SpaceScene& scene) {
           "small strains are assumed; not in the error"};
 }
 
-// A top lifts where the surface stays above it, and about where a rotated top would: the stresses
-// of bending and compression (Saint-Venant) are equal at the rim when the overlap vanishes there.
+// A top lifts where the surface stays above it, about where a rotated top would (the stresses of bending and
+// compression, Saint-Venant, are equal at the rim when the overlap vanishes there), and where a bent surface leaves it pulling.
 EffectEstimate contact_estimate(const SpaceScene& scene) {
   if (!scene.press) return {.reason = "no shape presses on the pillars"};
   const FoundationPress pressed = foundation_press(scene);
-  EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap over overlap",
+  EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap or pull over overlap",
                           pressed.lift, "tops that the shape does not touch are not pulled"};
   const bool holds = scene.press->work_of_adhesion_J_m2 > 0.0;
   if (!pressed.covers_all || scene.backing || holds) estimate.role = EffectRole::kNeeded;

@@ -18,6 +18,11 @@ struct TopHold {
 bool is_held_after(const TopHold& hold, const std::vector<double>& path_m);
 bool is_ever_held(const TopHold& hold, const std::vector<double>& path_m);
 
+// A surface that is bent by b over a top of radius R, besides its tilt, leaves pressures of up to this times E b/R that
+// sum to nothing: a part of the top pulls, and lifts, where the mean pressure is less. Spheres and cylinders have 1.4 to
+// 1.7, a ridge over the middle 0.8, half-way to the rim 2.8, nearer to the rim more on less of the top.
+constexpr double kPullOfBend = 6.0;
+
 // A top as a column under the surface, for estimates.
 struct PulledColumn {
   double lowest_m = 0.0, mean_m = 0.0, highest_m = 0.0;  // of the surface above it, at depth 0

@@ -66,8 +66,8 @@ struct RowFoundation {
   double shortening = 0.0;  // of a pillar, the largest over its length
   bool touches = false;     // there is a surface above a top
   bool covers_all = true;   // and above every top everywhere
-  double lift =
-      1.0;  // how far a point of any top stays above the surface, over the largest overlap
+  // How far a point of any top stays above the surface, or would be pulled under a bent one, over the largest overlap.
+  double lift = 1.0;
 };
 RowFoundation row_foundation(const ArrayScene& scene);
 

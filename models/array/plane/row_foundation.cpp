@@ -14,22 +14,33 @@ namespace {
 // The surface above one top.
 struct SurfaceAbove {
   double lowest_m = HUGE_VAL, highest_m = -HUGE_VAL, mean_m = 0.0;
+  double bent_m = 0.0;  // in the middle, between points on both sides
 };
 
 SurfaceAbove surface_above(const ArrayScene& scene, int pillar) {
   constexpr int kPoints = 40;  // intervals of Simpson's rule
   const double width_m = scene.geometry.diameter_m;
   const double left_m = place_m(scene.geometry, pillar) - 0.5 * width_m;
+  const auto surface_m = [&](int i) {
+    return height_m(scene.press->shape, left_m + width_m * i / kPoints, 0.0);
+  };
   SurfaceAbove above;
   for (int i = 0; i <= kPoints; ++i) {
-    const double at_m = height_m(scene.press->shape, left_m + width_m * i / kPoints, 0.0);
+    const double at_m = surface_m(i);
     above.lowest_m = std::min(above.lowest_m, at_m);
     above.highest_m = std::max(above.highest_m, at_m);
     const bool is_end = i == 0 || i == kPoints;
     above.mean_m += (is_end ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * at_m / (3.0 * kPoints);
   }
   // Where the surface ends above a top, its covered part counts.
-  if (!std::isfinite(above.mean_m)) above.mean_m = above.lowest_m;
+  if (!std::isfinite(above.mean_m)) {
+    above.mean_m = above.lowest_m;
+    return above;
+  }
+  for (int i = 0; i < kPoints / 2; ++i) {
+    const double middle_m = 0.5 * (surface_m(i) + surface_m(kPoints - i));
+    above.bent_m = std::max(above.bent_m, std::abs(middle_m - surface_m(kPoints / 2)));
+  }
   return above;
 }
 
@@ -101,7 +112,8 @@ RowFoundation row_foundation(const ArrayScene& scene) {
     const double mean_m = row.depth_m - one.mean_m;
     row.shortening = std::max(row.shortening, mean_m / g.length_m);
     overlap_m = std::max(overlap_m, row.depth_m - one.lowest_m);
-    lifted_m = std::max(lifted_m, one.highest_m - row.depth_m);
+    const double pulled_m = kPullOfBend * one.bent_m * 2.0 * g.length_m / g.diameter_m + one.mean_m;
+    lifted_m = std::max(lifted_m, std::max(one.highest_m, pulled_m) - row.depth_m);
   }
   row.largest_Pa = scene.pillar.E0_Pa * row.shortening;
   row.pull_Pa = row_pull_Pa(scene, columns);

@@ -6,6 +6,7 @@
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,7 +18,8 @@ namespace {
 
 struct Column {
   double lowest_m = 0.0, highest_m = 0.0, mean_m = 0.0;  // of the surface above its top
-  double area_m2 = 0.0, stiffness_Pa_m = 0.0, length_m = 0.0;
+  double bent_m = 0.0;  // of the surface, between the ends of a diameter
+  double area_m2 = 0.0, stiffness_Pa_m = 0.0, length_m = 0.0, radius_m = 0.0;
   double limit_Pa = 0.0;  // mean pull at pull-off
 
   double force_N(double depth_m) const {
@@ -30,13 +32,14 @@ Column column_under(const RigidShape& shape, const SpacePillar& one, const Space
   constexpr int kAngles = 8;
   const double R_m = 0.5 * kind.diameter_m;
   const double centre_m = height_m(shape, one.x_m, one.y_m) - above_m;
-  Column column{centre_m,
-                centre_m,
-                0.5 * centre_m,
-                std::numbers::pi * R_m * R_m,
-                kind.material.E0_Pa / kind.length_m,
-                kind.length_m,
-                0.0};
+  Column column{.lowest_m = centre_m,
+                .highest_m = centre_m,
+                .mean_m = 0.5 * centre_m,
+                .area_m2 = std::numbers::pi * R_m * R_m,
+                .stiffness_Pa_m = kind.material.E0_Pa / kind.length_m,
+                .length_m = kind.length_m,
+                .radius_m = R_m};
+  std::array<double, kAngles> rims_m{};
   for (int a = 0; a < kAngles; ++a) {
     const double angle = 2.0 * std::numbers::pi * a / kAngles;
     const double rim_m =
@@ -44,6 +47,11 @@ Column column_under(const RigidShape& shape, const SpacePillar& one, const Space
     column.lowest_m = std::min(column.lowest_m, rim_m);
     column.highest_m = std::max(column.highest_m, rim_m);
     column.mean_m += 0.5 * rim_m / kAngles;  // exact for a paraboloid
+    rims_m[static_cast<std::size_t>(a)] = rim_m;
+  }
+  for (std::size_t a = 0; 2 * a < rims_m.size() && std::isfinite(column.highest_m); ++a) {
+    const double middle_m = 0.5 * (rims_m[a] + rims_m[a + kAngles / 2]);
+    column.bent_m = std::max(column.bent_m, std::abs(middle_m - centre_m));
   }
   // If the surface ends above a top, only the covered part of the top counts.
   if (!std::isfinite(column.mean_m)) column.mean_m = column.lowest_m;
@@ -146,7 +154,9 @@ FoundationPress foundation_press(const SpaceScene& scene) {
     answer.largest_Pa =
         std::max(answer.largest_Pa, column.force_N(answer.depth_m) / column.area_m2);
     overlap_m = std::max(overlap_m, answer.depth_m - column.lowest_m);
-    lifted_m = std::max(lifted_m, column.highest_m - answer.depth_m);
+    const double pulled_m =
+        kPullOfBend * column.bent_m * column.length_m / column.radius_m + column.mean_m;
+    lifted_m = std::max(lifted_m, std::max(column.highest_m, pulled_m) - answer.depth_m);
     turned_m =
         std::max(turned_m, 0.5 * (std::min(column.highest_m, answer.depth_m) - column.lowest_m));
   }

@@ -81,7 +81,7 @@ struct FoundationPress {
   double pull_Pa = 0.0;     // largest mean pull on a top that adheres, along the path of depths
   double shortening = 0.0;  // of a pillar, the largest over its length
   double lowest_m = 0.0;    // of the surface over all tops
-  // How far a point of any top stays above the surface, and half the rise of the surface over a touched
+  // How far a point of any top stays above the surface, or would be pulled under a bent one, and half the rise of the surface over a touched
   // top, both over the largest overlap; 1 and 0 if the shape touches nothing.
   double lift = 1.0, turn = 0.0;
   bool covers_all = true;  // there is a surface above every top

@@ -1,7 +1,9 @@
+#include "models/array/plane/row_contact.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
+#include "tests/models/array/plane/pressed_rows.h"
 #include "tests/models/array/plane/seed_array.h"
 #include "tests/models/scene/random_rows.h"
 
@@ -194,6 +196,20 @@ TEST_CASE("pillars long enough to stick to their neighbours are reported", "[arr
   const SceneEffect adhesion = effect_of(plan_effects(scene), "adhesion");
   CHECK(adhesion.value > 1.0);
   CHECK(adhesion.reason.find("lateral collapse") != std::string::npos);
+}
+
+TEST_CASE("a narrow cylinder lifts a strip that it overlaps everywhere", "[array][plan]") {
+  ArrayScene scene = pressed_row(cylinder(0.5e-6, Friction::kNone, 0.5e-3), 1);
+  scene.tolerance = 1e-2;
+  const double force_N_m = row_contact_on(scene, kRowGrids - 1).force_N_m;
+  ArrayScene follows = scene;
+  follows.feels_contact = false;
+  CHECK(row_contact_on(follows, kRowGrids - 1).force_N_m < 0.95 * force_N_m);
+  const SceneAnswer answer = simulate(scene);
+  const auto force = std::find_if(answer.results.begin(), answer.results.end(),
+                                  [](const SceneResult& r) { return r.name == "contact_force"; });
+  REQUIRE(force != answer.results.end());
+  CHECK(force->value == Approx(force_N_m).epsilon(scene.tolerance));
 }
 
 TEST_CASE("random rows are answered within their tolerance by their plans", "[array][plan]") {
