@@ -106,6 +106,21 @@ Range best_range(const DmaModel& model, const SpectrumFit& fit, Index begin) {
   return best;
 }
 
+// Variance of the coefficient of `column`, each row with its own scatter: the losses between peaks
+// scatter more than their weights state if the noise is relative to the complex modulus. The
+// estimator HC3 of MacKinnon and White, J. Econometrics 29 (1985) 305.
+double variance_of_rows(const Eigen::VectorXd& column, const SpectrumFit& together,
+                        const SpectrumFit& apart) {
+  constexpr double kLeastFree = 0.05;  // 1 - leverage; a row that decides its own fit has none
+  const Eigen::VectorXd outside = column - together.basis * (together.basis.transpose() * column);
+  double sum = 0.0;
+  for (Index i = 0; i < column.size(); ++i) {
+    const double free = std::max(kLeastFree, 1.0 - apart.basis.row(i).squaredNorm());
+    sum += std::pow(outside[i] * apart.residual[i] / free, 2);
+  }
+  return sum / std::pow(outside.squaredNorm(), 2);
+}
+
 }  // namespace
 
 std::optional<KramersKronigBreak> kramers_kronig_break(const DmaModel& model,
@@ -135,8 +150,11 @@ std::optional<KramersKronigBreak> kramers_kronig_break(const DmaModel& model,
   constexpr double kRanges = 2.6, kVisible = 0.02;
   const double t_95 = student_t_975(apart.spare);
   const double share = apart.free_coefficient;
-  const double error = std::sqrt(variance / best.length2);
-  const double t = std::sqrt(std::max(0.0, together.rss - apart.rss) / variance);
+  const double error =
+      std::sqrt(std::max(variance / best.length2,
+                         variance_of_rows(with_factor.col(spectrum.cols()), together, apart)));
+  const double t = std::min(std::sqrt(std::max(0.0, together.rss - apart.rss) / variance),
+                            std::abs(share) / error);
   if (t < kRanges * t_95 || std::abs(share) < kVisible) return std::nullopt;
   const bool is_loss = best.first >= count;
   const Index first = is_loss ? best.first - count : best.first;

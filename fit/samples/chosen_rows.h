@@ -28,6 +28,11 @@ RowRange up_to_longest_hold(std::span<const double> time_s, std::span<const doub
 // Without a depth: the rows from the largest value on, where relaxation begins.
 RowRange from_largest(std::span<const double> values);
 
+// One past the last row after `peak` before the value falls faster than any relaxation does, as it
+// does if the punch is lifted; the number of rows if it does not.
+std::size_t end_of_relaxation(std::span<const double> time_s, std::span<const double> values,
+                              std::size_t peak);
+
 // The last row before `peak` at which the value has not yet risen by a twentieth: there the loading
 // begins. Nothing if the record begins later than that.
 std::optional<std::size_t> begin_of_rise(std::span<const double> values, std::size_t peak);

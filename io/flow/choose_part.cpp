@@ -71,7 +71,11 @@ RowRange hold_of(const Course& course, int number) {
 
 RowRange cropped(const Course& course) {
   if (!course.input.empty()) return up_to_longest_hold(course.time_s, course.input);
-  if (!course.value.empty()) return from_largest(course.value);
+  if (!course.value.empty()) {
+    RowRange part = from_largest(course.value);
+    part.end = end_of_relaxation(course.time_s, course.value, part.begin);
+    return part;
+  }
   throw std::runtime_error("--crop auto needs depth_m, strain, modulus_Pa, stress_Pa or force_N");
 }
 

@@ -104,6 +104,35 @@ TEST_CASE("a single term between two times of the grid does not contradict itsel
   CHECK(n_flags == 0);
 }
 
+TEST_CASE(
+    "noise relative to the complex modulus makes no contradiction of a loss between two peaks",
+    "[fit]") {
+  // The loss is 1 to 40 % of the complex modulus, so that its own scatter is 1 to 50 %.
+  struct Sweep {
+    PronySeries truth;
+    double from, to;
+    int per_decade;
+  };
+  const auto [truth, from, to, per_decade] =
+      GENERATE(Sweep{{1e6, {{5e5, 0.01}, {3e5, 1.0}}}, -2.0, 3.0, 10},
+               Sweep{{1e6, {{5e5, 1.6}, {3e5, 0.01}}}, -1.0, 2.0, 10});
+  const double noise = GENERATE(0.001, 0.005);
+  CAPTURE(from, noise);
+  int n_flags = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    DmaData data = sweep(truth, from, to, per_decade, 0.0, seed);
+    std::mt19937_64 dice(seed);
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < data.loss_Pa.size(); ++i) {
+      const double scatter_Pa = noise * std::hypot(data.storage_Pa[i], data.loss_Pa[i]);
+      data.storage_Pa[i] += scatter_Pa * normal(dice);
+      data.loss_Pa[i] += scatter_Pa * normal(dice);
+    }
+    n_flags += has_flag(fit_dma(data), kFlag);
+  }
+  CHECK(n_flags <= 1);
+}
+
 TEST_CASE("a modulus that is 5 % off over one decade is found with its place and size", "[fit]") {
   const bool is_loss = GENERATE(true, false);
   const double factor = GENERATE(1.05, 0.95);

@@ -81,7 +81,7 @@ void add_data_options(po::options_description& options) {
       "fit only this hold of the record, from 1, with the ramp that leads to it");
   add("crop", po::value<std::string>(),
       "auto: fit only up to the end of the longest hold (without a depth: from the largest value "
-      "on)");
+      "to the lift of the punch)");
   add("depth", po::value<std::string>(),
       "constant depth of a table of force and time, such as \"0.1 mm\": gives stiffnesses");
   add("specimen", po::value<std::string>(), "specimen.toml with the geometry under the punch");

@@ -168,6 +168,27 @@ TEST_CASE("fit --crop auto of a force alone puts t = 0 into the rise before its 
   CHECK_THAT(flags_of(given), !Contains("time-zero-chosen"));
 }
 
+TEST_CASE("--crop auto of a force alone ends where the punch is lifted", "[cli]") {
+  // A step at 2 s, and from 45 s a fall to 0 in `lift_s`, faster than any relaxation.
+  const TableFolder folder;
+  const double lift_s = GENERATE(0.01, 0.5, 3.0);
+  std::ostringstream text;
+  text.precision(12);
+  text << "time_s,force_N\n";
+  for (int i = 0; i < 1200; ++i) {
+    const double t = 0.05 * i;
+    const double held = t < 2.0 ? 0.0 : 1.2 + 0.8 * std::exp(-(t - 2.0) / 5.0);
+    const double lifted = std::clamp((t - 45.0) / lift_s, 0.0, 1.0);
+    text << t << "," << held * (1.0 - lifted) + 1e-4 * ((7 * i) % 11 - 5) << "\n";
+  }
+  const std::string file = folder.write("lifted.csv", text.str());
+  const auto fit = json_of({"fit", file, "--crop", "auto", "--json"});
+  CAPTURE(lift_s, fit["fit_to_s"].get<double>());
+  CHECK(fit["F_inf_N"].get<double>() == Approx(1.2).epsilon(0.01));
+  CHECK(fit["terms"][0]["tau_s"].get<double>() == Approx(5.0).epsilon(0.05));
+  CHECK_THAT(run_command({"fit", file, "--crop", "auto"}).out, Contains(" to 45 s"));
+}
+
 TEST_CASE("a constant stress with a changing strain is a creep test", "[cli]") {
   const TableFolder folder;
   std::ostringstream text;
