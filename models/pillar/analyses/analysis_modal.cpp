@@ -175,6 +175,7 @@ void run_modal(const PillarScene& scene, SceneAnswer& answer) {
     judge_buckling(scene, beyond);
   }
   add_rounding(scene, modal.rounding, answer);
+  add_missing_layers(modal.rim, answer);
   note_rigid_motions(scene, answer);
 }
 

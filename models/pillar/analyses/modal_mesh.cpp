@@ -21,8 +21,10 @@ ModalMesh modal_mesh(const PillarScene& scene, Discretisation mesh) {
     }
     mesh.grades_top = is_pressed(scene);
   }
+  const int layers = mesh.layers;
   const double rounding = avoid_rounding(scene, mesh);
-  return {mesh, rounding};
+  const double rim = mesh.layers < layers ? rim_share(scene, mesh, mesh.layers) : 0.0;
+  return {mesh, rounding, rim};
 }
 
 }  // namespace viscard

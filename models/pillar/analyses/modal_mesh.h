@@ -9,6 +9,7 @@ namespace viscard {
 struct ModalMesh {
   Discretisation mesh;
   double rounding = 0.0;  // relative error of the first bending frequency (slender_rounding.h)
+  double rim = 0.0;       // that of the layers that were removed for the rounding
 };
 
 // `mesh` with elements for the highest mode that the scene wants; as it is where the scene states one.

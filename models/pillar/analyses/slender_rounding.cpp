@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 namespace viscard {
 namespace {
@@ -60,6 +62,12 @@ double root_of_squares(const SymmetricSparse& K, const Eigen::VectorXd& shape) {
 
 }  // namespace
 
+double rim_share(const PillarScene& scene, const Discretisation& mesh, int layers) {
+  constexpr double kCorner = 2.0 * 0.6;
+  constexpr double kFront = 0.08;
+  return kFront * 0.5 / slenderness_of(scene) * std::pow(mesh.ratio, kCorner * layers);
+}
+
 double bending_rounding(const PillarScene& scene, const Discretisation& mesh) {
   // A bound of the formula below over meshes of degree up to 10, far above it for most.
   constexpr double kLargestFactor = 1e5;
@@ -76,6 +84,8 @@ double bending_rounding(const PillarScene& scene, const Discretisation& mesh) {
 double avoid_rounding(const PillarScene& scene, Discretisation& mesh) {
   double rounding = bending_rounding(scene, mesh);
   while (!scene.discretisation && rounding > 0.1 * scene.tolerance && mesh.layers > 1) {
+    const bool is_for_the_better = rim_share(scene, mesh, mesh.layers - 1) < rounding;
+    if (!is_for_the_better && rounding < 0.5 * scene.tolerance) break;
     --mesh.layers;
     rounding = bending_rounding(scene, mesh);
   }
@@ -90,6 +100,14 @@ double avoid_rounding(const PillarScene& scene, Discretisation& mesh) {
         " or larger, or take the frequency of a beam (Euler-Bernoulli)");
   }
   return rounding;
+}
+
+void add_missing_layers(double rim, SceneAnswer& answer) {
+  std::map<std::string, int> number;
+  for (SceneMode& mode : answer.modes) {
+    if (mode.family != "lateral" && mode.family != "longitudinal") continue;
+    mode.unresolved = std::max(mode.unresolved, rim * (2 * ++number[mode.family] - 1));
+  }
 }
 
 void add_rounding(const PillarScene& scene, double rounding, SceneAnswer& answer) {

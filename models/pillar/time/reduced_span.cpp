@@ -55,10 +55,20 @@ bool ReducedSpan::add(Eigen::VectorXd v) {
   if (!(after > 1e-9 * before) || !std::isfinite(after)) return false;
   v /= after;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(v.size());
+  const Eigen::VectorXd elastic = times(body_.elastic, v);
+  const Eigen::VectorXd shear = times(body_.shear, v);
+  // An incompressible body's volume does not change.
+  const Eigen::VectorXd bulk = body_.incompressible ? none : times(body_.bulk, v);
+  // Rounding is orthogonal to the basis from one side only: what it adds has no energy of its own.
+  constexpr double kMostOverlap = 1e-3;
+  if (count() > 0) {
+    const Eigen::VectorXd overlap = basis_.transpose() * (elastic + shear + bulk);
+    if (!(overlap.cwiseAbs().maxCoeff() < kMostOverlap)) return false;
+  }
   append(basis_, v);
-  append(elastic_, times(body_.elastic, v));
-  append(shear_, times(body_.shear, v));
-  append(bulk_, body_.incompressible ? none : times(body_.bulk, v));  // its volume does not change
+  append(elastic_, elastic);
+  append(shear_, shear);
+  append(bulk_, bulk);
   append(mass_, has_mass() ? times(body_.mass, v) : none);
   border(small_elastic_, basis_, elastic_);
   border(small_shear_, basis_, shear_);

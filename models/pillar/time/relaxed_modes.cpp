@@ -93,6 +93,16 @@ class RelaxedSearch {
   // Frequency of a mode if only the storage moduli act, rad/s; 0: none. Sets its vector, and the
   // share of the spectrum that separates it from the directions missing in the basis.
   double storage_mode(int number, Eigen::VectorXd& y);
+  // Under a pressure the stress at the rim of the bond grows without bound as layers become thinner,
+  // and modes of the finest ones buckle long before the pillar does. They are no modes of the pillar
+  // (pillar_buckling.cpp), and lie as far below zero as their own stiffness is high; the pillar's own
+  // modes fall by no more than their frequency squared without the pressure.
+  Eigen::Index rim_modes_among(const Eigen::VectorXd& ascending_1_s2) const {
+    const double highest_1_s2 = std::pow(first_guess_rad_s(known_ - 1), 2);
+    Eigen::Index count = 0;
+    while (count + known_ < ascending_1_s2.size() && ascending_1_s2[count] < -highest_1_s2) ++count;
+    return count;
+  }
   int rigid_count() const {
     const auto& options = model_.options();
     return options.fixed_bottom ? 0 : rigid_motion_count(options.motion);
@@ -160,9 +170,10 @@ double RelaxedSearch::storage_mode(int number, Eigen::VectorXd& y) {
     const RelativeModuli m = storage_at(body_.terms, omega);
     const EigenSystem all = generalized_eigen(span_.restricted(m.shear, m.bulk, shift_1_s2_).real(),
                                               span_.small_mass());
-    y = all.vectors.col(number);
-    const double next = all.values[known_ - 1];
-    gap_ = number < known_ - 1 ? std::max(1.0 - all.values[number] / next, 0.05) : 1.0;
+    const Eigen::Index first = rim_modes_among(all.values);
+    y = all.vectors.col(first + number);
+    const double next = all.values[first + known_ - 1];
+    gap_ = number < known_ - 1 ? std::max(1.0 - all.values[first + number] / next, 0.05) : 1.0;
     const double before = omega;
     omega = storage_frequency_rad_s(pencil_of(y.cast<Complex>()), body_.terms, omega);
     if (omega == 0.0 || std::abs(omega - before) < 1e-6 * omega) break;
