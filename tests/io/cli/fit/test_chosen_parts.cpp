@@ -168,7 +168,7 @@ TEST_CASE("fit --crop auto of a force alone puts t = 0 into the rise before its 
   CHECK_THAT(flags_of(given), !Contains("time-zero-chosen"));
 }
 
-TEST_CASE("--crop auto of a force alone ends where the punch is lifted", "[cli]") {
+TEST_CASE("fit --crop auto of a force alone ends where the punch is lifted", "[cli]") {
   // A step at 2 s, and from 45 s a fall to 0 in `lift_s`, faster than any relaxation.
   const TableFolder folder;
   const double lift_s = GENERATE(0.01, 0.5, 3.0);
