@@ -132,8 +132,14 @@ void check_band(const CardWords& words) {
 // Of --check or --prove CARD with a law of rubber.
 void check_rubber_words(const CardWords& words) {
   if (words.target.empty()) {
-    throw UsageError((words.check.empty() ? words.prove : words.check) +
-                     " does not name its solver, as cards by viscard do; add --for " +
+    const std::string& given_card = words.check.empty() ? words.prove : words.check;
+    if (const CardTarget* linear = stated_card_target(read_file(given_card))) {
+      throw UsageError(
+          given_card + " is a card of a linear material (" + linear->name + "), and " +
+          words.material +
+          " is a law of rubber; compare the card with the material that it was written from");
+    }
+    throw UsageError(given_card + " does not name its solver, as cards by viscard do; add --for " +
                      listed(rubber_card_targets()));
   }
   if (!words.units.empty()) check_word("unit system", words.units, unit_names());

@@ -9,6 +9,9 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -200,4 +203,21 @@ TEST_CASE("rubber proofs: cubes go as far as the tests of the law did, and stay 
   // Yeoh with a negative C20 alone softens until it is unstable.
   const auto soft = rubber_of(HyperelasticForm::kYeoh, {2e5, -4e4, 1.0}, {}, {}).law;
   for (const CubeTest& test : cube_tests(soft, nullptr, 0.04)) CHECK(test.top < 1.8);
+}
+
+TEST_CASE("rubber proofs: rows of SfePy carry what its iteration left on free sides", "[io]") {
+  namespace folders = std::filesystem;
+  std::string name = (folders::temp_directory_path() / "viscard-rows-XXXXXX").string();
+  REQUIRE(mkdtemp(name.data()) != nullptr);
+  std::ofstream(folders::path(name) / "result_0.txt") << "1.5 2.0e5 1e-12\n2.0 3.0e5 4e-4\n";
+  std::ofstream(folders::path(name) / "result_1.txt") << "0.5 1.0e5 0.0 1.1e5\n";
+  const auto stretched = sfepy_rows(name, 0), held = sfepy_rows(name, 1);
+  folders::remove_all(name);
+  REQUIRE(stretched.size() == 2);
+  CHECK(stretched[0].unbalanced == 1e-12);
+  CHECK(stretched[1].unbalanced == 4e-4);
+  CHECK(stretched[1].stress == 3e5);
+  REQUIRE(held.size() == 1);
+  CHECK(held[0].unbalanced == 0.0);
+  CHECK(held[0].coarser == 1.1e5);
 }

@@ -42,7 +42,8 @@ output.set_output(quiet=True)
 
 
 def stresses(mode, ramp, factor):
-    """Nominal stresses of one element with a bulk modulus of `factor` times that of the card."""
+    """Nominal stresses of one element with a bulk modulus of `factor` times that of the card, and the
+    forces that the iteration left on free sides, relative to that of the stretch."""
     domain = FEDomain("cube", gen_block_mesh((1, 1, 1), (2, 2, 2), (0.5, 0.5, 0.5), verbose=False))
     omega = domain.create_region("Omega", "all")
     face = {
@@ -63,7 +64,7 @@ def stresses(mode, ramp, factor):
     newton = {"i_max": 30, "eps_a": 1e-13 * numbers["K"], "eps_r": 1.0}
     problem.set_solver(Newton(newton, lin_solver=ScipyDirect({})))
     top = problem.domain.get_mesh_coors()[:, 2] > 0.999
-    state, out = None, []
+    state, out, left = None, [], []
     for stretch in ramp:
         held = [("x0", "u.0", 0.0), ("y0", "u.1", 0.0), ("z0", "u.2", 0.0), ("z1", "u.2", stretch - 1)]
         held += [("y1", "u.1", 0.0)] if mode == "planar" else []
@@ -74,8 +75,12 @@ def stresses(mode, ramp, factor):
         state = problem.solve(**options) if state is None else problem.solve(state0=state, **options)
         problem.remove_bcs()
         force = problem.get_evaluator().eval_residual(state(), is_full=True).reshape(-1, 3)
+        free = np.ones_like(force, dtype=bool)
+        for region, dof, _ in held:
+            free[face[region].vertices, int(dof[-1])] = False
         out.append(force[top, 2].sum())
-    return np.array(out)
+        left.append(np.abs(force[free]).sum() / abs(out[-1]))
+    return np.array(out), np.array(left)
 
 
 def relaxed(elastic, ramp, length, until):
@@ -94,16 +99,16 @@ def relaxed(elastic, ramp, length, until):
 for number, (mode, last, steps) in enumerate(tests):
     ramp = np.linspace(1.0, last, steps + 1)[1:]
     with open(f"result_{number}.txt", "w") as result:
-        for stretch, stress in zip(ramp, stresses(mode, ramp, 1.0)):
-            print(repr(float(stretch)), repr(float(stress)), file=result)
+        for row in zip(ramp, *stresses(mode, ramp, 1.0)):
+            print(*(repr(float(number)) for number in row), file=result)
 if hold:
     last, length, steps, until = hold
     ramp = np.linspace(1.0, last, steps + 1)[1:]
-    one, two, four = (stresses("uniaxial", ramp, factor) for factor in (1.0, 2.0, 4.0))
+    one, two, four = (stresses("uniaxial", ramp, factor)[0] for factor in (1.0, 2.0, 4.0))
     coarse, fine = 2 * two - one, (4 * (2 * four - two) - (2 * two - one)) / 3
     with open(f"result_{len(tests)}.txt", "w") as result:
         for (time, a), (_, b) in zip(relaxed(fine, ramp, length, until), relaxed(coarse, ramp, length, until)):
-            print(repr(float(time)), repr(float(a)), repr(float(b)), file=result)
+            print(repr(float(time)), repr(float(a)), 0.0, repr(float(b)), file=result)
 )py";
 
 }  // namespace
@@ -180,7 +185,8 @@ std::vector<CubeRow> sfepy_rows(const std::filesystem::path& folder, std::size_t
     std::string word;
     if (words >> word) row.at = leading_number(word);
     if (words >> word) row.stress = leading_number(word);
-    if (words >> word) row.coarser = leading_number(word);
+    if (words >> word) row.unbalanced = leading_number(word);
+    if (words >> word) row.coarser = leading_number(word);  // of a hold
     rows.push_back(row);
   }
   return rows;

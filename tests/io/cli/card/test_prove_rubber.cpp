@@ -84,3 +84,17 @@ TEST_CASE("card --prove of a card of rubber without its solver says which one ru
              Contains("CalculiX does not read cards of rubber for abaqus"));
   CHECK_THAT(error_of({"--solver", "febio"}), Contains("--solver febio runs no cards of rubber"));
 }
+
+TEST_CASE("card --check and --prove of a linear card against a law of rubber name both", "[cli]") {
+  const TableFolder folder;
+  const std::string law = fitted_mooney(folder), card = folder.file("linear.inp");
+  REQUIRE(run_command({"card", VISCARD_SOURCE_DIR "/data/materials/pdms_1to10_seed.json", "--for",
+                       "abaqus", "--out", card})
+              .status == 0);
+  for (const char* option : {"--check", "--prove"}) {
+    const auto run = run_command({"card", law, option, card});
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains("is a card of a linear material (abaqus)") &&
+                            Contains("is a law of rubber"));
+  }
+}
