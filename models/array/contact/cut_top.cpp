@@ -55,8 +55,9 @@ PointCover point_cover(const Overlap& overlap, const std::vector<double>& radius
       double nearest = std::numeric_limits<double>::infinity();
       double nearest_m = at_points_m(ring, a);
       for (int k = 0; k < kEdgeSamples * kEdgeSamples; ++k) {
-        const double x = (2.0 * (k / kEdgeSamples) + 1.0) / kEdgeSamples - 1.0;
-        const double y = (2.0 * (k % kEdgeSamples) + 1.0) / kEdgeSamples - 1.0;
+        const int row = k / kEdgeSamples, column = k % kEdgeSamples;
+        const double x = (2.0 * row + 1.0) / kEdgeSamples - 1.0;
+        const double y = (2.0 * column + 1.0) / kEdgeSamples - 1.0;
         const double sample_m =
             at(radius_m[static_cast<std::size_t>(ring)] + x * step_m, step * (a + y));
         if (!std::isfinite(sample_m)) continue;
