@@ -140,7 +140,7 @@ ContactTable contact_table(const IndentationData& data) {
   ContactTable table;
   CleanViews clean({data.time_s, data.force_N, data.depth_m}, kLeastContactRows);
   check_force(clean.column(1));
-  const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
+  const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));
   clean.drop(spikes);
   const std::vector<std::size_t> jumps = depth_jumps(clean.column(1), clean.column(2));
   clean.drop(jumps);

@@ -96,7 +96,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   }
   const std::optional<double> rounded_s = rounding_step_s(clean.column(0));
   const EndRows ends = drop_end_rows(clean, StepRecord::kCreep);
-  const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
+  const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));
   clean.drop(spikes);
   const auto time_s = clean.column(0);
   if (!(time_s.back() > time_s.front())) {

@@ -148,11 +148,11 @@ std::vector<double> residual_of(const FitResult& fit, std::span<const double> ti
 // comparison with neighbours found spikes or could not be applied.
 FitResult fit_robustly(CleanViews& clean, const std::string& unit, const FitOptions& options) {
   const EndRows ends = drop_end_rows(clean, StepRecord::kRelaxation);
-  const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
+  const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));
   clean.drop(spikes);
   FitResult result = fit_step(clean, unit, options);
   std::size_t n_spikes = spikes.size();
-  if (n_spikes > 0 || !is_evenly_sampled(clean.column(0))) {
+  if (n_spikes > 0 || !is_evenly_sampled(clean.steps(), clean.column(0).size())) {
     const auto value = clean.column(1);
     const std::vector<std::size_t> outliers =
         outlying_samples(residual_of(result, clean.column(0), value), largest_of(value));
@@ -202,7 +202,7 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
   if (is_step) {
     result = fit_robustly(clean, data.unit, options);
   } else {
-    const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
+    const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));
     clean.drop(spikes);
     result = fit_with_or_without_drift(options, extent_of(clean, data.unit), [&](TableDrift drift) {
       return fit_strain_history(clean, drift, options);

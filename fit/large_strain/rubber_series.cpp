@@ -100,7 +100,7 @@ void divide_terms(HyperelasticPoint& point, std::size_t wanted) {
 std::vector<HyperelasticPoint> with_one_less(HyperelasticForm form, const LargeStrainRows& rows,
                                              const HyperelasticPoint& point) {
   std::vector<HyperelasticPoint> all;
-  const auto add = [&](std::vector<RubberTerm> terms) {
+  const auto add = [&](const std::vector<RubberTerm>& terms) {
     HyperelasticPoint next = with_shares(form, rows, point, times_of(terms));
     if (next.terms.size() == terms.size()) all.push_back(std::move(next));
   };

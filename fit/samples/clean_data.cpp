@@ -13,9 +13,8 @@ namespace viscard {
 
 namespace {
 
-bool is_ready(const std::vector<std::span<const double>>& columns) {
-  return std::all_of(columns.begin(), columns.end(), all_finite) &&
-         step_range(columns[0]).shortest >= 0.0;
+bool all_columns_finite(const std::vector<std::span<const double>>& columns) {
+  return std::all_of(columns.begin(), columns.end(), all_finite);
 }
 
 // Indices of the usable rows in order of time.
@@ -52,9 +51,12 @@ CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std:
                                   " values do not belong to one table");
     }
   }
-  if (is_ready(columns)) {
-    check_count(rows, rows, least);
-    return;
+  if (all_columns_finite(columns)) {
+    steps_ = step_range(columns[0]);
+    if (steps_.shortest >= 0.0) {
+      check_count(rows, rows, least);
+      return;
+    }
   }
   const std::vector<std::size_t> order = usable_rows(columns);
   n_left_out_ = rows - order.size();
@@ -65,10 +67,13 @@ CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std:
     for (const std::size_t i : order) target.push_back(view[i]);
     view = target;  // the view stays valid when copies_ grows
   }
+  steps_ = step_range(views_[0]);
 }
 
 void CleanViews::drop_first(std::size_t rows) {
+  if (rows == 0) return;
   for (std::span<const double>& view : views_) view = view.subspan(rows);
+  steps_ = step_range(views_[0]);
 }
 
 void CleanViews::drop(const std::vector<std::size_t>& rows) {
@@ -77,6 +82,7 @@ void CleanViews::drop(const std::vector<std::size_t>& rows) {
   for (const std::span<const double> view : views_) kept.push_back(without_rows(view, rows));
   copies_ = std::move(kept);
   for (std::size_t i = 0; i < views_.size(); ++i) views_[i] = copies_[i];
+  steps_ = step_range(views_[0]);
 }
 
 void check_sign(std::span<const double> values, const std::string& what,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "fit/samples/sample_passes.h"
+
 #include <cstddef>
 #include <span>
 #include <string>
@@ -20,6 +22,7 @@ class CleanViews {
 
   std::span<const double> column(std::size_t i) const { return views_[i]; }
   std::size_t n_left_out() const { return n_left_out_; }
+  const StepRange& steps() const { return steps_; }  // of the first column, s
   void drop_first(std::size_t rows);
   void drop(const std::vector<std::size_t>& rows);  // ascending
 
@@ -27,6 +30,7 @@ class CleanViews {
   std::vector<std::span<const double>> views_;
   std::vector<std::vector<double>> copies_;
   std::size_t n_left_out_ = 0;
+  StepRange steps_;
 };
 
 // Throws std::runtime_error if the sum of the values is not positive; the message explains how to

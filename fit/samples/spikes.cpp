@@ -87,16 +87,19 @@ std::vector<std::size_t> depth_jumps(std::span<const double> force_N,
   return rows;
 }
 
-bool is_evenly_sampled(std::span<const double> time_s) {
-  if (time_s.size() < kLeastRecord) return false;
-  const StepRange steps = step_range(time_s);
-  return steps.shortest > 0.0 && steps.longest < 10.0 * steps.shortest;
+bool is_evenly_sampled(const StepRange& steps_s, std::size_t count) {
+  return count >= kLeastRecord && steps_s.shortest > 0.0 &&
+         steps_s.longest < 10.0 * steps_s.shortest;
 }
 
 std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
                                          std::span<const double> values) {
+  return isolated_spikes(step_range(time_s), values);
+}
+
+std::vector<std::size_t> isolated_spikes(const StepRange& steps_s, std::span<const double> values) {
   std::vector<std::size_t> spikes;
-  if (!is_evenly_sampled(time_s)) return spikes;
+  if (!is_evenly_sampled(steps_s, values.size())) return spikes;
   const double sigma = noise_of(values);
   if (!(sigma > 0.0)) return spikes;
   const double far = 8.0 * std::sqrt(1.5) * sigma;  // the variance of e below is 1.5 sigma^2

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "fit/samples/sample_passes.h"
+
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -13,9 +15,11 @@ namespace viscard {
 // give no estimate. A local form of Hampel's identifier (J. Am. Stat. Assoc. 69 (1974) 383).
 std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
                                          std::span<const double> values);
+// The same with the steps of the times, s, where they are known.
+std::vector<std::size_t> isolated_spikes(const StepRange& steps_s, std::span<const double> values);
 
-// True if isolated_spikes() can be applied to such a record.
-bool is_evenly_sampled(std::span<const double> time_s);
+// True if isolated_spikes() can be applied to a record of `count` samples.
+bool is_evenly_sampled(const StepRange& steps_s, std::size_t count);
 
 // Rows, at most three in succession, whose depth jumps away and back while the force does not
 // follow: a display that lost a reading, or wrote a zero.
