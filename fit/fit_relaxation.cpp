@@ -167,7 +167,8 @@ FitResult fit_robustly(CleanViews& clean, const std::string& unit, const FitOpti
   return result;
 }
 
-void check_values(std::span<const double> time_s, std::span<const double> value, bool is_step) {
+void check_values(std::span<const double> time_s, std::span<const double> value, bool is_step,
+                  const std::string& unit) {
   if (time_s.size() < kLeastStepRows) {
     throw std::runtime_error("only " + std::to_string(time_s.size()) +
                              " rows lie at or after t = 0; a fit needs at least " +
@@ -177,7 +178,9 @@ void check_values(std::span<const double> time_s, std::span<const double> value,
   if (!(time_s.back() > time_s.front())) {
     throw std::runtime_error("all rows have the same time, so no relaxation can be fitted");
   }
-  if (is_step) check_sign(value, "a relaxation modulus", "modulus_Pa");
+  if (!is_step) return;
+  if (unit.starts_with("N")) return check_sign(value, "the force of a relaxation", "force_N");
+  check_sign(value, "a relaxation modulus", "modulus_Pa");
 }
 
 }  // namespace
@@ -197,7 +200,7 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
                                        time_s.begin());
     clean.drop_first(n_early);
   }
-  check_values(clean.column(0), clean.column(1), is_step);
+  check_values(clean.column(0), clean.column(1), is_step, data.unit);
   FitResult result;
   if (is_step) {
     result = fit_robustly(clean, data.unit, options);

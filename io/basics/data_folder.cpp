@@ -32,7 +32,7 @@ fs::path data_folder() {
     std::error_code error;
     fs::path above = fs::absolute(module.dli_fname, error).parent_path();
     for (; above.has_relative_path(); above = above.parent_path()) {
-      const fs::path folder = above / "share" / "viscard";
+      fs::path folder = above / "share" / "viscard";
       if (fs::is_directory(folder / "demo", error)) return folder;
     }
   }

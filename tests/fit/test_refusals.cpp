@@ -44,6 +44,19 @@ TEST_CASE("data that cannot be fitted are refused with the reason", "[fit]") {
   }
 }
 
+TEST_CASE("a negative relaxation is refused with the column to flip, of forces or of moduli",
+          "[fit]") {
+  RelaxationData data;
+  data.time_s = {0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
+  data.value = {-2.0, -1.8, -1.6, -1.5, -1.4, -1.3};
+  CHECK_THROWS_WITH(fit_relaxation(data), Contains("--column modulus_Pa=-NAME"));
+  for (const char* unit : {"N", "N/m"}) {
+    data.unit = unit;
+    CHECK_THROWS_WITH(fit_relaxation(data), Contains("the force of a relaxation is positive") &&
+                                                Contains("--column force_N=-NAME"));
+  }
+}
+
 TEST_CASE("invalid creep, oscillation and strain histories are refused with the reason", "[fit]") {
   const std::vector<double> arguments{0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
   SECTION("negative compliance") {

@@ -114,7 +114,7 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
                              ". --accept-flags writes it all the same");
   }
   const std::string card = rubber_card(file.law, file.terms, options);
-  const std::string text = with_header(header_lines(file, options), options.target, card);
+  std::string text = with_header(header_lines(file, options), options.target, card);
   read_back(text, file, name, options);
   return text;
 }
