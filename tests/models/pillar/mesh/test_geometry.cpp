@@ -123,9 +123,10 @@ TEST_CASE("a mesh with elements for waves ends at the top, whatever its last dig
   const bool skin_at_foot = GENERATE(false, true);
   const double skin_m = GENERATE(0.0, 20e-6);
   for (int i = 0; i < 200; ++i) {
+    const int row = i / 40, column = i % 40;
     PillarGeometry g;
-    g.diameter_m = (36.0 + 0.1 * (i % 40)) * 1e-6;
-    g.length_m = (119.0 + 1.0 * (i / 40)) * 1e-6;
+    g.diameter_m = (36.0 + 0.1 * column) * 1e-6;
+    g.length_m = (119.0 + 1.0 * row) * 1e-6;
     Discretisation d;
     d.shaft_elements = 1;
     d.longest_m = g.length_m / 8.0;
