@@ -15,8 +15,8 @@ using viscard::test::numbers_from_sfepy;
 
 namespace {
 
-HyperelasticLaw rubber(HyperelasticForm form, std::vector<double> moduli_Pa,
-                       std::vector<double> shapes) {
+HyperelasticLaw rubber(HyperelasticForm form, const std::vector<double>& moduli_Pa,
+                       const std::vector<double>& shapes) {
   const auto vector = [](const std::vector<double>& from) {
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(from.data(), static_cast<Eigen::Index>(from.size())));

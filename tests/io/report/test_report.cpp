@@ -93,7 +93,7 @@ TEST_CASE("numbers on the page are those of the input", "[io][report]") {
 }
 
 TEST_CASE("the page says that frame and load cell change shares and times", "[io][report]") {
-  const std::string page = full_page();
+  const std::string& page = full_page();
   CHECK(page.find("does not change <i>g</i>") == std::string::npos);
   CHECK(page.find("Frame and load cell change <i>g</i> and <i>τ</i> as well") != std::string::npos);
 }
