@@ -132,7 +132,7 @@ std::string words_of_contact(const CsvTable& table, const std::string& words, st
       .substr(1);
 }
 
-// Words for a force and a depth that the headers name, whatever else the table holds.
+// Words for a force and a depth that the headers name; other columns do not matter.
 std::optional<std::string> named_contact(const CsvTable& table, std::vector<std::size_t> columns) {
   const auto force = taken_by_name(table, columns, "force_N");
   const auto depth = taken_by_name(table, columns, "depth_m");

@@ -15,7 +15,7 @@ namespace {
 using ModelForm = HyperelasticForm;
 using NumberLists = std::map<std::string, std::vector<double>>;
 
-// Numbers of a list in a program, whatever its brackets: "[[0.4, 2]]", "{1, 2}", "0.4".
+// Numbers of a list in a program, with brackets of any kind: "[[0.4, 2]]", "{1, 2}", "0.4".
 std::vector<double> numbers_of_list(std::string text, const CardLine& line) {
   std::erase_if(text, [](char c) { return std::string("[]{}()").find(c) != std::string::npos; });
   std::vector<double> out;

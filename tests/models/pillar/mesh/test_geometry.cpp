@@ -118,7 +118,7 @@ TEST_CASE("a film exactly as wide as the pillar or its foot is meshed", "[pillar
   CHECK(top_m == Approx(659.8e-9).epsilon(1e-3));
 }
 
-TEST_CASE("a mesh with elements for waves ends at the top, whatever its last digit", "[pillar]") {
+TEST_CASE("a mesh with elements for waves ends at the top in spite of rounding", "[pillar]") {
   // Of some lengths foot + (length - foot) exceeds the length by its last digit.
   const bool skin_at_foot = GENERATE(false, true);
   const double skin_m = GENERATE(0.0, 20e-6);
