@@ -57,6 +57,7 @@ EffectEstimate stiffness_of_straight_pillar(const PillarScene& scene) {
   const double pressure_Pa = largest_pressure_Pa(scene);
   if (pressure_Pa == 0.0) return {.reason = "no pressure on the top"};
   if (is_lateral(scene)) return {.reason = "no pressure along the pillar"};
+  if (!scene.fixed_bottom) return {.reason = "nothing holds the foot against the load"};
   const double share = pressure_Pa / engesser_pressure_Pa(scene);
   return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "a straight pillar shortens without it"};
 }

@@ -17,7 +17,8 @@ namespace viscard {
 enum class FreeBottom {
   kRefused,  // the load would move the body away as a whole
   kPinned,   // needs a load that balances itself; one point is pinned
-  kFloats    // rigid motions are left out of the answer
+  kFloats,   // rigid motions are left out of the answer
+  kMoves     // the load moves the body as a whole, and only its mass resists
 };
 
 // The value that a history gives in time.

@@ -227,6 +227,7 @@ Analysis harmonic_analysis() {
           .has_inertia = true,
           .relaxes = true,
           .swings_from_Hz = lowest_frequency_Hz,
+          .free_bottom = FreeBottom::kMoves,
           .check = check_harmonic,
           .result_names = harmonic_names,
           .run = run_harmonic,

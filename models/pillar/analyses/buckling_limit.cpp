@@ -108,7 +108,7 @@ double pillar_buckling_pressure_Pa(const PillarScene& scene) {
 
 std::string beyond_buckling(const PillarScene& scene) {
   const Analysis& analysis = analysis_of(scene);
-  if (analysis.push_Pa == nullptr || is_lateral(scene)) return "";
+  if (analysis.push_Pa == nullptr || is_lateral(scene) || !scene.fixed_bottom) return "";
   if (moves_top(scene)) return beyond_buckling_under_plate(scene);
   const double largest_Pa = analysis.push_Pa(scene);
   if (largest_Pa < rough_buckling_pressure_Pa(scene)) return "";

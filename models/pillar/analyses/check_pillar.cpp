@@ -51,14 +51,23 @@ void check_mesh(const PillarScene& scene) {
                                                         text_of(kMost, 2) + "; make them larger");
 }
 
-// A free body can vibrate and bear loads that balance themselves, such as an electrode's field.
+// A free body can vibrate, be accelerated and bear loads that balance themselves, such as an electrode's
+// field.
 void check_bottom(const PillarScene& scene) {
   if (scene.fixed_bottom) return;
   const char* const key = scene.geometry.film ? "geometry.film.bottom" : "geometry.bottom";
   const std::string instead =
-      ". A free bottom has modes (kind = \"modal\") and the motion by a voltage (kind = "
-      "\"static\"); for anything else say bottom = \"fixed\"";
+      ". A free bottom has modes (kind = \"modal\"), the motion by a voltage (kind = \"static\") "
+      "and that by a load on the top in time (kind = \"harmonic\" or \"transient\"); for anything "
+      "else say bottom = \"fixed\"";
   const Analysis& analysis = analysis_of(scene);
+  if (analysis.free_bottom == FreeBottom::kMoves) {
+    if (load_place(scene) == LoadPlace::kTop) return;
+    throw SceneMistake(
+        "analysis.load.on",
+        "a free bottom rests on no base that could accelerate it: let the load act on "
+        "the top, or say bottom = \"fixed\"");
+  }
   if (analysis.free_bottom == FreeBottom::kRefused) {
     throw SceneMistake(key, std::string("nothing holds a pillar with a free bottom: a ") +
                                 analysis.name + " analysis would move it away as a whole" +

@@ -3,6 +3,7 @@
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/body/pillar_model.h"
+#include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 
 #include <stdexcept>
@@ -53,6 +54,10 @@ SceneBody body_of(const PillarScene& scene, Motion motion, const SceneBodyOption
   count_unknowns(*body.model, answer);
   body.system = viscoelastic_system(*body.model, scene.pillar, options.with_mass);
   body.system.load = unit_top_force(*body.model);
+  if (!scene.fixed_bottom) {
+    body.system.rigid = rigid_motions(*body.model);
+    body.system.free_shift_1_s2 = free_shift_1_s2(*body.model);
+  }
   const Eigen::VectorXd load = body.system.load;
   body.outputs.push_back(
       {"top_displacement", "m", [load](const Eigen::VectorXd& u) { return load.dot(u); }});

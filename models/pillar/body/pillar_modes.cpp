@@ -27,6 +27,23 @@ SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarMo
   return model.system().varying_form(model.system().kinematics().gradient, form);
 }
 
+double free_shift_1_s2(const PillarModel& model) {
+  double slowest = std::numeric_limits<double>::infinity();  // squares of wave speeds
+  double fastest = 0.0;
+  for (int region = 0; region < (model.geometry().film ? 2 : 1); ++region) {
+    const Medium& medium = model.medium(region);
+    const double shear_Pa =
+        medium.is_isotropic ? medium.shear_Pa : medium.stiffness_Pa.diagonal().tail(3).minCoeff();
+    slowest = std::min(slowest, shear_Pa / medium.rho_kg_m3);
+    fastest = std::max(fastest, shear_Pa / medium.rho_kg_m3);
+  }
+  const PillarGeometry& g = model.geometry();
+  const double height_m = g.length_m + (g.film ? g.film->thickness_m : 0.0);
+  const double across_m = g.film ? 2.0 * g.film->radius_m : g.diameter_m;
+  const double extent_m = std::max(height_m, across_m);
+  return std::max(1e-4 * slowest, 1e-11 * fastest) / (extent_m * extent_m);
+}
+
 namespace {
 
 // A motion without its rigid part: x - R (R'MR)^-1 R'M x. The elastic modes of a free body are
@@ -49,27 +66,6 @@ class WithoutRigidMotion {
   Eigen::MatrixXd rigid_, mass_rigid_;
   Cholesky masses_;
 };
-
-// The stiffness of a free body is singular; adding this multiple of the mass makes it regular. The
-// shift is far below the square of the first elastic frequency, which is of the order of the
-// slowest medium's wave across the largest extent. It is also far above rounding, which is
-// determined by the fastest medium.
-double free_shift_1_s2(const PillarModel& model) {
-  double slowest = std::numeric_limits<double>::infinity();  // squares of wave speeds
-  double fastest = 0.0;
-  for (int region = 0; region < (model.geometry().film ? 2 : 1); ++region) {
-    const Medium& medium = model.medium(region);
-    const double shear_Pa =
-        medium.is_isotropic ? medium.shear_Pa : medium.stiffness_Pa.diagonal().tail(3).minCoeff();
-    slowest = std::min(slowest, shear_Pa / medium.rho_kg_m3);
-    fastest = std::max(fastest, shear_Pa / medium.rho_kg_m3);
-  }
-  const PillarGeometry& g = model.geometry();
-  const double height_m = g.length_m + (g.film ? g.film->thickness_m : 0.0);
-  const double across_m = g.film ? 2.0 * g.film->radius_m : g.diameter_m;
-  const double extent_m = std::max(height_m, across_m);
-  return std::max(1e-4 * slowest, 1e-11 * fastest) / (extent_m * extent_m);
-}
 
 // The pencil K, M of a model, searched from a shift upward: pairs of largest 1/(omega^2 + shift).
 class ModeSearch {

@@ -14,6 +14,12 @@ struct PillarMode {
   Eigen::VectorXd shape;  // unknowns of the model, unit mass norm
 };
 
+// The stiffness of a free body is singular; adding this multiple of the mass makes it regular. The
+// shift is far below the square of the first elastic frequency, which is of the order of the
+// slowest medium's wave across the largest extent. It is also far above rounding, which is
+// determined by the fastest medium.
+double free_shift_1_s2(const PillarModel& model);
+
 // The lowest undamped modes of one family of motion, ascending. For a body with a free bottom the
 // modes are its elastic ones, orthogonal to the rigid motions. Each mode of a harmonic m >= 1
 // represents two. Throws std::runtime_error if the iteration does not converge.

@@ -41,12 +41,15 @@ double error_at(const ReducedSpan& span, const ViscoelasticSystem& body,
                 const std::vector<Eigen::VectorXd>& loads, double omega_rad_s) {
   const RelativeModuli m = relative_moduli(body.terms, Complex(0.0, omega_rad_s));
   const double omega2 = omega_rad_s * omega_rad_s;
-  const ComplexLuFactor lu(span.restricted(m.shear, m.bulk, omega2));
+  const Eigen::Index bent = span.count() - span.rigid_count();  // rigid motions are exact
+  const ComplexLuFactor lu(
+      Eigen::MatrixXcd(span.restricted(m.shear, m.bulk, omega2).bottomRightCorner(bent, bent)));
   const double nearest = std::max(smallest_singular_value(lu), kNearestPole);
   double largest = 0.0;
   for (const Eigen::VectorXd& load : loads) {
-    const Eigen::VectorXcd c =
-        lu.solve(Eigen::VectorXcd((span.basis().transpose() * load).cast<Complex>()));
+    Eigen::VectorXcd c = Eigen::VectorXcd::Zero(span.count());
+    c.tail(bent) = lu.solve(
+        Eigen::VectorXcd((span.basis().rightCols(bent).transpose() * load).cast<Complex>()));
     const Eigen::VectorXcd residual =
         load.cast<Complex>() - span.image_of(m.shear, m.bulk, omega2, c);
     const double size =
@@ -131,6 +134,13 @@ bool add_answers(const ViscoelasticSystem& system, const std::vector<Eigen::Vect
   return grew;
 }
 
+// Without what accelerates a body that nothing holds: its rigid motions, exact in the basis, take that.
+std::vector<Eigen::VectorXd> balanced(const ReducedSpan& span, std::vector<Eigen::VectorXd> loads) {
+  if (span.rigid_count() == 0) return loads;
+  for (Eigen::VectorXd& load : loads) load = span.balanced(load);
+  return loads;
+}
+
 // Grows every chain by one vector.
 bool grow(std::vector<Chain>& chains, const StiffnessFactor& factor,
           const ViscoelasticSystem& system, ReducedSpan& span) {
@@ -148,11 +158,13 @@ bool grow(std::vector<Chain>& chains, const StiffnessFactor& factor,
 }  // namespace
 
 ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
-                           const std::vector<Eigen::VectorXd>& loads, const DynamicRange& range) {
+                           const std::vector<Eigen::VectorXd>& all_loads,
+                           const DynamicRange& range) {
   if (!(range.highest_rad_s > 0.0) || system.mass.size() == 0) {
     throw std::invalid_argument("a dynamic analysis needs a mass and a highest frequency");
   }
   ReducedSpan span(system);
+  const std::vector<Eigen::VectorXd> loads = balanced(span, all_loads);
   std::vector<Chain> chains;
   for (const Eigen::VectorXd& load : loads) {
     chains.push_back({span.instantaneous().solve(load)});
@@ -185,7 +197,8 @@ ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
 ReducedBody reduce_at(const ViscoelasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
                       const std::vector<double>& omega_rad_s) {
   ReducedSpan span(system);
-  for (const double omega : omega_rad_s) add_answers(system, loads, omega, span);
+  const std::vector<Eigen::VectorXd> bending = balanced(span, loads);
+  for (const double omega : omega_rad_s) add_answers(system, bending, omega, span);
   ReducedBody result = span.reduced();
   result.sound_up_to_rad_s = omega_rad_s.back();
   return result;

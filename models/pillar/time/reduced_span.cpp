@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -17,64 +18,102 @@ SymmetricSparse full_lower(const Eigen::MatrixXd& matrix) {
   return sparse;
 }
 
-void append(Eigen::MatrixXd& matrix, const Eigen::VectorXd& column) {
+void add_column(Eigen::MatrixXd& matrix, const Eigen::VectorXd& column) {
   matrix.conservativeResize(Eigen::NoChange, matrix.cols() + 1);
   matrix.col(matrix.cols() - 1) = column;
 }
 
-// Extends basis' * image by one row and column.
-void border(Eigen::MatrixXd& small, const Eigen::MatrixXd& basis, const Eigen::MatrixXd& image) {
+// Extends basis' * image by one row and column, which the leading `uncoupled` vectors do not meet.
+void border(Eigen::MatrixXd& small, const Eigen::MatrixXd& basis, const Eigen::MatrixXd& image,
+            Eigen::Index uncoupled) {
   const Eigen::Index n = basis.cols();
   small.conservativeResize(n, n);
   small.col(n - 1) = basis.transpose() * image.col(n - 1);
+  small.col(n - 1).head(uncoupled).setZero();
   small.row(n - 1) = small.col(n - 1).transpose();
 }
 
 }  // namespace
 
-ReducedSpan::ReducedSpan(const ViscoelasticSystem& body) : body_(body) {
+ReducedSpan::ReducedSpan(const ViscoelasticSystem& body)
+    : body_(body), shift_1_s2_(body.rigid.cols() > 0 ? body.free_shift_1_s2 : 0.0) {
   factor(1.0, 1.0, instantaneous_);
   for (Eigen::MatrixXd* m : {&basis_, &elastic_, &shear_, &bulk_, &mass_}) {
     m->resize(body.shear.rows(), 0);
   }
+  add_rigid_motions();
 }
 
 void ReducedSpan::factor(double shear, double bulk, StiffnessFactor& factored) const {
   if (body_.incompressible) factored.constrain(body_.bulk);
-  factored.factor(stiffness_at(body_, shear, bulk));
+  SymmetricSparse stiffness = stiffness_at(body_, shear, bulk);
+  if (shift_1_s2_ > 0.0) stiffness.coeffs() += shift_1_s2_ * body_.mass.coeffs();
+  factored.factor(stiffness);
+}
+
+double ReducedSpan::energy_norm(const Eigen::VectorXd& v) const {
+  Eigen::VectorXd force = times(body_.elastic, v) + times(body_.shear, v);
+  if (!body_.incompressible) force += times(body_.bulk, v);
+  if (shift_1_s2_ > 0.0) force += shift_1_s2_ * times(body_.mass, v);
+  return std::sqrt(std::max(v.dot(force), 0.0));
+}
+
+Eigen::VectorXd ReducedSpan::orthogonal(Eigen::VectorXd v) const {
+  if (count() == 0) return v;
+  v -= basis_ * (image(1.0, 1.0).transpose() * v + shift_1_s2_ * (mass_.transpose() * v));
+  return v;
+}
+
+// Rigid motions bear no stress, which holds without rounding here.
+void ReducedSpan::add_rigid_motions() {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(body_.shear.rows());
+  for (Eigen::Index i = 0; i < rigid_count(); ++i) {
+    Eigen::VectorXd v = orthogonal(body_.rigid.col(i));
+    v /= std::sqrt(shift_1_s2_ * v.dot(times(body_.mass, v)));
+    append(v, {none, none, none, times(body_.mass, v)});
+  }
+}
+
+Eigen::VectorXd ReducedSpan::balanced(const Eigen::VectorXd& load) const {
+  const Eigen::Index rigid = rigid_count();
+  return load - shift_1_s2_ * (mass_.leftCols(rigid) * (basis_.leftCols(rigid).transpose() * load));
 }
 
 bool ReducedSpan::add(Eigen::VectorXd v) {
   if (count() == basis_.rows()) return false;
   const double before = energy_norm(v);
   // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9).
-  for (int pass = 0; pass < 2; ++pass) {
-    if (count() > 0) v -= basis_ * (image(1.0, 1.0).transpose() * v);
-  }
+  for (int pass = 0; pass < 2; ++pass) v = orthogonal(std::move(v));
   const double after = energy_norm(v);
   if (!(after > 1e-9 * before) || !std::isfinite(after)) return false;
   v /= after;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(v.size());
-  const Eigen::VectorXd elastic = times(body_.elastic, v);
-  const Eigen::VectorXd shear = times(body_.shear, v);
   // An incompressible body's volume does not change.
-  const Eigen::VectorXd bulk = body_.incompressible ? none : times(body_.bulk, v);
+  const Images images{times(body_.elastic, v), times(body_.shear, v),
+                      body_.incompressible ? none : times(body_.bulk, v),
+                      has_mass() ? times(body_.mass, v) : none};
   // Rounding is orthogonal to the basis from one side only: what it adds has no energy of its own.
   constexpr double kMostOverlap = 1e-3;
   if (count() > 0) {
-    const Eigen::VectorXd overlap = basis_.transpose() * (elastic + shear + bulk);
+    const Eigen::VectorXd overlap = basis_.transpose() * (images.elastic + images.shear +
+                                                          images.bulk + shift_1_s2_ * images.mass);
     if (!(overlap.cwiseAbs().maxCoeff() < kMostOverlap)) return false;
   }
-  append(basis_, v);
-  append(elastic_, elastic);
-  append(shear_, shear);
-  append(bulk_, bulk);
-  append(mass_, has_mass() ? times(body_.mass, v) : none);
-  border(small_elastic_, basis_, elastic_);
-  border(small_shear_, basis_, shear_);
-  border(small_bulk_, basis_, bulk_);
-  border(small_mass_, basis_, mass_);
+  append(v, images);
   return true;
+}
+
+void ReducedSpan::append(const Eigen::VectorXd& v, const Images& images) {
+  add_column(basis_, v);
+  add_column(elastic_, images.elastic);
+  add_column(shear_, images.shear);
+  add_column(bulk_, images.bulk);
+  add_column(mass_, images.mass);
+  const Eigen::Index uncoupled = count() > rigid_count() ? rigid_count() : 0;
+  border(small_elastic_, basis_, elastic_, uncoupled);
+  border(small_shear_, basis_, shear_, uncoupled);
+  border(small_bulk_, basis_, bulk_, uncoupled);
+  border(small_mass_, basis_, mass_, uncoupled);
 }
 
 Eigen::MatrixXcd ReducedSpan::restricted(std::complex<double> shear, std::complex<double> bulk,
@@ -116,13 +155,8 @@ ReducedBody ReducedSpan::reduced() const {
   result.system.bulk = full_lower(small_bulk_);
   if (has_mass()) result.system.mass = full_lower(small_mass_);
   if (body_.load.size() > 0) result.system.load = basis_.transpose() * body_.load;
+  result.system.rigid = Eigen::MatrixXd::Identity(count(), rigid_count());
   return result;
-}
-
-double ReducedSpan::energy_norm(const Eigen::VectorXd& v) const {
-  Eigen::VectorXd force = times(body_.elastic, v) + times(body_.shear, v);
-  if (!body_.incompressible) force += times(body_.bulk, v);
-  return std::sqrt(std::max(v.dot(force), 0.0));
 }
 
 }  // namespace viscard

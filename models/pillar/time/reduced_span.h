@@ -9,7 +9,10 @@
 
 namespace viscard {
 
-// The growing span of a ReducedBody, with the product of every matrix of the body and the basis.
+// The growing span of a ReducedBody, with the product of every matrix of the body and the basis. Vectors
+// are orthonormal in the energy of the instantaneous stiffness. The rigid motions of a body that nothing
+// holds come first; its energy has a multiple of the mass added, so that all other vectors move no mass
+// as a whole, and rigid and elastic motions are not coupled.
 class ReducedSpan {
  public:
   // The body must outlive the span.
@@ -18,6 +21,9 @@ class ReducedSpan {
   // Factors the body's stiffness at relative moduli.
   void factor(double shear, double bulk, StiffnessFactor& factored) const;
   const StiffnessFactor& instantaneous() const { return instantaneous_; }
+  Eigen::Index rigid_count() const { return body_.rigid.cols(); }
+  // The part of a load that does not accelerate the body as a whole: f - M R (R'MR)^-1 R'f.
+  Eigen::VectorXd balanced(const Eigen::VectorXd& load) const;
   Eigen::Index count() const { return basis_.cols(); }
   const Eigen::MatrixXd& basis() const { return basis_; }
   bool has_mass() const { return body_.mass.size() > 0; }
@@ -47,9 +53,17 @@ class ReducedSpan {
   ReducedBody reduced() const;
 
  private:
+  // The products of the matrices with a vector.
+  struct Images {
+    Eigen::VectorXd elastic, shear, bulk, mass;
+  };
   double energy_norm(const Eigen::VectorXd& v) const;
+  Eigen::VectorXd orthogonal(Eigen::VectorXd v) const;
+  void append(const Eigen::VectorXd& v, const Images& images);
+  void add_rigid_motions();
 
   const ViscoelasticSystem& body_;
+  double shift_1_s2_;  // multiple of the mass in the energy
   StiffnessFactor instantaneous_;
   Eigen::MatrixXd basis_, elastic_, shear_, bulk_, mass_;  // unknowns x count()
   // basis' times the matrices above, count() x count().

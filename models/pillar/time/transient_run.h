@@ -58,6 +58,14 @@ TransientResult result_of(const TransientRequest& request,
 TransientResult run_transient(const ViscoelasticSystem& small, const TransientRequest& request,
                               const Eigen::MatrixXd& observers);
 
+// Runs a body that nothing holds: its rigid motions are the load over their masses, integrated twice
+// exactly, and its other unknowns, which they do not meet, are run as a body of their own.
+TransientResult run_floating(const ViscoelasticSystem& small, const TransientRequest& request,
+                             const Eigen::MatrixXd& observers);
+
+// The part of a small body that its rigid motions do not meet.
+ViscoelasticSystem without_rigid_motions(const ViscoelasticSystem& small);
+
 // Runs by the matrix exponential over the interval between outputs (state_transition.h).
 TransientResult run_exactly(const ViscoelasticSystem& small, const TransientRequest& request,
                             const Eigen::MatrixXd& observers);

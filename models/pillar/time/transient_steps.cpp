@@ -56,6 +56,7 @@ TransientResult run_transient(const ViscoelasticSystem& small, const TransientRe
                                                  return a.time_s < b.time_s;
                                                }),
           "a transient load needs a history whose times do not go back");
+  if (small.rigid.cols() > 0) return run_floating(small, r, observers);
   if (relaxes_alike(small)) return run_by_modes(small, r, observers);
   const auto states = small.mass.rows() * static_cast<Eigen::Index>(2 + small.terms.size());
   return states <= kMostStates ? run_exactly(small, r, observers)

@@ -21,6 +21,10 @@ struct ViscoelasticSystem {
   SymmetricSparse mass;  // empty: quasi-static
   std::vector<MaterialTerm> terms;
   Eigen::VectorXd load;  // force vector of a unit load; load.u is the conjugate displacement
+  // A body that nothing holds: its rigid motions (unknowns x motions), and the multiple of the mass that
+  // makes its stiffness regular. A reduced body's rigid motions are its leading unknowns.
+  Eigen::MatrixXd rigid;
+  double free_shift_1_s2 = 0.0;
 };
 
 // elastic + shear_factor shear + bulk_factor bulk; an incompressible body's penalty keeps factor 1.

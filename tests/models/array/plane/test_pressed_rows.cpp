@@ -201,6 +201,9 @@ TEST_CASE("a level plane on a row is a uniform load, and a shape beside it none"
   // 6.6341e-11 m/Pa of the strip, by another program, and 1.05e-4 of it of the film.
   const double pressure_Pa = value_of(answer, "largest_pressure");
   CHECK(pressure_Pa == Approx(1e-6 / 6.6341e-11).epsilon(1.5e-4));
+  // In plane strain 5.8788e-11 m/Pa: 6.8042e5 N/m2 for a strip of 40 um.
+  const SceneAnswer strain = simulate_array(pressed_row(plane, 1, PlaneState::kStrain));
+  CHECK(value_of(strain, "contact_force") == Approx(1e-6 * 6.8042e5).epsilon(1.5e-4));
   CHECK(value_of(answer, "centre_voltage_2") ==
         Approx(-4.12321e-6 * pressure_Pa).epsilon(2e-3));  // and neighbours, 0.16 %
   ArrayScene beside = pressed_row(cylinder(1e-6), 3);

@@ -234,8 +234,7 @@ TEST_CASE("analyses that need support are refused for a free bottom, with the re
   scene = disc_under_voltage();
   scene.pillar.rho_kg_m3 = kRho;
   for (const PillarDrive& drive :
-       {PillarDrive(BucklingDrive{}), PillarDrive(CreepDrive{}), PillarDrive(RelaxationDrive{}),
-        PillarDrive(HarmonicDrive{}), PillarDrive(TransientDrive{})}) {
+       {PillarDrive(BucklingDrive{}), PillarDrive(CreepDrive{}), PillarDrive(RelaxationDrive{})}) {
     scene.drive = drive;
     CHECK(key_of(scene) == "geometry.film.bottom");
   }
