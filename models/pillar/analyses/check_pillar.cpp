@@ -24,17 +24,6 @@ void check_electrodes(const PillarScene& scene) {
   }
 }
 
-// Between 0.499999 and 0.5 rounding in the large bulk modulus spoils the shear (near 0.499999 a
-// bent pillar has an error of about 1e-5). At exactly 0.5 a different method is used, which is
-// exact.
-void check_poisson_ratio(const PillarScene& scene) {
-  constexpr double kNearest = 0.499999;
-  if (!(scene.pillar.nu > kNearest * (1.0 + 1e-9) && scene.pillar.nu < 0.5)) return;
-  throw SceneMistake("materials.pillar.nu",
-                     "a Poisson ratio between 0.499999 and 0.5 loses accuracy; say 0.5, which is "
-                     "computed exactly");
-}
-
 // A mesh that the scene requests has to fit into memory.
 void check_mesh(const PillarScene& scene) {
   if (!scene.discretisation || !(scene.discretisation->uniform_m > 0.0)) return;
@@ -95,7 +84,6 @@ void validate(const PillarScene& scene) {
                     "above 0 and at most 0.5");
     });
   }
-  check_poisson_ratio(scene);
   check_tolerance(scene.tolerance, PillarScene::kTolerances);
   if (scene.geometry.film.has_value() != scene.film.has_value()) {
     throw SceneMistake("geometry.film", "a film needs its material, and a material its film");

@@ -3,6 +3,7 @@
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/large_strain.h"
+#include "models/pillar/analyses/near_incompressible.h"
 #include "models/pillar/analyses/top_load.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 
@@ -12,6 +13,10 @@
 namespace viscard {
 
 SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mesh) {
+  if (is_near_incompressible(scene)) {
+    return near_incompressible_answer(
+        scene, [&](const PillarScene& end) { return pillar_answer_on(end, mesh); });
+  }
   SceneAnswer answer;
   answer.discretisation = mesh;
   analysis_of(scene).run(scene, answer);

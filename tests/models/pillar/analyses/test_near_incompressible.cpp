@@ -1,0 +1,87 @@
+// Poisson ratios between 0.499999 and 0.5, where rounding in the bulk modulus would spoil the shear.
+#include "models/pillar/analyses/near_incompressible.h"
+#include "models/pillar/analyses/simulate_pillar.h"
+#include "tests/models/pillar/analyses/answer_of.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+PillarScene pillar_of(double nu, const PillarDrive& drive) {
+  PillarScene scene;
+  scene.pillar.E0_Pa = 1.8e6;
+  scene.pillar.nu = nu;
+  scene.pillar.rho_kg_m3 = 965.0;
+  scene.drive = drive;
+  scene.tolerance = 1e-3;
+  return scene;
+}
+
+StaticDrive pressed() {
+  StaticDrive drive;
+  drive.pressure_Pa = 1e3;
+  return drive;
+}
+
+// A disc 40 times wider than high under a plate: a bonded layer, in which the bulk modulus counts.
+PillarScene wide_disc(double nu) {
+  StaticDrive drive;
+  drive.displacement_m = -1e-9;
+  PillarScene scene = pillar_of(nu, drive);
+  scene.geometry = {.diameter_m = 400e-6, .length_m = 10e-6};
+  scene.discretisation = Discretisation{.degree = 6, .layers = 2};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a pillar between the last Poisson ratio and 0.5 is answered, between its neighbours",
+          "[pillar][stability]") {
+  HarmonicDrive swing;
+  swing.pressure_Pa = 1e3;
+  swing.frequencies_Hz = {1e3, 5e4};
+  const PillarDrive drive =
+      GENERATE_COPY(PillarDrive(pressed()), PillarDrive(ModalDrive{.modes = 2}),
+                    PillarDrive(BucklingDrive{}), PillarDrive(swing));
+  const SceneAnswer answer = simulate_pillar(pillar_of(0.4999996, drive));
+  const SceneAnswer half = simulate_pillar(pillar_of(0.5, drive));
+  CHECK(answer.largest_relative_error <= 1e-3);
+  REQUIRE(answer.results.size() == half.results.size());
+  for (std::size_t i = 0; i < answer.results.size(); ++i) {
+    const double room = answer.results[i].error_estimate + half.results[i].error_estimate;
+    INFO(answer.results[i].name);
+    CHECK(answer.results[i].value == Approx(half.results[i].value).margin(room));
+    CHECK(answer.results[i].error_estimate > 0.0);
+  }
+  for (std::size_t i = 0; i < answer.modes.size(); ++i) {
+    const double room = answer.modes[i].error_estimate + half.modes[i].error_estimate;
+    CHECK(answer.modes[i].frequency_Hz == Approx(half.modes[i].frequency_Hz).margin(room));
+  }
+}
+
+// The disc's compliance at 0.49998, 0.499996 and 0.5 gives a parabola in 0.5 - nu.
+TEST_CASE("where the bulk modulus counts the answer follows it up to 0.5", "[pillar][stability]") {
+  const auto stiffness_of = [](double nu) {
+    const PillarScene scene = wide_disc(nu);
+    return result_of(pillar_answer_on(scene, *scene.discretisation), "top_stiffness");
+  };
+  const double half_m_N = 1.0 / stiffness_of(0.5).value;
+  const double a = 4e-6, b = 2e-5;
+  const double at_a_m_N = 1.0 / stiffness_of(0.5 - a).value - half_m_N;
+  const double at_b_m_N = 1.0 / stiffness_of(0.5 - b).value - half_m_N;
+  // c1 x + c2 x^2 through both.
+  const double c2 = (at_b_m_N / b - at_a_m_N / a) / (b - a);
+  const double c1 = at_a_m_N / a - c2 * a;
+  const double x = 0.7e-6;
+  const SceneResult found = stiffness_of(0.5 - x);
+  const double exact_N_m = 1.0 / (half_m_N + c1 * x + c2 * x * x);
+  CAPTURE(1.0 / half_m_N, found.value, exact_N_m, found.left_out);
+  CHECK(std::abs(exact_N_m * half_m_N - 1.0) > 2e-4);  // it counts
+  CHECK(std::abs(found.value - exact_N_m) <= found.left_out);
+  CHECK(found.left_out <= 1.5e-4 * exact_N_m);
+}
