@@ -44,12 +44,19 @@ void ReducedSpan::factor(double shear, double bulk, StiffnessFactor& factored) c
   factored.factor(stiffness_at(body_, shear, bulk));
 }
 
+Eigen::VectorXd ReducedSpan::projected(const Eigen::VectorXd& v) const {
+  Eigen::VectorXd products = elastic_.transpose() * v;
+  products += shear_.transpose() * v;
+  products += bulk_.transpose() * v;
+  return basis_ * products;
+}
+
 bool ReducedSpan::add(Eigen::VectorXd v) {
   if (count() == basis_.rows()) return false;
   const double before = energy_norm(v);
   // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9).
   for (int pass = 0; pass < 2; ++pass) {
-    if (count() > 0) v -= basis_ * (image(1.0, 1.0).transpose() * v);
+    if (count() > 0) v -= projected(v);
   }
   const double after = energy_norm(v);
   if (!(after > 1e-9 * before) || !std::isfinite(after)) return false;

@@ -30,6 +30,9 @@ class ReducedSpan {
     return shear_ * shear + bulk_ * bulk + elastic_;
   }
 
+  // The part of v in the span, in the inner product of the instantaneous stiffness.
+  Eigen::VectorXd projected(const Eigen::VectorXd& v) const;
+
   // basis' (elastic + shear S + bulk B - omega^2 M) basis.
   Eigen::MatrixXcd restricted(std::complex<double> shear, std::complex<double> bulk,
                               std::complex<double> omega2) const;
