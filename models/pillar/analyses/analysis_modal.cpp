@@ -108,9 +108,8 @@ void add_relaxed_modes(const PillarScene& scene, const ModeFamily& family, const
                        const PillarModel* axial, SceneAnswer& answer) {
   ViscoelasticSystem body = viscoelastic_system(model, scene.pillar, /*with_mass=*/true);
   if (axial != nullptr) {
-    const double pressure_Pa = modal_drive(scene).pressure_Pa;
-    if (family.motion == Motion::kLateral) require_below_buckling(*axial, model, pressure_Pa);
-    body.elastic.coeffs() += pressure_Pa * stress_stiffness_per_Pa(*axial, model).coeffs();
+    body.elastic.coeffs() +=
+        stiffness_by_pressure(*axial, model, modal_drive(scene).pressure_Pa).coeffs();
   }
   const double small = 0.03 * scene.tolerance;  // error from the modes that the basis leaves out
   int number = 0;

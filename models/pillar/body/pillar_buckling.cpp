@@ -19,8 +19,9 @@ constexpr int kMostModes = 8;
 // The pencil K + p K_sigma of a lateral model, and the criterion for a mode of the whole pillar.
 struct BucklingPencil {
   const PillarModel& lateral;
-  SymmetricSparse stiffness, stress;
-  Eigen::VectorXd side;  // unit force sideways on the top
+  SymmetricSparse stiffness;
+  const SymmetricSparse& stress;  // per Pa
+  Eigen::VectorXd side;           // unit force sideways on the top
   double side_compliance = 0.0;
 
   // For vectors of unit energy, (f.v)^2 is the part of the side-force compliance due to the mode.
@@ -73,14 +74,15 @@ double quotient_Pa(const BucklingPencil& pencil, const Eigen::VectorXd& shape) {
 // past local modes at the rim that lie below or around it; each step triples the number of digits.
 // Source: Parlett, The Symmetric Eigenvalue Problem (1998), ch. 4. Returns 0 if it has converged to
 // another mode.
-double iterated_buckling_Pa(const BucklingPencil& pencil, Eigen::VectorXd shape) {
+// Reuses the order of elimination of `factor`.
+double iterated_buckling_Pa(const BucklingPencil& pencil, Eigen::VectorXd shape,
+                            StiffnessFactor& factor) {
   constexpr int kSteps = 8;
   constexpr double kCloseEnough = 1e-5;  // of the last step; the next error is its cube
   double pressure_Pa = quotient_Pa(pencil, shape);
   for (int i = 0; i < kSteps && pressure_Pa > 0.0; ++i) {
     SymmetricSparse shifted = pencil.stiffness;
     shifted.coeffs() += pressure_Pa * pencil.stress.coeffs();
-    StiffnessFactor factor;
     pencil.lateral.factor(shifted, factor);
     shape = factor.solve(times(pencil.stiffness, shape));
     shape /= std::sqrt(shape.dot(times(pencil.stiffness, shape)));
@@ -92,10 +94,12 @@ double iterated_buckling_Pa(const BucklingPencil& pencil, Eigen::VectorXd shape)
   return 0.0;
 }
 
-// Leaves the pressure unset if no mode of the whole pillar is found.
-Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
-  BucklingPencil pencil{lateral, lateral.stiffness(), stress_stiffness_per_Pa(axial, lateral),
-                        unit_top_force(lateral)};
+// Leaves the pressure unset if no mode of the whole pillar is found. The modes below it are searched
+// only in a small space: local modes at the rim lie so close together that hundreds of vectors would
+// be needed, and the iteration from the bent pillar passes by them with a few factorisations.
+Buckling search_buckling(const PillarModel& lateral, const SymmetricSparse& stress_per_Pa,
+                         int count) {
+  BucklingPencil pencil{lateral, lateral.stiffness(), stress_per_Pa, unit_top_force(lateral)};
   StiffnessFactor factor;
   lateral.factor(pencil.stiffness, factor);
   const Eigen::VectorXd bent = factor.solve(pencil.side);
@@ -106,11 +110,11 @@ Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, i
   };
   // The error of the buckling factor is the square of the residual; a stiff volume leaves some
   // rounding noise in the residual.
-  const EigenPairs pairs =
-      largest_eigenpairs(op, B, lateral.system().size(), count, {.tolerance = 1e-6});
+  const EigenPairs pairs = largest_eigenpairs(op, B, lateral.system().size(), count,
+                                              {.tolerance = 1e-6, .is_quick = count == 1});
   Buckling result = found_among(pairs, pencil, 0.0, [](double value) { return 1.0 / value; });
   if (result.pressure_Pa > 0.0) return result;
-  result.pressure_Pa = iterated_buckling_Pa(pencil, bent);
+  result.pressure_Pa = iterated_buckling_Pa(pencil, bent, factor);
   if (result.pressure_Pa > 0.0) return result;
   // The Rayleigh quotient of the pillar bent by a side force lies above its buckling pressure. A
   // search that starts a little below the quotient avoids local modes far below it.
@@ -124,25 +128,47 @@ Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, i
   return result;
 }
 
-}  // namespace
-
-Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
-  Buckling found = search_buckling(axial, lateral, count);
-  if (found.pressure_Pa > 0.0) return found;
-  throw std::runtime_error(
-      "no buckling load of the whole pillar was found beside local modes at the rim of the bond. A "
-      "stubby pillar does not buckle sideways; for a slender one ask for a larger tolerance");
+// No mode buckles below the pressure if K + p K_sigma is positive definite (Sylvester). At nu = 0.5 the
+// penalised matrix is softer than the body.
+bool is_stable_under(double pressure_Pa, const PillarModel& lateral,
+                     const SymmetricSparse& stress_per_Pa) {
+  SymmetricSparse stiffness = lateral.stiffness();
+  stiffness.coeffs() += pressure_Pa * stress_per_Pa.coeffs();
+  StiffnessFactor factor;
+  lateral.factor(stiffness, factor);
+  return factor.negative_pivots() == 0;
 }
 
-void require_below_buckling(const PillarModel& axial, const PillarModel& lateral,
+void require_below_buckling(const PillarModel& lateral, const SymmetricSparse& stress_per_Pa,
                             double pressure_Pa) {
-  const double critical_Pa = search_buckling(axial, lateral, 1).pressure_Pa;
+  if (is_stable_under(pressure_Pa, lateral, stress_per_Pa)) return;
+  const double critical_Pa = search_buckling(lateral, stress_per_Pa, 1).pressure_Pa;
   if (!(critical_Pa > 0.0 && pressure_Pa >= critical_Pa)) return;
   throw BeyondBuckling("a pressure of " + text_of(pressure_Pa, 5) +
                            " Pa on the top is beyond the buckling pressure of " +
                            text_of(critical_Pa, 5) +
                            " Pa; reduce it, because vibrations need a stable straight pillar",
                        critical_Pa);
+}
+
+}  // namespace
+
+Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
+  Buckling found = search_buckling(lateral, stress_stiffness_per_Pa(axial, lateral), count);
+  if (found.pressure_Pa > 0.0) return found;
+  throw std::runtime_error(
+      "no buckling load of the whole pillar was found beside local modes at the rim of the bond. A "
+      "stubby pillar does not buckle sideways; for a slender one ask for a larger tolerance");
+}
+
+SymmetricSparse stiffness_by_pressure(const PillarModel& axial, const PillarModel& model,
+                                      double pressure_Pa) {
+  SymmetricSparse stress = stress_stiffness_per_Pa(axial, model);
+  if (model.options().motion == Motion::kLateral) {
+    require_below_buckling(model, stress, pressure_Pa);
+  }
+  stress.coeffs() *= pressure_Pa;
+  return stress;
 }
 
 }  // namespace viscard

@@ -209,11 +209,8 @@ std::vector<PillarMode> lowest_modes(const PillarModel& model, const SymmetricSp
 
 std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& model,
                                              double pressure_Pa, int count) {
-  if (model.options().motion == Motion::kLateral) {
-    require_below_buckling(axial, model, pressure_Pa);
-  }
-  SymmetricSparse stiffness = model.stiffness();
-  stiffness.coeffs() += pressure_Pa * stress_stiffness_per_Pa(axial, model).coeffs();
+  SymmetricSparse stiffness = stiffness_by_pressure(axial, model, pressure_Pa);
+  stiffness.coeffs() += model.stiffness().coeffs();
   return modes_of(model, stiffness, count);
 }
 

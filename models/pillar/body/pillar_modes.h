@@ -57,9 +57,10 @@ class BeyondBuckling : public std::runtime_error {
   double critical_Pa_;
 };
 
-// Throws BeyondBuckling if the pillar would buckle.
-void require_below_buckling(const PillarModel& axial, const PillarModel& lateral,
-                            double pressure_Pa);
+// Stress stiffness p K_sigma of a model under a pressure on the top of the axial one. Throws
+// BeyondBuckling if the model is lateral and the pillar would buckle.
+SymmetricSparse stiffness_by_pressure(const PillarModel& axial, const PillarModel& model,
+                                      double pressure_Pa);
 
 // Lowest modes of any family of a cylinder under a pressure on the top. Throws BeyondBuckling if
 // lateral modes are asked for.

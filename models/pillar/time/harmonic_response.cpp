@@ -22,6 +22,12 @@ void require_frequency(double omega_rad_s) {
 
 Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::VectorXd& load,
                                 double omega_rad_s) {
+  return solve_harmonics(body, {load}, omega_rad_s).front();
+}
+
+std::vector<Eigen::VectorXcd> solve_harmonics(const ViscoelasticSystem& body,
+                                              const std::vector<Eigen::VectorXd>& loads,
+                                              double omega_rad_s) {
   require_frequency(omega_rad_s);
   if (body.incompressible) {
     throw std::invalid_argument(
@@ -43,7 +49,11 @@ Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::Vec
                              " Hz the body resonates without damping, so no steady answer exists; "
                              "choose another frequency or add damping");
   }
-  return lu.solve(load.cast<Complex>());
+  std::vector<Eigen::VectorXcd> solutions;
+  for (const Eigen::VectorXd& load : loads) {
+    solutions.emplace_back(lu.solve(load.cast<Complex>()));
+  }
+  return solutions;
 }
 
 HarmonicSolver::HarmonicSolver(const ViscoelasticSystem& small)

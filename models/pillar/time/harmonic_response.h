@@ -17,6 +17,10 @@ namespace viscard {
 // unknowns; reduce it first) and std::runtime_error exactly on an undamped pole.
 Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::VectorXd& load,
                                 double omega_rad_s);
+// The same for several loads with one elimination.
+std::vector<Eigen::VectorXcd> solve_harmonics(const ViscoelasticSystem& body,
+                                              const std::vector<Eigen::VectorXd>& loads,
+                                              double omega_rad_s);
 
 // Solves a small body (ReducedBody) by dense elimination, in microseconds per frequency.
 class HarmonicSolver {

@@ -126,8 +126,7 @@ bool shape_relaxes(const ViscoelasticSystem& system, const DynamicRange& range) 
 bool add_answers(const ViscoelasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
                  double omega_rad_s, ReducedSpan& span) {
   bool grew = false;
-  for (const Eigen::VectorXd& load : loads) {
-    const Eigen::VectorXcd u = solve_harmonic(system, load, omega_rad_s);
+  for (const Eigen::VectorXcd& u : solve_harmonics(system, loads, omega_rad_s)) {
     grew = span.add(u.real()) || grew;
     grew = span.add(u.imag()) || grew;
   }

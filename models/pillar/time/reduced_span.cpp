@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace viscard {
 namespace {
@@ -58,17 +57,12 @@ double ReducedSpan::energy_norm(const Eigen::VectorXd& v) const {
   return std::sqrt(std::max(v.dot(force), 0.0));
 }
 
-Eigen::VectorXd ReducedSpan::orthogonal(Eigen::VectorXd v) const {
-  if (count() == 0) return v;
-  v -= basis_ * (image(1.0, 1.0).transpose() * v + shift_1_s2_ * (mass_.transpose() * v));
-  return v;
-}
-
 // Rigid motions bear no stress, which holds without rounding here.
 void ReducedSpan::add_rigid_motions() {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(body_.shear.rows());
   for (Eigen::Index i = 0; i < rigid_count(); ++i) {
-    Eigen::VectorXd v = orthogonal(body_.rigid.col(i));
+    Eigen::VectorXd v = body_.rigid.col(i);
+    v -= projected(v);
     v /= std::sqrt(shift_1_s2_ * v.dot(times(body_.mass, v)));
     append(v, {none, none, none, times(body_.mass, v)});
   }
@@ -79,11 +73,19 @@ Eigen::VectorXd ReducedSpan::balanced(const Eigen::VectorXd& load) const {
   return load - shift_1_s2_ * (mass_.leftCols(rigid) * (basis_.leftCols(rigid).transpose() * load));
 }
 
+Eigen::VectorXd ReducedSpan::projected(const Eigen::VectorXd& v) const {
+  Eigen::VectorXd products = elastic_.transpose() * v;
+  products += shear_.transpose() * v;
+  products += bulk_.transpose() * v;
+  if (shift_1_s2_ > 0.0) products += shift_1_s2_ * (mass_.transpose() * v);
+  return basis_ * products;
+}
+
 bool ReducedSpan::add(Eigen::VectorXd v) {
   if (count() == basis_.rows()) return false;
   const double before = energy_norm(v);
   // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9).
-  for (int pass = 0; pass < 2; ++pass) v = orthogonal(std::move(v));
+  for (int pass = 0; pass < 2; ++pass) v -= projected(v);
   const double after = energy_norm(v);
   if (!(after > 1e-9 * before) || !std::isfinite(after)) return false;
   v /= after;

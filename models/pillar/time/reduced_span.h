@@ -36,6 +36,9 @@ class ReducedSpan {
     return shear_ * shear + bulk_ * bulk + elastic_;
   }
 
+  // The part of v in the span, in the inner product of the energy.
+  Eigen::VectorXd projected(const Eigen::VectorXd& v) const;
+
   // basis' (elastic + shear S + bulk B - omega^2 M) basis.
   Eigen::MatrixXcd restricted(std::complex<double> shear, std::complex<double> bulk,
                               std::complex<double> omega2) const;
@@ -58,7 +61,6 @@ class ReducedSpan {
     Eigen::VectorXd elastic, shear, bulk, mass;
   };
   double energy_norm(const Eigen::VectorXd& v) const;
-  Eigen::VectorXd orthogonal(Eigen::VectorXd v) const;
   void append(const Eigen::VectorXd& v, const Images& images);
   void add_rigid_motions();
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -44,7 +45,7 @@ class RelaxedSearch {
         known_(std::min(count + kSpare, model.system().size() - rigid_count())),
         instantaneous_(lowest_modes(model, stiffness_at(body_, 1.0, 1.0), known_)),
         lifted_(lifted_body()),
-        span_(lifted_) {
+        span_(regular_body()) {
     for (const PillarMode& mode : instantaneous_) add(mode.shape);
   }
 
@@ -82,8 +83,8 @@ class RelaxedSearch {
   // incompressible body. It is therefore projected (in the energy) on motions that keep the volume.
   bool add(Eigen::VectorXd v) {
     if (!body_.incompressible) return span_.add(std::move(v));
-    if (span_.count() > 0) v -= span_.basis() * (span_.image(1.0, 1.0).transpose() * v);
-    return span_.add(span_.instantaneous().solve(times(stiffness_at(lifted_, 1.0, 1.0), v)));
+    if (span_.count() > 0) v -= span_.projected(v);
+    return span_.add(span_.instantaneous().solve(times(stiffness_at(regular_body(), 1.0, 1.0), v)));
   }
   void add_modes_at(double omega_rad_s) {
     const RelativeModuli m = storage_at(body_.terms, omega_rad_s);
@@ -111,13 +112,14 @@ class RelaxedSearch {
     return 2.0 * std::numbers::pi * instantaneous_[static_cast<std::size_t>(number)].frequency_Hz;
   }
   // A free body has no stiffness against rigid motions: its pencil is shifted by some mass.
-  ViscoelasticSystem lifted_body() {
+  std::optional<ViscoelasticSystem> lifted_body() {
+    if (model_.options().fixed_bottom) return std::nullopt;
     ViscoelasticSystem lifted = body_;
-    if (model_.options().fixed_bottom) return lifted;
     shift_1_s2_ = 0.1 * std::pow(first_guess_rad_s(0), 2);
     lifted.elastic.coeffs() += shift_1_s2_ * body_.mass.coeffs();
     return lifted;
   }
+  const ViscoelasticSystem& regular_body() const { return lifted_ ? *lifted_ : body_; }
   ScalarPencil pencil_of(const Eigen::VectorXcd& y) const {
     const auto form = [&y](const Eigen::MatrixXcd& matrix) -> Complex {
       return (y.transpose() * matrix * y).value();
@@ -159,7 +161,7 @@ class RelaxedSearch {
   int known_;
   double shift_1_s2_ = 0.0;
   std::vector<PillarMode> instantaneous_;
-  ViscoelasticSystem lifted_;
+  std::optional<ViscoelasticSystem> lifted_;
   ReducedSpan span_;
   double gap_ = 1.0;
 };

@@ -146,20 +146,22 @@ class ChangeTracker {
     const bool comparable = last_.size() == numbers.size();
     std::vector<double> change(numbers.size(), 0.0);
     // A higher degree alone does not show the error that only more layers reduce.
-    const double left =
-        share_left_ * (answer.discretisation.layers > last_layers_ ? 1.0 : kWithoutLayers);
+    const bool gained_layer = answer.discretisation.layers > last_layers_;
+    const double left = share_left_ * (gained_layer ? 1.0 : kWithoutLayers);
     last_layers_ = answer.discretisation.layers;
     answer.largest_relative_error = comparable ? 0.0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; comparable && i < numbers.size(); ++i) {
       change[i] = std::abs(numbers[i].value - last_[i]);
     }
     spread_over_curves(parts, change);
+    const std::vector<double> seen = change;
+    compared_twice_ = comparable && last_estimate_.size() == change.size();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      if (comparable && last_change_.size() == change.size()) {
+      if (compared_twice_) {
         // A change within the step errors of both answers gives no information on the mesh.
         const bool is_noise = change[i] <= 2.0 * answer.step_error * numbers[i].size;
-        const double left_over = is_noise ? change[i] : remaining(change[i], last_change_[i]);
-        change[i] = std::max(left_over, left * last_change_[i]);
+        const double left_over = is_noise ? change[i] : remaining(change[i], last_estimate_[i]);
+        change[i] = std::max(left_over, left * last_floor_[i]);
       }
       const double unresolved = numbers[i].unresolved * std::abs(numbers[i].value);
       *numbers[i].error = std::max(change[i], unresolved) + numbers[i].left_out +
@@ -173,8 +175,8 @@ class ChangeTracker {
         worst_ = numbers[i].name;
       }
     }
-    compared_twice_ = comparable && last_change_.size() == change.size();
-    last_change_ = comparable ? change : std::vector<double>{};
+    if (!comparable) change.clear();
+    remember(seen, change, gained_layer ? left : 0.0);
     last_.clear();
     for (const Number& number : numbers) last_.push_back(number.value);
   }
@@ -182,8 +184,24 @@ class ChangeTracker {
   const std::string& worst() const { return worst_; }
 
  private:
+  // A layer may chance to change nothing, so that the change before counts as well, but not those of
+  // meshes before that, which may have been too coarse to mean anything. A change without a new layer
+  // (left = 0) does not contain the error at the rim: the whole estimate remains.
+  void remember(const std::vector<double>& seen, const std::vector<double>& estimate, double left) {
+    const std::vector<double>& now = left > 0.0 && !estimate.empty() ? seen : estimate;
+    last_floor_ = now;
+    for (std::size_t i = 0; compared_twice_ && i < now.size(); ++i) {
+      last_floor_[i] = std::max(now[i], left * last_change_[i]);
+    }
+    last_change_ = now;
+    last_estimate_ = estimate;
+  }
+
   double share_left_;
-  std::vector<double> last_, last_change_;
+  std::vector<double> last_;           // numbers
+  std::vector<double> last_change_;    // of the numbers, or the estimate without a new layer
+  std::vector<double> last_estimate_;  // of their errors
+  std::vector<double> last_floor_;     // of which a share remains at least
   std::string worst_;
   int last_layers_ = 0;
   bool compared_twice_ = false;

@@ -32,9 +32,9 @@ struct ErrorControl {
 };
 
 // Runs through the meshes until the estimate of every number is within the tolerance: the change
-// from the last mesh, but at least share_left of the change before (two and a half times that if
-// the layers stayed the same), so that a chance agreement of two meshes does not pass, plus the
-// answer's own step error. A curve with a span changes as a whole (SceneCurve). Passes over meshes that
+// from the last mesh, but at least share_left of the change before and share_left^2 of the one before
+// that (two and a half times that if the layers stayed the same), so that a chance agreement of two
+// meshes does not pass, plus the answer's own step error. A curve with a span changes as a whole (SceneCurve). Passes over meshes that
 // are too coarse, except the finest. Throws std::runtime_error with the worst number and its error if the
 // finest mesh is not enough.
 SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_on);
