@@ -21,14 +21,14 @@ struct ChargeWaves {
   std::vector<double> k_1_m, potential_V_C;
 };
 
-// The integrand goes as k^-2.5 and oscillates with the gap between the discs, so that waves up to some multiple of
-// its inverse are needed; they fade out.
+// The integrand goes as k^-2.5 and oscillates with the gap between the discs, so that waves up to some multiple of the
+// inverse of the gap and of the radius are needed; they fade out.
 ChargeWaves charge_waves(const LayeredFilm& film, const CouplingAccuracy& accuracy, double gap_m,
-                         double reach_m) {
+                         double radius_m, double reach_m) {
   const double t_m = film.layers.front().thickness_m;
   const double apart_1_m = kApart_kt / t_m;
-  const double largest_1_m =
-      accuracy.largest_kt / std::min(0.5 * t_m, std::max(gap_m, kLeastGap * t_m));
+  const double shortest_m = std::min(radius_m, std::max(gap_m, kLeastGap * t_m));
+  const double largest_1_m = accuracy.largest_kt / std::min(0.5 * t_m, shortest_m);
   const ChargePotential potential(film, apart_1_m, accuracy.film_degree);
   const double limit = apart_1_m * potential.at(apart_1_m);
   const double longest_1_m = std::min(kPhase / reach_m, kStep / t_m);
@@ -75,7 +75,7 @@ DiscCoupling::DiscCoupling(const LayeredFilm& film, const DiscCharge& charge, do
     induced_.block(i - 1, i - 1, size, size) = all.bottomRightCorner(size, size);
   }
   const ChargeWaves waves =
-      charge_waves(film, accuracy, nearest_m - 2.0 * charge.radius_m(), far_m_);
+      charge_waves(film, accuracy, nearest_m - 2.0 * charge.radius_m(), charge.radius_m(), far_m_);
   const RadialWaves receivers = transforms(waves.k_1_m);
   RadialWaves sources = receivers;
   for (std::size_t i = 0; i < waves.k_1_m.size(); ++i) {

@@ -148,7 +148,7 @@ TEST_CASE("electrodes that nearly touch read what discs of charged cells read",
           "[models][array][space]") {
   const Places places = {{0.0, 0.0}, {46e-6, 0.0}, {15e-6, 48e-6}};
   SpaceArray array = array_at(weakly_piezoelectric(), places);
-  const SpaceAccuracy accuracy = space_accuracies(array)[4];
+  const SpaceAccuracy accuracy = space_accuracies(array)[3];
   const Eigen::MatrixXd coupled_V = voltages_of_loads(array, accuracy);
   const Eigen::MatrixXd alone_V = voltages_of_loads(array, without_coupling(accuracy));
   array.electrode = SpaceElectrode::kSampled;
@@ -189,8 +189,9 @@ TEST_CASE("a distant electrode acts back as the dipole of a thin disc", "[models
   const double moment = 8.0 / 3.0 * kPermittivity_F_m * std::pow(kRadius_m, 3);
   const Eigen::VectorXd voltages_V_C = discs.voltages_V_C(0);
   CHECK(voltages_V_C[0] == Approx(-moment * field_V_m_C * field_V_m_C).epsilon(3e-2));
-  // That of a point charge, to (a/d)^2.
-  CHECK(voltages_V_C[1] == Approx(field_V_m_C * distance_m).epsilon(2e-2));
+  // That of a point charge and of its images in the grounded face, -2 + 2 - ... over 2 n t: to (a/d)^2 and (d/t)^3.
+  const double images = 1.0 - distance_m / (100.0 * kRadius_m) * std::numbers::ln2;
+  CHECK(voltages_V_C[1] == Approx(images * field_V_m_C * distance_m).epsilon(5e-3));
 }
 
 TEST_CASE("charges on two electrodes read each other alike with others between them",
@@ -212,23 +213,24 @@ TEST_CASE("charges on two electrodes read each other alike with others between t
 
 TEST_CASE("readings converge with the harmonics and modes of the charges",
           "[models][convergence]") {
-  const SpaceArray array =
-      array_at(test::film_of_the_thesis(), {{0.0, 0.0}, {46e-6, 0.0}, {15e-6, 48e-6}});
-  SpaceAccuracy accuracy = space_accuracies(array)[4];
+  const LayeredFilm film = test::film_of_the_thesis();
+  const DiscCharge charge(film, kRadius_m, 8, 5, 8);
+  const std::vector<SourcePoint> points = {{0.0, 0.0, 0}, {46e-6, 0.0, 0}, {15e-6, 48e-6, 0}};
+  // What the charges induced on the others take from the voltage of a charged one.
   const auto read_V = [&](int harmonics, int modes) {
-    accuracy.coupling.harmonics = harmonics;
-    accuracy.coupling.modes = modes;
-    return voltages_of_loads(array, accuracy)(0, 0);
+    const CouplingAccuracy accuracy{
+        .harmonics = harmonics, .modes = modes, .beyond_nearest_m = 100e-6, .settled = 1e-12};
+    return CoupledDiscs(film, charge, points, accuracy).voltages_V_C(0)[0];
   };
   const double finest_V = read_V(7, 5);
-  double last = 0.1;
+  double last = 1.0;
   for (const auto& [harmonics, modes] : {std::pair{1, 1}, {2, 2}, {4, 3}, {6, 4}}) {
     const double error = std::abs(read_V(harmonics, modes) / finest_V - 1.0);
     INFO(harmonics << " harmonics, error " << error);
     CHECK(error < 0.5 * last);
     last = error;
   }
-  CHECK(last < 2e-5);
+  CHECK(last < 1e-3);
 }
 
 TEST_CASE("a quarter turn of four electrodes turns their voltages", "[models][array][space]") {
