@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -52,5 +53,22 @@ class Neighbours {
   double distance_m_;
   std::unordered_map<std::uint64_t, std::vector<Entry>> cells_;
 };
+
+// Smallest distance between two of the points, which are searched from this distance on; infinite for a single one.
+template <typename Point>
+double nearest_distance_m(const std::vector<Point>& points, double from_m) {
+  double nearest_m = HUGE_VAL;
+  for (double within_m = from_m; points.size() > 1 && std::isinf(nearest_m); within_m *= 2.0) {
+    const Neighbours near(points, within_m);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      near.visit(points[i].x_m, points[i].y_m, [&](std::size_t j) {
+        if (j == i) return;
+        nearest_m = std::min(
+            nearest_m, std::hypot(points[j].x_m - points[i].x_m, points[j].y_m - points[i].y_m));
+      });
+    }
+  }
+  return nearest_m;
+}
 
 }  // namespace viscard

@@ -89,11 +89,11 @@ double DiscCharge::weight(double k_1_m) const {
 Eigen::MatrixXd DiscCharge::induced(int harmonic, const Eigen::MatrixXd& moments) const {
   const Eigen::MatrixXd& A = influence_.at(static_cast<std::size_t>(harmonic));
   const Eigen::Index held = harmonic == 0 ? 1 : 0;  // the mode with a net charge
-  const Eigen::Index open = A.rows() - held;
-  Eigen::MatrixXd amplitudes = Eigen::MatrixXd::Zero(A.rows(), moments.cols());
+  const Eigen::Index open = std::min(A.rows(), moments.rows()) - held;
+  Eigen::MatrixXd amplitudes = Eigen::MatrixXd::Zero(open + held, moments.cols());
   if (open == 0) return amplitudes;
   const Eigen::MatrixXd right = moments.bottomRows(open);
-  amplitudes.bottomRows(open) = -Cholesky(A.bottomRightCorner(open, open)).solve(right);
+  amplitudes.bottomRows(open) = -Cholesky(A.block(held, held, open, open)).solve(right);
   return amplitudes;
 }
 

@@ -18,6 +18,7 @@ class DiscCharge {
 
   double radius_m() const { return radius_m_; }
   int modes() const { return static_cast<int>(influence_.front().rows()); }
+  int harmonics() const { return static_cast<int>(influence_.size()); }
   // Of the disc alone, the film free to move.
   double capacitance_F() const { return capacitance_F_; }
   // Transforms of the modes of harmonic m at k.
@@ -27,7 +28,8 @@ class DiscCharge {
   double weight(double k_1_m) const;
   // Amplitudes of the additional charge, with zero net charge, that makes the disc equipotential:
   // C/m of the modes. `moments`: of the surrounding potential, sum over the waves of amplitude
-  // times transforms(); a column per load.
+  // times transforms(); a column per load. If they are those of the first modes alone, the others
+  // have no charge.
   Eigen::MatrixXd induced(int harmonic, const Eigen::MatrixXd& moments) const;
 
  private:

@@ -100,4 +100,9 @@ void each_graded_wave(double smallest_1_m, double largest_1_m, double longest_1_
   }
 }
 
+double cut(double of_largest) {
+  const double s = std::clamp((of_largest - kCutFrom) / (1.0 - kCutFrom), 0.0, 1.0);
+  return s * s * s * s * (35.0 - s * (84.0 - s * (70.0 - 20.0 * s)));
+}
+
 }  // namespace viscard

@@ -36,4 +36,10 @@ class FilmTable {
 void each_graded_wave(double smallest_1_m, double largest_1_m, double longest_1_m,
                       const std::function<void(double k_1_m, double weight_1_m2)>& with);
 
+// Weight that lets the shortest waves fade out: rises smoothly from 0 to 1 with of_largest, the
+// wave number over the largest one. The error of truncation at neighbours then decreases with the
+// distance.
+constexpr double kCutFrom = 0.5;  // of the largest k, where it begins to rise
+double cut(double of_largest);
+
 }  // namespace viscard

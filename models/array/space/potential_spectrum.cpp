@@ -15,7 +15,6 @@ namespace {
 
 constexpr int kWavePoints = 8;        // Gauss points per panel of k
 constexpr double kShortWaves = 16.0;  // times the thickness: the faces are apart by exp(-16)
-constexpr double kCutFrom = 0.5;      // of the largest k, where cut() begins
 constexpr int kPanelPoints = 14;      // of a panel of k on which the film is sampled
 constexpr double kPanelGrowth = 0.4;  // its length over where it begins
 constexpr double kOwnPhase = 4.0;     // radius of the foot times a panel of k, on its own axis
@@ -125,11 +124,6 @@ void each_wave(double from_1_m, double to_1_m, double longest_1_m, const With& w
 
 }  // namespace
 
-double cut(double of_largest) {
-  const double s = std::clamp((of_largest - kCutFrom) / (1.0 - kCutFrom), 0.0, 1.0);
-  return s * s * s * s * (35.0 - s * (84.0 - s * (70.0 - 20.0 * s)));
-}
-
 Eigen::MatrixXd harmonics_of(const std::vector<Eigen::Vector4d>& at_angles, const FootForces& foot,
                              double k_1_m) {
   const AngularReading g = angular(at_angles);
@@ -226,6 +220,37 @@ std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectru
     }
   }
   return induced;
+}
+
+AxialField field_around(const PotentialSpectrum& spectrum) {
+  AxialField field;
+  field.loads = kTopLoads;
+  const Eigen::Index count = spectrum.waves.front().amplitude.rows();
+  for (int m = 0; m < 2 * count; ++m) {
+    // Even harmonics belong to the pressure, odd ones to the other loads.
+    const int first = m % 2 == 0 ? 0 : 1, last = m % 2 == 0 ? 0 : kTopLoads - 1;
+    for (int load = first; load <= last; ++load) {
+      const auto along = static_cast<TopLoad>(load);
+      const bool is_sine = along == TopLoad::kShearY || along == TopLoad::kTiltY;
+      field.functions.push_back({static_cast<Eigen::Index>(field.load.size()), m, is_sine});
+      field.load.push_back(load);
+      field.waves.order.push_back(m);
+    }
+  }
+  field.waves.amplitude.resize(static_cast<Eigen::Index>(spectrum.waves.size()),
+                               static_cast<Eigen::Index>(field.load.size()));
+  for (std::size_t i = 0; i < spectrum.waves.size(); ++i) {
+    field.k_1_m.push_back(spectrum.waves[i].k_1_m);
+    for (const AngularFunction& one : field.functions) {
+      field.waves.amplitude(static_cast<Eigen::Index>(i), one.radial) = spectrum.waves[i].amplitude(
+          one.order / 2, field.load[static_cast<std::size_t>(one.radial)]);
+    }
+  }
+  for (const PotentialSpectrum::OwnWave& wave : spectrum.own) {
+    field.own_k_1_m.push_back(wave.k_1_m);
+    field.own_amplitude.push_back(wave.amplitude);
+  }
+  return field;
 }
 
 double mutual_influence(const LayeredFilm& film, const DiscCharge& charge, double distance_m,

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "models/array/film/disc_charge.h"
+#include "models/array/film/disc_coupling.h"
+#include "models/array/film/film_table.h"
 #include "models/array/film/layered_film.h"
 #include "models/array/space/foot_forces.h"
 
@@ -50,10 +51,6 @@ std::vector<PotentialSpectrum::OwnWave> own_waves(const LayeredFilm& film, const
 
 constexpr double kWavePhase = 5.0;  // largest radius times a panel of k
 constexpr double kWaveStep = 0.7;   // panel of k times the thickness of the film
-// Weight that lets the shortest waves fade out: rises smoothly from 0 to 1 with of_largest, the
-// wave number over the largest one. The error of truncation at neighbours then decreases with the
-// distance.
-double cut(double of_largest);
 // Amplitude of each harmonic of the potential of one wave number, for every load (eq. S4), from what is
 // read per unit (tau_x, tau_y, t_z) along the directions j pi/(2 L), j = 0 to L.
 Eigen::MatrixXd harmonics_of(const std::vector<Eigen::Vector4d>& at_angles, const FootForces& foot,
@@ -64,6 +61,9 @@ Eigen::MatrixXd harmonics_of(const std::vector<Eigen::Vector4d>& at_angles, cons
 std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectrum,
                                                 const LayeredFilm& film, const DiscCharge& charge,
                                                 const PotentialAccuracy& accuracy);
+
+// The potential around a loaded pillar, for electrodes that influence each other (coupled_discs.h).
+AxialField field_around(const PotentialSpectrum& spectrum);
 
 // Voltage of an open electrode per charge on another one at a given distance of the axes, divided
 // by the voltage of that other one: the ratio p12/p11 of the coefficients of potential. Its square

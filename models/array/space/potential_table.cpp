@@ -1,5 +1,7 @@
 #include "models/array/space/potential_table.h"
 
+#include "models/maths/bessel_orders.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,19 +31,6 @@ Eigen::Matrix<double, kTablePoints, 1> table_weights(double x) {
     sum += weights[i];
   }
   return weights / sum;
-}
-
-// J_0 to J_(values.size() - 1) at x >= 0. Upward recursion is stable for orders below x: Abramowitz &
-// Stegun (1964), 9.12.
-void bessel(double x, Eigen::VectorXd& values) {
-  const Eigen::Index count = values.size();
-  values[0] = ::j0(x);
-  values[1] = ::j1(x);
-  for (Eigen::Index m = 2; m < count; ++m) {
-    const double order = static_cast<double>(m);
-    values[m] = x > order ? 2.0 * (order - 1.0) / x * values[m - 1] - values[m - 2]
-                          : ::jn(static_cast<int>(m), x);
-  }
 }
 
 // What waves beyond the last one add to the reading: if the sums over the last three octaves fall evenly, they go on as
@@ -112,7 +101,7 @@ void PotentialTable::add_wave(const Eigen::MatrixXd& amplitude, double k_1_m,
   for (Eigen::Index at = 0; at < values_.front().rows(); ++at) {
     const Eigen::Index panel = at / kTablePoints;
     const double within = 0.5 * (1.0 + table_point(static_cast<int>(at % kTablePoints)));
-    bessel(k_1_m * (from_m_ + panel_m_ * (static_cast<double>(panel) + within)), J);
+    bessel_orders(k_1_m * (from_m_ + panel_m_ * (static_cast<double>(panel) + within)), J);
     for (Eigen::Index load = 0; load < kTopLoads; ++load) {
       for (Eigen::Index j = 0; j < harmonics_; ++j) {
         row[load * harmonics_ + j] = amplitude(j, load) * J[2 * j + (load == 0 ? 0 : 1)];

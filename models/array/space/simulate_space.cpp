@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,12 +24,14 @@ namespace {
 constexpr double kShareOfAccuracy = 0.2;
 
 SpaceAccuracy accuracy_for(const SpaceScene& scene, const SpaceArray& array,
-                           const Discretisation& mesh) {
+                           const Discretisation& mesh, const ElectrodeCoupling& coupling) {
   const std::vector<SpaceAccuracy> all = space_accuracies(array);
   const auto found = std::find_if(all.begin(), all.end(), [&](const SpaceAccuracy& one) {
     return one.foot.degree >= mesh.degree;
   });
   SpaceAccuracy accuracy = found == all.end() ? all.back() : *found;
+  accuracy.coupling.settled = coupling.settled;
+  if (!coupling.is_on) accuracy.coupling.harmonics = 0;
   // Electrodes do not overlap: within its own one, a pillar reads itself alone.
   if (!scene.feels_neighbours) accuracy.potential.reach_m = 2.0 * array.electrode_radius_m;
   return accuracy;
@@ -88,9 +91,10 @@ double beyond_reach(const SpaceScene& scene, const SpaceResponse& response,
 }
 
 SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
-                        const Discretisation& mesh, const TouchCourse* course = nullptr) {
+                        const Discretisation& mesh, const ElectrodeCoupling& coupling,
+                        const TouchCourse* course = nullptr) {
   const SpaceArray array = array_of(scene);
-  const SpaceAccuracy accuracy = accuracy_for(scene, array, mesh);
+  const SpaceAccuracy accuracy = accuracy_for(scene, array, mesh, coupling);
   const SpaceResponse response(array, accuracy);
   SceneAnswer answer;
   answer.discretisation = accuracy.foot;
@@ -115,10 +119,24 @@ SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
 void add_change_of_loads(const SpaceScene& scene, const SpaceContact& contact,
                          SceneAnswer& answer) {
   if (contact.change_Pa.isZero(0.0)) return;
-  const SceneAnswer change = voltages_on(scene, contact.change_Pa, space_meshes(scene)[1]);
+  const SceneAnswer change = voltages_on(scene, contact.change_Pa, space_meshes(scene)[1], {});
   for (std::size_t m = 0; m < answer.maps.size(); ++m) {
     for (std::size_t at = 0; at < answer.maps[m].value.size(); ++at) {
       answer.maps[m].error[at] += std::abs(change.maps[m].value[at]);
+    }
+  }
+}
+
+// Values are sums over pillars and over the points of a top, so that one that vanishes by symmetry is known to the
+// rounding of the largest. Tops that nothing touches have exact zeros.
+void add_rounding(SceneAnswer& answer) {
+  constexpr double kRoundings = 4.0;       // of each term
+  constexpr double kPointsOfTop = 1000.0;  // about
+  const double terms = kPointsOfTop + static_cast<double>(answer.array.pillars.size());
+  const double relative = kRoundings * std::numeric_limits<double>::epsilon() * terms;
+  for (SceneMap& map : answer.maps) {
+    for (std::size_t at = 0; at < map.error.size(); ++at) {
+      if (map.value[at] != 0.0) map.error[at] += relative * size_of(map);
     }
   }
 }
@@ -159,7 +177,8 @@ std::string note_of_shrinking(const TouchCourse& course) {
 
 SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
   const TouchCourse course = touch_course(scene, kShareOfContact * scene.tolerance);
-  SceneAnswer answer = voltages_on(scene, course.shown.loads_Pa, mesh, &course);
+  SceneAnswer answer =
+      voltages_on(scene, course.shown.loads_Pa, mesh, electrode_coupling(scene), &course);
   add_contact(scene, course.shown, answer);
   set_results(scene, answer);
   for (SceneCurve& curve : answer.curves) curve.error.assign(curve.x.size(), 0.0);
@@ -169,7 +188,7 @@ SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh)
 
 SceneAnswer pressed_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
   const SpaceContact contact = contact_on(scene, (mesh.degree - 3) / 2);
-  SceneAnswer answer = voltages_on(scene, contact.loads_Pa, mesh);
+  SceneAnswer answer = voltages_on(scene, contact.loads_Pa, mesh, electrode_coupling(scene));
   add_contact(scene, contact, answer);
   set_results(scene, answer);
   return answer;
@@ -178,9 +197,10 @@ SceneAnswer pressed_answer_on(const SpaceScene& scene, const Discretisation& mes
 }  // namespace
 
 SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
-  SceneAnswer answer = scene.touch   ? touch_answer_on(scene, mesh)
-                       : scene.press ? pressed_answer_on(scene, mesh)
-                                     : voltages_on(scene, loads_of(scene), mesh);
+  SceneAnswer answer = scene.touch ? touch_answer_on(scene, mesh)
+                       : scene.press
+                           ? pressed_answer_on(scene, mesh)
+                           : voltages_on(scene, loads_of(scene), mesh, electrode_coupling(scene));
   add_heat_and_noise(scene, answer);
   if (senses_forces(scene)) finish_sensed(scene, answer);
   return answer;
@@ -208,14 +228,14 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   check_edge(scene, backing, constant, (1.0 - kShareOfAccuracy) * scene.tolerance);
   const double left = std::max(scene.tolerance - constant - of_contact - backing.edge,
                                0.5 * kShareOfAccuracy * scene.tolerance);
-  SceneAnswer answer =
-      answer_within({.tolerance = left,
-                     .meshes = space_meshes(scene),
-                     .progress = scene.progress,
-                     .step_error_falls = true},  // with the reach, which grows
-                    [&](const Discretisation& mesh) {
-                      return voltages_on(scene, loads_Pa, mesh, course ? &*course : nullptr);
-                    });
+  SceneAnswer answer = answer_within({.tolerance = left,
+                                      .meshes = space_meshes(scene),
+                                      .progress = scene.progress,
+                                      .step_error_falls = true},  // with the reach, which grows
+                                     [&](const Discretisation& mesh) {
+                                       return voltages_on(scene, loads_Pa, mesh, parts.coupling,
+                                                          course ? &*course : nullptr);
+                                     });
   if (contact) add_change_of_loads(scene, *contact, answer);
   for (SceneMap& map : answer.maps) {
     const double of_all = common_error_of(map, parts) + backing.edge * edge_size_of(map);
@@ -232,6 +252,7 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   }
   answer.largest_relative_error += constant + of_contact + backing.edge;
   if (contact) add_contact(scene, *contact, answer);
+  add_rounding(answer);
   set_results(scene, answer);
   if (course) finish_curves(scene, *course, constant, answer);
   add_heat_and_noise(scene, answer);

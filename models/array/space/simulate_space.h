@@ -57,13 +57,24 @@ void check_edge(const SpaceScene& scene, const BackingEffect& effect, double oth
 // Remarks on a film that reads its stretching.
 void add_stretching_note(const SpaceScene& scene, const BackingEffect& effect, SceneAnswer& answer);
 
-// Relative error of the voltages of equipotential electrodes that influence each other (eq. S5).
+// Relative error of the voltages of equipotential electrodes, if the charges that they induce on each other are
+// left out: (p12/p11)^2 of the nearest two (eq. S5).
 double electrode_error(const SpaceScene& scene);
+
+// Whether these charges are solved for (eq. S17), how far they are iterated, and the relative error of a voltage that is
+// left, apart from what the accuracies show.
+struct ElectrodeCoupling {
+  bool is_on = false;
+  double settled = 1.0;  // CouplingAccuracy
+  double error = 0.0;
+};
+ElectrodeCoupling electrode_coupling(const SpaceScene& scene);
 
 // Relative errors that do not depend on the accuracy level of the array: eq. S5, S7 and S8.
 struct ConstantErrors {
-  double foot = 0.0;          // of a voltage
-  double electrodes = 0.0;    // of a voltage
+  double foot = 0.0;        // of a voltage
+  double electrodes = 0.0;  // of a voltage
+  ElectrodeCoupling coupling;
   double neighbour = 0.0;     // share of a load's field at its nearest neighbour
   std::vector<double> edge;   // by pillar
   double largest_edge = 0.0;  // of them

@@ -37,14 +37,6 @@ std::vector<WeightedPoint> quarter(double radius_m, int quadrant, int count) {
   return points;
 }
 
-double largest_diameter_m(const SpaceArray& array) {
-  double largest_m = 0.0;
-  for (const PillarClass& one : array.classes) {
-    largest_m = std::max(largest_m, one.geometry.diameter_m);
-  }
-  return largest_m;
-}
-
 // Mapping of the readings of a pillar at a mirrored place under some of the loads: quarters change
 // places, and loads along the axis change sign.
 std::array<KernelMirror, 2> mirrors_of(Eigen::Index readings, const std::vector<TopLoad>& loads) {
@@ -97,44 +89,20 @@ std::vector<std::string> reading_names(SpaceElectrode electrode) {
   return names;
 }
 
-std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
-  std::vector<SpaceAccuracy> all;
-  const double t_m = array.film.layers.front().thickness_m;
-  const double radius_m = std::max(array.electrode_radius_m, 0.5 * largest_diameter_m(array));
-  for (const auto& [degree, layers] :
-       {std::pair{3, 1}, {4, 2}, {5, 3}, {6, 4}, {7, 4}, {8, 5}, {9, 5}}) {
-    SpaceAccuracy one;
-    one.foot.degree = degree;
-    one.foot.layers = layers;
-    one.foot.shaft_elements = 1;
-    one.potential.film_degree = degree + 4;
-    one.potential.largest_kt = 4.0 + 2.0 * degree;
-    one.potential.harmonics = degree < 5 ? 2 : 3;
-    // The face that carries the load reads short waves as 1/k, so the traction at the rim leaves
-    // k^-1.7 (eq. S6).
-    if (array.film.grounded == FilmFace::kBottom)
-      one.potential.own_kt = 5.0 * std::pow(2.0, degree - 1);
-    // Beyond this distance the field decays as exp(-0.92 x/t) (eq. A4).
-    one.potential.reach_m = 2.0 * radius_m + (3.0 + 1.5 * degree) * t_m;
-    if (array.film.backing) {
-      one.potential.far_m = array_diagonal_m(array) + 2.0 * array.electrode_radius_m;
-    }
-    all.push_back(one);
-  }
-  return all;
-}
-
 SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accuracy)
     : array_(&array),
       reach_m_(accuracy.potential.reach_m - array.electrode_radius_m),
       is_wide_(accuracy.potential.far_m > 0.0) {
   std::vector<AxialReading> readings = {point_reading(), disc_mean(array.electrode_radius_m)};
-  std::optional<DiscCharge> charge;
   if (array.electrode == SpaceElectrode::kEquipotential) {
-    charge.emplace(array.film, array.electrode_radius_m, 2 * (accuracy.potential.harmonics + 1),
-                   accuracy.foot.degree, accuracy.potential.film_degree);
-    capacitance_F_ = charge->capacitance_F();
-    readings = {[&](double k_1_m) { return charge->weight(k_1_m); }};
+    charge_ = std::make_unique<DiscCharge>(array.film, array.electrode_radius_m,
+                                           2 * (accuracy.potential.harmonics + 1),
+                                           accuracy.foot.degree, accuracy.potential.film_degree);
+    capacitance_F_ = charge_->capacitance_F();
+    readings = {[&](double k_1_m) { return charge_->weight(k_1_m); }};
+    if (accuracy.coupling.harmonics > 0 && array.pillars.size() > 1) {
+      coupling_.emplace(array.film, *charge_, sources_of(array), accuracy.coupling);
+    }
   }
   std::optional<FilmTable> film;
   if (array.film.backing) {
@@ -143,13 +111,12 @@ SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accur
                  std::max(potential.reach_m, potential.far_m));
   }
   for (const PillarClass& one : array.classes) {
-    add_class(one, accuracy, film ? &*film : nullptr, charge, readings);
+    add_class(one, accuracy, film ? &*film : nullptr, readings);
   }
 }
 
 void SpaceResponse::add_class(const PillarClass& one, const SpaceAccuracy& accuracy,
-                              const FilmTable* film, const std::optional<DiscCharge>& charge,
-                              const std::vector<AxialReading>& readings) {
+                              const FilmTable* film, const std::vector<AxialReading>& readings) {
   const PotentialAccuracy& potential = accuracy.potential;
   const double t_m = array_->film.layers.front().thickness_m;
   const double largest_k_1_m = std::max(potential.largest_kt, potential.own_kt) / t_m;
@@ -166,7 +133,12 @@ void SpaceResponse::add_class(const PillarClass& one, const SpaceAccuracy& accur
     spectrum = potential_spectrum(array_->film, foot, potential);
   }
   std::vector<Eigen::MatrixXd> induced;
-  if (charge) induced = induced_amplitudes(spectrum, array_->film, *charge, potential);
+  if (coupling_) {
+    const double foot_m = *std::max_element(foot.radius_m.begin(), foot.radius_m.end());
+    coupling_->add_kind(field_around(spectrum), foot_m);
+  } else if (charge_) {
+    induced = induced_amplitudes(spectrum, array_->film, *charge_, potential);
+  }
   PotentialTable near(spectrum, induced, potential.reach_m, readings);
   if (film && potential.far_m > 0.0) {
     tables_.emplace_back(std::move(near), *film, potential_reading(*film), foot, readings);
@@ -182,6 +154,7 @@ Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> SpaceResponse::kernel(int of_cl
   Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(
       static_cast<Eigen::Index>(reading_names(array_->electrode).size()), kTopLoads);
   kernel.row(0) = table.at(x_m, y_m, kCentre).transpose();
+  if (coupling_) kernel.row(0) += coupling_->by_own_charge(of_class, x_m, y_m);
   if (kernel.rows() > 1) kernel.row(1) = table.at(x_m, y_m, kMean).transpose();
   const int points = std::hypot(x_m, y_m) > reach_m_ ? kFarPoints : kQuadrantPoints;
   for (int quadrant = 0; quadrant < 4 && has_quadrants; ++quadrant) {
@@ -192,6 +165,10 @@ Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> SpaceResponse::kernel(int of_cl
     kernel.row(2 + quadrant) = mean.transpose();
   }
   return kernel;
+}
+
+Eigen::MatrixXd SpaceResponse::added_by_electrodes(std::size_t pillar) const {
+  return coupling_ ? coupling_->added_row(pillar) : Eigen::MatrixXd();
 }
 
 PotentialByLoad SpaceResponse::potential(int of_class, double x_m, double y_m) const {
@@ -208,6 +185,20 @@ SpaceResponse::Sums SpaceResponse::sums_of(const std::vector<TopLoad>& loads,
     }
     return columns;
   };
+  if (coupling_) {
+    std::vector<Eigen::Index> columns;
+    for (const TopLoad load : loads) columns.push_back(static_cast<Eigen::Index>(load));
+    return [loaded = sums_alone(loads, acts, of_loads),
+            added = coupling_->sums_of(columns, acts)](const Eigen::MatrixXd& loads_Pa) {
+      return (loaded(loads_Pa) + added(loads_Pa)).eval();
+    };
+  }
+  return sums_alone(loads, acts, of_loads);
+}
+
+SpaceResponse::Sums SpaceResponse::sums_alone(const std::vector<TopLoad>& loads,
+                                              const std::vector<bool>& acts,
+                                              const OffsetSums::Kernel& of_loads) const {
   if (!is_wide_) {
     return [sums = NearSums(sources_of(*array_), acts, reach_m_, of_loads)](
                const Eigen::MatrixXd& loads_Pa) { return sums.apply(loads_Pa); };

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "models/array/film/coupled_discs.h"
 #include "models/array/space/wide_table.h"
 #include "models/maths/offset_sums.h"
 
 #include <Eigen/Core>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,10 +63,13 @@ std::vector<std::string> reading_names(SpaceElectrode electrode);
 struct SpaceAccuracy {
   Discretisation foot;
   PotentialAccuracy potential;
+  CouplingAccuracy coupling;  // of open electrodes
 };
 // Accuracies of rising cost, in the order of the foot's degree (3 to 9). If the loaded face is also
 // the one that is read, much shorter waves are needed than for the face below.
 std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array);
+// The same for kernels and for small changes: without the charges that electrodes induce on each other.
+SpaceAccuracy without_coupling(SpaceAccuracy accuracy);
 
 // Readings of each pillar per load on a pillar at each offset: the answer of one array to any loads. The
 // film is linear, and all pillars of a class are alike, so that one table per class answers all.
@@ -79,9 +84,13 @@ class SpaceResponse {
   using Sums = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& loads_Pa)>;
   // The sums for loads of these kinds, in this order, of the pillars that act. The response must outlive them.
   Sums sums_of(const std::vector<TopLoad>& loads, const std::vector<bool>& acts) const;
-  // Readings of a pillar at the offset (x, y) from a loaded one of the class, V/Pa: readings x loads.
+  // Readings of a pillar at the offset (x, y) from a loaded one of the class, V/Pa: readings x loads. Charges
+  // that are induced on open electrodes of other pillars are left out.
   Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(int of_class, double x_m,
                                                           double y_m) const;
+  // What these charges add to the readings of one pillar per load on each, V/Pa: pillars x loads. Empty if they are
+  // left out of all answers.
+  Eigen::MatrixXd added_by_electrodes(std::size_t pillar) const;
   // The potential itself at the offset (x, y), V/Pa.
   PotentialByLoad potential(int of_class, double x_m, double y_m) const;
 
@@ -101,10 +110,14 @@ class SpaceResponse {
 
  private:
   void add_class(const PillarClass& one, const SpaceAccuracy& accuracy, const FilmTable* film,
-                 const std::optional<DiscCharge>& charge,
                  const std::vector<AxialReading>& readings);
+  // Without the charges that electrodes induce on each other.
+  Sums sums_alone(const std::vector<TopLoad>& loads, const std::vector<bool>& acts,
+                  const OffsetSums::Kernel& of_loads) const;
 
   const SpaceArray* array_;
+  std::unique_ptr<DiscCharge> charge_;    // of open electrodes
+  std::optional<CoupledDiscs> coupling_;  // of several of them
   double capacitance_F_ = 0.0;
   double reach_m_ = 0.0;  // between axes
   bool is_wide_ = false;  // a backing carries readings beyond the reach

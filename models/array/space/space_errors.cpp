@@ -41,6 +41,43 @@ double electrode_error(const SpaceScene& scene) {
   return influence * influence;
 }
 
+namespace {
+
+// How far the film's potential per charge along one axis differs from that over all directions, which the charges are
+// found with.
+double direction_spread(const SpaceScene& scene) {
+  constexpr int kDegree = 6;
+  const LayeredFilm film = array_of(scene).film;
+  const double largest_1_m = 8.0 / scene.film_thickness_m;
+  const FilmWaves along(film, 0.0, largest_1_m, kDegree);
+  const FilmWaves across(film, 0.5 * std::numbers::pi, largest_1_m, kDegree);
+  double spread = 0.0;
+  for (double k_1_m = largest_1_m / 64.0; k_1_m <= largest_1_m; k_1_m *= 2.0) {
+    const double x = along.reading(k_1_m)[3], y = across.reading(k_1_m)[3];
+    spread = std::max(spread, std::abs(x - y) / (x + y));
+  }
+  return spread;
+}
+
+}  // namespace
+
+ElectrodeCoupling electrode_coupling(const SpaceScene& scene) {
+  constexpr double kNegligible = 0.1;  // of the tolerance
+  constexpr double kNeighbours = 8.0;  // that add to one voltage
+  constexpr double kUnsettled = 0.02;  // of the tolerance, where the charges are iterated
+  constexpr double kLeast = 1e-8, kMost = 0.3;
+  ElectrodeCoupling coupling;
+  coupling.error = electrode_error(scene);
+  const bool has_percent = has_crosstalk(scene) && asks_for_map(scene, kCrosstalk);
+  const double tolerance = (has_percent ? kCrosstalkScale / 100.0 : 1.0) * scene.tolerance;
+  if (!scene.feels_neighbours || coupling.error <= kNegligible * tolerance) return coupling;
+  const double all = kNeighbours * coupling.error;
+  coupling.is_on = true;
+  coupling.settled = std::clamp(kUnsettled * tolerance / all, kLeast, kMost);
+  coupling.error = all * (coupling.settled + 2.0 * direction_spread(scene));
+  return coupling;
+}
+
 std::vector<double> film_edge_errors(const SpaceScene& scene) {
   const FilmExtent film = film_extent(scene);
   const std::vector<bool> loaded = is_loaded(scene);
@@ -70,7 +107,7 @@ BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa) 
   BackingEffect effect;
   SpaceArray array = array_of(scene);
   const FilmExtent film = film_extent(scene);
-  SpaceAccuracy accuracy = space_accuracies(array)[1];
+  SpaceAccuracy accuracy = without_coupling(space_accuracies(array)[1]);
   accuracy.potential.far_m = std::hypot(film.right_m - film.left_m, film.high_m - film.low_m);
   const SpaceResponse response(array, accuracy);
   const Eigen::VectorXd voltages_V = response.voltages_V(loads_Pa).col(0);
@@ -87,8 +124,9 @@ BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa) 
   // A sheared pillar has no voltage of its own: the least that the tolerance refers to (space_maps.h).
   effect.edge *= kOfEdge / std::max(largest_V, least_voltage_V(response, loads_Pa, 0));
   array.film.backing.reset();
-  const Eigen::VectorXd rigid_V =
-      SpaceResponse(array, space_accuracies(array)[1]).voltages_V(loads_Pa).col(0);
+  const Eigen::VectorXd rigid_V = SpaceResponse(array, without_coupling(space_accuracies(array)[1]))
+                                      .voltages_V(loads_Pa)
+                                      .col(0);
   effect.pillar = static_cast<std::size_t>(largest);
   effect.voltage_V = voltages_V[largest];
   effect.rigid_V = rigid_V[largest];
@@ -129,7 +167,7 @@ namespace {
 double largest_influence(const SpaceScene& scene) {
   constexpr int kDistances = 24, kDirections = 4;  // of a quarter turn
   const SpaceArray array = array_of(scene);
-  const SpaceResponse response(array, space_accuracies(array)[1]);
+  const SpaceResponse response(array, without_coupling(space_accuracies(array)[1]));
   const double pitch_m = smallest_pitch_m(scene);
   const double step_m = std::max(response.reach_m() - pitch_m, 0.0) / kDistances;
   double largest = 0.0;
@@ -159,7 +197,8 @@ double largest_influence(const SpaceScene& scene) {
 ConstantErrors constant_errors(const SpaceScene& scene) {
   ConstantErrors errors;
   errors.foot = rigid_foot_error(scene);
-  errors.electrodes = electrode_error(scene);
+  errors.coupling = electrode_coupling(scene);
+  errors.electrodes = errors.coupling.error;
   errors.neighbour = neighbour_influence(smallest_gap_m(scene) / scene.film_thickness_m,
                                          scene.film_thickness_m / scene.diameter_m);
   // Where that bound alone takes a large part of the tolerance, it is replaced by the reading itself.

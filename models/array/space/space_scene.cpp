@@ -141,14 +141,8 @@ FilmExtent film_extent(const SpaceScene& scene) {
 }
 
 double smallest_pitch_m(const SpaceScene& scene) {
-  double within_m = 2.0 * widest_pillar_m(scene);
-  if (scene.pillars.size() < 2) return within_m;
-  const auto distance = [](const SpacePillar&, const SpacePillar&, double m) { return m; };
-  double smallest_m = smallest_of_pairs(scene, within_m, distance);
-  for (; std::isinf(smallest_m); smallest_m = smallest_of_pairs(scene, within_m, distance)) {
-    within_m *= 2.0;
-  }
-  return smallest_m;
+  const double within_m = 2.0 * widest_pillar_m(scene);
+  return scene.pillars.size() < 2 ? within_m : nearest_distance_m(scene.pillars, within_m);
 }
 
 double smallest_gap_m(const SpaceScene& scene) {
@@ -170,6 +164,56 @@ double class_pull_off_N(const SpaceClass& one, double work_J_m2) {
   material.poisson_ratio = one.material.nu;
   material.work_of_adhesion_J_m2 = work_J_m2;
   return pull_off_force_N(one.diameter_m, material);
+}
+
+namespace {
+
+double largest_diameter_m(const SpaceArray& array) {
+  double largest_m = 0.0;
+  for (const PillarClass& one : array.classes) {
+    largest_m = std::max(largest_m, one.geometry.diameter_m);
+  }
+  return largest_m;
+}
+
+}  // namespace
+
+std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
+  std::vector<SpaceAccuracy> all;
+  const double t_m = array.film.layers.front().thickness_m;
+  const double radius_m = std::max(array.electrode_radius_m, 0.5 * largest_diameter_m(array));
+  for (const auto& [degree, layers] :
+       {std::pair{3, 1}, {4, 2}, {5, 3}, {6, 4}, {7, 4}, {8, 5}, {9, 5}}) {
+    SpaceAccuracy one;
+    one.foot.degree = degree;
+    one.foot.layers = layers;
+    one.foot.shaft_elements = 1;
+    one.potential.film_degree = degree + 4;
+    one.potential.largest_kt = 4.0 + 2.0 * degree;
+    one.potential.harmonics = degree < 5 ? 2 : 3;
+    // The face that carries the load reads short waves as 1/k, so the traction at the rim leaves
+    // k^-1.7 (eq. S6).
+    if (array.film.grounded == FilmFace::kBottom)
+      one.potential.own_kt = 5.0 * std::pow(2.0, degree - 1);
+    // Beyond this distance the field decays as exp(-0.92 x/t) (eq. A4).
+    one.potential.reach_m = 2.0 * radius_m + (3.0 + 1.5 * degree) * t_m;
+    one.coupling = {.harmonics = degree - 1,
+                    .modes = degree < 4 ? 2 : (degree < 7 ? 3 : 4),
+                    .largest_kt = one.potential.largest_kt,
+                    .film_degree = one.potential.film_degree,
+                    .beyond_nearest_m = (0.5 * degree) * t_m,
+                    .far_m = one.potential.reach_m};
+    if (array.film.backing) {
+      one.potential.far_m = array_diagonal_m(array) + 2.0 * array.electrode_radius_m;
+    }
+    all.push_back(one);
+  }
+  return all;
+}
+
+SpaceAccuracy without_coupling(SpaceAccuracy accuracy) {
+  accuracy.coupling.harmonics = 0;
+  return accuracy;
 }
 
 }  // namespace viscard

@@ -223,7 +223,7 @@ double quarter_noise_V(const SpaceScene& scene) {
 void add_heat_and_noise(const SpaceScene& scene, SceneAnswer& answer) {
   if (!scene.heat && !scene.noise) return;
   const SpaceArray array = array_of(scene);
-  const SpaceResponse response(array, space_accuracies(array)[2]);
+  const SpaceResponse response(array, without_coupling(space_accuracies(array)[2]));
   const auto kernel = response.kernel(0, 0.0, 0.0);
   const std::vector<std::string> names = reading_names(scene.electrode);
   if (scene.heat) {

@@ -108,7 +108,7 @@ void add_voltage_curves(const SpaceScene& scene, const SpaceResponse& response,
 void finish_curves(const SpaceScene& scene, const TouchCourse& course, double relative,
                    SceneAnswer& answer) {
   const SpaceArray array = array_of(scene);
-  SpaceAccuracy accuracy = space_accuracies(array)[1];
+  SpaceAccuracy accuracy = without_coupling(space_accuracies(array)[1]);
   if (!scene.feels_neighbours) accuracy.potential.reach_m = 2.0 * array.electrode_radius_m;
   const SpaceResponse response(array, accuracy);
   const std::vector<PillarCurve> changes =

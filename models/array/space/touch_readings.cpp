@@ -26,11 +26,15 @@ class Voltages {
     const auto readings = static_cast<Eigen::Index>(reading_names(scene_->electrode).size());
     Eigen::MatrixXd voltages =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(loads_Pa.size()), readings);
+    const Eigen::MatrixXd by_electrodes = response_->added_by_electrodes(pillar);
     for (std::size_t j = 0; j < course_->touched.size(); ++j) {
       const SpacePillar& other = scene_->pillars[course_->touched[j]];
       const double x_m = one.x_m - other.x_m, y_m = one.y_m - other.y_m;
       if (std::hypot(x_m, y_m) > response_->reach_m()) continue;
       Eigen::MatrixXd kernel = response_->kernel(other.of_class, x_m, y_m);
+      if (by_electrodes.size() > 0) {
+        kernel.row(0) += by_electrodes.row(static_cast<Eigen::Index>(course_->touched[j]));
+      }
       if (is_size) kernel = kernel.cwiseAbs().eval();
       for (std::size_t k = 0; k < loads_Pa.size(); ++k) {
         voltages.row(static_cast<Eigen::Index>(k)) +=

@@ -264,3 +264,21 @@ TEST_CASE("an answer on one mesh has every result of the answer", "[models][arra
   press_in_time(scene, {.is_creep = false, .history = {{0.0, 0.0}, {1.0, 2e-6}}, .readout = {}});
   CHECK(missing_in(scene) == "");
 }
+
+TEST_CASE("moments that vanish by symmetry lie within their error", "[models][array][space]") {
+  ShapePress plane;
+  plane.shape.kind = ShapeKind::kPlane;
+  plane.depth_m = 1e-6;
+  const SceneAnswer answer = simulate(pressed_array(3, 3, plane));
+  int maps = 0;
+  for (const SceneMap& map : answer.maps) {
+    if (!map.name.starts_with("moment_")) continue;
+    ++maps;
+    for (std::size_t i = 0; i < map.value.size(); ++i) {
+      INFO(map.name << " " << map.value[i] << " +- " << map.error[i]);
+      CHECK(std::abs(map.value[i]) <= map.error[i]);
+      CHECK(map.error[i] <= 1e-9 * size_of(map));
+    }
+  }
+  CHECK(maps == 2);
+}

@@ -158,6 +158,18 @@ TEST_CASE("amplifiers at neighbouring electrodes change each other's readings",
   CHECK(result_of(answer, "reading_1_1_end") / open_V == Approx(exact).epsilon(m * m));
 }
 
+TEST_CASE("voltages of close electrodes at the end of a touch are those of the map",
+          "[models][array][space]") {
+  SpaceScene scene = touched(1, 2, plane(), false, {{0.0, 1e-6}, {1.0, 1e-6}});
+  scene.film = pvdf_of_the_thesis(23e-12, 23e-12, -33e-12);
+  scene.electrode = SpaceElectrode::kEquipotential;
+  scene.electrode_radius_m = 46e-6;
+  CHECK(electrode_coupling(scene).is_on);
+  const SceneAnswer answer = simulate(scene);
+  CHECK(curve_of(answer, "electrode_voltage_1_1").value.back() ==
+        Approx(result_of(answer, "electrode_voltage_1_1")).epsilon(1e-5));
+}
+
 TEST_CASE("a film that leaks lets the reading of a touch fall faster", "[models][array][space]") {
   SpaceScene scene = touched(1, 1, plane(), false, {{0.0, 1e-6}, {1.0, 1e-6}});
   scene.electrode = SpaceElectrode::kEquipotential;
