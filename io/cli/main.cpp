@@ -1,5 +1,6 @@
 #include "io/cli/command.h"
 #include "io/cli/words/terminal.h"
+#include "models/maths/kept_memory.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include <iostream>
 
 int main(int argc, char** argv) {
+  viscard::keep_freed_memory();
   ::signal(SIGXFSZ,
            SIG_IGN);  // writes beyond a file size limit then fail like writes to a full disk
   std::ios::sync_with_stdio(false);
