@@ -27,10 +27,10 @@ class CoupledDiscs {
   // its own disc alone, V per load.
   Eigen::RowVectorXd by_own_charge(int kind, double x_m, double y_m) const;
 
-  // What all other charges on the discs add to the voltage of each disc, by loads on the points that act: points x
-  // columns of the fields to points x 1, V. This must outlive the sums. Throws std::runtime_error if the
-  // charges do not settle.
+  // Sums over the points of loads: points x columns of the fields to points x 1, V.
   using Sums = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& loads)>;
+  // What all other charges on the discs add to the voltage of each disc, by loads on the points that act. This must
+  // outlive the sums. Throws std::runtime_error if the charges do not settle.
   Sums sums_of(const std::vector<Eigen::Index>& columns, const std::vector<bool>& acts) const;
   // The same for one disc, as its voltage per load on each point: points x columns of the fields.
   Eigen::MatrixXd added_row(std::size_t disc) const;

@@ -37,6 +37,14 @@ std::vector<WeightedPoint> quarter(double radius_m, int quadrant, int count) {
   return points;
 }
 
+double largest_diameter_m(const SpaceArray& array) {
+  double largest_m = 0.0;
+  for (const PillarClass& one : array.classes) {
+    largest_m = std::max(largest_m, one.geometry.diameter_m);
+  }
+  return largest_m;
+}
+
 // Mapping of the readings of a pillar at a mirrored place under some of the loads: quarters change
 // places, and loads along the axis change sign.
 std::array<KernelMirror, 2> mirrors_of(Eigen::Index readings, const std::vector<TopLoad>& loads) {
@@ -87,6 +95,44 @@ std::vector<std::string> reading_names(SpaceElectrode electrode) {
     for (int q = 1; q <= 4; ++q) names.push_back("quadrant_" + std::to_string(q));
   }
   return names;
+}
+
+std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
+  std::vector<SpaceAccuracy> all;
+  const double t_m = array.film.layers.front().thickness_m;
+  const double radius_m = std::max(array.electrode_radius_m, 0.5 * largest_diameter_m(array));
+  for (const auto& [degree, layers] :
+       {std::pair{3, 1}, {4, 2}, {5, 3}, {6, 4}, {7, 4}, {8, 5}, {9, 5}}) {
+    SpaceAccuracy one;
+    one.foot.degree = degree;
+    one.foot.layers = layers;
+    one.foot.shaft_elements = 1;
+    one.potential.film_degree = degree + 4;
+    one.potential.largest_kt = 4.0 + 2.0 * degree;
+    one.potential.harmonics = degree < 5 ? 2 : 3;
+    // The face that carries the load reads short waves as 1/k, so the traction at the rim leaves
+    // k^-1.7 (eq. S6).
+    if (array.film.grounded == FilmFace::kBottom)
+      one.potential.own_kt = 5.0 * std::pow(2.0, degree - 1);
+    // Beyond this distance the field decays as exp(-0.92 x/t) (eq. A4).
+    one.potential.reach_m = 2.0 * radius_m + (3.0 + 1.5 * degree) * t_m;
+    one.coupling = {.harmonics = degree - 1,
+                    .modes = degree < 4 ? 2 : (degree < 7 ? 3 : 4),
+                    .largest_kt = one.potential.largest_kt,
+                    .film_degree = one.potential.film_degree,
+                    .beyond_nearest_m = (0.5 * degree) * t_m,
+                    .far_m = one.potential.reach_m};
+    if (array.film.backing) {
+      one.potential.far_m = array_diagonal_m(array) + 2.0 * array.electrode_radius_m;
+    }
+    all.push_back(one);
+  }
+  return all;
+}
+
+SpaceAccuracy without_coupling(SpaceAccuracy accuracy) {
+  accuracy.coupling.harmonics = 0;
+  return accuracy;
 }
 
 SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accuracy)
@@ -236,30 +282,6 @@ Eigen::MatrixXd SpaceResponse::voltages_V(const TopLoads& loads_Pa) const {
   std::vector<bool> acts;
   for (Eigen::Index i = 0; i < loads_Pa.rows(); ++i) acts.push_back(!loads_Pa.row(i).isZero(0.0));
   return sums_of(active, acts)(columns);
-}
-
-Eigen::VectorXd SpaceResponse::beyond_reach_V(const TopLoads& loads_Pa) const {
-  constexpr int kDirections = 16;
-  const auto readings = static_cast<Eigen::Index>(reading_names(array_->electrode).size());
-  Eigen::VectorXd largest_V = Eigen::VectorXd::Zero(readings);
-  if (is_wide_) return largest_V;
-  std::vector<TopLoads> of_class(feet_.size(), TopLoads::Zero(1, kTopLoads));  // largest of each
-  for (std::size_t i = 0; i < array_->pillars.size(); ++i) {
-    const PlacedPillar& one = array_->pillars[i];
-    TopLoads& most = of_class[static_cast<std::size_t>(one.of_class)];
-    most = most.cwiseMax(loads_Pa.row(static_cast<Eigen::Index>(i)).cwiseAbs());
-  }
-  if (array_diagonal_m(*array_) <= reach_m_) return largest_V;
-  for (std::size_t c = 0; c < of_class.size(); ++c) {
-    if (of_class[c].isZero(0.0)) continue;
-    for (int d = 0; d < kDirections; ++d) {
-      const double angle = 2.0 * std::numbers::pi * d / kDirections;
-      const auto at =
-          kernel(static_cast<int>(c), reach_m_ * std::cos(angle), reach_m_ * std::sin(angle));
-      largest_V = largest_V.cwiseMax(at.cwiseAbs() * of_class[c].transpose());
-    }
-  }
-  return largest_V;
 }
 
 }  // namespace viscard

@@ -78,6 +78,30 @@ ElectrodeCoupling electrode_coupling(const SpaceScene& scene) {
   return coupling;
 }
 
+Eigen::VectorXd SpaceResponse::beyond_reach_V(const TopLoads& loads_Pa) const {
+  constexpr int kDirections = 16;
+  const auto readings = static_cast<Eigen::Index>(reading_names(array_->electrode).size());
+  Eigen::VectorXd largest_V = Eigen::VectorXd::Zero(readings);
+  if (is_wide_) return largest_V;
+  std::vector<TopLoads> of_class(feet_.size(), TopLoads::Zero(1, kTopLoads));  // largest of each
+  for (std::size_t i = 0; i < array_->pillars.size(); ++i) {
+    const PlacedPillar& one = array_->pillars[i];
+    TopLoads& most = of_class[static_cast<std::size_t>(one.of_class)];
+    most = most.cwiseMax(loads_Pa.row(static_cast<Eigen::Index>(i)).cwiseAbs());
+  }
+  if (array_diagonal_m(*array_) <= reach_m_) return largest_V;
+  for (std::size_t c = 0; c < of_class.size(); ++c) {
+    if (of_class[c].isZero(0.0)) continue;
+    for (int d = 0; d < kDirections; ++d) {
+      const double angle = 2.0 * std::numbers::pi * d / kDirections;
+      const auto at =
+          kernel(static_cast<int>(c), reach_m_ * std::cos(angle), reach_m_ * std::sin(angle));
+      largest_V = largest_V.cwiseMax(at.cwiseAbs() * of_class[c].transpose());
+    }
+  }
+  return largest_V;
+}
+
 std::vector<double> film_edge_errors(const SpaceScene& scene) {
   const FilmExtent film = film_extent(scene);
   const std::vector<bool> loaded = is_loaded(scene);

@@ -166,8 +166,9 @@ TEST_CASE("voltages of close electrodes at the end of a touch are those of the m
   scene.electrode_radius_m = 46e-6;
   CHECK(electrode_coupling(scene).is_on);
   const SceneAnswer answer = simulate(scene);
+  // The charges are iterated to 2 % of the tolerance; without them the voltages are 2e-3 off.
   CHECK(curve_of(answer, "electrode_voltage_1_1").value.back() ==
-        Approx(result_of(answer, "electrode_voltage_1_1")).epsilon(1e-5));
+        Approx(result_of(answer, "electrode_voltage_1_1")).epsilon(1e-4));
 }
 
 TEST_CASE("a film that leaks lets the reading of a touch fall faster", "[models][array][space]") {
