@@ -128,10 +128,15 @@ TEST_CASE("the error of effects left out stays within half the tolerance and ent
   CHECK(answer.results.front().error_estimate >= sum * std::abs(answer.results.front().value));
 }
 
+// An effect that is off leaves less of the tolerance to the mesh, which may then be another one.
+constexpr Discretisation kSameMesh{.degree = 6, .layers = 3};
+
 TEST_CASE("one-way potentials differ from coupled ones by about k^2", "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
   scene.wanted = {"electrode_voltage"};
+  scene.tolerance = 1e-2;
+  scene.discretisation = kSameMesh;
   scene.effects["piezo_coupling"] = EffectChoice::kOff;
   const SceneAnswer one_way = simulate(scene);
   scene.effects["piezo_coupling"] = EffectChoice::kOn;
@@ -155,6 +160,7 @@ TEST_CASE("without piezoelectric constants one-way and two-way coupling agree, w
     scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
     scene.wanted = {"electrode_voltage"};
     scene.tolerance = 1e-2;
+    scene.discretisation = kSameMesh;
     scene.effects["piezo_coupling"] = EffectChoice::kOff;
     const double one_way = value_of(simulate(scene), "electrode_voltage");
     scene.effects["piezo_coupling"] = EffectChoice::kOn;
