@@ -1,7 +1,6 @@
 #include "models/maths/dense.h"
 #include "models/maths/require.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/scene_body.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/analyses/top_load.h"
@@ -142,19 +141,17 @@ TransientResult run_to_peaks(const ViscoelasticSystem& small, TransientRequest r
   }
 }
 
-// Displacement under the largest load at rest, or as it is accelerated as a whole, over the largest
-// displacement that was found.
+// Displacement under the largest load at rest or carried along, over the largest that was found.
 double static_over_peak(const ReducedBody& reduced, const TransientRequest& request,
                         const Eigen::VectorXd& observer, const Eigen::VectorXd& found) {
-  const ViscoelasticSystem held = without_rigid_motions(reduced.system);
-  const Eigen::Index size = held.shear.rows();
-  const Eigen::MatrixXd stiffness = dense(held.elastic) + dense(held.shear) + dense(held.bulk);
+  const ViscoelasticSystem body = without_rigid_motions(reduced.system);
+  const Eigen::MatrixXd stiffness = dense(body.elastic) + dense(body.shear) + dense(body.bulk);
+  const Eigen::Index size = stiffness.rows();
   double peak = 0.0;
   for (const HistoryPoint& point : request.history) peak = std::max(peak, std::abs(point.value));
-  const Eigen::VectorXd bent =
-      SymmetricFactor(stiffness).solve(Eigen::VectorXd(request.load.tail(size)));
-  const double at_rest = std::abs(observer.tail(size).dot(bent)) * peak;
-  return at_rest / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
+  const Eigen::VectorXd load = request.load.tail(size);
+  const double moved = observer.tail(size).dot(SymmetricFactor(stiffness).solve(load));
+  return std::abs(moved) * peak / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
 }
 
 // A jump excites waves of every length with amplitudes in proportion to the length; a change of

@@ -21,9 +21,9 @@ struct ViscoelasticSystem {
   SymmetricSparse mass;  // empty: quasi-static
   std::vector<MaterialTerm> terms;
   Eigen::VectorXd load;  // force vector of a unit load; load.u is the conjugate displacement
-  // A body that nothing holds: its rigid motions (unknowns x motions), and the multiple of the mass that
-  // makes its stiffness regular. A reduced body's rigid motions are its leading unknowns.
+  // Rigid motions of a body that nothing holds, unknowns x motions; a reduced body's are its leading unknowns.
   Eigen::MatrixXd rigid;
+  // The multiple of the mass that makes the stiffness of such a body regular.
   double free_shift_1_s2 = 0.0;
 };
 
