@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -151,14 +152,27 @@ void require_below_buckling(const PillarModel& lateral, const SymmetricSparse& s
                        critical_Pa);
 }
 
+std::string why_none_is_found(const PillarGeometry& pillar) {
+  constexpr double kStubby = 2.0;  // length over diameter
+  const double slenderness = pillar.length_m / pillar.diameter_m;
+  const bool has_wide_tip = pillar.tip.width_m > 0.0;
+  const std::string found = std::string("no buckling load of the whole pillar was found beside ") +
+                            "local modes at the rim of the bond" +
+                            (has_wide_tip ? " and in the rim of the tip. " : ". ");
+  if (slenderness < kStubby) {
+    return found + "A stubby pillar does not buckle sideways: its length is " +
+           text_of(slenderness, 3) + " diameters";
+  }
+  return found + "Finer meshes show more of them: ask for a larger tolerance" +
+         (has_wide_tip ? " or a thicker rim of the tip" : "");
+}
+
 }  // namespace
 
 Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
   Buckling found = search_buckling(lateral, stress_stiffness_per_Pa(axial, lateral), count);
   if (found.pressure_Pa > 0.0) return found;
-  throw std::runtime_error(
-      "no buckling load of the whole pillar was found beside local modes at the rim of the bond. A "
-      "stubby pillar does not buckle sideways; for a slender one ask for a larger tolerance");
+  throw std::runtime_error(why_none_is_found(lateral.geometry()));
 }
 
 SymmetricSparse stiffness_by_pressure(const PillarModel& axial, const PillarModel& model,
