@@ -118,6 +118,11 @@ FittedFile fit_named(const std::string& path, const FitRequest& request, bool is
 
 }  // namespace
 
+const char* name_of_kind(FitKind kind) {
+  constexpr const char* kNames[] = {"indentation", "relaxation", "creep", "dma", "several"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
 FittedFile fit_file(const std::string& path, const FitRequest& request) {
   const bool is_capture = looks_like_capture(path);
   return fit_named(path, request, is_capture, [&](const FitRequest& wanted) {

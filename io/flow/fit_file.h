@@ -18,6 +18,9 @@ FittedFile fit_file(const std::string& path, const FitRequest& request);
 // The same for a table in memory. Its `file` stands for it in messages; no file of that name is read.
 FittedFile fit_values(const CsvTable& table, const FitRequest& request);
 
+// "indentation", "relaxation" ...
+const char* name_of_kind(FitKind kind);
+
 // Called with the fraction done and the name of the step that was finished last; may be empty.
 using FlowProgress = std::function<void(double fraction, const std::string& step)>;
 

@@ -1,7 +1,6 @@
 #include "fit/fit_together.h"
 #include "io/basics/parallel.h"
 #include "io/flow/fit_file.h"
-#include "io/flow/flow_json.h"
 #include "io/flow/input_files.h"
 #include "io/flow/test_words.h"
 

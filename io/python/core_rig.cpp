@@ -1,6 +1,6 @@
 #include "io/flow/capture_setup.h"
 #include "io/flow/capture_to_file.h"
-#include "io/flow/flow_json.h"
+#include "io/flow/json/flow_json.h"
 #include "io/flow/words/option_error.h"
 #include "io/python/job.h"
 #include "io/python/parts.h"

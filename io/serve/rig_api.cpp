@@ -6,7 +6,7 @@
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
 #include "io/flow/command_error.h"
-#include "io/flow/flow_json.h"
+#include "io/flow/json/flow_json.h"
 #include "io/flow/series_files.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"

@@ -9,7 +9,7 @@
 #include "io/cli/words/progress.h"
 #include "io/flow/command_error.h"
 #include "io/flow/fit_file.h"
-#include "io/flow/flow_json.h"
+#include "io/flow/json/flow_json.h"
 #include "io/flow/test_words.h"
 #include "io/flow/words/fit_text.h"
 #include "io/materials/material_file.h"

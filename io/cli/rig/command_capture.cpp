@@ -7,7 +7,7 @@
 #include "io/cli/words/output_paths.h"
 #include "io/flow/capture_setup.h"
 #include "io/flow/command_error.h"
-#include "io/flow/flow_json.h"
+#include "io/flow/json/flow_json.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>

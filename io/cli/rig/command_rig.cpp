@@ -6,7 +6,7 @@
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
-#include "io/flow/flow_json.h"
+#include "io/flow/json/flow_json.h"
 #include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/lines/port_probe.h"

@@ -2,7 +2,6 @@
 
 #include "fit/intervals/left_out.h"
 #include "fit/intervals/viscosity.h"
-#include "io/flow/flow_json.h"
 #include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 

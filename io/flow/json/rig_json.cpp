@@ -1,5 +1,5 @@
 #include "io/flow/command_error.h"
-#include "io/flow/flow_json.h"
+#include "io/flow/json/flow_json.h"
 
 #include <nlohmann/json.hpp>
 

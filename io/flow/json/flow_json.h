@@ -16,8 +16,6 @@ namespace viscard {
 nlohmann::ordered_json json_from_rig_check(const RigCheck& found);
 // One run of `viscard capture`, with "error" if it did not finish; file: of the capture.
 nlohmann::ordered_json json_from_outcome(const RunOutcome& outcome, const std::string& file);
-// "indentation", "relaxation" ...
-const char* name_of_kind(FitKind kind);
 // `viscard fit`: its keys are those of FitResult with the unit in the name. Numbers that are not
 // finite become null.
 nlohmann::ordered_json json_from_fit(const FittedFile& fitted);
