@@ -220,6 +220,14 @@ double film_over_pillar_frequency(const PillarScene& scene) {
   return film_Hz / std::hypot(rod_Hz, ovalling_Hz);
 }
 
+// p/p_cr of a push with the long-term moduli, which bounds the share of every mode. The lateral stiffness
+// that remains is 1 - p/p_cr, so that a small change of stiffness changes f^2 by 1/(1 - p/p_cr) times
+// its size (eq. E6).
+double long_term_share(const PillarScene& scene) {
+  const double push_Pa = std::max(0.0, modal_drive(scene).pressure_Pa);
+  return scene.plane ? 0.0 : push_Pa / engesser_pressure_Pa(long_term_scene(scene));
+}
+
 EffectEstimate modal_film_compliance(const PillarScene& scene, const EffectEstimate&) {
   const FilmShares shares = film_shares(scene);
   const double ratio = film_over_pillar_frequency(scene);
@@ -227,7 +235,9 @@ EffectEstimate modal_film_compliance(const PillarScene& scene, const EffectEstim
     return {EffectRole::kNeeded, 1.0, "film over pillar frequency", ratio,
             "the film vibrates among the modes asked for"};
   }
-  const double largest = std::max({shares.axial, shares.lateral(), shares.torsion});
+  const double left = 1.0 - long_term_share(scene);
+  const double sideways = left > 0.0 ? std::min(1.0, shares.lateral() / left) : 1.0;
+  const double largest = std::max({shares.axial, sideways, shares.torsion});
   return {EffectRole::kOptional, kUnevenTraction * largest / (1.0 - 1.0 / (ratio * ratio)),
           "base compliance over pillar's", largest, "lowers the frequencies of pillar and film"};
 }
@@ -257,8 +267,9 @@ EffectEstimate modal_geometric_stiffness(const PillarScene& scene, const EffectE
     return {EffectRole::kOutside, std::min(1.0, 0.5 * share), "p/p_cr", share,
             "modes of a strip are computed without load"};
   }
+  const double lasting = long_term_share(scene);
   const double error = modal_drive(scene).pressure_Pa < 0.0 ? std::sqrt(1.0 + share) - 1.0
-                       : share < 0.9                        ? 1.0 - std::sqrt(1.0 - share / 0.95)
+                       : lasting < 0.9                      ? 1.0 - std::sqrt(1.0 - lasting / 0.95)
                                                             : 1.0;
   return {EffectRole::kOptional, error, "p/p_cr", share, "the load softens the modes"};
 }
