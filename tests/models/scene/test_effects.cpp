@@ -83,7 +83,8 @@ TEST_CASE("a film whose share exceeds the tolerance is on", "[pillar][plan]") {
 TEST_CASE("the film's estimates exceed its true shares, by less than four times",
           "[pillar][plan]") {
   // Shares of the film of 25 um under the pillar of 40 x 120 um: top displacement 659.763 against
-  // 659.692 nm, buckling 29.3648 against 29.3689 kPa, lateral modes 1.4e-4 and less.
+  // 659.692 nm, buckling 29.3648 against 29.3689 kPa, the lateral mode under 10 kPa 13253.58 against
+  // 13251.23 Hz.
   PillarScene scene = pillar_on_film();
   scene.wanted = {"top_displacement"};
   double share = 659.763 / 659.692 - 1.0;
@@ -94,7 +95,7 @@ TEST_CASE("the film's estimates exceed its true shares, by less than four times"
   }
   SECTION("modes") {
     scene.drive = ModalDrive{.modes = 4, .pressure_Pa = 1e4};
-    share = 16029.18 / 16026.87 - 1.0;
+    share = 13253.58 / 13251.23 - 1.0;
   }
   const double estimate = film_compliance_estimate(scene).error;
   CHECK(estimate >= share);
