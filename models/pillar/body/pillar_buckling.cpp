@@ -153,7 +153,7 @@ void require_below_buckling(const PillarModel& lateral, const SymmetricSparse& s
 }
 
 std::string why_none_is_found(const PillarGeometry& pillar) {
-  constexpr double kStubby = 2.0;  // length over diameter
+  constexpr double kStubby = 1.0;  // length over diameter
   const double slenderness = pillar.length_m / pillar.diameter_m;
   const bool has_wide_tip = pillar.tip.width_m > 0.0;
   const std::string found = std::string("no buckling load of the whole pillar was found beside ") +
