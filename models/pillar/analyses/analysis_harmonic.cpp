@@ -46,7 +46,7 @@ class Response {
             ? reduced.load(-base_acceleration_m_s2(scene) * unit_acceleration_force(*body.model))
             : reduced.load(sign * pressure_Pa(scene) * area_m2 * body.system.load);
     for (std::size_t i = 0; i < body.outputs.size(); ++i) {
-      sides_.col(static_cast<Eigen::Index>(i + 1)) = reduced.output(body.outputs[i].of);
+      sides_.col(static_cast<Eigen::Index>(i + 1)) = reduced.load(body.outputs[i].row);
     }
     base_acceleration_m_s2_ = base_acceleration_m_s2(scene);
   }
