@@ -136,6 +136,13 @@ void take_samples(const SampledAnswer& sampled, const VectorXd& value_on_mesh,
     const double offset = result.value - value_on_mesh[static_cast<Index>(r)];
     result.standard_uncertainty = found.deviation;
     result.interval_95 = {found.interval_95.low + offset, found.interval_95.high + offset};
+    if (!std::isfinite(found.interval_95.low)) {
+      result.no_interval = fmt::format(
+          "{:.2g} % of the samples have no answer, more than the 2.5 % that may lie beyond either "
+          "end",
+          100.0 * found.failed_share);
+    }
+    out.failed_share = std::max(out.failed_share, found.failed_share);
     result.end_error = found.end_error;
     result.causes.clear();
     for (const VarianceShare& share : found.shares) {
@@ -217,8 +224,9 @@ SceneUncertainty scene_uncertainty(const UncertainScene& scene, const SceneAnswe
     SceneUncertainty out = uncertainty_of(scene, answer, options, count);
     if (out.n_failed > 0) {
       out.notes.push_back(
-          fmt::format("{} of {} samples have no answer and are left out, such as: {}", out.n_failed,
-                      out.n_answers, count.why()));
+          fmt::format("{} samples ({:.2g} % of those of the intervals) have no answer and count as "
+                      "beyond either end; shares of the variance leave them out. One of them: {}",
+                      out.n_failed, 100.0 * out.failed_share, count.why()));
     }
     return out;
   } catch (const Interrupted&) {
