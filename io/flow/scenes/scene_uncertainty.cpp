@@ -200,9 +200,15 @@ SceneUncertainty uncertainty_of(const UncertainScene& scene, const SceneAnswer& 
   // The value, two steps of each derivative, the ends of the intervals.
   count.start(1 + 4 * n_deviates + 2 * (n_deviates + values.size()));
   constexpr double kSlopes = 1e-6;  // of the standard uncertainty
+  // First-order answers have a reduced basis of their own, more accurate than that of the answer.
+  constexpr double kOfBasis = 0.01;  // of the numerical error
+  VectorXd value_errors(static_cast<Index>(values.size()));
+  for (std::size_t r = 0; r < values.size(); ++r) {
+    value_errors[static_cast<Index>(r)] = kOfBasis * values[r].error_estimate;
+  }
   const LinearAnswer linear =
       linear_answer(AnswersOnMesh(scene, values, answer.discretisation, count), out.inputs, kSlopes,
-                    first_order_of(scene, values, answer.discretisation, count));
+                    first_order_of(scene, values, answer.discretisation, count), value_errors);
   out.n_answers = linear.n_answers - linear.n_first_order;
   out.n_first_order = linear.n_first_order;
   take_linear(linear, out);

@@ -69,8 +69,11 @@ SceneBody body_of(const PillarScene& scene, Motion motion, const SceneBodyOption
   const bool is_axial = motion == axial_motion(scene);
   if (is_axial || reads_quadrants(scene)) model_options.electrodes = scene.electrodes;
   SceneBody body;
-  body.model = std::make_unique<PillarModel>(scene.geometry, answer.discretisation, media_of(scene),
-                                             model_options);
+  const NearbyPillar* nearby = nearby_of(scene, motion, model_options.electrodes.has_value());
+  body.model =
+      std::make_unique<PillarModel>(scene.geometry, answer.discretisation, media_of(scene),
+                                    model_options, nearby == nullptr ? nullptr : &nearby->model(),
+                                    nearby == nullptr ? nullptr : &nearby->solutions());
   count_unknowns(*body.model, answer);
   body.system = viscoelastic_system(*body.model, scene.pillar, options.with_mass);
   body.system.load = unit_top_force(*body.model);

@@ -19,7 +19,8 @@ struct ReducedBody {
   Eigen::MatrixXd basis;      // unknowns x size, orthonormal in the instantaneous stiffness
   double error = 0.0;         // largest tested estimate, relative: of an output without inertia,
                               // of the energy norm with it
-  double sound_up_to_rad_s = 0.0;  // dynamics: the highest tested frequency that met the tolerance
+  double error_of_solutions = 0.0;  // without inertia: largest of a solution, in the energy norm
+  double sound_up_to_rad_s = 0.0;   // dynamics: the highest tested frequency that met the tolerance
 
   // A load (force vector) or a linear output of the full body as one of the small body.
   Eigen::VectorXd load(const Eigen::VectorXd& full) const { return basis.transpose() * full; }
@@ -43,6 +44,16 @@ struct QuasiStaticGoals {
 // taken at. Outputs that cross zero are judged relative to a thousandth of their largest value.
 // With constant Poisson ratio and no film the first solution is exact.
 ReducedBody reduce_quasi_static(const ViscoelasticSystem& system, const QuasiStaticGoals& goals);
+
+// A basis for bodies near this one, which then have their outputs to first order in the difference: the
+// error of an output is at most the product of the primal and the dual residual, and both vanish at this
+// body if the span holds the solutions and the dual ones. `solutions` are those of the outputs of the
+// motion (output_of_motion()); the potentials that `outputs` cause as charges at rest are added.
+Eigen::MatrixXd nearby_basis(const ViscoelasticSystem& system, const Eigen::MatrixXd& solutions,
+                             const std::vector<Eigen::VectorXd>& outputs);
+
+// The body restricted to the span of the columns of any basis.
+ReducedBody restricted_to(const ViscoelasticSystem& system, Eigen::MatrixXd basis);
 
 // An output as a vector that is zero at the potentials of a film and has the same value for every
 // motion on which no charge acts from outside: potentials follow the motion. With it as a load the

@@ -1,6 +1,7 @@
-// Outputs of a film's potentials as outputs of the motion, whose dual solutions a basis can hold.
+// Outputs of a film's potentials, whose dual solutions a basis is to hold.
 #include "models/pillar/time/model_reduction.h"
 
+#include <cmath>
 #include <vector>
 
 namespace viscard {
@@ -58,6 +59,19 @@ VectorXd output_of_motion(const ViscoelasticSystem& system, const VectorXd& outp
     if (is_potential(system, i)) of_motion[i] = 0.0;  // to rounding
   }
   return of_motion;
+}
+
+Eigen::MatrixXd nearby_basis(const ViscoelasticSystem& system, const Eigen::MatrixXd& solutions,
+                             const std::vector<VectorXd>& outputs) {
+  Eigen::MatrixXd basis = solutions;
+  for (const VectorXd& output : outputs) {
+    const VectorXd charged = potentials_at_rest(system, output);
+    if (charged.size() == 0) continue;
+    const double energy = std::abs(charged.dot(times(system.elastic, charged)));
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.col(basis.cols() - 1) = charged / std::sqrt(energy);
+  }
+  return basis;
 }
 
 }  // namespace viscard
