@@ -3,7 +3,8 @@
 #include "io/basics/units.h"
 #include "models/maths/text_of_number.h"
 
-#include <array>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,6 +27,19 @@ Spread take_spread(std::string& text) {
     return spread;
   }
   return Spread::kNormal;
+}
+
+// What is wrong with a last word that neither is a distribution nor can be a unit; empty if there is none.
+std::string distribution_mistake(const std::string& right) {
+  constexpr std::size_t kLongestUnit = 3;  // of those with only letters that may end a product
+  const std::size_t at = right.find_last_of(" \t");
+  if (at == std::string::npos) return "";
+  const std::string word = right.substr(at + 1);
+  const bool is_word =
+      std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+  if (!is_word || word.size() <= kLongestUnit) return "";
+  return "\"" + word +
+         "\" is no distribution; allowed are normal (the default), lognormal and uniform";
 }
 
 // Half-width in SI; `value` is what a percentage refers to.
@@ -74,7 +88,9 @@ std::optional<UncertainNumber> uncertain_from_text(const std::string& text, cons
     number.half_width = half_width_from(right, unit, number.value);
     validate(number);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("\"" + text + "\": " + error.what() + "; " + kExample);
+    const std::string mistake = distribution_mistake(right);
+    throw std::invalid_argument("\"" + text + "\": " + (mistake.empty() ? error.what() : mistake) +
+                                "; " + kExample);
   }
   return number;
 }

@@ -21,7 +21,12 @@ py::object uncertainty_object(const std::optional<SceneUncertainty>& found) {
     }
     one["value"] = result.value;
     one["unit"] = result.unit;
-    one["interval_95"] = py::make_tuple(result.interval_95.low, result.interval_95.high);
+    if (result.no_interval.empty()) {
+      one["interval_95"] = py::make_tuple(result.interval_95.low, result.interval_95.high);
+    } else {
+      one["interval_95"] = py::none();
+      one["no_interval"] = result.no_interval;
+    }
     one["standard_uncertainty"] = result.standard_uncertainty;
     one["numerical_error"] = result.numerical_error;
     one["shares"] = shares;
@@ -36,6 +41,7 @@ py::object uncertainty_object(const std::optional<SceneUncertainty>& found) {
   out["answers"] = found->n_answers;
   out["first_order_answers"] = found->n_first_order;
   out["failed"] = found->n_failed;
+  out["failed_share"] = found->failed_share;
   out["notes"] = found->notes;
   return out;
 }

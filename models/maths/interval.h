@@ -14,7 +14,9 @@ struct Interval {
 inline constexpr double kNormal95 = 1.959963984540054;
 
 // The 2.5 % and 97.5 % quantiles of a sample in any order, linear between its values (Hyndman & Fan, Am.
-// Stat. 50 (1996) 361, type 7); zero for an empty one.
-Interval middle_95(std::vector<double> sample);
+// Stat. 50 (1996) 361, type 7); zero for an empty one. `share_beyond` of all values are not in the sample,
+// because nothing is known of them; each counts as below the low end and above the high one. With more
+// than 2.5 % of them the ends are infinite.
+Interval middle_95(std::vector<double> sample, double share_beyond = 0.0);
 
 }  // namespace viscard

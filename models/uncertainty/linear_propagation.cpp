@@ -119,20 +119,23 @@ std::vector<Index> find_slopes(const BatchFunction& function, const std::vector<
 
 // Whether the first-order function has the answer's value. Solvers that iterate agree to
 // about 1e-8.
-bool has_value_of(const LinearAnswer& answer, const VectorXd& value) {
+bool has_value_of(const LinearAnswer& answer, const VectorXd& value, const VectorXd& value_errors) {
   constexpr double kSameValue = 1e-6;  // relative
+  VectorXd allowed = kSameValue * answer.value.cwiseAbs();
+  if (value_errors.size() > 0) allowed = allowed.cwiseMax(value_errors);
   const VectorXd off = (value - answer.value).cwiseAbs();
-  return (off.array() <= kSameValue * answer.value.array().abs()).all();
+  return (off.array() <= allowed.array()).all();
 }
 
 // Takes what derivatives it can from first-order answers; returns the deviates that are left.
 std::vector<Index> find_first_order_slopes(const BatchFunction& first_order,
                                            const std::vector<Index>& deviates, double tolerance,
-                                           LinearAnswer& answer) {
+                                           const VectorXd& value_errors, LinearAnswer& answer) {
   const std::size_t before = answer.n_answers;
   const MatrixXd zero = MatrixXd::Zero(1, answer.slope.cols());
   std::vector<Index> left = deviates;
-  if (has_value_of(answer, answers_at(first_order, zero, answer).row(0).transpose())) {
+  const VectorXd value = answers_at(first_order, zero, answer).row(0).transpose();
+  if (has_value_of(answer, value, value_errors)) {
     left = find_slopes(first_order, deviates, tolerance, answer);
     // Where the mesh jumps between two points the differences of its answers do not settle.
     constexpr double kSettled = 1e-4;  // of the standard uncertainty
@@ -193,7 +196,8 @@ void find_disagreement(const BatchFunction& function, const std::vector<bool>& a
 }  // namespace
 
 LinearAnswer linear_answer(const BatchFunction& function, const std::vector<UncertainInput>& inputs,
-                           double tolerance, const BatchFunction& first_order) {
+                           double tolerance, const BatchFunction& first_order,
+                           const VectorXd& value_errors) {
   const Index count = count_deviates(inputs);
   LinearAnswer answer;
   answer.value = answers_at(function, MatrixXd::Zero(1, count), answer).row(0);
@@ -205,7 +209,9 @@ LinearAnswer linear_answer(const BatchFunction& function, const std::vector<Unce
   answer.by_solver.assign(static_cast<std::size_t>(count), false);
   std::vector<Index> deviates(static_cast<std::size_t>(count));
   std::iota(deviates.begin(), deviates.end(), Index{0});
-  if (first_order) deviates = find_first_order_slopes(first_order, deviates, tolerance, answer);
+  if (first_order) {
+    deviates = find_first_order_slopes(first_order, deviates, tolerance, value_errors, answer);
+  }
   if (!find_slopes(function, deviates, tolerance, answer).empty()) {
     throw std::runtime_error("the answer does not exist close to the values that are given");
   }

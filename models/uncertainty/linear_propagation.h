@@ -29,9 +29,12 @@ struct LinearAnswer {
 // function has no answer at a point near 0.
 // `first_order` has the function's value and derivatives at 0 at a lower cost (a solver that reuses its
 // solution), or is empty. Derivatives are its own, except by deviates where it has no answers or where
-// its derivatives do not settle; if its value is not the function's, it is not used.
+// its derivatives do not settle. It is not used if a value of it differs from the function's by more than a
+// millionth of it and more than `value_errors`, which is empty or has the error of each value that both
+// may have.
 LinearAnswer linear_answer(const BatchFunction& function, const std::vector<UncertainInput>& inputs,
-                           double tolerance = 1e-6, const BatchFunction& first_order = {});
+                           double tolerance = 1e-6, const BatchFunction& first_order = {},
+                           const Eigen::VectorXd& value_errors = {});
 
 // Standard uncertainty of each result, and the share of each input in its variance (results x inputs;
 // 0 where there is no variance).

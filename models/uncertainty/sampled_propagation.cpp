@@ -100,19 +100,27 @@ MeanAndError mean_and_error(const std::vector<double>& values) {
 // Mean, deviation and interval of one result from the samples A and B of all replicates.
 void summarise(const std::vector<Replicate>& replicates, Index result, Index n_points,
                SampledResult& out) {
-  std::vector<double> all, low, high;
-  for (const Replicate& one : replicates) {
-    std::vector<double> sample;
+  std::vector<std::vector<double>> samples(replicates.size());
+  std::vector<double> all;
+  for (std::size_t k = 0; k < replicates.size(); ++k) {
+    const MatrixXd& answers = replicates[k].answers;
     for (Index i = 0; i < 2 * n_points; ++i) {
-      if (std::isfinite(one.answers(i, result))) sample.push_back(one.answers(i, result));
+      if (std::isfinite(answers(i, result))) samples[k].push_back(answers(i, result));
     }
-    all.insert(all.end(), sample.begin(), sample.end());
-    const Interval interval = middle_95(sample);
+    all.insert(all.end(), samples[k].begin(), samples[k].end());
+  }
+  const double n = 2.0 * static_cast<double>(n_points) * static_cast<double>(replicates.size());
+  out.failed_share = 1.0 - static_cast<double>(all.size()) / n;
+  out.interval_95 = middle_95(all, out.failed_share);
+  std::vector<double> low, high;
+  for (const std::vector<double>& sample : samples) {
+    const Interval interval = middle_95(sample, out.failed_share);
     low.push_back(interval.low);
     high.push_back(interval.high);
   }
-  out.interval_95 = middle_95(all);
-  out.end_error = std::max(mean_and_error(low).error, mean_and_error(high).error);
+  if (std::isfinite(out.interval_95.low)) {
+    out.end_error = std::max(mean_and_error(low).error, mean_and_error(high).error);
+  }
   for (const double value : all) out.mean += value / static_cast<double>(all.size());
 }
 

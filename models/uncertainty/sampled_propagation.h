@@ -21,8 +21,11 @@ struct VarianceShare {
 };
 
 struct SampledResult {
-  double mean = 0.0, deviation = 0.0;
+  double mean = 0.0, deviation = 0.0;  // of the samples that have an answer
+  // Samples without an answer count as beyond either end. Infinite if they are more than the 2.5 % that
+  // may lie there.
   Interval interval_95;
+  double failed_share = 0.0;          // of the samples of the interval
   double end_error = 0.0;             // standard error of the ends of the interval
   std::vector<VarianceShare> shares;  // one for each input
 };
@@ -30,7 +33,7 @@ struct SampledResult {
 struct SampledAnswer {
   std::vector<SampledResult> results;
   std::size_t n_answers = 0;
-  std::size_t n_failed = 0;  // points without an answer, which are left out
+  std::size_t n_failed = 0;  // points without an answer; means and shares leave them out
 };
 
 // Variance shares and intervals from a Sobol' sequence, in 8 replicates with shifts of their own. First

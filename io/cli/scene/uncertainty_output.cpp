@@ -35,19 +35,22 @@ nlohmann::json json_of(const ResultUncertainty& result, const SceneUncertainty& 
                       {"share_with_others", cause.with_others},
                       {"share_standard_error", cause.standard_error}});
   }
-  return {{"name", result.name},
-          {"unit", result.unit},
-          {"value", result.value},
-          {"interval_95", {result.interval_95.low, result.interval_95.high}},
-          {"interval_end_error", result.end_error},
-          {"standard_uncertainty", result.standard_uncertainty},
-          {"numerical_error", result.numerical_error},
-          {"linear_disagreement", result.linear_disagreement},
-          {"causes", causes},
-          {"share_jointly", jointly(result)}};
+  nlohmann::json json = {{"name", result.name},
+                         {"unit", result.unit},
+                         {"value", result.value},
+                         {"interval_95", {result.interval_95.low, result.interval_95.high}},
+                         {"interval_end_error", result.end_error},
+                         {"standard_uncertainty", result.standard_uncertainty},
+                         {"numerical_error", result.numerical_error},
+                         {"linear_disagreement", result.linear_disagreement},
+                         {"causes", causes},
+                         {"share_jointly", jointly(result)}};
+  if (!result.no_interval.empty()) json["no_interval"] = result.no_interval;
+  return json;
 }
 
 std::string interval_words(const ResultUncertainty& result) {
+  if (!result.no_interval.empty()) return "no interval";
   return fmt::format("{} to {} {}", text_of(result.interval_95.low, 4),
                      text_of(result.interval_95.high, 4), result.unit == "1" ? "" : result.unit);
 }
@@ -106,6 +109,7 @@ void print_result(const ResultUncertainty& result, const SceneUncertainty& all, 
   out << fmt::format("  {:<28} {}, standard uncertainty {}, numerical error {:.1e}\n", result.name,
                      interval_words(result), text_of(result.standard_uncertainty, 3),
                      result.numerical_error);
+  if (!result.no_interval.empty()) out << "    no interval: " << result.no_interval << "\n";
   std::vector<std::size_t> order(result.causes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -139,6 +143,7 @@ nlohmann::json json_from_uncertainty(const SceneUncertainty& uncertainty) {
           {"answers", uncertainty.n_answers},
           {"first_order_answers", uncertainty.n_first_order},
           {"failed", uncertainty.n_failed},
+          {"failed_share", uncertainty.failed_share},
           {"derivative_error", uncertainty.slope_error},
           {"mesh",
            {{"degree", uncertainty.mesh.degree},

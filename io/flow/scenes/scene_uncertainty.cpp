@@ -136,6 +136,13 @@ void take_samples(const SampledAnswer& sampled, const VectorXd& value_on_mesh,
     const double offset = result.value - value_on_mesh[static_cast<Index>(r)];
     result.standard_uncertainty = found.deviation;
     result.interval_95 = {found.interval_95.low + offset, found.interval_95.high + offset};
+    if (!std::isfinite(found.interval_95.low)) {
+      result.no_interval = fmt::format(
+          "{:.2g} % of the samples have no answer, more than the 2.5 % that may lie beyond either "
+          "end",
+          100.0 * found.failed_share);
+    }
+    out.failed_share = std::max(out.failed_share, found.failed_share);
     result.end_error = found.end_error;
     result.causes.clear();
     for (const VarianceShare& share : found.shares) {
@@ -193,9 +200,15 @@ SceneUncertainty uncertainty_of(const UncertainScene& scene, const SceneAnswer& 
   // The value, two steps of each derivative, the ends of the intervals.
   count.start(1 + 4 * n_deviates + 2 * (n_deviates + values.size()));
   constexpr double kSlopes = 1e-6;  // of the standard uncertainty
+  // First-order answers have a reduced basis of their own, more accurate than that of the answer.
+  constexpr double kOfBasis = 0.01;  // of the numerical error
+  VectorXd value_errors(static_cast<Index>(values.size()));
+  for (std::size_t r = 0; r < values.size(); ++r) {
+    value_errors[static_cast<Index>(r)] = kOfBasis * values[r].error_estimate;
+  }
   const LinearAnswer linear =
       linear_answer(AnswersOnMesh(scene, values, answer.discretisation, count), out.inputs, kSlopes,
-                    first_order_of(scene, values, answer.discretisation, count));
+                    first_order_of(scene, values, answer.discretisation, count), value_errors);
   out.n_answers = linear.n_answers - linear.n_first_order;
   out.n_first_order = linear.n_first_order;
   take_linear(linear, out);
@@ -217,8 +230,9 @@ SceneUncertainty scene_uncertainty(const UncertainScene& scene, const SceneAnswe
     SceneUncertainty out = uncertainty_of(scene, answer, options, count);
     if (out.n_failed > 0) {
       out.notes.push_back(
-          fmt::format("{} of {} samples have no answer and are left out, such as: {}", out.n_failed,
-                      out.n_answers, count.why()));
+          fmt::format("{} samples ({:.2g} % of those of the intervals) have no answer and count as "
+                      "beyond either end; shares of the variance leave them out. One of them: {}",
+                      out.n_failed, 100.0 * out.failed_share, count.why()));
     }
     return out;
   } catch (const Interrupted&) {

@@ -25,8 +25,9 @@ struct ResultUncertainty {
   double value = 0.0;
   double numerical_error = 0.0;  // of the answer, in the unit
   double standard_uncertainty = 0.0;
-  Interval interval_95;
-  double end_error = 0.0;  // standard error of the ends of a sampled interval
+  Interval interval_95;     // infinite if there is none
+  std::string no_interval;  // why there is none; empty: there is one
+  double end_error = 0.0;   // standard error of the ends of a sampled interval
   double linear_disagreement =
       0.0;                         // of the linear answer at the ends of the interval, in the unit
   std::vector<CauseShare> causes;  // one for each input
@@ -42,6 +43,7 @@ struct SceneUncertainty {
   // differences of answers.
   std::vector<bool> by_solver;
   std::size_t n_answers = 0, n_failed = 0;
+  double failed_share = 0.0;      // of the samples of the intervals, largest of all results
   std::size_t n_first_order = 0;  // answers that reuse the solution, not among n_answers
   Discretisation mesh;            // that was sampled on
   double mesh_error = 0.0;        // of deviations on it, relative to the standard uncertainty

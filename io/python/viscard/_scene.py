@@ -79,7 +79,9 @@ class Answer:
         With ``simulate(..., uncertainty=True)``: "method" ("linear" or "sobol") and its "reason", "inputs"
         {name: text}, "derivatives" {name: "solver" (one solution, reused) or "differences" (of whole answers)},
         "results" {name: {"value", "unit", "interval_95", "standard_uncertainty", "numerical_error",
-        "shares" {input: share of the variance}, "share_errors"}}, "answers", "first_order_answers", "failed", "notes".
+        "shares" {input: share of the variance}, "share_errors"}}, "answers", "first_order_answers", "failed",
+        "failed_share" (of the samples of the intervals), "notes". Samples without an answer count as beyond either
+        end; if they are more than 2.5 %, "interval_95" is None and "no_interval" says why.
     notes : list of str
     within_tolerance : bool
     unknowns : int

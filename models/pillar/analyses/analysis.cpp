@@ -65,11 +65,14 @@ SceneCurve spectrum_of(const SceneCurve& curve) {
           "frequency_Hz"};
 }
 
-const NearbyPillar* nearby_of(const PillarScene& scene, Motion motion, bool is_electric) {
+const NearbyPillar* nearby_of(const PillarScene& scene, Motion motion, bool is_electric,
+                              NearbyRole role) {
   if (scene.nearby == nullptr) return nullptr;
   for (const auto& one : *scene.nearby) {
     const ModelOptions& its = one->model().options();
-    if (its.motion == motion && its.electrodes.has_value() == is_electric) return one.get();
+    if (one->role() == role && its.motion == motion && its.electrodes.has_value() == is_electric) {
+      return one.get();
+    }
   }
   throw NotNearby("no nearby pillar moves like this one");
 }

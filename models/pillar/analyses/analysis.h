@@ -101,7 +101,8 @@ ModelOptions options_of(const PillarScene& scene, Motion motion);
 PillarModel model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
 PillarModel electric_model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
 // The nearby pillar in a family of motion; null unless the scene is answered to first order.
-const NearbyPillar* nearby_of(const PillarScene& scene, Motion motion, bool is_electric);
+const NearbyPillar* nearby_of(const PillarScene& scene, Motion motion, bool is_electric,
+                              NearbyRole role = NearbyRole::kAnswers);
 // The same with all that first-order answers need, not solved.
 std::unique_ptr<NearbyPillar> nearby_model_of(const PillarScene& scene, Motion motion,
                                               const Discretisation& mesh);

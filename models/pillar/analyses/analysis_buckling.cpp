@@ -1,6 +1,7 @@
 #include "models/maths/require.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/body/nearby_pillar.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/body/section_grid.h"
 
@@ -31,8 +32,22 @@ void run_buckling(const PillarScene& scene, SceneAnswer& answer) {
   const PillarModel axial = model_of(scene, Motion::kLongitudinal, answer.discretisation);
   const PillarModel lateral = model_of(scene, Motion::kLateral, answer.discretisation);
   count_unknowns(lateral, answer);
-  answer.results.push_back({"buckling_pressure", buckling(axial, lateral).pressure_Pa, "Pa"});
+  const NearbyPillar* nearby = nearby_of(scene, Motion::kLateral, false);
+  const double pressure_Pa = nearby == nullptr
+                                 ? buckling(axial, lateral).pressure_Pa
+                                 : buckling_pressure_nearby_Pa(axial, lateral, nearby->buckled());
+  answer.results.push_back({"buckling_pressure", pressure_Pa, "Pa"});
   answer.results.back().unresolved = fall_under_thin_rim(scene.geometry.tip);
+}
+
+// The axial model, whose stress is that of a neighbour to first order, and the shape of the lateral one.
+NearbyPillars buckling_nearby(const PillarScene& scene, const Discretisation& mesh) {
+  NearbyPillars nearby;
+  nearby.push_back(nearby_model_of(scene, Motion::kLongitudinal, mesh));
+  nearby.push_back(nearby_model_of(scene, Motion::kLateral, mesh));
+  nearby[0]->solve();
+  nearby[1]->find_buckling(nearby[0]->model());
+  return nearby;
 }
 
 // The shape in which the pillar buckles. Its slowest vibration tends to it as the pressure tends to
@@ -85,6 +100,7 @@ Analysis buckling_analysis() {
           .run = run_buckling,
           .found_pressure_Pa = engesser_pressure_Pa,
           .fields = buckling_fields,
+          .solve_nearby = buckling_nearby,
           .film_compliance = buckling_film_compliance,
           .geometric_stiffness = buckling_geometric_stiffness};
 }

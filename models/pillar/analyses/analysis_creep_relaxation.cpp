@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -70,36 +72,67 @@ void check_quasi_static(const PillarScene& scene) {
   }
 }
 
-void run_quasi_static(const PillarScene& scene, Control control, SceneAnswer& answer) {
-  const bool is_creep = control == Control::kForce;
-  const SceneBody body = body_of(scene, axial_motion(scene), {.rigid_top = !is_creep}, answer);
-  const double area_m2 = top_area_m2(*body.model);
-  const double small = 0.03 * scene.tolerance;  // of the basis and of the steps, each
-  const ReducedBody reduced = reduce_quasi_static(body.system, small);
-  std::vector<HistoryPoint> points = history(scene);
-  for (HistoryPoint& point : points) point.value *= is_creep ? -area_m2 : -1.0;
-  HistoryOptions options;
-  options.tolerance = small;
-  for (const BodyOutput& output : body.outputs) {
-    options.observers.push_back(reduced.output(output.of));
+SceneBody quasi_static_body(const PillarScene& scene, Control control, SceneAnswer& answer) {
+  return body_of(scene, axial_motion(scene), {.rigid_top = control == Control::kDisplacement},
+                 answer);
+}
+
+// The tolerance of the basis and of the steps, each.
+double small_share(const PillarScene& scene) {
+  return 0.03 * scene.tolerance;
+}
+
+QuasiStaticGoals goals_of(const PillarScene& scene, const SceneBody& body) {
+  QuasiStaticGoals goals{.tolerance = small_share(scene)};
+  for (std::size_t i = 1; i < body.outputs.size(); ++i) {
+    goals.outputs.push_back(body.outputs[i].row);
   }
-  ReadoutFilter filter;
+  return goals;
+}
+
+// Steps through the history, at one level if it is given.
+HistoryResult stepped(const PillarScene& scene, const SceneBody& body, const ReducedBody& reduced,
+                      const ReadoutFilter& filter, Control control, std::optional<int> level) {
+  std::vector<HistoryPoint> points = history(scene);
+  const double unit = control == Control::kForce ? -top_area_m2(*body.model) : -1.0;
+  for (HistoryPoint& point : points) point.value *= unit;
+  HistoryOptions options;
+  options.tolerance = small_share(scene);
+  options.only_level = level;
+  for (const BodyOutput& output : body.outputs) {
+    options.observers.push_back(reduced.load(output.row));
+  }
   if (scene.readout) {
-    filter = readout_of(scene, body, answer);
     options.output_times_s = times_of_decay(history(scene), filter);
     options.first_steps = 32;  // the reading takes the voltage as linear between recorded times
   }
-  const HistoryResult run = run_history(reduced.system, control, points, options);
+  return run_history(reduced.system, control, points, options);
+}
+
+void run_quasi_static(const PillarScene& scene, Control control, SceneAnswer& answer) {
+  const bool is_creep = control == Control::kForce;
+  const SceneBody body = quasi_static_body(scene, control, answer);
+  const NearbyPillar* nearby = nearby_of(scene, axial_motion(scene), scene.electrodes.has_value());
+  const ReducedBody reduced = nearby == nullptr
+                                  ? reduce_quasi_static(body.system, goals_of(scene, body))
+                                  : restricted_to(body.system, nearby->reduced().basis);
+  ReadoutFilter filter;
+  if (scene.readout) filter = readout_of(scene, body, answer);
+  std::optional<int> level;
+  if (nearby != nullptr) level = nearby->reduced().level;
+  const HistoryResult run = stepped(scene, body, reduced, filter, control, level);
   if (!run.converged) {
     throw std::runtime_error("the time steps did not converge to the tolerance of " +
                              text_of(scene.tolerance) + "; ask for a larger one");
   }
-  answer.step_error = run.error_estimate + reduced.error;
+  // A voltage at a given shortening is a quotient of two outputs.
+  const bool is_quotient = !is_creep && body.outputs.size() > 1;
+  answer.step_error = run.error_estimate + (is_quotient ? 2.0 : 1.0) * reduced.error;
   if (is_creep) {
     add_quasi_static_curve("top_displacement", "m", run.time_s, run.observed[0], answer);
   } else {
     std::vector<double> pressure_Pa = run.force;
-    for (double& value : pressure_Pa) value *= -1.0 / area_m2;
+    for (double& value : pressure_Pa) value *= -1.0 / top_area_m2(*body.model);
     add_quasi_static_curve("top_pressure", "Pa", run.time_s, pressure_Pa, answer);
   }
   for (std::size_t i = 1; i < body.outputs.size(); ++i) {
@@ -110,6 +143,29 @@ void run_quasi_static(const PillarScene& scene, Control control, SceneAnswer& an
     add_quasi_static_curve("reading", "V", run.time_s,
                            reading_of(filter, run.time_s, run.observed[1]), answer);
   }
+}
+
+// The basis of this pillar serves its neighbours. It holds solutions and dual solutions so accurately that
+// derivatives of the outputs are right; the steps are as long as in the pillar's own answer.
+NearbyPillars quasi_static_nearby(const PillarScene& scene, const Discretisation& mesh,
+                                  Control control) {
+  constexpr double kOfSolutions = 1e-7, kAllowed = 1e-6;  // in the energy norm
+  SceneAnswer scratch;
+  scratch.discretisation = mesh;
+  const SceneBody body = quasi_static_body(scene, control, scratch);
+  QuasiStaticGoals goals = goals_of(scene, body);
+  goals.of_solutions = kOfSolutions;
+  const ReducedBody reduced = reduce_quasi_static(body.system, goals);
+  NearbyPillars nearby;
+  if (!(reduced.error_of_solutions <= kAllowed)) return nearby;
+  ReadoutFilter filter;
+  if (scene.readout) filter = readout_of(scene, body, scratch);
+  const HistoryResult run = stepped(scene, body, reduced, filter, control, {});
+  nearby.push_back(
+      std::make_unique<NearbyPillar>(scene.geometry, mesh, media_of(scene), body.model->options()));
+  if (scene.readout) nearby.back()->solve();
+  nearby.back()->keep_reduced({nearby_basis(body.system, reduced.basis, goals.outputs), run.level});
+  return nearby;
 }
 
 // Estimate of leaving relaxation out, from the relative loss of modulus or compliance at the end of
@@ -156,6 +212,10 @@ Analysis creep_analysis() {
           .run = [](const PillarScene& scene,
                     SceneAnswer& answer) { run_quasi_static(scene, Control::kForce, answer); },
           .push_Pa = creep_push_Pa,
+          .solve_nearby =
+              [](const PillarScene& scene, const Discretisation& mesh) {
+                return quasi_static_nearby(scene, mesh, Control::kForce);
+              },
           .relaxation = creep_relaxation};
 }
 
@@ -172,6 +232,10 @@ Analysis relaxation_analysis() {
           },
       .run = [](const PillarScene& scene,
                 SceneAnswer& answer) { run_quasi_static(scene, Control::kDisplacement, answer); },
+      .solve_nearby =
+          [](const PillarScene& scene, const Discretisation& mesh) {
+            return quasi_static_nearby(scene, mesh, Control::kDisplacement);
+          },
       .relaxation = relaxation_lost};
 }
 

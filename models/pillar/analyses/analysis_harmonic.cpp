@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <complex>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -46,7 +47,7 @@ class Response {
             ? reduced.load(-base_acceleration_m_s2(scene) * unit_acceleration_force(*body.model))
             : reduced.load(sign * pressure_Pa(scene) * area_m2 * body.system.load);
     for (std::size_t i = 0; i < body.outputs.size(); ++i) {
-      sides_.col(static_cast<Eigen::Index>(i + 1)) = reduced.output(body.outputs[i].of);
+      sides_.col(static_cast<Eigen::Index>(i + 1)) = reduced.load(body.outputs[i].row);
     }
     base_acceleration_m_s2_ = base_acceleration_m_s2(scene);
   }
@@ -127,21 +128,58 @@ void note_poles(const PillarScene& scene, const Sweep& sweep, SceneAnswer& answe
                          "column shows by how much");
 }
 
+Motion harmonic_motion(const PillarScene& scene) {
+  return is_lateral(scene) ? lateral_motion(scene) : axial_motion(scene);
+}
+
 bool is_solved_one_by_one(const PillarScene& scene, const SceneBody& body) {
   return harmonic_drive(scene).frequencies_Hz.size() <= kMostDirect && !body.system.incompressible;
 }
 
-ReducedBody reduced_for(const PillarScene& scene, const SceneBody& body,
-                        const std::vector<Eigen::VectorXd>& loads) {
+std::vector<double> angular_frequencies(const PillarScene& scene) {
+  std::vector<double> omega;
+  for (const double f : harmonic_drive(scene).frequencies_Hz) omega.push_back(kTwoPi * f);
+  return omega;
+}
+
+SceneBody harmonic_body(const PillarScene& scene, SceneAnswer& answer) {
+  if (!scene.discretisation) {
+    const WaveMesh mesh = wave_mesh(scene, harmonic_drive(scene).frequencies_Hz);
+    answer.discretisation.longest_m = mesh.longest_m;
+    answer.discretisation.skin_m = mesh.skin_m;
+    answer.discretisation.skin_at_foot = load_place(scene) == LoadPlace::kBase;
+  }
+  return body_of(scene, harmonic_motion(scene), {.with_mass = true}, answer);
+}
+
+std::vector<Eigen::VectorXd> loads_of(const PillarScene& scene, const SceneBody& body) {
+  std::vector<Eigen::VectorXd> loads = {body.system.load};
+  if (load_place(scene) == LoadPlace::kBase) loads.push_back(unit_acceleration_force(*body.model));
+  return loads;
+}
+
+// The voltage of a film is a small share of the energy, in which the errors of a basis are measured. With
+// its dual solution in the basis too, it errs as the product of both errors.
+std::vector<Eigen::VectorXd> loads_and_duals(const PillarScene& scene, const SceneBody& body) {
+  std::vector<Eigen::VectorXd> sides = loads_of(scene, body);
+  for (std::size_t i = 1; i < body.outputs.size(); ++i) {
+    sides.push_back(output_of_motion(body.system, body.outputs[i].row));
+  }
+  return sides;
+}
+
+ReducedBody reduced_for(const PillarScene& scene, const SceneBody& body) {
+  const bool is_electric = body.model->options().electrodes.has_value();
+  if (const NearbyPillar* nearby = nearby_of(scene, harmonic_motion(scene), is_electric)) {
+    return restricted_to(body.system, nearby->reduced().basis);
+  }
   if (is_solved_one_by_one(scene, body)) {
-    std::vector<double> omega;
-    for (const double f : harmonic_drive(scene).frequencies_Hz) omega.push_back(kTwoPi * f);
-    return reduce_at(body.system, loads, omega);
+    return reduce_at(body.system, loads_of(scene, body), angular_frequencies(scene));
   }
   const DynamicRange range{.lowest_rad_s = kTwoPi * harmonic_drive(scene).frequencies_Hz.front(),
                            .highest_rad_s = kTwoPi * harmonic_drive(scene).frequencies_Hz.back(),
                            .tolerance = 0.1 * scene.tolerance};
-  ReducedBody reduced = reduce_dynamic(body.system, loads, range);
+  ReducedBody reduced = reduce_dynamic(body.system, loads_and_duals(scene, body), range);
   if (reduced.sound_up_to_rad_s < range.highest_rad_s) {
     throw std::runtime_error(
         "a sweep over that many modes meets the tolerance up to about " +
@@ -165,19 +203,9 @@ void check_harmonic(const PillarScene& scene) {
 }
 
 void run_harmonic(const PillarScene& scene, SceneAnswer& answer) {
-  const bool is_axial = !is_lateral(scene);
   const std::vector<double>& f = harmonic_drive(scene).frequencies_Hz;
-  if (!scene.discretisation) {
-    const WaveMesh mesh = wave_mesh(scene, f);
-    answer.discretisation.longest_m = mesh.longest_m;
-    answer.discretisation.skin_m = mesh.skin_m;
-    answer.discretisation.skin_at_foot = load_place(scene) == LoadPlace::kBase;
-  }
-  const SceneBody body = body_of(scene, is_axial ? axial_motion(scene) : lateral_motion(scene),
-                                 {.with_mass = true}, answer);
-  std::vector<Eigen::VectorXd> loads = {body.system.load};
-  if (load_place(scene) == LoadPlace::kBase) loads.push_back(unit_acceleration_force(*body.model));
-  const ReducedBody reduced = reduced_for(scene, body, loads);
+  const SceneBody body = harmonic_body(scene, answer);
+  const ReducedBody reduced = reduced_for(scene, body);
   answer.step_error = reduced.error;
   const Response response(scene, body, reduced);
   std::vector<Sweep> sweeps(body.outputs.size());
@@ -198,6 +226,24 @@ void run_harmonic(const PillarScene& scene, SceneAnswer& answer) {
     reading.allowed[i] *= std::abs(gain);
   }
   add_sweep("reading", "V", f, reading, answer);
+}
+
+// With the solutions and the dual solutions at a few frequencies, which are solved one by one.
+NearbyPillars harmonic_nearby(const PillarScene& scene, const Discretisation& mesh) {
+  SceneAnswer scratch;
+  scratch.discretisation = mesh;
+  const SceneBody body = harmonic_body(scene, scratch);
+  NearbyPillars nearby;
+  if (!is_solved_one_by_one(scene, body) || !scene.fixed_bottom) return nearby;
+  std::vector<Eigen::VectorXd> outputs;
+  for (std::size_t i = 1; i < body.outputs.size(); ++i) outputs.push_back(body.outputs[i].row);
+  const ReducedBody reduced =
+      reduce_at(body.system, loads_and_duals(scene, body), angular_frequencies(scene));
+  nearby.push_back(std::make_unique<NearbyPillar>(scene.geometry, scratch.discretisation,
+                                                  media_of(scene), body.model->options()));
+  if (scene.readout) nearby.back()->solve();
+  nearby.back()->keep_reduced({nearby_basis(body.system, reduced.basis, outputs)});
+  return nearby;
 }
 
 std::vector<std::string> harmonic_names(const PillarScene& scene) {
@@ -231,7 +277,8 @@ Analysis harmonic_analysis() {
           .check = check_harmonic,
           .result_names = harmonic_names,
           .run = run_harmonic,
-          .push_Pa = harmonic_push_Pa};
+          .push_Pa = harmonic_push_Pa,
+          .solve_nearby = harmonic_nearby};
 }
 
 }  // namespace viscard

@@ -2,6 +2,7 @@
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/family_modes.h"
 #include "models/pillar/analyses/modal_mesh.h"
 #include "models/pillar/analyses/pressed_modes.h"
 #include "models/pillar/analyses/slender_rounding.h"
@@ -25,40 +26,6 @@ namespace {
 
 const ModalDrive& modal_drive(const PillarScene& scene) {
   return std::get<ModalDrive>(scene.drive);
-}
-
-// A family of motion and its place in the answer.
-struct ModeFamily {
-  const char* name;
-  Motion motion;
-  int harmonic;
-};
-
-std::vector<ModeFamily> mode_families(const PillarScene& scene) {
-  if (scene.plane) {
-    return {{"lateral", Motion::kPlaneAntisymmetric, 0},
-            {"longitudinal", Motion::kPlaneSymmetric, 0}};
-  }
-  return {{"lateral", Motion::kLateral, 1},
-          {"longitudinal", Motion::kLongitudinal, 0},
-          {"torsion", Motion::kTorsion, 0},
-          {"ovalling", Motion::kOvalling, 2}};
-}
-
-int modes_of_family(const PillarScene& scene, const PillarModel& model) {
-  const int rigid = scene.fixed_bottom ? 0 : rigid_motion_count(model.options().motion);
-  return std::min(modal_drive(scene).modes, model.system().size() - rigid);
-}
-
-std::vector<PillarMode> family_modes(const PillarScene& scene, const PillarModel& model,
-                                     const PillarModel* axial) {
-  const int wanted = modes_of_family(scene, model);
-  if (const NearbyPillar* nearby = nearby_of(scene, model.options().motion, false)) {
-    return modes_nearby(model, nearby->modes(), wanted);
-  }
-  return axial != nullptr
-             ? modes_under_pressure(*axial, model, modal_drive(scene).pressure_Pa, wanted)
-             : lowest_modes(model, wanted);
 }
 
 void check_modal(const PillarScene& scene) {
@@ -104,15 +71,8 @@ void note_overdamped(const PillarScene& scene, const std::string& mode, SceneAns
 // Modes with the moduli at their own complex frequencies (eq. 22b).
 void add_relaxed_modes(const PillarScene& scene, const ModeFamily& family, const PillarModel& model,
                        const PillarModel* axial, SceneAnswer& answer) {
-  ViscoelasticSystem body = viscoelastic_system(model, scene.pillar, /*with_mass=*/true);
-  if (axial != nullptr) {
-    body.elastic.coeffs() +=
-        stiffness_by_pressure(*axial, model, modal_drive(scene).pressure_Pa).coeffs();
-  }
-  const double small = 0.03 * scene.tolerance;  // error from the modes that the basis leaves out
   int number = 0;
-  for (const RelaxedMode& mode :
-       relaxed_modes(model, std::move(body), modes_of_family(scene, model), small)) {
+  for (const RelaxedMode& mode : family_relaxed_modes(scene, model, axial)) {
     ++number;
     if (mode.frequency_Hz == 0.0) {
       note_overdamped(scene, std::string(family.name) + " mode " + std::to_string(number), answer);
@@ -147,18 +107,6 @@ void add_family(const PillarScene& scene, const ModeFamily& family, const Pillar
                             .unresolved = unresolved,
                             .damping_ratio = {}});
   }
-}
-
-// Modes under a pressure depend on a stress as well, and those of a material that relaxes on moduli at
-// their own frequency.
-NearbyPillars modal_nearby(const PillarScene& scene, const Discretisation& mesh) {
-  NearbyPillars nearby;
-  if (is_pressed(scene) || !scene.pillar.terms.empty()) return nearby;
-  for (const ModeFamily& family : mode_families(scene)) {
-    nearby.push_back(nearby_model_of(scene, family.motion, modal_mesh(scene, mesh).mesh));
-    nearby.back()->find_modes(modes_of_family(scene, nearby.back()->model()));
-  }
-  return nearby;
 }
 
 void run_modal(const PillarScene& scene, SceneAnswer& answer) {

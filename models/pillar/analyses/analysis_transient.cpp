@@ -258,7 +258,7 @@ void run_transient_analysis(const PillarScene& scene, SceneAnswer& answer) {
   request.first_step_s = std::numbers::pi / (10.0 * first_rad_s);
   Eigen::MatrixXd observers(static_cast<Eigen::Index>(body.outputs.size()), reduced.basis.cols());
   for (std::size_t i = 0; i < body.outputs.size(); ++i) {
-    observers.row(static_cast<Eigen::Index>(i)) = reduced.output(body.outputs[i].of).transpose();
+    observers.row(static_cast<Eigen::Index>(i)) = reduced.load(body.outputs[i].row).transpose();
   }
   const TransientResult run = run_to_peaks(reduced.system, request, observers, scene.tolerance);
   const double static_share =

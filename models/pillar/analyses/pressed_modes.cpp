@@ -32,6 +32,13 @@ SceneResult converged_buckling(const PillarScene& scene) {
   return answer_within(control, on_mesh).results.front();
 }
 
+// What the model of the stress is made of.
+PillarMedia pressed_media(const PillarScene& scene) {
+  const PillarScene relaxed = long_term_scene(scene);
+  const bool lasts = pressure_on_modes_Pa(scene) < 0.9 * engesser_pressure_Pa(relaxed);
+  return media_of(lasts ? relaxed : scene);
+}
+
 }  // namespace
 
 bool is_pressed(const PillarScene& scene) {
@@ -40,10 +47,21 @@ bool is_pressed(const PillarScene& scene) {
 
 std::unique_ptr<PillarModel> pressed_model(const PillarScene& scene, const Discretisation& mesh) {
   if (!is_pressed(scene)) return nullptr;
-  const PillarScene relaxed = long_term_scene(scene);
-  const bool lasts = pressure_on_modes_Pa(scene) < 0.9 * engesser_pressure_Pa(relaxed);
-  return std::make_unique<PillarModel>(scene.geometry, mesh, media_of(lasts ? relaxed : scene),
-                                       options_of(scene, Motion::kLongitudinal));
+  const NearbyPillar* nearby =
+      nearby_of(scene, Motion::kLongitudinal, false, NearbyRole::kPrestress);
+  return std::make_unique<PillarModel>(scene.geometry, mesh, pressed_media(scene),
+                                       options_of(scene, Motion::kLongitudinal),
+                                       nearby == nullptr ? nullptr : &nearby->model(),
+                                       nearby == nullptr ? nullptr : &nearby->solutions());
+}
+
+std::unique_ptr<NearbyPillar> nearby_pressed_model(const PillarScene& scene,
+                                                   const Discretisation& mesh) {
+  auto model = std::make_unique<NearbyPillar>(scene.geometry, mesh, pressed_media(scene),
+                                              options_of(scene, Motion::kLongitudinal),
+                                              NearbyRole::kPrestress);
+  model->solve();
+  return model;
 }
 
 void judge_buckling(const PillarScene& scene, const BeyondBuckling& here) {

@@ -15,6 +15,9 @@ bool is_pressed(const PillarScene& scene);
 // rest has acted for a long time: the stress is computed with the long-term moduli, unless the
 // pillar buckles earlier.
 std::unique_ptr<PillarModel> pressed_model(const PillarScene& scene, const Discretisation& mesh);
+// The same as a pillar that answers others to first order, solved.
+std::unique_ptr<NearbyPillar> nearby_pressed_model(const PillarScene& scene,
+                                                   const Discretisation& mesh);
 
 // Called if the pillar buckles on a mesh: throws std::runtime_error if the pillar itself, whose
 // buckling pressure is found on finer meshes, buckles under its pressure, otherwise MeshTooCoarse.

@@ -4,8 +4,10 @@
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
+#include "models/pillar/mesh/pillar_mesh.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 
+#include <functional>
 #include <stdexcept>
 
 namespace viscard {
@@ -22,22 +24,40 @@ void hold_at_zero(int dof, SymmetricSparse& matrix) {
   }
 }
 
+// A linear function of the potential on the face that is not grounded, as a vector.
+Eigen::VectorXd row_on_free_face(const PillarScene& scene, const PillarModel& model,
+                                 const std::function<double(const PillarState&)>& of) {
+  const DiscreteSystem& system = model.system();
+  const Section& section = model.mesh().section;
+  const bool is_below = scene.electrodes->grounded == FilmFace::kTop;
+  PillarState state;
+  state.unknowns = Eigen::VectorXd::Zero(system.size());
+  Eigen::VectorXd row = state.unknowns;
+  for (const int node : nodes_on_break(section, is_below ? 0 : model.mesh().bond_row, 0,
+                                       section.x().element_count())) {
+    const int dof = system.dofs().dof(system.kinematics().potential_field, node);
+    if (dof < 0) continue;
+    state.unknowns[dof] = 1.0;
+    row[dof] = of(state);
+    state.unknowns[dof] = 0.0;
+  }
+  return row;
+}
+
 // Output of an electrode in quadrants under a sideways motion (piezo_static.h).
 void add_quadrants(const PillarScene& scene, SceneBody& body) {
   const PillarModel* model = body.model.get();
   if (model->electrode_dof() < 0) {
     const double z_m = free_face_m(scene);
-    body.outputs.push_back({"quadrant_voltage", "V", [model, z_m](const Eigen::VectorXd& u) {
-                              PillarState state;
-                              state.unknowns = u;
-                              return quadrant_mean_V(*model, state, z_m, model->radius_m());
-                            }});
+    body.outputs.push_back(
+        {"quadrant_voltage", "V", row_on_free_face(scene, *model, [&](const PillarState& state) {
+           return quadrant_mean_V(*model, state, z_m, model->radius_m());
+         })});
     return;
   }
   const Eigen::VectorXd row = quadrant_charge_row(*model, body.system.elastic);
   hold_at_zero(model->electrode_dof(), body.system.elastic);
-  body.outputs.push_back(
-      {"quadrant_charge", "C", [row](const Eigen::VectorXd& u) { return row.dot(u); }});
+  body.outputs.push_back({"quadrant_charge", "C", row});
 }
 
 }  // namespace
@@ -49,8 +69,11 @@ SceneBody body_of(const PillarScene& scene, Motion motion, const SceneBodyOption
   const bool is_axial = motion == axial_motion(scene);
   if (is_axial || reads_quadrants(scene)) model_options.electrodes = scene.electrodes;
   SceneBody body;
-  body.model = std::make_unique<PillarModel>(scene.geometry, answer.discretisation, media_of(scene),
-                                             model_options);
+  const NearbyPillar* nearby = nearby_of(scene, motion, model_options.electrodes.has_value());
+  body.model =
+      std::make_unique<PillarModel>(scene.geometry, answer.discretisation, media_of(scene),
+                                    model_options, nearby == nullptr ? nullptr : &nearby->model(),
+                                    nearby == nullptr ? nullptr : &nearby->solutions());
   count_unknowns(*body.model, answer);
   body.system = viscoelastic_system(*body.model, scene.pillar, options.with_mass);
   body.system.load = unit_top_force(*body.model);
@@ -58,9 +81,7 @@ SceneBody body_of(const PillarScene& scene, Motion motion, const SceneBodyOption
     body.system.rigid = rigid_motions(*body.model);
     body.system.free_shift_1_s2 = free_shift_1_s2(*body.model);
   }
-  const Eigen::VectorXd load = body.system.load;
-  body.outputs.push_back(
-      {"top_displacement", "m", [load](const Eigen::VectorXd& u) { return load.dot(u); }});
+  body.outputs.push_back({"top_displacement", "m", body.system.load});
   const PillarModel* model = body.model.get();
   if (!model->options().electrodes) return body;
   if (!is_axial) {
@@ -68,17 +89,17 @@ SceneBody body_of(const PillarScene& scene, Motion motion, const SceneBodyOption
     return body;
   }
   if (model->electrode_dof() >= 0) {
-    body.outputs.push_back({"electrode_voltage", "V", [model](const Eigen::VectorXd& u) {
-                              return model->potential_scale_V() * u[model->electrode_dof()];
-                            }});
+    body.outputs.push_back(
+        {"electrode_voltage", "V",
+         model->potential_scale_V() *
+             Eigen::VectorXd::Unit(model->system().size(), model->electrode_dof())});
     return body;
   }
   const double z_m = free_face_m(scene);
-  body.outputs.push_back({"potential_at_centre", "V", [model, z_m](const Eigen::VectorXd& u) {
-                            PillarState state;
-                            state.unknowns = u;
-                            return potential_at_V(*model, state, 0.0, z_m);
-                          }});
+  body.outputs.push_back(
+      {"potential_at_centre", "V", row_on_free_face(scene, *model, [&](const PillarState& state) {
+         return potential_at_V(*model, state, 0.0, z_m);
+       })});
   return body;
 }
 

@@ -6,18 +6,19 @@
 #include "models/pillar/time/viscoelastic_system.h"
 #include "models/scene/common/scene_answer.h"
 
-#include <functional>
+#include <Eigen/Core>
+
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace viscard {
 
-// A linear output of a scene's body.
+// A linear output of a scene's body: row.u for unknowns u.
 struct BodyOutput {
   std::string name;
   std::string unit;
-  std::function<double(const Eigen::VectorXd&)> of;
+  Eigen::VectorXd row;
 };
 
 // One scene on one mesh as a viscoelastic body: matrices, the unit force on its top (1 N), and its

@@ -19,17 +19,35 @@ void NearbyPillar::find_modes(int count) {
   modes_ = lowest_modes(model_, count);
 }
 
+void NearbyPillar::find_modes(int count, const SymmetricSparse& stress) {
+  SymmetricSparse stiffness = model_.stiffness();
+  stiffness.coeffs() += stress.coeffs();
+  modes_ = lowest_modes(model_, stiffness, count);
+}
+
+void NearbyPillar::find_buckling(const PillarModel& axial) {
+  buckled_ = buckling(axial, model_).shape;
+}
+
 std::vector<PillarMode> modes_nearby(const PillarModel& model, std::vector<PillarMode> modes,
-                                     int count) {
+                                     int count, const SymmetricSparse* stress) {
   if (static_cast<int>(modes.size()) != count) throw NotNearby("there are other modes");
   for (PillarMode& mode : modes) {
     const Eigen::VectorXd& x = mode.shape;
     const double mass = x.dot(model.mass_times(x));
-    const double omega_1_s = std::sqrt(x.dot(model.stiffness_times(x, x)) / mass);
+    double energy = x.dot(model.stiffness_times(x, x));
+    if (stress != nullptr) energy += x.dot(times(*stress, x));
+    const double omega_1_s = std::sqrt(energy / mass);
     mode.frequency_Hz = omega_1_s / (2.0 * std::numbers::pi);
     mode.shape /= std::sqrt(mass);
   }
   return modes;
+}
+
+double buckling_pressure_nearby_Pa(const PillarModel& axial, const PillarModel& lateral,
+                                   const Eigen::VectorXd& shape) {
+  const double softened = shape.dot(times(stress_stiffness_per_Pa(axial, lateral), shape));
+  return -shape.dot(lateral.stiffness_times(shape, shape)) / softened;
 }
 
 }  // namespace viscard

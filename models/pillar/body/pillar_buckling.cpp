@@ -43,6 +43,7 @@ Buckling found_among(const EigenPairs& pairs, const BucklingPencil& pencil, doub
     result.pressures_Pa.push_back(pressure_of(pairs.values[i]));
     if (result.pressure_Pa == 0.0 && pencil.is_of_the_pillar(pairs.vectors.col(i))) {
       result.pressure_Pa = result.pressures_Pa.back();
+      result.shape = pairs.vectors.col(i);
     }
   }
   return result;
@@ -75,8 +76,8 @@ double quotient_Pa(const BucklingPencil& pencil, const Eigen::VectorXd& shape) {
 // past local modes at the rim that lie below or around it; each step triples the number of digits.
 // Source: Parlett, The Symmetric Eigenvalue Problem (1998), ch. 4. Returns 0 if it has converged to
 // another mode.
-// Reuses the order of elimination of `factor`.
-double iterated_buckling_Pa(const BucklingPencil& pencil, Eigen::VectorXd shape,
+// Reuses the order of elimination of `factor`. `shape` begins as that of the bent pillar.
+double iterated_buckling_Pa(const BucklingPencil& pencil, Eigen::VectorXd& shape,
                             StiffnessFactor& factor) {
   constexpr int kSteps = 8;
   constexpr double kCloseEnough = 1e-5;  // of the last step; the next error is its cube
@@ -115,15 +116,17 @@ Buckling search_buckling(const PillarModel& lateral, const SymmetricSparse& stre
                                               {.tolerance = 1e-6, .is_quick = count == 1});
   Buckling result = found_among(pairs, pencil, 0.0, [](double value) { return 1.0 / value; });
   if (result.pressure_Pa > 0.0) return result;
-  result.pressure_Pa = iterated_buckling_Pa(pencil, bent, factor);
+  result.shape = bent;
+  result.pressure_Pa = iterated_buckling_Pa(pencil, result.shape, factor);
   if (result.pressure_Pa > 0.0) return result;
   // The Rayleigh quotient of the pillar bent by a side force lies above its buckling pressure. A
   // search that starts a little below the quotient avoids local modes far below it.
   const double bent_Pa = quotient_Pa(pencil, bent);
   for (const double share : {0.9, 0.8, 0.6, 0.4}) {
     if (!(bent_Pa > 0.0)) break;
-    result.pressure_Pa =
-        buckling_above(pencil, share * bent_Pa, std::max(count, kMostModes)).pressure_Pa;
+    const Buckling above = buckling_above(pencil, share * bent_Pa, std::max(count, kMostModes));
+    result.pressure_Pa = above.pressure_Pa;
+    result.shape = above.shape;
     if (result.pressure_Pa > 0.0) return result;
   }
   return result;

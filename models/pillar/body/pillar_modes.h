@@ -39,6 +39,7 @@ std::vector<PillarMode> lowest_modes(const PillarModel& model, const SymmetricSp
 struct Buckling {
   double pressure_Pa = 0.0;          // at which the pillar as a whole buckles
   std::vector<double> pressures_Pa;  // of the lowest modes, ascending, including local ones
+  Eigen::VectorXd shape;             // of the pillar as a whole, of unit energy
 };
 Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count = 1);
 

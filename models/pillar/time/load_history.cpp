@@ -181,12 +181,17 @@ HistoryResult run_history(const ViscoelasticSystem& system, Control control,
   // One order less than that of the stepper: the order observed for a dense spectrum.
   const double gain_of_halving = std::max(1.0, std::exp2(options.order - 1) - 1.0);
   bool has_stalled = false;
-  for (int level = 0; level < options.max_levels && !result.converged && !has_stalled; ++level) {
+  const int first_level = options.only_level.value_or(0);
+  for (int level = first_level; level < options.max_levels && !result.converged && !has_stalled;
+       ++level) {
     const Run run = run_once(system, control, blocks, options.first_steps, 1 << level, options);
     result.steps += run.steps;
     result.factorisations += run.factorisations;
     result.time_s = run.time_s;
-    if (level > 0) {
+    result.level = level;
+    if (options.only_level) {
+      result.converged = true;
+    } else if (level > 0) {
       const double last = result.error_estimate;
       result.error_estimate =
           largest_relative_change(run.values, values, options.relative_floor) / gain_of_halving;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -32,6 +33,7 @@ struct HistoryOptions {
   int max_levels = 8;            // each halves all steps
   std::vector<double> output_times_s;      // additional times that steps must hit exactly
   std::vector<Eigen::VectorXd> observers;  // additional linear outputs, vectors times u
+  std::optional<int> only_level;           // this one alone, without an estimate of its error
   std::function<void(double)> progress;    // callback with the completed fraction; may be empty
 };
 
@@ -45,6 +47,7 @@ struct HistoryResult {
   bool converged = false;
   int steps = 0;           // of all levels together
   int factorisations = 0;  // of all levels together
+  int level = 0;           // of the values; each halves all steps
 };
 
 // Runs a history from rest through ViscoelasticStepper. After each corner of the history the blocks

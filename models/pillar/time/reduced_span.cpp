@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -158,6 +159,26 @@ ReducedBody ReducedSpan::reduced() const {
   if (has_mass()) result.system.mass = full_lower(small_mass_);
   if (body_.load.size() > 0) result.system.load = basis_.transpose() * body_.load;
   result.system.rigid = Eigen::MatrixXd::Identity(count(), rigid_count());
+  return result;
+}
+
+ReducedBody restricted_to(const ViscoelasticSystem& system, Eigen::MatrixXd basis) {
+  const auto small = [&basis](const SymmetricSparse& matrix) {
+    Eigen::MatrixXd image(basis.rows(), basis.cols());
+    for (Eigen::Index i = 0; i < basis.cols(); ++i) image.col(i) = times(matrix, basis.col(i));
+    return full_lower(basis.transpose() * image);
+  };
+  ReducedBody result;
+  result.system.terms = system.terms;
+  result.system.elastic = small(system.elastic);
+  result.system.shear = small(system.shear);
+  // An incompressible body's volume does not change.
+  result.system.bulk = system.incompressible
+                           ? full_lower(Eigen::MatrixXd::Zero(basis.cols(), basis.cols()))
+                           : small(system.bulk);
+  if (system.mass.size() > 0) result.system.mass = small(system.mass);
+  if (system.load.size() > 0) result.system.load = basis.transpose() * system.load;
+  result.basis = std::move(basis);
   return result;
 }
 

@@ -31,10 +31,10 @@ class ReducedSpan {
   // Adds the component of v orthogonal to the basis; returns false if it is zero to rounding.
   bool add(Eigen::VectorXd v);
 
-  // (elastic + shear S + bulk B) basis.
-  Eigen::MatrixXd image(double shear, double bulk) const {
-    return shear_ * shear + bulk_ * bulk + elastic_;
-  }
+  // The products of the matrices with the basis.
+  const Eigen::MatrixXd& elastic_image() const { return elastic_; }
+  const Eigen::MatrixXd& shear_image() const { return shear_; }
+  const Eigen::MatrixXd& bulk_image() const { return bulk_; }
 
   // The part of v in the span, in the inner product of the energy.
   Eigen::VectorXd projected(const Eigen::VectorXd& v) const;

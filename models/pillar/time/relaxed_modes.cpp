@@ -73,6 +73,14 @@ class RelaxedSearch {
     return pair;
   }
 
+  // Unknowns of the model.
+  Eigen::VectorXcd shape_of(const Pair& pair) const {
+    Eigen::VectorXcd shape(span_.basis().rows());
+    shape.real() = span_.basis() * pair.y.real();
+    shape.imag() = span_.basis() * pair.y.imag();
+    return shape;
+  }
+
   // Lets the basis grow by the residual of the mode until its error is small; returns that error.
   double refine(Pair& pair);
   // An upper bound of the error that needs no factorisation.
@@ -234,6 +242,13 @@ double RelaxedSearch::refine(Pair& pair) {
                            " Hz converges too slowly; ask for fewer modes or a larger tolerance");
 }
 
+RelaxedMode mode_of(Complex s) {
+  return {.frequency_Hz = s.imag() / (2.0 * std::numbers::pi),
+          .damping_ratio = -s.real() / std::abs(s),
+          .s = s,
+          .shape = {}};
+}
+
 void refuse_doubles(const std::vector<Complex>& found) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -263,17 +278,23 @@ std::vector<RelaxedMode> relaxed_modes(const PillarModel& model, ViscoelasticSys
       pair = search.within_basis(number);
     }
     if (!oscillates(pair.s)) {
-      modes.push_back({0.0, 1.0, 0.0});
+      modes.push_back({.frequency_Hz = 0.0, .damping_ratio = 1.0, .s = 0.0, .shape = {}});
       continue;
     }
     double error = search.quick_error(pair);
     if (error > tolerance) error = search.refine(pair);
-    modes.push_back(
-        {pair.s.imag() / (2.0 * std::numbers::pi), -pair.s.real() / std::abs(pair.s), error});
+    modes.push_back(mode_of(pair.s));
+    modes.back().error = error;
+    modes.back().shape = search.shape_of(pair);
     found.push_back(pair.s);
   }
   refuse_doubles(found);
   return modes;
+}
+
+RelaxedMode relaxed_mode_nearby(const ViscoelasticSystem& body, Complex s,
+                                const Eigen::VectorXcd& shape) {
+  return mode_of(root_near(scalar_pencil(body, shape), {body.terms}, s));
 }
 
 }  // namespace viscard

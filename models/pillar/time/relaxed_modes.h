@@ -3,6 +3,7 @@
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/time/viscoelastic_system.h"
 
+#include <complex>
 #include <vector>
 
 namespace viscard {
@@ -12,6 +13,8 @@ struct RelaxedMode {
   double frequency_Hz = 0.0;   // at which it rings; 0 if it does not oscillate
   double damping_ratio = 0.0;  // -Re(s)/|s|
   double error = 0.0;          // of s, relative to |s|: what the reduced basis leaves out
+  std::complex<double> s;      // 1/s; 0 if it does not oscillate
+  Eigen::VectorXcd shape;      // unknowns of the model; empty likewise
 };
 
 // The lowest modes of one family of motion, damping included:
@@ -31,5 +34,10 @@ struct RelaxedMode {
 // std::runtime_error if a mode cannot be found to the tolerance (relative, of s).
 std::vector<RelaxedMode> relaxed_modes(const PillarModel& model, ViscoelasticSystem body, int count,
                                        double tolerance);
+
+// The mode of a body near one with this mode, whose shape y it keeps: the root of y' T(s) y = 0, exact to
+// first order, because T is complex symmetric and y' T(s) y stationary in y.
+RelaxedMode relaxed_mode_nearby(const ViscoelasticSystem& body, std::complex<double> s,
+                                const Eigen::VectorXcd& shape);
 
 }  // namespace viscard

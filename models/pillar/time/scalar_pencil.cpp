@@ -10,6 +10,16 @@ using Complex = std::complex<double>;
 
 }  // namespace
 
+ScalarPencil scalar_pencil(const ViscoelasticSystem& body, const Eigen::VectorXcd& motion) {
+  const Eigen::VectorXd a = motion.real(), b = motion.imag();
+  const auto form = [&](const SymmetricSparse& matrix) {
+    const Eigen::VectorXd of_a = times(matrix, a);
+    return Complex(a.dot(of_a) - b.dot(times(matrix, b)), 2.0 * b.dot(of_a));
+  };
+  const Complex bulk = body.incompressible ? Complex(0.0) : form(body.bulk);
+  return {form(body.elastic), form(body.shear), bulk, form(body.mass)};
+}
+
 RelativeModuli storage_at(const std::vector<MaterialTerm>& terms, double omega_rad_s) {
   const RelativeModuli m = relative_moduli(terms, Complex(0.0, omega_rad_s));
   return {m.shear.real(), m.bulk.real()};

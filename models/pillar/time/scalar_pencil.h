@@ -1,6 +1,9 @@
 #pragma once
 
 #include "models/material/material.h"
+#include "models/pillar/time/viscoelastic_system.h"
+
+#include <Eigen/Core>
 
 #include <complex>
 #include <vector>
@@ -32,6 +35,10 @@ struct ScalarPencil {
     return m.shear * shear + m.bulk * bulk + 2.0 * s * mass;
   }
 };
+
+// That of a body and one of its motions, y' T(s) y. The motion does not change the volume of an
+// incompressible body.
+ScalarPencil scalar_pencil(const ViscoelasticSystem& body, const Eigen::VectorXcd& motion);
 
 // The root that Newton's method finds from s.
 std::complex<double> root_near(const ScalarPencil& pencil, const Softening& moduli,

@@ -20,6 +20,21 @@ using Eigen::VectorXd;
 
 namespace {
 
+// A pillar on a film of PVDF that creeps under a pressure.
+const char* const kCreep = R"(tolerance = 1e-3
+[geometry]
+diameter = "40 um"
+length = "120 um +- 2 um"
+film = { thickness = "25 um +- 0.5 um", radius = "60 um", material = "pvdf" }
+electrode = { face = "top", kind = "equipotential", radius = "18 um" }
+[materials]
+pillar = { file = "soft.json" }
+pvdf = { file = "PVDF" }
+[analysis]
+kind = "creep"
+history = [["0 s", "0 Pa"], ["0 s", "3 kPa +- 1 %"], ["10 s", "3 kPa"]]
+)";
+
 // Frequencies of a fixed pillar.
 const char* const kOneMode = R"(tolerance = 1e-3
 [geometry]
@@ -116,6 +131,35 @@ TEST_CASE("the output states which way each derivative was taken",
   const CommandOutcome solver = run_command({"simulate", modes.path(), "--uncertainty"});
   CHECK_THAT(solver.out, Catch::Contains("derivatives: from one solution of the solver\n"));
   const SceneText buckling(replaced(kOneMode, "\"modal\"\nmodes = 1", "\"buckling\""));
-  const CommandOutcome differences = run_command({"simulate", buckling.path(), "--uncertainty"});
+  const CommandOutcome loads = run_command({"simulate", buckling.path(), "--uncertainty"});
+  CHECK_THAT(loads.out, Catch::Contains("derivatives: from one solution of the solver\n"));
+  // Rows of pillars have no first-order answers.
+  std::string row = read_file(VISCARD_SOURCE_DIR "/data/scenes/array_modes.toml");
+  row = replaced(replaced(row, "1.8 MPa", "1.8 MPa +- 2 %"), "1e-3", "3e-2");
+  const SceneText array(replaced(row, "../materials", VISCARD_SOURCE_DIR "/data/materials"));
+  const CommandOutcome differences = run_command({"simulate", array.path(), "--uncertainty"});
   CHECK_THAT(differences.out, Catch::Contains("derivatives: differences of whole answers\n"));
+}
+
+TEST_CASE(
+    "a pillar that creeps on a film has its derivatives from one basis, by its fitted material too",
+    "[io][scenes][uncertainty][cli]") {
+  const SceneText text(
+      replaced(kCreep, "PVDF", VISCARD_SOURCE_DIR "/data/materials/pvdf_film_manual.json"));
+  write_file(text.beside("soft.json"),
+             R"({"schema": "viscard-material/1", "E0_Pa": 2e6, "nu": 0.4,
+    "rho_kg_m3": 965, "terms": [{"g": 0.2, "k": 0.0, "tau_s": 1.0}],
+    "uncertainty": {"E0_interval_95": [1.9e6, 2.1e6], "E_inf_interval_95": [1.5e6, 1.7e6],
+      "systematic_relative": 0.02, "covariance_parameters": ["E_inf_Pa", "E_1_Pa", "ln_tau_1"],
+      "covariance": [[4e8, -1e8, 0], [-1e8, 1e8, 0], [0, 0, 0.01]]}})",
+             false);
+  const CommandOutcome outcome = run_command({"simulate", text.path(), "--uncertainty", "--json"});
+  REQUIRE(outcome.status == 0);
+  const auto object = nlohmann::json::parse(outcome.out)["uncertainty"];
+  REQUIRE(object["inputs"].size() == 5);
+  for (const auto& input : object["inputs"]) {
+    CAPTURE(input["name"]);
+    CHECK(input["derivatives"] == "solver");
+  }
+  CHECK(object["derivative_error"] < 1e-4);
 }

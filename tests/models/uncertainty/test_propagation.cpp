@@ -116,6 +116,30 @@ TEST_CASE("the linear interval of a sum is that of its distribution", "[models][
   CHECK(intervals_95(flat, uniform).front().high == Approx(0.95 * std::sqrt(3.0)).epsilon(3e-4));
 }
 
+TEST_CASE("samples without an answer count as beyond either end of an interval",
+          "[models][uncertainty]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto below = [&](double limit) {
+    return sampled_answer(batch_of({[=](const VectorXd& s) { return s[0] < limit ? s[0] : nan; },
+                                    [](const VectorXd& s) { return s[0]; }}),
+                          {{"a"}}, {.n_answers = 20000});
+  };
+  // 1.39 % of a normal number lie above 2.2, and 1.11 % below -2.287.
+  const SampledAnswer few = below(2.2);
+  const SampledResult& cut = few.results[0];
+  CHECK(cut.failed_share == Approx(0.0139).margin(1e-3));
+  CHECK(few.n_failed > 0);
+  CHECK(cut.interval_95.high == Approx(1.960).margin(4.0 * cut.end_error));
+  CHECK(cut.interval_95.low == Approx(-2.287).margin(4.0 * cut.end_error));
+  CHECK(cut.end_error < 0.05);
+  CHECK(few.results[1].failed_share == 0.0);
+  CHECK(few.results[1].interval_95.low == Approx(-1.960).margin(0.02));
+  const SampledResult many = below(1.9).results[0];  // 2.87 %
+  CHECK(many.failed_share > 0.025);
+  CHECK(many.interval_95.low == -std::numeric_limits<double>::infinity());
+  CHECK(many.interval_95.high == std::numeric_limits<double>::infinity());
+}
+
 TEST_CASE("sampled shares are the Sobol' indices of Ishigami's function",
           "[models][uncertainty][reduction]") {
   const std::vector<UncertainInput> inputs{{"x1", 1, true}, {"x2", 1, true}, {"x3", 1, true}};
@@ -153,7 +177,8 @@ TEST_CASE("shares of a polynomial of degree 2 need no more samples than its term
   CHECK(result.shares[2].with_others == Approx(0.25 / whole).epsilon(1e-9));
 }
 
-TEST_CASE("points without an answer are counted and left out", "[models][uncertainty]") {
+TEST_CASE("points without an answer are counted, and moments leave them out",
+          "[models][uncertainty]") {
   const auto half_plane = [](const VectorXd& s) {
     return s[0] > 1.0 ? std::numeric_limits<double>::quiet_NaN() : s[0] + s[1];
   };
@@ -161,7 +186,8 @@ TEST_CASE("points without an answer are counted and left out", "[models][uncerta
       sampled_answer(batch_of({half_plane}), {{"a"}, {"b"}}, {.n_answers = 4000});
   const double share = static_cast<double>(found.n_failed) / static_cast<double>(found.n_answers);
   CHECK(share == Approx(0.1587).margin(0.01));  // of the normal distribution beyond 1
-  CHECK(std::isfinite(found.results.front().interval_95.high));
+  CHECK(std::isfinite(found.results.front().deviation));
+  CHECK(std::isinf(found.results.front().interval_95.high));
   const auto none = [](const VectorXd& s) {
     return s.norm() > 0.5 ? std::numeric_limits<double>::quiet_NaN() : 1.0;
   };

@@ -40,7 +40,7 @@ ViscoelasticPillar pillar_on_film(const Material& material) {
 TEST_CASE("reduced creep with a film and shear relaxation alone is the whole body's to 1e-5",
           "[pillar]") {
   const ViscoelasticPillar pillar = pillar_on_film(soft(true));
-  const ReducedBody reduced = reduce_quasi_static(pillar.system(), 1e-5);
+  const ReducedBody reduced = reduce_quasi_static(pillar.system(), {.tolerance = 1e-5});
   CHECK(reduced.basis.cols() <= 8);
   const std::vector<HistoryPoint> history = {{0.0, 1.0}, {3.0, 1.0}, {3.0, 0.0}, {9.0, 0.0}};
   HistoryOptions options;
@@ -61,7 +61,7 @@ TEST_CASE("reduced creep with a film and shear relaxation alone is the whole bod
 TEST_CASE("with constant Poisson ratio and no film one vector is exact", "[pillar]") {
   const ViscoelasticPillar pillar({}, {.degree = 3, .layers = 1}, soft(false),
                                   TopCondition::kPressure);
-  const ReducedBody reduced = reduce_quasi_static(pillar.system(), 1e-8);
+  const ReducedBody reduced = reduce_quasi_static(pillar.system(), {.tolerance = 1e-8});
   CHECK(reduced.basis.cols() == 1);
   CHECK(reduced.error <= 1e-8);
 }
