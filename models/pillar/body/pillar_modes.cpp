@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -14,8 +15,20 @@
 
 namespace viscard {
 
-SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarModel& model) {
-  const PillarState state = axial.solve(-axial.top_traction());
+namespace {
+
+// Whether an element lies next to a rim, where all are small in both directions.
+bool is_next_to_rim(const PillarModel& model, const SectionElement& element) {
+  constexpr double kSmall = 0.012;  // of the radius
+  const double small_m = kSmall * model.radius_m();
+  const Section& section = model.mesh().section;
+  return section.x().length(element.column) < small_m && section.z().length(element.row) < small_m;
+}
+
+// Of the elements that `counts` names; all if it is empty.
+SymmetricSparse stress_stiffness_of(const PillarModel& axial, const PillarState& state,
+                                    const PillarModel& model,
+                                    const std::function<bool(const SectionElement&)>& counts) {
   const auto form = [&](const SectionElement& element, double x, double z) {
     const Eigen::VectorXd s = axial.stress_at(state, element, x, z);
     Eigen::Matrix3d stress;
@@ -24,7 +37,23 @@ SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarMo
     for (Eigen::Index k = 0; k < 3; ++k) D.block<3, 3>(3 * k, 3 * k) = stress;
     return D;
   };
-  return model.system().varying_form(model.system().kinematics().gradient, form);
+  return model.system().varying_form(model.system().kinematics().gradient, form, counts);
+}
+
+}  // namespace
+
+StressStiffness stress_stiffness_by_place(const PillarModel& axial, const PillarModel& model) {
+  const PillarState state = axial.solve(-axial.top_traction());
+  const auto is_rim = [&](const SectionElement& element) { return is_next_to_rim(model, element); };
+  StressStiffness stress;
+  stress.away_from_rims = stress_stiffness_of(axial, state, model, std::not_fn(is_rim));
+  stress.whole = stress_stiffness_of(axial, state, model, is_rim);
+  stress.whole.coeffs() += stress.away_from_rims.coeffs();
+  return stress;
+}
+
+SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarModel& model) {
+  return stress_stiffness_of(axial, axial.solve(-axial.top_traction()), model, {});
 }
 
 double free_shift_1_s2(const PillarModel& model) {

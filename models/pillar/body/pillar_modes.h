@@ -36,12 +36,23 @@ std::vector<PillarMode> lowest_modes(const PillarModel& model, const SymmetricSp
 // at the singular rim of the bond are skipped: the pillar's own mode is the lowest one that has
 // more than half of its compliance under a side force. Throws std::runtime_error if there is no
 // such mode near the Rayleigh quotient of the pillar bent by a side force.
+// The search leaves out the stress next to the rim (StressStiffness), which counts to first order in
+// pressure_Pa; with count > 1 it is searched with the whole stress.
 struct Buckling {
   double pressure_Pa = 0.0;          // at which the pillar as a whole buckles
+  double rim_share = 0.0;            // of pressure_Pa, from the stress next to the rim
   std::vector<double> pressures_Pa;  // of the lowest modes, ascending, including local ones
   Eigen::VectorXd shape;             // of the pillar as a whole, of unit energy
 };
 Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count = 1);
+
+// Stress stiffness K_sigma per Pa as below: `whole`, and without elements next to a rim, smaller in both
+// directions than 0.012 of the pillar's radius. The stress there is singular. It makes modes of the rim
+// itself buckle, at loads that fall with every layer of the mesh until they hide the pillar's own.
+struct StressStiffness {
+  SymmetricSparse whole, away_from_rims;
+};
+StressStiffness stress_stiffness_by_place(const PillarModel& axial, const PillarModel& model);
 
 // Stress stiffness K_sigma (eq. 21) of a model in any family of motion of a cylinder, per Pa of
 // pressure on the top of the axial one. Both must have the same mesh.

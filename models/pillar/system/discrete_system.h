@@ -62,10 +62,12 @@ class DiscreteSystem {
   double projected_divergence_at(const Eigen::VectorXd& solution, const SectionElement& element,
                                  double x, double z) const;
 
-  // A form whose matrix D(element, x, z) varies within the elements, by full quadrature.
+  // A form whose matrix D(element, x, z) varies within the elements, by full quadrature; of those elements
+  // that `counts` names, unless it is empty.
   SymmetricSparse varying_form(
       const std::vector<OperatorRow>& rows,
-      const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D) const;
+      const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D,
+      const std::function<bool(const SectionElement&)>& counts = {}) const;
 
   // Unknowns of one element, field slowest: field_count * (p + 1)^2, -1 where held.
   std::vector<int> element_dofs(const SectionElement& element) const;

@@ -117,10 +117,12 @@ Eigen::MatrixXd DiscreteSystem::quadrature_form(
 
 SymmetricSparse DiscreteSystem::varying_form(
     const std::vector<OperatorRow>& rows,
-    const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D) const {
+    const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D,
+    const std::function<bool(const SectionElement&)>& counts) const {
   SymmetricSparse matrix = zero();
   for (std::size_t e = 0; e < section_->elements().size(); ++e) {
     const SectionElement& element = section_->elements()[e];
+    if (counts && !counts(element)) continue;
     const auto here = [&](double x, double z) { return D(element, x, z); };
     scatter(e, quadrature_form(rows, element, here), matrix);
   }

@@ -40,6 +40,27 @@ PillarScene wide_disc(double nu) {
 
 }  // namespace
 
+// At 0.499999 rounding hid the load from 1e-4 on, and 0.49999 was wrong by 1.9 times its claim.
+TEST_CASE("buckling loads to 1e-4 approach the incompressible one from below",
+          "[pillar][stability]") {
+  const auto load_of = [](double nu) {
+    PillarScene scene = pillar_of(nu, BucklingDrive{});
+    scene.tolerance = 1e-4;
+    return simulate_pillar(scene).results.at(0);
+  };
+  const double half_Pa = load_of(0.5).value;
+  double last_Pa = 0.0;
+  for (const double nu : {0.4999, 0.49999, 0.499999}) {
+    CAPTURE(nu);
+    const SceneResult load = load_of(nu);
+    CHECK(load.value > last_Pa);
+    CHECK(load.value <= half_Pa * (1.0 + 1e-7));
+    // Linear in 1 - 2 nu: 1.5 % of 29 907 Pa a unit of nu.
+    CHECK(load.value == Approx(half_Pa).epsilon(0.3 * (0.5 - nu) + 1e-6));
+    last_Pa = load.value;
+  }
+}
+
 TEST_CASE("a pillar between the last Poisson ratio and 0.5 is answered, between its neighbours",
           "[pillar][stability]") {
   HarmonicDrive swing;
