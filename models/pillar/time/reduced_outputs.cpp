@@ -1,7 +1,9 @@
 // Outputs of a film's potentials, whose dual solutions a basis is to hold.
 #include "models/pillar/time/model_reduction.h"
+#include "models/pillar/time/reduced_span.h"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -72,6 +74,26 @@ Eigen::MatrixXd nearby_basis(const ViscoelasticSystem& system, const Eigen::Matr
     basis.col(basis.cols() - 1) = charged / std::sqrt(energy);
   }
   return basis;
+}
+
+ReducedBody restricted_to(const ViscoelasticSystem& system, Eigen::MatrixXd basis) {
+  const auto small = [&basis](const SymmetricSparse& matrix) {
+    Eigen::MatrixXd image(basis.rows(), basis.cols());
+    for (Eigen::Index i = 0; i < basis.cols(); ++i) image.col(i) = times(matrix, basis.col(i));
+    return full_lower(basis.transpose() * image);
+  };
+  ReducedBody result;
+  result.system.terms = system.terms;
+  result.system.elastic = small(system.elastic);
+  result.system.shear = small(system.shear);
+  // An incompressible body's volume does not change.
+  result.system.bulk = system.incompressible
+                           ? full_lower(Eigen::MatrixXd::Zero(basis.cols(), basis.cols()))
+                           : small(system.bulk);
+  if (system.mass.size() > 0) result.system.mass = small(system.mass);
+  if (system.load.size() > 0) result.system.load = basis.transpose() * system.load;
+  result.basis = std::move(basis);
+  return result;
 }
 
 }  // namespace viscard

@@ -2,21 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace viscard {
 namespace {
-
-SymmetricSparse full_lower(const Eigen::MatrixXd& matrix) {
-  SymmetricSparse sparse(matrix.rows(), matrix.cols());
-  sparse.reserve(
-      Eigen::VectorXi::Constant(static_cast<int>(matrix.cols()), static_cast<int>(matrix.rows())));
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    for (Eigen::Index i = j; i < matrix.rows(); ++i) sparse.insert(i, j) = matrix(i, j);
-  }
-  sparse.makeCompressed();
-  return sparse;
-}
 
 void add_column(Eigen::MatrixXd& matrix, const Eigen::VectorXd& column) {
   matrix.conservativeResize(Eigen::NoChange, matrix.cols() + 1);
@@ -34,6 +22,17 @@ void border(Eigen::MatrixXd& small, const Eigen::MatrixXd& basis, const Eigen::M
 }
 
 }  // namespace
+
+SymmetricSparse full_lower(const Eigen::MatrixXd& matrix) {
+  SymmetricSparse sparse(matrix.rows(), matrix.cols());
+  sparse.reserve(
+      Eigen::VectorXi::Constant(static_cast<int>(matrix.cols()), static_cast<int>(matrix.rows())));
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    for (Eigen::Index i = j; i < matrix.rows(); ++i) sparse.insert(i, j) = matrix(i, j);
+  }
+  sparse.makeCompressed();
+  return sparse;
+}
 
 ReducedSpan::ReducedSpan(const ViscoelasticSystem& body)
     : body_(body), shift_1_s2_(body.rigid.cols() > 0 ? body.free_shift_1_s2 : 0.0) {
@@ -159,26 +158,6 @@ ReducedBody ReducedSpan::reduced() const {
   if (has_mass()) result.system.mass = full_lower(small_mass_);
   if (body_.load.size() > 0) result.system.load = basis_.transpose() * body_.load;
   result.system.rigid = Eigen::MatrixXd::Identity(count(), rigid_count());
-  return result;
-}
-
-ReducedBody restricted_to(const ViscoelasticSystem& system, Eigen::MatrixXd basis) {
-  const auto small = [&basis](const SymmetricSparse& matrix) {
-    Eigen::MatrixXd image(basis.rows(), basis.cols());
-    for (Eigen::Index i = 0; i < basis.cols(); ++i) image.col(i) = times(matrix, basis.col(i));
-    return full_lower(basis.transpose() * image);
-  };
-  ReducedBody result;
-  result.system.terms = system.terms;
-  result.system.elastic = small(system.elastic);
-  result.system.shear = small(system.shear);
-  // An incompressible body's volume does not change.
-  result.system.bulk = system.incompressible
-                           ? full_lower(Eigen::MatrixXd::Zero(basis.cols(), basis.cols()))
-                           : small(system.bulk);
-  if (system.mass.size() > 0) result.system.mass = small(system.mass);
-  if (system.load.size() > 0) result.system.load = basis.transpose() * system.load;
-  result.basis = std::move(basis);
   return result;
 }
 
