@@ -51,6 +51,21 @@ VectorXd potentials_at_rest(const ViscoelasticSystem& system, const VectorXd& ou
   return charged;
 }
 
+// A matrix times many vectors, which reads each of its entries once.
+Eigen::MatrixXd times_all(const SymmetricSparse& lower, const Eigen::MatrixXd& vectors) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Rows x = vectors;
+  Rows y = Rows::Zero(x.rows(), x.cols());
+  for (int column = 0; column < lower.outerSize(); ++column) {
+    for (SymmetricSparse::InnerIterator entry(lower, column); entry; ++entry) {
+      if (entry.value() == 0.0) continue;  // the pillar's matrices have the film's pattern too
+      y.row(entry.row()) += entry.value() * x.row(column);
+      if (entry.row() != column) y.row(column) += entry.value() * x.row(entry.row());
+    }
+  }
+  return y;
+}
+
 }  // namespace
 
 VectorXd output_of_motion(const ViscoelasticSystem& system, const VectorXd& output) {
@@ -78,9 +93,7 @@ Eigen::MatrixXd nearby_basis(const ViscoelasticSystem& system, const Eigen::Matr
 
 ReducedBody restricted_to(const ViscoelasticSystem& system, Eigen::MatrixXd basis) {
   const auto small = [&basis](const SymmetricSparse& matrix) {
-    Eigen::MatrixXd image(basis.rows(), basis.cols());
-    for (Eigen::Index i = 0; i < basis.cols(); ++i) image.col(i) = times(matrix, basis.col(i));
-    return full_lower(basis.transpose() * image);
+    return full_lower(basis.transpose() * times_all(matrix, basis));
   };
   ReducedBody result;
   result.system.terms = system.terms;

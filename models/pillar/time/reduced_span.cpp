@@ -86,19 +86,24 @@ bool ReducedSpan::add(Eigen::VectorXd v) {
   const double before = energy_norm(v);
   // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9).
   for (int pass = 0; pass < 2; ++pass) v -= projected(v);
-  const double after = energy_norm(v);
-  if (!(after > 1e-9 * before) || !std::isfinite(after)) return false;
-  v /= after;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(v.size());
   // An incompressible body's volume does not change.
-  const Images images{times(body_.elastic, v), times(body_.shear, v),
-                      body_.incompressible ? none : times(body_.bulk, v),
-                      has_mass() ? times(body_.mass, v) : none};
+  Images images{times(body_.elastic, v), times(body_.shear, v),
+                body_.incompressible ? none : times(body_.bulk, v),
+                has_mass() ? times(body_.mass, v) : none};
+  Eigen::VectorXd force = images.elastic + images.shear + images.bulk;
+  if (shift_1_s2_ > 0.0) force += shift_1_s2_ * images.mass;
+  const double after = std::sqrt(std::max(v.dot(force), 0.0));
+  if (!(after > 1e-9 * before) || !std::isfinite(after)) return false;
+  v /= after;
+  force /= after;
+  for (Eigen::VectorXd* image : {&images.elastic, &images.shear, &images.bulk, &images.mass}) {
+    *image /= after;
+  }
   // Rounding is orthogonal to the basis from one side only: what it adds has no energy of its own.
   constexpr double kMostOverlap = 1e-3;
   if (count() > 0) {
-    const Eigen::VectorXd overlap = basis_.transpose() * (images.elastic + images.shear +
-                                                          images.bulk + shift_1_s2_ * images.mass);
+    const Eigen::VectorXd overlap = basis_.transpose() * force;
     if (!(overlap.cwiseAbs().maxCoeff() < kMostOverlap)) return false;
   }
   append(v, images);
