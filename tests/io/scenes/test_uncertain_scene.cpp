@@ -1,5 +1,4 @@
 #include "io/basics/atomic_file.h"
-#include "io/cli/scene/uncertainty_output.h"
 #include "io/config/quantity_text.h"
 #include "io/flow/scenes/named_values.h"
 #include "io/flow/scenes/scene_uncertainty.h"
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -97,17 +95,6 @@ TEST_CASE("a quantity with +- is read in SI with its distribution", "[io][scenes
     CAPTURE(text);
     CHECK_THROWS_AS(uncertain_from_text(text, "m"), std::invalid_argument);
   }
-}
-
-TEST_CASE("an unknown distribution is refused with those that are allowed",
-          "[io][scenes][uncertainty]") {
-  const SceneText text(replaced(kModes, "1.8 MPa +- 2 %", "1.8 MPa +- 2 % gaussian"));
-  CHECK_THROWS_WITH(read_scene(text.path()),
-                    Catch::Contains("materials.pillar.E") &&
-                        Catch::Contains("\"gaussian\" is no distribution") &&
-                        Catch::Contains("normal (the default), lognormal and uniform"));
-  // A unit of another kind is no distribution.
-  CHECK_THROWS_WITH(uncertain_from_text("40 um +- 1 kg", "m"), !Catch::Contains("distribution"));
 }
 
 TEST_CASE("a scene with +- is answered at its values, and a tolerance has no uncertainty",
@@ -273,35 +260,6 @@ TEST_CASE("a scene without anything uncertain, or with a sweep, is refused",
   const CommandOutcome alone = run_command({"simulate", exact.path(), "--samples", "1000"});
   CHECK(alone.status == 2);
   CHECK_THAT(alone.err, Catch::Contains("--uncertainty"));
-}
-
-TEST_CASE("samples beyond buckling widen an interval, and too many of them leave none",
-          "[io][scenes][uncertainty]") {
-  // The pillar buckles at 29.5 kPa.
-  const std::string near =
-      replaced(replaced(kPressed, "PILLAR", "{ E = \"1.8 MPa\", nu = 0.4 }"), "1e-3", "3e-2");
-  const SceneText few(replaced(near, "10 kPa +- 1 %", "25 kPa +- 17 %"));
-  const SceneUncertainty narrow = uncertainty_in(few.path(), {.n_samples = 100});
-  const ResultUncertainty& moved = result_named(narrow, "top_displacement");
-  REQUIRE(narrow.is_sampled);
-  CHECK(narrow.n_failed > 0);
-  CHECK(narrow.failed_share > 0.0);
-  CHECK(narrow.failed_share <= 0.025);
-  CHECK(moved.no_interval.empty());
-  CHECK(std::isfinite(moved.interval_95.low));
-  CHECK_THAT(narrow.notes.back(), Catch::Contains("beyond either end"));
-  const SceneText many(replaced(near, "10 kPa +- 1 %", "27 kPa +- 20 %"));
-  const SceneUncertainty wide = uncertainty_in(many.path(), {.n_samples = 100});
-  const auto object = json_from_uncertainty(wide);
-  CHECK(object["failed_share"] > 0.025);
-  const auto printed = nlohmann::json::parse(object.dump());  // what is not finite is null there
-  const auto& result = printed["results"][0];
-  CHECK(result["interval_95"][0].is_null());
-  CHECK(result["interval_95"][1].is_null());
-  CHECK_THAT(result["no_interval"].get<std::string>(), Catch::Contains("2.5 %"));
-  std::ostringstream people;
-  print_uncertainty(wide, people);
-  CHECK_THAT(people.str(), Catch::Contains("no interval: "));
 }
 
 TEST_CASE("the errors of a law of rubber are left out, and the answer says so",
