@@ -195,7 +195,7 @@ void find_disagreement(const BatchFunction& function, const std::vector<bool>& a
 
 }  // namespace
 
-LinearAnswer linear_answer(const BatchFunction& function, const std::vector<UncertainInput>& inputs,
+LinearAnswer linear_slopes(const BatchFunction& function, const std::vector<UncertainInput>& inputs,
                            double tolerance, const BatchFunction& first_order,
                            const VectorXd& value_errors) {
   const Index count = count_deviates(inputs);
@@ -215,6 +215,13 @@ LinearAnswer linear_answer(const BatchFunction& function, const std::vector<Unce
   if (!find_slopes(function, deviates, tolerance, answer).empty()) {
     throw std::runtime_error("the answer does not exist close to the values that are given");
   }
+  return answer;
+}
+
+LinearAnswer linear_answer(const BatchFunction& function, const std::vector<UncertainInput>& inputs,
+                           double tolerance, const BatchFunction& first_order,
+                           const VectorXd& value_errors) {
+  LinearAnswer answer = linear_slopes(function, inputs, tolerance, first_order, value_errors);
   find_disagreement(function, uniform_deviates(inputs), answer);
   return answer;
 }

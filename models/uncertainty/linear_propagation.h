@@ -36,6 +36,11 @@ LinearAnswer linear_answer(const BatchFunction& function, const std::vector<Unce
                            double tolerance = 1e-6, const BatchFunction& first_order = {},
                            const Eigen::VectorXd& value_errors = {});
 
+// The same without the points `ends` and the answers there: value and derivatives alone.
+LinearAnswer linear_slopes(const BatchFunction& function, const std::vector<UncertainInput>& inputs,
+                           double tolerance = 1e-6, const BatchFunction& first_order = {},
+                           const Eigen::VectorXd& value_errors = {});
+
 // Standard uncertainty of each result, and the share of each input in its variance (results x inputs;
 // 0 where there is no variance).
 Eigen::VectorXd standard_uncertainty(const LinearAnswer& answer);

@@ -96,9 +96,9 @@ bool Judgement::passes() const {
 }
 
 RequiredValue computed(const RequirementKind& kind, const Scene& scene,
-                       const Requirements& requirements) {
+                       const Requirements& requirements, const SceneSolver& solve) {
   try {
-    return kind.compute(scene, requirements);
+    return kind.compute(scene, requirements, solve);
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& error) {

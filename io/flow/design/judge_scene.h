@@ -44,8 +44,8 @@ struct JudgeOptions {
 Judgement judge_scene(const std::string& text, const std::filesystem::path& path,
                       const Requirements& requirements, const JudgeOptions& options);
 
-// The quantity of a scene. If simulate() refuses, the value is "not answered", with the reason.
+// The quantity of a scene. If `solve` refuses, the value is "not answered", with the reason.
 RequiredValue computed(const RequirementKind& kind, const Scene& scene,
-                       const Requirements& requirements);
+                       const Requirements& requirements, const SceneSolver& solve = simulate);
 
 }  // namespace viscard

@@ -2,7 +2,6 @@
 #include "io/flow/design/single_bodies.h"
 #include "models/array/layer/layer_scene.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/scene/simulate.h"
 #include "models/sensor/sensor_design.h"
 
 #include <fmt/format.h>
@@ -49,7 +48,7 @@ bool relaxes(const PillarScene& one) {
 
 // Pressure on the top at which one pillar buckles, with its long-term moduli: a load may stay. A strip
 // has the formula of eq. E6, whose error is taken as its correction for shear.
-RequiredValue buckling_of(PillarScene one, bool has_plate) {
+RequiredValue buckling_of(PillarScene one, bool has_plate, const SceneSolver& solve) {
   one = long_term_scene(one);
   one.drive = BucklingDrive{has_plate};
   const std::string how = std::string(has_plate ? "under a level plate" : "with a free top") +
@@ -64,13 +63,14 @@ RequiredValue buckling_of(PillarScene one, bool has_plate) {
                             slender * slender / 48.0;
     return answered(engesser_Pa, std::abs(euler_Pa - engesser_Pa), how + "; strip, eq. E6");
   }
-  const SceneResult found = named(simulate(one), "buckling_pressure");
+  const SceneResult found = named(solve(one), "buckling_pressure");
   return answered(found.value, found.error_estimate, how);
 }
 
 }  // namespace
 
-RequiredValue required_pillars_per_tactel(const Scene& scene, const Requirements& requirements) {
+RequiredValue required_pillars_per_tactel(const Scene& scene, const Requirements& requirements,
+                                          const SceneSolver&) {
   if (std::isnan(requirements.tactel_area_m2)) return unanswered("needs require.tactel_area");
   const auto cell_m2 = cell_area_m2(scene);
   if (!cell_m2) {
@@ -79,11 +79,12 @@ RequiredValue required_pillars_per_tactel(const Scene& scene, const Requirements
   return answered(requirements.tactel_area_m2 / *cell_m2, 0.0, "area over that of a cell, exact");
 }
 
-RequiredValue required_wavelength(const Scene& scene, const Requirements&) {
+RequiredValue required_wavelength(const Scene& scene, const Requirements&,
+                                  const SceneSolver& solve) {
   if (const auto* given = std::get_if<LayerScene>(&scene)) {
     LayerScene layer = *given;
     layer.wanted = {"half_wavelength"};
-    const SceneResult found = named(simulate(layer), "half_wavelength");
+    const SceneResult found = named(solve(layer), "half_wavelength");
     return answered(found.value, found.error_estimate, "at half of the response to long waves");
   }
   const auto pitch_m = pitch_of(scene);
@@ -91,32 +92,35 @@ RequiredValue required_wavelength(const Scene& scene, const Requirements&) {
   return answered(2.0 * *pitch_m, 0.0, "two pitches (Nyquist), exact");
 }
 
-RequiredValue required_pressure(const Scene& scene, const Requirements& requirements) {
+RequiredValue required_pressure(const Scene& scene, const Requirements& requirements,
+                                const SceneSolver& solve) {
   const auto one = single_body(scene);
   if (!one) return unanswered("a layer does not buckle");
   const auto share = pressure_share(scene);
   if (!share) return unanswered(kNoLattice);
-  RequiredValue found = buckling_of(*one, requirements.top == "plate");
+  RequiredValue found = buckling_of(*one, requirements.top == "plate", solve);
   found.value /= *share;
   found.error_estimate /= *share;
   if (*share != 1.0) found.how += fmt::format("; pillars bear {:.4g} times as much", *share);
   return found;
 }
 
-RequiredValue required_force(const Scene& scene, const Requirements& requirements) {
+RequiredValue required_force(const Scene& scene, const Requirements& requirements,
+                             const SceneSolver& solve) {
   if (std::isnan(requirements.tactel_area_m2)) return unanswered("needs require.tactel_area");
   if (single_body(scene) && !cell_area_m2(scene)) return unanswered(kNoLattice);
-  RequiredValue found = required_pressure(scene, requirements);
+  RequiredValue found = required_pressure(scene, requirements, solve);
   found.value *= requirements.tactel_area_m2;
   found.error_estimate *= requirements.tactel_area_m2;
   return found;
 }
 
-RequiredValue required_bandwidth(const Scene& scene, const Requirements& requirements) {
+RequiredValue required_bandwidth(const Scene& scene, const Requirements& requirements,
+                                 const SceneSolver& solve) {
   auto one = single_body(scene);
   if (!one) return unanswered("the vibration of a layer is not computed");
   one->drive = ModalDrive{.modes = 1};
-  const SceneAnswer answer = simulate(*one);
+  const SceneAnswer answer = solve(*one);
   const SceneMode* lowest = nullptr;
   for (const SceneMode& mode : answer.modes) {
     if (lowest == nullptr || mode.frequency_Hz < lowest->frequency_Hz) lowest = &mode;
@@ -130,7 +134,8 @@ RequiredValue required_bandwidth(const Scene& scene, const Requirements& require
                               lowest->frequency_Hz));
 }
 
-RequiredValue required_hysteresis(const Scene& scene, const Requirements& requirements) {
+RequiredValue required_hysteresis(const Scene& scene, const Requirements& requirements,
+                                  const SceneSolver& solve) {
   auto one = single_body(scene);
   if (!one) return unanswered("the hysteresis of a layer is not computed");
   if (!relaxes(*one)) {
@@ -152,7 +157,7 @@ RequiredValue required_hysteresis(const Scene& scene, const Requirements& requir
   }
   if (drive.frequencies_Hz.empty()) drive.frequencies_Hz = {to_Hz};
   one->drive = drive;
-  const SceneAnswer answer = simulate(*one);
+  const SceneAnswer answer = solve(*one);
   const SceneCurve& real = curve_named(answer, "top_displacement_real");
   const SceneCurve& imaginary = curve_named(answer, "top_displacement_imaginary");
   double largest = 0.0, error = 0.0, at_Hz = 0.0;
@@ -175,14 +180,15 @@ RequiredValue required_hysteresis(const Scene& scene, const Requirements& requir
   return answered(std::numbers::pi * largest, std::numbers::pi * error, how);
 }
 
-RequiredValue required_nonlinearity(const Scene& scene, const Requirements& requirements) {
+RequiredValue required_nonlinearity(const Scene& scene, const Requirements& requirements,
+                                    const SceneSolver& solve) {
   if (std::isnan(requirements.linear_to_Pa)) return unanswered("needs require.linear_to");
   auto one = single_body(scene);
   if (!one) return unanswered("a layer's large strains are not computed");
   const auto share = pressure_share(scene);
   if (!share) return unanswered(kNoLattice);
   one->drive = StaticDrive{.pressure_Pa = 1.0};
-  const SceneResult found = named(simulate(*one), "top_displacement");
+  const SceneResult found = named(solve(*one), "top_displacement");
   const double top_Pa = *share * requirements.linear_to_Pa;
   const double strain = std::abs(found.value) * top_Pa / one->geometry.length_m;
   const double own_error = found.error_estimate * top_Pa / one->geometry.length_m;
@@ -194,7 +200,8 @@ RequiredValue required_nonlinearity(const Scene& scene, const Requirements& requ
                   fmt::format("1 to 2.3 times the strain of {:.3g} %", 100.0 * strain));
 }
 
-RequiredValue required_collapse_margin(const Scene& scene, const Requirements&) {
+RequiredValue required_collapse_margin(const Scene& scene, const Requirements&,
+                                       const SceneSolver&) {
   const auto one = single_body(scene);
   if (!one) return unanswered(kNoPillars);
   SensorMaterial material;

@@ -1,7 +1,6 @@
 #include "io/flow/design/required_values.h"
 #include "io/flow/design/single_bodies.h"
 #include "models/pillar/time/readout.h"
-#include "models/scene/simulate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,13 +84,13 @@ constexpr const char* kOne = "one pillar has no neighbours";
 constexpr const char* kLayer = "a layer has no pillars";
 constexpr const char* kSilent = "the film has no electrode or is not piezoelectric";
 
-RequiredValue crosstalk_of(const ArrayScene& given) {
+RequiredValue crosstalk_of(const ArrayScene& given, const SceneSolver& solve) {
   if (given.geometry.count < 2) return no_reading(kOne);
   if (!is_electric(given)) return no_reading(kSilent);
   ArrayScene row = pressed(given, middle_of(given));
   row.wanted = {"crosstalk_percent"};
   RequiredValue out{.how = "mean over electrodes, one pillar loaded"};
-  for (const SceneResult& one : simulate(row).results) {
+  for (const SceneResult& one : solve(row).results) {
     if (!one.name.starts_with("crosstalk_percent_")) continue;
     if (out.is_answered && std::abs(one.value) <= 100.0 * out.value) continue;
     out.is_answered = true;
@@ -101,13 +100,13 @@ RequiredValue crosstalk_of(const ArrayScene& given) {
   return out.is_answered ? out : no_reading("the row gives no cross-talk");
 }
 
-RequiredValue crosstalk_of(const SpaceScene& given) {
+RequiredValue crosstalk_of(const SpaceScene& given, const SceneSolver& solve) {
   const auto middle = middle_pillar(given);
   if (given.pillars.size() < 2 || !middle) return no_reading(kOne);
   SpaceScene array = pressed(given, middle);
   array.wanted = {"crosstalk_percent"};
   RequiredValue out{.how = "mean over electrodes, one pillar loaded"};
-  for (const SceneMap& map : simulate(array).maps) {
+  for (const SceneMap& map : solve(array).maps) {
     if (map.name != "crosstalk_percent") continue;
     for (std::size_t i = 0; i < map.value.size(); ++i) {
       if (out.is_answered && std::abs(map.value[i]) <= 100.0 * out.value) continue;
@@ -119,31 +118,31 @@ RequiredValue crosstalk_of(const SpaceScene& given) {
   return out.is_answered ? out : no_reading("the array gives no cross-talk");
 }
 
-RequiredValue crosstalk_of(const PillarScene&) {
+RequiredValue crosstalk_of(const PillarScene&, const SceneSolver&) {
   return no_reading(kOne);
 }
-RequiredValue crosstalk_of(const LayerScene&) {
+RequiredValue crosstalk_of(const LayerScene&, const SceneSolver&) {
   return no_reading(kLayer);
 }
 
-RequiredValue all_of(const ArrayScene& given) {
+RequiredValue all_of(const ArrayScene& given, const SceneSolver& solve) {
   if (given.geometry.count < 2 && given.geometry.ends != FilmEnds::kMirror) return no_reading(kOne);
   if (!is_electric(given)) return no_reading(kSilent);
   ArrayScene row = pressed(given, std::nullopt);
   const std::string name = "neighbours_percent_" + std::to_string(middle_of(row));
   row.wanted = {"neighbours_percent"};
-  const auto found = result_in(simulate(row), name);
+  const auto found = result_in(solve(row), name);
   if (!found) return no_reading("the row gives no " + name);
   return {true, 0.01 * std::abs(found->value), 0.01 * found->error,
           "all pillars loaded, at the middle"};
 }
 
-RequiredValue all_of(const SpaceScene& given) {
+RequiredValue all_of(const SpaceScene& given, const SceneSolver& solve) {
   const auto middle = middle_pillar(given);
   if (given.pillars.size() < 2 || !middle) return no_reading(kOne);
   const SpaceScene all = pressed(given, std::nullopt), one = pressed(given, middle);
-  const auto of_all = at_pillar(simulate(all), disc_voltage(all), *middle);
-  const auto of_one = at_pillar(simulate(one), disc_voltage(one), *middle);
+  const auto of_all = at_pillar(solve(all), disc_voltage(all), *middle);
+  const auto of_one = at_pillar(solve(one), disc_voltage(one), *middle);
   if (!of_all || !of_one || of_one->value == 0.0) return no_reading(kSilent);
   const double ratio = of_all->value / of_one->value;
   return {true, std::abs(ratio - 1.0),
@@ -151,15 +150,15 @@ RequiredValue all_of(const SpaceScene& given) {
           "all pillars loaded, at the middle"};
 }
 
-RequiredValue all_of(const PillarScene&) {
+RequiredValue all_of(const PillarScene&, const SceneSolver&) {
   return no_reading(kOne);
 }
-RequiredValue all_of(const LayerScene&) {
+RequiredValue all_of(const LayerScene&, const SceneSolver&) {
   return no_reading(kLayer);
 }
 
 // Volts per pascal on the tops of all pillars.
-std::optional<Reading> volts_of(const PillarScene& given) {
+std::optional<Reading> volts_of(const PillarScene& given, const SceneSolver& solve) {
   if (!given.electrodes || given.electrodes->quadrants) return std::nullopt;
   PillarScene one = given;
   one.drive = StaticDrive{.pressure_Pa = kUnit_Pa};
@@ -168,43 +167,44 @@ std::optional<Reading> volts_of(const PillarScene& given) {
   const char* const name =
       given.electrodes->electrode_radius_m > 0.0 ? "electrode_voltage" : "potential_mean";
   one.wanted = {name};
-  return result_in(simulate(one), name);
+  return result_in(solve(one), name);
 }
 
-std::optional<Reading> volts_of(const ArrayScene& given) {
+std::optional<Reading> volts_of(const ArrayScene& given, const SceneSolver& solve) {
   if (!is_electric(given)) return std::nullopt;
   ArrayScene row = pressed(given, std::nullopt);
   const std::string stem = row.electrodes.is_equipotential ? "electrode_voltage" : "mean_voltage";
   row.wanted = {stem};
-  return result_in(simulate(row), stem + "_" + std::to_string(middle_of(row)));
+  return result_in(solve(row), stem + "_" + std::to_string(middle_of(row)));
 }
 
-std::optional<Reading> volts_of(const SpaceScene& given) {
+std::optional<Reading> volts_of(const SpaceScene& given, const SceneSolver& solve) {
   const SpaceScene array = pressed(given, std::nullopt);
   const auto middle = middle_pillar(array);
   if (!middle) return std::nullopt;
-  return at_pillar(simulate(array), disc_voltage(array), *middle);
+  return at_pillar(solve(array), disc_voltage(array), *middle);
 }
 
-std::optional<Reading> volts_of(const LayerScene&) {
+std::optional<Reading> volts_of(const LayerScene&, const SceneSolver&) {
   return std::nullopt;
 }
 
 // The array in the plane with the results of [heat] or [noise] that are named.
-SceneAnswer sensing_answer(const SpaceScene& given, const std::vector<std::string>& wanted) {
+SceneAnswer sensing_answer(const SpaceScene& given, const std::vector<std::string>& wanted,
+                           const SceneSolver& solve) {
   SpaceScene array = pressed(given, middle_pillar(given));
   array.wanted.insert(array.wanted.end(), wanted.begin(), wanted.end());
-  return simulate(array);
+  return solve(array);
 }
 
 constexpr const char* kNoNoise =
     "needs an array in the plane (model = \"space\") with equipotential electrodes, [noise] and "
     "[readout]";
 
-RequiredValue noise_result(const Scene& scene, const char* name) {
+RequiredValue noise_result(const Scene& scene, const char* name, const SceneSolver& solve) {
   const auto* array = std::get_if<SpaceScene>(&scene);
   if (array == nullptr || !array->noise) return no_reading(kNoNoise);
-  const auto found = result_in(sensing_answer(*array, {name}), name);
+  const auto found = result_in(sensing_answer(*array, {name}, solve), name);
   if (!found) return no_reading(kNoNoise);
   return {true, found->value, found->error, "noise of the electrode and its amplifier"};
 }
@@ -217,49 +217,56 @@ RequiredValue cut_off(double time_constant_s, double error_s) {
 
 }  // namespace
 
-RequiredValue required_crosstalk(const Scene& scene, const Requirements&) {
-  return std::visit([](const auto& body) { return crosstalk_of(body); }, scene);
+RequiredValue required_crosstalk(const Scene& scene, const Requirements&,
+                                 const SceneSolver& solve) {
+  return std::visit([&](const auto& body) { return crosstalk_of(body, solve); }, scene);
 }
 
-RequiredValue required_crosstalk_all(const Scene& scene, const Requirements&) {
-  return std::visit([](const auto& body) { return all_of(body); }, scene);
+RequiredValue required_crosstalk_all(const Scene& scene, const Requirements&,
+                                     const SceneSolver& solve) {
+  return std::visit([&](const auto& body) { return all_of(body, solve); }, scene);
 }
 
-RequiredValue required_voltage_per_pressure(const Scene& scene, const Requirements&) {
+RequiredValue required_voltage_per_pressure(const Scene& scene, const Requirements&,
+                                            const SceneSolver& solve) {
   if (std::holds_alternative<LayerScene>(scene)) {
     return no_reading("an even pressure on a layer without end is not computed");
   }
   const auto share = pressure_share(scene);
   if (!share) return no_reading("needs the area of one pillar: a full square or hexagonal lattice");
-  const auto volts = std::visit([](const auto& body) { return volts_of(body); }, scene);
+  const auto volts = std::visit([&](const auto& body) { return volts_of(body, solve); }, scene);
   if (!volts) return no_reading(kSilent);
   return {true, *share * std::abs(volts->value) / kUnit_Pa, *share * volts->error / kUnit_Pa,
           "all pillars loaded, open circuit"};
 }
 
-RequiredValue required_pressure_resolution(const Scene& scene, const Requirements&) {
-  return noise_result(scene, "resolution_pressure");
+RequiredValue required_pressure_resolution(const Scene& scene, const Requirements&,
+                                           const SceneSolver& solve) {
+  return noise_result(scene, "resolution_pressure", solve);
 }
 
-RequiredValue required_force_resolution(const Scene& scene, const Requirements&) {
-  return noise_result(scene, "resolution_force");
+RequiredValue required_force_resolution(const Scene& scene, const Requirements&,
+                                        const SceneSolver& solve) {
+  return noise_result(scene, "resolution_force", solve);
 }
 
-RequiredValue required_pressure_per_kelvin(const Scene& scene, const Requirements&) {
+RequiredValue required_pressure_per_kelvin(const Scene& scene, const Requirements&,
+                                           const SceneSolver& solve) {
   const auto* array = std::get_if<SpaceScene>(&scene);
   if (array == nullptr || !array->heat) {
     return no_reading("needs an array in the plane (model = \"space\") with [heat]");
   }
   const bool has_electrodes = array->electrode == SpaceElectrode::kEquipotential;
   const std::string name = has_electrodes ? "heat_electrode_pressure" : "heat_mean_pressure";
-  const auto found = result_in(sensing_answer(*array, {name}), name);
+  const auto found = result_in(sensing_answer(*array, {name}, solve), name);
   if (!found) return no_reading("the scene gives no " + name);
   const double T_K = std::abs(array->heat->temperature_K);
   return {true, std::abs(found->value) / T_K, found->error / T_K,
           "tops warmer than the base, at rest"};
 }
 
-RequiredValue required_lowest_frequency(const Scene& scene, const Requirements&) {
+RequiredValue required_lowest_frequency(const Scene& scene, const Requirements&,
+                                        const SceneSolver& solve) {
   if (const auto* given = std::get_if<PillarScene>(&scene)) {
     if (!given->readout || !given->electrodes)
       return no_reading("needs an electrode and [readout]");
@@ -267,7 +274,7 @@ RequiredValue required_lowest_frequency(const Scene& scene, const Requirements&)
     one.drive = StaticDrive{.pressure_Pa = kUnit_Pa};
     one.effects.clear();
     one.wanted = {"readout_time_constant"};
-    const auto found = result_in(simulate(one), "readout_time_constant");
+    const auto found = result_in(solve(one), "readout_time_constant");
     if (!found) return {true, 0.0, 0.0, "nothing leaks: the readout states no resistance"};
     return cut_off(found->value, found->error);
   }
@@ -277,7 +284,7 @@ RequiredValue required_lowest_frequency(const Scene& scene, const Requirements&)
         "needs an electrode and [readout] (one pillar), or an array in the plane with [noise]");
   }
   const auto found =
-      result_in(sensing_answer(*array, {"electrode_capacitance"}), "electrode_capacitance");
+      result_in(sensing_answer(*array, {"electrode_capacitance"}, solve), "electrode_capacitance");
   if (!found || !(found->value > 0.0)) return no_reading(kNoNoise);
   const ReadoutFilter filter = readout_filter(*array->noise_readout, found->value);
   if (std::isinf(filter.time_constant_s)) return {true, 0.0, 0.0, "nothing leaks"};

@@ -2,6 +2,7 @@
 
 #include "io/config/config_fields.h"
 #include "io/flow/design/requirements.h"
+#include "io/flow/design/scene_solver.h"
 #include "models/scene/scene.h"
 
 #include <filesystem>
@@ -17,8 +18,9 @@ struct RequirementKind {
   bool is_upper;     // the quantity must be at most the limit; false: at least
   const char* what;  // the quantity in words
   double Requirements::*limit;
-  // Solves what the quantity needs. Throws what simulate() throws.
-  RequiredValue (*compute)(const Scene& scene, const Requirements& requirements);
+  // Solves what the quantity needs. Throws what `solve` throws.
+  RequiredValue (*compute)(const Scene& scene, const Requirements& requirements,
+                           const SceneSolver& solve);
 };
 // All kinds, in the order in which they are judged.
 const std::vector<RequirementKind>& requirement_kinds();

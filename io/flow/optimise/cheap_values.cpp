@@ -45,7 +45,7 @@ double cheap_value(const RequirementKind& kind, const Scene& scene,
   const std::string key = kind.key;
   if (key == "pillars_per_tactel" || key == "resolved_wavelength" || key == "collapse_margin") {
     if (std::holds_alternative<LayerScene>(scene)) return 1.0;
-    return kind.compute(scene, requirements).value;
+    return kind.compute(scene, requirements, simulate).value;
   }
   const auto one = single_body(scene);
   const auto share = pressure_share(scene);

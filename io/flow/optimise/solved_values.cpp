@@ -2,11 +2,13 @@
 
 #include "io/basics/parallel.h"
 #include "io/flow/design/judge_scene.h"
+#include "io/flow/optimise/nearby_answers.h"
 #include "io/flow/scenes/uncertain_scene.h"
 #include "models/uncertainty/linear_propagation.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -25,11 +27,12 @@ SolvedValues::SolvedValues(const DesignSpec& spec, const DesignSpace& space)
   }
 }
 
-SolvedPoint SolvedValues::solve(const Scene& scene) const {
+SolvedPoint SolvedValues::solve(const Scene& scene, const SceneSolver& solver,
+                                bool is_nearby) const {
   SolvedPoint point;
   for (const RequirementKind* kind : kinds_) {
-    const RequiredValue found = computed(*kind, scene, spec_.requirements);
-    ++n_solved_;
+    const RequiredValue found = computed(*kind, scene, spec_.requirements, solver);
+    if (!is_nearby) ++n_solved_;
     if (!found.is_answered) {
       point.why_not = std::string(kind->key) + " is not answered: " + found.how;
       return point;
@@ -72,22 +75,37 @@ std::vector<double> SolvedValues::spread_at(const DesignPoint& point) const {
   const std::string text = space_.text_at(point, kSpreadDigits);
   const UncertainScene scene(scene_from_toml(text, spec_.scene_path), text, spec_.scene_path);
   const auto n = static_cast<Eigen::Index>(kinds_.size());
-  const BatchFunction logs = [&](const Eigen::MatrixXd& deviates) {
-    Eigen::MatrixXd out =
-        Eigen::MatrixXd::Constant(deviates.rows(), n, std::numeric_limits<double>::quiet_NaN());
-    for_each_in_parallel(static_cast<std::size_t>(deviates.rows()), [&](std::size_t i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      try {
-        const SolvedPoint found = solve(scene.scene_at(deviates.row(row).transpose()));
-        for (Eigen::Index k = 0; found.exists && k < n; ++k) {
-          out(row, k) = found.log_value[static_cast<std::size_t>(k)];
+  const auto logs_by = [&](const std::function<SceneSolver()>& solver,
+                           bool is_nearby) -> BatchFunction {
+    return [&, solver, is_nearby](const Eigen::MatrixXd& deviates) {
+      Eigen::MatrixXd out =
+          Eigen::MatrixXd::Constant(deviates.rows(), n, std::numeric_limits<double>::quiet_NaN());
+      for_each_in_parallel(static_cast<std::size_t>(deviates.rows()), [&](std::size_t i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        try {
+          const SolvedPoint found =
+              solve(scene.scene_at(deviates.row(row).transpose()), solver(), is_nearby);
+          for (Eigen::Index k = 0; found.exists && k < n; ++k) {
+            out(row, k) = found.log_value[static_cast<std::size_t>(k)];
+          }
+        } catch (const std::runtime_error&) {  // a point without an answer
         }
-      } catch (const std::runtime_error&) {  // a point without an answer
-      }
-    });
-    return out;
+      });
+      return out;
+    };
   };
-  const LinearAnswer linear = linear_answer(logs, scene.inputs(), kSlopes);
+  NearbyAnswers near;
+  Eigen::VectorXd value_errors;
+  const Eigen::VectorXd at_values = Eigen::VectorXd::Zero(count_deviates(scene.inputs()));
+  const SolvedPoint nominal = solve(scene.scene_at(at_values), near.keep());
+  if (nominal.exists) {
+    constexpr double kOfBasis = 0.01;  // of the error of a value, as in scene_uncertainty()
+    value_errors = kOfBasis * Eigen::Map<const Eigen::VectorXd>(nominal.relative_error.data(), n);
+  }
+  BatchFunction first_order;
+  if (nominal.exists && near.has_any()) first_order = logs_by([&] { return near.nearby(); }, true);
+  const LinearAnswer linear = linear_slopes(logs_by([] { return SceneSolver(simulate); }, false),
+                                            scene.inputs(), kSlopes, first_order, value_errors);
   const Eigen::VectorXd deviation = standard_uncertainty(linear);
   std::vector<double> spread;
   for (Eigen::Index k = 0; k < n; ++k) {

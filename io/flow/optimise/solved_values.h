@@ -30,10 +30,13 @@ class SolvedValues {
   // Standard uncertainty of each log_value under the uncertainties of the scene, to first order with the
   // errors of its derivatives. Throws std::runtime_error if nothing is uncertain.
   std::vector<double> spread_at(const DesignPoint& point) const;
+  // Quantities that were solved, without those to first order.
   std::size_t n_solved() const { return n_solved_; }
 
  private:
-  SolvedPoint solve(const Scene& scene) const;
+  // `solver` answers to first order if `is_nearby`.
+  SolvedPoint solve(const Scene& scene, const SceneSolver& solver = simulate,
+                    bool is_nearby = false) const;
 
   const DesignSpec& spec_;
   const DesignSpace& space_;

@@ -10,9 +10,7 @@
 #include <stdexcept>
 
 namespace viscard {
-namespace {
 
-// Effects that the plan has chosen for the scene with its nominal values.
 EffectChoices chosen_effects(const Scene& scene) {
   EffectChoices choices = common(scene).effects;
   for (const SceneEffect& effect : plan_effects(scene).effects) {
@@ -20,6 +18,8 @@ EffectChoices chosen_effects(const Scene& scene) {
   }
   return choices;
 }
+
+namespace {
 
 std::string description_of(const MaterialCause& cause, const Material& material) {
   if (cause.name.rfind(kSystematicPart, 0) != 0) {

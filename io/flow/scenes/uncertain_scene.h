@@ -10,6 +10,9 @@
 
 namespace viscard {
 
+// Effects that the plan has chosen for a scene.
+EffectChoices chosen_effects(const Scene& scene);
+
 // The uncertain inputs of a scene: its uncertain quantities, and the uncertainty that the file of
 // its pillars' material states. Each input is one cause; causes are independent of each other.
 class UncertainScene {

@@ -3,10 +3,13 @@
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/modal_mesh.h"
 #include "models/pillar/analyses/pressed_modes.h"
+#include "models/pillar/body/stress_energy.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -53,6 +56,18 @@ std::vector<DampedShape> damped_shapes(const PillarScene& scene, const PillarMod
   return shapes;
 }
 
+// Adds the work of a stress to the squares of the frequencies; the shapes have unit mass norm.
+void add_stress(const PillarModel& axial, const PillarModel& model, double pressure_Pa,
+                std::vector<PillarMode>& modes) {
+  const StressEnergy stress(axial);
+  for (PillarMode& mode : modes) {
+    const double omega_1_s = 2.0 * std::numbers::pi * mode.frequency_Hz;
+    const double square_1_s2 =
+        omega_1_s * omega_1_s + pressure_Pa * stress.per_Pa(model, mode.shape);
+    mode.frequency_Hz = std::sqrt(std::max(square_1_s2, 0.0)) / (2.0 * std::numbers::pi);
+  }
+}
+
 }  // namespace
 
 std::vector<ModeFamily> mode_families(const PillarScene& scene) {
@@ -70,10 +85,9 @@ std::vector<PillarMode> family_modes(const PillarScene& scene, const PillarModel
                                      const PillarModel* axial) {
   const int wanted = modes_of_family(scene, model);
   if (const NearbyPillar* nearby = nearby_of(scene, model.options().motion, false)) {
-    if (axial == nullptr) return modes_nearby(model, nearby->modes(), wanted);
-    SymmetricSparse stress = stress_stiffness_per_Pa(*axial, model);
-    stress.coeffs() *= drive_of_modes(scene).pressure_Pa;
-    return modes_nearby(model, nearby->modes(), wanted, &stress);
+    std::vector<PillarMode> modes = modes_nearby(model, nearby->modes(), wanted);
+    if (axial != nullptr) add_stress(*axial, model, drive_of_modes(scene).pressure_Pa, modes);
+    return modes;
   }
   return axial != nullptr
              ? modes_under_pressure(*axial, model, drive_of_modes(scene).pressure_Pa, wanted)

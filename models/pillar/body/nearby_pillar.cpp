@@ -1,5 +1,7 @@
 #include "models/pillar/body/nearby_pillar.h"
 
+#include "models/pillar/body/stress_energy.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -30,14 +32,12 @@ void NearbyPillar::find_buckling(const PillarModel& axial) {
 }
 
 std::vector<PillarMode> modes_nearby(const PillarModel& model, std::vector<PillarMode> modes,
-                                     int count, const SymmetricSparse* stress) {
+                                     int count) {
   if (static_cast<int>(modes.size()) != count) throw NotNearby("there are other modes");
   for (PillarMode& mode : modes) {
     const Eigen::VectorXd& x = mode.shape;
     const double mass = x.dot(model.mass_times(x));
-    double energy = x.dot(model.stiffness_times(x, x));
-    if (stress != nullptr) energy += x.dot(times(*stress, x));
-    const double omega_1_s = std::sqrt(energy / mass);
+    const double omega_1_s = std::sqrt(x.dot(model.stiffness_times(x, x)) / mass);
     mode.frequency_Hz = omega_1_s / (2.0 * std::numbers::pi);
     mode.shape /= std::sqrt(mass);
   }
@@ -46,8 +46,8 @@ std::vector<PillarMode> modes_nearby(const PillarModel& model, std::vector<Pilla
 
 double buckling_pressure_nearby_Pa(const PillarModel& axial, const PillarModel& lateral,
                                    const Eigen::VectorXd& shape) {
-  const double softened = shape.dot(times(stress_stiffness_per_Pa(axial, lateral), shape));
-  return -shape.dot(lateral.stiffness_times(shape, shape)) / softened;
+  const double stiffened = StressEnergy(axial).per_Pa(lateral, shape);
+  return -shape.dot(lateral.stiffness_times(shape, shape)) / stiffened;
 }
 
 }  // namespace viscard

@@ -48,7 +48,9 @@ class NearbyPillar {
   void find_modes(int count, const SymmetricSparse& stress);
   // Finds the shape in which this lateral model buckles under the stress of the axial one.
   void find_buckling(const PillarModel& axial);
+  // Keeps the modes of a material that relaxes, which the caller has found.
   void keep_damped(std::vector<DampedShape> shapes) { damped_ = std::move(shapes); }
+  // Keeps a basis for motions in time or over frequency, likewise.
   void keep_reduced(ReducedMotion reduced) { reduced_ = std::move(reduced); }
 
   NearbyRole role() const { return role_; }
@@ -73,10 +75,9 @@ class NearbyPillar {
 using NearbyPillars = std::vector<std::unique_ptr<NearbyPillar>>;
 
 // The modes of a model near one with these: f^2 = (x K x)/(x M x)/(2 pi)^2 with their shapes x, exact to
-// first order; with the stiffness of a stress in K, if one is given. Source: Parlett, The Symmetric
-// Eigenvalue Problem (1998), ch. 1 and 4.
+// first order. Source: Parlett, The Symmetric Eigenvalue Problem (1998), ch. 1 and 4.
 std::vector<PillarMode> modes_nearby(const PillarModel& model, std::vector<PillarMode> modes,
-                                     int count, const SymmetricSparse* stress = nullptr);
+                                     int count);
 
 // The pressure at which a lateral model near one that buckles in this shape buckles under the stress of
 // the axial model, -(x K x)/(x K_sigma x) (eq. 21), likewise.

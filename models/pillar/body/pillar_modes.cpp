@@ -2,6 +2,7 @@
 
 #include "models/maths/dense.h"
 #include "models/pillar/body/pillar_model.h"
+#include "models/pillar/body/stress_energy.h"
 #include "models/pillar/system/krylov_modes.h"
 
 #include <algorithm>
@@ -30,12 +31,7 @@ SymmetricSparse stress_stiffness_of(const PillarModel& axial, const PillarState&
                                     const PillarModel& model,
                                     const std::function<bool(const SectionElement&)>& counts) {
   const auto form = [&](const SectionElement& element, double x, double z) {
-    const Eigen::VectorXd s = axial.stress_at(state, element, x, z);
-    Eigen::Matrix3d stress;
-    stress << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
-    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(9, 9);
-    for (Eigen::Index k = 0; k < 3; ++k) D.block<3, 3>(3 * k, 3 * k) = stress;
-    return D;
+    return gradient_form(axial.stress_at(state, element, x, z));
   };
   return model.system().varying_form(model.system().kinematics().gradient, form, counts);
 }

@@ -1,7 +1,9 @@
 // Outputs of a film's potentials, whose dual solutions a basis is to hold.
 #include "models/pillar/time/model_reduction.h"
+#include "models/pillar/time/reduced_span.h"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -49,6 +51,21 @@ VectorXd potentials_at_rest(const ViscoelasticSystem& system, const VectorXd& ou
   return charged;
 }
 
+// A matrix times many vectors, which reads each of its entries once.
+Eigen::MatrixXd times_all(const SymmetricSparse& lower, const Eigen::MatrixXd& vectors) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Rows x = vectors;
+  Rows y = Rows::Zero(x.rows(), x.cols());
+  for (int column = 0; column < lower.outerSize(); ++column) {
+    for (SymmetricSparse::InnerIterator entry(lower, column); entry; ++entry) {
+      if (entry.value() == 0.0) continue;  // the pillar's matrices have the film's pattern too
+      y.row(entry.row()) += entry.value() * x.row(column);
+      if (entry.row() != column) y.row(column) += entry.value() * x.row(entry.row());
+    }
+  }
+  return y;
+}
+
 }  // namespace
 
 VectorXd output_of_motion(const ViscoelasticSystem& system, const VectorXd& output) {
@@ -72,6 +89,24 @@ Eigen::MatrixXd nearby_basis(const ViscoelasticSystem& system, const Eigen::Matr
     basis.col(basis.cols() - 1) = charged / std::sqrt(energy);
   }
   return basis;
+}
+
+ReducedBody restricted_to(const ViscoelasticSystem& system, Eigen::MatrixXd basis) {
+  const auto small = [&basis](const SymmetricSparse& matrix) {
+    return full_lower(basis.transpose() * times_all(matrix, basis));
+  };
+  ReducedBody result;
+  result.system.terms = system.terms;
+  result.system.elastic = small(system.elastic);
+  result.system.shear = small(system.shear);
+  // An incompressible body's volume does not change.
+  result.system.bulk = system.incompressible
+                           ? full_lower(Eigen::MatrixXd::Zero(basis.cols(), basis.cols()))
+                           : small(system.bulk);
+  if (system.mass.size() > 0) result.system.mass = small(system.mass);
+  if (system.load.size() > 0) result.system.load = basis.transpose() * system.load;
+  result.basis = std::move(basis);
+  return result;
 }
 
 }  // namespace viscard

@@ -2,21 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace viscard {
 namespace {
-
-SymmetricSparse full_lower(const Eigen::MatrixXd& matrix) {
-  SymmetricSparse sparse(matrix.rows(), matrix.cols());
-  sparse.reserve(
-      Eigen::VectorXi::Constant(static_cast<int>(matrix.cols()), static_cast<int>(matrix.rows())));
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    for (Eigen::Index i = j; i < matrix.rows(); ++i) sparse.insert(i, j) = matrix(i, j);
-  }
-  sparse.makeCompressed();
-  return sparse;
-}
 
 void add_column(Eigen::MatrixXd& matrix, const Eigen::VectorXd& column) {
   matrix.conservativeResize(Eigen::NoChange, matrix.cols() + 1);
@@ -34,6 +22,17 @@ void border(Eigen::MatrixXd& small, const Eigen::MatrixXd& basis, const Eigen::M
 }
 
 }  // namespace
+
+SymmetricSparse full_lower(const Eigen::MatrixXd& matrix) {
+  SymmetricSparse sparse(matrix.rows(), matrix.cols());
+  sparse.reserve(
+      Eigen::VectorXi::Constant(static_cast<int>(matrix.cols()), static_cast<int>(matrix.rows())));
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    for (Eigen::Index i = j; i < matrix.rows(); ++i) sparse.insert(i, j) = matrix(i, j);
+  }
+  sparse.makeCompressed();
+  return sparse;
+}
 
 ReducedSpan::ReducedSpan(const ViscoelasticSystem& body)
     : body_(body), shift_1_s2_(body.rigid.cols() > 0 ? body.free_shift_1_s2 : 0.0) {
@@ -87,19 +86,24 @@ bool ReducedSpan::add(Eigen::VectorXd v) {
   const double before = energy_norm(v);
   // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9).
   for (int pass = 0; pass < 2; ++pass) v -= projected(v);
-  const double after = energy_norm(v);
-  if (!(after > 1e-9 * before) || !std::isfinite(after)) return false;
-  v /= after;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(v.size());
   // An incompressible body's volume does not change.
-  const Images images{times(body_.elastic, v), times(body_.shear, v),
-                      body_.incompressible ? none : times(body_.bulk, v),
-                      has_mass() ? times(body_.mass, v) : none};
+  Images images{times(body_.elastic, v), times(body_.shear, v),
+                body_.incompressible ? none : times(body_.bulk, v),
+                has_mass() ? times(body_.mass, v) : none};
+  Eigen::VectorXd force = images.elastic + images.shear + images.bulk;
+  if (shift_1_s2_ > 0.0) force += shift_1_s2_ * images.mass;
+  const double after = std::sqrt(std::max(v.dot(force), 0.0));
+  if (!(after > 1e-9 * before) || !std::isfinite(after)) return false;
+  v /= after;
+  force /= after;
+  for (Eigen::VectorXd* image : {&images.elastic, &images.shear, &images.bulk, &images.mass}) {
+    *image /= after;
+  }
   // Rounding is orthogonal to the basis from one side only: what it adds has no energy of its own.
   constexpr double kMostOverlap = 1e-3;
   if (count() > 0) {
-    const Eigen::VectorXd overlap = basis_.transpose() * (images.elastic + images.shear +
-                                                          images.bulk + shift_1_s2_ * images.mass);
+    const Eigen::VectorXd overlap = basis_.transpose() * force;
     if (!(overlap.cwiseAbs().maxCoeff() < kMostOverlap)) return false;
   }
   append(v, images);
@@ -159,26 +163,6 @@ ReducedBody ReducedSpan::reduced() const {
   if (has_mass()) result.system.mass = full_lower(small_mass_);
   if (body_.load.size() > 0) result.system.load = basis_.transpose() * body_.load;
   result.system.rigid = Eigen::MatrixXd::Identity(count(), rigid_count());
-  return result;
-}
-
-ReducedBody restricted_to(const ViscoelasticSystem& system, Eigen::MatrixXd basis) {
-  const auto small = [&basis](const SymmetricSparse& matrix) {
-    Eigen::MatrixXd image(basis.rows(), basis.cols());
-    for (Eigen::Index i = 0; i < basis.cols(); ++i) image.col(i) = times(matrix, basis.col(i));
-    return full_lower(basis.transpose() * image);
-  };
-  ReducedBody result;
-  result.system.terms = system.terms;
-  result.system.elastic = small(system.elastic);
-  result.system.shear = small(system.shear);
-  // An incompressible body's volume does not change.
-  result.system.bulk = system.incompressible
-                           ? full_lower(Eigen::MatrixXd::Zero(basis.cols(), basis.cols()))
-                           : small(system.bulk);
-  if (system.mass.size() > 0) result.system.mass = small(system.mass);
-  if (system.load.size() > 0) result.system.load = basis.transpose() * system.load;
-  result.basis = std::move(basis);
   return result;
 }
 

@@ -9,6 +9,9 @@
 
 namespace viscard {
 
+// The lower triangle of a full symmetric matrix, with its zeros.
+SymmetricSparse full_lower(const Eigen::MatrixXd& matrix);
+
 // The growing span of a ReducedBody, with the product of every matrix of the body and the basis. Vectors
 // are orthonormal in the energy of the instantaneous stiffness. The rigid motions of a body that nothing
 // holds come first; its energy has a multiple of the mass added, so that all other vectors move no mass

@@ -97,17 +97,6 @@ TEST_CASE("a quantity with +- is read in SI with its distribution", "[io][scenes
   }
 }
 
-TEST_CASE("an unknown distribution is refused with those that are allowed",
-          "[io][scenes][uncertainty]") {
-  const SceneText text(replaced(kModes, "1.8 MPa +- 2 %", "1.8 MPa +- 2 % gaussian"));
-  CHECK_THROWS_WITH(read_scene(text.path()),
-                    Catch::Contains("materials.pillar.E") &&
-                        Catch::Contains("\"gaussian\" is no distribution") &&
-                        Catch::Contains("normal (the default), lognormal and uniform"));
-  // A unit of another kind is no distribution.
-  CHECK_THROWS_WITH(uncertain_from_text("40 um +- 1 kg", "m"), !Catch::Contains("distribution"));
-}
-
 TEST_CASE("a scene with +- is answered at its values, and a tolerance has no uncertainty",
           "[io][scenes][uncertainty]") {
   const SceneText scene(kModes);
@@ -271,36 +260,6 @@ TEST_CASE("a scene without anything uncertain, or with a sweep, is refused",
   const CommandOutcome alone = run_command({"simulate", exact.path(), "--samples", "1000"});
   CHECK(alone.status == 2);
   CHECK_THAT(alone.err, Catch::Contains("--uncertainty"));
-}
-
-TEST_CASE("samples beyond buckling widen an interval, and too many of them leave none",
-          "[io][scenes][uncertainty]") {
-  // The pillar buckles at 29.5 kPa.
-  const std::string near =
-      replaced(replaced(kPressed, "PILLAR", "{ E = \"1.8 MPa\", nu = 0.4 }"), "1e-3", "3e-2");
-  const SceneText few(replaced(near, "10 kPa +- 1 %", "25 kPa +- 17 %"));
-  const SceneUncertainty narrow = uncertainty_in(few.path(), {.n_samples = 600});
-  const ResultUncertainty& moved = result_named(narrow, "top_displacement");
-  REQUIRE(narrow.is_sampled);
-  CHECK(narrow.n_failed > 0);
-  CHECK(narrow.failed_share > 0.0);
-  CHECK(narrow.failed_share <= 0.025);
-  CHECK(moved.no_interval.empty());
-  CHECK(std::isfinite(moved.interval_95.low));
-  CHECK_THAT(narrow.notes.back(), Catch::Contains("beyond either end"));
-  const SceneText many(replaced(near, "10 kPa +- 1 %", "27 kPa +- 20 %"));
-  const CommandOutcome outcome =
-      run_command({"simulate", many.path(), "--uncertainty", "--samples", "100", "--json"});
-  REQUIRE(outcome.status == 0);
-  const auto object = nlohmann::json::parse(outcome.out)["uncertainty"];
-  CHECK(object["failed_share"] > 0.025);
-  const auto& result = object["results"][0];
-  CHECK(result["interval_95"][0].is_null());
-  CHECK(result["interval_95"][1].is_null());
-  CHECK_THAT(result["no_interval"].get<std::string>(), Catch::Contains("2.5 %"));
-  const CommandOutcome people =
-      run_command({"simulate", many.path(), "--uncertainty", "--samples", "100"});
-  CHECK_THAT(people.out, Catch::Contains("no interval: "));
 }
 
 TEST_CASE("the errors of a law of rubber are left out, and the answer says so",

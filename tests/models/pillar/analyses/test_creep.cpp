@@ -37,7 +37,7 @@ PillarScene sensor(bool shear_only) {
   return scene;
 }
 
-// Largest difference of a curve to a finer one, over its largest value.
+// Largest difference of a curve to a finer one, over its largest value, to which its errors are relative.
 double difference(const SceneCurve& one, const SceneCurve& fine) {
   REQUIRE(one.x == fine.x);
   double largest = 0.0, size = 0.0;

@@ -2,6 +2,8 @@
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/body/pillar_model.h"
+#include "models/pillar/body/pillar_modes.h"
+#include "models/pillar/body/stress_energy.h"
 #include "models/pillar/system/stiffness_factor.h"
 #include "tests/models/pillar/analyses/first_order_check.h"
 
@@ -94,6 +96,9 @@ TEST_CASE("a scene has no first-order answer where the elements change or the an
   PillarScene condensed = scene;
   condensed.pillar.nu = 0.46;  // pressures are condensed from 0.45 on
   CHECK_FALSE(first_order(condensed));
+  PillarScene between = scene;
+  between.pillar.nu = 0.4999995;  // answered from two other scenes
+  CHECK_FALSE(first_order_answers(between, kMesh));
   PillarScene one_way = scene;
   one_way.one_way_potential = true;
   CHECK_FALSE(first_order_answers(one_way, kMesh));
@@ -116,4 +121,16 @@ TEST_CASE("a form applied to a vector is its matrix times the vector", "[pillar]
   CHECK((model.stiffness_times(u, u) - expected).norm() <= 1e-13 * expected.norm());
   const Eigen::VectorXd mass = times(model.mass(), u);
   CHECK((model.mass_times(u) - mass).norm() <= 1e-13 * mass.norm());
+}
+
+TEST_CASE("the work of a stress on a motion is that of its matrix", "[pillar]") {
+  PillarScene scene = without_film();
+  scene.pillar.nu = GENERATE(0.33, 0.48);
+  scene.geometry.foot = {4e-6, 6e-6};
+  const PillarModel axial = model_of(scene, Motion::kLongitudinal, kMesh);
+  const PillarModel lateral = model_of(scene, Motion::kLateral, kMesh);
+  Eigen::VectorXd u(lateral.system().size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) u[i] = std::sin(1.0 + static_cast<double>(i));
+  const double expected = u.dot(times(stress_stiffness_per_Pa(axial, lateral), u));
+  CHECK(StressEnergy(axial).per_Pa(lateral, u) == Approx(expected).epsilon(1e-11));  // rounding
 }
