@@ -51,6 +51,38 @@ Eigen::MatrixXd legendre_on(const LineMesh& line, int element, const Eigen::Vect
   return legendre_values(std::max(line.degree() - 2, 0), unit);
 }
 
+// The part of one operator row and one field at all points (`all` has n_rows rows for each), points x nodes;
+// empty if it is zero.
+Eigen::MatrixXd part_of(const Eigen::MatrixXd& all, Eigen::Index row, Eigen::Index n_rows,
+                        Eigen::Index field, Eigen::Index n_nodes) {
+  const Eigen::Map<const Eigen::MatrixXd, 0, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>> part(
+      all.data() + field * n_nodes * all.rows() + row, all.rows() / n_rows, n_nodes,
+      Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>(all.rows(), n_rows));
+  if (part.isZero(0.0)) return {};
+  return part;
+}
+
+// B' DB, where DB = D B with symmetric D at every point. Most rows have terms of one or two fields, so most
+// products of a part with another are zero and left out.
+Eigen::MatrixXd product_of_parts(const Eigen::MatrixXd& B, const Eigen::MatrixXd& DB,
+                                 Eigen::Index n_rows, Eigen::Index n_nodes) {
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(B.cols(), B.cols());
+  const Eigen::Index n_fields = B.cols() / n_nodes;
+  for (Eigen::Index row = 0; row < n_rows; ++row) {
+    for (Eigen::Index left = 0; left < n_fields; ++left) {
+      const Eigen::MatrixXd of_left = part_of(B, row, n_rows, left, n_nodes);
+      for (Eigen::Index right = 0; of_left.size() > 0 && right <= left; ++right) {
+        const Eigen::MatrixXd of_right = part_of(DB, row, n_rows, right, n_nodes);
+        if (of_right.size() == 0) continue;
+        product.block(left * n_nodes, right * n_nodes, n_nodes, n_nodes).noalias() +=
+            of_left.transpose() * of_right;
+      }
+    }
+  }
+  product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+  return product;
+}
+
 }  // namespace
 
 DiscreteSystem::ElementRows DiscreteSystem::element_rows(const std::vector<OperatorRow>& rows,
@@ -112,7 +144,8 @@ Eigen::MatrixXd DiscreteSystem::quadrature_form(
           at.weight[k] * D(scale * in_x.x[kx], in_z.x[kz]) * at.B.middleRows(k * n_rows, n_rows);
     }
   }
-  return at.B.transpose() * DB;
+  const Eigen::Index n1 = section_->degree() + 1;
+  return product_of_parts(at.B, DB, n_rows, n1 * n1);
 }
 
 SymmetricSparse DiscreteSystem::varying_form(
