@@ -161,16 +161,19 @@ Buckling own_buckling(const PillarModel& lateral, const StressStiffness& stress,
   return found;
 }
 
-void require_below_buckling(const PillarModel& lateral, const StressStiffness& stress,
-                            double pressure_Pa) {
-  if (is_stable_under(pressure_Pa, lateral, stress.whole)) return;
-  const double critical_Pa = own_buckling(lateral, stress, 1).pressure_Pa;
-  if (!(critical_Pa > 0.0 && pressure_Pa >= critical_Pa)) return;
+// The stress stiffness per Pa with which a lateral model vibrates. Where modes of the rim buckle below the
+// pressure it is that without the rim, scaled to the pillar's own load: f^2 goes as 1 - p/p_cr.
+SymmetricSparse stress_below_buckling(const PillarModel& lateral, const StressStiffness& stress,
+                                      double pressure_Pa) {
+  if (is_stable_under(pressure_Pa, lateral, stress.whole)) return stress.whole;
+  const Buckling found = own_buckling(lateral, stress, 1);
+  if (!(found.pressure_Pa > 0.0)) return stress.whole;
+  if (pressure_Pa < found.pressure_Pa) return (1.0 + found.rim_share) * stress.away_from_rims;
   throw BeyondBuckling("a pressure of " + text_of(pressure_Pa, 5) +
                            " Pa on the top is beyond the buckling pressure of " +
-                           text_of(critical_Pa, 5) +
+                           text_of(found.pressure_Pa, 5) +
                            " Pa; reduce it, because vibrations need a stable straight pillar",
-                       critical_Pa);
+                       found.pressure_Pa);
 }
 
 std::string why_none_is_found(const PillarGeometry& pillar) {
@@ -198,15 +201,14 @@ Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int coun
 
 SymmetricSparse stiffness_by_pressure(const PillarModel& axial, const PillarModel& model,
                                       double pressure_Pa) {
-  StressStiffness stress;
-  if (model.options().motion == Motion::kLateral) {
-    stress = stress_stiffness_by_place(axial, model);
-    require_below_buckling(model, stress, pressure_Pa);
-  } else {
-    stress.whole = stress_stiffness_per_Pa(axial, model);
-  }
-  stress.whole.coeffs() *= pressure_Pa;
-  return stress.whole;
+  const StressStiffness places = stress_stiffness_by_place(axial, model);
+  const bool is_lateral = model.options().motion == Motion::kLateral;
+  SymmetricSparse stress = is_lateral ? stress_below_buckling(model, places, pressure_Pa)
+                           : is_stable_under(pressure_Pa, model, places.whole)
+                               ? places.whole
+                               : places.away_from_rims;
+  stress.coeffs() *= pressure_Pa;
+  return stress;
 }
 
 }  // namespace viscard

@@ -69,8 +69,9 @@ class BeyondBuckling : public std::runtime_error {
   double critical_Pa_;
 };
 
-// Stress stiffness p K_sigma of a model under a pressure on the top of the axial one. Throws
-// BeyondBuckling if the model is lateral and the pillar would buckle.
+// Stress stiffness p K_sigma of a model under a pressure on the top of the axial one; without the stress next
+// to the rim if modes of the rim buckle below the pressure. Throws BeyondBuckling if the model is lateral
+// and the pillar would buckle.
 SymmetricSparse stiffness_by_pressure(const PillarModel& axial, const PillarModel& model,
                                       double pressure_Pa);
 
