@@ -68,6 +68,6 @@ class Page {
 };
 
 // The style sheet of the page, for screen and paper.
-const char* report_style();
+std::string report_style();
 
 }  // namespace viscard

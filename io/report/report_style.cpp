@@ -1,9 +1,9 @@
 #include "io/report/report_html.h"
 
 namespace viscard {
+namespace {
 
-const char* report_style() {
-  return R"(
+constexpr const char* kTextAndTables = R"(
 :root { --ink: #1f2933; --soft: #5b6570; --line: #d5dae0; --wash: #f5f7f9; --link: #005b8f;
   --page: #fff; --chosen: #e8f1f8; --good: #00664a; --bad: #a33c00; }
 * { box-sizing: border-box; }
@@ -36,7 +36,9 @@ thead .n { white-space: normal; }
 .unit { color: var(--soft); font-weight: 400; }
 .yes { color: var(--good); } .no { color: var(--bad); font-weight: 600; }
 tr.chosen > * { background: var(--chosen); font-weight: 600; }
-figure { margin: 22px 0 26px; }
+)";
+
+constexpr const char* kFiguresAndDetails = R"(figure { margin: 22px 0 26px; }
 .drawing { overflow-x: auto; }
 .drawing svg.plot { display: block; width: 100%; height: auto; }
 figcaption { font-size: 14px; line-height: 1.45; max-width: 92ch; margin-top: 6px; }
@@ -53,7 +55,11 @@ pre { margin: 0; padding: 12px 14px; background: var(--wash); border-top: 1px so
 code { font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 4px 20px; font-size: 14px; margin: 10px 0 20px; }
 dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
-@media screen and (max-width: 560px) { main, header.top, footer { padding-left: 16px; padding-right: 16px; }
+)";
+
+// Narrow screens, dark ones, and paper.
+constexpr const char* kMedia =
+    R"(@media screen and (max-width: 560px) { main, header.top, footer { padding-left: 16px; padding-right: 16px; }
   .row { grid-template-columns: minmax(0, 1fr); } dl { grid-template-columns: 1fr; } dd { margin-bottom: 6px; }
   h1 { font-size: 24px; overflow-wrap: anywhere; } h2 { font-size: 19px; overflow-wrap: anywhere; }
   caption { max-width: calc(100vw - 32px); } th, td { padding: 5px 8px; }
@@ -78,6 +84,11 @@ dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
   pre { max-height: none; white-space: pre-wrap; font-size: 7.5pt; }
 }
 )";
+
+}  // namespace
+
+std::string report_style() {
+  return std::string(kTextAndTables) + kFiguresAndDetails + kMedia;
 }
 
 }  // namespace viscard

@@ -98,45 +98,48 @@ bool is_unit_assumed(const CsvColumn& column, const Quantity& quantity) {
   return has_unit && !is_stated(column.unit) && !is_angular(column.name);
 }
 
-}  // namespace
+// What a test records over time.
+std::vector<Quantity> recorded_quantities() {
+  return {{"time_s",
+           "time",
+           "s",
+           {"t", "elapsed time", "test time", "run time", "seconds", "zeit", "prüfzeit",
+            "versuchszeit", "temps", "时间", "试验时间", "测试时间"}},
+          {"force_N",
+           "force",
+           "N",
+           {"F", "load", "normal force", "standard force", "compressive load", "tensile load",
+            "kraft", "normalkraft", "standardkraft", "prüfkraft", "force normale", "力", "试验力",
+            "载荷", "负荷", "法向力"}},
+          {"depth_m",
+           "depth",
+           "m",
+           {"h",
+            "indentation",
+            "indentation depth",
+            "displacement",
+            "extension",
+            "penetration",
+            "standard travel",
+            "compressive extension",
+            "compressive displacement",
+            "tensile extension",
+            "weg",
+            "standardweg",
+            "traversenweg",
+            "eindringtiefe",
+            "déplacement",
+            "deplacement",
+            "enfoncement",
+            "profondeur",
+            "位移",
+            "压入深度",
+            "深度"}}};
+}
 
-const std::vector<Quantity>& quantities() {
-  static const std::vector<Quantity> kQuantities{
-      {"time_s",
-       "time",
-       "s",
-       {"t", "elapsed time", "test time", "run time", "seconds", "zeit", "prüfzeit", "versuchszeit",
-        "temps", "时间", "试验时间", "测试时间"}},
-      {"force_N",
-       "force",
-       "N",
-       {"F", "load", "normal force", "standard force", "compressive load", "tensile load", "kraft",
-        "normalkraft", "standardkraft", "prüfkraft", "force normale", "力", "试验力", "载荷",
-        "负荷", "法向力"}},
-      {"depth_m",
-       "depth",
-       "m",
-       {"h",
-        "indentation",
-        "indentation depth",
-        "displacement",
-        "extension",
-        "penetration",
-        "standard travel",
-        "compressive extension",
-        "compressive displacement",
-        "tensile extension",
-        "weg",
-        "standardweg",
-        "traversenweg",
-        "eindringtiefe",
-        "déplacement",
-        "deplacement",
-        "enfoncement",
-        "profondeur",
-        "位移",
-        "压入深度",
-        "深度"}},
+// What is computed from force and geometry.
+std::vector<Quantity> material_quantities() {
+  return {
       {"modulus_Pa",
        "modulus",
        "Pa",
@@ -176,7 +179,12 @@ const std::vector<Quantity>& quantities() {
        "loss_modulus",
        "Pa",
        {"E''", "G''", "epp", "gpp", "e double prime", "g double prime", "e loss", "g loss", "loss",
-        "verlustmodul", "module de perte", "损耗模量"}},
+        "verlustmodul", "module de perte", "损耗模量"}}};
+}
+
+// What a calibration or a rig adds, and what divides a file.
+std::vector<Quantity> rig_quantities() {
+  return {
       {"mass_kg", "mass", "kg", {"m", "weight", "masse", "质量"}},
       {"volts_V",
        "volts",
@@ -186,6 +194,18 @@ const std::vector<Quantity>& quantities() {
       {"temperature_C", "temperature", "degC", {"T", "temp", "temperatur", "température", "温度"}},
       {"segment", "segment", "1", {"set", "phase", "step", "step name"}, true},
       {"specimen", "specimen", "1", {"specimen id", "specimen name"}, true}};
+}
+
+}  // namespace
+
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> kQuantities = [] {
+    std::vector<Quantity> all;
+    for (const auto& group : {recorded_quantities(), material_quantities(), rig_quantities()}) {
+      all.insert(all.end(), group.begin(), group.end());
+    }
+    return all;
+  }();
   return kQuantities;
 }
 

@@ -9,10 +9,9 @@ using Pillar = EffectOn<PillarScene>;
 using Row = EffectOn<ArrayScene>;
 using Space = EffectOn<SpaceScene>;  // an array in the plane
 
-}  // namespace
-
-const std::vector<Effect>& effects() {
-  static const std::vector<Effect> kEffects = {
+// How the material answers a load.
+std::vector<Effect> material_effects() {
+  return {
       {"relaxation",
        "moduli fall with time",
        "a vector per term, and time steps",
@@ -33,6 +32,12 @@ const std::vector<Effect>& effects() {
                [](PillarScene& scene) { scene.condense_pressures_from = -1.0; }},
         Row{incompressibility_estimate}, Space{incompressibility_estimate}},
        true},
+  };
+}
+
+// What the base and its film add.
+std::vector<Effect> base_effects() {
+  return {
       {"film_compliance",
        "the base yields",
        "the film's elements",
@@ -58,6 +63,12 @@ const std::vector<Effect>& effects() {
           return {.reason = "open electrodes, before charge leaks"};
         }},
         Space{leakage_estimate}}},
+  };
+}
+
+// What stands around a pillar, and the pillar's shape.
+std::vector<Effect> neighbour_effects() {
+  return {
       {"crosstalk",
        "neighbours load the film",
        "the neighbours",
@@ -73,6 +84,12 @@ const std::vector<Effect>& effects() {
         Space{[](const SpaceScene&) -> EffectEstimate {
           return {EffectRole::kNeeded, 1.0, "", 0.0, "cylinders with neighbours on all sides"};
         }}}},
+  };
+}
+
+// What a large load, or a shape that presses, adds.
+std::vector<Effect> load_effects() {
+  return {
       {"geometric_stiffness",
        "a load softens the pillar sideways",
        "the loaded state and its stress matrix",
@@ -106,6 +123,19 @@ const std::vector<Effect>& effects() {
         }},
         Row{pull_off_estimate, leave_out_pull_off}, Space{pull_off_estimate, leave_out_pull_off}}},
   };
+}
+
+}  // namespace
+
+const std::vector<Effect>& effects() {
+  static const std::vector<Effect> kEffects = [] {
+    std::vector<Effect> all;
+    for (const auto& group :
+         {material_effects(), base_effects(), neighbour_effects(), load_effects()}) {
+      all.insert(all.end(), group.begin(), group.end());
+    }
+    return all;
+  }();
   return kEffects;
 }
 
