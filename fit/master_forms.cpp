@@ -3,9 +3,9 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/intervals/uncertainty.h"
 #include "fit/samples/noise_model.h"
-#include "fit/samples/sample_passes.h"
 #include "fit/search/separable.h"
 #include "models/maths/dense.h"
+#include "models/maths/tall_products.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "fit/spectrum_scatter.h"
 
-#include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
+#include "models/maths/tall_products.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
 #include "fit/samples/sample_passes.h"
+#include "models/maths/tall_products.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "fit/intervals/flags.h"
 #include "fit/samples/noise_model.h"
-#include "fit/samples/sample_passes.h"
 #include "models/maths/dense.h"
+#include "models/maths/tall_products.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>

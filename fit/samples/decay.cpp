@@ -1,6 +1,6 @@
 #include "fit/samples/decay.h"
 
-#include "fit/samples/wide_loops.h"
+#include "models/maths/wide_loops.h"
 
 #include <algorithm>
 #include <bit>

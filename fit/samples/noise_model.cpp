@@ -1,8 +1,8 @@
 #include "fit/samples/noise_model.h"
 
 #include "fit/samples/median.h"
-#include "fit/samples/sample_passes.h"
 #include "models/maths/dense.h"
+#include "models/maths/tall_products.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -12,12 +10,6 @@ namespace viscard {
 
 bool all_finite(std::span<const double> values);
 double sum_of(std::span<const double> values);
-double dot_of(std::span<const double> a, std::span<const double> b);  // equal length
-
-// A^T B and A^T A of tall matrices, computed as long dot products. Faster than general matrix
-// products for few columns (up to some hundred) and many rows.
-Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns);
 
 // Smallest and largest difference of neighbours; both 0 for fewer than two times. Times are sorted
 // if the smallest difference is not negative.

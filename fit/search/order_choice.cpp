@@ -1,7 +1,7 @@
 #include "fit/search/order_choice.h"
 
-#include "fit/samples/sample_passes.h"
 #include "models/maths/dense.h"
+#include "models/maths/tall_products.h"
 
 #include <Eigen/Core>
 

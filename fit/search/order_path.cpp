@@ -1,8 +1,8 @@
 #include "fit/search/order_path.h"
 
-#include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
 #include "fit/search/separable.h"
+#include "models/maths/tall_products.h"
 
 #include <algorithm>
 #include <cmath>

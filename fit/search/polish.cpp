@@ -1,8 +1,8 @@
 #include "fit/search/polish.h"
 
-#include "fit/samples/sample_passes.h"
 #include "fit/search/full_system.h"
 #include "models/maths/dense.h"
+#include "models/maths/tall_products.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "fit/search/projection.h"
 
-#include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
 #include "models/maths/dense.h"
+#include "models/maths/tall_products.h"
 
 #include <cmath>
 #include <limits>

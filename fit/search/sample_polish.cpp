@@ -1,7 +1,7 @@
-#include "fit/samples/sample_passes.h"
 #include "fit/search/full_system.h"
 #include "fit/search/polish.h"
 #include "models/maths/dense.h"
+#include "models/maths/tall_products.h"
 
 #include <algorithm>
 #include <cmath>

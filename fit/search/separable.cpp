@@ -1,6 +1,5 @@
 #include "fit/search/separable.h"
 
-#include "fit/samples/sample_passes.h"
 #include "fit/search/dense_least_squares.h"
 #include "fit/search/nnls.h"
 #include "fit/search/projection.h"

@@ -1,7 +1,7 @@
-#include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
 #include "fit/search/order_path.h"
 #include "models/maths/dense.h"
+#include "models/maths/tall_products.h"
 
 #include <Eigen/LU>
 

@@ -41,18 +41,18 @@ bool is_line_of_file(const std::string& word) {
   return colon != std::string::npos && colon > 0 && colon + 1 < word.size() &&
          word.find_first_not_of("0123456789", colon + 1) == std::string::npos;
 }
-bool is_option(const std::string& word) {
+bool is_option_name(const std::string& word) {
   return word.size() > 2 && word.starts_with("--") && word != "--help";
 }
-bool is_port(const std::string& word) {
+bool is_port_name(const std::string& word) {
   return word.rfind("/dev/", 0) == 0;
 }
 // "[stage]", not "[OPTIONS]" of a usage.
-bool is_section(const std::string& word) {
+bool is_section_name(const std::string& word) {
   return word.size() > 2 && word.front() == '[' && word.back() == ']' &&
          std::isupper(static_cast<unsigned char>(word[1])) == 0;
 }
-bool is_file(const std::string& word) {
+bool is_file_name(const std::string& word) {
   const std::size_t dot = word.rfind('.');
   return word.find('/') != std::string::npos ||
          (dot != std::string::npos && dot > 0 && dot + 1 < word.size() &&
@@ -64,8 +64,8 @@ bool is_file(const std::string& word) {
 std::string place_in(const std::string& text) {
   const std::vector<std::string> words = words_of(text);
   if (words.empty()) return "";
-  if (is_line_of_file(words.front()) || is_file(words.front())) return words.front();
-  for (const auto is_place : {is_port, is_option, is_section}) {
+  if (is_line_of_file(words.front()) || is_file_name(words.front())) return words.front();
+  for (const auto is_place : {is_port_name, is_option_name, is_section_name}) {
     const auto found = std::find_if(words.begin(), words.end(), is_place);
     if (found != words.end()) return *found;
   }

@@ -172,6 +172,21 @@ std::string svg_of(const Shown& shown) {
 
 }  // namespace
 
+std::array<double, 3> displacement_at(const SectionGrid& grid, const SectionField& field,
+                                      std::size_t point, double theta) {
+  const auto& [r, t, z] = field.value[point];
+  const double m = grid.harmonic;
+  const double radial = r * std::cos(m * theta);
+  const double around = grid.harmonic == 0 ? t : t * std::sin(m * theta);
+  return {radial * std::cos(theta) - around * std::sin(theta),
+          radial * std::sin(theta) + around * std::cos(theta), z * std::cos(m * theta)};
+}
+
+double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t point,
+                 double theta) {
+  return field.value[point][0] * std::cos(grid.harmonic * theta);
+}
+
 std::vector<std::pair<std::string, std::string>> pictures_from_grid(const SectionGrid& grid) {
   std::vector<std::pair<std::string, std::string>> pictures;
   for (const SectionField& field : grid.fields) {

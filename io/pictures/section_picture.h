@@ -2,11 +2,20 @@
 
 #include "models/pillar/body/section_grid.h"
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace viscard {
+
+// Displacement of a field at an angle, with its scalar, in Cartesian axes.
+std::array<double, 3> displacement_at(const SectionGrid& grid, const SectionField& field,
+                                      std::size_t point, double theta);
+// A field without direction at an angle.
+double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t point,
+                 double theta);
 
 // Pictures of a solution in the section along the axis, name and SVG: of every displacement the
 // deformed body, coloured by its magnitude and exaggerated by a factor that the picture prints; of

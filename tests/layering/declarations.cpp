@@ -113,7 +113,7 @@ Definitions definitions_in(const std::string& source_text) {
   Definitions found;
   for (const Statement& statement : statements_at_namespace_level(plain_code(source_text))) {
     if (statement.is_unnamed || statement.end != '{' || begins_type(statement.text)) continue;
-    // Loops with clones for processors cannot stand in an unnamed namespace (fit/samples/wide_loops.h).
+    // Loops with clones for processors cannot stand in an unnamed namespace (models/maths/wide_loops.h).
     if (statement.text.find("VISCARD_WIDE_LOOP") != std::string::npos) continue;
     if (statement.text.find("PYBIND11_MODULE") != std::string::npos) continue;  // Python finds it
     const std::string name = called_name(statement.text);

@@ -34,9 +34,9 @@ struct InertiaPorts {
 };
 
 // The pillar on a fixed base beside the free one.
-struct HeldPillar {
-  HeldPillar(const Section& section, const DiscreteSystem& free_pillar, const PlaneForm& form,
-             double rho_kg_m3)
+struct HeldStrip {
+  HeldStrip(const Section& section, const DiscreteSystem& free_pillar, const PlaneForm& form,
+            double rho_kg_m3)
       : free(free_pillar), system(section, whole_plane(), free_dofs(section, true)) {
     const std::vector<Eigen::MatrixXd> density{rho_kg_m3 * Eigen::MatrixXd::Identity(3, 3)};
     mass = system.form(system.kinematics().displacement, density);
@@ -81,7 +81,7 @@ struct HeldPillar {
   std::vector<std::pair<int, int>> in_free;  // unknown of the held pillar, of the free one
 };
 
-InertiaPorts mode_ports(const HeldPillar& pillar, int count) {
+InertiaPorts mode_ports(const HeldStrip& pillar, int count) {
   const LinearMap B = [&](const Eigen::VectorXd& x) { return times(pillar.mass, x); };
   const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
     return pillar.factor.solve(Mx);
@@ -98,8 +98,7 @@ InertiaPorts mode_ports(const HeldPillar& pillar, int count) {
 
 // Loads on the held pillar: the one on its top, and the inertia when its base moves along x, along
 // z, or turns.
-std::vector<Eigen::VectorXd> excitations(const HeldPillar& pillar,
-                                         const Eigen::VectorXd& top_load) {
+std::vector<Eigen::VectorXd> excitations(const HeldStrip& pillar, const Eigen::VectorXd& top_load) {
   const Section& section = pillar.free.section();
   std::vector<Eigen::VectorXd> loads = {pillar.held(top_load)};
   for (int motion = 0; motion < 3; ++motion) {
@@ -118,7 +117,7 @@ std::vector<Eigen::VectorXd> excitations(const HeldPillar& pillar,
 // M-orthonormal vectors, each the answer K^-1 f to a load. The next load of the chain is M v.
 class InertiaChains {
  public:
-  InertiaChains(const HeldPillar& pillar, int most)
+  InertiaChains(const HeldStrip& pillar, int most)
       : pillar_(pillar), vectors_(pillar.system.size(), most), inertia_(vectors_) {}
 
   int found() const { return found_; }
@@ -143,7 +142,7 @@ class InertiaChains {
   }
 
  private:
-  const HeldPillar& pillar_;
+  const HeldStrip& pillar_;
   Eigen::MatrixXd vectors_, inertia_;
   int found_ = 0;
 };
@@ -151,7 +150,7 @@ class InertiaChains {
 // Modes that the load and motions of the base excite: the lowest Ritz pairs of chains (K^-1 M)^j
 // K^-1 f twice as long as wanted; a chain of the base contributes one vector in four. Modes that
 // nothing excites are never found. Lanczos' method, Parlett (above), ch. 13.
-InertiaPorts wave_ports(const HeldPillar& pillar, const Eigen::VectorXd& top_load, int count) {
+InertiaPorts wave_ports(const HeldStrip& pillar, const Eigen::VectorXd& top_load, int count) {
   constexpr int kVectorsPerWave = 2;
   constexpr int kStepsPerVectorOfBase = 4;
   std::vector<Eigen::VectorXd> next = excitations(pillar, top_load);
@@ -242,7 +241,7 @@ CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media,
   ports.col(kPressurePort) = -system.line_load(kUp, top, 0, columns);
   ports.col(kShearPort) = system.line_load(kAcross, top, 0, columns);
   if (extra.modes + extra.waves > 0) {
-    const HeldPillar held(section, system, form, media.pillar.rho_kg_m3);
+    const HeldStrip held(section, system, form, media.pillar.rho_kg_m3);
     const InertiaPorts more = extra.waves > 0
                                   ? wave_ports(held, ports.col(extra.load_port), extra.waves)
                                   : mode_ports(held, extra.modes);

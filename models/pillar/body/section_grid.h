@@ -31,13 +31,6 @@ struct SectionGrid {
   std::vector<SectionField> fields;
 };
 
-// Displacement of a field at an angle, with its scalar, in Cartesian axes.
-std::array<double, 3> displacement_at(const SectionGrid& grid, const SectionField& field,
-                                      std::size_t point, double theta);
-// A field without direction at an angle.
-double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t point,
-                 double theta);
-
 // The grid of a model, and the element of every point.
 struct Sampling {
   SectionGrid grid;

@@ -4,6 +4,7 @@
 #include "fit/samples/log_bins.h"
 #include "fit/samples/sample_passes.h"
 #include "fit/search/separable.h"
+#include "models/maths/tall_products.h"
 #include "tests/fit/spectra.h"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 // Loops over samples are compiled twice: for any processor, and for one with registers of four
 // doubles and fused multiply-add. The program selects the version for its processor when it starts.
 // The last digit of a sum may differ between the two.
@@ -9,3 +11,19 @@
 #else
 #define VISCARD_WIDE_LOOP
 #endif
+
+namespace viscard {
+
+// Sums in four lanes, added at the end, so that an addition does not wait for the previous one.
+constexpr std::size_t kLanes = 4;
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
+
+inline const Lanes* lanes_at(const double* values) {
+  return reinterpret_cast<const Lanes*>(values);
+}
+
+inline double total(const Lanes& lanes) {
+  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
+}  // namespace viscard
