@@ -90,7 +90,8 @@ TEST_CASE(
   scene.drive = drive;
   const SceneAnswer sweep = pillar_answer_on(scene, kMesh);
   drive.frequencies_Hz.clear();
-  for (int i = 0; i < 20; i += 2) drive.frequencies_Hz.push_back(sweep.curves.at(0).x.at(i));
+  for (std::size_t i = 0; i < 20; i += 2)
+    drive.frequencies_Hz.push_back(sweep.curves.at(0).x.at(i));
   scene.drive = drive;
   const SceneAnswer direct = pillar_answer_on(scene, kMesh);
   for (const char* const name : {"electrode_voltage", "top_displacement"}) {
