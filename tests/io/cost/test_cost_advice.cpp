@@ -120,9 +120,10 @@ void follow_file(const std::string& name, double budget_s) {
 }  // namespace
 
 TEST_CASE("what a cost study recommends meets its tolerance", "[io][scene]") {
-  follow_file(GENERATE(as<std::string>{}, "pillar_buckling.toml", "pillar_sensor.toml",
-                       "array_voltages.toml"),
-              1.0);
+  // Budgets leave room for a processor whose threads are shared, which counts twice the time.
+  const auto [name, budget_s] = GENERATE(table<std::string, double>(
+      {{"pillar_buckling.toml", 1.0}, {"pillar_sensor.toml", 1.0}, {"array_voltages.toml", 4.0}}));
+  follow_file(name, budget_s);
 }
 
 TEST_CASE("without time a cost study shows a few cheap meshes and lists the rows left out",
