@@ -140,12 +140,37 @@ bool is_cut_off(std::string_view bytes) {
   return at != bytes.size();
 }
 
+// True if a variable, or a field of it, claims more numbers than the file can hold: the library
+// would ask for their memory before it reads them. zlib packs at most 1032 bytes into one.
+bool claims_too_much(matvar_t& variable, std::size_t n_bytes) {
+  std::size_t left = 1032 * n_bytes;
+  for (int i = 0; i < variable.rank && left > 0; ++i) {
+    left /= std::max<std::size_t>(variable.dims[i], 1);
+  }
+  if (left == 0) return true;
+  if (variable.class_type != MAT_C_STRUCT) return false;
+  char* const* names = Mat_VarGetStructFieldnames(&variable);
+  const unsigned n = names == nullptr ? 0 : Mat_VarGetNumberOfFields(&variable);
+  for (unsigned i = 0; i < n; ++i) {
+    matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
+    if (field != nullptr && claims_too_much(*field, n_bytes)) return true;
+  }
+  return false;
+}
+
+bool claims_too_much(mat_t* file, std::size_t n_bytes) {
+  while (const MatlabVariable variable{Mat_VarReadNextInfo(file)}) {
+    if (claims_too_much(*variable, n_bytes)) return true;
+  }
+  return Mat_Rewind(file) != 0;
+}
+
 ColumnsOfTables columns_of_tables(std::string_view bytes, const std::string& name) {
   // A damaged file is reported once, by the first missing part.
   Mat_LogInitFunc("viscard", [](int, char*) {});
   const MemoryFile memory(bytes);
   const MatlabFile file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
-  if (!file || is_cut_off(bytes)) {
+  if (!file || is_cut_off(bytes) || claims_too_much(file.get(), bytes.size())) {
     throw std::runtime_error(name + ": is a damaged MATLAB file; save it again");
   }
   ColumnsOfTables tables;

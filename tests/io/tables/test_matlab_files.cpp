@@ -123,5 +123,13 @@ TEST_CASE("a MATLAB file without measured numbers is refused by what it lacks", 
   CHECK(contains(refusal("MATLAB 7.3 MAT-file, HDF5"), "save it with save -v7"));
 }
 
+// Found by the fuzzer: the library asked for 8.6 GB.
+TEST_CASE("a MATLAB file that claims more numbers than it holds is refused as damaged",
+          "[io][csv]") {
+  const std::string bytes = matlab_file(array("t", 0x10000004, 1, {0.5, 1.0, 1.5}));
+  CHECK(contains(error_text([&] { csv_from_text(bytes, "a.mat"); }),
+                 "a.mat: is a damaged MATLAB file"));
+}
+
 }  // namespace
 }  // namespace viscard
