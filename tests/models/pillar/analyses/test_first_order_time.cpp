@@ -13,6 +13,9 @@ namespace {
 // Derivatives on one mesh agree on any.
 const Discretisation kSmall{.degree = 4, .layers = 1};
 
+// One result by diameter, length, modulus and density: a test that compares fewer checks nothing.
+constexpr int kFewest = 4;
+
 // The pillar creeps more in shear than in volume, so that the shape of its solutions relaxes.
 PillarScene relaxing(PillarScene scene) {
   scene.pillar.terms = {{0.3, 0.1, 0.2}, {0.2, 0.2, 2.4}};
@@ -32,7 +35,7 @@ TEST_CASE("derivatives of a buckling pressure are those of its Rayleigh quotient
   scene.electrodes.reset();
   scene.pillar.nu = GENERATE(0.33, 0.48);
   scene.drive = BucklingDrive{};
-  check_derivatives(scene, /*lengths_too=*/true, kSmall);
+  CHECK(check_derivatives(scene, /*lengths_too=*/true, kSmall) >= kFewest);
 }
 
 TEST_CASE("an incompressible pillar has derivatives of its buckling pressure by its modulus alone",
@@ -40,7 +43,7 @@ TEST_CASE("an incompressible pillar has derivatives of its buckling pressure by 
   PillarScene scene = without_film();
   scene.pillar.nu = 0.5;
   scene.drive = BucklingDrive{};
-  check_derivatives(scene, /*lengths_too=*/false, kSmall);
+  CHECK(check_derivatives(scene, /*lengths_too=*/false, kSmall) >= kFewest);
 }
 
 TEST_CASE("derivatives of frequencies under a pressure follow the stress too",
@@ -49,7 +52,7 @@ TEST_CASE("derivatives of frequencies under a pressure follow the stress too",
   scene.electrodes.reset();
   scene.drive = ModalDrive{.modes = 1, .pressure_Pa = 1e4};
   scene.discretisation = kSmall;
-  check_derivatives(scene, /*lengths_too=*/true, kSmall);
+  CHECK(check_derivatives(scene, /*lengths_too=*/true, kSmall) >= kFewest);
 }
 
 TEST_CASE("derivatives of damped modes are those of their complex Rayleigh quotients",
@@ -59,7 +62,7 @@ TEST_CASE("derivatives of damped modes are those of their complex Rayleigh quoti
   scene.electrodes.reset();
   scene.drive = ModalDrive{.modes = 1, .pressure_Pa = GENERATE(0.0, 5e3)};
   scene.discretisation = kSmall;
-  check_derivatives(scene, /*lengths_too=*/true, kSmall);
+  CHECK(check_derivatives(scene, /*lengths_too=*/true, kSmall) >= kFewest);
 }
 
 TEST_CASE("derivatives in creep and relaxation come from one reduced basis", "[pillar][gradient]") {
@@ -82,7 +85,7 @@ TEST_CASE("derivatives in creep and relaxation come from one reduced basis", "[p
     scene.pillar.nu = 0.48;
     scene.drive = RelaxationDrive{.history = ramp(1e-6)};
   }
-  check_derivatives(scene, /*lengths_too=*/true, kSmall);
+  CHECK(check_derivatives(scene, /*lengths_too=*/true, kSmall) >= kFewest);
 }
 
 TEST_CASE("an incompressible pillar in creep has derivatives by its moduli, not by lengths",
@@ -90,7 +93,7 @@ TEST_CASE("an incompressible pillar in creep has derivatives by its moduli, not 
   PillarScene scene = relaxing(sensor());
   scene.pillar.nu = 0.5;
   scene.drive = CreepDrive{.history = ramp(1e3)};
-  check_derivatives(scene, /*lengths_too=*/false, kSmall);
+  CHECK(check_derivatives(scene, /*lengths_too=*/false, kSmall) >= kFewest);
 }
 
 TEST_CASE("derivatives at a few frequencies come from their solutions and dual solutions",
@@ -106,5 +109,5 @@ TEST_CASE("derivatives at a few frequencies come from their solutions and dual s
         .direction = LoadDirection::kLateral, .pressure_Pa = 1e3, .frequencies_Hz = {3e4}};
     scene.electrodes->quadrants = true;
   }
-  check_derivatives(scene, /*lengths_too=*/true, kSmall);
+  CHECK(check_derivatives(scene, /*lengths_too=*/true, kSmall) >= kFewest);
 }
