@@ -2,16 +2,15 @@
 
 #include "io/basics/number_text.h"
 #include "io/basics/words.h"
+#include "io/tables/matlab_elements.h"
 
 #include <matio.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -46,8 +45,6 @@ struct CloseMatlab {
 };
 using MatlabFile = std::unique_ptr<mat_t, CloseMatlab>;
 using MatlabVariable = std::unique_ptr<matvar_t, CloseMatlab>;
-
-constexpr bool kIsLittle = std::endian::native == std::endian::little;
 
 // Columns of one length.
 struct NamedColumn {
@@ -123,27 +120,11 @@ void add_fields(matvar_t& variable, std::vector<NamedColumn>& columns) {
   }
 }
 
-// The library reads a truncated file without an error, so this checks its length. After the header
-// of 128 bytes, each element begins with its type and length; the last two bytes of the header are
-// "IM" in the order of this machine.
-bool is_cut_off(std::string_view bytes) {
-  constexpr std::size_t kHeader = 128, kTag = 8;
-  if (bytes.size() < kHeader) return true;
-  const bool is_swapped = bytes.substr(kHeader - 2, 2) != (kIsLittle ? "IM" : "MI");
-  std::size_t at = kHeader;
-  while (at + kTag <= bytes.size()) {
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + at + sizeof length, sizeof length);
-    if (is_swapped) length = __builtin_bswap32(length);
-    at += kTag + length;
-  }
-  return at != bytes.size();
-}
-
-// True if a variable, or a field of it, claims more numbers than the file can hold: the library
-// would ask for their memory before it reads them. zlib packs at most 1032 bytes into one.
+// True if a variable, or a field of it, claims more numbers than the file has bytes: the library
+// would ask for their memory before it reads them. A sparse matrix has fewer than its size.
 bool claims_too_much(matvar_t& variable, std::size_t n_bytes) {
-  std::size_t left = 1032 * n_bytes;
+  if (variable.class_type == MAT_C_SPARSE) return false;
+  std::size_t left = n_bytes;
   for (int i = 0; i < variable.rank && left > 0; ++i) {
     left /= std::max<std::size_t>(variable.dims[i], 1);
   }
@@ -168,9 +149,10 @@ bool claims_too_much(mat_t* file, std::size_t n_bytes) {
 ColumnsOfTables columns_of_tables(std::string_view bytes, const std::string& name) {
   // A damaged file is reported once, by the first missing part.
   Mat_LogInitFunc("viscard", [](int, char*) {});
-  const MemoryFile memory(bytes);
+  const std::string unpacked = unpacked_matlab_file(bytes);
+  const MemoryFile memory(unpacked);
   const MatlabFile file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
-  if (!file || is_cut_off(bytes) || claims_too_much(file.get(), bytes.size())) {
+  if (unpacked.empty() || !file || claims_too_much(file.get(), unpacked.size())) {
     throw std::runtime_error(name + ": is a damaged MATLAB file; save it again");
   }
   ColumnsOfTables tables;

@@ -1,0 +1,113 @@
+#include "io/tables/matlab_elements.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+
+namespace viscard {
+namespace {
+
+constexpr std::size_t kHeader = 128, kTag = 8;
+constexpr std::uint32_t kMatrix = 14, kPacked = 15;
+// Cells in structs in cells: a file that nests deeper is a made one, and readers call themselves for each.
+constexpr int kDeepest = 64;
+constexpr std::size_t kMostUnpacked = 1032;  // bytes from one (zlib, "Technical Details")
+
+struct Element {
+  std::uint32_t type = 0;
+  std::string_view contents;
+};
+
+class Reader {
+ public:
+  // The header ends with "IM" in the order of the machine that wrote the file.
+  explicit Reader(std::string_view header)
+      : is_swapped_(header.substr(kHeader - 2, 2) !=
+                    (std::endian::native == std::endian::little ? "IM" : "MI")) {}
+
+  std::uint32_t word(const char* at) const {
+    std::uint32_t value = 0;
+    std::memcpy(&value, at, sizeof value);
+    return is_swapped_ ? __builtin_bswap32(value) : value;
+  }
+
+  // The first of the elements: its type, its length and as many bytes. Up to 4 bytes may stand in the
+  // tag, with the length in the upper half of the type.
+  std::optional<Element> first(std::string_view elements) const {
+    if (elements.size() < kTag) return {};
+    const std::uint32_t type = word(elements.data()), small_length = type >> 16;
+    if (small_length > 4) return {};
+    if (small_length > 0) return Element{type & 0xffff, elements.substr(4, small_length)};
+    const std::uint32_t length = word(elements.data() + 4);
+    if (length > elements.size() - kTag) return {};
+    return Element{type, elements.substr(kTag, length)};
+  }
+
+  bool is_sound(const Element& element, int depth = 0) const {
+    if (element.type == kPacked || depth > kDeepest) return false;
+    if (element.type != kMatrix) return true;
+    for (std::string_view rest = element.contents; !rest.empty();) {
+      const std::optional<Element> inner = first(rest);
+      if (!inner || !is_sound(*inner, depth + 1)) return false;
+      // Each begins at a multiple of 8 bytes; the last one may lack its padding.
+      const auto end = static_cast<std::size_t>(inner->contents.end() - rest.begin());
+      rest.remove_prefix(std::min(rest.size(), (end + 7) / 8 * 8));
+    }
+    return true;
+  }
+
+ private:
+  bool is_swapped_;
+};
+
+// The element that was packed; empty if it is damaged.
+std::string unpacked(std::string_view packed, const Reader& reader) {
+  struct Stream : z_stream {
+    Stream() : z_stream{} {}
+    ~Stream() { inflateEnd(this); }
+  } stream;
+  if (inflateInit(&stream) != Z_OK) return {};
+  // zlib reads from there only.
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::string element(kTag, '\0');
+  const auto fill = [&](std::size_t begin) {
+    stream.next_out = reinterpret_cast<Bytef*>(element.data() + begin);
+    stream.avail_out = static_cast<uInt>(element.size() - begin);
+    inflate(&stream, Z_SYNC_FLUSH);
+    return stream.avail_out == 0;
+  };
+  if (!fill(0)) return {};
+  const std::size_t length = reader.word(element.data() + 4);
+  if (length > kMostUnpacked * packed.size()) return {};
+  element.resize(kTag + length);
+  return length == 0 || fill(kTag) ? element : std::string();
+}
+
+}  // namespace
+
+std::string unpacked_matlab_file(std::string_view bytes) {
+  if (bytes.size() < kHeader) return {};
+  const Reader reader(bytes.substr(0, kHeader));
+  std::string file(bytes.substr(0, kHeader));
+  for (std::string_view rest = bytes.substr(kHeader); !rest.empty();) {
+    const std::optional<Element> outer = reader.first(rest);
+    if (!outer) return {};
+    const auto end = static_cast<std::size_t>(outer->contents.end() - rest.begin());
+    const std::string inflated =
+        outer->type == kPacked ? unpacked(outer->contents, reader) : std::string();
+    const std::string_view element = outer->type == kPacked ? inflated : rest.substr(0, end);
+    const std::optional<Element> plain = reader.first(element);
+    if (!plain || !reader.is_sound(*plain)) return {};
+    file += element;
+    rest.remove_prefix(end);
+  }
+  return file;
+}
+
+}  // namespace viscard
