@@ -275,7 +275,7 @@ TEST_CASE("rubber series: bad times are refused with what to do", "[fit]") {
   CHECK(has(fit_large_strain(tests, options).notes, "no-relaxation"));
 }
 
-TEST_CASE("rubber series: 95 % of the intervals of rate-and-hold records hold", "[fit]") {
+TEST_CASE("rubber series: 95 % of the intervals of rate-and-hold records hold", "[fit][slow]") {
   const Counts counts = coverage(20, 3e3, 0.0, 11);
   CHECK(counts.right_order >= 18);
   // 105 of 120 or fewer: probability 0.001 at a coverage of 0.95, 0.81 at 0.85 (binomial, independent).

@@ -67,7 +67,8 @@ TEST_CASE("rubber cards: CalculiX gives the stress at once and after all relaxat
   }
 }
 
-TEST_CASE("rubber cards: SfePy with the memory of its module gives the relaxing stress", "[io]") {
+TEST_CASE("rubber cards: SfePy with the memory of its module gives the relaxing stress",
+          "[io][slow]") {
   if (!has_sfepy()) return;
   StretchHistory history{{0.0}, {1.0}};
   constexpr int kSteps = 40;
