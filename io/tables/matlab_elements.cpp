@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kHeader = 128, kTag = 8;
 constexpr std::uint32_t kMatrix = 14, kPacked = 15;
-// Cells in structs in cells: a file that nests deeper is a made one, and readers call themselves for each.
+// Of cells in structs in cells. Measured data do not nest as deep; the library calls itself for each level.
 constexpr int kDeepest = 64;
 constexpr std::size_t kMostUnpacked = 1032;  // bytes from one (zlib, "Technical Details")
 
@@ -48,12 +48,13 @@ class Reader {
     return Element{type, elements.substr(kTag, length)};
   }
 
-  bool is_sound(const Element& element, int depth = 0) const {
+  // True if every element inside, at any depth, ends inside the one that holds it.
+  bool lengths_fit(const Element& element, int depth = 0) const {
     if (element.type == kPacked || depth > kDeepest) return false;
     if (element.type != kMatrix) return true;
     for (std::string_view rest = element.contents; !rest.empty();) {
       const std::optional<Element> inner = first(rest);
-      if (!inner || !is_sound(*inner, depth + 1)) return false;
+      if (!inner || !lengths_fit(*inner, depth + 1)) return false;
       // Each begins at a multiple of 8 bytes; the last one may lack its padding.
       const auto end = static_cast<std::size_t>(inner->contents.end() - rest.begin());
       rest.remove_prefix(std::min(rest.size(), (end + 7) / 8 * 8));
@@ -103,7 +104,7 @@ std::string unpacked_matlab_file(std::string_view bytes) {
         outer->type == kPacked ? unpacked(outer->contents, reader) : std::string();
     const std::string_view element = outer->type == kPacked ? inflated : rest.substr(0, end);
     const std::optional<Element> plain = reader.first(element);
-    if (!plain || !reader.is_sound(*plain)) return {};
+    if (!plain || !reader.lengths_fit(*plain)) return {};
     file += element;
     rest.remove_prefix(end);
   }

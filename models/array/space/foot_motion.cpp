@@ -1,5 +1,7 @@
 #include "models/array/space/foot_motion.h"
 
+#include "models/maths/gauss_legendre.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

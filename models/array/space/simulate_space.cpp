@@ -135,8 +135,9 @@ void add_rounding(SceneAnswer& answer) {
   const double terms = kPointsOfTop + static_cast<double>(answer.array.pillars.size());
   const double relative = kRoundings * std::numeric_limits<double>::epsilon() * terms;
   for (SceneMap& map : answer.maps) {
+    const double rounding = relative * size_of(map);
     for (std::size_t at = 0; at < map.error.size(); ++at) {
-      if (map.value[at] != 0.0) map.error[at] += relative * size_of(map);
+      if (map.value[at] != 0.0) map.error[at] += rounding;
     }
   }
 }

@@ -9,6 +9,8 @@
 #include <matio.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -166,6 +168,30 @@ TEST_CASE("a MATLAB file with a packed element that does not unpack is refused a
     CHECK_FALSE(contains(refusal_of(matlab_file(bytes)), "memory"));
   }
   CHECK(contains(refusal_of(matlab_file(packed(whole))), "a.mat: is a damaged MATLAB file"));
+}
+
+// Every number of so many bytes the other way round.
+std::string swapped(std::string bytes, std::size_t width) {
+  for (auto at = bytes.begin(); at != bytes.end(); at += width) std::reverse(at, at + width);
+  return bytes;
+}
+
+TEST_CASE("a MATLAB file of a machine with the other byte order is read, its lengths checked",
+          "[io][csv]") {
+  // The same elements as array() writes, number by number.
+  std::string bytes = array("t", 1, 3, {0.5, 1.0, 1.5});
+  for (const auto& [begin, length, width] : std::vector<std::array<std::size_t, 3>>{
+           {0, 48, 4}, {56, 8, 4}, {64, 24, 8}}) {  // 48: the name
+    bytes.replace(begin, length, swapped(bytes.substr(begin, length), width));
+  }
+  std::string file = matlab_file(bytes);
+  std::swap(file[126], file[127]);
+  std::swap(file[124], file[125]);
+  const CsvTable table = csv_from_text(file, "a.mat");
+  REQUIRE(table.columns.size() == 1);
+  CHECK(table.columns[0].values == Numbers{0.5, 1.0, 1.5});
+  file[128 + 40 + 4] = 0x72;  // the length of the name, most significant byte first
+  CHECK(contains(refusal_of(file), "a.mat: is a damaged MATLAB file"));
 }
 
 TEST_CASE("a sparse matrix in a MATLAB file does not hide the vectors beside it", "[io][csv]") {
