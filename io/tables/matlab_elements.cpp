@@ -66,7 +66,8 @@ class Reader {
   bool is_swapped_;
 };
 
-// The element that was packed; empty if it is damaged.
+// The element that was packed; empty if it is damaged: if it has another length than it claims or if its
+// checksum is wrong. A missing checksum is no damage.
 std::string unpacked(std::string_view packed, const Reader& reader) {
   struct Stream : z_stream {
     Stream() : z_stream{} {}
@@ -76,18 +77,20 @@ std::string unpacked(std::string_view packed, const Reader& reader) {
   // zlib reads from there only.
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
   stream.avail_in = static_cast<uInt>(packed.size());
-  std::string element(kTag, '\0');
-  const auto fill = [&](std::size_t begin) {
-    stream.next_out = reinterpret_cast<Bytef*>(element.data() + begin);
-    stream.avail_out = static_cast<uInt>(element.size() - begin);
-    inflate(&stream, Z_SYNC_FLUSH);
-    return stream.avail_out == 0;
+  const auto is_filled = [&](char* begin, std::size_t length) {
+    stream.next_out = reinterpret_cast<Bytef*>(begin);
+    stream.avail_out = static_cast<uInt>(length);
+    return inflate(&stream, Z_SYNC_FLUSH) != Z_DATA_ERROR && stream.avail_out == 0;
   };
-  if (!fill(0)) return {};
+  std::string element(kTag, '\0');
+  if (!is_filled(element.data(), kTag)) return {};
   const std::size_t length = reader.word(element.data() + 4);
   if (length > kMostUnpacked * packed.size()) return {};
   element.resize(kTag + length);
-  return length == 0 || fill(kTag) ? element : std::string();
+  if (length > 0 && !is_filled(element.data() + kTag, length)) return {};
+  char more = 0;
+  const bool is_longer = is_filled(&more, 1);
+  return is_longer || stream.msg != nullptr ? std::string() : element;
 }
 
 }  // namespace
