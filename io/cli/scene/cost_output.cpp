@@ -10,9 +10,9 @@
 namespace viscard {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-json json_from_row(const CostRow& row) {
+Json json_from_row(const CostRow& row) {
   return {{"discretisation", row.discretisation},
           {"effects", row.effects},
           {"unknowns", row.unknowns},
@@ -24,7 +24,7 @@ json json_from_row(const CostRow& row) {
           {"predicted", false}};
 }
 
-json json_from_prediction(const PredictedRow& row) {
+Json json_from_prediction(const PredictedRow& row) {
   return {{"discretisation", row.discretisation},
           {"effects", row.effects},
           {"unknowns", std::round(row.unknowns)},
@@ -33,7 +33,7 @@ json json_from_prediction(const PredictedRow& row) {
           {"predicted", true}};
 }
 
-json json_from_machine(const CostMachine& machine) {
+Json json_from_machine(const CostMachine& machine) {
   return {{"processor", machine.processor},
           {"cores", machine.cores},
           {"load", machine.load},
@@ -85,9 +85,9 @@ void print_legend(const CostStudy& study, std::ostream& out) {
 
 }  // namespace
 
-json json_from_study(const CostStudy& study) {
-  json rows = json::array(), predicted = json::array(), advice = json::array();
-  json failed = json::array();
+Json json_from_study(const CostStudy& study) {
+  Json rows = Json::array(), predicted = Json::array(), advice = Json::array();
+  Json failed = Json::array();
   for (const CostRow& row : study.rows) rows.push_back(json_from_row(row));
   for (const PredictedRow& row : study.predicted) predicted.push_back(json_from_prediction(row));
   for (const FailedRow& row : study.failed) {
@@ -96,17 +96,17 @@ json json_from_study(const CostStudy& study) {
   }
   for (const CostAdvice& one : study.advice) {
     advice.push_back({{"tolerance", one.tolerance},
-                      {"row", one.row < 0 ? json() : json(one.row)},
+                      {"row", one.row < 0 ? Json() : Json(one.row)},
                       {"text", one.text}});
   }
-  json linear;  // null if the rows do not give it
+  Json linear;  // null if the rows do not give it
   if (const auto factor = factor_over_linear(study, 1e-3)) {
     linear = {{"error", factor->error},
               {"factor", factor->factor},
               {"extrapolated", factor->is_extrapolated},
               {"quickest", factor->quickest}};
   }
-  json laws = json::array();
+  Json laws = Json::array();
   for (const CostLaw& law : study.laws) {
     laws.push_back({{"kind", law.kind}, {"seconds", law.seconds}, {"exponent", law.exponent}});
   }
@@ -117,7 +117,7 @@ json json_from_study(const CostStudy& study) {
           {"recommendations", advice},
           {"linear_elements", linear},
           {"reference", study.reference},
-          {"reference_error", is_known ? json(study.reference_error) : json()},
+          {"reference_error", is_known ? Json(study.reference_error) : Json()},
           {"rows_left_out", study.left_out},
           {"rows_without_answer", failed},
           {"tolerance", study.tolerance},

@@ -13,7 +13,7 @@ namespace viscard {
 namespace {
 
 using Catch::Matchers::Contains;
-using nlohmann::json;
+using Json = nlohmann::json;
 using test::ScratchFolder;
 
 struct Calibrated {
@@ -58,7 +58,7 @@ TEST_CASE("dead weights on the emulated rig recover gain and hysteresis within t
       calibrate({"--emulate", "--truth", truth_file(folder), "--speed", "50", "--series", "2",
                  "--gravity", "9.80665 m/s2", "--out", out, "--json"});
   REQUIRE(run.status == kDone);
-  const json found = json::parse(run.out);
+  const Json found = Json::parse(run.out);
   const double gain = found["gain_V_N"];
   const double gain_u = found["gain_u_V_N"];
   CHECK(std::abs(gain - 0.74) < 2.0 * gain_u);
@@ -99,7 +99,7 @@ TEST_CASE("a rigid block on the emulated rig recovers the frame's stiffness with
       calibrate({"--compliance", "--emulate", "--truth", (folder / "truth.toml").string(),
                  "--speed", "10", "--seconds", "1 s", "--steps", "5", "--out", out, "--json"});
   REQUIRE(run.status == kDone);
-  const json found = json::parse(run.out);
+  const Json found = Json::parse(run.out);
   CHECK(found["n_points"] == 5);
   const double stiffness_N_m = found["stiffness_N_m"];
   CHECK(stiffness_N_m == Approx(12.5e3).epsilon(0.005));

@@ -10,7 +10,7 @@
 namespace viscard {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using test::run_command;
 using test::ScratchFolder;
 
@@ -19,12 +19,12 @@ std::string demo(const std::string& name) {
 }
 
 // The error that a failing command prints as its only object on stdout.
-json error_of(const std::vector<std::string>& words, int status = kFailed) {
+Json error_of(const std::vector<std::string>& words, int status = kFailed) {
   const test::CommandOutcome outcome = run_command(words);
   INFO(outcome.out << outcome.err);
   CHECK(outcome.status == status);
   CHECK(outcome.err.rfind("viscard: ", 0) == 0);  // people still read the message
-  json error = json::parse(outcome.out).at("error");
+  Json error = Json::parse(outcome.out).at("error");
   for (const char* key : {"code", "message", "where", "hint"}) CHECK(error.at(key).is_string());
   CHECK(error.size() == 4);
   CHECK_FALSE(error.at("message").get<std::string>().empty());
@@ -35,7 +35,7 @@ json error_of(const std::vector<std::string>& words, int status = kFailed) {
 
 TEST_CASE("a wrong command line has the code usage and names the option", "[cli]") {
   for (const Command& command : commands()) {
-    const json error = error_of({command.name, "--oust", "x", "--json"}, kBadWords);
+    const Json error = error_of({command.name, "--oust", "x", "--json"}, kBadWords);
     CHECK(error["code"] == "usage");
     CHECK(error["where"] == "--oust");
   }
@@ -45,7 +45,7 @@ TEST_CASE("a mistake in a file has the code input, with the line", "[cli]") {
   const ScratchFolder folder;
   write_file(folder / "rig.toml", "[stage]\nport = \"/dev/x\"\nspeedd = 3\n", false);
   const std::string file = folder / "rig.toml";
-  const json error = error_of({"rig", "check", "--rig", file, "--json"});
+  const Json error = error_of({"rig", "check", "--rig", file, "--json"});
   CHECK(error["code"] == "input");
   CHECK(error["where"] == file + ":3");
 }
@@ -54,7 +54,7 @@ TEST_CASE("an output that exists has the code exists, and the hint names --force
   const ScratchFolder folder;
   const std::string file = folder / "run.viscap";
   write_file(file, "old", false);
-  const json error = error_of({"capture", "--emulate", "--out", file, "--json"});
+  const Json error = error_of({"capture", "--emulate", "--out", file, "--json"});
   CHECK(error["code"] == "exists");
   CHECK(error["hint"].get<std::string>().find("--force") != std::string::npos);
   CHECK(read_file(file) == "old");
@@ -65,7 +65,7 @@ TEST_CASE("a port that does not exist has the code port and its name", "[cli]") 
   std::string rig = read_file(demo("01_rig.toml"));
   rig.replace(rig.find("/dev/serial/by-id/stage"), 23, "/dev/viscard-no-port");
   write_file(folder / "rig.toml", rig, false);
-  const json error = error_of({"rig", "check", "--rig", folder / "rig.toml", "--json"});
+  const Json error = error_of({"rig", "check", "--rig", folder / "rig.toml", "--json"});
   CHECK(error["code"] == "port");
   CHECK(error["where"] == "/dev/viscard-no-port");
   CHECK_FALSE(error["hint"].get<std::string>().empty());
@@ -75,7 +75,7 @@ TEST_CASE("a test that would overload the cell has the code preflight", "[cli]")
   const ScratchFolder folder;
   write_file(folder / "test.toml",
              "[ramp]\ndepth = \"0.25 mm\"\nduration = \"1 s\"\nhold = \"3 s\"\n", false);
-  const json error = error_of({"capture", "--emulate", "--test", folder / "test.toml", "--out",
+  const Json error = error_of({"capture", "--emulate", "--test", folder / "test.toml", "--out",
                                folder / "run.viscap", "--json"});
   CHECK(error["code"] == "preflight");
   CHECK(error["message"].get<std::string>().find(" N") != std::string::npos);
@@ -101,7 +101,7 @@ TEST_CASE("a run that ends early has its result and the error in one object", "[
                    folder / "run.viscap", "--json"});
   INFO(outcome.out << outcome.err);
   CHECK(outcome.status == kFailed);
-  const json object = json::parse(outcome.out);
+  const Json object = Json::parse(outcome.out);
   CHECK(object["status"] == "interrupted");
   CHECK(object["error"]["code"] == "device");
   CHECK(object["error"]["where"] == "approach");
