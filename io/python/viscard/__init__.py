@@ -11,16 +11,18 @@ Quantities are SI, with the unit in the name (E0_Pa, tau_s). A keyword takes a n
 from __future__ import annotations
 
 from . import _core
+from ._answer import Answer, Cost, Field, Plan, Value
 from ._capture import CaptureOutcome, capture
 from ._card import Card, card_targets
 from ._data import data_file
 from ._design import DesignLimits, Designs, Judgement, design
 from ._error import DoubtWarning, Error
-from ._fit import FitResult, Flag, JointFit, fit
+from ._fit import fit
+from ._fit_result import FitResult, Flag, JointFit
 from ._material import Material, Prediction, predict
 from ._planning import TestCost, cost_of_tests
 from ._rubber import Parameter, RubberCard, RubberFit, RubberTerm
-from ._scene import Answer, Cost, Field, Plan, Value, cost, forces_from_voltages, plan, simulate
+from ._scene import cost, forces_from_voltages, plan, simulate
 from ._sweep import Sweep, sweep
 from ._table import Capture, Table, read_capture, read_table
 

@@ -11,7 +11,7 @@ import numpy as np
 from . import _arrays, _check, _core
 from ._check import Path
 from ._error import Error
-from ._fit import Flag
+from ._fit_result import Flag
 
 
 class Parameter(NamedTuple):

@@ -205,21 +205,21 @@ void compare(const SpaceContact& coarse, SpaceContact& fine) {
   }
 }
 
-// A chance agreement of two grids does not pass where the surface ends above tops: its edge lies among their points
-// differently on each grid, so that a change is at least half the one before (the error falls as the elements' size).
-void keep_half(const SpaceContact& before, SpaceContact& fine) {
+// Changes of the whole force and depth keep a share at cut tops only.
+void keep_share(const SpaceContact& before, SpaceContact& fine) {
   bool is_cut = false;
   for (std::size_t i = 0; i < fine.pressed.tops.size(); ++i) {
-    if (!fine.pressed.tops[i].is_cut) continue;
-    is_cut = true;
+    const double kept = kept_share(fine.pressed.tops[i]);
+    if (kept == 0.0) continue;
+    is_cut = is_cut || fine.pressed.tops[i].is_cut;
     const auto row = static_cast<Eigen::Index>(i);
     for (int load = 0; load < kTopLoads; ++load) {
       double& now_Pa = fine.change_Pa(row, load);
-      const double half_Pa = 0.5 * before.change_Pa(row, load);
-      if (std::abs(now_Pa) < std::abs(half_Pa)) now_Pa = half_Pa;
+      const double kept_Pa = kept * before.change_Pa(row, load);
+      if (std::abs(now_Pa) < std::abs(kept_Pa)) now_Pa = kept_Pa;
     }
-    fine.force_change_N[i] = std::max(fine.force_change_N[i], 0.5 * before.force_change_N[i]);
-    fine.share_change[i] = std::max(fine.share_change[i], 0.5 * before.share_change[i]);
+    fine.force_change_N[i] = std::max(fine.force_change_N[i], kept * before.force_change_N[i]);
+    fine.share_change[i] = std::max(fine.share_change[i], kept * before.share_change[i]);
   }
   if (!is_cut) return;
   fine.total_change_N = std::max(fine.total_change_N, 0.5 * before.total_change_N);
@@ -287,7 +287,7 @@ SpaceContact contact_within(const SpaceScene& scene, double tolerance) {
   for (int grid = 1; grid < grids_of(scene); ++grid) {
     SpaceContact finer = presser.on(grid);
     compare(contact, finer);
-    keep_half(contact, finer);
+    keep_share(contact, finer);
     contact = std::move(finer);
     const double largest_Pa = contact.loads_Pa.cwiseAbs().maxCoeff();
     if (contact.change_Pa.cwiseAbs().maxCoeff() <= tolerance * largest_Pa) break;

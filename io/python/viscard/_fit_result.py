@@ -1,0 +1,247 @@
+"""What a fit found: FitResult and JointFit."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, List, NamedTuple
+
+import numpy as np
+
+from . import _arrays, _check, _core
+from ._check import Path
+from ._error import Error
+from ._material import Material
+
+
+class Flag(NamedTuple):
+    """What the data do not determine. `term` counts from 1; 0 is the whole material.
+
+    Examples
+    --------
+    >>> viscard.Flag("tau-below-sampling", 1, "a sentence").name
+    'tau-below-sampling'
+    """
+
+    name: str
+    term: int
+    text: str
+
+
+class FitResult:
+    """A fitted modulus and Prony series with 95 % intervals.
+
+    Values are in `unit`: "Pa", or "N/m" (stiffness) or "N" (force) if the geometry or depth is not known.
+    ``result["key"]`` gives every key of ``viscard fit --json``.
+
+    Attributes
+    ----------
+    E0, E_inf : float
+        Instantaneous and long-term modulus; `E0_Pa` and `E_inf_Pa` refuse another unit.
+    E0_interval, E_inf_interval : (low, high)
+        95 %; `E0_combined_interval` includes the systematic part (geometry, calibration).
+    g, tau_s, moduli : array, shape (terms,)
+        Shares of E0, relaxation times in s, moduli in `unit`; ascending times.
+    g_interval, tau_interval_s, moduli_interval : array, shape (terms, 2)
+    covariance : array, shape (parameters, parameters)
+        In the units that `covariance_parameters` state.
+    flags : list of Flag
+    is_trustworthy : bool
+        False: not converged, saturated, and so on; the flags name the cause.
+    curves : dict of arrays, shape (rows,)
+        at (s; Hz of an oscillation), measured, fitted, sigma in `curves["unit"]`; averages of the data.
+    json : dict
+    material : Material
+    file : str
+
+    Examples
+    --------
+    >>> result = viscard.fit(viscard.data_file("demo/example_relaxation.csv"))
+    >>> len(result.tau_s), result.unit
+    (2, 'Pa')
+    >>> low, high = result.E0_interval
+    >>> bool(low < result.E0_Pa < high)
+    True
+    >>> result.covariance.shape
+    (5, 5)
+    """
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        self.json: Dict[str, Any] = _arrays.with_head("viscard-fit/1", found["inputs"], found["json"])
+        self.file: str = found["file"]
+        self.covariance: np.ndarray = found["covariance"]
+        self.covariance_parameters: List[str] = found["covariance_parameters"]
+        self.curves: Dict[str, Any] = found["curves"]
+        self.flags = [Flag(f["name"], f.get("term", 0), f["text"]) for f in self.json["flags"]]
+        self.is_trustworthy: bool = self.json["trustworthy"]
+        self._letter = next(letter for letter in "EKF" if f"{letter}0_interval_95" in self.json)
+        self._suffix = {"E": "_Pa", "K": "_N_m", "F": "_N"}[self._letter]
+        self._stem = {"E": "modulus", "K": "stiffness", "F": "force"}[self._letter] + self._suffix
+        self.unit: str = {"E": "Pa", "K": "N/m", "F": "N"}[self._letter]
+        self._text: str = found["text"]
+        self._material = found["material"]
+        self._no_material: str = found["no_material"]
+
+    def __getitem__(self, key: str) -> Any:
+        return self.json[key]
+
+    def _value(self, name: str) -> float:
+        value = self.json[self._letter + name + self._suffix]
+        return float("nan") if value is None else value
+
+    def _in_Pa(self, value: float) -> float:
+        if self.unit != "Pa":
+            raise Error(f"{self.file} gives no modulus but values in {self.unit}; "
+                        "add punch_diameter, specimen or depth", "input")
+        return value
+
+    @property
+    def E0(self) -> float:
+        return self._value("0")
+
+    @property
+    def E_inf(self) -> float:
+        return self._value("_inf")
+
+    @property
+    def E0_Pa(self) -> float:
+        return self._in_Pa(self.E0)
+
+    @property
+    def E_inf_Pa(self) -> float:
+        return self._in_Pa(self.E_inf)
+
+    @property
+    def E0_se(self) -> float:
+        return self._value("0_se")
+
+    @property
+    def E0_interval(self):
+        return _arrays.pair(self.json[self._letter + "0_interval_95"])
+
+    @property
+    def E_inf_interval(self):
+        return _arrays.pair(self.json[self._letter + "_inf_interval_95"])
+
+    @property
+    def E0_combined_interval(self):
+        return _arrays.pair(self.json[self._letter + "0_combined_interval_95"])
+
+    def _terms(self, key: str) -> np.ndarray:
+        return _arrays.column(self.json["terms"], lambda term: term[key])
+
+    def _intervals(self, key: str) -> np.ndarray:
+        rows = [_arrays.pair(term["interval_95"][key]) for term in self.json["terms"]]
+        return np.array(rows, dtype=float).reshape(-1, 2)
+
+    @property
+    def g(self) -> np.ndarray:
+        return self._terms("g")
+
+    @property
+    def tau_s(self) -> np.ndarray:
+        return self._terms("tau_s")
+
+    @property
+    def moduli(self) -> np.ndarray:
+        return self._terms(self._stem)
+
+    @property
+    def g_interval(self) -> np.ndarray:
+        return self._intervals("g")
+
+    @property
+    def tau_interval_s(self) -> np.ndarray:
+        return self._intervals("tau_s")
+
+    @property
+    def moduli_interval(self) -> np.ndarray:
+        return self._intervals(self._stem)
+
+    @property
+    def material(self) -> Material:
+        """The material of the fit. Raises Error if the fit gives no modulus."""
+        if self._material is None:
+            raise Error(self._no_material, "input")
+        return Material._of(self._material)
+
+    def summary(self) -> str:
+        """The text of ``viscard fit``: moduli with intervals, the table of orders, flags."""
+        return self._text
+
+    def plot(self, ax=None, **style):
+        """Data and fit on logarithmic time (or frequency; of an indentation, on linear time). Needs matplotlib.
+        Returns the axes.
+
+        Parameters
+        ----------
+        ax : matplotlib axes
+            Default: new ones.
+        style : dict
+            For both curves, such as ``color="C3"``; `label` names the fit.
+
+        Examples
+        --------
+        >>> import matplotlib; matplotlib.use("agg")
+        >>> axes = viscard.fit(viscard.data_file("demo/example_relaxation.csv")).plot()
+        >>> axes.get_xlabel()
+        'time (s)'
+        """
+        from ._plot import plot_fit
+
+        return plot_fit(self, ax, style)
+
+    def __repr__(self) -> str:
+        low, high = self.E0_interval
+        n = len(self.json["terms"])
+        doubt = "" if self.is_trustworthy else ", not to be trusted"
+        return (f"<viscard.FitResult {self.file}: E0 {self.E0:.6g} {self.unit} "
+                f"(95 % {low:.6g} to {high:.6g}), {n} term{'' if n == 1 else 's'}{doubt}>")
+
+
+class JointFit:
+    """The law of a material in its mixing ratio, from ``fit(files, joint=True)``.
+
+    Attributes
+    ----------
+    json : dict
+        The joint file.
+    law : str
+        The law in words.
+    ratios : array, shape (ratios,)
+        That were measured, parts of base to one of curing agent.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> time_s, random = np.geomspace(0.01, 100.0, 300), np.random.default_rng(4)
+    >>> for ratio in (10, 13, 20):
+    ...     E = viscard.Material(2e7 / ratio, 0.495, terms=[(0.1, 0.5), (0.1, 8.0)]).relaxation(time_s)
+    ...     np.savetxt(f"1to{ratio}.csv", np.c_[time_s, E * random.normal(1.0, 1e-3, 300)], delimiter=",",
+    ...                header="time_s,modulus_Pa", comments="")
+    >>> joint = viscard.fit(["1to10.csv", "1to13.csv", "1to20.csv"], joint=True, ratio=[10, 13, 20])
+    >>> joint.ratios
+    array([10., 13., 20.])
+    >>> bool(joint.material(20).E0_Pa < joint.material(10).E0_Pa)
+    True
+    """
+
+    def __init__(self, found) -> None:
+        import json
+
+        self._core = found
+        self.json: Dict[str, Any] = json.loads(found.to_json())
+        self.law: str = found.law()
+        self.ratios: np.ndarray = np.array(found.ratios())
+
+    @_check.arguments
+    def material(self, ratio: float, *, may_extrapolate: bool = False) -> Material:
+        """The material at a mixing ratio: measured, or from the law."""
+        return Material._of(self._core.at(float(ratio), may_extrapolate))
+
+    @_check.arguments
+    def save(self, path: Path, *, overwrite: bool = False) -> None:
+        """Write the joint file, which ``viscard card --ratio`` reads."""
+        _core.write_file(os.fspath(path), self._core.to_json(), overwrite)
+
+    def __repr__(self) -> str:
+        return f"<viscard.JointFit {self.law}>"
