@@ -46,7 +46,7 @@ SpectralState with_fast_term(const SpectralModel& model, const SpectralFit& fit,
 // Such fits at times from shortest_s on to well below the fastest fitted term.
 std::vector<SpectralState> with_fast_terms(const SpectralModel& model, const SpectralFit& fit,
                                            double shortest_s) {
-  constexpr double kPerDecade = 8.0, kApart = 6.0;
+  constexpr double kPerDecade = 8.0, kApart = 4.0;
   const double from = std::max(std::log(shortest_s), model.ln_tau_min());
   const double record = model.ln_tau_max() - std::log(9.0);  // a third of it
   const double fastest = fit.state.n_terms() > 0 ? fit.state.ln_tau.minCoeff() : record;

@@ -11,12 +11,13 @@ namespace viscard {
 // contact and another speed of the stage, so that no criterion chooses it, and yet E0 and all that is
 // fitted with it depend on it.
 //
-// One more term is fitted at held times (8 a decade) from shortest_s to a sixth of the fastest fitted
-// time; what is nearer, the fitted term stands for. Its modulus then takes values within the region
-// where the sum of squares rises by less than 3.84 variances over the best of these fits, and all
-// else its best values and region there: the profile likelihood over the hidden term (Venzon &
-// Moolgavkar, Appl. Statist. 37 (1988) 87), each fit taken as quadratic, moduli not negative. Nothing
-// happens if the order was requested.
+// One more term is fitted at held times (8 a decade) from shortest_s to a quarter of the fastest fitted
+// time; what is nearer, the fitted term stands for. (A hidden term shortens the fitted time: up to a
+// sixth only, a term at a sixth of the true time was beyond the region; see fit/intervals/README.md.) Its
+// modulus then takes values within the region where the sum of squares rises by less than 3.84 variances
+// over the best of these fits, and all else its best values and region there: the profile likelihood over
+// the hidden term (Venzon & Moolgavkar, Appl. Statist. 37 (1988) 87), each fit taken as quadratic, moduli
+// not negative. Nothing happens if the order was requested.
 //
 // Adds the flag fast-term-hidden if the interval of E0 becomes wider by more than half and by more
 // than 1.5 % of E0.

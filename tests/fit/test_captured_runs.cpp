@@ -20,8 +20,10 @@ struct Recovery {
   int runs = 0;
   int intervals = 0;
   int holding = 0;
-  double worst_E0 = 0.0;          // relative error
-  double worst_half_width = 0.0;  // of the interval of g_1 + g_2, relative to it
+  double worst_E0 = 0.0;  // relative error
+  // How far the interval of g_1 + g_2 reaches below and above it, relative to it. Above it includes a term that
+  // is faster than the fitted ones and does not show.
+  double worst_below = 0.0, worst_above = 0.0;
   bool always_two_terms = true;
 };
 
@@ -37,8 +39,10 @@ Recovery recover(int seeds, const RunConditions& conditions = {}) {
       ++recovery.runs;
       const double E0 = truth.material.E0_Pa;
       recovery.worst_E0 = std::max(recovery.worst_E0, std::abs(fit.E0_Pa / E0 - 1.0));
-      recovery.worst_half_width = std::max(
-          recovery.worst_half_width, 0.5 * (fit.sum_g_95.high - fit.sum_g_95.low) / fit.sum_g);
+      const double below = 1.0 - fit.sum_g_95.low / fit.sum_g;
+      const double above = fit.sum_g_95.high / fit.sum_g - 1.0;
+      recovery.worst_below = std::max(recovery.worst_below, below);
+      recovery.worst_above = std::max(recovery.worst_above, above);
       recovery.intervals += 5;
       const auto count = [&](const Interval& interval, double value) {
         recovery.holding += holds(interval, value) ? 1 : 0;
@@ -63,7 +67,8 @@ TEST_CASE("captured runs give the truth behind them", "[fit]") {
   const Recovery recovery = recover(3);
   CHECK(recovery.always_two_terms);
   CHECK(recovery.worst_E0 < 0.01);
-  CHECK(recovery.worst_half_width < 0.10);
+  CHECK(recovery.worst_below < 0.10);
+  CHECK(recovery.worst_above < 0.40);
   // With 45 intervals at 95 %, fewer than 36 hold the truth with a probability below one in ten
   // thousand.
   CHECK(recovery.holding >= 36);
@@ -74,7 +79,8 @@ TEST_CASE("120 captured runs: E0 within 1 %, 90 to 99 % of 600 intervals hold", 
   CHECK(recovery.runs == 120);
   CHECK(recovery.always_two_terms);
   CHECK(recovery.worst_E0 < 0.01);
-  CHECK(recovery.worst_half_width < 0.10);
+  CHECK(recovery.worst_below < 0.10);
+  CHECK(recovery.worst_above < 0.40);
   const double share = static_cast<double>(recovery.holding) / recovery.intervals;
   CHECK(share >= 0.90);
   CHECK(share <= 0.99);
@@ -88,8 +94,33 @@ TEST_CASE("a stage that is slower than commanded does not spoil the intervals", 
   CAPTURE(conditions.stage_speed, recovery.holding);
   CHECK(recovery.always_two_terms);
   CHECK(recovery.worst_E0 < 0.01);
-  CHECK(recovery.worst_half_width < 0.12);
+  CHECK(recovery.worst_below < 0.12);
+  CHECK(recovery.worst_above < 0.40);
   CHECK(recovery.holding >= 36);  // of 45, as above
+}
+
+// The term is six times faster than the next and holds 0.3 or 0.6 % of E0, which is three and six times the
+// half-width of E0's interval of the scatter alone. The fits find two terms and shorten the faster of them.
+TEST_CASE("the interval of E0 holds a fast term that the fit does not show", "[fit]") {
+  const double share = GENERATE(0.003, 0.006);
+  int holding = 0, of_scatter_alone = 0;
+  constexpr int kSeeds = 3;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    EmulatedTruth truth = demo_truth(20, static_cast<std::uint64_t>(100 * seed + 20));
+    truth.material.terms.insert(truth.material.terms.begin(), {share, share, 0.037});
+    FitOptions options;
+    options.with_curves = false;
+    const IndentationData data = indentation_from_capture(in_memory_run(truth, {}));
+    const FitResult fit = fit_indentation(data, options);
+    REQUIRE(fit.terms.size() == 2);
+    holding += holds(fit.E0_interval_95, truth.material.E0_Pa) ? 1 : 0;
+    options.n_terms = 2;  // as requested: other orders are no doubt
+    const FitResult requested = fit_indentation(data, options);
+    of_scatter_alone += holds(requested.E0_interval_95, truth.material.E0_Pa) ? 1 : 0;
+  }
+  CAPTURE(share, holding, of_scatter_alone);
+  CHECK(holding == kSeeds);
+  CHECK(of_scatter_alone <= 1);
 }
 
 TEST_CASE("the speed of the stage is fitted, and one that is far from the commanded is flagged",
