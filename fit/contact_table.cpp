@@ -2,6 +2,7 @@
 
 #include "fit/curves/contact_course.h"
 #include "fit/samples/clean_data.h"
+#include "fit/samples/depth_course.h"
 #include "fit/samples/median.h"
 #include "fit/samples/noise_model.h"
 #include "fit/samples/spikes.h"

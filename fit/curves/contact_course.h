@@ -23,15 +23,4 @@ struct ContactCourse {
 ContactCourse contact_course(std::span<const double> time_s, std::span<const double> depth_m,
                              double contact_m, std::size_t first, const PronySeries& series);
 
-// Samples at which the depth has moved by more than 2 % of its range since the last such sample.
-std::vector<char> moved_samples(std::span<const double> depth_m);
-
-// The first loading ends at the first sample with 98 % of the largest depth that is reached before
-// the punch goes back by a fifth of the range. goes_back: true if it goes back that far.
-struct FirstLoading {
-  std::size_t loaded = 0;
-  bool goes_back = false;
-};
-FirstLoading first_loading(std::span<const double> depth_m);
-
 }  // namespace viscard

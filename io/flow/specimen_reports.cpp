@@ -188,7 +188,7 @@ void join_or_append(std::vector<SpecimenReport>& specimens, SpecimenReport mater
   specimens.push_back(std::move(material));
 }
 
-PillarCurve report_curve(const ValidationCurve& curve, const char* quantity) {
+PillarCheckCurve report_curve(const ValidationCurve& curve, const char* quantity) {
   return {quantity, curve.time_s, curve.solver, curve.exact, curve.largest_relative_error};
 }
 

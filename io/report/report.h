@@ -16,14 +16,14 @@ namespace viscard {
 
 // Creep or relaxation of the pillar: one quantity over time as the solver and the exact solution
 // give it, and the largest relative difference.
-struct PillarCurve {
+struct PillarCheckCurve {
   std::string quantity;  // "force (uN)", the axis label
   std::vector<double> time_s, solver, exact;
   double largest_relative_error = 0.0;
 };
 
 struct PillarCheck {
-  PillarCurve relaxation, creep;
+  PillarCheckCurve relaxation, creep;
   double limit = 1e-6;  // largest relative error that is accepted
   std::string setup;    // one sentence: geometry, load, unknowns, steps
 };

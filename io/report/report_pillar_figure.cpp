@@ -10,7 +10,7 @@ namespace {
 constexpr double kRounding =
     1e-16;  // smaller errors are drawn here, because a logarithmic axis has no zero
 
-void add_error(PlotPanel& panel, const PillarCurve& curve, const SpecimenStyle& style) {
+void add_error(PlotPanel& panel, const PillarCheckCurve& curve, const SpecimenStyle& style) {
   PlotSeries error{.mark = Mark::kLine, .ink = style.ink, .size = 0.8};
   error.pattern = style.pattern;
   for (std::size_t i = 0; i < curve.time_s.size(); ++i) {
@@ -45,7 +45,7 @@ double first_value(const std::vector<double>& values) {
   return 1.0;
 }
 
-void add_pillar_curve(PlotPanel& panel, const PillarCurve& curve, const SpecimenStyle& style) {
+void add_pillar_curve(PlotPanel& panel, const PillarCheckCurve& curve, const SpecimenStyle& style) {
   const double factor = 1.0 / first_value(curve.exact);
   PlotSeries exact{.mark = Mark::kLine, .ink = style.ink, .size = 0.9};
   exact.x = curve.time_s;
@@ -87,8 +87,8 @@ std::optional<Plot> pillar_plot(const ReportInput& input,
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     if (!input.specimens[i].pillar) continue;
     limit = input.specimens[i].pillar->limit;
-    const PillarCurve* curves[] = {&input.specimens[i].pillar->relaxation,
-                                   &input.specimens[i].pillar->creep};
+    const PillarCheckCurve* curves[] = {&input.specimens[i].pillar->relaxation,
+                                        &input.specimens[i].pillar->creep};
     for (std::size_t p = 0; p < 2; ++p) {
       add_pillar_curve(plot.panels[p], *curves[p], styles[i]);
       add_error(plot.panels[p + 2], *curves[p], styles[i]);

@@ -219,6 +219,20 @@ TEST_CASE("what x.h declares is defined in x.cpp or in a file of that room witho
   CHECK(checked > 500);
 }
 
+// A linker keeps one of two classes of the same name, and the members of the other are lost without a word.
+TEST_CASE("no two headers define a class of the same name", "[layering]") {
+  std::map<std::string, std::set<std::string>> headers;
+  for (const auto& [path, file] : tree().files) {
+    if (!has_suffix(path, ".h")) continue;
+    for (const std::string& name : declarations_in(file.text).classes) headers[name].insert(path);
+  }
+  REQUIRE(headers.size() > 500);
+  for (const auto& [name, places] : headers) {
+    CAPTURE(name, words_of(places));
+    CHECK(places.size() == 1);
+  }
+}
+
 TEST_CASE("declarations and definitions are found in C++ text", "[layering]") {
   const Declarations header = declarations_in(R"(
 #define MACRO(x) x

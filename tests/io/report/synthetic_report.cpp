@@ -198,7 +198,7 @@ PillarCheck pillar_of(const Material& material) {
     const double error = 1.0 + 3e-9 * std::sin(0.31 * i) * std::exp(-0.01 * i);
     const double force_N = 1e-11 * relaxation_modulus_Pa(series, time_s);
     const double way_m = 1.2 * creep_compliance_1_Pa(spectrum, time_s);
-    for (PillarCurve* curve : {&check.relaxation, &check.creep}) {
+    for (PillarCheckCurve* curve : {&check.relaxation, &check.creep}) {
       const double exact = curve == &check.creep ? way_m : force_N;
       curve->time_s.push_back(time_s);
       curve->exact.push_back(exact);
