@@ -87,22 +87,38 @@ void SupernodalFactor::find_parents() {
 }
 
 void SupernodalFactor::place_entries(const Sparse& lower) {
-  const auto each = [&](const auto& action) {
-    int value = 0;
-    for (int column = 0; column < lower.outerSize(); ++column) {
-      const int a = position_[static_cast<std::size_t>(column)];
-      for (Sparse::InnerIterator it(lower, column); it; ++it, ++value) {
-        const int b = position_[static_cast<std::size_t>(it.row())];
-        action(value, static_cast<std::size_t>(std::min(a, b)), std::max(a, b));
-      }
-    }
-  };
+  const int n = static_cast<int>(lower.outerSize());
+  const int* starts = lower.outerIndexPtr();
+  const int* rows = lower.innerIndexPtr();
+  const auto position = [&](int unknown) { return position_[static_cast<std::size_t>(unknown)]; };
+  // The first of a pair in elimination order has its column. The pairs of one column of `lower` are counted, and
+  // placed, in a local variable where they keep it.
   first_entry_.assign(position_.size() + 1, 0);
-  each([&](int, std::size_t column, int) { ++first_entry_[column + 1]; });
+  for (int column = 0; column < n; ++column) {
+    const int a = position(column);
+    std::size_t kept = 0;
+    for (int i = starts[column]; i < starts[column + 1]; ++i) {
+      const int b = position(rows[i]);
+      kept += b >= a ? 1 : 0;
+      first_entry_[static_cast<std::size_t>(b) + 1] += b >= a ? 0 : 1;
+    }
+    first_entry_[static_cast<std::size_t>(a) + 1] += kept;
+  }
   std::partial_sum(first_entry_.begin(), first_entry_.end(), first_entry_.begin());
   std::vector<std::size_t> next(first_entry_.begin(), first_entry_.end() - 1);
   entries_.resize(static_cast<std::size_t>(lower.nonZeros()));
-  each([&](int value, std::size_t column, int row) { entries_[next[column]++] = {value, row}; });
+  for (int column = 0; column < n; ++column) {
+    const int a = position(column);
+    std::size_t own = next[static_cast<std::size_t>(a)];
+    for (int i = starts[column]; i < starts[column + 1]; ++i) {
+      const int b = position(rows[i]);
+      if (b >= a)
+        entries_[own++] = {i, b};
+      else
+        entries_[next[static_cast<std::size_t>(b)]++] = {i, a};
+    }
+    next[static_cast<std::size_t>(a)] = own;
+  }
   std::vector<int> in_front(position_.size());  // index of each row in the current block's front
   for (const Block& block : blocks_) {
     const auto first = static_cast<std::size_t>(block.first);
