@@ -22,6 +22,10 @@ inline const Lanes* lanes_at(const double* values) {
   return reinterpret_cast<const Lanes*>(values);
 }
 
+inline Lanes* lanes_at(double* values) {
+  return reinterpret_cast<Lanes*>(values);
+}
+
 inline double total(const Lanes& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }

@@ -1,38 +1,50 @@
 #include "models/pillar/system/stiffness_factor.h"
 
+#include "models/maths/wide_loops.h"
+
 #include <Eigen/Core>
 
 #include <cassert>
+#include <cstddef>
 #include <stdexcept>
 
 namespace viscard {
 
-// Every stored entry serves two rows. Two partial sums let additions overlap.
-Eigen::VectorXd times(const SymmetricSparse& matrix, const Eigen::VectorXd& x) {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix.rows());
-  const int* outer = matrix.outerIndexPtr();
-  const int* row = matrix.innerIndexPtr();
-  const double* value = matrix.valuePtr();
-  for (int column = 0; column < matrix.cols(); ++column) {
+// y += A x of the stored lower triangle, whose rows ascend in each column. Every stored entry serves two rows. Unknowns of
+// an element stand next to each other, so that most entries come in blocks of eight consecutive rows.
+VISCARD_WIDE_LOOP void add_product(int columns, const int* outer, const int* row,
+                                   const double* value, const double* x, double* y) {
+  constexpr int kBlock = 2 * static_cast<int>(kLanes);
+  for (int column = 0; column < columns; ++column) {
     int at = outer[column];
     const int end = outer[column + 1];
-    assert(at == end || row[at] >= column);  // the lower triangle, rows ascending
+    assert(at == end || row[at] >= column);
     const double own = x[column];
-    double even = 0.0;
-    double odd = 0.0;
-    if (at < end && row[at] == column) even = value[at++] * own;
-    for (; at + 1 < end; at += 2) {
-      even += value[at] * x[row[at]];
-      odd += value[at + 1] * x[row[at + 1]];
-      y[row[at]] += value[at] * own;
-      y[row[at + 1]] += value[at + 1] * own;
+    Lanes sums[2] = {};
+    double sum = 0.0;
+    if (at < end && row[at] == column) sum = value[at++] * own;
+    while (at < end) {
+      const int first = row[at];
+      if (at + kBlock <= end && row[at + kBlock - 1] == first + kBlock - 1) {
+        const Lanes low = *lanes_at(value + at), high = *lanes_at(value + at + kLanes);
+        sums[0] += low * *lanes_at(x + first);
+        sums[1] += high * *lanes_at(x + first + kLanes);
+        *lanes_at(y + first) += low * own;
+        *lanes_at(y + first + kLanes) += high * own;
+        at += kBlock;
+        continue;
+      }
+      sum += value[at] * x[first];
+      y[first] += value[at++] * own;
     }
-    if (at < end) {
-      even += value[at] * x[row[at]];
-      y[row[at]] += value[at] * own;
-    }
-    y[column] += even + odd;
+    y[column] += sum + total(sums[0] + sums[1]);
   }
+}
+
+Eigen::VectorXd times(const SymmetricSparse& matrix, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix.rows());
+  add_product(static_cast<int>(matrix.cols()), matrix.outerIndexPtr(), matrix.innerIndexPtr(),
+              matrix.valuePtr(), x.data(), y.data());
   return y;
 }
 
