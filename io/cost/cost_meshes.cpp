@@ -26,7 +26,14 @@ CostMeshes meshes_of(const PillarScene& scene) {
           .uniform_layers = 1,
           .reference_layers = 4,
           .step_tolerance = step_tolerance_of(scene),
+          .row_tolerance = std::max(1e-5, step_tolerance_of(scene)),
           .takes_time_steps = !history(scene).empty()};
+}
+
+// The tolerance of a row in time also decides how many modes are kept, which no mesh shows.
+double step_tolerance_of(const ArrayScene& scene) {
+  return std::holds_alternative<RowTransient>(scene.drive) ? 0.05 * scene.tolerance
+                                                           : scene.tolerance;
 }
 
 CostMeshes meshes_of(const ArrayScene& scene) {
@@ -35,7 +42,8 @@ CostMeshes meshes_of(const ArrayScene& scene) {
           .highest_uniform = 7,
           .uniform_layers = scene.electrodes.is_equipotential ? 2 : 1,
           .reference_layers = 5,
-          .step_tolerance = scene.tolerance};
+          .step_tolerance = step_tolerance_of(scene),
+          .row_tolerance = std::max(1e-5, scene.tolerance)};
 }
 
 // Each degree of the feet is an accuracy of the film and its waves as well; there are no others.
@@ -44,7 +52,8 @@ CostMeshes meshes_of(const SpaceScene& scene) {
           .graded = {{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}},
           .highest_uniform = 0,
           .reference_layers = 4,
-          .step_tolerance = scene.tolerance};
+          .step_tolerance = scene.tolerance,
+          .row_tolerance = std::max(1e-5, scene.tolerance)};
 }
 
 // Grids of a layer are known by their degree alone (layer_meshes()).
@@ -53,7 +62,8 @@ CostMeshes meshes_of(const LayerScene& scene) {
           .graded = {{3, 1}, {4, 2}, {5, 3}, {6, 4}},
           .highest_uniform = 0,
           .reference_layers = 5,
-          .step_tolerance = scene.tolerance};
+          .step_tolerance = scene.tolerance,
+          .row_tolerance = std::max(1e-5, scene.tolerance)};
 }
 
 Discretisation graded(const PillarScene& scene, int degree, int layers) {

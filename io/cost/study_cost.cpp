@@ -45,6 +45,24 @@ double relative_error(const SceneAnswer& answer, const SceneAnswer& reference) {
   return largest;
 }
 
+// Relative error that every mesh has: of steps in time, reduced bases, modes left out and the film.
+double error_on_all_meshes(const SceneAnswer& answer) {
+  double largest = 0.0;
+  for (const SceneResult& result : answer.results) {
+    if (!result.is_wanted) continue;
+    const double size = std::max(std::abs(result.value), result.scale);
+    const auto curve = std::find_if(answer.curves.begin(), answer.curves.end(),
+                                    [&](const SceneCurve& c) { return c.name == result.curve; });
+    double left_out = result.left_out;
+    if (curve != answer.curves.end() && !curve->left_out.empty()) {
+      left_out =
+          std::max(left_out, *std::max_element(curve->left_out.begin(), curve->left_out.end()));
+    }
+    if (size > 0.0) largest = std::max(largest, left_out / size);
+  }
+  return largest + answer.step_error;
+}
+
 constexpr double kQuick_s = 0.3;  // rows that take less time are repeated
 // The first rows run although the budget is spent, if they are as quick as this.
 constexpr std::size_t kShown = 3;
@@ -255,7 +273,8 @@ CostStudy study_of(const CostTrials& trials, const CostOptions& options) {
   study.left_out = static_cast<int>(study.predicted.size());
   study.reference = references.finest.row.discretisation;
   study.reference_error = references.coarser
-                              ? relative_error(*references.coarser, references.finest.answer)
+                              ? relative_error(*references.coarser, references.finest.answer) +
+                                    error_on_all_meshes(references.finest.answer)
                               : std::numeric_limits<double>::infinity();
   study.why_alone = references.why_alone;
   rank_by_processor_time(study);

@@ -131,7 +131,7 @@ CostTrials trials_of(const Scene& scene) {
     const Discretisation mesh = graded_mesh(fine, degree, meshes.reference_layers);
     trials.references.push_back(trial_from({graded_name(mesh), "all on", fine, mesh}, "reference"));
   }
-  common(all_on).tolerance = std::max(1e-5, meshes.step_tolerance);
+  common(all_on).tolerance = meshes.row_tolerance;
   std::vector<Trial> rows = mesh_trials(all_on);
   const Discretisation usual = graded_mesh(all_on, 5, 2);
   const auto append = [&](std::vector<Trial> more) {

@@ -42,7 +42,8 @@ struct CostMeshes {
   int highest_uniform = 0;                  // degree of equal elements; 0: graded ones alone
   int uniform_layers = 1;
   int reference_layers = 0;
-  double step_tolerance = 0.0;    // of the time steps of the reference
+  double step_tolerance = 0.0;    // of the time steps and modes of the reference
+  double row_tolerance = 0.0;     // of those of the rows
   bool takes_time_steps = false;  // through a history; rows are solved by a transform
 };
 CostMeshes cost_meshes(const Scene& scene);

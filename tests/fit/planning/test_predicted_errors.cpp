@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <string>
 
 using namespace viscard;
@@ -18,20 +19,27 @@ using namespace viscard::test;
 
 namespace {
 
-FitResult fit_of(const EmulatedTruth& truth, const TestPlan& plan) {
+FitResult fit_of(const EmulatedTruth& truth, const TestPlan& plan,
+                 std::optional<int> n_terms = std::nullopt) {
   FitOptions options;
   options.with_curves = false;
+  options.n_terms = n_terms;
   return fit_indentation(indentation_from_capture(in_memory_run(truth, plan)), options);
 }
 
 // Deviations of (E_inf, E_i, ln tau_i) from their mean over runs with different noise, starts and
-// surface: one row for each run.
+// surface: one row for each run. The prediction is that of two terms; a run in forty may show one.
 Eigen::MatrixXd deviations_of(EmulatedTruth truth, const TestPlan& plan, int n_runs,
                               std::uint64_t first_seed) {
   Eigen::MatrixXd rows(n_runs, 5);
+  int others = 0;  // runs that show another number of terms
   for (int run = 0; run < n_runs; ++run) {
     truth.seed = first_seed + static_cast<std::uint64_t>(run);
-    const FitResult fit = fit_of(truth, plan);
+    FitResult fit = fit_of(truth, plan);
+    if (fit.terms.size() != 2) {
+      ++others;
+      fit = fit_of(truth, plan, 2);
+    }
     REQUIRE(fit.terms.size() == 2);
     rows(run, 0) = fit.E_inf_Pa;
     for (int i = 0; i < 2; ++i) {
@@ -40,6 +48,7 @@ Eigen::MatrixXd deviations_of(EmulatedTruth truth, const TestPlan& plan, int n_r
       rows(run, 3 + i) = std::log(term.tau_s);
     }
   }
+  CHECK(40 * others <= n_runs);
   return rows.rowwise() - rows.colwise().mean();
 }
 

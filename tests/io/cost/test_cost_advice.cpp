@@ -4,6 +4,7 @@
 #include "io/cost/study_trials.h"
 #include "io/scenes/scene_file.h"
 #include "models/array/layer/simulate_layer.h"
+#include "models/pillar/analyses/large_strain.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
@@ -25,8 +26,10 @@ constexpr double kSlowdown = 40.0;
 constexpr double kSlowdown = 1.0;
 #endif
 
+// Degree 10, five layers. At large strain thin elements at the rim would turn inside out.
 Discretisation finest_mesh(const PillarScene& scene) {
-  return mesh_sequence(scene.geometry).back();  // degree 10, five layers
+  return (is_large(scene) ? large_mesh_sequence(scene.geometry) : mesh_sequence(scene.geometry))
+      .back();
 }
 
 Discretisation finest_mesh(const ArrayScene& scene) {
@@ -43,6 +46,10 @@ Discretisation finest_mesh(const LayerScene& scene) {
 
 bool moves(const auto&) {
   return false;
+}
+
+bool moves(const ArrayScene& scene) {
+  return std::holds_alternative<RowTransient>(scene.drive);
 }
 
 bool moves(const PillarScene& scene) {
