@@ -4,6 +4,7 @@
 #include "models/array/plane/simulate_array.h"
 #include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/large_strain.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 
@@ -24,7 +25,7 @@ CostMeshes meshes_of(const PillarScene& scene) {
           .graded = {{2, 1}, {3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}},
           .highest_uniform = 8,
           .uniform_layers = 1,
-          .reference_layers = 4,
+          .reference_layers = is_large(scene) ? 3 : 4,  // as large_mesh_sequence()
           .step_tolerance = step_tolerance_of(scene),
           .row_tolerance = std::max(1e-5, step_tolerance_of(scene)),
           .takes_time_steps = !history(scene).empty()};

@@ -180,25 +180,27 @@ References references_within(double share_s, const std::vector<CostTrial>& ladde
   }
   References found{std::move(*first_answer), std::nullopt, ""};
   std::string failure = runner.failed().empty() ? "" : runner.failed().back().reason;
-  while (at + 1 < ladder.size()) {
+  std::size_t end = ladder.size();  // of those that may have an answer
+  while (at + 1 < end) {
     std::size_t next = at;
-    for (std::size_t top = ladder.size() - 1; top > at && next == at; --top) {
+    for (std::size_t top = end - 1; top > at && next == at; --top) {
       const std::size_t first = std::max(top - 1, at + 1);
       double needed_s = runner.expected_s(ladder[top], 1);
       if (first < top) needed_s += runner.expected_s(ladder[first], 1);
       if (runner.spent_s() + needed_s <= stop_s) next = first;
     }
     if (next == at) break;
-    at = next;
     std::optional<Ran> finer = runner.run(ladder[next], 1);
     if (!finer) {
       failure = runner.failed().back().reason;
+      end = next;
       continue;
     }
+    at = next;
     found.coarser = std::move(found.finest.answer);
     found.finest = std::move(*finer);
   }
-  if (!found.coarser) found.why_alone = why_alone(failure, at + 1 < ladder.size());
+  if (!found.coarser) found.why_alone = why_alone(failure, at + 1 < end);
   return found;
 }
 

