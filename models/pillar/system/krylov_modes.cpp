@@ -23,13 +23,22 @@ using Map = Eigen::Map<Eigen::VectorXd>;
 constexpr double kSettledResidual = 1e-4;
 constexpr double kSettledChange = 1e-11;
 
-// The interfaces through which Spectra asks for y = B x and y = op x.
+// The interfaces through which Spectra asks for y = B x and y = op x. It asks for B x twice in a row, for the norm of x and
+// for its products with the vectors before, so that the last one is kept.
 struct InnerProduct {
   using Scalar = double;
   const LinearMap& B;
   Eigen::Index size;
+  mutable Eigen::VectorXd last = {}, image = {};  // x and B x
   Eigen::Index rows() const { return size; }
-  void perform_op(const double* x, double* y) const { Map(y, size) = B(ConstMap(x, size)); }
+  void perform_op(const double* x, double* y) const {
+    const ConstMap asked(x, size);
+    if (last.size() != size || last != asked) {
+      last = asked;
+      image = B(last);
+    }
+    Map(y, size) = image;
+  }
 };
 
 struct ScaledOperator {

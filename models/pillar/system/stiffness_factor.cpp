@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <stdexcept>
@@ -21,7 +22,7 @@ VISCARD_WIDE_LOOP void add_product(int columns, const int* outer, const int* row
     assert(at == end || row[at] >= column);
     const double own = x[column];
     Lanes sums[2] = {};
-    double sum = 0.0;
+    double sum = 0.0, other_sum = 0.0;
     if (at < end && row[at] == column) sum = value[at++] * own;
     while (at < end) {
       const int first = row[at];
@@ -34,10 +35,20 @@ VISCARD_WIDE_LOOP void add_product(int columns, const int* outer, const int* row
         at += kBlock;
         continue;
       }
-      sum += value[at] * x[first];
-      y[first] += value[at++] * own;
+      const int stop = std::min(at + 2 * kBlock, end);
+      for (; at + 1 < stop; at += 2) {  // two partial sums let additions overlap
+        sum += value[at] * x[row[at]];
+        other_sum += value[at + 1] * x[row[at + 1]];
+        y[row[at]] += value[at] * own;
+        y[row[at + 1]] += value[at + 1] * own;
+      }
+      if (at < stop) {
+        sum += value[at] * x[row[at]];
+        y[row[at]] += value[at] * own;
+        ++at;
+      }
     }
-    y[column] += sum + total(sums[0] + sums[1]);
+    y[column] += sum + other_sum + total(sums[0] + sums[1]);
   }
 }
 
