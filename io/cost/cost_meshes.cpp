@@ -44,7 +44,17 @@ CostMeshes meshes_of(const ArrayScene& scene) {
           .uniform_layers = scene.electrodes.is_equipotential ? 2 : 1,
           .reference_layers = 5,
           .step_tolerance = step_tolerance_of(scene),
-          .row_tolerance = std::max(1e-5, scene.tolerance)};
+          .row_tolerance = scene.tolerance};
+}
+
+// The tolerance also decides on the grids of a contact, and whether pillars move each other through the film.
+double step_tolerance_of(const SpaceScene& scene) {
+  return scene.press ? std::max(0.1 * scene.tolerance, SpaceScene::kTolerances.least)
+                     : SpaceScene::kTolerances.least;
+}
+
+double step_tolerance_of(const LayerScene& scene) {
+  return std::max(0.1 * scene.tolerance, LayerScene::kTolerances.least);
 }
 
 // Each degree of the feet is an accuracy of the film and its waves as well; there are no others.
@@ -53,8 +63,8 @@ CostMeshes meshes_of(const SpaceScene& scene) {
           .graded = {{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}},
           .highest_uniform = 0,
           .reference_layers = 4,
-          .step_tolerance = scene.tolerance,
-          .row_tolerance = std::max(1e-5, scene.tolerance)};
+          .step_tolerance = step_tolerance_of(scene),
+          .row_tolerance = scene.tolerance};
 }
 
 // Grids of a layer are known by their degree alone (layer_meshes()).
@@ -63,8 +73,8 @@ CostMeshes meshes_of(const LayerScene& scene) {
           .graded = {{3, 1}, {4, 2}, {5, 3}, {6, 4}},
           .highest_uniform = 0,
           .reference_layers = 5,
-          .step_tolerance = scene.tolerance,
-          .row_tolerance = std::max(1e-5, scene.tolerance)};
+          .step_tolerance = step_tolerance_of(scene),
+          .row_tolerance = scene.tolerance};
 }
 
 Discretisation graded(const PillarScene& scene, int degree, int layers) {

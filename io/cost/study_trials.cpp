@@ -129,6 +129,9 @@ CostTrials trials_of(const Scene& scene) {
   trials.tolerance = common(scene).tolerance;
   for (int degree = kCoarsestReference; degree <= kFinestReference; ++degree) {
     const Discretisation mesh = graded_mesh(fine, degree, meshes.reference_layers);
+    const bool is_known =
+        !trials.references.empty() && trials.references.back().discretisation == graded_name(mesh);
+    if (is_known) continue;  // some scenes have fewer meshes; a mesh is no judge of itself
     trials.references.push_back(trial_from({graded_name(mesh), "all on", fine, mesh}, "reference"));
   }
   common(all_on).tolerance = meshes.row_tolerance;
