@@ -35,7 +35,9 @@ SymmetricSparse full_lower(const Eigen::MatrixXd& matrix) {
 }
 
 ReducedSpan::ReducedSpan(const ViscoelasticSystem& body)
-    : body_(body), shift_1_s2_(body.rigid.cols() > 0 ? body.free_shift_1_s2 : 0.0) {
+    : body_(body),
+      has_elastic_(body.elastic.coeffs().cwiseAbs().sum() > 0.0),
+      shift_1_s2_(body.rigid.cols() > 0 ? body.free_shift_1_s2 : 0.0) {
   factor(1.0, 1.0, instantaneous_);
   for (Eigen::MatrixXd* m : {&basis_, &elastic_, &shear_, &bulk_, &mass_}) {
     m->resize(body.shear.rows(), 0);
@@ -50,8 +52,13 @@ void ReducedSpan::factor(double shear, double bulk, StiffnessFactor& factored) c
   factored.factor(stiffness);
 }
 
+Eigen::VectorXd ReducedSpan::elastic_times(const Eigen::VectorXd& v) const {
+  if (has_elastic_) return times(body_.elastic, v);
+  return Eigen::VectorXd::Zero(v.size());
+}
+
 double ReducedSpan::energy_norm(const Eigen::VectorXd& v) const {
-  Eigen::VectorXd force = times(body_.elastic, v) + times(body_.shear, v);
+  Eigen::VectorXd force = elastic_times(v) + times(body_.shear, v);
   if (!body_.incompressible) force += times(body_.bulk, v);
   if (shift_1_s2_ > 0.0) force += shift_1_s2_ * times(body_.mass, v);
   return std::sqrt(std::max(v.dot(force), 0.0));
@@ -88,7 +95,7 @@ bool ReducedSpan::add(Eigen::VectorXd v) {
   for (int pass = 0; pass < 2; ++pass) v -= projected(v);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(v.size());
   // An incompressible body's volume does not change.
-  Images images{times(body_.elastic, v), times(body_.shear, v),
+  Images images{elastic_times(v), times(body_.shear, v),
                 body_.incompressible ? none : times(body_.bulk, v),
                 has_mass() ? times(body_.mass, v) : none};
   Eigen::VectorXd force = images.elastic + images.shear + images.bulk;

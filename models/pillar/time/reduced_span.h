@@ -66,8 +66,10 @@ class ReducedSpan {
   double energy_norm(const Eigen::VectorXd& v) const;
   void append(const Eigen::VectorXd& v, const Images& images);
   void add_rigid_motions();
+  Eigen::VectorXd elastic_times(const Eigen::VectorXd& v) const;
 
   const ViscoelasticSystem& body_;
+  bool has_elastic_;   // false: the elastic matrix, that of a film, is zero
   double shift_1_s2_;  // multiple of the mass in the energy
   StiffnessFactor instantaneous_;
   Eigen::MatrixXd basis_, elastic_, shear_, bulk_, mass_;  // unknowns x count()
