@@ -60,11 +60,12 @@ struct CostStudy {
   std::vector<FailedRow> failed;
   std::vector<CostLaw> laws;  // that predicted them, of the kinds that have two rows or more
   std::vector<CostAdvice> advice;
-  std::string reference;         // discretisation of the answer that errors refer to
-  double reference_error = 0.0;  // relative change of the reference from a lower degree
-  std::string why_alone;         // why there is no lower degree; empty if there is
-  int left_out = 0;              // rows for which the budget was too short
-  double tolerance = 0.0;        // of the scene
+  std::string reference;  // discretisation of the answer that errors refer to
+  // Relative: the change of the reference from a lower degree, and what every mesh has (steps, modes left out).
+  double reference_error = 0.0;
+  std::string why_alone;   // why there is no lower degree; empty if there is
+  int left_out = 0;        // rows for which the budget was too short
+  double tolerance = 0.0;  // of the scene
   double budget_s = 0.0;
   double wall_s = 0.0;  // of the whole study
   CostMachine machine;

@@ -50,10 +50,6 @@ bool moves(const auto&) {
   return false;
 }
 
-bool moves(const ArrayScene& scene) {
-  return std::holds_alternative<RowTransient>(scene.drive);
-}
-
 bool moves(const PillarScene& scene) {
   return std::holds_alternative<HarmonicDrive>(scene.drive) ||
          std::holds_alternative<TransientDrive>(scene.drive);
