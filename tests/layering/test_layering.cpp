@@ -4,6 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <regex>
 
 namespace viscard {
@@ -272,6 +275,13 @@ TEST_CASE("rooms have at most 40 files and files at most 300 lines", "[layering]
   for (const auto& [folder, n_files] : count) {
     CAPTURE(folder);
     CHECK(n_files <= 40);
+  }
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(VISCARD_SOURCE_DIR "/tests")) {
+    if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+    CAPTURE(entry.path());
+    std::ifstream in(entry.path());
+    CHECK(std::count(std::istreambuf_iterator<char>(in), {}, '\n') <= 300);
   }
 }
 
