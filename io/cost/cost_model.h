@@ -8,12 +8,15 @@
 namespace viscard {
 
 // Predicts the cost of a run with a given number of unknowns from earlier runs: within one kind of
-// elements, processor time grows as a power of the unknowns.
+// elements, processor time is a part that no mesh changes (a contact in time, say) and one that grows
+// as a power of the unknowns.
 struct CostPower {
+  double fixed_s = 0.0;
   double exponent = 0.0;
   double unknowns = 0.0;  // of the largest run that it goes through
-  double cpu_s = 0.0;
+  double cpu_s = 0.0;     // of that run, fixed_s included
   double memory_B = 0.0;
+  double seconds() const;  // of one unknown, without fixed_s
   double cpu_s_of(double more_unknowns) const;
   double memory_B_of(double more_unknowns) const;
 };

@@ -222,7 +222,7 @@ std::vector<CostLaw> laws_of(const CostTrials& trials, const CostModel& model) {
                                       [&](const CostLaw& law) { return law.kind == trial.kind; });
     const auto power = model.power(trial.kind);
     if (is_known || !power) continue;
-    laws.push_back({trial.kind, power->cpu_s_of(1.0), power->exponent});
+    laws.push_back({trial.kind, power->fixed_s, power->seconds(), power->exponent});
   }
   return laws;
 }

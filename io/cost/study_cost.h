@@ -46,9 +46,10 @@ struct CostAdvice {
   int row = -1;      // of the cheapest that is; its error is at most half the tolerance
 };
 
-// Processor time of one kind of elements, cpu_s = seconds * unknowns^exponent.
+// Processor time of one kind of elements, cpu_s = fixed_s + seconds * unknowns^exponent.
 struct CostLaw {
   std::string kind;       // "h1", "h2", "p", "graded p"
+  double fixed_s = 0.0;   // that no mesh changes
   double seconds = 0.0;   // of a system with one unknown
   double exponent = 0.0;  // of the number of unknowns
 };

@@ -78,8 +78,9 @@ void print_legend(const CostStudy& study, std::ostream& out) {
       "  ~ predicted: {} more did not fit into the budget of {:g} s; --budget gives more time\n",
       study.left_out, study.budget_s);
   for (const CostLaw& law : study.laws) {
-    out << fmt::format("    {}: CPU time about {:.1e} s x unknowns^{:.2f}\n", law.kind, law.seconds,
-                       law.exponent);
+    const std::string fixed = law.fixed_s > 0.0 ? fmt::format("{:.2g} s + ", law.fixed_s) : "";
+    out << fmt::format("    {}: CPU time about {}{:.1e} s x unknowns^{:.2f}\n", law.kind, fixed,
+                       law.seconds, law.exponent);
   }
 }
 
@@ -108,7 +109,10 @@ Json json_from_study(const CostStudy& study) {
   }
   Json laws = Json::array();
   for (const CostLaw& law : study.laws) {
-    laws.push_back({{"kind", law.kind}, {"seconds", law.seconds}, {"exponent", law.exponent}});
+    laws.push_back({{"kind", law.kind},
+                    {"fixed_s", law.fixed_s},
+                    {"seconds", law.seconds},
+                    {"exponent", law.exponent}});
   }
   const bool is_known = std::isfinite(study.reference_error);
   return {{"rows", rows},

@@ -184,6 +184,7 @@ SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh)
   set_results(scene, answer);
   for (SceneCurve& curve : answer.curves) curve.error.assign(curve.x.size(), 0.0);
   finish_curves(scene, course, 0.0, answer);
+  answer.step_error = course.relative_error;
   return answer;
 }
 

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,24 +47,28 @@ Discretisation finest_mesh(const LayerScene& scene) {
   return layer_meshes(scene).back();
 }
 
-bool moves(const auto&) {
-  return false;
+// Of the scene's tolerance, or none where the mesh alone decides.
+std::optional<double> share_of_tolerance(const auto&) {
+  return std::nullopt;
 }
 
-// A touch in time to 1e-6 did not end within ten minutes.
-bool moves(const SpaceScene& scene) {
-  return scene.press.has_value();
+// A touch in time to a twentieth did not end within ten minutes.
+std::optional<double> share_of_tolerance(const SpaceScene& scene) {
+  if (scene.touch) return 0.1;
+  return scene.press ? std::optional(0.05) : std::nullopt;
 }
 
-bool moves(const PillarScene& scene) {
-  return std::holds_alternative<HarmonicDrive>(scene.drive) ||
-         std::holds_alternative<TransientDrive>(scene.drive);
+std::optional<double> share_of_tolerance(const PillarScene& scene) {
+  const bool moves = std::holds_alternative<HarmonicDrive>(scene.drive) ||
+                     std::holds_alternative<TransientDrive>(scene.drive);
+  return moves ? std::optional(0.05) : std::nullopt;
 }
 
 SceneAnswer independent_answer(const Scene& scene) {
   Scene on = plan_effects(with_all_effects_on(scene)).reduced;
-  const bool is_moving = std::visit([](const auto& body) { return moves(body); }, scene);
-  common(on).tolerance = is_moving ? 0.05 * common(scene).tolerance : 1e-6;
+  const std::optional<double> share =
+      std::visit([](const auto& body) { return share_of_tolerance(body); }, scene);
+  common(on).tolerance = share ? *share * common(scene).tolerance : 1e-6;
   return answer_on(on, std::visit([](const auto& body) { return finest_mesh(body); }, on));
 }
 

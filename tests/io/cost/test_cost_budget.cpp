@@ -150,8 +150,46 @@ TEST_CASE("rows that are left out are predicted from those that ran", "[io][scen
   const auto law = std::find_if(study.laws.begin(), study.laws.end(),
                                 [](const CostLaw& one) { return one.kind == "h1"; });
   REQUIRE(law != study.laws.end());
+  CHECK(law->fixed_s == 0.0);
   CHECK(law->exponent == Approx(kPower).epsilon(1e-6));
   CHECK(law->seconds == Approx(kPerUnknown_s).epsilon(1e-4));
+}
+
+// A contact in time takes 4 s on every mesh.
+TEST_CASE("a part that no mesh changes is learned, and leaves time for a second reference",
+          "[io][scene]") {
+  constexpr double kFixed_s = 4.0;
+  Hours hours;
+  const auto with_fixed = [&](CostTrial& trial) {
+    trial.run = [&hours, run = trial.run] {
+      hours.cpu_s += kFixed_s;
+      hours.wall_s += kFixed_s;
+      return run();
+    };
+  };
+  CostTrials trials;
+  for (int p = 3; p <= 9; ++p) {
+    trials.references.push_back(trial_of_law(hours, "reference p" + std::to_string(p), "reference",
+                                             20.0 * std::pow(p - 2, 2.5), std::pow(10.0, -p)));
+  }
+  for (int p = 3; p <= 7; ++p) {
+    trials.rows.push_back(trial_of_law(hours, "graded p" + std::to_string(p), "graded p",
+                                       20.0 * std::pow(p - 2, 2.5), std::pow(10.0, -p)));
+  }
+  for (CostTrial& trial : trials.references) with_fixed(trial);
+  for (CostTrial& trial : trials.rows) with_fixed(trial);
+  const CostStudy study = study_of(trials, {.budget_s = 30.0, .clock = hours.clock()});
+  CHECK(study.why_alone.empty());
+  CHECK(study.reference_error < 1e-4);
+  CHECK(study.wall_s <= 30.0);
+  REQUIRE(study.rows.size() >= 2);
+  REQUIRE_FALSE(study.predicted.empty());
+  for (const PredictedRow& row : study.predicted) {
+    CHECK(row.cpu_s == Approx(kFixed_s + law_s(row.unknowns)).epsilon(1e-3));
+  }
+  REQUIRE(study.laws.size() == 1);
+  CHECK(study.laws[0].fixed_s == Approx(kFixed_s).epsilon(1e-3));
+  CHECK(study.laws[0].exponent == Approx(1.5));
 }
 
 TEST_CASE(
