@@ -9,6 +9,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // The spectrum at the reference temperature, and the shift of time with temperature.
 struct MasterCurve {
   FitResult fit;
@@ -22,6 +24,8 @@ struct MasterCurve {
   std::vector<std::string> left_out;           // isotherms with the reason
   ShiftLaws laws;
 };
+
+void show_keys(ResultVisitor& v, const MasterCurve& curve);
 
 // Fits all segments together: one spectrum and one factor on time for each temperature. The factors
 // are fitted free, as WLF and Arrhenius laws and as a smooth curve over 1/T; the smoother ones are

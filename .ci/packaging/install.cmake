@@ -18,8 +18,8 @@ configure_file(${packaging}/install_documents.cmake.in ${CMAKE_BINARY_DIR}/insta
 install(SCRIPT ${CMAKE_BINARY_DIR}/install_documents.cmake COMPONENT runtime)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY data/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT runtime)
-install(DIRECTORY io/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime
-        FILES_MATCHING PATTERN "*.schema.json")
+install(DIRECTORY ${CMAKE_BINARY_DIR}/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime OPTIONAL
+        FILES_MATCHING PATTERN "*.schema.json" PATTERN "keys.md")
 # Pages link to files of these as they stand in the source tree: link_from_page(FOLDER OF_DATA NAME).
 function(link_from_page folder of_data name)
   file(RELATIVE_PATH data /${CMAKE_INSTALL_DOCDIR}/${folder} /${CMAKE_INSTALL_DATADIR}/viscard/${of_data})
@@ -28,10 +28,6 @@ function(link_from_page folder of_data name)
   install(FILES ${CMAKE_BINARY_DIR}/page_links/${name} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT runtime)
 endfunction()
 link_from_page(data "" demo)
-file(GLOB schemas RELATIVE ${CMAKE_SOURCE_DIR}/io/schemas CONFIGURE_DEPENDS io/schemas/*.schema.json)
-foreach(schema ${schemas})
-  link_from_page(io/schemas schemas ${schema})
-endforeach()
 set(completions ${CMAKE_BINARY_DIR}/completions)
 install(FILES ${completions}/viscard.bash RENAME viscard COMPONENT runtime OPTIONAL
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

@@ -1,6 +1,7 @@
 #include "fit/laws/fractional_diagnosis.h"
 
 #include "models/maths/mittag_leffler.h"
+#include "models/maths/result_visitor.h"
 
 #include <Eigen/Core>
 
@@ -161,6 +162,16 @@ Candidate sharpened(const Averages& data, Candidate best, double ln_step, double
 }
 
 }  // namespace
+
+void show_keys(ResultVisitor& v, const FractionalDiagnosis& fractional) {
+  v("E_inf_Pa", fractional.model.equilibrium_Pa, "its plateau at long times");
+  v("E_1_Pa", fractional.model.branch_Pa, "what relaxes");
+  v("tau_s", fractional.model.tau_s, "its time");
+  v("alpha", fractional.model.alpha, "its exponent");
+  v("chi_square", fractional.chi_square, "of this model");
+  v("series_chi_square", fractional.series_chi_square, "of the series");
+  v("bic_difference", fractional.bic_difference, "to the series; negative: this model is better");
+}
 
 std::optional<FractionalDiagnosis> diagnose_fractional(const FitResult& fit) {
   const FitCurves& curves = fit.curves;

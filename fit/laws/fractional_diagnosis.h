@@ -7,6 +7,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // Compares the series (1 + 2N parameters) with a power law between two plateaus (four parameters),
 // E(t) = E_inf + E_1 E_alpha(-(t/tau)^alpha), the fractional Zener model (Mainardi, Fractional
 // Calculus and Waves in Linear Viscoelasticity (2010), ch. 3). Both are evaluated on the averages
@@ -19,6 +21,8 @@ struct FractionalDiagnosis {
   double series_chi_square = 0.0;  // of the Prony series
   double bic_difference = 0.0;     // as above
 };
+
+void show_keys(ResultVisitor& v, const FractionalDiagnosis& fractional);
 
 // Returns nothing for tests other than relaxation after a step, and for fewer than five averages.
 std::optional<FractionalDiagnosis> diagnose_fractional(const FitResult& fit);

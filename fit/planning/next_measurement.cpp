@@ -2,6 +2,7 @@
 
 #include "models/experiment/test_phases.h"
 #include "models/maths/dense.h"
+#include "models/maths/result_visitor.h"
 #include "models/maths/text_of_number.h"
 
 #include <Eigen/Core>
@@ -154,6 +155,15 @@ std::string numbers_of(const NextMeasurement& one) {
 }
 
 }  // namespace
+
+void show_keys(ResultVisitor& v, const NextMeasurement& next) {
+  v("what", next.what, "what to do");
+  v("how", next.how, "command for it; empty: none");
+  v("quantity", next.quantity, "the wanted quantity that is widest against its tolerance");
+  v("half_width_95", next.before, "of its interval now, relative, with systematic parts");
+  v("half_width_95_after", next.after, "of its interval afterwards");
+  v("minutes", next.minutes, "at the rig");
+}
 
 PredictedFit known_fit(const FittedRun& run) {
   if (run.fit.is_stiffness) {

@@ -7,6 +7,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // A possible next measurement after a fit, and how much it narrows the intervals.
 struct NextMeasurement {
   std::string what;      // "another touch with a hold of 240 s"
@@ -17,6 +19,8 @@ struct NextMeasurement {
   double minutes = 0.0;  // at the rig
   double gain_per_minute() const { return (before - after) / minutes; }
 };
+
+void show_keys(ResultVisitor& v, const NextMeasurement& next);
 
 // A fitted capture: what was measured, and how.
 struct FittedRun {

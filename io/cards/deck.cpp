@@ -1,8 +1,15 @@
 #include "io/cards/deck.h"
 
+#include "models/maths/result_visitor.h"
+
 #include <fmt/format.h>
 
 namespace viscard {
+
+void show_keys(ResultVisitor& v, const DeckFile& file) {
+  v("file", file.name, "its name");
+  v("text", file.text, "its text");
+}
 namespace {
 
 std::string expected(const Card& card, const ElementTest& test, const UnitSystem& units) {

@@ -11,11 +11,14 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // A one-element model that holds the card, so that users can try it in their solver in one run.
 struct DeckFile {
   std::string name;  // "relaxation.feb"
   std::string text;
 };
+void show_keys(ResultVisitor& v, const DeckFile& file);
 
 struct Deck {
   std::vector<DeckFile> files;  // the first is the one to run; the last the expected curve (CSV)

@@ -2,6 +2,7 @@
 
 #include "io/basics/patterns.h"
 #include "io/cards/card_lines.h"
+#include "models/maths/result_visitor.h"
 
 #include <cctype>
 #include <stdexcept>
@@ -55,6 +56,12 @@ void note_fortran_number(const std::string& text, ReadCard& card) {
 }
 
 }  // namespace
+
+void show_keys(ResultVisitor& v, const CardFinding& finding) {
+  v("name", finding.name, "its name");
+  v("mistake", finding.is_mistake, "false: a note");
+  v("text", finding.text, "in words");
+}
 
 void ReadCard::add_second_material(const CardLine& line) {
   add("several-materials",

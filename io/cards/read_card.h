@@ -7,6 +7,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 struct CardLine;
 
 // Relative; a number typed by hand may have few digits.
@@ -18,6 +20,7 @@ struct CardFinding {
   std::string text;  // the effect, and what to write instead
   bool is_mistake = true;
 };
+void show_keys(ResultVisitor& v, const CardFinding& finding);
 
 struct ReadCard {
   CardTarget understood;  // the target's conventions, changed where the card states others

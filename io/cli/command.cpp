@@ -12,8 +12,6 @@
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/terminal.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <filesystem>
 #include <new>
@@ -72,8 +70,8 @@ int dispatch(const Words& words, Streams& streams) {
   }
   if (words[0] == "--version") {
     if (std::find(words.begin(), words.end(), "--json") != words.end()) {
-      print_json<nlohmann::ordered_json>({"viscard-version/1", {}}, {{"program", "viscard"}},
-                                         streams);
+      print_result({"viscard-version/1", {}},
+                   [](ResultVisitor& v) { v("program", "viscard", "viscard"); }, streams);
     } else {
       streams.out << "viscard " VISCARD_VERSION "\n";
     }

@@ -11,6 +11,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 struct CostTrials;
 
 // What accuracy costs: one scene on many discretisations, with effects on and off, each compared
@@ -71,6 +73,8 @@ struct CostStudy {
   double wall_s = 0.0;  // of the whole study
   CostMachine machine;
 };
+
+void show_keys(ResultVisitor& v, const CostStudy& study);
 
 // How long a study may take.
 struct CostOptions {

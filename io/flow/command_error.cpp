@@ -1,9 +1,8 @@
 #include "io/flow/command_error.h"
 
+#include "models/maths/result_visitor.h"
 #include "rig/lines/rig_error.h"
 #include "rig/run/run_control.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -119,11 +118,17 @@ CommandError command_error(const std::exception& error) {
   return command_error(code_of(error), error.what());
 }
 
-nlohmann::ordered_json json_from_error(const CommandError& error) {
-  return {{"code", error.code},
-          {"message", error.message},
-          {"where", error.where},
-          {"hint", error.hint}};
+void show_keys(ResultVisitor& v, const CommandError& error) {
+  v.word("code", error.code,
+         {"usage",        "input",        "exists",           "file",        "preflight",
+          "calibration",  "port",         "device",           "device-lost", "device-restarted",
+          "stage-alarm",  "readings-old", "computer-late",    "force-limit", "pressing",
+          "interrupted",  "records-lost", "unfit",            "damaged",     "failed"},
+         "kind of failure; the words stay the same");
+  v("message", error.message, "what happened, with the value and its limit");
+  v("where", error.where,
+    "a file with its line, an option, a port or the phase of a run; may be empty");
+  v("hint", error.hint, "what to do next; may be empty");
 }
 
 }  // namespace viscard

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 
 #include <exception>
 #include <stdexcept>
@@ -8,6 +7,8 @@
 #include <utility>
 
 namespace viscard {
+
+class ResultVisitor;
 
 // Why something failed, for programs and for the page at the rig: the object
 // {"code", "message", "where", "hint"}. The codes are stable: usage (options or keywords that are not allowed), input
@@ -41,6 +42,6 @@ CommandError command_error(const std::string& code, const std::string& text,
 // The code follows from the type of the exception.
 CommandError command_error(const std::exception& error);
 
-nlohmann::ordered_json json_from_error(const CommandError& error);
+void show_keys(ResultVisitor& v, const CommandError& error);
 
 }  // namespace viscard

@@ -12,6 +12,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.
 FittedFile fit_file(const std::string& path, const FitRequest& request);
 
@@ -30,6 +32,10 @@ struct FileOutcome {
   std::optional<FittedFile> fitted;
   std::exception_ptr error;
 };
+
+// The keys of `viscard fit --json`; with a failure "file" and "error" alone.
+void show_keys(ResultVisitor& v, const FittedFile& fitted);
+void show_keys(ResultVisitor& v, const FileOutcome& outcome);
 
 // Fits all files on all cores. If one file fails, the others are fitted nevertheless.
 std::vector<FileOutcome> fit_each_file(const std::vector<std::string>& files,

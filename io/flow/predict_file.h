@@ -4,13 +4,13 @@
 #include "models/material/material.h"
 #include "models/material/prediction.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace viscard {
+
+class ResultVisitor;
 
 // What a material file predicts for a test, beside a measured curve if there is one.
 struct PredictFileRequest {
@@ -68,8 +68,9 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
 // "relaxation", "creep", "recovery", "cycles", "oscillation", "history", in this order.
 const std::vector<std::string>& names_of_predicted_tests();
 
-// The object of `viscard predict --json`. Numbers that are not finite become null.
-nlohmann::ordered_json json_from_prediction(const PredictedFile& predicted);
+// The keys of `viscard predict --json`.
+void show_keys(ResultVisitor& v, const PredictedFile& predicted);
+
 // A table that viscard fit reads again: argument, input, value, band, and whether the row is inside
 // the window of the fit. command: recorded in the first line.
 std::string csv_from_prediction(const PredictedFile& predicted, const std::string& command);

@@ -1,34 +1,27 @@
 #include "io/basics/number_text.h"
 #include "io/flow/predict_file.h"
-
-#include <nlohmann/json.hpp>
+#include "models/maths/result_visitor.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace viscard {
 namespace {
 
-using Object = nlohmann::ordered_json;
-
-Object finite_or_null(double value) {
-  return std::isfinite(value) ? Object(value) : Object(nullptr);
-}
-
-Object agreement_of(const Agreement& found) {
-  return {{"quantity", found.name},
-          {"n", found.at.size()},
-          {"n_left_out", found.n_left_out},
-          {"rms", finite_or_null(found.rms)},
-          {"rms_relative", finite_or_null(found.rms_relative)},
-          {"worst", finite_or_null(found.worst)},
-          {"worst_at", finite_or_null(found.worst_at)},
-          {"share_inside_band", finite_or_null(found.share_inside_band)},
-          {"share_inside_band_and_noise", finite_or_null(found.share_inside_band_and_noise)},
-          {"noise_sigma", finite_or_null(found.noise_sigma)},
-          {"noise_is_relative", found.is_noise_relative},
-          {"n_inside_window", found.n_inside_window},
-          {"rms_inside_window", finite_or_null(found.rms_inside_window)}};
+void show_agreement(ResultVisitor& v, const Agreement& found) {
+  v("quantity", found.name, "its name");
+  v("n", found.at.size(), "rows compared");
+  v("n_left_out", found.n_left_out, "rows before the test");
+  v("rms", found.rms, "root mean square difference");
+  v("rms_relative", found.rms_relative, "relative to the size of the curve");
+  v("worst", found.worst, "largest difference");
+  v("worst_at", found.worst_at, "where that is");
+  v("share_inside_band", found.share_inside_band, "share of rows inside the band");
+  v("share_inside_band_and_noise", found.share_inside_band_and_noise,
+    "the same with the noise added");
+  v("noise_sigma", found.noise_sigma, "noise of the rows");
+  v("noise_is_relative", found.is_noise_relative, "whether it is relative");
+  v("n_inside_window", found.n_inside_window, "rows inside the window");
+  v("rms_inside_window", found.rms_inside_window, "root mean square difference there");
 }
 
 // All columns of the prediction with their names, in the order of the table.
@@ -50,43 +43,47 @@ std::vector<NamedColumn> columns_of(const TestPrediction& prediction) {
 
 }  // namespace
 
-nlohmann::ordered_json json_from_prediction(const PredictedFile& predicted) {
+void show_keys(ResultVisitor& v, const PredictedFile& predicted) {
   const TestPrediction& prediction = predicted.prediction;
-  Object json;
-  json["material"] = predicted.name;
-  json["file"] = predicted.path;
-  json["test"] = names_of_predicted_tests()[static_cast<std::size_t>(prediction.test)];
-  json["window"] = nullptr;
-  if (prediction.is_window_known) {
-    json["window"] = {{"t_min_s", prediction.t_min_s}, {"t_max_s", prediction.t_max_s}};
-  }
-  json["n_outside_window"] =
-      std::count(prediction.is_inside.begin(), prediction.is_inside.end(), false);
-  json["has_band"] = predicted.has_band;
-  json["trustworthy"] = predicted.is_trustworthy;
-  json["flags"] = Object::array();
-  for (const MaterialFlag& flag : predicted.flags) {
-    Object row{{"name", flag.name}};
-    if (flag.term > 0) row["term"] = flag.term;
-    row["text"] = flag.text;
-    json["flags"].push_back(std::move(row));
-  }
-  json["systematic_relative"] = finite_or_null(predicted.systematic_relative);
-  for (const NamedColumn& column : columns_of(prediction)) {
-    Object values = Object::array();
-    for (const double value : *column.values) values.push_back(finite_or_null(value));
-    json["curve"][column.name] = std::move(values);
-  }
-  json["curve"]["inside_window"] = prediction.is_inside;
-  if (!predicted.against.empty()) {
-    json["against"]["file"] = predicted.against;
-    json["against"]["quantities"] = Object::array();
-    for (const Agreement& found : predicted.agreement) {
-      json["against"]["quantities"].push_back(agreement_of(found));
-    }
-  }
-  json["notes"] = predicted.notes;
-  return json;
+  v("material", predicted.name, "name of the material");
+  v("file", predicted.path, "its file");
+  v.word("test", names_of_predicted_tests()[static_cast<std::size_t>(prediction.test)],
+         {"relaxation", "creep", "recovery", "cycles", "oscillation", "history"}, "kind of test");
+  v.object(
+      "window", "window of the fit; null: not known",
+      [&] {
+        v("t_min_s", prediction.t_min_s, "begin");
+        v("t_max_s", prediction.t_max_s, "end");
+      },
+      !prediction.is_window_known);
+  v("n_outside_window",
+    std::count(prediction.is_inside.begin(), prediction.is_inside.end(), false),
+    "points outside it");
+  v("has_band", predicted.has_band, "whether the material carries a covariance");
+  v("trustworthy", predicted.is_trustworthy, "whether the fit of the material may be used");
+  v("flags", predicted.flags, "what limits the trust in the result");
+  v("systematic_relative", predicted.systematic_relative,
+    "relative standard uncertainty of E0 that further tests on the same bench would not narrow");
+  std::vector<NamedColumn> columns = columns_of(prediction);
+  columns.push_back({"inside_window", nullptr});
+  v.map("curve",
+        "columns of the curve, all of one length: time_s or frequency_Hz, the quantity, its _low_95 "
+        "and _high_95, inside_window",
+        columns, [&](const NamedColumn& column) {
+          if (column.values == nullptr) {
+            v(column.name, prediction.is_inside, "whether the point is inside the window");
+          } else {
+            v(column.name, *column.values, "values");
+          }
+        });
+  v.when(!predicted.against.empty(), [&] {
+    v.object("against", "the comparison with measured values", [&] {
+      v("file", predicted.against, "the measured table");
+      v.list("quantities", "one for each measured column", predicted.agreement,
+             [&](const Agreement& found) { show_agreement(v, found); });
+    });
+  });
+  v("notes", predicted.notes, "what to keep in mind");
 }
 
 std::string csv_from_prediction(const PredictedFile& predicted, const std::string& command) {

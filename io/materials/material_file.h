@@ -35,6 +35,8 @@ std::string json_from_material(const Material& material);
 
 // Throws std::invalid_argument if the material at a measured ratio is unphysical.
 std::string json_from_ratio_fit(const RatioFit& fit);
+// Its keys without the schema, as `viscard fit --joint --json` prints them.
+void show_keys(ResultVisitor& v, const RatioFit& fit);
 
 // Throws std::runtime_error naming the file and the key.
 RatioFit read_ratio_fit(const std::filesystem::path& path);

@@ -4,6 +4,7 @@
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
 #include "io/materials/scatter_json.h"
+#include "io/results/result_json.h"
 
 #include <algorithm>
 #include <fstream>
@@ -23,65 +24,61 @@ const std::vector<std::pair<RatioVariable, const char*>>& variable_words() {
   return kWords;
 }
 
-Json degree_json(int degree) {
-  return degree == kPerRatio ? Json("per-ratio") : Json(degree);
+void show_degree(ResultVisitor& v, const char* key, int degree) {
+  const char* what = "degree of the law, or \"per-ratio\"";
+  degree == kPerRatio ? v(key, "per-ratio", what) : v(key, degree, what);
 }
 
-Json json_from(const RatioForm& form) {
-  Json out{{"name", form_name(form)}};
-  for (const auto& [variable, word] : variable_words()) {
-    if (variable == form.variable) out["variable"] = word;
-  }
-  out["E0_degree"] = degree_json(form.E0_degree);
-  out["g_degree"] = degree_json(form.g_degree);
-  out["tau_degree"] = degree_json(form.tau_degree);
-  if (!form.same.empty()) out["same"] = form.same;
-  out["text"] = form_in_words(form);
-  return out;
+void show_form(ResultVisitor& v, const RatioForm& form) {
+  v.object("form", "of the law", [&] {
+    v("name", form_name(form), "its name");
+    for (const auto& [variable, word] : variable_words()) {
+      if (variable != form.variable) continue;
+      v.word("variable", word, {"ln-ratio", "ratio", "crosslinker-share"}, "of the polynomials");
+    }
+    show_degree(v, "E0_degree", form.E0_degree);
+    show_degree(v, "g_degree", form.g_degree);
+    show_degree(v, "tau_degree", form.tau_degree);
+    v.when(!form.same.empty(),
+           [&] { v("same", form.same, "parameters that are the same at all ratios"); });
+    v("text", form_in_words(form), "in words");
+  });
 }
 
-Json json_from(const RatioModel& model) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < model.covariance.rows(); ++i) {
-    const Eigen::VectorXd row = model.covariance.row(i);
-    rows.push_back(std::vector<double>(row.begin(), row.end()));
-  }
-  const auto spread = [&](double value, int parameter) {  // null if unknown
+void show_spreads(ResultVisitor& v, const char* key, const char* what, double ln_E0, double ln_g,
+                  double ln_tau) {
+  v.object(key, what, [&] {
+    v("ln_E0", ln_E0, "of ln E0; null: unknown");
+    v("ln_g", ln_g, "of the ln g_i");
+    v("ln_tau", ln_tau, "of the ln tau_i");
+  });
+}
+
+void show_model(ResultVisitor& v, const char* key, const char* what, const RatioModel& model) {
+  const auto spread = [&](double value, int parameter) {
     const bool is_known = parameter > 2 * model.n_terms || has_known_spread(model, parameter);
-    return is_known ? Json(value) : Json(nullptr);
+    return is_known ? value : number_or_null(std::nullopt);
   };
-  Json out{
-      {"form", json_from(model.form)},
-      {"n_terms", model.n_terms},
-      {"ratios", model.ratios},
-      {"coefficients", std::vector<double>(model.coefficients.begin(), model.coefficients.end())},
-      {"covariance", rows},
-      {"between_specimens",
-       {{"ln_E0", spread(model.spread_ln_E0, 0)},
-        {"ln_g", spread(model.spread_ln_g, 1)},
-        {"ln_tau", spread(model.spread_ln_tau, model.n_terms + 1)}}},
-      {"n_specimens", model.n_specimens},
-      {"n_parameters", model.n_parameters},
-      {"log_likelihood", model.log_likelihood},
-      {"bic", model.bic}};
-  if (!model.own_terms.empty()) out["own_terms"] = model.own_terms;
-  if (model.touch_ln_E0 > 0.0 || model.touch_ln_g > 0.0 || model.touch_ln_tau > 0.0) {
-    out["between_touches"] = {
-        {"ln_E0", model.touch_ln_E0}, {"ln_g", model.touch_ln_g}, {"ln_tau", model.touch_ln_tau}};
-  }
-  return out;
-}
-
-Json forms_json(const RatioFit& fit) {
-  Json out = Json::array();
-  for (const RatioComparison& row : fit.forms) {
-    out.push_back({{"form", json_from(row.form)},
-                   {"n_parameters", row.n_parameters},
-                   {"log_likelihood", row.log_likelihood},
-                   {"bic", row.bic},
-                   {"bic_above_best", row.bic - fit.forms.front().bic}});
-  }
-  return out;
+  v.object(key, what, [&] {
+    show_form(v, model.form);
+    v("n_terms", model.n_terms, "number of terms");
+    v("ratios", model.ratios, "that were measured");
+    v("coefficients",
+      std::vector<double>(model.coefficients.begin(), model.coefficients.end()), "of the law");
+    v("covariance", model.covariance, "of the coefficients");
+    show_spreads(v, "between_specimens", "standard deviations about the law",
+                 spread(model.spread_ln_E0, 0), spread(model.spread_ln_g, 1),
+                 spread(model.spread_ln_tau, model.n_terms + 1));
+    v("n_specimens", model.n_specimens, "number of specimens");
+    v("n_parameters", model.n_parameters, "number of parameters");
+    v("log_likelihood", model.log_likelihood, "of the records");
+    v("bic", model.bic, "Bayes criterion");
+    v.when(!model.own_terms.empty(), [&] { v("own_terms", model.own_terms, "of each ratio"); });
+    v.when(model.touch_ln_E0 > 0.0 || model.touch_ln_g > 0.0 || model.touch_ln_tau > 0.0, [&] {
+      show_spreads(v, "between_touches", "standard deviations on one specimen", model.touch_ln_E0,
+                   model.touch_ln_g, model.touch_ln_tau);
+    });
+  });
 }
 
 int degree_from(const Json& json) {
@@ -198,32 +195,41 @@ void read_lists(const Json& json, RatioFit& fit) {
 
 }  // namespace
 
-std::string json_from_ratio_fit(const RatioFit& fit) {
-  Json out{{"schema", kSchema}, {"summary", law_in_words(fit)}};
-  out["best"] = json_from(fit.best);
-  out["law"] = json_from(fit.law);
-  out["forms"] = forms_json(fit);
-  out["specimens"] = Json::array();
-  for (const RatioSpecimen& one : fit.specimens) {
-    out["specimens"].push_back({{"name", one.name},
-                                {"mixing_ratio", one.mixing_ratio},
-                                {"E0_Pa", one.E0_Pa},
-                                {"ln_E0_se", one.ln_E0_se},
-                                {"specimen", one.specimen},
-                                {"touch", one.touch}});
-  }
-  out["scatter"] = json_from(fit.scatter);
-  out["flags"] = Json::array();
-  for (const MaterialFlag& flag : fit.flags) {
-    out["flags"].push_back({{"name", flag.name}, {"text", flag.text}});
-  }
-  out["common"] = json_from(fit.common);
-  out["materials"] = Json::array();
+void show_keys(ResultVisitor& v, const RatioFit& fit) {
+  std::vector<std::string> materials;
   for (const double ratio : fit.best.ratios) {
     const Material material = material_at_ratio(fit, ratio);
     validate(material);
-    out["materials"].push_back(json_from(material));
+    materials.push_back(text_from_json(json_from(material)));
   }
+  v("summary", fit.best.ratios.empty() ? "" : law_in_words(fit), "the law in words");
+  show_model(v, "best", "the form that describes the records best", fit.best);
+  show_model(v, "law", "the law that answers at other ratios", fit.law);
+  v.list("forms", "the forms that were compared", fit.forms, [&](const RatioComparison& row) {
+    show_form(v, row.form);
+    v("n_parameters", row.n_parameters, "number of parameters");
+    v("log_likelihood", row.log_likelihood, "of the records");
+    v("bic", row.bic, "Bayes criterion");
+    v("bic_above_best", fit.forms.empty() ? 0.0 : row.bic - fit.forms.front().bic, "difference");
+  });
+  v.list("specimens", "the records", fit.specimens, [&](const RatioSpecimen& one) {
+    v("name", one.name, "its file or name");
+    v("mixing_ratio", one.mixing_ratio, "parts of base to one of curing agent");
+    v("E0_Pa", one.E0_Pa, "instantaneous modulus");
+    v("ln_E0_se", one.ln_E0_se, "standard error of ln E0");
+    v("specimen", one.specimen, "number of the specimen");
+    v("touch", one.touch, "number of the touch");
+  });
+  show_scatter(v, fit.scatter);
+  v("flags", fit.flags, "what limits the trust in the result");
+  v.document("common", text_from_json(json_from(fit.common)),
+             "the material of all ratios together, as in a material file");
+  v.documents("materials", materials, "one for each ratio, as in a material file");
+}
+
+std::string json_from_ratio_fit(const RatioFit& fit) {
+  Json out{{"schema", kSchema}};
+  out.update(json_from_result(fit));
   return text_from_json(out, 2) + "\n";
 }
 

@@ -1,15 +1,21 @@
 #include "io/materials/scatter_json.h"
 
+#include "models/maths/result_visitor.h"
+
 namespace viscard {
 namespace {
 
-Json level_json(const ScatterLevel& level) {
+void show_level(ResultVisitor& v, const char* key, const char* what, const ScatterLevel& level) {
   const bool is_known = is_identified(level);
-  Json out{{"deviation", is_known ? Json(level.deviation) : Json(nullptr)},
-           {"interval_95", is_known ? json_from(level.interval_95) : Json(nullptr)},
-           {"degrees_of_freedom", level.degrees_of_freedom}};
-  if (!level.note.empty()) out["note"] = level.note;
-  return out;
+  v.object(key, what, [&] {
+    v.or_null("deviation", is_known ? std::optional(level.deviation) : std::nullopt,
+              "standard deviation; null: these records cannot identify it");
+    v.or_null("interval_95", is_known ? std::optional(level.interval_95) : std::nullopt,
+              "its 95 % interval, [low, high]");
+    v("degrees_of_freedom", level.degrees_of_freedom, "0: not identified");
+    v.when(!level.note.empty(),
+           [&] { v("note", level.note, "why not, or which other scatter it includes"); });
+  });
 }
 
 ScatterLevel level_from(const Json& json) {
@@ -25,16 +31,17 @@ ScatterLevel level_from(const Json& json) {
 
 }  // namespace
 
-Json json_from(const std::vector<Scatter>& scatter) {
-  Json out = Json::object();
-  for (const Scatter& one : scatter) {
-    out[one.quantity] = {{"mean", one.mean},
-                         {"own_error", one.own_error},
-                         {"touch", level_json(one.touch)},
-                         {"specimen", level_json(one.specimen)},
-                         {"ratio", level_json(one.ratio)}};
-  }
-  return out;
+void show_scatter(ResultVisitor& v, const std::vector<Scatter>& scatter) {
+  v.map("scatter", "by quantity: how it scatters at three levels", scatter,
+        [&](const Scatter& one) {
+          v.object(one.quantity, "one quantity", [&] {
+            v("mean", one.mean, "of all records");
+            v("own_error", one.own_error, "median standard error of the fit of a record");
+            show_level(v, "touch", "between touches on one specimen", one.touch);
+            show_level(v, "specimen", "between specimens of one ratio", one.specimen);
+            show_level(v, "ratio", "of ratios about the law", one.ratio);
+          });
+        });
 }
 
 void read_scatter(const Json& json, std::vector<Scatter>& scatter) {

@@ -7,10 +7,11 @@
 
 namespace viscard {
 
-// {"ln_E0": {"mean", "own_error", "touch": {...}, "specimen": {...}, "ratio": {...}}, "sum_g": ...}.
-// A level has "deviation", "interval_95" and "degrees_of_freedom"; one that the records cannot
-// identify has null for the first two and says why in "note".
-Json json_from(const std::vector<Scatter>& scatter);
+class ResultVisitor;
+
+// The key "scatter": an object for each quantity. A level that the records cannot identify has null for
+// its deviation and says why in "note".
+void show_scatter(ResultVisitor& v, const std::vector<Scatter>& scatter);
 
 void read_scatter(const Json& json, std::vector<Scatter>& scatter);
 

@@ -53,6 +53,7 @@ void add_errors(py::module_& module) {
 
 PYBIND11_MODULE(_core, module) {
   viscard::python::add_errors(module);
+  viscard::python::add_results(module);
   viscard::python::add_tables(module);
   viscard::python::add_fits(module);
   viscard::python::add_rubber(module);

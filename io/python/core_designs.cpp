@@ -7,20 +7,21 @@
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
+#include "io/python/values.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace viscard::python {
 namespace {
 
 namespace py = pybind11;
 
-// The object of viscard design --require, as JSON, and its table.
-py::tuple design_scene(const std::optional<std::string>& text, const std::string& path,
+// viscard design --require.
+PythonResult design_scene(const std::optional<std::string>& text, const std::string& path,
                        const std::optional<std::string>& require_text,
                        const std::string& require_path, std::optional<double> tolerance,
                        const py::object& search_time, const py::object& progress) {
@@ -29,7 +30,7 @@ py::tuple design_scene(const std::optional<std::string>& text, const std::string
     throw OptionError("search_time is " + fmt::format("{:g}", search_s) +
                       " s; it must not be negative, such as 60s");
   }
-  const Judgement found = in_background({.progress = progress}, [=](Job& job) {
+  const auto found = in_background({.progress = progress}, [=](Job& job) {
     const Requirements requirements = require_text
                                           ? requirements_from_toml(*require_text, require_path)
                                           : read_requirements(require_path);
@@ -37,29 +38,36 @@ py::tuple design_scene(const std::optional<std::string>& text, const std::string
     options.tolerance = tolerance;
     options.search_s = search_s;
     options.progress = [&](double done, const std::string& what) { job.report(done, what); };
-    return judge_scene(text ? *text : read_file(path), path, requirements, options);
+    return std::make_shared<const Judgement>(
+        judge_scene(text ? *text : read_file(path), path, requirements, options));
   });
-  return py::make_tuple(json_from_judgement(found).dump(), text_from_judgement(found));
+  return {"viscard-design-judge/1",
+          {path, require_path},
+          [found](ResultVisitor& v) { show_keys(v, *found); },
+          [found] { return text_from_judgement(*found); }};
 }
 
-// The object of viscard design SPEC, as JSON, and its text.
-py::tuple design_of_spec(const std::string& path, const py::object& progress) {
+// viscard design SPEC.
+PythonResult design_of_spec(const std::string& path, const py::object& progress) {
   struct Found {
     DesignSpec spec;
     DesignFront front;
   };
-  const Found found = in_background({.progress = progress}, [=](Job& job) {
+  const auto found = in_background({.progress = progress}, [=](Job& job) {
     const DesignSpec spec = read_design_spec(path);
-    return Found{spec, design_front(spec, [&](double done, const std::string& what) {
-                   job.report(done, what);
-                 })};
+    return std::make_shared<const Found>(Found{
+        spec, design_front(spec, [&](double done, const std::string& what) {
+          job.report(done, what);
+        })});
   });
-  return py::make_tuple(json_from_front(found.spec, found.front).dump(),
-                        text_from_front(found.spec, found.front));
+  return {"viscard-design-front/1",
+          {path},
+          [found](ResultVisitor& v) { show_front(v, found->spec, found->front); },
+          [found] { return text_from_front(found->spec, found->front); }};
 }
 
-// The limits of viscard design without a scene, as JSON, and their text.
-py::tuple closed_form(const py::dict& keywords) {
+// viscard design without a scene.
+PythonResult closed_form(const py::dict& keywords) {
   const auto given = [&](const char* name, const char* unit) -> std::optional<double> {
     std::string keyword = name;
     std::replace(keyword.begin(), keyword.end(), '-', '_');
@@ -70,7 +78,10 @@ py::tuple closed_form(const py::dict& keywords) {
   if (keywords.contains("lattice")) lattice = text_from("lattice", keywords["lattice"]);
   try {
     const ClosedFormDesign design = closed_form_design(given, lattice);
-    return py::make_tuple(json_from_design(design).dump(), text_from_design(design));
+    return {"viscard-design/1",
+            {},
+            [design](ResultVisitor& v) { show_keys(v, design); },
+            [design] { return text_from_design(design); }};
   } catch (const std::invalid_argument& error) {
     throw OptionError(error.what());
   }

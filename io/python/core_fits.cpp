@@ -1,6 +1,5 @@
 #include "io/flow/command_error.h"
 #include "io/flow/fit_file.h"
-#include "io/flow/json/flow_json.h"
 #include "io/flow/test_words.h"
 #include "io/flow/words/fit_text.h"
 #include "io/materials/material_file.h"
@@ -12,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
+#include <memory>
 #include <sstream>
 #include <variant>
 
@@ -23,6 +23,7 @@ namespace py = pybind11;
 // The material of one fit, or why there is none.
 struct FitOutcome {
   std::string path;
+  std::vector<std::string> inputs;
   std::optional<FittedFile> fitted;
   std::optional<Material> material;
   std::string no_material;
@@ -39,26 +40,12 @@ void add_material(const FitWords& words, const MaterialRequest& about, FitOutcom
   }
 }
 
-py::dict curves_dict(FitCurves curves) {
-  py::dict out;
-  out["at"] = array_of(std::move(curves.time_s));
-  out["measured"] = array_of(std::move(curves.measured));
-  out["fitted"] = array_of(std::move(curves.fitted));
-  out["sigma"] = array_of(std::move(curves.sigma));
-  out["unit"] = curves.unit;
-  if (curves.loss_measured.empty()) return out;
-  out["loss_measured"] = array_of(std::move(curves.loss_measured));
-  out["loss_fitted"] = array_of(std::move(curves.loss_fitted));
-  out["loss_sigma"] = array_of(std::move(curves.loss_sigma));
-  return out;
-}
-
 py::dict error_dict(const std::exception_ptr& thrown) {
   py::dict out;
   try {
     std::rethrow_exception(thrown);
   } catch (const std::exception& error) {
-    out = to_python(json_from_error(command_error(error)));
+    out = to_python(json_from_result(command_error(error)));
     out["text"] = error.what();
   }
   return out;
@@ -72,17 +59,17 @@ py::dict outcome_dict(FitOutcome outcome) {
     out["error"] = error_dict(outcome.error);
     return out;
   }
-  FittedFile& fitted = *outcome.fitted;
-  std::ostringstream text;
-  print_fit(fitted, text);
-  out["text"] = text.str();
-  out["json"] = to_python(json_from_fit(fitted));
-  out["fitted_unit"] = fitted.fitted_unit;
-  out["covariance"] = matrix_array(fitted.result.covariance);
-  out["covariance_parameters"] = fitted.result.covariance_parameters;
+  const auto fitted = std::make_shared<const FittedFile>(std::move(*outcome.fitted));
+  out["result"] = PythonResult{"viscard-fit/1",
+                               std::move(outcome.inputs),
+                               [fitted](ResultVisitor& v) { show_keys(v, *fitted); },
+                               [fitted] {
+                                 std::ostringstream text;
+                                 print_fit(*fitted, text);
+                                 return text.str();
+                               }};
   out["material"] = outcome.material ? py::cast(*outcome.material) : py::object(py::none());
   out["no_material"] = outcome.no_material;
-  out["curves"] = curves_dict(std::move(fitted.result.curves));
   return out;
 }
 
@@ -115,10 +102,13 @@ py::list fit_paths(std::vector<std::string> files, const py::dict& keywords,
     if (tests.size() > 1) {
       FittedFile fitted = fit_tests(tests, request, show);
       const std::string path = fitted.path;
-      outcomes.push_back({.path = path, .fitted = std::move(fitted)});
+      outcomes.push_back({.path = path, .inputs = files, .fitted = std::move(fitted)});
     } else {
       for (FileOutcome& one : fit_each_file(files, request, show)) {
-        outcomes.push_back({.path = one.path, .fitted = std::move(one.fitted), .error = one.error});
+        outcomes.push_back({.path = one.path,
+                            .inputs = {one.path},
+                            .fitted = std::move(one.fitted),
+                            .error = one.error});
       }
     }
     for (FitOutcome& outcome : outcomes) add_material(words, about, outcome);
@@ -136,7 +126,7 @@ py::list fit_arrays(const py::dict& arrays, const std::string& name, const py::d
   return list_from(
       in_background({.progress = progress}, [=, table = table_from_arrays(arrays, name)](Job& job) {
         std::vector<FitOutcome> outcomes(1);
-        outcomes[0] = {.path = name, .fitted = fit_values(table, request)};
+        outcomes[0] = {.path = name, .inputs = {name}, .fitted = fit_values(table, request)};
         add_material(words, about, outcomes[0]);
         job.report(1.0, name);
         return outcomes;

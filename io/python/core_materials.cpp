@@ -14,9 +14,9 @@
 #include "models/material/series_band.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 
@@ -137,11 +137,14 @@ py::dict card(const Material& material, const std::string& target, const std::st
   return out;
 }
 
-py::object predict(const Material& material, const py::dict& keywords) {
+PythonResult predict(const Material& material, const py::dict& keywords,
+                     const std::vector<std::string>& inputs) {
   const PredictFileRequest request = predict_request(
       predict_words_from(keywords), material.name.empty() ? "the material" : material.name);
-  return to_python(in_background(
-      {}, [=](Job&) { return json_from_prediction(predict_material(material, request)); }));
+  const auto found = in_background({}, [=](Job&) {
+    return std::make_shared<const PredictedFile>(predict_material(material, request));
+  });
+  return {"viscard-predict/1", inputs, [found](ResultVisitor& v) { show_keys(v, *found); }, {}};
 }
 
 // From text that Python has composed, or from a file.

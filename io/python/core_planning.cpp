@@ -3,17 +3,19 @@
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
+#include "io/python/values.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
+
+#include <memory>
 
 namespace viscard::python {
 namespace {
 
 namespace py = pybind11;
 
-// The tests that `viscard cost --rig` compares: its JSON, its advice and its test file as texts.
+// The tests that `viscard cost --rig` compares, and the test file that it advises.
 py::dict cost_of_tests(const std::string& rig, const std::string& specimen,
                        const std::vector<std::string>& want, const std::optional<std::string>& test,
                        const std::optional<std::string>& guess,
@@ -27,11 +29,18 @@ py::dict cost_of_tests(const std::string& rig, const std::string& specimen,
     throw OptionError("at_most is " + fmt::format("{:g}", request.longest_s) +
                       " s; it must be positive, such as \"20 min\"");
   }
-  const TestStudy study = in_background({}, [request](Job&) { return study_tests(request); });
+  const auto study = in_background({}, [request](Job&) {
+    return std::make_shared<const TestStudy>(study_tests(request));
+  });
+  std::vector<std::string> inputs{rig, specimen};
+  for (const auto& file : {test, guess, scene}) {
+    if (file) inputs.push_back(*file);
+  }
   py::dict out;
-  out["json"] = json_from_test_study(study).dump();
-  out["advice"] = advice_of(study);
-  out["test"] = study.protocols.advised ? toml_of_advice(study, "viscard.cost_of_tests") : "";
+  out["result"] = PythonResult{"viscard-cost-tests/1", inputs,
+                               [study](ResultVisitor& v) { show_keys(v, *study); },
+                               [study] { return advice_of(*study); }};
+  out["test"] = study->protocols.advised ? toml_of_advice(*study, "viscard.cost_of_tests") : "";
   return out;
 }
 

@@ -1,12 +1,11 @@
 #include "io/flow/capture_setup.h"
 #include "io/flow/capture_to_file.h"
-#include "io/flow/json/flow_json.h"
+#include "io/flow/rig_keys.h"
 #include "io/flow/words/option_error.h"
 #include "io/python/job.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
 
-#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
 namespace viscard::python {
@@ -28,7 +27,7 @@ void check_emulation(const SetupRequest& request) {
   }
 }
 
-py::object capture(const std::string& out, const py::dict& keywords, const py::object& sample,
+PythonResult capture(const std::string& out, const py::dict& keywords, const py::object& sample,
                    const py::object& progress) {
   using Text = std::optional<std::string>;
   const SetupRequest request{.rig_file = keywords["rig"].cast<Text>(),
@@ -58,7 +57,12 @@ py::object capture(const std::string& out, const py::dict& keywords, const py::o
     if (has_samples) watch.reading = [&](const RunReading& one) { job.add(one); };
     return capture_to_file(asked, watch);
   });
-  return to_python(json_from_outcome(outcome, out));
+  std::vector<std::string> inputs;
+  for (const char* name : {"rig", "test", "specimen", "truth"}) {
+    if (const auto file = keywords[name].cast<Text>()) inputs.push_back(*file);
+  }
+  const CaptureOfSeries shown{.file = out, .run = outcome};
+  return {"viscard-capture/1", inputs, [shown](ResultVisitor& v) { show_keys(v, shown); }, {}};
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 
-#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -37,7 +36,7 @@ py::dict fit_rubber(const std::vector<std::string>& files, const py::dict& keywo
   print_large_strain(fitted, text);
   py::dict out;
   out["text"] = text.str();
-  out["json_text"] = json_from_large_strain(fitted).dump(2) + "\n";
+  out["json_text"] = file_of_large_strain(fitted);
   py::list tests, times, stresses;
   for (LargeStrainTest& test : fitted.tests) {
     times.append(array_of(std::vector<double>(test.time_s)));

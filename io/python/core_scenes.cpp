@@ -7,7 +7,6 @@
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
-#include "io/python/uncertainty_values.h"
 #include "io/python/values.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
@@ -17,6 +16,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace viscard::python {
 namespace {
@@ -30,24 +30,6 @@ SceneFile scene_of(const std::optional<std::string>& text, const std::string& pa
   SceneFile file = text ? scene_from_toml(*text, path) : read_scene(path);
   if (tolerance) set_tolerance(*tolerance, file.scene);
   return file;
-}
-
-py::list effects_list(const std::vector<SceneEffect>& effects) {
-  py::list out;
-  for (const SceneEffect& effect : effects) {
-    py::dict one;
-    one["name"] = effect.name;
-    one["on"] = effect.on;
-    one["estimate"] = effect.estimate;
-    one["number"] = effect.number;
-    one["value"] = effect.value;
-    one["forced"] = effect.is_forced;
-    one["counted"] = effect.is_counted;
-    one["choice"] = effect.is_choice;
-    one["reason"] = effect.reason;
-    out.append(one);
-  }
-  return out;
 }
 
 py::list modes_list(const SceneAnswer& answer) {
@@ -183,7 +165,9 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   }
   out["results"] = results;
   out["modes"] = modes_list(answer);
-  out["effects"] = effects_list(answer.effects);
+  out["effects"] = values_from_keys([&](ResultVisitor& v) {
+    v("effects", answer.effects, "every effect and why it is on or off");
+  })["effects"];
   out["maps"] = maps_dict(answer);
   out["curves"] = curves_dict_of(answer.curves);
   out["x_m"] = array_over(answer.array.pillars, [](const ScenePillar& p) { return p.x_m; });
@@ -192,91 +176,47 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   out["within_tolerance"] = answer.within_tolerance;
   out["unknowns"] = answer.unknowns;
   out["fields"] = fields_list(std::move(found.fields));
-  out["uncertainty"] = uncertainty_object(found.uncertainty);
+  out["uncertainty"] = py::none();
+  if (found.uncertainty) {
+    out["uncertainty"] =
+        values_from_keys([&](ResultVisitor& v) { show_keys(v, *found.uncertainty); });
+  }
   return out;
 }
 
-py::dict plan_scene(const std::optional<std::string>& text, const std::string& path,
-                    std::optional<double> tolerance) {
-  struct Planned {
-    ScenePlan plan;
-    std::vector<EffectSaving> savings;
-    double tolerance = 0.0;
-  };
-  const Planned found = in_background({}, [=](Job& job) {
+PythonResult plan_scene(const std::optional<std::string>& text, const std::string& path,
+                        std::optional<double> tolerance) {
+  const auto found = in_background({}, [=](Job& job) {
     const Scene scene = scene_of(text, path, tolerance).scene;
-    Planned planned{
-        with_lines_of(path, [&] { return checked_plan(scene); }), {}, common(scene).tolerance};
+    const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
+    auto shown = std::make_shared<ShownPlan>(
+        ShownPlan{plan.effects, {}, plan.left_out, common(scene).tolerance,
+                  common(plan.reduced).tolerance});
     job.report(0.5, "plan");
     try {
-      planned.savings = effect_savings(scene);
+      shown->savings = effect_savings(scene);
     } catch (const std::runtime_error&) {  // the plan itself solves nothing and stands
     }
-    return planned;
+    return shown;
   });
-  py::list savings;
-  for (const EffectSaving& one : found.savings) {
-    py::dict row;
-    row["effect"] = one.effect;
-    row["discretisation"] = one.discretisation;
-    row["cpu_s"] = one.cpu_s;
-    row["cpu_s_without"] = one.cpu_s_without;
-    row["unknowns"] = one.unknowns;
-    row["unknowns_without"] = one.unknowns_without;
-    savings.append(row);
-  }
-  py::dict out;
-  out["effects"] = effects_list(found.plan.effects);
-  out["savings"] = savings;
-  out["tolerance"] = found.tolerance;
-  out["left_out"] = found.plan.left_out;
-  out["mesh_tolerance"] = common(found.plan.reduced).tolerance;
-  return out;
+  return {"viscard-plan/1", {path}, [found](ResultVisitor& v) { show_keys(v, *found); }, {}};
 }
 
-py::dict cost_scene(const std::optional<std::string>& text, const std::string& path,
-                    const py::object& budget, const py::object& progress) {
+PythonResult cost_scene(const std::optional<std::string>& text, const std::string& path,
+                        const py::object& budget, const py::object& progress) {
   const double budget_s = quantity_from("budget", budget, "s").value_or(60.0);
   if (!(budget_s > 0.0)) {
     throw OptionError("budget is " + fmt::format("{:g}", budget_s) +
                       " s; it must be positive, such as 60s");
   }
-  const CostStudy study = in_background({.progress = progress}, [=](Job& job) {
+  const auto study = in_background({.progress = progress}, [=](Job& job) {
     CostOptions options{.budget_s = budget_s};
     options.progress = [&](double done, const std::string& row) { job.report(done, row); };
     const Scene scene = scene_of(text, path, std::nullopt).scene;
-    return with_lines_of(path, [&] { return study_cost(scene, options); });
+    return std::make_shared<const CostStudy>(
+        with_lines_of(path, [&] { return study_cost(scene, options); }));
   });
-  py::dict out;
-  const auto column = [&](const char* name, const auto& value) {
-    out[name] = array_over(study.rows, value);
-  };
-  py::list discretisation, effects, advice;
-  for (const CostRow& row : study.rows) {
-    discretisation.append(row.discretisation);
-    effects.append(row.effects);
-  }
-  for (const CostAdvice& one : study.advice) {
-    advice.append(py::make_tuple(one.tolerance, one.row, one.text));
-  }
-  out["discretisation"] = discretisation;
-  out["effects"] = effects;
-  column("unknowns", [](const CostRow& row) { return static_cast<double>(row.unknowns); });
-  column("cpu_s", [](const CostRow& row) { return row.cpu_s; });
-  column("wall_s", [](const CostRow& row) { return row.wall_s; });
-  column("memory_B", [](const CostRow& row) { return row.memory_B; });
-  column("error", [](const CostRow& row) { return row.error; });
-  column("pareto", [](const CostRow& row) { return row.is_on_front ? 1.0 : 0.0; });
-  out["recommendations"] = advice;
-  out["reference"] = study.reference;
-  out["reference_error"] = study.reference_error;
-  out["rows_left_out"] = study.left_out;
-  py::list failed;
-  for (const FailedRow& row : study.failed) {
-    failed.append(py::make_tuple(row.discretisation, row.effects, row.reason));
-  }
-  out["rows_without_answer"] = failed;
-  return out;
+  return {"viscard-cost/1", {path}, [study](ResultVisitor& v) { show_keys(v, *study); }, {}};
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <nlohmann/json_fwd.hpp>
+#include "io/results/result_json.h"
+
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +16,17 @@ namespace viscard::python {
 pybind11::object to_python(const nlohmann::json& json);
 pybind11::object to_python(const nlohmann::ordered_json& json);
 
-pybind11::array matrix_array(const Eigen::MatrixXd& matrix);
+// Keys of a result as dict: numbers in arrays of numpy, intervals as (low, high), what does not exist as
+// NaN, in intervals as infinity.
+pybind11::dict values_from_keys(const ShowKeys& show);
+
+// A result as Python keeps it; its values and its text are made when they are asked for.
+struct PythonResult {
+  std::string schema;  // "viscard-fit/1"
+  std::vector<std::string> inputs;
+  ShowKeys show;
+  std::function<std::string()> text;  // what the command prints
+};
 
 // A numpy array that owns the vector; nothing is copied.
 template <typename Number>

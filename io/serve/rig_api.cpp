@@ -6,10 +6,11 @@
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
 #include "io/flow/command_error.h"
-#include "io/flow/json/flow_json.h"
+#include "io/flow/rig_keys.h"
 #include "io/flow/series_files.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
+#include "io/results/result_json.h"
 #include "io/serve/api_error.h"
 #include "io/serve/series_json.h"
 #include "rig/emulator/demo_rig.h"
@@ -141,7 +142,7 @@ Json RigApi::check_rig() {
   const RigConfig config = rig();
   RigCheck found = check_rig_config(config, options_.is_emulated, kCheck_s);
   if (options_.rig_file) add_calibration(config, found);
-  return json_from_rig_check(found);
+  return json_from_result(found);
 }
 
 Json RigApi::preflight_of(const Json& request) const {
@@ -240,9 +241,10 @@ Json RigApi::run(std::size_t from, std::size_t keep_every) const {
       {"trouble", state.trouble}};
   json["error"] = nullptr;
   if (!state.trouble.empty()) {
-    json["error"] = json_from_error(command_error(state.trouble_code, state.trouble));
+    json["error"] = json_from_result(command_error(state.trouble_code, state.trouble));
   }
-  json["outcome"] = state.outcome ? json_from_outcome(*state.outcome, state.file) : Json(nullptr);
+  json["outcome"] = state.outcome ? json_from_result(CaptureOfSeries{.file = state.file, .run = state.outcome})
+                                  : Json(nullptr);
   json["points"] = {{"keep_every", points.keep_every},
                     {"from", points.from},
                     {"time_s", rounded(points.time_s, 1e-4)},
@@ -258,7 +260,7 @@ Json RigApi::fit(const Json& request) {
   begin_job("the fit of " + file);
   const JobEnd at_end(job_);
   const FittedFile fitted = fit_file(path, {});
-  Json json = json_from_fit(fitted);
+  Json json = json_from_result(fitted);
   json["file"] = file;
   json["status"] = read_capture_state(path).status;
   json["curves"] = curves_of(fitted.result.curves);

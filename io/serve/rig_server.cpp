@@ -2,6 +2,7 @@
 
 #include "io/basics/json_string.h"
 #include "io/flow/command_error.h"
+#include "io/results/result_json.h"
 #include "io/serve/api_error.h"
 #include "io/serve/page_files.h"
 #include "io/serve/request_guard.h"
@@ -51,7 +52,7 @@ void answer(httplib::Response& response, int status, const ordered_json& json) {
 }
 
 void answer_error(httplib::Response& response, int status, const CommandError& error) {
-  answer(response, status, {{"error", json_from_error(error)}});
+  answer(response, status, {{"error", json_from_result(error)}});
 }
 
 // A request that no route has taken.

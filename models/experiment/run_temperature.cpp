@@ -1,11 +1,19 @@
 #include "models/experiment/run_temperature.h"
 
+#include "models/maths/result_visitor.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace viscard {
+
+void show_keys(ResultVisitor& v, const RunTemperature& measured) {
+  v("mean_C", measured.mean_C, "mean");
+  v("min_C", measured.min_C, "lowest");
+  v("max_C", measured.max_C, "highest");
+  v("n_readings", measured.n_readings, "number of readings");
+}
 
 std::optional<RunTemperature> run_temperature(const std::vector<double>& readings_C) {
   RunTemperature found{.min_C = 1e300, .max_C = -1e300};

@@ -9,6 +9,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // The temperature of a run by its thermometer: arithmetic mean and extremes of all readings.
 struct RunTemperature {
   double mean_C = 0.0;
@@ -16,6 +18,8 @@ struct RunTemperature {
   double max_C = 0.0;
   std::size_t n_readings = 0;
 };
+
+void show_keys(ResultVisitor& v, const RunTemperature& measured);
 
 // Values that are not finite are left out; nothing without a value.
 std::optional<RunTemperature> run_temperature(const std::vector<double>& readings_C);

@@ -13,6 +13,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // The one internal description of a viscoelastic solid, SI:
 //   G(t) = G_0 [1 - sum g_i (1 - exp(-t/tau_i))],  K(t) likewise with k_i   (eq. 7)
 // where G_0 and K_0 follow from the instantaneous E_0 and nu. k_i = g_i keeps the Poisson ratio
@@ -64,6 +66,7 @@ struct MaterialFlag {
   int term = 0;      // 1-based; 0 for the whole material
   std::string text;  // a sentence for a person
 };
+void show_keys(ResultVisitor& v, const MaterialFlag& flag);
 // True for a flag that makes the whole fit untrustworthy. Cards refuse it like a flagged term.
 bool is_defect(const std::string& flag_name);
 

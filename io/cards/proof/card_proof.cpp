@@ -5,6 +5,7 @@
 #include "io/cards/one_element.h"
 #include "io/cards/targets/card_targets.h"
 #include "models/material/series_band.h"
+#include "models/maths/result_visitor.h"
 
 #include <fmt/format.h>
 
@@ -200,6 +201,13 @@ struct EulerBranch {
 };
 
 }  // namespace
+
+void show_keys(ResultVisitor& v, const TermProof& term) {
+  v("g", term.g, "share of the modulus at once");
+  v("tau_s", term.tau_s, "relaxation time");
+  v("change_with_tau", term.change, "change of the answer if tau is 10 % off");
+  v("exercised", term.is_exercised, "whether the tests would show that");
+}
 
 bool CardProof::exercises_all_terms() const {
   return std::all_of(terms.begin(), terms.end(),

@@ -9,6 +9,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // Runs a card in a solver on one element and compares with the exact answer. Where the solver's test
 // allows, the load rises in every block of a doubled time (one_element.h): then every term is loaded
 // in its own decade, with increments that start again from the size of the block.
@@ -34,6 +36,7 @@ struct TermProof {
   double change = 0.0;        // largest relative change of an answer if tau were a tenth longer
   bool is_exercised = false;  // that change is at least twice what the test resolves
 };
+void show_keys(ResultVisitor& v, const TermProof& term);
 
 // Relaxation at another temperature than the reference of the card's shift.
 struct TemperatureProof {

@@ -2,9 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
-#include "io/basics/timestamp.h"
-
-#include <nlohmann/json.hpp>
+#include "io/results/result_json.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -14,48 +12,49 @@ namespace viscard {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-Json json_of(const StepError& error) {
-  return {{"error", error.at_step},
-          {"at_s", error.worst_s},
-          {"predicted_error", error.predicted ? Json(*error.predicted) : Json(nullptr)},
-          {"extrapolated_error", error.remaining},
-          {"resolved", error.resolved},
-          {"vanishes_with_step", error.vanishes_with_step()}};
+void show_error(ResultVisitor& v, const StepError& error) {
+  v("error", error.at_step, "largest relative difference at the given step");
+  v("at_s", error.worst_s, "when");
+  v("predicted_error", number_or_null(error.predicted), "that backward Euler makes");
+  v("extrapolated_error", error.remaining, "at no step");
+  v("resolved", error.resolved, "what the extrapolation resolves");
+  v("vanishes_with_step", error.vanishes_with_step(), "whether the error is that of the step");
 }
 
-Json json_of(const ChainLink& link) {
-  return {{"path", link.path},
-          {"sha256_in_card", link.stated},
-          {"sha256_now", link.now.empty() ? Json(nullptr) : Json(link.now)},
-          {"matches", link.matches()}};
+std::optional<std::string> unless_empty(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(text);
 }
 
-Json json_of(const CardChain& chain) {
-  Json json{{"card_sha256", chain.card_sha256}, {"material", nullptr}};
-  if (!chain.material.stated.empty()) json["material"] = json_of(chain.material);
-  json["raw_files"] = Json::array();
-  for (const ChainLink& link : chain.raw_files) json["raw_files"].push_back(json_of(link));
-  json["complete"] = chain.is_complete();
-  json["missing"] = chain.missing();
-  return json;
+void show_link(ResultVisitor& v, const ChainLink& link) {
+  v("path", link.path, "the file");
+  v("sha256_in_card", link.stated, "its sum as stated");
+  v.or_null("sha256_now", unless_empty(link.now), "its sum now; null: not here");
+  v("matches", link.matches(), "whether both agree");
 }
 
-void add_terms(const CardProof& proof, Json& json) {
-  json["terms"] = Json::array();
-  for (const TermProof& term : proof.terms) {
-    json["terms"].push_back({{"g", term.g},
-                             {"tau_s", term.tau_s},
-                             {"change_with_tau", term.change},
-                             {"exercised", term.is_exercised}});
-  }
-  json["divergence"] = nullptr;
-  if (const auto& divergence = proof.divergence) {
-    json["divergence"] = {{"test", divergence->test},
-                          {"reached_s", divergence->reached_s},
-                          {"card_blamed", divergence->is_card_blamed}};
-  }
+void show_chain(ResultVisitor& v, const CardChain& chain) {
+  v("card_sha256", chain.card_sha256, "sum of the card");
+  v.object(
+      "material", "the material file", [&] { show_link(v, chain.material); },
+      chain.material.stated.empty());
+  v.list("raw_files", "the raw data", chain.raw_files,
+         [&](const ChainLink& link) { show_link(v, link); });
+  v("complete", chain.is_complete(), "whether all sums match");
+  v("missing", chain.missing(), "what is missing or has changed, and what to do");
+}
+
+void show_proof(ResultVisitor& v, const CardProof& proof) {
+  v("terms", proof.terms, "the terms");
+  const SolverDivergence divergence = proof.divergence.value_or(SolverDivergence{});
+  v.object(
+      "divergence", "null: the solver went to the end",
+      [&] {
+        v("test", divergence.test, "which test");
+        v("reached_s", divergence.reached_s, "how far");
+        v("card_blamed", divergence.is_card_blamed, "whether the card is the cause");
+      },
+      !proof.divergence);
+  v("holds", proof.holds(), "whether the card is proven");
 }
 
 // The file as stated, or the file of that name beside one of the others.
@@ -134,35 +133,43 @@ CardChain chain_of(const CertificateRequest& request) {
   return chain;
 }
 
+void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,
+                      const FoundSolver& found, const CardProof& proof) {
+  v("card", request.card_path, "the card");
+  v("target", request.target, "its solver");
+  v.or_null("compared_with", unless_empty(request.material_path),
+            "the material file; null: the card as read");
+  v("solver", found.solver.code, "that ran it");
+  v("solver_version", found.version, "its version");
+  v("solver_program", found.program, "its path");
+  v("created_by", "viscard " VISCARD_VERSION, "version of viscard");
+  v("created_at", request.created_at, "time");
+  v.object("relaxation", "the test of relaxation", [&] { show_error(v, proof.relaxation); });
+  v.object("creep", "the test of creep", [&] { show_error(v, proof.creep); });
+  const TemperatureProof warm = proof.temperature.value_or(TemperatureProof{});
+  v.object(
+      "temperature",
+      "relaxation 10 K above the reference temperature of the shift; null: no shift, or the solver "
+      "does not read it",
+      [&] {
+        show_error(v, warm.error);
+        v("at_C", warm.at_C, "its temperature");
+      },
+      !proof.temperature);
+  v("end_s", proof.end_s, "length of the tests");
+  v("increments", proof.increments,
+    "their steps; of OpenRadioss the times at which answers were compared");
+  v.or_null("caution", unless_empty(found.solver.caution),
+            "what to know before trusting a run in this solver");
+  show_proof(v, proof);
+  v.object("chain", "from the card to the raw data", [&] { show_chain(v, chain); });
+  v("models", proof.models, "the models that were run");
+}
+
 std::string certificate_text(const CertificateRequest& request, const CardChain& chain,
                              const FoundSolver& found, const CardProof& proof) {
-  Json json{{"card", request.card_path},
-            {"target", request.target},
-            {"compared_with",
-             request.material_path.empty() ? Json(nullptr) : Json(request.material_path)},
-            {"solver", found.solver.code},
-            {"solver_version", found.version},
-            {"solver_program", found.program},
-            {"created_by", "viscard " VISCARD_VERSION},
-            {"created_at", now_iso8601()},
-            {"relaxation", json_of(proof.relaxation)},
-            {"creep", json_of(proof.creep)},
-            {"temperature", nullptr},
-            {"end_s", proof.end_s},
-            {"increments", proof.increments},
-            {"caution", nullptr}};
-  if (*found.solver.caution != '\0') json["caution"] = found.solver.caution;
-  if (const auto& temperature = proof.temperature) {
-    json["temperature"] = json_of(temperature->error);
-    json["temperature"]["at_C"] = temperature->at_C;
-  }
-  add_terms(proof, json);
-  json["holds"] = proof.holds();
-  json["chain"] = json_of(chain);
-  json["models"] = Json::array();
-  for (const DeckFile& file : proof.models) {
-    json["models"].push_back({{"file", file.name}, {"text", file.text}});
-  }
+  const auto json = json_from_keys(
+      [&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); });
   return text_from_json(json, 2) + "\n";
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/basics/timestamp.h"
 #include "io/cards/proof/card_proof.h"
 
 #include <string>
@@ -12,6 +13,7 @@ struct CertificateRequest {
   std::string card_text;
   std::string material_path;  // empty: the card was compared with its own numbers
   std::string target;
+  std::string created_at = now_iso8601();
 };
 
 // A file that the header of a card states, and whether it is still the same.
@@ -36,7 +38,9 @@ struct CardChain {
 // the material and the card.
 CardChain chain_of(const CertificateRequest& request);
 
-// JSON: card, solver and its version, deviations, terms, the models as run, the chain.
+// Card, solver and its version, deviations, terms, the models as run, the chain; and the same as JSON.
+void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,
+                      const FoundSolver& found, const CardProof& proof);
 std::string certificate_text(const CertificateRequest& request, const CardChain& chain,
                              const FoundSolver& found, const CardProof& proof);
 

@@ -7,7 +7,6 @@
 #include "io/cli/words/json_output.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <ostream>
@@ -15,85 +14,104 @@
 namespace viscard {
 namespace {
 
-nlohmann::ordered_json json_of(const CardTarget& target) {
-  return {{"name", target.name},
-          {"code", target.code},
-          {"extension", target.extension},
-          {"elastic", to_word(target.elastic)},
-          {"modulus", to_word(target.at)},
-          {"branches", to_word(target.branch)},
-          {"time", to_word(target.time)},
-          {"bulk", to_word(target.bulk)},
-          {"max_terms", target.max_terms},
-          {"takes_nu_0_5", target.takes_incompressible},
-          {"takes_wlf", target.takes_wlf},
-          {"takes_arrhenius", target.takes_arrhenius},
-          {"needs_density", target.needs_density},
-          {"conventions", conventions_in_words(target)},
-          {"cannot_represent", target.cannot_represent},
-          {"states_material", states_material(target)},
-          {"has_band", target.band_note != nullptr},
-          {"evidence", to_word(target.evidence)},
-          {"evidence_note", target.evidence_note},
-          {"advice", target.advice}};
+void show_keys(ResultVisitor& v, const CardTarget& target) {
+  v("name", target.name, "as in --for");
+  v("code", target.code, "name of the solver");
+  v("extension", target.extension, "of the file");
+  v("elastic", to_word(target.elastic), "which elastic constants");
+  v("modulus", to_word(target.at), "at which time");
+  v("branches", to_word(target.branch), "how terms are stated");
+  v("time", to_word(target.time), "how times are stated");
+  v("bulk", to_word(target.bulk), "rule of the bulk modulus");
+  v("max_terms", target.max_terms, "0: any number");
+  v("takes_nu_0_5", target.takes_incompressible, "whether incompressible");
+  v("takes_wlf", target.takes_wlf, "WLF shift");
+  v("takes_arrhenius", target.takes_arrhenius, "Arrhenius shift");
+  v("needs_density", target.needs_density, "whether a density is needed");
+  v("conventions", conventions_in_words(target), "all of this in words");
+  v("cannot_represent", target.cannot_represent, "what it cannot take; empty: nothing");
+  v("states_material", states_material(target), "whether the card is a whole material");
+  v("has_band", target.band_note != nullptr, "whether --band applies");
+  v.word("evidence", to_word(target.evidence), {"run", "parsed", "source", "documentation", "ours"},
+         "how the target was checked");
+  v("evidence_note", target.evidence_note, "by what");
+  v("advice", target.advice, "for its users");
 }
 
-nlohmann::ordered_json optional_json(const std::optional<double>& value) {
-  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+void show_targets(ResultVisitor& v) {
+  v.list("targets", "all targets", card_targets(),
+         [&](const CardTarget& target) { show_keys(v, target); });
+  v.list("units", "all unit systems", unit_systems(), [&](const UnitSystem& system) {
+    v("name", system.name, "as in --units");
+    v("description", system.description, "its units");
+  });
 }
 
-nlohmann::ordered_json json_of(const Material& material) {
-  nlohmann::ordered_json out{
-      {"E0_Pa", material.E0_Pa}, {"nu", material.nu}, {"rho_kg_m3", material.rho_kg_m3}};
-  out["terms"] = nlohmann::ordered_json::array();
-  for (const MaterialTerm& term : material.terms) {
-    out["terms"].push_back({{"g", term.g}, {"k", term.k}, {"tau_s", term.tau_s}});
-  }
-  if (const auto& shift = material.shift; shift && shift->law == ShiftLaw::kWlf) {
-    out["shift"] = {
-        {"law", "wlf"}, {"T_ref_C", shift->T_ref_C}, {"C1", shift->C1}, {"C2_K", shift->C2_K}};
-  } else if (shift) {
-    out["shift"] = {{"law", "arrhenius"},
-                    {"T_ref_C", shift->T_ref_C},
-                    {"activation_J_mol", shift->activation_J_mol}};
-  }
-  return out;
+void show_shift(ResultVisitor& v, const TemperatureShift& shift) {
+  const bool is_wlf = shift.law == ShiftLaw::kWlf;
+  v.word("law", is_wlf ? "wlf" : "arrhenius", {"wlf", "arrhenius"}, "its name");
+  v("T_ref_C", shift.T_ref_C, "reference temperature");
+  v.when(is_wlf, [&] {
+    v("C1", shift.C1, "of a WLF law");
+    v("C2_K", shift.C2_K, "of a WLF law");
+  });
+  v.when(!is_wlf, [&] { v("activation_J_mol", shift.activation_J_mol, "of an Arrhenius law"); });
 }
 
-nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
-  nlohmann::ordered_json json;
-  json["card"] = words.check;
-  json["target"] = check.read.understood.name;
-  json["units"] = check.units;
-  json["agrees"] = check.agrees;
-  json["understood"] = {{"elastic", to_word(check.read.understood.elastic)},
-                        {"modulus", to_word(check.read.understood.at)},
-                        {"branches", to_word(check.read.understood.branch)},
-                        {"time", to_word(check.read.understood.time)},
-                        {"bulk", to_word(check.read.understood.bulk)},
-                        {"conventions", conventions_in_words(check.read.understood)}};
-  json["material"] = json_of(check.read.material);
-  if (check.read.understood.values != nullptr) {
-    json["material"] = nullptr;  // no whole material can be read from such a card
-    for (const char* key : {"elastic", "modulus", "branches", "time", "bulk"}) {
-      json["understood"][key] = nullptr;  // words of series; "conventions" describes this card
-    }
-    json["frequencies_Hz"] = check.read.frequencies_Hz;
-    json["values"] = nlohmann::ordered_json::array();
-    for (const CardValue& value : check.read.values) {
-      json["values"].push_back({{"name", value.name}, {"value", value.value}});
-    }
-  }
-  json["tolerance"] = check.tolerance;
-  json["E_difference"] = optional_json(check.E_difference);
-  json["G_difference"] = optional_json(check.G_difference);
-  json["E_difference_with_bulk"] = optional_json(check.E_difference_with_bulk);
-  json["findings"] = nlohmann::ordered_json::array();
-  for (const CardFinding& finding : check.findings) {
-    json["findings"].push_back(
-        {{"name", finding.name}, {"mistake", finding.is_mistake}, {"text", finding.text}});
-  }
-  return json;
+void show_material(ResultVisitor& v, const Material& material) {
+  v("E0_Pa", material.E0_Pa, "instantaneous modulus");
+  v("nu", material.nu, "Poisson ratio");
+  v("rho_kg_m3", material.rho_kg_m3, "density");
+  v.list("terms", "the series", material.terms, [&](const MaterialTerm& term) {
+    v("g", term.g, "relative shear modulus");
+    v("k", term.k, "relative bulk modulus");
+    v("tau_s", term.tau_s, "relaxation time");
+  });
+  v.when(material.shift.has_value(), [&] {
+    v.object("shift", "law of the shift with temperature",
+             [&] { show_shift(v, material.shift.value_or(TemperatureShift{})); });
+  });
+}
+
+// Words of series; "conventions" describes a card that states no whole material.
+void show_understood(ResultVisitor& v, const CardTarget& target) {
+  const auto word = [&](const char* key, const std::string& value, const char* what) {
+    v.or_null(key, target.values == nullptr ? std::optional(value) : std::nullopt, what);
+  };
+  word("elastic", to_word(target.elastic), "which elastic constants");
+  word("modulus", to_word(target.at), "at which time");
+  word("branches", to_word(target.branch), "how terms are stated");
+  word("time", to_word(target.time), "how times are stated");
+  word("bulk", to_word(target.bulk), "rule of the bulk modulus");
+  v("conventions", conventions_in_words(target), "all of it in words");
+}
+
+void show_check(ResultVisitor& v, const CardCheck& check, const std::string& card) {
+  const bool has_values = check.read.understood.values != nullptr;
+  v("card", card, "the card");
+  v("target", check.read.understood.name, "its solver");
+  v("units", check.units, "its unit system");
+  v("agrees", check.agrees, "whether card and material agree");
+  v.object("understood", "how the card was read",
+           [&] { show_understood(v, check.read.understood); });
+  v.object(
+      "material", "what the card says; null: no whole material",
+      [&] { show_material(v, check.read.material); }, has_values);
+  v.when(has_values, [&] {
+    v("frequencies_Hz", check.read.frequencies_Hz, "of a table over frequency");
+    v.list("values", "numbers of a card that states no whole material", check.read.values,
+           [&](const CardValue& value) {
+             v("name", value.name, "its name");
+             v("value", value.value, "in SI");
+           });
+  });
+  v("tolerance", check.tolerance, "largest relative difference allowed");
+  v("E_difference", number_or_null(check.E_difference),
+    "largest relative difference of E(t); null: no material was named");
+  v("G_difference", number_or_null(check.G_difference), "the same of G(t)");
+  v("E_difference_with_bulk", number_or_null(check.E_difference_with_bulk),
+    "the same with the bulk rule of the material");
+  v("findings", check.findings, "mistakes and notes");
 }
 
 std::string shift_row(const TemperatureShift& shift) {
@@ -180,16 +198,22 @@ void print_list(std::ostream& out) {
 
 }  // namespace
 
+std::vector<DescribedResult> results_of_targets() {
+  CardCheck check, of_values;
+  check.read.understood = of_values.read.understood = card_targets().front();
+  for (const CardTarget& target : card_targets()) {
+    if (target.values != nullptr) of_values.read.understood = target;
+  }
+  DescribedResult checked{"card-check", "viscard card --check", {}};
+  for (const CardCheck& one : {check, of_values}) {
+    checked.examples.emplace_back([one](ResultVisitor& v) { show_check(v, one, ""); });
+  }
+  return {{"card-list", "viscard card --list", {show_targets}}, checked};
+}
+
 int list_card_targets(const CardWords& words, Streams& streams) {
   if (words.json) {
-    nlohmann::ordered_json json;
-    json["targets"] = nlohmann::ordered_json::array();
-    for (const CardTarget& target : card_targets()) json["targets"].push_back(json_of(target));
-    json["units"] = nlohmann::ordered_json::array();
-    for (const UnitSystem& system : unit_systems()) {
-      json["units"].push_back({{"name", system.name}, {"description", system.description}});
-    }
-    print_json({"viscard-card-list/1", {}}, json, streams);
+    print_result({"viscard-card-list/1", {}}, show_targets, streams);
     return kDone;
   }
   if (words.is_long) {
@@ -218,7 +242,8 @@ int check_card_file(const CardWords& words, Streams& streams) {
   if (words.json) {
     Words inputs{words.check};
     if (!words.material.empty()) inputs.push_back(words.material);
-    print_json({"viscard-card-check/1", inputs}, json_of(check, words), streams);
+    print_result({"viscard-card-check/1", inputs},
+                 [&](ResultVisitor& v) { show_check(v, check, words.check); }, streams);
   } else {
     print(check, words, FittedText(streams));
   }

@@ -1,5 +1,4 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/json_string.h"
 #include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/deck.h"
@@ -14,7 +13,6 @@
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <ostream>
@@ -116,7 +114,21 @@ const Solver& chosen_solver(const CardWords& words) {
   }
 }
 
+void show_deck(ResultVisitor& v, const std::vector<std::string>& files, const std::string& run) {
+  v("files", files, "that were written");
+  v("run", run, "how to run them");
+}
+
 }  // namespace
+
+std::vector<DescribedResult> results_of_proof() {
+  const auto show_proof = [](ResultVisitor& v) {
+    show_certificate(v, CertificateRequest{}, CardChain{}, {solvers().front(), "", ""}, CardProof{});
+  };
+  return {
+      {"card-deck", "viscard card --deck", {[](ResultVisitor& v) { show_deck(v, {}, ""); }}},
+      {"card-prove", "viscard card --prove; the certificate has the same keys", {show_proof}}};
+}
 
 int prove_card_file(const CardWords& words, Streams& streams) {
   if (!states_material(card_target(words.target))) {
@@ -140,13 +152,15 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   const FoundSolver found = find_solver(solver, words.solver_path);
   const CardProof proof = prove_card(request.card_text, read, material, found);
   const CardChain chain = chain_of(request);
-  const std::string certificate = certificate_text(request, chain, found, proof);
   if (!words.json) print_proof(words, found, material, proof, chain, FittedText(streams));
-  write_file(path, certificate, words.force);
+  write_file(path, certificate_text(request, chain, found, proof), words.force);
   if (words.json) {
     Words inputs{words.prove};
     if (!words.material.empty()) inputs.push_back(words.material);
-    print_json({"viscard-card-prove/1", inputs}, ordered_json_from_text(certificate), streams);
+    const auto show = [&](ResultVisitor& v) {
+      show_certificate(v, request, chain, found, proof);
+    };
+    print_result({"viscard-card-prove/1", inputs}, show, streams);
   }
   if (!words.json) streams.out << "wrote " << path << "\n";
   return proof.holds() ? kDone : kFailed;
@@ -165,18 +179,18 @@ int write_deck_files(const CardWords& words, Streams& streams) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error(words.out + ": cannot make this folder: " + error.message());
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  std::vector<std::string> files;
   for (const DeckFile& file : deck.files) refuse_existing(folder / file.name, words.force);
   for (const DeckFile& file : deck.files) {
     write_file(folder / file.name, file.text, words.force);
     files.push_back((folder / file.name).string());
   }
   if (words.json) {
-    print_json<nlohmann::ordered_json>({"viscard-card-deck/1", {words.material}},
-                                       {{"files", files}, {"run", deck.how_to_run}}, streams);
+    print_result({"viscard-card-deck/1", {words.material}},
+                 [&](ResultVisitor& v) { show_deck(v, files, deck.how_to_run); }, streams);
     return kDone;
   }
-  for (const auto& file : files) streams.out << "wrote " << file.get<std::string>() << "\n";
+  for (const std::string& file : files) streams.out << "wrote " << file << "\n";
   streams.out << "run it there with: " << deck.how_to_run << "\n";
   return kDone;
 }

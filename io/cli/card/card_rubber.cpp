@@ -6,7 +6,6 @@
 #include "io/materials/hyperelastic_file.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <ostream>
@@ -21,7 +20,26 @@ void require_rubber_target(const CardWords& words) {
                    " has no card of rubber; use " + listed(known));
 }
 
+void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const CardWords& words,
+                      const std::string& text) {
+  v("target", words.target, "solver of the card");
+  v("units", words.units.empty() ? "SI" : words.units, "unit system");
+  v("out", words.out, "the card; empty: stdout");
+  v("law", name_of(file.law.form), "name of the law");
+  v("E0_Pa", file.E0_Pa, "Young's modulus at rest, at once");
+  v("E_inf_Pa", file.E_inf_Pa,
+    "Young's modulus at rest after all relaxation; E0_Pa without terms");
+  v("terms", words.elastic_only.empty() ? file.terms.size() : 0,
+    "number of terms of relaxation in the card; 0 for an elastic law and with --elastic-only");
+  v.when(words.out.empty(), [&] { v("card", text, "the card itself, without --out"); });
+}
+
 }  // namespace
+
+DescribedResult result_of_rubber_card() {
+  return {"card-rubber", "viscard card of a law of rubber",
+          {[](ResultVisitor& v) { show_rubber_card(v, {}, {}, ""); }}};
+}
 
 bool is_rubber(const CardWords& words) {
   return !words.list && words.check.empty() && words.prove.empty() && words.deck.empty() &&
@@ -42,16 +60,8 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   const std::string text = rubber_file_card(file, words.material, options);
   if (!words.out.empty()) write_file(words.out, text, words.force);
   if (words.json) {
-    nlohmann::ordered_json json;
-    json["target"] = words.target;
-    json["units"] = options.units;
-    json["out"] = words.out;
-    json["law"] = name_of(file.law.form);
-    json["E0_Pa"] = file.E0_Pa;
-    json["E_inf_Pa"] = file.E_inf_Pa;
-    json["terms"] = words.elastic_only.empty() ? file.terms.size() : 0;
-    if (words.out.empty()) json["card"] = text;
-    print_json({"viscard-card-rubber/1", {words.material}}, json, streams);
+    print_result({"viscard-card-rubber/1", {words.material}},
+                 [&](ResultVisitor& v) { show_rubber_card(v, file, words, text); }, streams);
   } else if (words.out.empty()) {
     streams.out << text;
   } else {

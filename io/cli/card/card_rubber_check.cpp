@@ -7,7 +7,6 @@
 #include "io/materials/hyperelastic_file.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <ostream>
@@ -27,31 +26,29 @@ std::vector<CardValue> parameters_of(const HyperelasticLaw& law) {
   return out;
 }
 
-nlohmann::ordered_json rubber_json(const RubberCheck& check, const CardWords& words) {
-  nlohmann::ordered_json json;
-  json["card"] = words.check;
-  json["target"] = words.target;
-  json["units"] = check.read.units->name;
-  json["agrees"] = check.agrees;
-  json["law"] = name_of(check.read.law.form);
-  json["basis"] = check.read.is_long_term ? "long-term" : "instantaneous";
-  json["parameters"] = nlohmann::ordered_json::array();
-  for (const CardValue& value : parameters_of(check.read.law))
-    json["parameters"].push_back({{"name", value.name}, {"value", value.value}});
-  json["terms"] = nlohmann::ordered_json::array();
-  for (const RubberTerm& term : check.read.terms)
-    json["terms"].push_back({{"g", term.g}, {"tau_s", term.tau_s}});
-  json["bulk_modulus_Pa"] = check.read.bulk_Pa > 0.0 ? nlohmann::ordered_json(check.read.bulk_Pa)
-                                                     : nlohmann::ordered_json(nullptr);
-  json["tolerance"] = check.tolerance;
-  json["difference"] = check.difference ? nlohmann::ordered_json(*check.difference)
-                                        : nlohmann::ordered_json(nullptr);
-  json["findings"] = nlohmann::ordered_json::array();
-  for (const CardFinding& finding : check.findings) {
-    json["findings"].push_back(
-        {{"name", finding.name}, {"mistake", finding.is_mistake}, {"text", finding.text}});
-  }
-  return json;
+void show_check(ResultVisitor& v, const RubberCheck& check, const CardWords& words) {
+  const ReadRubber& read = check.read;
+  v("card", words.check, "the card");
+  v("target", words.target, "its solver");
+  v("units", read.units == nullptr ? "" : read.units->name, "its unit system");
+  v("agrees", check.agrees, "whether card and material agree");
+  v("law", name_of(read.law.form), "name of the law");
+  v.word("basis", read.is_long_term ? "long-term" : "instantaneous",
+         {"instantaneous", "long-term"}, "which law stands in the card");
+  v.list("parameters", "the law at once", parameters_of(read.law), [&](const CardValue& value) {
+    v("name", value.name, "its name; moduli in Pa");
+    v("value", value.value, "its value");
+  });
+  v.list("terms", "its terms of relaxation", read.terms, [&](const RubberTerm& term) {
+    v("g", term.g, "share of the law at once");
+    v("tau_s", term.tau_s, "its time");
+  });
+  v("bulk_modulus_Pa", number_or_null(read.bulk_Pa > 0.0 ? std::optional(read.bulk_Pa) : std::nullopt),
+    "null: incompressible");
+  v("tolerance", check.tolerance, "largest relative difference allowed");
+  v("difference", number_or_null(check.difference),
+    "largest relative difference of a parameter; null: no law was named");
+  v("findings", check.findings, "mistakes and notes");
 }
 
 void print_rubber_check(const RubberCheck& check, const CardWords& words, std::ostream& out) {
@@ -104,6 +101,14 @@ bool is_rubber_proof(CardWords& words) {
   return is_card_of_rubber(words.prove, words);
 }
 
+DescribedResult result_of_rubber_check() {
+  RubberCheck check;
+  check.read.law.moduli_Pa = Eigen::VectorXd::Zero(n_moduli(check.read.law.form));
+  check.read.law.shapes = Eigen::VectorXd::Zero(n_shapes(check.read.law.form));
+  return {"card-rubber-check", "viscard card --check of a card of rubber",
+          {[check](ResultVisitor& v) { show_check(v, check, CardWords{}); }}};
+}
+
 int check_rubber_file(const CardWords& words, Streams& streams) {
   std::optional<HyperelasticFile> file;
   if (!words.material.empty()) file = read_hyperelastic(words.material);
@@ -122,7 +127,8 @@ int check_rubber_file(const CardWords& words, Streams& streams) {
   if (words.json) {
     Words inputs{words.check};
     if (!words.material.empty()) inputs.push_back(words.material);
-    print_json({"viscard-card-rubber-check/1", inputs}, rubber_json(check, words), streams);
+    print_result({"viscard-card-rubber-check/1", inputs},
+                 [&](ResultVisitor& v) { show_check(v, check, words); }, streams);
   } else {
     print_rubber_check(check, words, FittedText(streams));
   }

@@ -1,5 +1,4 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/json_string.h"
 #include "io/basics/words.h"
 #include "io/cards/hyperelastic/proof/rubber_certificate.h"
 #include "io/cards/hyperelastic/rubber_card.h"
@@ -11,7 +10,6 @@
 #include "io/materials/hyperelastic_file.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <ostream>
@@ -101,6 +99,16 @@ void print_rubber_proof(const CardWords& words, const FoundSolver& found, const 
 
 }  // namespace
 
+DescribedResult result_of_rubber_proof() {
+  const auto show = [](ResultVisitor& v) {
+    show_certificate(v, RubberCertificateRequest{}, nullptr, {solvers().front(), "", ""},
+                     RubberProof{});
+  };
+  return {"card-rubber-prove",
+          "viscard card --prove of a card of rubber; the certificate has the same keys",
+          {show}};
+}
+
 int prove_rubber_file(const CardWords& words, Streams& streams) {
   const Solver& solver = rubber_solver(words);
   const std::string path =
@@ -121,15 +129,15 @@ int prove_rubber_file(const CardWords& words, Streams& streams) {
       throw std::runtime_error(words.prove + ": " + error.what());
     }
   }();
-  const std::string certificate = rubber_certificate_text(
-      {words.prove, words.material, words.target}, file ? &*file : nullptr, found, proof);
+  const RubberCertificateRequest request{words.prove, words.material, words.target};
+  const HyperelasticFile* law = file ? &*file : nullptr;
   if (!words.json) print_rubber_proof(words, found, proof, FittedText(streams));
-  write_file(path, certificate, words.force);
+  write_file(path, rubber_certificate_text(request, law, found, proof), words.force);
   if (words.json) {
     Words inputs{words.prove};
     if (!words.material.empty()) inputs.push_back(words.material);
-    print_json({"viscard-card-rubber-prove/1", inputs}, ordered_json_from_text(certificate),
-               streams);
+    const auto show = [&](ResultVisitor& v) { show_certificate(v, request, law, found, proof); };
+    print_result({"viscard-card-rubber-prove/1", inputs}, show, streams);
   } else {
     streams.out << "wrote " << path << "\n";
   }

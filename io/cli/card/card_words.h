@@ -4,6 +4,7 @@
 #include "io/cards/read_card.h"
 #include "io/cli/words/streams.h"
 #include "io/flow/card_material.h"
+#include "io/results/result_schema.h"
 
 #include <optional>
 #include <string>
@@ -62,5 +63,13 @@ int write_card_file(const CardWords& words, Streams& streams);
 int check_card_file(const CardWords& words, Streams& streams);
 int prove_card_file(const CardWords& words, Streams& streams);
 int write_deck_files(const CardWords& words, Streams& streams);
+
+// What they print with --json.
+DescribedResult result_of_card();
+std::vector<DescribedResult> results_of_targets();  // --list and --check
+std::vector<DescribedResult> results_of_proof();    // --prove and --deck
+DescribedResult result_of_rubber_card();
+DescribedResult result_of_rubber_check();
+DescribedResult result_of_rubber_proof();
 
 }  // namespace viscard

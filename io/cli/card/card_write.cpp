@@ -8,7 +8,6 @@
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <ostream>
@@ -16,23 +15,23 @@
 namespace viscard {
 namespace {
 
-nlohmann::ordered_json json_of(const Card& card, const CardWords& words, bool with_text) {
-  nlohmann::ordered_json json;
-  json["target"] = words.target;
-  json["units"] = words.units.empty() ? "SI" : words.units;
-  json["out"] = words.out;
-  json["n_terms"] = card.written.terms.size();
-  json["E0_Pa"] = card.written.E0_Pa;
-  json["E_inf_Pa"] = derived_moduli(card.written).E_inf_Pa;
-  json["largest_difference"] = card.largest_difference;
-  json["warnings"] = card.warnings;
-  json["fidelity"] = nlohmann::ordered_json::array();
-  for (const FidelityItem& item : card.fidelity) {
-    json["fidelity"].push_back(
-        {{"item", item.item}, {"mapping", to_word(item.mapping)}, {"text", item.text}});
-  }
-  if (with_text) json["card"] = card.text;
-  return json;
+void show_card(ResultVisitor& v, const Card& card, const CardWords& words) {
+  v("target", words.target, "solver of the card");
+  v("units", words.units.empty() ? "SI" : words.units, "unit system");
+  v("out", words.out, "the card; empty: stdout");
+  v("n_terms", card.written.terms.size(), "number of terms");
+  v("E0_Pa", card.written.E0_Pa, "instantaneous modulus of the card");
+  v("E_inf_Pa", derived_moduli(card.written).E_inf_Pa, "equilibrium modulus of the card");
+  v("largest_difference", card.largest_difference,
+    "largest relative difference of E(t) between card and material");
+  v("warnings", card.warnings, "what the user of the card should know");
+  v.list("fidelity", "what the target takes exactly, approximately or not at all", card.fidelity,
+         [&](const FidelityItem& item) {
+           v("item", item.item, "its name");
+           v("mapping", to_word(item.mapping), "exact, approximated, dropped ...");
+           v("text", item.text, "in words");
+         });
+  v.when(words.out.empty(), [&] { v("card", card.text, "the card itself, without --out"); });
 }
 
 void report_losses(const Card& card, Streams& streams) {
@@ -92,6 +91,11 @@ CardOptions card_options(const CardWords& words, const PreparedMaterial& prepare
   return options;
 }
 
+DescribedResult result_of_card() {
+  return {"card-write", "viscard card",
+          {[](ResultVisitor& v) { show_card(v, Card{}, CardWords{}); }}};
+}
+
 int write_card_file(const CardWords& words, Streams& streams) {
   const PreparedMaterial prepared = prepared_material(words);
   const Card card =
@@ -106,8 +110,8 @@ int write_card_file(const CardWords& words, Streams& streams) {
     write_file(words.out, card.text, words.force);
   }
   if (words.json) {
-    print_json({"viscard-card-write/1", {words.material}}, json_of(card, words, words.out.empty()),
-               streams);
+    print_result({"viscard-card-write/1", {words.material}},
+                 [&](ResultVisitor& v) { show_card(v, card, words); }, streams);
     return kDone;
   }
   if (words.out.empty()) {

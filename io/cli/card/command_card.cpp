@@ -217,6 +217,11 @@ int run_card(const Words& words, Streams& streams) {
                     {"bound", {"lower", "upper"}},
                     {"elastic-only", {"instantaneous", "long-term"}},
                     {"deck", {"relaxation", "creep"}}};
+  syntax.results = {result_of_card(), result_of_rubber_card(), result_of_rubber_check(),
+                    result_of_rubber_proof()};
+  for (const auto& some : {results_of_targets(), results_of_proof()}) {
+    syntax.results.insert(syntax.results.end(), some.begin(), some.end());
+  }
   for (const Solver& solver : solvers()) syntax.choices["solver"].emplace_back(solver.name);
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;

@@ -9,14 +9,12 @@
 #include "io/cli/words/progress.h"
 #include "io/flow/command_error.h"
 #include "io/flow/fit_file.h"
-#include "io/flow/json/flow_json.h"
 #include "io/flow/test_words.h"
 #include "io/flow/words/fit_text.h"
 #include "io/materials/material_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include <exception>
+#include <functional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -102,6 +100,55 @@ void add_data_options(po::options_description& options) {
       "mixing ratio, parts of base to one of curing agent; with --joint once for each file");
 }
 
+void show_fit(ResultVisitor& v, const FileOutcome& outcome, const NextMeasurements& next) {
+  show_keys(v, outcome);
+  v.when(next.has_value(), [&] {
+    v.object("next", "what to measure next, if --want asks for it", [&] {
+      v("text", next ? text_of_next(*next) : "", "in a sentence");
+      v("measurements", next.value_or(std::vector<NextMeasurement>{}), "best first");
+    });
+  });
+}
+
+void show_fits(ResultVisitor& v, const std::vector<FileOutcome>& outcomes) {
+  v.list("fits", "one for each file, in their order, with the keys of viscard-fit/1", outcomes,
+         [&](const FileOutcome& outcome) {
+           show_head(v, {"viscard-fit/1", {outcome.path}});
+           show_keys(v, outcome);
+         });
+}
+
+// Moduli, stiffnesses, forces, and a file that could not be fitted.
+std::vector<FileOutcome> examples() {
+  FittedFile modulus, stiffness, force;
+  stiffness.result.is_stiffness = true;
+  stiffness.result.tests.push_back({.is_stiffness = true});
+  force.has_no_depth = true;
+  return {{"", modulus, nullptr}, {"", stiffness, nullptr}, {"", force, nullptr}, {}};
+}
+
+std::vector<DescribedResult> results_of_fit() {
+  DescribedResult fit{"fit", "viscard fit FILE, or several tests of one material", {}};
+  for (const FileOutcome& one : examples()) {
+    fit.examples.emplace_back([one](ResultVisitor& v) { show_fit(v, one, std::nullopt); });
+  }
+  DescribedResult joint{"joint", "viscard fit --joint, and the file that it writes", {}};
+  for (const int degree : {1, kPerRatio}) {
+    RatioFit one;
+    one.best.form.E0_degree = one.best.form.g_degree = one.best.form.tau_degree = degree;
+    one.law.form = one.best.form;
+    one.forms.push_back({.form = one.best.form});
+    joint.examples.emplace_back([one](ResultVisitor& v) { show_keys(v, one); });
+  }
+  return {fit,
+          {"fits", "viscard fit FILE FILE ...",
+           {[](ResultVisitor& v) { show_fits(v, examples()); }}},
+          joint,
+          described<FittedLargeStrain>("hyperelastic",
+                                       "viscard fit of tests at large strain; --out writes the same "
+                                       "without version and inputs")};
+}
+
 CommandSyntax fit_syntax() {
   CommandSyntax syntax;
   syntax.usage = "viscard fit FILE... [OPTIONS]";
@@ -133,6 +180,7 @@ CommandSyntax fit_syntax() {
   add("out", po::value<std::string>(), "material file to write (one input file, or several tests)");
   add("force", "replace an existing material file");
   syntax.positional = {"file"};
+  syntax.results = results_of_fit();
   syntax.last_is_repeatable = true;
   syntax.choices = {{"kind", {"indentation", "relaxation", "creep", "dma"}},
                     {"noise", {"auto", "white"}},
@@ -144,20 +192,6 @@ CommandSyntax fit_syntax() {
                       "ogden-2", "ogden-3", "arruda-boyce", "gent"}},
                     {"share", {"E0", "g", "tau"}}};
   return syntax;
-}
-
-// The object of a file that could not be fitted stands in its place among the others.
-nlohmann::ordered_json json_of(const FileOutcome& outcome) {
-  if (outcome.fitted)
-    return with_head({"viscard-fit/1", {outcome.path}}, json_from_fit(*outcome.fitted));
-  nlohmann::ordered_json json;
-  json["file"] = outcome.path;
-  try {
-    std::rethrow_exception(outcome.error);
-  } catch (const std::exception& error) {
-    json["error"] = json_from_error(command_error(error));
-  }
-  return with_head({"viscard-fit/1", {outcome.path}}, json);
 }
 
 void print_as_text(const std::vector<FileOutcome>& outcomes, std::ostream& out) {
@@ -174,15 +208,12 @@ void print_as_text(const std::vector<FileOutcome>& outcomes, std::ostream& out) 
 void print_as_json(const std::vector<FileOutcome>& outcomes, const Words& files,
                    const NextMeasurements& next, Streams& streams) {
   if (outcomes.size() == 1) {
-    nlohmann::ordered_json json = json_of(outcomes.front());
-    if (next) json["next"] = json_from_next(*next);
-    print_json({"viscard-fit/1", files}, json, streams);
-    return;
+    print_result({"viscard-fit/1", files},
+                 [&](ResultVisitor& v) { show_fit(v, outcomes.front(), next); }, streams);
+  } else {
+    print_result({"viscard-fits/1", files}, [&](ResultVisitor& v) { show_fits(v, outcomes); },
+                 streams);
   }
-  nlohmann::ordered_json json;
-  json["fits"] = nlohmann::ordered_json::array();
-  for (const FileOutcome& outcome : outcomes) json["fits"].push_back(json_of(outcome));
-  print_json({"viscard-fits/1", files}, json, streams);
 }
 
 // Without a single result the command fails as a whole, with the first reason.

@@ -1,6 +1,5 @@
 #include "fit/large_strain/large_strain_result.h"
 #include "io/basics/atomic_file.h"
-#include "io/basics/json_string.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
@@ -8,8 +7,6 @@
 #include "io/cli/words/output_paths.h"
 #include "io/flow/input_files.h"
 #include "io/flow/large_strain/large_strain_words.h"
-
-#include <nlohmann/json.hpp>
 
 #include <set>
 
@@ -81,11 +78,11 @@ int run_large_strain(const std::vector<LargeStrainFile>& files, const po::variab
   for (const LargeStrainFile& file : files) paths.push_back(file.path);
   refuse_repeated_files(paths);
   const FittedLargeStrain fitted = fit_large_strain_files(request);
-  if (!print_json(values, {"viscard-hyperelastic/1", paths}, json_from_large_strain(fitted),
-                  streams)) {
+  const auto show = [&](ResultVisitor& v) { show_keys(v, fitted); };
+  if (!print_result(values, {"viscard-hyperelastic/1", paths}, show, streams)) {
     print_large_strain(fitted, FittedText(streams));
   }
-  if (out) write_file(*out, text_from_json(json_from_large_strain(fitted), 2) + "\n", overwrite);
+  if (out) write_file(*out, file_of_large_strain(fitted), overwrite);
   if (svg) {
     write_file(*svg, svg_from_plot(plot_of_large_strain(fitted), "large-strain"), overwrite);
   }

@@ -7,8 +7,6 @@
 #include "io/cli/words/output_paths.h"
 #include "io/flow/predict_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include <ostream>
 #include <utility>
 
@@ -63,6 +61,7 @@ CommandSyntax predict_syntax() {
   add("accept-flags", "exit with 0 also if the fit of the material is not to be trusted");
   add("force", "overwrite existing files");
   syntax.positional = {"material"};
+  syntax.results = {described<PredictedFile>("predict", "viscard predict")};
   syntax.choices["test"] = names_of_predicted_tests();
   return syntax;
 }
@@ -110,8 +109,8 @@ int run_predict(const Words& words, Streams& streams) {
     write_file(*svg, svg_from_plot(plot_of_prediction(predicted), "prediction"), overwrite);
   }
   const Words inputs = given_words(*values, {"material", "history", "against"});
-  if (!print_json(*values, {"viscard-predict/1", inputs}, json_from_prediction(predicted),
-                  streams)) {
+  const auto show = [&](ResultVisitor& v) { show_keys(v, predicted); };
+  if (!print_result(*values, {"viscard-predict/1", inputs}, show, streams)) {
     print_prediction(predicted, FittedText(streams));
   }
   return report_trust(predicted, values->count("accept-flags") > 0, streams.err);

@@ -1,6 +1,5 @@
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/basics/atomic_file.h"
-#include "io/basics/json_string.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
@@ -10,7 +9,6 @@
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <ostream>
@@ -102,11 +100,11 @@ int run_joint_fit(JointRequest request, const FitOutput& output, Streams& stream
   request.note = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; };
   const RatioFit fit = fit_jointly(request);
   progress.clear();
-  const std::string text = json_from_ratio_fit(fit);
   if (!output.json) print(fit, FittedText(streams));
-  if (!output.file.empty()) write_file(output.file, text, output.overwrite);
-  if (output.json) {  // the schema is that of the file
-    print_json({"", request.files}, ordered_json_from_text(text), streams);
+  if (!output.file.empty()) write_file(output.file, json_from_ratio_fit(fit), output.overwrite);
+  if (output.json) {
+    print_result({"viscard-joint/1", request.files}, [&](ResultVisitor& v) { show_keys(v, fit); },
+                 streams);
   }
   return kDone;
 }

@@ -2,6 +2,7 @@
 #include "io/cli/fit/fit_next.h"
 
 #include "io/cli/words/command_line.h"
+#include "io/flow/planning/next_test.h"
 #include "io/flow/planning/plan_tests.h"
 
 #include <stdexcept>

@@ -2,7 +2,7 @@
 
 #include "io/cli/words/streams.h"
 #include "io/flow/fit_file.h"
-#include "io/flow/planning/next_test.h"
+#include "fit/planning/next_measurement.h"
 
 #include <boost/program_options.hpp>
 

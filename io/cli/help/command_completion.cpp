@@ -2,8 +2,6 @@
 #include "io/cli/help/documents.h"
 #include "io/cli/words/json_output.h"
 
-#include <nlohmann/json.hpp>
-
 #include <ostream>
 
 namespace viscard {
@@ -22,6 +20,11 @@ std::vector<std::string> shell_names() {
   return names;
 }
 
+void show_script(ResultVisitor& v, const std::string& shell, const std::string& script) {
+  v.word("shell", shell, {"bash", "zsh", "fish"}, "name of the shell");
+  v("script", script, "the script");
+}
+
 }  // namespace
 
 int run_completion(const Words& words, Streams& streams, const AskDocuments& documents) {
@@ -31,14 +34,16 @@ int run_completion(const Words& words, Streams& streams, const AskDocuments& doc
                        "viscard completion bash"};
   syntax.positional = {"shell"};
   syntax.choices["shell"] = shell_names();
+  syntax.results = {{"completion", "viscard completion SHELL",
+                     {[](ResultVisitor& v) { show_script(v, "", ""); }}}};
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   const auto name = required(*values, "shell", syntax);
   for (const Shell& shell : kShells) {
     if (name != shell.name) continue;
     const std::string script = shell.script(documents());
-    const nlohmann::ordered_json object{{"shell", name}, {"script", script}};
-    if (!print_json(*values, {"viscard-completion/1", {}}, object, streams)) streams.out << script;
+    const auto show = [&](ResultVisitor& v) { show_script(v, name, script); };
+    if (!print_result(*values, {"viscard-completion/1", {}}, show, streams)) streams.out << script;
     return kDone;
   }
   throw UsageError("there is no completion for '" + name + "'" +

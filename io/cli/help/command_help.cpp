@@ -1,30 +1,19 @@
+#include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
 #include "io/basics/words.h"
 #include "io/cli/help/documents.h"
 #include "io/cli/words/help_text.h"
 #include "io/cli/words/json_output.h"
-
-#include <nlohmann/json.hpp>
+#include "io/flow/command_error.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
 
 namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
-
-using nlohmann::ordered_json;
-
-CommandSyntax help_syntax(const Words& names) {
-  CommandSyntax syntax{"viscard help [COMMAND] [OPTIONS]",
-                       "Explains a command, as --help of the command does, or lists all commands. "
-                       "--man prints the source of the manual page instead.",
-                       "viscard help fit"};
-  syntax.options.add_options()("man", "print the manual page, for man -l -");
-  syntax.positional = {"command", "what"};
-  syntax.choices["command"] = names;
-  return syntax;
-}
 
 const CommandDocument& named(const std::string& name, const CommandDocuments& documents) {
   return *std::find_if(documents.begin(), documents.end(),
@@ -43,12 +32,67 @@ void check_subcommand(const CommandDocument& one, const std::string& what) {
                    " there are: " + listed(known));
 }
 
-ordered_json json_of_list(const CommandDocuments& documents) {
-  ordered_json list = ordered_json::array();
+void show_list(ResultVisitor& v, const CommandDocuments& documents) {
+  v.list("commands", "all commands in the order of the flow", documents,
+         [&](const CommandDocument& one) {
+           v("name", one.name, "of the command");
+           v("summary", one.summary, "one line");
+         });
+}
+
+void show_page(ResultVisitor& v, const std::string& page) {
+  v.when(!page.empty(),
+         [&] { v("manual_page", page, "source of the manual page, with --man"); });
+}
+
+// Those of no command of their own, and of this one.
+std::vector<DescribedResult> common_results() {
+  DescribedResult error{"error", "any command that fails before it has a result",
+                        {[](ResultVisitor& v) { v("error", CommandError{}, "why it failed"); }}};
+  error.has_inputs = false;
+  return {error,
+          {"version", "viscard --version",
+           {[](ResultVisitor& v) { v("program", "viscard", "viscard"); }}},
+          {"help", "viscard help COMMAND, viscard COMMAND --help",
+           {[](ResultVisitor& v) {
+             show_keys(v, CommandSyntax{});
+             show_page(v, "");
+           }}},
+          {"commands", "viscard help",
+           {[](ResultVisitor& v) {
+             show_list(v, {});
+             show_page(v, "");
+           }}}};
+}
+
+// A file for each schema, and keys.md and keys.txt about all of them.
+void write_schemas(const std::filesystem::path& folder, const CommandDocuments& documents) {
+  std::filesystem::create_directories(folder);
+  std::vector<DescribedResult> results;
   for (const CommandDocument& one : documents) {
-    list.push_back({{"name", one.name}, {"summary", one.summary}});
+    for (const DescribedResult& result : one.syntax.results) {
+      results.push_back(result);
+      write_file(folder / (result.name + ".schema.json"),
+                 text_from_json(schema_of(result), 1) + "\n", true);
+    }
   }
-  return {{"commands", list}};
+  write_file(folder / "keys.md", table_of_keys(results), true);
+  write_file(folder / "keys.txt", list_of_keys(results), true);
+}
+
+CommandSyntax help_syntax(const Words& names) {
+  CommandSyntax syntax{"viscard help [COMMAND] [OPTIONS]",
+                       "Explains a command, as --help of the command does, or lists all commands. "
+                       "--man prints the source of the manual page instead.",
+                       "viscard help fit"};
+  syntax.options.add_options()("man", "print the manual page, for man -l -")(
+      "schemas", po::value<std::string>(),
+      "folder to write JSON Schemas of what --json prints into, with a table of all keys");
+  syntax.may_exist = {"schemas"};
+  syntax.results = common_results();
+  syntax.positional = {"command", "what"};
+  syntax.choices["command"] = names;
+  return syntax;
 }
 
 }  // namespace
@@ -64,15 +108,18 @@ int run_help(const Words& words, Streams& streams, const Words& names,
                      " 'viscard help' lists the commands");
   }
   const CommandDocuments documents = ask_documents();
+  if (const auto folder = given(*values, "schemas")) write_schemas(*folder, documents);
   const CommandDocument* one = name ? &named(*name, documents) : nullptr;
   if (const auto what = given(*values, "what")) check_subcommand(*one, *what);
   const std::string page = values->count("man") == 0 ? ""
                            : one != nullptr          ? manual_page(*one)
                                                      : manual_overview(documents);
   if (values->count("json") > 0) {
-    ordered_json object = one != nullptr ? json_from_syntax(one->syntax) : json_of_list(documents);
-    if (!page.empty()) object["manual_page"] = page;
-    print_json({one != nullptr ? "viscard-help/1" : "viscard-commands/1", {}}, object, streams);
+    const auto show = [&](ResultVisitor& v) {
+      one != nullptr ? show_keys(v, one->syntax) : show_list(v, documents);
+      show_page(v, page);
+    };
+    print_result({one != nullptr ? "viscard-help/1" : "viscard-commands/1", {}}, show, streams);
   } else if (!page.empty()) {
     streams.out << page;
   } else if (one != nullptr) {

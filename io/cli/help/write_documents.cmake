@@ -1,11 +1,12 @@
-# Writes the manual pages and the completion scripts that the program prints:
+# Writes the manual pages, the completion scripts and the schemas that the program prints:
 # cmake -DPROGRAM=viscard -DFOLDER=build -P write_documents.cmake
 function(write_output file)
   execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   file(WRITE ${FOLDER}/${file} "${text}")
 endfunction()
 
-execute_process(COMMAND ${PROGRAM} help --json OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
+file(REMOVE_RECURSE ${FOLDER}/schemas)
+execute_process(COMMAND ${PROGRAM} help --schemas ${FOLDER}/schemas --json OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
 string(JSON count LENGTH ${list} commands)
 math(EXPR last "${count} - 1")
 file(REMOVE_RECURSE ${FOLDER}/man ${FOLDER}/completions)  # pages of commands that are no more

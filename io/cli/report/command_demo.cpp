@@ -10,7 +10,6 @@
 #include "rig/run/preflight.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -177,18 +176,17 @@ std::string depth_explained(const fs::path& data) {
   return text;
 }
 
-nlohmann::json json_from_scores(const std::vector<ScoreRow>& rows, const fs::path& page) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const ScoreRow& row : rows) {
-    list.push_back({{"specimen", row.specimen},
-                    {"quantity", row.quantity},
-                    {"unit", row.unit},
-                    {"truth", row.truth},
-                    {"estimate", row.estimate},
-                    {"interval_95", {row.interval_95.low, row.interval_95.high}},
-                    {"is_inside", row.is_inside}});
-  }
-  return {{"scores", list}, {"report", page.string()}};
+void show_scores(ResultVisitor& v, const std::vector<ScoreRow>& rows, const fs::path& page) {
+  v("report", page.string(), "the page");
+  v.list("scores", "true values of the emulated rig and estimates", rows, [&](const ScoreRow& row) {
+    v("estimate", row.estimate, "of the fit");
+    v("interval_95", row.interval_95, "95 % interval, [low, high]");
+    v("is_inside", row.is_inside, "whether the truth is inside");
+    v("quantity", row.quantity, "its name");
+    v("specimen", row.specimen, "mixing ratio");
+    v("truth", row.truth, "of the emulated specimen");
+    v("unit", row.unit, "its unit");
+  });
 }
 
 CommandSyntax demo_syntax() {
@@ -207,6 +205,7 @@ CommandSyntax demo_syntax() {
       "speed of the emulated clock relative to real time");
   add("force", "run every step again");
   syntax.may_exist = {"out"};
+  syntax.results = {{"demo", "viscard demo", {[](ResultVisitor& v) { show_scores(v, {}, ""); }}}};
   return syntax;
 }
 
@@ -231,9 +230,8 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();
-  if (print_json(*values, {"viscard-demo/1", {data.string()}}, json_from_scores(rows, page),
-                 streams))
-    return kDone;
+  const auto show = [&](ResultVisitor& v) { show_scores(v, rows, page); };
+  if (print_result(*values, {"viscard-demo/1", {data.string()}}, show, streams)) return kDone;
   if (demo.n_kept() > 0) {
     streams.err << fmt::format(
         "{} results were up to date and kept (--force runs every step again).\n", demo.n_kept());

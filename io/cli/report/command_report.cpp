@@ -17,7 +17,6 @@
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -192,30 +191,49 @@ std::vector<std::string> defects_of(const ReportInput& input) {
   return lines;
 }
 
-nlohmann::json json_from_specimens(const ReportInput& input) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const SpecimenReport& specimen : input.specimens) {
-    nlohmann::json row{{"id", specimen.specimen.id}, {"has_fit", specimen.fit.has_value()}};
-    if (specimen.material) row["E0_Pa"] = specimen.material->E0_Pa;
-    if (specimen.pillar) {
-      row["pillar"] = {{"relaxation", specimen.pillar->relaxation.largest_relative_error},
-                       {"creep", specimen.pillar->creep.largest_relative_error}};
-    }
-    nlohmann::json files = nlohmann::json::array();
-    for (const RawFile& file : specimen.files) {
-      files.push_back({{"path", file.path}, {"sha256", file.sha256}});
-    }
-    row["files"] = files;
-    row["notes"] = specimen.notes;
-    list.push_back(row);
-  }
-  return list;
+void show_specimen(ResultVisitor& v, const SpecimenReport& specimen) {
+  v.when(specimen.material.has_value(), [&] {
+    v("E0_Pa", specimen.material.value_or(Material{}).E0_Pa, "instantaneous modulus");
+  });
+  v.list("files", "raw data", specimen.files, [&](const RawFile& file) {
+    v("path", file.path, "its path");
+    v("sha256", file.sha256, "its sum");
+  });
+  v("has_fit", specimen.fit.has_value(), "whether it was fitted");
+  v("id", specimen.specimen.id, "of the specimen");
+  v("notes", specimen.notes, "what to keep in mind");
+  v.when(specimen.pillar.has_value(), [&] {
+    const ValidationResult pillar = specimen.pillar.value_or(ValidationResult{});
+    v.object("pillar", "largest relative error of the pillar", [&] {
+      v("creep", pillar.creep.largest_relative_error, "in creep");
+      v("relaxation", pillar.relaxation.largest_relative_error, "in relaxation");
+    });
+  });
+}
+
+// What the command prints.
+struct WrittenReport {
+  std::string page;
+  std::vector<SpecimenReport> specimens;
+  std::size_t n_figures = 0;
+  std::vector<std::string> pictures, defects, disagreements;
+};
+
+void show_keys(ResultVisitor& v, const WrittenReport& written) {
+  v("defects", written.defects, "results that are not to be trusted");
+  v("disagreements", written.disagreements, "where linear and large-strain tests disagree");
+  v("figures", written.n_figures, "pictures on the page");
+  v("pictures", written.pictures, "pictures that were written, with --pictures");
+  v("report", written.page, "the page");
+  v.list("specimens", "what the page shows", written.specimens,
+         [&](const SpecimenReport& specimen) { show_specimen(v, specimen); });
 }
 
 }  // namespace
 
 int run_report(const Words& words, Streams& streams) {
   CommandSyntax syntax = report_syntax();
+  syntax.results = {described<WrittenReport>("report", "viscard report")};
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   std::vector<std::string> rubbers;
@@ -234,14 +252,11 @@ int run_report(const Words& words, Streams& streams) {
   write_file(page, rendered.html, is_forced);
   const std::vector<std::string> defects = defects_of(input);
   const std::vector<std::string> disagreements = rubber_disagreements(input);
-  const nlohmann::json object{{"report", page.string()},
-                              {"specimens", json_from_specimens(input)},
-                              {"figures", rendered.pictures.size()},
-                              {"pictures", pictures},
-                              {"defects", defects},
-                              {"disagreements", disagreements}};
-  if (!print_json(*values, {"viscard-report/1", given_words(*values, {"files", "truth"})}, object,
-                  streams)) {
+  const WrittenReport written{page.string(), input.specimens, rendered.pictures.size(), pictures,
+                              defects, disagreements};
+  const auto show = [&](ResultVisitor& v) { show_keys(v, written); };
+  if (!print_result(*values, {"viscard-report/1", given_words(*values, {"files", "truth"})}, show,
+                    streams)) {
     streams.out << fmt::format(
         "{}: {}, {}, {} kB\n", page.string(), counted(input.specimens.size(), "specimen"),
         counted(rendered.pictures.size(), "figure"), rendered.html.size() / 1024);

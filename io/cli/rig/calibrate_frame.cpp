@@ -13,7 +13,6 @@
 #include "rig/run_indentation.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <iostream>
@@ -107,17 +106,22 @@ void wait_for_block(const CalibrateWords& words, Streams& streams) {
   if (!std::getline(std::cin, answer)) throw std::runtime_error("nothing was measured");
 }
 
+void show_frame(ResultVisitor& v, const FrameStiffnessFit& fit, const CalibrateWords& words) {
+  v("file", words.out_file, "the record that was written");
+  v("id", words.id, "name of the record");
+  v("date", today(), "day of the measurement");
+  v("stiffness_N_m", fit.stiffness_N_m, "of the frame");
+  v("stiffness_relative_u", fit.relative_u, "relative standard uncertainty");
+  v("stiffness_interval_95", Interval{fit.low_N_m, fit.high_N_m},
+    "95 % interval in N/m, [low, high]");
+  v("curvature_m", fit.curvature_m, "largest deviation from a straight line");
+  v("n_points", fit.n_points, "points of the line");
+}
+
 void print(const FrameStiffnessFit& fit, const CalibrateWords& words, Streams& streams) {
   if (words.as_json) {
-    const nlohmann::ordered_json json = {{"file", words.out_file},
-                                         {"id", words.id},
-                                         {"date", today()},
-                                         {"stiffness_N_m", fit.stiffness_N_m},
-                                         {"stiffness_relative_u", fit.relative_u},
-                                         {"stiffness_interval_95", {fit.low_N_m, fit.high_N_m}},
-                                         {"curvature_m", fit.curvature_m},
-                                         {"n_points", fit.n_points}};
-    print_json({"viscard-calibrate-frame/1", inputs_of(words)}, json, streams, -1);
+    print_result({"viscard-calibrate-frame/1", inputs_of(words)},
+                 [&](ResultVisitor& v) { show_frame(v, fit, words); }, streams, -1);
     return;
   }
   streams.out << fmt::format("stiffness   {:.4g} N/mm, {:.4g} to {:.4g} (k = 2)\n",
@@ -128,6 +132,11 @@ void print(const FrameStiffnessFit& fit, const CalibrateWords& words, Streams& s
 }
 
 }  // namespace
+
+DescribedResult result_of_frame() {
+  return {"calibrate-frame", "viscard calibrate --compliance",
+          {[](ResultVisitor& v) { show_frame(v, FrameStiffnessFit{}, CalibrateWords{}); }}};
+}
 
 int calibrate_frame(const CalibrateWords& words, Streams& streams) {
   BlockPoints points;

@@ -13,7 +13,6 @@
 #include "rig/weigh.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +21,6 @@
 
 namespace viscard {
 namespace {
-
-using nlohmann::ordered_json;
 
 // Gravity varies by 0.26 % to either side over the Earth; used as a rectangular distribution if its
 // value was not given.
@@ -160,27 +157,29 @@ void print_text(const LoadCellFit& fit, const CalibrationRecord& record, const s
                      record.calibration->valid_until);
 }
 
-ordered_json json_from(const LoadCellFit& fit, const CalibrationRecord& record,
-                       const std::string& file) {
-  ordered_json budget = ordered_json::array();
-  for (const UncertaintyRow& row : fit.budget) {
-    budget.push_back({{"source", row.source}, {"relative_u", row.relative_u}, {"how", row.how}});
-  }
-  const LoadCellCalibration& calibration = *record.calibration;
-  return {{"file", file},
-          {"id", calibration.id},
-          {"date", calibration.date},
-          {"valid_until", calibration.valid_until},
-          {"gain_V_N", fit.gain},
-          {"gain_u_V_N", fit.gain_u},
-          {"gain_interval_95", {fit.gain - 2.0 * fit.gain_u, fit.gain + 2.0 * fit.gain_u}},
-          {"zero_V", fit.zero},
-          {"largest_force_N", fit.largest_force_N},
-          {"nonlinearity", fit.nonlinearity},
-          {"hysteresis", fit.hysteresis},
-          {"repeatability", fit.repeatability},
-          {"n_series", fit.n_series},
-          {"budget", budget}};
+void show_load_cell(ResultVisitor& v, const LoadCellFit& fit,
+                    const LoadCellCalibration& calibration, const std::string& file) {
+  v("file", file, "the record that was written");
+  v("id", calibration.id, "name of the record");
+  v("date", calibration.date, "day of the calibration");
+  v("valid_until", calibration.valid_until, "last day of validity");
+  v("gain_V_N", fit.gain, "volts for a newton");
+  v("gain_u_V_N", fit.gain_u, "its standard uncertainty");
+  v("gain_interval_95", Interval{fit.gain - 2.0 * fit.gain_u, fit.gain + 2.0 * fit.gain_u},
+    "gain plus and minus twice its uncertainty, [low, high]");
+  v("zero_V", fit.zero, "reading without a force");
+  v("largest_force_N", fit.largest_force_N, "largest force that was put on");
+  v("nonlinearity", fit.nonlinearity,
+    "largest deviation from the line, relative to the largest force");
+  v("hysteresis", fit.hysteresis, "largest difference between up and down, likewise");
+  v("repeatability", fit.repeatability,
+    "standard deviation between series, likewise; null: one series");
+  v("n_series", fit.n_series, "number of times up and down");
+  v.list("budget", "the budget of uncertainty", fit.budget, [&](const UncertaintyRow& row) {
+    v("source", row.source, "name");
+    v("relative_u", row.relative_u, "relative standard uncertainty");
+    v("how", row.how, "how it was found");
+  });
 }
 
 // Load cells are linear within some thousandths. A deviation ten times larger means that a weight
@@ -225,6 +224,11 @@ WeightReadings readings_on_rig(const RigConfig& rig, const CalibrateWords& words
 
 }  // namespace
 
+DescribedResult result_of_load_cell() {
+  return {"calibrate", "viscard calibrate",
+          {[](ResultVisitor& v) { show_load_cell(v, {}, {}, ""); }}};
+}
+
 int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
   WeightReadings readings;
   double capacity_N = words.capacity_N.value_or(0.0);
@@ -246,8 +250,10 @@ int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
   const CalibrationRecord record = record_from(fit, words, capacity_N);
   write_file(words.out_file, toml_from_calibration(record), words.overwrite);
   if (words.as_json) {
-    print_json({"viscard-calibrate/1", inputs_of(words)}, json_from(fit, record, words.out_file),
-               streams, -1);
+    const auto show = [&](ResultVisitor& v) {
+      show_load_cell(v, fit, *record.calibration, words.out_file);
+    };
+    print_result({"viscard-calibrate/1", inputs_of(words)}, show, streams, -1);
   } else {
     print_text(fit, record, words.out_file, FittedText(streams));
   }

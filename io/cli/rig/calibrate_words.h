@@ -3,6 +3,7 @@
 #include "fit/calibration/fit_load_cell.h"
 #include "io/cli/words/streams.h"
 #include "io/config/config_file.h"
+#include "io/results/result_schema.h"
 #include "models/experiment/emulated_specimen.h"
 #include "models/experiment/rig_config.h"
 
@@ -39,6 +40,9 @@ struct CalibrateWords {
 int calibrate_load_cell(const CalibrateWords& words, Streams& streams);
 // Measures the frame's stiffness on a rigid block, from a table, a capture or on the rig; likewise.
 int calibrate_frame(const CalibrateWords& words, Streams& streams);
+// What they print with --json.
+DescribedResult result_of_load_cell();
+DescribedResult result_of_frame();
 
 // Configuration and truth of the emulated rig for these words.
 RigConfig calibrate_rig(const CalibrateWords& words);

@@ -52,6 +52,7 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
   add("yes", po::bool_switch(&words.asks_nobody),
       "do not wait for Enter before the block is pressed");
   add("force", po::bool_switch(&words.overwrite), "replace an existing record");
+  syntax.results = {result_of_load_cell(), result_of_frame()};
   return syntax;
 }
 

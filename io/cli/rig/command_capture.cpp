@@ -7,11 +7,10 @@
 #include "io/cli/words/output_paths.h"
 #include "io/flow/capture_setup.h"
 #include "io/flow/command_error.h"
-#include "io/flow/json/flow_json.h"
+#include "io/flow/rig_keys.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,7 +24,27 @@ namespace po = boost::program_options;
 namespace viscard {
 namespace {
 
-using nlohmann::ordered_json;
+struct SeriesResult {
+  std::vector<CaptureOfSeries> runs;
+  std::string trouble;  // why the series ended early; empty if it did not
+  std::string code = "interrupted";
+};
+
+void show_keys(ResultVisitor& v, const SeriesResult& series) {
+  v("runs", series.runs, "one for each capture, in their order, with the keys of viscard-capture/1");
+  v("reason", series.trouble, "why the series ended early; empty: it did not");
+  v.when(!series.trouble.empty(), [&] {
+    const auto last = series.runs.empty() ? std::nullopt : error_of(series.runs.back());
+    v("error", last ? *last : command_error(series.code, series.trouble),
+      "why the series ended early");
+  });
+}
+
+std::vector<DescribedResult> results_of_capture() {
+  return {described<CaptureOfSeries>("capture", "viscard capture, one test"),
+          described<SeriesResult>("capture-series",
+                                  "viscard capture, several specimens or touches")};
+}
 
 CommandSyntax capture_syntax(CaptureWords& words) {
   CommandSyntax syntax;
@@ -72,6 +91,7 @@ CommandSyntax capture_syntax(CaptureWords& words) {
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
   add("force", po::bool_switch(&words.overwrite), "replace an existing capture file");
   syntax.may_exist = {"out"};
+  syntax.results = results_of_capture();
   return syntax;
 }
 
@@ -116,12 +136,6 @@ void check_somebody_is_there(const CaptureWords& words, const std::vector<Series
       "the specimens are changed automatically");
 }
 
-struct SeriesResult {
-  ordered_json runs = ordered_json::array();
-  std::string trouble;  // why the series ended early; empty if it did not
-  std::string code = "interrupted";
-};
-
 // "touch 2 of 3: " of a repeated specimen.
 std::string touch_text(const SeriesStep& step) {
   if (step.touch == 0) return "";
@@ -155,11 +169,10 @@ bool run_step(const SeriesStep& step, const SeriesStep* previous, const CaptureW
   if (!result.trouble.empty()) return false;
   if (step.touch > 0) streams.err << "viscard: " << touch_text(step) << step.out_file << "\n";
   const CaptureOutcome outcome = capture_once(one, setup, command, streams);
-  result.runs.push_back(json_from_outcome(outcome.run, outcome.file));
-  if (step.touch > 0) {
-    result.runs.back()["specimen"] = setup.specimen.id;
-    result.runs.back()["touch"] = step.touch;
-  }
+  result.runs.push_back({.file = outcome.file,
+                         .run = outcome.run,
+                         .specimen = step.touch > 0 ? setup.specimen.id : "",
+                         .touch = step.touch});
   if (!words.as_json) print_text(outcome, FittedText(streams));
   if (outcome.run.status == "finished") return true;
   result.trouble = touch_text(step) + outcome.run.reason;
@@ -172,7 +185,7 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
   const SeriesStep* previous = nullptr;  // captured by this command
   for (const SeriesStep& step : steps) {
     if (!step.finished_file.empty()) {
-      result.runs.push_back({{"file", step.finished_file}, {"status", "finished before"}});
+      result.runs.push_back({.file = step.finished_file, .status = "finished before"});
       if (!words.as_json) streams.out << step.finished_file << ": finished before\n";
       continue;
     }
@@ -183,8 +196,7 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
       const CommandError why = command_error(error);
       result.trouble = touch_text(step) + error.what();
       result.code = why.code;
-      result.runs.push_back(
-          {{"file", step.out_file}, {"status", "not begun"}, {"error", json_from_error(why)}});
+      result.runs.push_back({.file = step.out_file, .status = "not begun", .error = why});
       return result;
     }
     previous = &step;
@@ -196,8 +208,8 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
 void print_rest(const std::vector<SeriesStep>& steps, const SeriesResult& result,
                 const CaptureWords& words, std::ostream& err) {
   const auto n_done =
-      std::count_if(result.runs.begin(), result.runs.end(), [](const ordered_json& run) {
-        return run["status"] == "finished" || run["status"] == "finished before";
+      std::count_if(result.runs.begin(), result.runs.end(), [](const CaptureOfSeries& run) {
+        return status_of(run) == "finished" || status_of(run) == "finished before";
       });
   err << fmt::format("viscard: {} of {} are recorded and kept; ", n_done,
                      counted(steps.size(), "capture"));
@@ -223,18 +235,13 @@ int run_capture(const Words& words, Streams& streams) {
   const SeriesResult result =
       run_series(steps, asked, quoted_command_line("capture", words), streams);
   if (asked.as_json) {
-    ordered_json series = {{"runs", result.runs}, {"reason", result.trouble}};
-    if (!result.trouble.empty()) {
-      const ordered_json& last = result.runs.empty() ? series : result.runs.back();
-      series["error"] = last.contains("error")
-                            ? last["error"]
-                            : json_from_error(command_error(result.code, result.trouble));
-    }
     const Words inputs = given_words(*values, {"rig", "test", "specimen", "truth"});
     if (steps.size() == 1) {
-      print_json({"viscard-capture/1", inputs}, result.runs.at(0), streams, -1);
+      print_result({"viscard-capture/1", inputs},
+                   [&](ResultVisitor& v) { show_keys(v, result.runs.at(0)); }, streams, -1);
     } else {
-      print_json({"viscard-capture-series/1", inputs}, series, streams, -1);
+      print_result({"viscard-capture-series/1", inputs},
+                   [&](ResultVisitor& v) { show_keys(v, result); }, streams, -1);
     }
   }
   if (result.trouble.empty()) return kDone;

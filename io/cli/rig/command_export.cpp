@@ -9,14 +9,45 @@
 #include "io/flow/table_from_capture.h"
 #include "models/maths/text_of_number.h"
 
-#include <nlohmann/json.hpp>
-
+#include <optional>
 #include <ostream>
 
 namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
+
+void show_summary(ResultVisitor& v, const CapturedRun& run, const std::string& capture,
+                  const std::optional<std::string>& out) {
+  std::size_t n_gaps = 0;
+  for (const RunEvent& event : run.events) n_gaps += event.name == "gap" ? 1 : 0;
+  v("capture", capture, "the capture");
+  v.word("status", run.status, {"finished", "interrupted", "running"}, "how the run ended");
+  v("started_at", run.started_at, "time of the begin");
+  v("program", run.program, "version that recorded it");
+  v("command", run.command, "its command line");
+  v("specimen", run.specimen.id, "id of the specimen");
+  v("n_samples", run.load_samples.size(), "readings of the load cell");
+  v("n_stage_reports", run.stage_reports.size(), "reports of the stage");
+  v("n_moves", run.moves.size(), "commanded moves");
+  v("n_events", run.events.size(), "events");
+  v("n_gaps", n_gaps, "gaps in the readings");
+  v("n_raw_bytes", run.n_raw_bytes, "bytes received and sent");
+  v("out", out, "the table that was written");
+}
+
+void show_check(ResultVisitor& v, const CaptureCheck& check, const std::string& capture) {
+  const std::string fault = check.faults.empty() ? "" : check.faults.front();
+  v("capture", capture, "the capture");
+  v("is_checked", check.is_checked, "whether it carries checksums");
+  v("n_batches", check.n_batches, "checksums");
+  v("n_records", check.n_records, "records under them");
+  v("faults", check.faults, "what does not match");
+  v.when(!check.faults.empty(), [&] {
+    v("error", CommandError{"damaged", fault, capture, "use another copy of it"},
+      "that it is damaged");
+  });
+}
 
 CommandSyntax export_syntax() {
   CommandSyntax syntax;
@@ -35,40 +66,20 @@ CommandSyntax export_syntax() {
       "verify", "compare the capture with its checksums; writes no table")(
       "force", "replace an existing file");
   syntax.positional = {"capture"};
+  syntax.results = {
+      {"export", "viscard export",
+       {[](ResultVisitor& v) { show_summary(v, CapturedRun{}, "", std::nullopt); }}},
+      {"export-verify", "viscard export --verify",
+       {[](ResultVisitor& v) { show_check(v, CaptureCheck{}, ""); }}}};
   return syntax;
-}
-
-nlohmann::ordered_json summary_of(const CapturedRun& run, const std::string& capture) {
-  std::size_t n_gaps = 0;
-  for (const RunEvent& event : run.events) n_gaps += event.name == "gap" ? 1 : 0;
-  return {{"capture", capture},
-          {"status", run.status},
-          {"started_at", run.started_at},
-          {"program", run.program},
-          {"command", run.command},
-          {"specimen", run.specimen.id},
-          {"n_samples", run.load_samples.size()},
-          {"n_stage_reports", run.stage_reports.size()},
-          {"n_moves", run.moves.size()},
-          {"n_events", run.events.size()},
-          {"n_gaps", n_gaps},
-          {"n_raw_bytes", run.n_raw_bytes}};
 }
 
 // Prints the result of checking the capture. A damaged capture is a failure.
 int verify(const std::string& capture, bool is_json, Streams& streams) {
   const CaptureCheck check = check_capture(capture);
   if (is_json) {
-    nlohmann::ordered_json object{{"capture", capture},
-                                  {"is_checked", check.is_checked},
-                                  {"n_batches", check.n_batches},
-                                  {"n_records", check.n_records},
-                                  {"faults", check.faults}};
-    if (!check.faults.empty()) {
-      object["error"] =
-          json_from_error({"damaged", check.faults.front(), capture, "use another copy of it"});
-    }
-    print_json({"viscard-export-verify/1", {capture}}, object, streams);
+    print_result({"viscard-export-verify/1", {capture}},
+                 [&](ResultVisitor& v) { show_check(v, check, capture); }, streams);
   } else if (check.faults.empty()) {
     streams.out << capture << ": "
                 << (check.is_checked
@@ -105,10 +116,9 @@ int run_export(const Words& words, Streams& streams) {
   }
   const CapturedRun run = read_capture(capture);
   const std::string table = is_raw ? csv_from_raw_bytes(capture) : table_from_capture(run);
-  nlohmann::ordered_json summary = summary_of(run, capture);
-  if (const auto out = given(*values, "out")) {
+  const auto out = given(*values, "out");
+  if (out) {
     write_file(*out, table, values->count("force") > 0);
-    summary["out"] = *out;
     if (!is_json) {
       streams.out << *out << ": " << counted(run.load_samples.size(), "sample") << " of " << capture
                   << ", " << run.status << "\n";
@@ -116,7 +126,10 @@ int run_export(const Words& words, Streams& streams) {
   } else if (!is_json) {
     streams.out << table;
   }
-  if (is_json) print_json({"viscard-export/1", {capture}}, summary, streams);
+  if (is_json) {
+    print_result({"viscard-export/1", {capture}},
+                 [&](ResultVisitor& v) { show_summary(v, run, capture, out); }, streams);
+  }
   if (run.status != "finished") {
     streams.err << "viscard: " << capture << " is "
                 << (run.status == "running" ? "still being written" : "of an interrupted run")

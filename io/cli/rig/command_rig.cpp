@@ -6,7 +6,7 @@
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
-#include "io/flow/json/flow_json.h"
+#include "io/flow/rig_keys.h"
 #include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/lines/port_probe.h"
@@ -14,28 +14,60 @@
 #include "rig/open_devices.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <optional>
 #include <ostream>
-#include <utility>
+#include <vector>
 
 namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
 
-using nlohmann::ordered_json;
-
 constexpr int kOneLine = -1;
 
-ordered_json number_or_null(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
+// What `viscard rig list` finds.
+struct ThermometerReading {
+  std::string port;
+  std::optional<double> temperature_C;
+  std::string trouble;
+};
+struct RigList {
+  std::vector<PortStatus> ports;
+  std::optional<ThermometerReading> thermometer;
+};
+
+void show_keys(ResultVisitor& v, const RigList& found) {
+  v.list("ports", "serial ports that are present", found.ports, [&](const PortStatus& one) {
+    v("port", one.path, "its path");
+    v("device", one.device, "what the path points to");
+    v("trouble", one.trouble, "why it cannot be used; empty: it is free");
+  });
+  v.when(found.thermometer.has_value(), [&] {
+    const ThermometerReading one = found.thermometer.value_or(ThermometerReading{});
+    v.object("thermometer", "the thermometer of the rig file", [&] {
+      v("port", one.port, "its path");
+      v("temperature_C", number_or_null(one.temperature_C), "newest reading; null: none came");
+      v("trouble", one.trouble, "why none came");
+    });
+  });
+}
+
+void show_keys(ResultVisitor& v, const std::vector<OvershootRow>& rows) {
+  v("limit_N", 1.0, "the limit of force in the study");
+  v.list("rows", "one for each stage and speed", rows, [&](const OvershootRow& row) {
+    v("steps_per_m", row.steps_per_m, "of the stage");
+    v("acceleration_m_s2", row.acceleration_m_s2, "of the stage");
+    v("speed_m_s", row.speed_m_s, "of the approach");
+    v("jog_cancel_N", row.gentle_N, "force beyond the limit if the jog is cancelled");
+    v("jog_cancel_expected_N", row.expected_N, "the same, computed");
+    v("ladder_N", row.ladder_N, "force beyond the limit with the ladder of stops");
+    v("reset_N", row.reset_N, "force beyond the limit with a reset");
+  });
 }
 
 // The thermometer of a rig file is the one device that can be read without disturbing anything.
-void list_thermometer(const RigConfig& rig, bool as_json, ordered_json& json, Streams& streams) {
-  if (!has_own_port(rig.thermometer)) return;
+ThermometerReading read_thermometer(const RigConfig& rig) {
   const RigClock clock;
   const auto thermometer = make_thermometer(rig, clock, [](const RunRecord&) {});
   while (thermometer->readings_C().empty() && thermometer->trouble().empty()) {
@@ -44,33 +76,35 @@ void list_thermometer(const RigConfig& rig, bool as_json, ordered_json& json, St
     }
     thermometer->service();
   }
-  json["thermometer"] = {{"port", rig.thermometer.port},
-                         {"temperature_C", number_or_null(thermometer->newest_C())},
-                         {"trouble", thermometer->trouble()}};
-  if (as_json) return;
-  streams.out << "thermometer " << rig.thermometer.port << "  "
-              << (thermometer->newest_C() ? fmt::format("{:.2f} C", *thermometer->newest_C())
-                                          : thermometer->trouble())
-              << "\n";
+  return {rig.thermometer.port, thermometer->newest_C(), thermometer->trouble()};
+}
+
+void print_text(const RigList& found, std::ostream& out) {
+  for (const PortStatus& status : found.ports) {
+    out << status.path << (status.device == status.path ? "" : " (" + status.device + ")") << "  "
+        << (status.trouble.empty() ? "free" : status.trouble) << "\n";
+  }
+  if (const auto& one = found.thermometer) {
+    out << "thermometer " << one->port << "  "
+        << (one->temperature_C ? fmt::format("{:.2f} C", *one->temperature_C) : one->trouble)
+        << "\n";
+  }
+  if (found.ports.empty()) {
+    out << "No serial port is present. Plug the stage and the load cell in and switch them "
+           "on; 'dmesg | tail' shows whether the system has recognised them.\n";
+  }
 }
 
 int list_ports(const std::optional<RigConfig>& rig, const Words& inputs, bool as_json,
                Streams& streams) {
-  ordered_json rows = ordered_json::array();
-  for (const std::string& path : present_ports()) {
-    const PortStatus status = port_status(path);
-    rows.push_back({{"port", status.path}, {"device", status.device}, {"trouble", status.trouble}});
-    if (as_json) continue;
-    streams.out << status.path << (status.device == status.path ? "" : " (" + status.device + ")")
-                << "  " << (status.trouble.empty() ? "free" : status.trouble) << "\n";
-  }
-  ordered_json json{{"ports", rows}};
-  if (rig) list_thermometer(*rig, as_json, json, streams);
+  RigList found;
+  for (const std::string& path : present_ports()) found.ports.push_back(port_status(path));
+  if (rig && has_own_port(rig->thermometer)) found.thermometer = read_thermometer(*rig);
   if (as_json) {
-    print_json({"viscard-rig-list/1", inputs}, std::move(json), streams, kOneLine);
-  } else if (rows.empty()) {
-    streams.out << "No serial port is present. Plug the stage and the load cell in and switch them "
-                   "on; 'dmesg | tail' shows whether the system has recognised them.\n";
+    print_result({"viscard-rig-list/1", inputs}, [&](ResultVisitor& v) { show_keys(v, found); },
+                 streams, kOneLine);
+  } else {
+    print_text(found, streams.out);
   }
   return kDone;
 }
@@ -106,29 +140,19 @@ int show_overshoot(bool as_json, Streams& streams) {
   const std::vector<OvershootRow> rows =
       study_overshoot({}, [&](double fraction) { progress.show(fraction, ""); });
   progress.clear();
+  if (as_json) {
+    print_result({"viscard-rig-overshoot/1", {}}, [&](ResultVisitor& v) { show_keys(v, rows); },
+                 streams, kOneLine);
+    return kDone;
+  }
   FittedText fitting(streams);
   std::ostream& table = fitting;
-  if (!as_json) {
-    table << "force beyond a limit of 1 N (N), emulated GRBL, 8.8 N/mm, 80 readings/s\n"
-             "steps/mm  mm/s2  mm/s  jog cancel  expected  ladder   reset\n";
-  }
-  ordered_json list = ordered_json::array();
+  table << "force beyond a limit of 1 N (N), emulated GRBL, 8.8 N/mm, 80 readings/s\n"
+           "steps/mm  mm/s2  mm/s  jog cancel  expected  ladder   reset\n";
   for (const OvershootRow& row : rows) {
-    list.push_back({{"steps_per_m", row.steps_per_m},
-                    {"acceleration_m_s2", row.acceleration_m_s2},
-                    {"speed_m_s", row.speed_m_s},
-                    {"jog_cancel_N", row.gentle_N},
-                    {"jog_cancel_expected_N", row.expected_N},
-                    {"ladder_N", row.ladder_N},
-                    {"reset_N", row.reset_N}});
-    if (as_json) continue;
     table << fmt::format("{:8.0f} {:6.0f} {:5.1f} {:11.3f} {:9.3f} {:7.3f} {:7.3f}\n",
                          row.steps_per_m * 1e-3, row.acceleration_m_s2 * 1e3, row.speed_m_s * 1e3,
                          row.gentle_N, row.expected_N, row.ladder_N, row.reset_N);
-  }
-  if (as_json) {
-    print_json<ordered_json>({"viscard-rig-overshoot/1", {}}, {{"limit_N", 1.0}, {"rows", list}},
-                             streams, kOneLine);
   }
   return kDone;
 }
@@ -149,6 +173,10 @@ CommandSyntax rig_syntax() {
       "emulate", "check an emulated rig");
   syntax.positional = {"what"};
   syntax.choices["what"] = {"list", "check", "overshoot"};
+  syntax.results = {described<RigList>("rig-list", "viscard rig list"),
+                    described<RigCheck>("rig-check", "viscard rig check"),
+                    {"rig-overshoot", "viscard rig overshoot",
+                     {[](ResultVisitor& v) { show_keys(v, std::vector<OvershootRow>{}); }}}};
   return syntax;
 }
 
@@ -166,8 +194,8 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
   RigCheck found = check_rig_config(rig, is_emulated, seconds);
   if (values.count("rig") > 0) add_calibration(rig, found);
   if (as_json) {
-    print_json({"viscard-rig-check/1", given_words(values, {"rig"})}, json_from_rig_check(found),
-               streams, kOneLine);
+    print_result({"viscard-rig-check/1", given_words(values, {"rig"})},
+                 [&](ResultVisitor& v) { show_keys(v, found); }, streams, kOneLine);
   } else {
     print_text(found, FittedText(streams));
   }

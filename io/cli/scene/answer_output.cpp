@@ -4,10 +4,10 @@
 #include "io/basics/json_string.h"
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/map_output.h"
+#include "io/cli/words/json_output.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -15,35 +15,21 @@
 
 namespace viscard {
 
-nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
-  nlohmann::json results = nlohmann::json::object();
-  for (const SceneResult& r : answer.results) {
-    results[r.name] = {{"value", r.value}, {"unit", r.unit}, {"error_estimate", r.error_estimate}};
-  }
-  nlohmann::json modes = nlohmann::json::array();
-  for (const SceneMode& m : answer.modes) {
-    modes.push_back({{"family", m.family},
-                     {"harmonic", m.harmonic},
-                     {"frequency_Hz", m.frequency_Hz},
-                     {"error_estimate", m.error_estimate}});
-    if (!m.damping_ratio) continue;
-    modes.back()["damping_ratio"] = *m.damping_ratio;
-    modes.back()["damping_error"] = m.damping_error;
-  }
-  nlohmann::json object{
-      {"results", results},
-      {"modes", modes},
-      {"effects", json_from_effects(answer.effects)},
-      {"discretisation",
-       {{"degree", answer.discretisation.degree}, {"layers", answer.discretisation.layers}}},
-      {"notes", answer.notes},
-      {"within_tolerance", answer.within_tolerance},
-      {"unknowns", answer.unknowns},
-      {"wall_s", wall_s}};
-  if (answer.maps.empty()) return object;
-  object["maps"] = json_from_maps(answer);
-  object["pillars"] = json_from_pillars(answer.array);
-  return object;
+void show_keys(ResultVisitor& v, const ShownAnswer& shown) {
+  const SceneAnswer& answer = shown.answer;
+  show_solution(v, answer);
+  show_notes(v, answer);
+  v.when(!shown.printed.empty(), [&] {
+    v.list("printed", "beside the values that the scene quotes", shown.printed,
+           [&](const PrintedComparison& row) { show_keys(v, row); });
+  });
+  show_results(v, answer);
+  v("uncertainty", shown.uncertainty,
+    "with --uncertainty: what the uncertain inputs do to the results");
+  v("unknowns", answer.unknowns, "of the mesh");
+  v("wall_s", shown.wall_s, "time that it took");
+  v("within_tolerance", answer.within_tolerance, "whether the estimated error meets the tolerance");
+  show_origin(v, shown.command);
 }
 
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {
@@ -143,16 +129,16 @@ void write_pictures(const std::vector<std::pair<std::string, std::string>>& pict
   }
 }
 
-void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
-                 const std::string& command, bool overwrite) {
+void write_files(const ShownAnswer& shown, const std::string& folder, bool overwrite) {
+  const SceneAnswer& answer = shown.answer;
+  const std::string& command = shown.command;
   std::filesystem::create_directories(folder);
   const auto write = [&](const std::string& name, const std::string& text) {
     write_file(std::filesystem::path(folder) / name, text, overwrite);
   };
-  nlohmann::json with_command = object;
-  with_command["command"] = command;
-  with_command["created_by"] = "viscard " VISCARD_VERSION;
-  write("results.json", text_from_json(with_command, 2) + "\n");
+  const auto object =
+      with_head({"viscard-simulate/1", {shown.scene}}, [&](ResultVisitor& v) { show_keys(v, shown); });
+  write("results.json", text_from_json(object, 2) + "\n");
   if (!answer.results.empty()) write("results.csv", csv_of_results(answer.results, command));
   if (!answer.modes.empty()) write("modes.csv", csv_of_modes(answer.modes, command));
   for (const SceneCurve& curve : answer.curves) write(curve.name + ".csv", csv_of(curve, command));

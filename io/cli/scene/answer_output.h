@@ -1,10 +1,9 @@
 #pragma once
 
+#include "io/flow/scenes/scene_uncertainty.h"
 #include "io/scenes/scene_file.h"
 #include "models/array/plane/row_shapes.h"
 #include "models/scene/common/scene_answer.h"
-
-#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <ostream>
@@ -14,27 +13,9 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // How the answer of any scene is printed and stored.
-
-nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s);
-// A list of {name, on, estimate, number, value, forced, counted, reason}; estimate is null where
-// the effect has nothing to act on.
-nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects);
-void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
-
-// Writes pictures, name and SVG each.
-void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
-                    const std::string& folder, bool overwrite);
-
-// results.json, results.csv and modes.csv, a CSV table and a picture of every curve, the maps of an array
-// in the plane (map_output.h). Throws
-// std::runtime_error if a file exists and may not be overwritten.
-void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
-                 const std::string& command, bool overwrite);
-
-// The motion of every pillar in every mode of a row: a table with one line for each pair of them.
-std::string csv_of_shapes(const RowShapes& shapes, const std::vector<SceneMode>& modes,
-                          const std::string& command);
 
 // A value that a publication prints, and ours.
 struct PrintedComparison {
@@ -47,6 +28,33 @@ struct PrintedComparison {
   std::string note;  // why they differ
   std::optional<double> difference_points;  // printed minus ours, for values in per cent
 };
+void show_keys(ResultVisitor& v, const PrintedComparison& row);
+
+// All that viscard simulate shows of a scene.
+struct ShownAnswer {
+  std::string scene;  // its file
+  SceneAnswer answer;
+  double wall_s = 0.0;
+  std::vector<PrintedComparison> printed;
+  std::optional<SceneUncertainty> uncertainty;
+  std::string command;  // of results.json
+};
+void show_keys(ResultVisitor& v, const ShownAnswer& shown);
+
+void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
+
+// Writes pictures, name and SVG each.
+void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
+                    const std::string& folder, bool overwrite);
+
+// results.json, results.csv and modes.csv, a CSV table and a picture of every curve, the maps of an array
+// in the plane (map_output.h). Throws
+// std::runtime_error if a file exists and may not be overwritten.
+void write_files(const ShownAnswer& shown, const std::string& folder, bool overwrite);
+
+// The motion of every pillar in every mode of a row: a table with one line for each pair of them.
+std::string csv_of_shapes(const RowShapes& shapes, const std::vector<SceneMode>& modes,
+                          const std::string& command);
 
 // Compares the [[printed]] entries of a scene with its answer. The name of an entry is that of a
 // result, or the family and number of a mode: "lateral 2". Throws std::runtime_error naming the
@@ -55,6 +63,5 @@ std::vector<PrintedComparison> compare_printed(const std::vector<PrintedValue>& 
                                                const SceneAnswer& answer);
 
 void print_comparison(const std::vector<PrintedComparison>& rows, std::ostream& out);
-nlohmann::json json_from_comparison(const std::vector<PrintedComparison>& rows);
 
 }  // namespace viscard

@@ -11,8 +11,6 @@
 #include "io/plots/plot.h"
 #include "io/scenes/scene_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include <filesystem>
 #include <ostream>
 
@@ -37,6 +35,7 @@ CommandSyntax cost_syntax() {
       "force", "overwrite existing files");
   add_test_options(syntax.options);
   syntax.may_exist = {"out"};
+  syntax.results = {described<CostStudy>("cost", "viscard cost"), result_of_test_study()};
   syntax.positional = {"scene"};
   return syntax;
 }
@@ -61,18 +60,18 @@ int run_cost(const Words& words, Streams& streams) {
     study = with_lines_of(path, [&] { return study_cost(scene, options); });
   }
   const JsonHead head{"viscard-cost/1", {path}};
-  const nlohmann::json object = with_head(head, json_from_study(study));
+  const auto show = [&](ResultVisitor& v) { show_keys(v, study); };
   if (const auto out = given(*values, "out")) {
     const std::filesystem::path folder = *out;
     const bool overwrite = values->count("force") > 0;
     const std::string command = quoted_command_line("cost", words);
     std::filesystem::create_directories(folder);
     write_file(folder / "cost.csv", csv_from_study(study, command), overwrite);
-    write_file(folder / "cost.json", text_from_json(object, 2) + "\n", overwrite);
+    write_file(folder / "cost.json", text_from_json(with_head(head, show), 2) + "\n", overwrite);
     const std::string name = std::filesystem::path(path).filename().string();
     write_file(folder / "cost.svg", svg_from_plot(plot_from_study(study, name), "cost"), overwrite);
   }
-  if (!print_json(*values, head, object, streams)) print_study(study, path, FittedText(streams));
+  if (!print_result(*values, head, show, streams)) print_study(study, path, FittedText(streams));
   return kDone;
 }
 

@@ -11,7 +11,6 @@
 #include "io/flow/optimise/design_spec.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <ostream>
@@ -20,6 +19,16 @@ namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
+
+std::vector<DescribedResult> results_of_design() {
+  const auto show = [](ResultVisitor& v) {
+    show_keys(v, ClosedFormDesign{});
+    show_origin(v, "");
+  };
+  return {{"design", "viscard design; design.json has command and created_by besides", {show}},
+          result_of_judgement(),
+          result_of_front()};
+}
 
 CommandSyntax design_syntax(ClosedFormDesign& defaults) {
   CommandSyntax syntax{
@@ -46,6 +55,7 @@ CommandSyntax design_syntax(ClosedFormDesign& defaults) {
       "force", "overwrite existing files");
   add_judge_options(syntax.options);
   syntax.may_exist = {"out"};
+  syntax.results = results_of_design();
   syntax.positional = {"scene"};
   syntax.choices["lattice"] = {"square", "hexagonal", "plain"};
   return syntax;
@@ -94,21 +104,24 @@ int run_design(const Words& words, Streams& streams) {
   if (values->count("tol") > 0) throw UsageError("--tol belongs to a scene; name its file");
   const ClosedFormDesign design = design_from(*values);
   const JsonHead head{"viscard-design/1", {}};
-  const nlohmann::json object = with_head(head, json_from_design(design));
+  const auto show = [&](const std::string& command) {
+    return [&design, command](ResultVisitor& v) {
+      show_keys(v, design);
+      show_origin(v, command);
+    };
+  };
   if (const auto out = given(*values, "out")) {
     const std::filesystem::path folder = *out;
     const bool overwrite = values->count("force") > 0;
     std::filesystem::create_directories(folder);
-    nlohmann::json stored = object;
-    stored["command"] = quoted_command_line("design", words);
-    stored["created_by"] = "viscard " VISCARD_VERSION;
+    const auto stored = with_head(head, show(quoted_command_line("design", words)));
     write_file(folder / "design.json", text_from_json(stored, 2) + "\n", overwrite);
     for (const auto& [name, plot] :
          design_pictures(design.geometry, design.material, design.requirements)) {
       write_file(folder / (name + ".svg"), svg_from_plot(plot, "design-" + name) + "\n", overwrite);
     }
   }
-  if (!print_json(*values, head, object, streams)) {
+  if (!print_result(*values, head, show(""), streams)) {
     FittedText text(streams);
     static_cast<std::ostream&>(text) << text_from_design(design);
   }

@@ -1,4 +1,3 @@
-#include "io/cli/scene/answer_output.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
@@ -9,7 +8,6 @@
 #include "models/scene/plan.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <ostream>
@@ -21,10 +19,6 @@ namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
-
-bool acts(const SceneEffect& effect) {
-  return effect.on || effect.estimate > 0.0;
-}
 
 const char* state_of(const SceneEffect& effect) {
   if (effect.is_forced) return effect.on ? "on!" : "off!";
@@ -92,19 +86,6 @@ void print_plan(const std::string& path, const Scene& scene, const ScenePlan& pl
       plan.left_out, common(plan.reduced).tolerance);
 }
 
-nlohmann::json json_from_savings(const std::vector<EffectSaving>& savings) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const EffectSaving& one : savings) {
-    list.push_back({{"effect", one.effect},
-                    {"discretisation", one.discretisation},
-                    {"cpu_s", one.cpu_s},
-                    {"cpu_s_without", one.cpu_s_without},
-                    {"unknowns", one.unknowns},
-                    {"unknowns_without", one.unknowns_without}});
-  }
-  return list;
-}
-
 CommandSyntax plan_syntax() {
   CommandSyntax syntax{
       "viscard plan SCENE.toml [OPTIONS]",
@@ -115,28 +96,11 @@ CommandSyntax plan_syntax() {
       "viscard plan data/scenes/pillar_modal.toml"};
   add_tolerance_option(syntax.options);
   syntax.positional = {"scene"};
+  syntax.results = {described<ShownPlan>("plan", "viscard plan")};
   return syntax;
 }
 
 }  // namespace
-
-nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects) {
-  using nlohmann::json;
-  json list = json::array();
-  for (const SceneEffect& effect : effects) {
-    const bool has_number = !effect.number.empty();
-    list.push_back({{"name", effect.name},
-                    {"on", effect.on},
-                    {"estimate", acts(effect) ? json(effect.estimate) : json()},
-                    {"number", has_number ? json(effect.number) : json()},
-                    {"value", has_number ? json(effect.value) : json()},
-                    {"forced", effect.is_forced},
-                    {"counted", effect.is_counted},
-                    {"choice", effect.is_choice},
-                    {"reason", effect.reason}});
-  }
-  return list;
-}
 
 void add_tolerance_option(po::options_description& options) {
   options.add_options()("tol", po::value<double>(),
@@ -167,12 +131,10 @@ int run_plan(const Words& words, Streams& streams) {
   } catch (const std::runtime_error& e) {  // the plan itself solves nothing and stands
     streams.err << "viscard plan: what leaving out saves could not be timed: " << e.what() << "\n";
   }
-  const nlohmann::json object{{"effects", json_from_effects(plan.effects)},
-                              {"tolerance", common(scene).tolerance},
-                              {"left_out", plan.left_out},
-                              {"savings", json_from_savings(savings)},
-                              {"mesh_tolerance", common(plan.reduced).tolerance}};
-  if (!print_json(*values, {"viscard-plan/1", {path}}, object, streams)) {
+  const ShownPlan shown{plan.effects, savings, plan.left_out, common(scene).tolerance,
+                        common(plan.reduced).tolerance};
+  const auto show = [&](ResultVisitor& v) { show_keys(v, shown); };
+  if (!print_result(*values, {"viscard-plan/1", {path}}, show, streams)) {
     print_plan(path, scene, plan, savings, FittedText(streams));
   }
   return kDone;

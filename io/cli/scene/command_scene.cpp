@@ -6,8 +6,6 @@
 #include "io/scenes/scene_file.h"
 #include "models/scene/plan.h"
 
-#include <nlohmann/json.hpp>
-
 #include <filesystem>
 #include <ostream>
 
@@ -15,6 +13,12 @@ namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
+
+void show_check(ResultVisitor& v, const std::string& path, const std::string& kind) {
+  v("kind", kind, "of the analysis");
+  v("ok", true, "true; a mistake is an error");
+  v("scene", path, "the file");
+}
 
 CommandSyntax scene_syntax() {
   CommandSyntax syntax{
@@ -26,6 +30,8 @@ CommandSyntax scene_syntax() {
       "force", "overwrite an existing file");
   syntax.positional = {"what", "scene"};
   syntax.choices["what"] = {"check"};
+  syntax.results = {
+      {"scene", "viscard scene check", {[](ResultVisitor& v) { show_check(v, "", ""); }}}};
   return syntax;
 }
 
@@ -45,8 +51,8 @@ int run_scene(const Words& words, Streams& streams) {
   const std::string name = std::filesystem::path(path).filename().string();
   const std::string drawing = svg_from_scene(scene, name);
   if (const auto svg = given(*values, "svg")) write_file(*svg, drawing, values->count("force") > 0);
-  const nlohmann::json object{{"scene", path}, {"kind", kind_of(scene)}, {"ok", true}};
-  if (!print_json(*values, {"viscard-scene/1", {path}}, object, streams)) {
+  const auto show = [&](ResultVisitor& v) { show_check(v, path, kind_of(scene)); };
+  if (!print_result(*values, {"viscard-scene/1", {path}}, show, streams)) {
     streams.out << path << ": nothing contradicts itself\n";
   }
   return kDone;

@@ -16,8 +16,6 @@
 #include "io/scenes/scene_file.h"
 #include "models/scene/simulate.h"
 
-#include <nlohmann/json.hpp>
-
 #include <chrono>
 #include <filesystem>
 #include <ostream>
@@ -102,6 +100,8 @@ CommandSyntax simulate_syntax() {
       "with --uncertainty: sample with about this many answers, even if the linear answer is "
       "enough; default: 4000 if it is not")("force", "overwrite existing files");
   syntax.may_exist = {"out"};
+  syntax.results = {described<ShownAnswer>(
+      "simulate", "viscard simulate; results.json has command and created_by besides")};
   syntax.positional = {"scene"};
   return syntax;
 }
@@ -120,27 +120,26 @@ int run_simulate(const Words& words, Streams& streams) {
   const SweepOutput output{folder, quoted_command_line("simulate", words),
                            values->count("force") > 0};
   const auto start = std::chrono::steady_clock::now();
-  SceneAnswer answer =
-      is_sweep ? run_sweep(file, path, output, streams) : answer_of(file.scene, path, streams);
-  const double wall_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto printed = compare_printed(file.printed, answer);
+  ShownAnswer shown{.scene = path};
+  SceneAnswer& answer = shown.answer;
+  answer = is_sweep ? run_sweep(file, path, output, streams) : answer_of(file.scene, path, streams);
+  shown.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  shown.printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
-  const auto uncertainty = uncertainty_of(*values, file, path, answer, streams);
-  const JsonHead head{"viscard-simulate/1", {path}};
-  nlohmann::json object = with_head(head, json_from_answer(answer, wall_s));
-  if (!printed.empty()) object["printed"] = json_from_comparison(printed);
-  if (uncertainty) object["uncertainty"] = json_from_uncertainty(*uncertainty);
+  shown.uncertainty = uncertainty_of(*values, file, path, answer, streams);
   if (!folder.empty()) {
-    write_files(answer, object, folder, output.command, output.overwrite);
+    shown.command = output.command;
+    write_files(shown, folder, output.overwrite);
+    shown.command.clear();
     if (!is_sweep) write_looks(file.scene, answer, output, streams);
-    if (uncertainty) write_uncertainty(*uncertainty, folder, output.command, output.overwrite);
+    if (shown.uncertainty) write_uncertainty(*shown.uncertainty, folder, output.command, output.overwrite);
   }
-  if (print_json(*values, head, object, streams)) return kDone;
+  const auto show = [&](ResultVisitor& v) { show_keys(v, shown); };
+  if (print_result(*values, {"viscard-simulate/1", {path}}, show, streams)) return kDone;
   streams.out << path << "\n";
-  print_answer(answer, wall_s, FittedText(streams));
-  print_comparison(printed, FittedText(streams));
-  if (uncertainty) print_uncertainty(*uncertainty, FittedText(streams));
+  print_answer(answer, shown.wall_s, FittedText(streams));
+  print_comparison(shown.printed, FittedText(streams));
+  if (shown.uncertainty) print_uncertainty(*shown.uncertainty, FittedText(streams));
   return kDone;
 }
 

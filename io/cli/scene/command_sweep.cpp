@@ -10,7 +10,6 @@
 #include "io/scenes/scene_file.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <ostream>
@@ -19,6 +18,16 @@ namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
+
+void show_sweep(ResultVisitor& v, const StudyOutcome& outcome, const std::string& file,
+                std::int64_t merged, std::int64_t n_done) {
+  v("answered", outcome.n_answered, "points of this run");
+  v("done", n_done, "points in the file");
+  v("failed", outcome.n_failed, "of these, points without an answer");
+  v("file", file, "the SQLite file of the points");
+  v("merged", merged, "points taken over from other files");
+  v("points", outcome.n_points, "of the whole study");
+}
 
 CommandSyntax sweep_syntax(const SweepProgram& program) {
   CommandSyntax syntax{program.usage, program.description, program.example};
@@ -32,6 +41,8 @@ CommandSyntax sweep_syntax(const SweepProgram& program) {
   add("force", "overwrite an existing table");
   if (program.add_options) program.add_options(syntax.options);
   syntax.may_exist = {"out"};
+  syntax.results = {{"sweep", "viscard sweep",
+                     {[](ResultVisitor& v) { show_sweep(v, StudyOutcome{}, "", 0, 0); }}}};
   syntax.positional = {"study"};
   return syntax;
 }
@@ -104,15 +115,10 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
   if (table) write_file(*table, csv_from_study(store, study), values->count("force") > 0);
   const auto n_done = static_cast<std::int64_t>(store.done().size());
   const JsonHead head{"viscard-sweep/1", {path}};
-  const nlohmann::json object{{"file", file},
-                              {"points", outcome.n_points},
-                              {"done", n_done},
-                              {"answered", outcome.n_answered},
-                              {"failed", outcome.n_failed},
-                              {"merged", merged}};
+  const auto show = [&](ResultVisitor& v) { show_sweep(v, outcome, file, merged, n_done); };
   const int status =
       outcome.n_answered > 0 && outcome.n_failed == outcome.n_answered ? kFailed : kDone;
-  if (print_json(*values, head, object, streams)) return status;
+  if (print_result(*values, head, show, streams)) return status;
   FittedText text(streams);
   static_cast<std::ostream&>(text) << words_of(outcome, file, merged, n_done);
   return status;

@@ -9,7 +9,6 @@
 #include "models/pillar/validate_material.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <ostream>
 
@@ -18,29 +17,34 @@ namespace po = boost::program_options;
 namespace viscard {
 namespace {
 
-nlohmann::json json_from_curve(const ValidationCurve& curve, const char* quantity) {
-  return {{"largest_relative_error", curve.largest_relative_error},
-          {"at_time_s", curve.at_time_s},
-          {"solver_error_estimate", curve.solver_error_estimate},
-          {"steps", curve.steps},
-          {"time_s", curve.time_s},
-          {quantity, curve.solver},
-          {std::string("exact_") + quantity, curve.exact}};
+void show_curve(ResultVisitor& v, const ValidationCurve& curve, const std::string& quantity) {
+  const auto show_answer = [&] { v(quantity, curve.solver, "answer of the solver"); };
+  const bool is_first = quantity < "exact_";  // keys stand in the order of their names
+  v("at_time_s", curve.at_time_s, "when");
+  if (is_first) show_answer();
+  v("exact_" + quantity, curve.exact, "exact answer");
+  v("largest_relative_error", curve.largest_relative_error,
+    "largest difference from the exact answer");
+  v("solver_error_estimate", curve.solver_error_estimate, "what the solver estimated");
+  v("steps", curve.steps, "time steps");
+  if (!is_first) show_answer();
+  v("time_s", curve.time_s, "times");
 }
 
-nlohmann::json json_from_result(const ValidationResult& result, const std::string& name) {
-  return {{"material", name},
-          {"passed", result.passed},
-          {"max_error", result.tolerance},
-          {"diameter_m", result.diameter_m},
-          {"length_m", result.length_m},
-          {"strain", result.strain},
-          {"pressure_Pa", result.pressure_Pa},
-          {"unknowns", result.unknowns},
-          {"exact_method", result.exact_method},
-          {"notes", result.notes},
-          {"relaxation", json_from_curve(result.relaxation, "stress_Pa")},
-          {"creep", json_from_curve(result.creep, "displacement_m")}};
+void show_result(ResultVisitor& v, const ValidationResult& result, const std::string& name) {
+  v.object("creep", "the test of creep", [&] { show_curve(v, result.creep, "displacement_m"); });
+  v("diameter_m", result.diameter_m, "of the pillar");
+  v("exact_method", result.exact_method, "where the exact answer comes from");
+  v("length_m", result.length_m, "of the pillar");
+  v("material", name, "name of the material");
+  v("max_error", result.tolerance, "largest relative error allowed");
+  v("notes", result.notes, "what to keep in mind");
+  v("passed", result.passed, "whether both tests are within max_error");
+  v("pressure_Pa", result.pressure_Pa, "in creep");
+  v.object("relaxation", "the test of relaxation",
+           [&] { show_curve(v, result.relaxation, "stress_Pa"); });
+  v("strain", result.strain, "in relaxation");
+  v("unknowns", result.unknowns, "of the mesh");
 }
 
 std::string csv_from_curve(const ValidationCurve& curve, const char* quantity,
@@ -81,6 +85,8 @@ CommandSyntax validate_syntax() {
       "max-error", po::value<double>()->default_value(1e-6, "1e-6"),
       "largest relative error allowed")("force", "overwrite existing files");
   syntax.positional = {"material"};
+  syntax.results = {{"validate", "viscard validate",
+                     {[](ResultVisitor& v) { show_result(v, ValidationResult{}, ""); }}}};
   return syntax;
 }
 
@@ -113,8 +119,8 @@ int run_validate(const Words& words, Streams& streams) {
   };
   write("csv", result.relaxation, "stress_Pa");
   write("creep-csv", result.creep, "displacement_m");
-  if (!print_json(*values, {"viscard-validate/1", {path}}, json_from_result(result, name),
-                  streams)) {
+  const auto show = [&](ResultVisitor& v) { show_result(v, result, name); };
+  if (!print_result(*values, {"viscard-validate/1", {path}}, show, streams)) {
     print_result(result, name, FittedText(streams));
   }
   if (result.passed) return kDone;

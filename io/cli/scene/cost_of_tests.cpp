@@ -8,8 +8,6 @@
 #include "io/cli/words/json_output.h"
 #include "io/flow/planning/study_output.h"
 
-#include <nlohmann/json.hpp>
-
 #include <filesystem>
 #include <stdexcept>
 
@@ -39,6 +37,10 @@ void add_test_options(po::options_description& options) {
       "with --rig: longest time at the rig");
 }
 
+DescribedResult result_of_test_study() {
+  return described<TestStudy>("cost-tests", "viscard cost --rig");
+}
+
 int run_cost_of_tests(const po::variables_map& values, const CommandSyntax& syntax,
                       const std::string& command, Streams& streams) {
   TestStudyRequest request{.rig = required(values, "rig", syntax)};
@@ -59,19 +61,19 @@ int run_cost_of_tests(const po::variables_map& values, const CommandSyntax& synt
   const TestStudy study = study_tests(request);
   const JsonHead head{"viscard-cost-tests/1",
                       given_words(values, {"rig", "specimen", "test", "guess", "scene"})};
-  const nlohmann::ordered_json object = with_head(head, json_from_test_study(study));
+  const auto show = [&](ResultVisitor& v) { show_keys(v, study); };
   if (const auto out = given(values, "out")) {
     const std::filesystem::path folder = *out;
     const bool overwrite = values.count("force") > 0;
     std::filesystem::create_directories(folder);
     write_file(folder / "cost.csv", csv_from_test_study(study, command), overwrite);
-    write_file(folder / "cost.json", text_from_json(object, 2) + "\n", overwrite);
+    write_file(folder / "cost.json", text_from_json(with_head(head, show), 2) + "\n", overwrite);
     write_file(folder / "cost.svg", svg_from_plot(plot_from_test_study(study), "cost"), overwrite);
     if (study.protocols.advised) {
       write_file(folder / "test.toml", toml_of_advice(study, command), overwrite);
     }
   }
-  if (!print_json(values, head, object, streams)) print_test_study(study, FittedText(streams));
+  if (!print_result(values, head, show, streams)) print_test_study(study, FittedText(streams));
   return kDone;
 }
 

@@ -10,7 +10,8 @@ namespace viscard {
 int run_cost_of_tests(const boost::program_options::variables_map& values,
                       const CommandSyntax& syntax, const std::string& command, Streams& streams);
 
-// Its options.
+// Its options, and what it prints with --json.
 void add_test_options(boost::program_options::options_description& options);
+DescribedResult result_of_test_study();
 
 }  // namespace viscard

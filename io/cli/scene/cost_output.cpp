@@ -3,42 +3,11 @@
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 
 namespace viscard {
 namespace {
-
-using Json = nlohmann::json;
-
-Json json_from_row(const CostRow& row) {
-  return {{"discretisation", row.discretisation},
-          {"effects", row.effects},
-          {"unknowns", row.unknowns},
-          {"cpu_s", row.cpu_s},
-          {"wall_s", row.wall_s},
-          {"memory_B", row.memory_B},
-          {"error", row.error},
-          {"pareto", row.is_on_front},
-          {"predicted", false}};
-}
-
-Json json_from_prediction(const PredictedRow& row) {
-  return {{"discretisation", row.discretisation},
-          {"effects", row.effects},
-          {"unknowns", std::round(row.unknowns)},
-          {"cpu_s", row.cpu_s},
-          {"memory_B", row.memory_B},
-          {"predicted", true}};
-}
-
-Json json_from_machine(const CostMachine& machine) {
-  return {{"processor", machine.processor},
-          {"cores", machine.cores},
-          {"load", machine.load},
-          {"processor_share", machine.share}};
-}
 
 // "AMD EPYC, 2 cores, load 1.3 before; this program got 93 % of a core".
 std::string text_of_machine(const CostMachine& machine) {
@@ -85,50 +54,6 @@ void print_legend(const CostStudy& study, std::ostream& out) {
 }
 
 }  // namespace
-
-Json json_from_study(const CostStudy& study) {
-  Json rows = Json::array(), predicted = Json::array(), advice = Json::array();
-  Json failed = Json::array();
-  for (const CostRow& row : study.rows) rows.push_back(json_from_row(row));
-  for (const PredictedRow& row : study.predicted) predicted.push_back(json_from_prediction(row));
-  for (const FailedRow& row : study.failed) {
-    failed.push_back(
-        {{"discretisation", row.discretisation}, {"effects", row.effects}, {"reason", row.reason}});
-  }
-  for (const CostAdvice& one : study.advice) {
-    advice.push_back({{"tolerance", one.tolerance},
-                      {"row", one.row < 0 ? Json() : Json(one.row)},
-                      {"text", one.text}});
-  }
-  Json linear;  // null if the rows do not give it
-  if (const auto factor = factor_over_linear(study, 1e-3)) {
-    linear = {{"error", factor->error},
-              {"factor", factor->factor},
-              {"extrapolated", factor->is_extrapolated},
-              {"quickest", factor->quickest}};
-  }
-  Json laws = Json::array();
-  for (const CostLaw& law : study.laws) {
-    laws.push_back({{"kind", law.kind},
-                    {"fixed_s", law.fixed_s},
-                    {"seconds", law.seconds},
-                    {"exponent", law.exponent}});
-  }
-  const bool is_known = std::isfinite(study.reference_error);
-  return {{"rows", rows},
-          {"predicted_rows", predicted},
-          {"cost_laws", laws},
-          {"recommendations", advice},
-          {"linear_elements", linear},
-          {"reference", study.reference},
-          {"reference_error", is_known ? Json(study.reference_error) : Json()},
-          {"rows_left_out", study.left_out},
-          {"rows_without_answer", failed},
-          {"tolerance", study.tolerance},
-          {"budget_s", study.budget_s},
-          {"wall_s", study.wall_s},
-          {"machine", json_from_machine(study.machine)}};
-}
 
 std::string csv_from_study(const CostStudy& study, const std::string& command) {
   std::string text = fmt::format(

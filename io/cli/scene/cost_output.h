@@ -3,15 +3,12 @@
 #include "io/cost/study_cost.h"
 #include "io/plots/plot.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <ostream>
 #include <string>
 
 namespace viscard {
 
-// A cost study as an object, a table, a picture and text.
-nlohmann::json json_from_study(const CostStudy& study);
+// A cost study as a table, a picture and text.
 std::string csv_from_study(const CostStudy& study, const std::string& command);
 Plot plot_from_study(const CostStudy& study, const std::string& scene);
 void print_study(const CostStudy& study, const std::string& path, std::ostream& out);

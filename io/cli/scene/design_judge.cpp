@@ -11,7 +11,6 @@
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/design/judgement_output.h"
 
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <ostream>
@@ -49,6 +48,16 @@ void add_judge_options(po::options_description& options) {
   add_tolerance_option(options);
 }
 
+DescribedResult result_of_judgement() {
+  const auto show = [](ResultVisitor& v) {
+    show_keys(v, Judgement{});
+    show_origin(v, "");
+  };
+  return {"design-judge",
+          "viscard design SCENE --require FILE; judgement.json has command and created_by besides",
+          {show}};
+}
+
 int run_design_judge(const po::variables_map& values, const Words& words, Streams& streams) {
   const auto scene = given(values, "scene");
   const auto require = given(values, "require");
@@ -63,16 +72,19 @@ int run_design_judge(const po::variables_map& values, const Words& words, Stream
   const Requirements requirements = read_requirements(*require);
   const Judgement judgement = judgement_of(values, *scene, requirements, streams);
   const JsonHead head{"viscard-design-judge/1", {*scene, *require}};
-  const nlohmann::json object = with_head(head, json_from_judgement(judgement));
+  const auto show = [&](const std::string& command) {
+    return [&judgement, command](ResultVisitor& v) {
+      show_keys(v, judgement);
+      show_origin(v, command);
+    };
+  };
   if (const auto out = given(values, "out")) {
-    nlohmann::json stored = object;
-    stored["command"] = quoted_command_line("design", words);
-    stored["created_by"] = "viscard " VISCARD_VERSION;
+    const auto stored = with_head(head, show(quoted_command_line("design", words)));
     std::filesystem::create_directories(*out);
     write_file(std::filesystem::path(*out) / "judgement.json", text_from_json(stored, 2) + "\n",
                values.count("force") > 0);
   }
-  if (!print_json(values, head, object, streams)) {
+  if (!print_result(values, head, show(""), streams)) {
     streams.out << *scene << "\n" << text_from_judgement(judgement);
   }
   return judgement.passes() ? kDone : kFailed;

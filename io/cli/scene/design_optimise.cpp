@@ -17,7 +17,7 @@ namespace viscard {
 namespace {
 
 // One scene for each design, and the picture of a front.
-void write_designs(const DesignSpec& spec, const DesignFront& front, const nlohmann::json& object,
+void write_designs(const DesignSpec& spec, const DesignFront& front, const nlohmann::ordered_json& object,
                    const std::filesystem::path& folder, bool overwrite) {
   std::filesystem::create_directories(folder);
   write_file(folder / "design.json", text_from_json(object, 2) + "\n", overwrite);
@@ -34,6 +34,15 @@ void write_designs(const DesignSpec& spec, const DesignFront& front, const nlohm
 
 }  // namespace
 
+DescribedResult result_of_front() {
+  const auto show = [](ResultVisitor& v) {
+    show_front(v, DesignSpec{}, DesignFront{});
+    show_origin(v, "");
+  };
+  return {"design-front", "viscard design SPEC; design.json has command and created_by besides",
+          {show}};
+}
+
 int run_design_optimise(const boost::program_options::variables_map& values, const Words& words,
                         Streams& streams) {
   const std::string path = *given(values, "scene");
@@ -49,14 +58,17 @@ int run_design_optimise(const boost::program_options::variables_map& values, con
         spec, [&](double done, const std::string& what) { progress.announce(done, what); });
   }
   const JsonHead head{"viscard-design-front/1", {path}};
-  const nlohmann::json object = with_head(head, json_from_front(spec, front));
+  const auto show = [&](const std::string& command) {
+    return [&spec, &front, command](ResultVisitor& v) {
+      show_front(v, spec, front);
+      show_origin(v, command);
+    };
+  };
   if (const auto out = given(values, "out")) {
-    nlohmann::json stored = object;
-    stored["command"] = quoted_command_line("design", words);
-    stored["created_by"] = "viscard " VISCARD_VERSION;
+    const auto stored = with_head(head, show(quoted_command_line("design", words)));
     write_designs(spec, front, stored, *out, values.count("force") > 0);
   }
-  if (!print_json(values, head, object, streams)) {
+  if (!print_result(values, head, show(""), streams)) {
     streams.out << path << "\n" << text_from_front(spec, front);
   }
   return front.designs[0].is_feasible ? kDone : kFailed;

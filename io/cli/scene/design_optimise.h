@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/cli/words/streams.h"
+#include "io/results/result_schema.h"
 
 #include <boost/program_options/variables_map.hpp>
 
@@ -10,5 +11,7 @@ namespace viscard {
 // (io/flow/optimise). Returns kFailed if no design is feasible.
 int run_design_optimise(const boost::program_options::variables_map& values, const Words& words,
                         Streams& streams);
+// What it prints with --json.
+DescribedResult result_of_front();
 
 }  // namespace viscard

@@ -5,7 +5,6 @@
 #include "io/tables/npy_file.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +12,6 @@
 
 namespace viscard {
 namespace {
-
-// The numbers of a map by pillar, NaN for pillars without one.
-std::vector<double> by_pillar(const SceneArray& array, const SceneMap& map,
-                              const std::vector<double>& numbers) {
-  std::vector<double> all(array.pillars.size(), NAN);
-  for (std::size_t at = 0; at < map.pillar.size() && at < numbers.size(); ++at) {
-    all[map.pillar[at]] = numbers[at];
-  }
-  return all;
-}
 
 std::string column_of(const SceneMap& map) {
   if (map.unit == "%") return map.name;
@@ -69,32 +58,6 @@ std::string npy_of(const SceneArray& array, const SceneMap& map) {
 }
 
 }  // namespace
-
-nlohmann::json json_from_maps(const SceneAnswer& answer) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const SceneMap& map : answer.maps) {
-    const auto [low, high] = std::minmax_element(map.value.begin(), map.value.end());
-    list.push_back({{"name", map.name},
-                    {"unit", map.unit},
-                    {"largest", *high},
-                    {"smallest", *low},
-                    {"error_estimate", largest_size(map.error)},
-                    {"values", by_pillar(answer.array, map, map.value)}});  // NaN becomes null
-  }
-  return list;
-}
-
-nlohmann::json json_from_pillars(const SceneArray& array) {
-  std::vector<int> row, column;
-  std::vector<double> x_m, y_m;
-  for (const ScenePillar& one : array.pillars) {
-    row.push_back(one.row);
-    column.push_back(one.column);
-    x_m.push_back(one.x_m);
-    y_m.push_back(one.y_m);
-  }
-  return {{"row", row}, {"column", column}, {"x_m", x_m}, {"y_m", y_m}};
-}
 
 void write_maps(const SceneAnswer& answer, const std::string& folder, const std::string& command,
                 bool overwrite) {

@@ -2,9 +2,9 @@
 #include "io/basics/words.h"
 #include "io/cli/scene/answer_output.h"
 #include "io/flow/scenes/named_values.h"
+#include "models/maths/result_visitor.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -49,18 +49,14 @@ void print_comparison(const std::vector<PrintedComparison>& rows, std::ostream& 
   out << "  (magnitudes are compared, because publications often omit signs)\n";
 }
 
-nlohmann::json json_from_comparison(const std::vector<PrintedComparison>& rows) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const PrintedComparison& row : rows) {
-    list.push_back({{"name", row.name},
-                    {"printed", row.printed},
-                    {"ours", row.ours},
-                    {"unit", row.unit},
-                    {"difference_percent", row.difference_percent},
-                    {"note", row.note}});
-    if (row.difference_points) list.back()["difference_points"] = *row.difference_points;
-  }
-  return list;
+void show_keys(ResultVisitor& v, const PrintedComparison& row) {
+  v("difference_percent", row.difference_percent, "of the magnitudes");
+  v("difference_points", row.difference_points, "for percentages");
+  v("name", row.name, "its name");
+  v("note", row.note, "of the scene");
+  v("ours", row.ours, "our value");
+  v("printed", row.printed, "the printed value");
+  v("unit", row.unit, "its unit");
 }
 
 }  // namespace viscard

@@ -5,7 +5,6 @@
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,40 +13,6 @@
 
 namespace viscard {
 namespace {
-
-// Share of the variance that inputs cause only together.
-double jointly(const ResultUncertainty& result) {
-  double rest = result.standard_uncertainty > 0.0 ? 1.0 : 0.0;
-  for (const CauseShare& cause : result.causes) rest -= cause.share;
-  return rest;
-}
-
-const char* method_of(const SceneUncertainty& uncertainty) {
-  return uncertainty.is_sampled ? "sobol" : "linear";
-}
-
-nlohmann::json json_of(const ResultUncertainty& result, const SceneUncertainty& all) {
-  nlohmann::json causes = nlohmann::json::array();
-  for (std::size_t i = 0; i < result.causes.size(); ++i) {
-    const CauseShare& cause = result.causes[i];
-    causes.push_back({{"input", all.inputs[i].name},
-                      {"share", cause.share},
-                      {"share_with_others", cause.with_others},
-                      {"share_standard_error", cause.standard_error}});
-  }
-  nlohmann::json json = {{"name", result.name},
-                         {"unit", result.unit},
-                         {"value", result.value},
-                         {"interval_95", {result.interval_95.low, result.interval_95.high}},
-                         {"interval_end_error", result.end_error},
-                         {"standard_uncertainty", result.standard_uncertainty},
-                         {"numerical_error", result.numerical_error},
-                         {"linear_disagreement", result.linear_disagreement},
-                         {"causes", causes},
-                         {"share_jointly", jointly(result)}};
-  if (!result.no_interval.empty()) json["no_interval"] = result.no_interval;
-  return json;
-}
 
 std::string interval_words(const ResultUncertainty& result) {
   if (!result.no_interval.empty()) return "no interval";
@@ -97,7 +62,7 @@ std::string picture_of(const SceneUncertainty& uncertainty) {
     if (!(result.standard_uncertainty > 0.0)) continue;
     ShareBar bar{result.name, interval_words(result), {}};
     for (const CauseShare& cause : result.causes) bar.shares.push_back(cause.share);
-    has_rest = has_rest || jointly(result) > 0.005;
+    has_rest = has_rest || share_jointly(result) > 0.005;
     bars.push_back(std::move(bar));
   }
   return svg_from_shares(parts, has_rest ? "several inputs together" : "", bars,
@@ -120,37 +85,11 @@ void print_result(const ResultUncertainty& result, const SceneUncertainty& all, 
     out << fmt::format("    {:>5.1f} %  {}  ({})\n", 100.0 * result.causes[i].share,
                        all.inputs[i].name, all.descriptions[i]);
   }
-  if (jointly(result) < kSmallest) return;
-  out << fmt::format("    {:>5.1f} %  several inputs together\n", 100.0 * jointly(result));
+  if (share_jointly(result) < kSmallest) return;
+  out << fmt::format("    {:>5.1f} %  several inputs together\n", 100.0 * share_jointly(result));
 }
 
 }  // namespace
-
-nlohmann::json json_from_uncertainty(const SceneUncertainty& uncertainty) {
-  nlohmann::json inputs = nlohmann::json::array(), results = nlohmann::json::array();
-  for (std::size_t i = 0; i < uncertainty.inputs.size(); ++i) {
-    inputs.push_back({{"name", uncertainty.inputs[i].name},
-                      {"text", uncertainty.descriptions[i]},
-                      {"derivatives", uncertainty.by_solver[i] ? "solver" : "differences"}});
-  }
-  for (const ResultUncertainty& one : uncertainty.results) {
-    results.push_back(json_of(one, uncertainty));
-  }
-  return {{"method", method_of(uncertainty)},
-          {"reason", uncertainty.reason},
-          {"inputs", inputs},
-          {"results", results},
-          {"answers", uncertainty.n_answers},
-          {"first_order_answers", uncertainty.n_first_order},
-          {"failed", uncertainty.n_failed},
-          {"failed_share", uncertainty.failed_share},
-          {"derivative_error", uncertainty.slope_error},
-          {"mesh",
-           {{"degree", uncertainty.mesh.degree},
-            {"layers", uncertainty.mesh.layers},
-            {"error", uncertainty.mesh_error}}},
-          {"notes", uncertainty.notes}};
-}
 
 void print_uncertainty(const SceneUncertainty& uncertainty, std::ostream& out) {
   out << fmt::format("\nuncertainty: 95 % intervals from {} ({}), {}\n",

@@ -2,17 +2,12 @@
 
 #include "io/flow/scenes/scene_uncertainty.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <ostream>
 #include <string>
 
 namespace viscard {
 
 // How the uncertainty of an answer is printed and stored.
-
-// The part `uncertainty` of the object of viscard simulate.
-nlohmann::json json_from_uncertainty(const SceneUncertainty& uncertainty);
 
 // Interval of each result and its causes, the largest first.
 void print_uncertainty(const SceneUncertainty& uncertainty, std::ostream& out);

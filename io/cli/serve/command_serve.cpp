@@ -6,7 +6,6 @@
 #include "io/serve/rig_server.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <ostream>
@@ -19,6 +18,12 @@ namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr int kHighestPort = 65535;
+
+void show_page(ResultVisitor& v, const std::string& address, int port, const std::string& folder) {
+  v("address", address, "of the page");
+  v("port", port, "of 127.0.0.1");
+  v("folder", folder, "of the series");
+}
 
 CommandSyntax serve_syntax(ServeOptions& options) {
   CommandSyntax syntax;
@@ -39,6 +44,8 @@ CommandSyntax serve_syntax(ServeOptions& options) {
   add("speed", po::value(&options.speed)->default_value(1.0),
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
   syntax.positional = {"folder"};
+  syntax.results = {{"serve", "viscard serve, when the page can be opened",
+                     {[](ResultVisitor& v) { show_page(v, "", 0, ""); }}}};
   return syntax;
 }
 
@@ -75,9 +82,10 @@ int run_serve(const Words& words, Streams& streams) {
   check_options(options);
   const StopOnSignal on_signal;
   RigServer server(options);
-  const nlohmann::ordered_json about = {
-      {"address", server.address()}, {"port", server.port()}, {"folder", folder}};
-  if (!print_json(*values, {"viscard-serve/1", given_words(*values, {"rig"})}, about, streams)) {
+  const auto show = [&](ResultVisitor& v) {
+    show_page(v, server.address(), server.port(), folder);
+  };
+  if (!print_result(*values, {"viscard-serve/1", given_words(*values, {"rig"})}, show, streams)) {
     streams.out << "Open in a browser on this machine: " << server.address() << "\n";
     streams.err << "Ctrl-C ends it; a run is then stopped and the punch lifted\n";
   }

@@ -144,7 +144,10 @@ void check_color(const std::string& when) {
 // --help, or its object with --json, or the receiver of the syntax.
 void show_help(const CommandSyntax& syntax, bool as_json, Streams& streams) {
   if (streams.on_help) return streams.on_help(syntax);
-  if (as_json) return print_json({"viscard-help/1", {}}, json_from_syntax(syntax), streams);
+  if (as_json) {
+    return print_result({"viscard-help/1", {}}, [&](ResultVisitor& v) { show_keys(v, syntax); },
+                        streams);
+  }
   streams.out << help_text(syntax, streams.columns, streams.is_out_coloured);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "io/results/result_schema.h"
+
 #include <boost/program_options.hpp>
 
 #include <map>
@@ -21,6 +23,8 @@ struct CommandSyntax {
   std::map<std::string, std::vector<std::string>> choices;
   // The outputs that may exist already: folders, and files that are continued. All others are new files.
   std::vector<std::string> may_exist;
+  // What --json prints, for schemas and tables of keys.
+  std::vector<DescribedResult> results{};
 };
 
 }  // namespace viscard

@@ -4,9 +4,9 @@
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/terminal.h"
 
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 namespace viscard {
@@ -90,24 +90,23 @@ std::string help_text(const CommandSyntax& syntax, std::size_t columns, bool is_
          "\n";
 }
 
-nlohmann::ordered_json json_from_syntax(const CommandSyntax& syntax) {
-  nlohmann::ordered_json options = nlohmann::ordered_json::array();
-  for (const ShownOption& one : shown_options(syntax)) {
-    options.push_back({{"name", one.name},
-                       {"takes_value", !one.value.empty()},
-                       {"default", one.initial.empty() ? nlohmann::ordered_json(nullptr)
-                                                       : nlohmann::ordered_json(one.initial)},
-                       {"choices", one.choices},
-                       {"description", one.what}});
-  }
-  std::istringstream words(syntax.description);
+void show_keys(ResultVisitor& v, const CommandSyntax& syntax) {
+  std::istringstream words(syntax.description == nullptr ? "" : syntax.description);
   std::string description, word;
   while (words >> word) description += (description.empty() ? "" : " ") + word;
-  return {{"usage", syntax.usage},
-          {"description", description},
-          {"example", syntax.example},
-          {"positional", syntax.positional},
-          {"options", options}};
+  const auto text = [](const char* one) { return std::string(one == nullptr ? "" : one); };
+  v("usage", text(syntax.usage), "the synopsis");
+  v("description", description, "what the command does");
+  v("example", text(syntax.example), "a command line that works as printed");
+  v("positional", syntax.positional, "names of the words that are no options");
+  v.list("options", "all options", shown_options(syntax), [&](const ShownOption& one) {
+    const auto initial = one.initial.empty() ? std::nullopt : std::optional(one.initial);
+    v("name", one.name, "without the dashes");
+    v("takes_value", !one.value.empty(), "whether a value follows");
+    v.or_null("default", initial, "the value if it is not given");
+    v("choices", one.choices, "the values that are allowed; empty: any");
+    v("description", one.what, "what it does");
+  });
 }
 
 }  // namespace viscard

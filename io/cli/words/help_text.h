@@ -2,8 +2,6 @@
 
 #include "io/cli/words/command_syntax.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <string>
 #include <vector>
 
@@ -23,7 +21,7 @@ std::vector<ShownOption> shown_options(const CommandSyntax& syntax);
 // What --help prints, in lines of at most so many characters; 0: 96.
 std::string help_text(const CommandSyntax& syntax, std::size_t columns, bool is_coloured);
 
-// The same as an object: usage, description, example, options.
-nlohmann::ordered_json json_from_syntax(const CommandSyntax& syntax);
+// The same as keys: usage, description, example, options.
+void show_keys(ResultVisitor& v, const CommandSyntax& syntax);
 
 }  // namespace viscard

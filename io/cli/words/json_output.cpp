@@ -3,8 +3,6 @@
 #include "io/basics/json_string.h"
 #include "io/flow/command_error.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <ostream>
 #include <string>
@@ -22,8 +20,7 @@ CommandError error_of(const std::exception& error) {
 }
 
 // Messages and names may hold bytes that are not UTF-8.
-template <typename Json>
-void print_line(const Json& object, Streams& streams, int indent) {
+void print_line(const nlohmann::ordered_json& object, Streams& streams, int indent) {
   streams.out << printable_text_from_json(object, indent) << "\n";
   streams.has_printed_json = true;
 }
@@ -44,25 +41,36 @@ Words given_words(const po::variables_map& values, std::initializer_list<const c
   return words;
 }
 
-template <typename Json>
-Json with_head(const JsonHead& head, Json object) {
-  Json out;
-  out["schema"] = head.schema;
-  out["version"] = VISCARD_VERSION;
-  out["inputs"] = head.inputs;
-  for (auto& [key, value] : object.items()) out[key] = std::move(value);
-  return out;
+void show_head(ResultVisitor& v, const JsonHead& head) {
+  v.word("schema", head.schema, {head.schema}, "name and version of the description");
+  v("version", VISCARD_VERSION, "version of viscard");
+  v("inputs", head.inputs, "the files that were read, as they were named");
 }
 
-template <typename Json>
-void print_json(const JsonHead& head, Json object, Streams& streams, int indent) {
-  print_line(with_head(head, std::move(object)), streams, indent);
+void show_origin(ResultVisitor& v, const std::string& command) {
+  v.when(!command.empty(), [&] {
+    v("command", command, "in a file: the command line");
+    v("created_by", "viscard " VISCARD_VERSION, "in a file: version of viscard");
+  });
 }
 
-template nlohmann::json with_head(const JsonHead&, nlohmann::json);
-template nlohmann::ordered_json with_head(const JsonHead&, nlohmann::ordered_json);
-template void print_json(const JsonHead&, nlohmann::json, Streams&, int);
-template void print_json(const JsonHead&, nlohmann::ordered_json, Streams&, int);
+nlohmann::ordered_json with_head(const JsonHead& head, const ShowKeys& show) {
+  return json_from_keys([&](ResultVisitor& v) {
+    show_head(v, head);
+    show(v);
+  });
+}
+
+void print_result(const JsonHead& head, const ShowKeys& show, Streams& streams, int indent) {
+  print_line(with_head(head, show), streams, indent);
+}
+
+bool print_result(const po::variables_map& values, const JsonHead& head, const ShowKeys& show,
+                  Streams& streams) {
+  if (values.count("json") == 0) return false;
+  print_result(head, show, streams);
+  return true;
+}
 
 int with_json_errors(const Words& words, Streams& streams, const std::function<int()>& command) {
   try {
@@ -72,7 +80,7 @@ int with_json_errors(const Words& words, Streams& streams, const std::function<i
     if (is_asked && !streams.has_printed_json) {
       const nlohmann::ordered_json json = {{"schema", "viscard-error/1"},
                                            {"version", VISCARD_VERSION},
-                                           {"error", json_from_error(error_of(error))}};
+                                           {"error", json_from_result(error_of(error))}};
       print_line(json, streams, -1);
     }
     throw;

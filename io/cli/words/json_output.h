@@ -1,16 +1,16 @@
 #pragma once
 
 #include "io/cli/words/streams.h"
+#include "io/results/result_json.h"
 
 #include <boost/program_options/variables_map.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include <functional>
 #include <initializer_list>
 
 namespace viscard {
 
-// Every object of --json begins with "schema" (the file in io/schemas that describes its keys),
+// Every object of --json begins with "schema" (the name of the schema that describes its keys),
 // "version" (of viscard) and "inputs" (the files that were read, as the user named them).
 struct JsonHead {
   const char* schema;  // "viscard-fit/1"
@@ -21,22 +21,21 @@ struct JsonHead {
 Words given_words(const boost::program_options::variables_map& values,
                   std::initializer_list<const char*> names);
 
-// The object with its head in front. A schema of its own stays. Json: json or ordered_json.
-template <typename Json>
-Json with_head(const JsonHead& head, Json object);
+// The head as keys, of an object within another one.
+void show_head(ResultVisitor& v, const JsonHead& head);
+
+// "command" and "created_by" of a file that a command writes; an empty command: none.
+void show_origin(ResultVisitor& v, const std::string& command);
+
+// The object with its head in front.
+nlohmann::ordered_json with_head(const JsonHead& head, const ShowKeys& show);
 
 // Prints the object with its head on stdout. indent -1: in one line.
-template <typename Json>
-void print_json(const JsonHead& head, Json object, Streams& streams, int indent = 2);
+void print_result(const JsonHead& head, const ShowKeys& show, Streams& streams, int indent = 2);
 
 // The same if --json was given; returns whether it was.
-template <typename Json>
-bool print_json(const boost::program_options::variables_map& values, const JsonHead& head,
-                const Json& object, Streams& streams) {
-  if (values.count("json") == 0) return false;
-  print_json(head, object, streams);
-  return true;
-}
+bool print_result(const boost::program_options::variables_map& values, const JsonHead& head,
+                  const ShowKeys& show, Streams& streams);
 
 // Runs a command. If it throws, --json is among its words, and no object has been printed, prints
 // {"error": {"code", "message", "where", "hint"}} with schema and version as one line on stdout; the

@@ -1,9 +1,9 @@
 #include "io/flow/design/closed_form.h"
 
 #include "io/basics/words.h"
+#include "models/maths/result_visitor.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <stdexcept>
@@ -90,32 +90,31 @@ ClosedFormDesign closed_form_design(
   return design;
 }
 
-nlohmann::json json_from_design(const ClosedFormDesign& d) {
+void show_keys(ResultVisitor& v, const ClosedFormDesign& d) {
   const std::vector<DesignLimit> limits = limits_of(d);
   const LongestPillar longest = longest_of(d);
-  nlohmann::json rows = nlohmann::json::array();
-  for (const DesignLimit& l : limits) {
-    rows.push_back({{"name", l.name},
-                    {"value", l.value},
-                    {"limit", l.limit},
-                    {"unit", l.unit},
-                    {"is_upper", l.is_upper},
-                    {"met", l.is_met()},
-                    {"margin", l.margin()}});
-  }
   const SensorGeometry& g = d.geometry;
-  return {
-      {"admissible", is_admissible(limits)},
-      {"limits", rows},
-      {"longest_m", longest.length_m},
-      {"limited_by", longest.limited_by},
-      {"stress_concentration",
-       stress_concentration(g.diameter_m, g.spacing_m, d.requirements.lattice)},
-      {"sensitivity_V_Pa", sensitivity_V_Pa(g.diameter_m, g.spacing_m, d.material, d.requirements)},
-      {"relative_sensitivity",
-       stress_concentration(g.diameter_m, g.spacing_m, d.requirements.lattice)},
-      {"pitch_m", g.diameter_m + g.spacing_m},
-      {"pull_off_force_N", pull_off_force_N(g.diameter_m, d.material)}};
+  const double concentration =
+      stress_concentration(g.diameter_m, g.spacing_m, d.requirements.lattice);
+  v("admissible", is_admissible(limits), "whether all limits are met");
+  v("limited_by", longest.limited_by, "the limit that decides");
+  v.list("limits", "all limits", limits, [&](const DesignLimit& limit) {
+    v("is_upper", limit.is_upper, "false: a lower limit");
+    v("limit", limit.limit, "that it must keep");
+    v("margin", limit.margin(), "relative distance to the limit");
+    v("met", limit.is_met(), "whether it is kept");
+    v("name", limit.name, "its name");
+    v("unit", limit.unit, "of both");
+    v("value", limit.value, "of this design");
+  });
+  v("longest_m", longest.length_m, "longest admissible pillar");
+  v("pitch_m", g.diameter_m + g.spacing_m, "from pillar to pillar");
+  v("pull_off_force_N", pull_off_force_N(g.diameter_m, d.material), "of a pillar");
+  v("relative_sensitivity", concentration, "to a film without pillars");
+  v("sensitivity_V_Pa", sensitivity_V_Pa(g.diameter_m, g.spacing_m, d.material, d.requirements),
+    "volts for a pascal");
+  v("stress_concentration", concentration,
+    "pressure under a pillar over pressure on the sensor");
 }
 
 std::string text_from_design(const ClosedFormDesign& d) {

@@ -2,14 +2,14 @@
 
 #include "models/sensor/sensor_design.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace viscard {
+
+class ResultVisitor;
 
 // A pillar sensor whose limits are known in closed form (models/README.md, eqs. D1 to D6).
 struct ClosedFormDesign {
@@ -37,8 +37,8 @@ ClosedFormDesign closed_form_design(
     const std::function<std::optional<double>(const char* name, const char* unit)>& given,
     const std::optional<std::string>& lattice);
 
-// The object of `viscard design --json`, and its text with one line for each limit.
-nlohmann::json json_from_design(const ClosedFormDesign& design);
+// The keys of `viscard design --json`, and its text with one line for each limit.
+void show_keys(ResultVisitor& v, const ClosedFormDesign& design);
 std::string text_from_design(const ClosedFormDesign& design);
 
 }  // namespace viscard

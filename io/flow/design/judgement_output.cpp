@@ -1,7 +1,6 @@
 #include "io/flow/design/judgement_output.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -74,34 +73,6 @@ std::string remedies_text(const JudgedLine& line) {
   return line.is_search_complete ? text : text + "; " + cut_off;
 }
 
-nlohmann::json number_or_null(bool exists, double value) {
-  return exists && std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
-}
-
-nlohmann::json json_from_line(const JudgedLine& line) {
-  nlohmann::json remedies = nlohmann::json::array();
-  for (const Remedy& one : line.remedies) {
-    remedies.push_back({{"key", one.key},
-                        {"from_m", one.from_m},
-                        {"to_m", one.to_m},
-                        {"value", one.found.value},
-                        {"error_estimate", one.found.error_estimate}});
-  }
-  const bool has_value = line.found.is_answered;
-  return {{"requirement", line.kind->key},
-          {"quantity", line.kind->what},
-          {"unit", line.kind->unit},
-          {"is_upper", line.kind->is_upper},
-          {"limit", line.limit},
-          {"value", number_or_null(has_value, line.found.value)},
-          {"error_estimate", number_or_null(has_value, line.found.error_estimate)},
-          {"margin", number_or_null(has_value, line.margin)},
-          {"verdict", word_of(line.verdict)},
-          {"reason", line.found.how},
-          {"remedies", remedies},
-          {"search_is_complete", line.is_search_complete}};
-}
-
 }  // namespace
 
 std::string text_from_judgement(const Judgement& judgement) {
@@ -134,10 +105,43 @@ std::string text_from_judgement(const Judgement& judgement) {
                             count(Verdict::kUndecided), count(Verdict::kNotAnswered));
 }
 
-nlohmann::json json_from_judgement(const Judgement& judgement) {
-  nlohmann::json lines = nlohmann::json::array();
-  for (const JudgedLine& line : judgement.lines) lines.push_back(json_from_line(line));
-  return {{"name", judgement.name}, {"passes", judgement.passes()}, {"lines", lines}};
+void show_line(ResultVisitor& v, const JudgedLine& line, const std::function<void()>& more) {
+  const RequirementKind kind = line.kind == nullptr ? requirement_kinds().front() : *line.kind;
+  const auto if_answered = [&](double value) {
+    return line.found.is_answered ? value : number_or_null(std::nullopt);
+  };
+  v("error_estimate", if_answered(line.found.error_estimate), "of the value, absolute");
+  v("is_upper", kind.is_upper, "false: a lower limit");
+  v("limit", line.limit, "that it must keep");
+  v("margin", if_answered(line.margin),
+    "limit over value, or its inverse for a lower limit: below 1 it fails");
+  more();
+  v("quantity", kind.what, "what was computed");
+  v("reason", line.found.how, "how it was computed, or why it is not answered");
+  v("requirement", kind.key, "key in [require]");
+  v("unit", kind.unit, "SI, of limit, value and error");
+  v("value", if_answered(line.found.value), "computed; null: not answered");
+  v.word("verdict", word_of(line.verdict), {"pass", "fail", "undecided", "not answered"},
+         "undecided: nearer to the limit than its error");
+}
+
+void show_keys(ResultVisitor& v, const Judgement& judgement) {
+  v.list("lines", "the requirements", judgement.lines, [&](const JudgedLine& line) {
+    show_line(v, line, [&] {
+      v.list("remedies", "single dimensions that would pass, others fixed; the smallest change first",
+             line.remedies, [&](const Remedy& one) {
+               v("error_estimate", one.found.error_estimate, "its error");
+               v("from_m", one.from_m, "what the scene has");
+               v("key", one.key, "in the scene");
+               v("to_m", one.to_m, "what passes");
+               v("value", one.found.value, "the quantity there");
+             });
+      v("search_is_complete", line.is_search_complete,
+        "false: the time for the remedies was not enough");
+    });
+  });
+  v("name", judgement.name, "of the requirements");
+  v("passes", judgement.passes(), "whether every requirement passes");
 }
 
 }  // namespace viscard

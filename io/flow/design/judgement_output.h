@@ -1,9 +1,9 @@
 #pragma once
 
 #include "io/flow/design/judge_scene.h"
+#include "models/maths/result_visitor.h"
 
-#include <nlohmann/json_fwd.hpp>
-
+#include <functional>
 #include <string>
 
 namespace viscard {
@@ -12,7 +12,9 @@ namespace viscard {
 // and for a line that fails the dimensions that would pass.
 std::string text_from_judgement(const Judgement& judgement);
 
-// The object of viscard design --require, without its head.
-nlohmann::json json_from_judgement(const Judgement& judgement);
+// The keys of viscard design --require --json.
+void show_keys(ResultVisitor& v, const Judgement& judgement);
+// Those of one line; more() shows others among them.
+void show_line(ResultVisitor& v, const JudgedLine& line, const std::function<void()>& more);
 
 }  // namespace viscard

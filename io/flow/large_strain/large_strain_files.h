@@ -4,8 +4,6 @@
 #include "io/plots/plot.h"
 #include "io/tables/column_map.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <cstddef>
 #include <iosfwd>
 #include <optional>
@@ -13,6 +11,8 @@
 #include <vector>
 
 namespace viscard {
+
+class ResultVisitor;
 
 // A file of one test at large strain.
 struct LargeStrainFile {
@@ -59,8 +59,10 @@ struct FittedLargeStrain {
 // of the file.
 FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request);
 
-// The object of `viscard fit --json` and of --out: laws with intervals, tests, flags.
-nlohmann::ordered_json json_from_large_strain(const FittedLargeStrain& fitted);
+// The keys of `viscard fit --json`: laws with intervals, tests, flags.
+void show_keys(ResultVisitor& v, const FittedLargeStrain& fitted);
+// The same as the text of a file, with its schema.
+std::string file_of_large_strain(const FittedLargeStrain& fitted);
 
 // Prints tests, laws and the parameters of the chosen one.
 void print_large_strain(const FittedLargeStrain& fitted, std::ostream& out);

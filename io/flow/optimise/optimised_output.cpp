@@ -3,9 +3,9 @@
 #include "io/flow/design/judgement_output.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <toml++/toml.h>
 
+#include <map>
 #include <sstream>
 
 namespace viscard {
@@ -17,26 +17,37 @@ std::string list_of(const std::vector<std::string>& words) {
   return text;
 }
 
-nlohmann::json json_from_optimised(const OptimisedDesign& design) {
-  nlohmann::json values = nlohmann::json::object(), objectives = nlohmann::json::array();
-  for (const auto& [key, value] : design.values) values[key] = value;
-  for (const DesignedObjective& one : design.objectives) {
-    objectives.push_back({{"quantity", one.quantity},
-                          {"value", one.value},
-                          {"error_estimate", one.error_estimate},
-                          {"unit", one.unit}});
-  }
-  nlohmann::json judgement = json_from_judgement(design.judgement);
-  for (std::size_t k = 0; k < judgement["lines"].size(); ++k) {
-    nlohmann::json& line = judgement["lines"][k];
-    line["probability"] = k < design.probabilities.size() ? nlohmann::json(design.probabilities[k])
-                                                          : nlohmann::json(nullptr);
-    line.erase("remedies");
-    line.erase("search_is_complete");
-  }
-  return {{"feasible", design.is_feasible}, {"values", values},
-          {"objectives", objectives},       {"active", design.active},
-          {"lines", judgement["lines"]},    {"scene", design.scene_text}};
+void show_lines(ResultVisitor& v, const OptimisedDesign& design) {
+  std::size_t k = 0;
+  v.list("lines", "the requirements, as in viscard-design-judge/1", design.judgement.lines,
+         [&](const JudgedLine& line) {
+           show_line(v, line, [&] {
+             v("probability",
+               number_or_null(k < design.probabilities.size()
+                                  ? std::optional(design.probabilities[k])
+                                  : std::nullopt),
+               "that it holds under the uncertainties of the scene; null: not asked");
+           });
+           ++k;
+         });
+}
+
+void show_design(ResultVisitor& v, const OptimisedDesign& design) {
+  v("active", design.active, "limits and ends of ranges that hold it, or that stop every design");
+  v("feasible", design.is_feasible,
+    "whether all lines pass, with the probability that was asked");
+  show_lines(v, design);
+  v.list("objectives", "at this design", design.objectives, [&](const DesignedObjective& one) {
+    v("error_estimate", one.error_estimate, "absolute");
+    v("quantity", one.quantity, "its name");
+    v("unit", one.unit, "of both");
+    v("value", one.value, "of the design");
+  });
+  v("scene", design.scene_text, "the scene file, for the folder of the specification's scene");
+  const std::map<std::string, std::string> values(design.values.begin(), design.values.end());
+  const std::vector<std::pair<std::string, std::string>> sorted(values.begin(), values.end());
+  v.map("values", "of the ranges, by key", sorted,
+        [&](const auto& value) { v(value.first, value.second, "value with its unit"); });
 }
 
 void point_from(toml::table& table, const std::filesystem::path& scene_folder,
@@ -80,18 +91,17 @@ std::string text_from_front(const DesignSpec&, const DesignFront& front) {
   return text + fmt::format("  {} quantities solved\n", front.n_solved);
 }
 
-nlohmann::json json_from_front(const DesignSpec& spec, const DesignFront& front) {
-  nlohmann::json designs = nlohmann::json::array(), objectives = nlohmann::json::array();
-  for (const OptimisedDesign& design : front.designs)
-    designs.push_back(json_from_optimised(design));
-  for (const DesignObjective& one : spec.objectives) {
-    objectives.push_back({{"quantity", one.quantity}, {"goal", one.goal}});
-  }
-  return {{"feasible", front.designs[0].is_feasible},
-          {"objectives", objectives},
-          {"designs", designs},
-          {"quantities_solved", front.n_solved},
-          {"seed", spec.seed}};
+void show_front(ResultVisitor& v, const DesignSpec& spec, const DesignFront& front) {
+  v.list("designs", "best in the first objective first; if none is feasible, the nearest",
+         front.designs, [&](const OptimisedDesign& design) { show_design(v, design); });
+  v("feasible", !front.designs.empty() && front.designs[0].is_feasible,
+    "whether there is a design");
+  v.list("objectives", "what was sought", spec.objectives, [&](const DesignObjective& one) {
+    v.word("goal", one.goal, {"largest", "smallest"}, "which way");
+    v("quantity", one.quantity, "its name");
+  });
+  v("quantities_solved", front.n_solved, "the work");
+  v("seed", spec.seed, "of the search");
 }
 
 std::string csv_from_front(const DesignSpec& spec, const DesignFront& front) {

@@ -2,17 +2,17 @@
 
 #include "io/flow/optimise/design_front.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <filesystem>
 #include <string>
 
 namespace viscard {
 
+class ResultVisitor;
+
 // The designs as text of at most 80 columns.
 std::string text_from_front(const DesignSpec& spec, const DesignFront& front);
-// The object of viscard design SPEC, without its head.
-nlohmann::json json_from_front(const DesignSpec& spec, const DesignFront& front);
+// The keys of viscard design SPEC --json.
+void show_front(ResultVisitor& v, const DesignSpec& spec, const DesignFront& front);
 // One line for each design: choices, ranges in their units, objectives and margins.
 std::string csv_from_front(const DesignSpec& spec, const DesignFront& front);
 

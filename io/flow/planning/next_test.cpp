@@ -3,8 +3,6 @@
 #include "io/capture/capture_file.h"
 #include "io/flow/planning/plan_tests.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -35,19 +33,6 @@ std::vector<NextMeasurement> next_after_capture(const std::string& path, const F
   FittedRun fitted{run.plan, {run.rig, performance_of(run, fit), specimen}, fit};
   fitted.bench.specimen.modulus_guess_Pa = fit.E0_Pa;
   return next_measurements(fitted, wanted);
-}
-
-nlohmann::ordered_json json_from_next(const std::vector<NextMeasurement>& measurements) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const NextMeasurement& one : measurements) {
-    list.push_back({{"what", one.what},
-                    {"how", one.how},
-                    {"quantity", one.quantity},
-                    {"half_width_95", one.before},
-                    {"half_width_95_after", one.after},
-                    {"minutes", one.minutes}});
-  }
-  return {{"text", text_of_next(measurements)}, {"measurements", list}};
 }
 
 }  // namespace viscard

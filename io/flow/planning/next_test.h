@@ -2,8 +2,6 @@
 
 #include "fit/planning/next_measurement.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <string>
 #include <vector>
 
@@ -15,8 +13,5 @@ namespace viscard {
 std::vector<NextMeasurement> next_after_capture(const std::string& path, const FitResult& fit,
                                                 const Specimen& specimen,
                                                 const std::vector<std::string>& want);
-
-// {"text", "measurements"}.
-nlohmann::ordered_json json_from_next(const std::vector<NextMeasurement>& measurements);
 
 }  // namespace viscard

@@ -1,52 +1,51 @@
 #include "io/flow/planning/study_output.h"
 
 #include "io/config/config_file.h"
+#include "models/maths/result_visitor.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace viscard {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json json_of_errors(const ProtocolStudy& study, const ProtocolRow& row) {
-  Json errors = Json::array();
-  for (std::size_t i = 0; i < row.errors.size(); ++i) {
-    const ErrorCauses& causes = row.errors[i];
-    errors.push_back({{"quantity", study.wanted[i].name},
-                      {"half_width_95", causes.half_width_95()},
-                      {"worst_half_width_95", row.worst_half_width[i]},
-                      {"standard_errors",
-                       {{"noise", causes.noise},
-                        {"gain_drift", causes.gain_drift},
-                        {"frame", causes.frame},
-                        {"calibration", causes.calibration},
-                        {"geometry", causes.geometry}}}});
-  }
-  return errors;
+void show_errors(ResultVisitor& v, const ProtocolStudy& study, const ProtocolRow& row) {
+  std::size_t i = 0;
+  v.list("errors", "of the wanted quantities", row.errors, [&](const ErrorCauses& causes) {
+    const bool is_given = i < row.errors.size();
+    v("quantity", is_given ? study.wanted[i].name : "", "its name");
+    v("half_width_95", causes.half_width_95(),
+      "of its interval, relative, with systematic parts");
+    v("worst_half_width_95", is_given ? row.worst_half_width[i] : 0.0,
+      "the largest over the doubt in the guess");
+    v.object("standard_errors", "relative standard errors by cause", [&] {
+      v("noise", causes.noise, "of the readings, with all that is fitted beside the moduli");
+      v("gain_drift", causes.gain_drift, "of the load cell before contact");
+      v("frame", causes.frame, "doubt in the stiffness of the frame");
+      v("calibration", causes.calibration, "doubt in the calibration of the load cell");
+      v("geometry", causes.geometry, "doubt in punch, layer and Poisson ratio");
+    });
+    ++i;
+  });
 }
 
-Json json_of_row(const ProtocolStudy& study, const ProtocolRow& row) {
+void show_row(ResultVisitor& v, const ProtocolStudy& study, const ProtocolRow& row) {
   const TestPlan& plan = row.plan;
-  return {{"time_s", row.total_s},
-          {"touches", row.touches},
-          {"protocol", plan.protocol},
-          {"depth_m", plan.depth_m},
-          {"ramp_s", plan.ramp_s},
-          {"hold_s", plan.hold_s},
-          {"unload_to_fraction", plan.unload_to_fraction},
-          {"recovery_s", plan.recovery_s},
-          {"peak_force_N", row.peak_force_N},
-          {"weakest_term", row.weakest_term},
-          {"errors", json_of_errors(study, row)},
-          {"shortfall", row.shortfall},
-          {"pareto", row.is_on_front},
-          {"given", row.is_given}};
-}
-
-Json json_of_index(const std::optional<std::size_t>& index) {
-  return index ? Json(*index) : Json();
+  v("time_s", row.total_s, "at the rig");
+  v("touches", row.touches, "how often the test is carried out on the specimen");
+  v("protocol", plan.protocol, "of the test file");
+  v("depth_m", plan.depth_m, "depth");
+  v("ramp_s", plan.ramp_s, "duration of the ramp");
+  v("hold_s", plan.hold_s, "hold at full depth");
+  v("unload_to_fraction", plan.unload_to_fraction, "share of the depth after the unloading");
+  v("recovery_s", plan.recovery_s, "hold there; 0: no unloading");
+  v("peak_force_N", row.peak_force_N, "elastic, at full depth");
+  v("weakest_term", row.weakest_term,
+    "smallest modulus of a term over its standard error; below 6 the fit may not find it");
+  show_errors(v, study, row);
+  v("shortfall", row.shortfall,
+    "largest half-width over its tolerance; 1 or less: all that is wanted is met");
+  v("pareto", row.is_on_front, "whether nothing quicker is as accurate");
+  v("given", row.is_given, "whether it is the test of --test");
 }
 
 PlotSeries points_of(const ProtocolStudy& study, bool is_front) {
@@ -70,25 +69,31 @@ PlotSeries single_point(const ProtocolRow& row, const char* label, Ink ink) {
 
 }  // namespace
 
-Json json_from_test_study(const TestStudy& study) {
+void show_keys(ResultVisitor& v, const TestStudy& study) {
   const ProtocolStudy& protocols = study.protocols;
-  Json wanted = Json::array(), rows = Json::array();
-  for (std::size_t i = 0; i < protocols.wanted.size(); ++i) {
-    wanted.push_back({{"quantity", protocols.wanted[i].name},
-                      {"tolerance", protocols.wanted[i].tolerance},
-                      {"beyond_reach", static_cast<bool>(protocols.is_beyond_reach[i])}});
-  }
-  for (const ProtocolRow& row : protocols.rows) rows.push_back(json_of_row(protocols, row));
-  return {{"wanted", wanted},
-          {"guess", study.guess_text},
-          {"rows", rows},
-          {"tried", protocols.n_tried},
-          {"loses_terms", protocols.loses_terms},
-          {"recommended", json_of_index(protocols.advised)},
-          {"meets_all", protocols.meets_all},
-          {"at_equal_time", json_of_index(protocols.at_equal_time)},
-          {"limits", limits_of(study)},
-          {"text", advice_of(study)}};
+  std::size_t i = 0;
+  v.list("wanted", "what is wanted", protocols.wanted, [&](const WantedQuantity& one) {
+    v("quantity", one.name, "its name");
+    v("tolerance", one.tolerance, "relative half-width of its 95 % interval");
+    v("beyond_reach", i < protocols.wanted.size() && protocols.is_beyond_reach[i],
+      "whether the systematic parts alone exceed it; the shortfall then counts without them");
+    ++i;
+  });
+  v("guess", study.guess_text, "where the guess of the material comes from");
+  v.list("rows", "the front and what is near it, by time", protocols.rows,
+         [&](const ProtocolRow& row) { show_row(v, protocols, row); });
+  v("tried", protocols.n_tried, "number of tests that were compared");
+  v("loses_terms", protocols.loses_terms,
+    "whether no test shows all terms of the guess clearly");
+  v.or_null("recommended", protocols.advised,
+            "number in rows, from 0; null: no test fits into the time");
+  v("meets_all", protocols.meets_all, "whether it meets all that is wanted");
+  v.or_null("at_equal_time", protocols.at_equal_time,
+            "the best row that takes no longer than the given test; null: none was given");
+  const bool has_rows = !protocols.rows.empty();
+  v("limits", has_rows ? limits_of(study) : std::vector<std::string>{},
+    "what no test mends, in words");
+  v("text", has_rows ? advice_of(study) : "", "the recommended test in words");
 }
 
 std::string csv_from_test_study(const TestStudy& study, const std::string& command) {

@@ -3,14 +3,15 @@
 #include "io/flow/planning/plan_tests.h"
 #include "io/plots/plot.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <iosfwd>
 #include <string>
 
 namespace viscard {
 
-nlohmann::ordered_json json_from_test_study(const TestStudy& study);
+class ResultVisitor;
+
+// The keys of viscard cost --rig --json.
+void show_keys(ResultVisitor& v, const TestStudy& study);
 std::string csv_from_test_study(const TestStudy& study, const std::string& command);
 Plot plot_from_test_study(const TestStudy& study);
 void print_test_study(const TestStudy& study, std::ostream& out);

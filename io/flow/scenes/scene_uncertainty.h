@@ -12,6 +12,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // Share of one input in the variance of one result.
 struct CauseShare {
   double share = 0.0;           // of this input alone
@@ -50,6 +52,10 @@ struct SceneUncertainty {
   double slope_error = 0.0;       // largest, likewise
   std::vector<std::string> notes;
 };
+
+// Share of the variance that inputs cause only together.
+double share_jointly(const ResultUncertainty& result);
+void show_keys(ResultVisitor& v, const SceneUncertainty& uncertainty);
 
 struct UncertaintyOptions {
   std::optional<std::size_t> n_samples;  // sampled with so many answers; otherwise the plan decides

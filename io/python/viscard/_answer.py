@@ -6,6 +6,8 @@ from typing import Any, Dict, List, NamedTuple, Optional
 
 import numpy as np
 
+from ._result import Result
+
 
 class Value(NamedTuple):
     """A result with its unit (SI) and error estimate (absolute, in the unit); ``float(value)`` is the number.
@@ -96,7 +98,7 @@ class Answer:
         self.fields = [Field(f["name"], f["harmonic"], f["x_m"], f["z_m"], f["quads"], f["values"])
                        for f in found["fields"]]
         self.effects: List[Dict[str, Any]] = found["effects"]
-        self.uncertainty: Optional[Dict[str, Any]] = found["uncertainty"]
+        self.uncertainty = _uncertainty(found["uncertainty"])
         self.notes: List[str] = found["notes"]
         self.within_tolerance: bool = found["within_tolerance"]
         self.unknowns: int = found["unknowns"]
@@ -120,7 +122,25 @@ class Answer:
         return "<viscard.Answer " + ", ".join(shown[:4]) + (", ...>" if len(shown) > 4 else ">")
 
 
-class Plan:
+def _uncertainty(found: Optional[Dict[str, Any]]) -> Optional[Dict[str, Any]]:
+    """By the names of inputs and results; a result without an interval has None."""
+    if found is None:
+        return None
+    results = {}
+    for one in found["results"]:
+        of = {key: one[key] for key in ("value", "unit", "interval_95", "standard_uncertainty", "numerical_error")}
+        if "no_interval" in one:
+            of.update(interval_95=None, no_interval=one["no_interval"])
+        of["shares"] = {cause["input"]: cause["share"] for cause in one["causes"]}
+        of["share_errors"] = {cause["input"]: cause["share_standard_error"] for cause in one["causes"]}
+        results[one["name"]] = of
+    names = ("method", "reason", "answers", "first_order_answers", "failed", "failed_share", "notes")
+    return {**{name: found[name] for name in names}, "results": results,
+            "inputs": {one["name"]: one["text"] for one in found["inputs"]},
+            "derivatives": {one["name"]: one["derivatives"] for one in found["inputs"]}}
+
+
+class Plan(Result):
     """The effects that a scene needs at its tolerance.
 
     Attributes
@@ -138,12 +158,13 @@ class Plan:
     True
     """
 
-    def __init__(self, found: Dict[str, Any]) -> None:
-        self.effects: List[Dict[str, Any]] = found["effects"]
-        self.savings: List[Dict[str, Any]] = found["savings"]
-        self.tolerance: float = found["tolerance"]
-        self.mesh_tolerance: float = found["mesh_tolerance"]
-        self.left_out: float = found["left_out"]
+    def __init__(self, core) -> None:
+        super().__init__(core)
+        self.effects: List[Dict[str, Any]] = self.values["effects"]
+        self.savings: List[Dict[str, Any]] = self.values["savings"]
+        self.tolerance: float = self.values["tolerance"]
+        self.mesh_tolerance: float = self.values["mesh_tolerance"]
+        self.left_out: float = self.values["left_out"]
 
     def is_on(self, effect: str) -> bool:
         for one in self.effects:
@@ -155,7 +176,7 @@ class Plan:
         return "<viscard.Plan on: " + ", ".join(e["name"] for e in self.effects if e["on"]) + ">"
 
 
-class Cost:
+class Cost(Result):
     """Error of a scene against processor time, over discretisations and effects.
 
     Attributes
@@ -175,11 +196,21 @@ class Cost:
     True
     """
 
-    def __init__(self, found: Dict[str, Any]) -> None:
-        for name, value in found.items():
-            setattr(self, name, value)
-        self.pareto = self.pareto.astype(bool)
-        self.unknowns = self.unknowns.astype(int)
+    def __init__(self, core) -> None:
+        super().__init__(core)
+        rows, found = self.values["rows"], self.values
+        self.discretisation: List[str] = [row["discretisation"] for row in rows]
+        self.effects: List[str] = [row["effects"] for row in rows]
+        for name, kind in (("unknowns", int), ("cpu_s", float), ("wall_s", float), ("memory_B", float),
+                           ("error", float), ("pareto", bool)):
+            setattr(self, name, np.array([row[name] for row in rows], dtype=kind))
+        self.recommendations = [(one["tolerance"], -1 if one["row"] is None else one["row"], one["text"])
+                                for one in found["recommendations"]]
+        self.reference: str = found["reference"]
+        self.reference_error: float = found["reference_error"]
+        self.rows_left_out: int = found["rows_left_out"]
+        self.rows_without_answer = [(one["discretisation"], one["effects"], one["reason"])
+                                    for one in found["rows_without_answer"]]
 
     def __repr__(self) -> str:
         return f"<viscard.Cost: {len(self.error)} rows, {int(self.pareto.sum())} on the Pareto front>"

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Dict, Optional
+from typing import Callable, Optional
 
 from . import _check, _core
 from ._arrays import whole
 from ._check import OptionalPath, Path, Progress
 from ._error import Error
+from ._result import Result
 from ._table import Capture, read_capture
 
 
-class CaptureOutcome:
+class CaptureOutcome(Result):
     """How a run ended. ``outcome["key"]`` gives every key of ``viscard capture --json``.
 
     Attributes
@@ -28,13 +29,10 @@ class CaptureOutcome:
     'finished'
     """
 
-    def __init__(self, found: Dict[str, Any], file: str) -> None:
-        self.json = found
+    def __init__(self, core, file: str) -> None:
+        super().__init__(core)
         self.file = file
-        self.status: str = found["status"]
-
-    def __getitem__(self, key: str) -> Any:
-        return self.json[key]
+        self.status: str = self.json["status"]
 
     def read(self) -> Capture:
         """The capture as arrays."""
@@ -91,9 +89,10 @@ def capture(out: Path, *, rig: OptionalPath = None, test: OptionalPath = None, s
             was_enough.append(True)
         return answer
 
-    found = _core.capture(file, words, watched if sample else None, progress)
+    outcome = CaptureOutcome(_core.capture(file, words, watched if sample else None, progress), file)
+    found = outcome.json
     if found["status"] != "finished" and not was_enough:
         error = found.get("error") or {}
         raise Error(found.get("reason") or "the run did not finish", error.get("code", "failed"),
                     error.get("message"), error.get("where", ""), error.get("hint", ""))
-    return CaptureOutcome(found, file)
+    return outcome

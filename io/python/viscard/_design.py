@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping
 from typing import Any, Dict, List, Optional, Union
 
 from . import _check, _core
-from ._arrays import path_of, with_head
+from ._arrays import path_of
 from ._check import OptionalPath, Progress, Quantity
 from ._error import Error
+from ._result import Result
 from ._scene import _scene_toml, _with_scene
 
 
-class Judgement:
+class Judgement(Result):
     """Requirements against the computed quantities of a scene. ``judgement["crosstalk"]`` is one line.
 
     Attributes
@@ -36,11 +36,11 @@ class Judgement:
     'pass'
     """
 
-    def __init__(self, found: Dict[str, Any], text: str) -> None:
-        self.name: str = found["name"]
-        self.passes: bool = found["passes"]
-        self.lines: List[Dict[str, Any]] = found["lines"]
-        self._text = text
+    def __init__(self, core) -> None:
+        super().__init__(core)
+        self.name: str = self.json["name"]
+        self.passes: bool = self.json["passes"]
+        self.lines: List[Dict[str, Any]] = self.json["lines"]
 
     def __getitem__(self, requirement: str) -> Dict[str, Any]:
         for line in self.lines:
@@ -50,13 +50,13 @@ class Judgement:
 
     def summary(self) -> str:
         """The table that viscard design prints."""
-        return self._text
+        return self._core.text()
 
     def __repr__(self) -> str:
         return "<viscard.Judgement " + ", ".join(f"{one['requirement']}: {one['verdict']}" for one in self.lines) + ">"
 
 
-class Designs:
+class Designs(Result):
     """Designs of a specification, the best in its first objective first.
 
     Attributes
@@ -74,20 +74,20 @@ class Designs:
     (True, ['bandwidth'])
     """
 
-    def __init__(self, found: Dict[str, Any], text: str) -> None:
-        self.feasible: bool = found["feasible"]
-        self.designs: List[Dict[str, Any]] = found["designs"]
-        self._text = text
+    def __init__(self, core) -> None:
+        super().__init__(core)
+        self.feasible: bool = self.json["feasible"]
+        self.designs: List[Dict[str, Any]] = self.json["designs"]
 
     def summary(self) -> str:
         """The text that viscard design prints."""
-        return self._text
+        return self._core.text()
 
     def __repr__(self) -> str:
         return f"<viscard.Designs: {len(self.designs)}, {'feasible' if self.feasible else 'not feasible'}>"
 
 
-class DesignLimits:
+class DesignLimits(Result):
     """Closed-form limits of a pillar sensor. ``limits["buckling"]`` is one of them.
 
     Attributes
@@ -108,13 +108,12 @@ class DesignLimits:
     (True, True, 'buckling')
     """
 
-    def __init__(self, found: Dict[str, Any], text: str) -> None:
-        self.json: Dict[str, Any] = with_head("viscard-design/1", [], found)
-        self.admissible: bool = found["admissible"]
-        self.limits: List[Dict[str, Any]] = found["limits"]
-        self.longest_m: float = found["longest_m"]
-        self.limited_by: str = found["limited_by"]
-        self._text = text
+    def __init__(self, core) -> None:
+        super().__init__(core)
+        self.admissible: bool = self.json["admissible"]
+        self.limits: List[Dict[str, Any]] = self.json["limits"]
+        self.longest_m: float = self.json["longest_m"]
+        self.limited_by: str = self.json["limited_by"]
 
     def __getitem__(self, name: str) -> Dict[str, Any]:
         for one in self.limits:
@@ -124,15 +123,11 @@ class DesignLimits:
 
     def summary(self) -> str:
         """The text that viscard design prints."""
-        return self._text
+        return self._core.text()
 
     def __repr__(self) -> str:
         failed = [one["name"] for one in self.limits if not one["met"]]
         return f"<viscard.DesignLimits: {'not met: ' + ', '.join(failed) if failed else 'admissible'}>"
-
-
-def _read(printed):
-    return json.loads(printed[0]), printed[1]
 
 
 _OF_LIMITS = ("diameter", "spacing", "length", "pressure", "modulus", "poisson", "surface_energy", "work_of_adhesion", "strength",
@@ -145,7 +140,7 @@ def _limits(require, tol, folder, values) -> DesignLimits:
         raise Error("--require judges a scene; name its file, such as SCENE.toml", "usage")
     if tol is not None or folder is not None:
         raise Error("tol and folder belong to a scene; give one", "usage")
-    return DesignLimits(*_read(_core.design_limits({name: value for name, value in values.items() if value is not None})))
+    return DesignLimits(_core.design_limits({name: value for name, value in values.items() if value is not None}))
 
 
 @_check.arguments
@@ -184,11 +179,10 @@ def design(scene: Optional[_check.Scene] = None, require: Optional[_check.Scene]
     if require is None:
         if tol is not None or folder is not None:
             raise Error("tol and folder belong to a scene that is judged by require", "usage")
-        return Designs(*_read(_core.design_of_spec(path_of(scene, "scene"), progress)))
+        return Designs(_core.design_of_spec(path_of(scene, "scene"), progress))
     tolerance = None if tol is None else float(tol)
     is_table = isinstance(require, Mapping)
     table = _scene_toml({"require": dict(require)}, "") if is_table else None
     name = "require" if is_table else os.fspath(require)
-    printed, text = _with_scene(scene, folder, lambda scene_text, path: _core.design(
-        scene_text, path, table, name, tolerance, search_time, progress))
-    return Judgement(*_read((printed, text)))
+    return Judgement(_with_scene(scene, folder, lambda scene_text, path: _core.design(
+        scene_text, path, table, name, tolerance, search_time, progress)))

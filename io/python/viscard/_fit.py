@@ -108,8 +108,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
     if joint:
         return JointFit(_core.fit_ratios(paths, keywords, command, progress))
     found = _core.fit_paths(paths, keywords, command, progress)
-    inputs = [[one["file"]] for one in found] if len(found) == len(paths) else [[_file_of(path) for path in paths]]
-    return _results(data, [{"inputs": of_one, **one} for of_one, one in zip(inputs, found)], errors)
+    return _results(data, found, errors)
 
 
 _RUBBER_ONLY = ("weight", "youngs_modulus", "cycle")
@@ -141,7 +140,7 @@ def _fit_arrays(data, keywords, command, progress):
     numbers = {key: data[key] for key in data.keys() if not (isinstance(data, Table) and isinstance(data[key], list))}
     arrays = _arrays.table(numbers, name)
     found = _core.fit_arrays(arrays, name, keywords, command, progress)[0]
-    result = FitResult({"inputs": [name], **found})
+    result = FitResult(found)
     _warn(result, result.file)
     return result
 

@@ -7,10 +7,11 @@ from typing import Any, Dict, List, NamedTuple
 
 import numpy as np
 
-from . import _arrays, _check, _core
+from . import _check, _core
 from ._check import Path
 from ._error import Error
 from ._material import Material
+from ._result import Result
 
 
 class Flag(NamedTuple):
@@ -27,11 +28,11 @@ class Flag(NamedTuple):
     text: str
 
 
-class FitResult:
+class FitResult(Result):
     """A fitted modulus and Prony series with 95 % intervals.
 
     Values are in `unit`: "Pa", or "N/m" (stiffness) or "N" (force) if the geometry or depth is not known.
-    ``result["key"]`` gives every key of ``viscard fit --json``.
+    ``result["key"]`` gives every key of ``viscard fit --json``, ``summary()`` its text.
 
     Attributes
     ----------
@@ -66,27 +67,22 @@ class FitResult:
     """
 
     def __init__(self, found: Dict[str, Any]) -> None:
-        self.json: Dict[str, Any] = _arrays.with_head("viscard-fit/1", found["inputs"], found["json"])
+        super().__init__(found["result"])
         self.file: str = found["file"]
-        self.covariance: np.ndarray = found["covariance"]
-        self.covariance_parameters: List[str] = found["covariance_parameters"]
-        self.curves: Dict[str, Any] = found["curves"]
-        self.flags = [Flag(f["name"], f.get("term", 0), f["text"]) for f in self.json["flags"]]
-        self.is_trustworthy: bool = self.json["trustworthy"]
-        self._letter = next(letter for letter in "EKF" if f"{letter}0_interval_95" in self.json)
+        self.covariance: np.ndarray = self.values["covariance"]
+        self.covariance_parameters: List[str] = self.values["covariance_parameters"]
+        self.curves: Dict[str, Any] = self.values["curves"]
+        self.flags = [Flag(f["name"], f.get("term", 0), f["text"]) for f in self.values["flags"]]
+        self.is_trustworthy: bool = self.values["trustworthy"]
+        self._letter = next(letter for letter in "EKF" if f"{letter}0_interval_95" in self.values)
         self._suffix = {"E": "_Pa", "K": "_N_m", "F": "_N"}[self._letter]
         self._stem = {"E": "modulus", "K": "stiffness", "F": "force"}[self._letter] + self._suffix
         self.unit: str = {"E": "Pa", "K": "N/m", "F": "N"}[self._letter]
-        self._text: str = found["text"]
         self._material = found["material"]
         self._no_material: str = found["no_material"]
 
-    def __getitem__(self, key: str) -> Any:
-        return self.json[key]
-
     def _value(self, name: str) -> float:
-        value = self.json[self._letter + name + self._suffix]
-        return float("nan") if value is None else value
+        return self.values[self._letter + name + self._suffix]
 
     def _in_Pa(self, value: float) -> float:
         if self.unit != "Pa":
@@ -116,21 +112,21 @@ class FitResult:
 
     @property
     def E0_interval(self):
-        return _arrays.pair(self.json[self._letter + "0_interval_95"])
+        return self.values[self._letter + "0_interval_95"]
 
     @property
     def E_inf_interval(self):
-        return _arrays.pair(self.json[self._letter + "_inf_interval_95"])
+        return self.values[self._letter + "_inf_interval_95"]
 
     @property
     def E0_combined_interval(self):
-        return _arrays.pair(self.json[self._letter + "0_combined_interval_95"])
+        return self.values[self._letter + "0_combined_interval_95"]
 
     def _terms(self, key: str) -> np.ndarray:
-        return _arrays.column(self.json["terms"], lambda term: term[key])
+        return np.array([term[key] for term in self.values["terms"]], dtype=float)
 
     def _intervals(self, key: str) -> np.ndarray:
-        rows = [_arrays.pair(term["interval_95"][key]) for term in self.json["terms"]]
+        rows = [term["interval_95"][key] for term in self.values["terms"]]
         return np.array(rows, dtype=float).reshape(-1, 2)
 
     @property
@@ -166,7 +162,7 @@ class FitResult:
 
     def summary(self) -> str:
         """The text of ``viscard fit``: moduli with intervals, the table of orders, flags."""
-        return self._text
+        return self._core.text()
 
     def plot(self, ax=None, **style):
         """Data and fit on logarithmic time (or frequency; of an indentation, on linear time). Needs matplotlib.
@@ -192,7 +188,7 @@ class FitResult:
 
     def __repr__(self) -> str:
         low, high = self.E0_interval
-        n = len(self.json["terms"])
+        n = len(self.values["terms"])
         doubt = "" if self.is_trustworthy else ", not to be trusted"
         return (f"<viscard.FitResult {self.file}: E0 {self.E0:.6g} {self.unit} "
                 f"(95 % {low:.6g} to {high:.6g}), {n} term{'' if n == 1 else 's'}{doubt}>")

@@ -11,6 +11,7 @@ import numpy as np
 from . import _arrays, _check, _core
 from ._card import Card
 from ._check import OptionalPath, Path, Quantity, Texts
+from ._result import Result
 
 
 class Material:
@@ -218,7 +219,7 @@ def _from_json(text: str) -> Material:
     return Material._of(_core.material_from_json(text, "material"))
 
 
-class Prediction:
+class Prediction(Result):
     """A predicted test.
 
     Attributes
@@ -243,18 +244,17 @@ class Prediction:
     True
     """
 
-    def __init__(self, found: Dict[str, Any]) -> None:
-        self.json = found
-        columns = {name: np.array(values, dtype=float) for name, values in found["curve"].items()}
-        self.inside = columns.pop("inside_window").astype(bool)
+    def __init__(self, core) -> None:
+        super().__init__(core)
+        columns = dict(self.values["curve"])
+        self.inside = columns.pop("inside_window")
         self.argument: str = next(iter(columns))
         self.at = columns.pop(self.argument)
         self.low = {n[:-7]: values for n, values in columns.items() if n.endswith("_low_95")}
         self.high = {n[:-8]: values for n, values in columns.items() if n.endswith("_high_95")}
         self.curves = {n: values for n, values in columns.items() if not n.endswith(("_low_95", "_high_95"))}
-        against = found.get("against") or {}
-        self.agreement: List[Dict[str, Any]] = against.get("quantities", [])
-        self.notes: List[str] = found["notes"]
+        self.agreement: List[Dict[str, Any]] = self.values.get("against", {}).get("quantities", [])
+        self.notes: List[str] = self.values["notes"]
 
     def __repr__(self) -> str:
         return f"<viscard.Prediction of {', '.join(self.curves)}: {len(self.at)} rows>"
@@ -290,4 +290,4 @@ def predict(material: Union[Material, Path], *, test: Optional[str] = None, stra
     keywords = {name: value for name, value in given.items() if name != "material" and value is not None}
     one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"))
     inputs = [os.fspath(path) for path in (material, history, against) if isinstance(path, (str, os.PathLike))]
-    return Prediction(_arrays.with_head("viscard-predict/1", inputs, _core.predict(one._core, keywords)))
+    return Prediction(_core.predict(one._core, keywords, inputs))

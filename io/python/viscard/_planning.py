@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any, Dict, List, Sequence, Union
 
 from . import _check, _core
 from ._check import OptionalPath, Path
+from ._result import Result
 
 
-class TestCost:
+class TestCost(Result):
     """Tests compared by their errors and their time at the rig.
 
     Attributes
@@ -35,9 +35,9 @@ class TestCost:
     __test__ = False  # for pytest
 
     def __init__(self, found: Dict[str, Any]):
-        self.json: Dict[str, Any] = json.loads(found["json"])
+        super().__init__(found["result"])
         self.rows: List[Dict[str, Any]] = self.json["rows"]
-        self.advice: str = found["advice"]
+        self.advice: str = self.json["text"]
         self.test: str = found["test"]
 
     def __repr__(self) -> str:

@@ -11,6 +11,8 @@
 
 namespace viscard {
 
+class ResultVisitor;
+
 // One number that a scene gives.
 struct SceneResult {
   std::string name;
@@ -110,6 +112,18 @@ struct SceneAnswer {
   bool within_tolerance = true;  // every error estimate; set by simulate()
   double step_error = 0.0;  // relative, of time steps and reduced bases; part of the errors above
 };
+
+// The keys of a list "effects"; an effect that has nothing to act on has no estimate.
+bool acts(const SceneEffect& effect);
+void show_keys(ResultVisitor& v, const SceneEffect& effect);
+// An answer in parts, because a command shows others between them: mesh, effects, maps and modes, then
+// notes, places of pillars, then results, each in the order of names.
+void show_solution(ResultVisitor& v, const SceneAnswer& answer);
+void show_notes(ResultVisitor& v, const SceneAnswer& answer);
+void show_results(ResultVisitor& v, const SceneAnswer& answer);
+// Numbers of a map by pillar, NaN for pillars without one.
+std::vector<double> by_pillar(const SceneArray& array, const SceneMap& map,
+                              const std::vector<double>& numbers);
 
 // Adds a complex amplitude over frequency: curves of its real and imaginary part, magnitude and
 // phase, and the magnitude at either end. `allowed` is the size that the tolerance refers to.

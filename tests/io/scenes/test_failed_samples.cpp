@@ -3,6 +3,7 @@
 #include "io/cli/scene/uncertainty_output.h"
 #include "io/config/quantity_text.h"
 #include "io/flow/scenes/scene_uncertainty.h"
+#include "io/results/result_json.h"
 #include "models/scene/simulate.h"
 #include "tests/io/scenes/scene_text.h"
 
@@ -68,7 +69,7 @@ TEST_CASE("samples beyond buckling widen an interval, and too many of them leave
   CHECK_THAT(narrow.notes.back(), Catch::Contains("beyond either end"));
   const SceneText many(replaced(kPressed, "10 kPa +- 1 %", "27 kPa +- 20 %"));
   const SceneUncertainty wide = uncertainty_in(many.path(), {.n_samples = 100});
-  const auto object = json_from_uncertainty(wide);
+  const auto object = json_from_result(wide);
   CHECK(object["failed_share"] > 0.025);
   const auto printed = nlohmann::json::parse(object.dump());  // what is not finite is null there
   const auto& result = printed["results"][0];

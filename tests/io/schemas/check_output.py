@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Runs every command of viscard with --json and compares what it prints with io/schemas.
+"""Runs every command of viscard with --json and compares what it prints with the schemas that it writes.
 
 check_output.py VISCARD SOURCE_FOLDER
 """
 import copy
+import difflib
 import json
 import os
 import pathlib
@@ -16,10 +17,13 @@ import jsonschema
 
 VISCARD, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 SCHEMAS = {}
-for path in sorted((SOURCE / "io/schemas").glob("*.schema.json")):
-    schema = json.loads(path.read_text())
-    jsonschema.Draft202012Validator.check_schema(schema)
-    SCHEMAS[schema["properties"]["schema"]["const"]] = schema
+with tempfile.TemporaryDirectory() as written:
+    subprocess.run([VISCARD, "help", "--schemas", written], check=True, stdout=subprocess.DEVNULL)
+    for path in sorted(pathlib.Path(written).glob("*.schema.json")):
+        schema = json.loads(path.read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        SCHEMAS[schema["properties"]["schema"]["const"]] = schema
+    KEYS = pathlib.Path(written, "keys.txt").read_text()
 BY_ID = {schema["$id"]: schema for schema in SCHEMAS.values()}
 
 mistakes = []
@@ -191,6 +195,13 @@ def check_rest():
     run(["export", "series", "--out", "/nowhere/run.csv"], "error", 1)
 
 
+def check_keys():
+    """Keys, their types and "?" of those that are not always there are kept in keys.txt."""
+    kept = pathlib.Path(__file__).with_name("keys.txt").read_text()
+    change = difflib.unified_diff(kept.splitlines(), KEYS.splitlines(), "keys.txt", "viscard help --schemas", n=0, lineterm="")
+    mistakes.extend(change)
+
+
 def check_that_mistakes_are_found():
     """A schema that accepted anything would find nothing wrong."""
     good = json.loads(subprocess.run([VISCARD, "--version", "--json"], capture_output=True, text=True).stdout)
@@ -206,7 +217,7 @@ def check_that_mistakes_are_found():
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for part in (check_rig, check_serve, check_fit, check_card, check_scenes, check_rest,
+        for part in (check_rig, check_serve, check_fit, check_card, check_scenes, check_rest, check_keys,
                      check_that_mistakes_are_found):
             try:
                 part()
