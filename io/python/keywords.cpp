@@ -1,6 +1,6 @@
 #include "io/python/keywords.h"
 
-#include "io/basics/units.h"
+#include "io/basics/option_quantity.h"
 #include "io/flow/words/option_error.h"
 #include "io/flow/words/option_fields.h"
 
@@ -77,14 +77,28 @@ OptionalText text_from(const char* name, const py::handle& value) {
   refuse_type(name, "a text or a number", value);
 }
 
-std::optional<double> quantity_from(const char* name, const py::handle& value,
-                                    const char* si_unit) {
-  const OptionalText text = text_from(name, value);
-  if (!text) return std::nullopt;
+Plausible judged_by(const std::string& plausible, Plausible otherwise) {
   try {
-    return si_from_text(*text, si_unit);
+    return plausible_from_word(plausible, otherwise);
   } catch (const std::invalid_argument& error) {
-    throw OptionError(std::string(name) + ": " + error.what());
+    throw OptionError(error.what());
+  }
+}
+
+void refuse_keyword(const char* name, double value, const Quantity& quantity, Plausible judged) {
+  try {
+    refuse_implausible_option(name, value, quantity, judged);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+}
+
+std::optional<double> quantity_from(const char* name, const py::handle& value,
+                                    const QuantityOrUnit& quantity, Plausible judged) {
+  try {
+    return option_quantity(name, text_from(name, value), quantity, judged);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
   }
 }
 
@@ -125,11 +139,9 @@ FitWords fit_words_from(const py::dict& keywords) {
 
 LargeStrainWords large_strain_words_from(const py::dict& keywords) {
   LargeStrainWords words;
-  const std::pair<const char*, OptionalText*> texts[] = {{"model", &words.model},
-                                                         {"weight", &words.weight},
-                                                         {"youngs_modulus", &words.youngs_modulus},
-                                                         {"cycle", &words.cycle},
-                                                         {"sheet", &words.sheet}};
+  const std::pair<const char*, OptionalText*> texts[] = {
+      {"model", &words.model}, {"weight", &words.weight}, {"youngs_modulus", &words.youngs_modulus},
+      {"cycle", &words.cycle}, {"sheet", &words.sheet},   {"plausible", &words.plausible}};
   for (const auto& [name, text] : texts) {
     if (keywords.contains(name)) *text = text_from(name, keywords[name]);
   }

@@ -222,8 +222,9 @@ int run_card(const Words& words, Streams& streams) {
   if (!values) return kDone;
   card.material = given(*values, "material").value_or("");
   card.temperature_C = given_quantity(*values, "at-temperature", "degC");
-  card.bulk_Pa = given_quantity(*values, "bulk-modulus", "Pa");
+  card.bulk_Pa = given_quantity(*values, "bulk-modulus", quantities::kBulkModulus);
   card.density_kg_m3 = given_quantity(*values, "density", "kg/m3");
+  card.plausible = given_plausible(*values);
   card.json = values->count("json") > 0;
   if (const auto terms = given(*values, "terms")) card.terms = number_of_terms(*terms);
   if (const auto band = given(*values, "band")) card.band = band_from_text(*band);

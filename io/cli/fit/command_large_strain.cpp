@@ -21,8 +21,8 @@ namespace {
 // Options of `viscard fit` that have a meaning at large strain.
 void refuse_other_options(const po::variables_map& values) {
   static const std::set<std::string> kKnown{
-      "file",  "json",   "out", "force", "model",          "column", "sheet",
-      "cycle", "weight", "svg", "help",  "youngs-modulus", "terms",  "max-terms"};
+      "file",   "json", "out",  "force",          "model", "column",    "sheet",    "cycle",
+      "weight", "svg",  "help", "youngs-modulus", "terms", "max-terms", "plausible"};
   for (const auto& [name, value] : values) {
     if (value.defaulted() || kKnown.count(name) > 0) continue;
     throw UsageError("--" + name + " does not belong to tests at large strain; omit it");
@@ -67,7 +67,7 @@ int run_large_strain(const std::vector<LargeStrainFile>& files, const po::variab
   const LargeStrainRequest request = with_usage_errors([&] {
     return large_strain_request(
         {given(values, "model"), given(values, "weight"), given(values, "youngs-modulus"),
-         given(values, "cycle"), given(values, "sheet"),
+         given(values, "cycle"), given(values, "sheet"), given(values, "plausible"),
          given<Words>(values, "column").value_or(Words{}), given<int>(values, "terms"),
          values["max-terms"].defaulted() ? std::nullopt : given<int>(values, "max-terms")},
         files);

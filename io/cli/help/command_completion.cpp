@@ -29,6 +29,7 @@ int run_completion(const Words& words, Streams& streams, const AskDocuments& doc
                        "Prints the script with which bash, zsh or fish complete commands, options "
                        "and their values. For bash: source <(viscard completion bash)",
                        "viscard completion bash"};
+  syntax.reads_quantities = false;
   syntax.positional = {"shell"};
   syntax.choices["shell"] = shell_names();
   const auto values = parse_words(syntax, words, streams);

@@ -20,6 +20,7 @@ CommandSyntax help_syntax(const Words& names) {
                        "Explains a command, as --help of the command does, or lists all commands. "
                        "--man prints the source of the manual page instead.",
                        "viscard help fit"};
+  syntax.reads_quantities = false;
   syntax.options.add_options()("man", "print the manual page, for man -l -");
   syntax.positional = {"command", "what"};
   syntax.choices["command"] = names;

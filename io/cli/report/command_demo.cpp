@@ -198,6 +198,7 @@ CommandSyntax demo_syntax() {
       "cards, validation and one HTML page. Prints each command as you would type it. Results of "
       "an earlier demo that are up to date are kept.",
       "viscard demo --out demo"};
+  syntax.reads_quantities = false;
   auto add = syntax.options.add_options();
   add("out", po::value<std::string>()->default_value("demo"), "folder for all results");
   add("data", po::value<std::string>(),

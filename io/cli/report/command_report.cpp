@@ -136,6 +136,7 @@ ReportRequest checked_words(const po::variables_map& values, const Words& words,
                                  counted(report.truth_files.size(), "truth file"),
                                  counted(measured_count(report.files), "capture")));
   }
+  report.plausible = given_plausible(values);
   if (values.count("reproducible") == 0) report.created_at = now_iso8601();
   return report;
 }

@@ -230,7 +230,7 @@ int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
   double capacity_N = words.capacity_N.value_or(0.0);
   if (words.data_file) {
     if (capacity_N == 0.0 && words.rig_file) {
-      capacity_N = read_rig(*words.rig_file).calibration.capacity_N;
+      capacity_N = read_rig(*words.rig_file, words.plausible).calibration.capacity_N;
     }
     readings = readings_from_table(words);
   } else {

@@ -216,6 +216,7 @@ int run_capture(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   asked.as_json = values->count("json") > 0;
+  asked.plausible = given_plausible(*values);
   asked.lift_wait_s = given_quantity(*values, "lift-wait", "s");
   check_words(asked);
   const std::vector<SeriesStep> steps = series_from_words(asked);

@@ -20,6 +20,7 @@ namespace {
 
 CommandSyntax export_syntax() {
   CommandSyntax syntax;
+  syntax.reads_quantities = false;
   syntax.usage = "viscard export RUN.viscap [--out FILE.csv] [OPTIONS]";
   syntax.description =
       "Writes every sample of a capture as CSV: time, counts, volts, force, stage position, "

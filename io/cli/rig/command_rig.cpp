@@ -161,8 +161,9 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
   if (!(seconds >= 1.0) || seconds > 3600.0) {
     throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", seconds));
   }
-  const RigConfig rig =
-      values.count("rig") > 0 ? read_rig(values["rig"].as<std::string>()) : demo_rig();
+  const RigConfig rig = values.count("rig") > 0
+                            ? read_rig(values["rig"].as<std::string>(), given_plausible(values))
+                            : demo_rig();
   RigCheck found = check_rig_config(rig, is_emulated, seconds);
   if (values.count("rig") > 0) add_calibration(rig, found);
   if (as_json) {
@@ -190,7 +191,8 @@ int run_rig(const Words& words, Streams& streams) {
   }
   if (what == "list") {
     std::optional<RigConfig> rig;
-    if (values->count("rig") > 0) rig = read_rig((*values)["rig"].as<std::string>());
+    if (values->count("rig") > 0)
+      rig = read_rig((*values)["rig"].as<std::string>(), given_plausible(*values));
     return list_ports(rig, given_words(*values, {"rig"}), as_json, streams);
   }
   if (what == "overshoot") return show_overshoot(as_json, streams);

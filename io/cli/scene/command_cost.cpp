@@ -53,7 +53,9 @@ int run_cost(const Words& words, Streams& streams) {
   const auto path = required(*values, "scene", syntax);
   CostOptions options{.budget_s = *given_quantity(*values, "budget", "s")};
   if (!(options.budget_s > 0.0)) throw UsageError("--budget must be positive, such as 60s");
-  const Scene scene = read_scene(path).scene;
+  const SceneFile file = read_scene(path, given_plausible(*values, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  const Scene scene = file.scene;
   CostStudy study;
   {
     Progress progress(streams, "cost");

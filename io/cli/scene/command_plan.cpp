@@ -158,7 +158,9 @@ int run_plan(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   const auto path = required(*values, "scene", syntax);
-  Scene scene = read_scene(path).scene;
+  const SceneFile file = read_scene(path, given_plausible(*values, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  Scene scene = file.scene;
   apply_tolerance(*values, scene);
   const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
   std::vector<EffectSaving> savings;

@@ -39,7 +39,9 @@ int run_scene(const Words& words, Streams& streams) {
     throw UsageError(std::string("usage: ") + syntax.usage);
   }
   const auto path = required(*values, "scene", syntax);
-  const Scene scene = read_scene(path).scene;
+  const SceneFile file = read_scene(path, given_plausible(*values, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  const Scene scene = file.scene;
   // Reading finds neither effects that cannot be off nor buckling.
   with_lines_of(path, [&] { return checked_plan(scene); });
   const std::string name = std::filesystem::path(path).filename().string();

@@ -113,7 +113,8 @@ int run_simulate(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   const auto path = required(*values, "scene", syntax);
-  SceneFile file = read_scene(path);
+  SceneFile file = read_scene(path, given_plausible(*values, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
   apply_tolerance(*values, file.scene);
   const bool is_sweep = !file.sweep.is_empty();
   const std::string folder = given(*values, "out").value_or("");
@@ -124,10 +125,11 @@ int run_simulate(const Words& words, Streams& streams) {
       is_sweep ? run_sweep(file, path, output, streams) : answer_of(file.scene, path, streams);
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (file.accepts_implausible) answer.notes.emplace_back(kPlausibleOffText);
   const auto printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
   const auto uncertainty = uncertainty_of(*values, file, path, answer, streams);
-  const JsonHead head{"viscard-simulate/1", {path}};
+  const JsonHead head{"viscard-simulate/1", {path}, streams.accepts_implausible};
   nlohmann::json object = with_head(head, json_from_answer(answer, wall_s));
   if (!printed.empty()) object["printed"] = json_from_comparison(printed);
   if (uncertainty) object["uncertainty"] = json_from_uncertainty(*uncertainty);

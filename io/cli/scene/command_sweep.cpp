@@ -45,7 +45,10 @@ const SweepProgram& on_all_cores() {
       "other "
       "machines (--shard) and be merged; viscard-mpi answers one on many machines at once.",
       "viscard sweep data/studies/pillar.toml --out study.sqlite --csv study.csv", nullptr,
-      [](const SweepJob& job) { return run_study(job.study, job.shard, job.store, job.progress); }};
+      [](const SweepJob& job) {
+        return run_study(job.study, job.shard, job.store, job.progress,
+                         given_plausible(job.values, Plausible::kScene));
+      }};
   return kProgram;
 }
 
@@ -88,7 +91,7 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
   if (table) refuse_existing(*table, values->count("force") > 0);
   const Study study = read_study(path);
   // A mistake in the study or its scene is reported here, not once for each point.
-  scene_from_toml(scene_text_with(study, values_at(study, 0)), study.scene_path);
+  check_values(study, given_plausible(*values, Plausible::kScene));
   const std::string file =
       given(*values, "out").value_or(std::filesystem::path(path).stem().string() + ".sqlite");
   StudyStore store(file, study);

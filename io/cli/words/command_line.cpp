@@ -1,6 +1,6 @@
 #include "io/cli/words/command_line.h"
 
-#include "io/basics/units.h"
+#include "io/basics/option_quantity.h"
 #include "io/basics/words.h"
 #include "io/cli/words/help_text.h"
 #include "io/cli/words/json_output.h"
@@ -134,6 +134,11 @@ void add_common_options(CommandSyntax& syntax) {
       "auto, always or never; auto colours a terminal unless NO_COLOR is set or TERM is dumb")(
       "help,h", "print this");
   syntax.choices["color"] = {"auto", "always", "never"};
+  if (!syntax.reads_quantities) return;
+  syntax.options.add_options()("plausible", po::value<std::string>()->default_value("on"),
+                               "off: accept values that no test, material or scene can have (a "
+                               "wrong unit, most often); the result says so");
+  syntax.choices["plausible"] = {"on", "off"};
 }
 
 void check_color(const std::string& when) {
@@ -192,20 +197,29 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax, const Words&
     return std::nullopt;
   }
   check_color(values["color"].as<std::string>());
+  streams.accepts_implausible = given_plausible(values) == Plausible::kOff;
   check_output_paths(values, syntax.may_exist);
   check_what(syntax, values);
   po::notify(values);
   return values;
 }
 
-std::optional<double> given_quantity(const po::variables_map& values, const char* name,
-                                     const char* si_unit) {
-  const auto text = given(values, name);
-  if (!text) return std::nullopt;
+Plausible given_plausible(const po::variables_map& values, Plausible otherwise) {
+  const auto word = given(values, "plausible");
   try {
-    return si_from_text(*text, si_unit);
+    return word ? plausible_from_word(*word, otherwise) : otherwise;
   } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--") + name + ": " + error.what());
+    throw UsageError(std::string("--") + error.what());
+  }
+}
+
+std::optional<double> given_quantity(const po::variables_map& values, const char* name,
+                                     const QuantityOrUnit& quantity) {
+  try {
+    return option_quantity(std::string("--") + name, given(values, name), quantity,
+                           given_plausible(values));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "io/cli/words/command_syntax.h"
 #include "io/cli/words/streams.h"
+#include "models/quantities/plausible.h"
 
 #include <boost/program_options.hpp>
 
@@ -31,9 +32,14 @@ std::optional<Value> given(const boost::program_options::variables_map& values, 
   return values.count(name) > 0 ? std::optional(values[name].as<Value>()) : std::nullopt;
 }
 
-// The same in SI of a number or a text with its unit. Throws UsageError naming the option.
+// How --plausible wants numbers judged: `otherwise`, or kOff.
+Plausible given_plausible(const boost::program_options::variables_map& values,
+                          Plausible otherwise = Plausible::kMeasured);
+
+// The same in SI of a number or a text with its unit. Throws UsageError naming the option if it is no
+// such quantity or, unless --plausible is off, no plausible one.
 std::optional<double> given_quantity(const boost::program_options::variables_map& values,
-                                     const char* name, const char* si_unit);
+                                     const char* name, const QuantityOrUnit& quantity);
 
 // A positional word. Throws UsageError "no scene given; usage: ..." if it is missing.
 template <typename Value = std::string>

@@ -17,6 +17,7 @@ struct CommandSyntax {
   // Names of positional words in order; a repeatable last one takes all remaining words.
   std::vector<std::string> positional;
   bool last_is_repeatable = false;
+  bool reads_quantities = true;  // has --plausible
   // The values that an option or a positional word may have, for help and completion.
   std::map<std::string, std::vector<std::string>> choices;
   // The outputs that may exist already: folders, and files that are continued. All others are new files.

@@ -15,6 +15,7 @@ namespace viscard {
 struct JsonHead {
   const char* schema;  // "viscard-fit/1"
   Words inputs;
+  bool accepts_implausible = false;  // "plausible": "off"
 };
 
 // The values of those options and positional words that were given, in this order.

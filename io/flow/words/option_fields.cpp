@@ -20,7 +20,8 @@ OptionFields option_fields(FitWords& words) {
                   {"layer-thickness", &words.layer_thickness},
                   {"frame-stiffness", &words.frame_stiffness},
                   {"reference-temperature", &words.reference_temperature},
-                  {"density", &words.density}};
+                  {"density", &words.density},
+                  {"plausible", &words.plausible}};
   fields.flags = {{"liquid", &words.liquid},
                   {"solid", &words.solid},
                   {"allow-negative", &words.allow_negative},
@@ -56,7 +57,8 @@ OptionFields option_fields(PredictWords& words) {
                   {"driven-by", &words.driven_by},
                   {"against", &words.against},
                   {"time-zero", &words.time_zero},
-                  {"temperature", &words.temperature}};
+                  {"temperature", &words.temperature},
+                  {"plausible", &words.plausible}};
   fields.lists = {{"column", &words.column}};
   fields.whole_numbers = {{"cycles", &words.cycles}, {"points", &words.points}};
   return fields;

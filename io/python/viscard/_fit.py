@@ -57,7 +57,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
         density: Quantity = None, ratio: Union[float, Sequence[float], None] = None,
         joint: bool = False, specimen_id: Texts = None, own_terms: bool = False,
         share: Texts = None, weight: Optional[str] = None, youngs_modulus: Quantity = None,
-        cycle: Union[int, str, None] = None, errors: str = "raise", progress: Progress = None):
+        cycle: Union[int, str, None] = None, plausible: Optional[str] = None, errors: str = "raise", progress: Progress = None):
     """Fit the instantaneous modulus and a Prony series, with 95 % intervals.
 
     Parameters
@@ -67,7 +67,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
         tests of one material, fitted together into one result; "uniaxial=a.csv", "compression=b.csv", "planar=c.csv",
         "equibiaxial=d.csv" are tests of rubber at large strain. A dict has arrays of shape (rows,) by header with
         unit: ``{"time_s": t, "modulus_Pa": E}``, ``{"Time [ms]": t, "Force [mN]": F}``; a message about
-        "arrays:7" means row 7, from 1.
+        "arrays:7" means row 7, from 1. Rows that a masked array masks are left out.
     errors : "raise" or "return"
         Of a list: "return" puts the Error of a file that cannot be fitted in the place of its result.
     progress : function of (fraction, step)
@@ -125,7 +125,7 @@ def _fit_rubber(paths, keywords):
     from ._rubber import RubberFit
 
     for name, value in keywords.items():
-        if name not in _RUBBER_ONLY + ("model", "column", "sheet", "terms", "max_terms") and value is not False:
+        if name not in _RUBBER_ONLY + ("model", "column", "sheet", "terms", "max_terms", "plausible") and value is not False:
             raise Error(f"{name} does not belong to tests at large strain; omit it", "usage")
     if isinstance(keywords.get("cycle"), int):
         keywords["cycle"] = str(keywords["cycle"])
