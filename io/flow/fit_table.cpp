@@ -280,17 +280,18 @@ std::optional<MaterialFlag> doubtful_size(const CsvTable& table, const FitReques
     return strain_flag(table, request.columns, request.plausible);
   }
   // A stage also moves before it touches.
-  if (kind != FitKind::kIndentation || !request.specimen || request.frame_stiffness_N_m > 0.0) {
-    return std::nullopt;
-  }
+  if (kind != FitKind::kIndentation || request.frame_stiffness_N_m > 0.0) return std::nullopt;
   const auto use = find_column(table, "depth_m", request.columns);
-  if (!use) return std::nullopt;
+  // An extension in its unit may be long.
+  if (!use || (!request.specimen && !use->is_unit_assumed)) return std::nullopt;
   double deepest_m = 0.0;
   for (const double depth_m : column_with_gaps_SI(table, "depth_m", request.columns)) {
     if (std::isfinite(depth_m)) deepest_m = std::max(deepest_m, depth_m);
   }
   const std::string remedy =
       use->is_unit_assumed ? words_for_factor(table, "depth_m", *use, 1e-3) : "";
+  refuse_depth(table, deepest_m, request.plausible, remedy);
+  if (!request.specimen) return std::nullopt;
   return depth_flag(deepest_m, request.specimen->contact.layer_thickness_m, request.plausible,
                     remedy);
 }

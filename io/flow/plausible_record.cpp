@@ -27,15 +27,24 @@ std::optional<MaterialFlag> strain_flag(const CsvTable& table, const ColumnMap& 
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   }
   if (largest > kLargestBareStrain && !use->is_unit_stated && judged != Plausible::kOff) {
-    throw BadNumber(
-        table.file + ": the column '" + table.columns[use->index].header +
-        "' states no unit, and its largest value is " + text_of(largest, 4) + ", a strain of " +
-        text_of(100.0 * largest, 4) + " %; for a linear law at most " +
-        text_of(kLargestBareStrain) + " is read without a unit. If the column is in per cent, " +
-        words_for_factor(table, "strain", *use, 0.01) +
-        "; if it is not, state its unit, as in 'strain (-)', or add --plausible off");
+    throw BadNumber(table.file + ": the column '" + table.columns[use->index].header +
+                    "' states no unit, and its largest value is " + text_of(largest, 4) +
+                    ", a strain of " + text_of(100.0 * largest, 4) +
+                    " %; for a linear law at most " + text_of(kLargestBareStrain) +
+                    " is read without a unit. If the column is in per cent, " +
+                    words_for_factor(table, "strain", *use, 0.01) +
+                    "; if it is not, state its unit, as in 'strain (-)', or add --plausible off");
   }
   return strain_flag(largest);
+}
+
+void refuse_depth(const CsvTable& table, double deepest_m, Plausible judged,
+                  const std::string& remedy) {
+  const auto doubt = doubt_about(quantities::kDepth, deepest_m, judged);
+  if (!doubt) return;
+  throw BadNumber(
+      table.file + ": the largest depth " +
+      doubt->with_remedy(remedy.empty() ? "correct the unit" : remedy, "add --plausible off"));
 }
 
 std::optional<MaterialFlag> depth_flag(double deepest_m, double layer_m, Plausible judged,
@@ -45,9 +54,9 @@ std::optional<MaterialFlag> depth_flag(double deepest_m, double layer_m, Plausib
   const auto length = [](double value_m) { return text_with_unit(value_m, "m"); };
   if (share > kDeepest && judged != Plausible::kOff) {
     throw BadNumber("the depth reaches " + length(deepest_m) + ", but the layer is " +
-                             length(layer_m) + " thick: no tip goes deeper. " +
-                             (remedy.empty() ? "" : "If the depths are in mm, " + remedy + "; ") +
-                             "if they are right, correct --layer-thickness or the specimen file");
+                    length(layer_m) + " thick: no tip goes deeper. " +
+                    (remedy.empty() ? "If" : "If the depths are in mm, " + remedy + "; if") +
+                    " they are right, correct --layer-thickness or the specimen file");
   }
   if (!(share > kDoubtfulDepth)) return std::nullopt;
   return MaterialFlag{"depth-beyond-linear", 0,
@@ -82,7 +91,7 @@ void refuse_modulus(double E0_Pa, const CsvTable* table, const ColumnMap& column
                                  ? remedy_for_modulus(*table, columns, doubt->meant_factor)
                                  : std::string("check the geometry and the calibration");
   throw BadNumber((table != nullptr ? table->file + ": " : "") + "the fitted modulus " +
-                           doubt->with_remedy(remedy, "add --plausible off"));
+                  doubt->with_remedy(remedy, "add --plausible off"));
 }
 
 std::optional<MaterialFlag> assumed_units(const CsvTable& table, const ColumnMap& columns,

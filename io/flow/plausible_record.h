@@ -19,6 +19,10 @@ std::optional<MaterialFlag> strain_flag(const CsvTable& table, const ColumnMap& 
 // Of any strain, such as a predicted one.
 std::optional<MaterialFlag> strain_flag(double largest);
 
+// Throws BadNumber for a depth that no tip reaches.
+void refuse_depth(const CsvTable& table, double deepest_m, Plausible judged,
+                  const std::string& remedy);
+
 // Of depths below the surface of a layer; nothing for a half-space (thickness 0). `remedy`: what to
 // write if the unit of the depths is another ("write --column depth_m=1e-3*depth").
 std::optional<MaterialFlag> depth_flag(double deepest_m, double layer_m, Plausible judged,

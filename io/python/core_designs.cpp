@@ -60,7 +60,7 @@ py::tuple design_of_spec(const std::string& path, const py::object& progress) {
 
 // The limits of viscard design without a scene, as JSON, and their text.
 py::tuple closed_form(const py::dict& keywords) {
-  const auto given = [&](const char* name, const char* unit) -> std::optional<double> {
+  const auto given = [&](const char* name, const QuantityOrUnit& unit) -> std::optional<double> {
     std::string keyword = name;
     std::replace(keyword.begin(), keyword.end(), '-', '_');
     if (!keywords.contains(keyword)) return std::nullopt;

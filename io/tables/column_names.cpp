@@ -113,7 +113,7 @@ std::vector<ColumnKind> recorded_kinds() {
             "载荷", "负荷", "法向力"}},
           {"depth_m",
            "depth",
-           quantities::kDepth,
+           quantities::kLength,
            {"h",
             "indentation",
             "indentation depth",

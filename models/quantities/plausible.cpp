@@ -14,7 +14,7 @@ struct OtherUnit {
   const char* unit;
   double factor;  // SI per unit
 };
-// Units in which people write numbers, the most likely first.
+// Units in which people write numbers.
 constexpr OtherUnit kOtherUnits[] = {{"Pa", "MPa", 1e6},      {"Pa", "kPa", 1e3},
                                      {"Pa", "GPa", 1e9},      {"1/Pa", "1/MPa", 1e-6},
                                      {"1/Pa", "1/kPa", 1e-3}, {"1/Pa", "1/GPa", 1e-9},
@@ -41,15 +41,29 @@ bool is_in(const PlausibleRange& range, double value) {
   return compared >= range.lowest - slack && compared <= range.highest + slack;
 }
 
-// In a scene, lengths are more likely in um.
-const OtherUnit* meant_unit(const Quantity& quantity, const PlausibleRange& range, double value,
-                            Plausible judged) {
-  const OtherUnit* found = nullptr;
+// The example of a quantity in SI: "2 MPa" gives 2e6.
+double example_of(const Quantity& quantity) {
+  const std::string text = quantity.example;
+  const std::size_t blank = text.find(' ');
+  const double number = number_from_text(text.substr(0, blank)).value_or(1.0);
+  if (blank == std::string::npos) return number;
   for (const OtherUnit& other : kOtherUnits) {
-    if (std::string(other.si) != quantity.unit || value == 0.0) continue;
-    if (!is_in(range, value * other.factor)) continue;
-    if (judged == Plausible::kScene && std::string(other.unit) == "um") return &other;
-    if (found == nullptr) found = &other;
+    if (text.substr(blank + 1) == other.unit) return number * other.factor;
+  }
+  return number;
+}
+
+// The unit in which the number is plausible and nearest to the example of the quantity.
+const OtherUnit* meant_unit(const Quantity& quantity, const PlausibleRange& range, double value) {
+  const OtherUnit* found = nullptr;
+  double least = 0.0;
+  for (const OtherUnit& other : kOtherUnits) {
+    const double meant = value * other.factor;
+    if (std::string(other.si) != quantity.unit || meant == 0.0 || !is_in(range, meant)) continue;
+    const double off = std::abs(std::log(std::abs(meant / example_of(quantity))));
+    if (found != nullptr && off >= least) continue;
+    found = &other;
+    least = off;
   }
   return found;
 }
@@ -104,9 +118,11 @@ std::optional<Doubt> doubt_about(const Quantity& quantity, double value, Plausib
   doubt.range = text_with_unit(range.lowest, unit) + " to " + text_with_unit(range.highest, unit);
   doubt.reason = judged == Plausible::kScene ? "for a " + std::string(quantity.name) + " in a scene"
                                              : quantity.reason;
-  if (const OtherUnit* other = meant_unit(quantity, range, value, judged)) {
+  if (const OtherUnit* other = meant_unit(quantity, range, value)) {
     doubt.meant = text_of(value) + " " + other->unit;
     doubt.meant_factor = other->factor;
+  } else {
+    doubt.range += ", such as " + std::string(quantity.example);
   }
   return doubt;
 }

@@ -78,7 +78,7 @@ inline constexpr Quantity kDensity{"density",
                                    {5.0, 25000.0},
                                    {0.1, 1e5},
                                    "1.1 g/cm3",
-                                   "from foams to osmium (22600 kg/m3)",
+                                   "from foams to osmium, 22600 kg/m3",
                                    "mass over volume",
                                    true};
 inline constexpr Quantity kPoissonRatio{
@@ -219,15 +219,14 @@ inline constexpr Quantity kMass{"mass",
                                 "of a weight"};
 
 // Motion and time.
-inline constexpr Quantity kTime{
-    "time",
-    "s",
-    QuantityKind::kLargest,
-    {0.0, 1e10},
-    {0.0, 1e20},
-    "10 s",
-    "creep is recorded for decades (1e9 s); stamps that count from 1970 are 1.8e9 s",
-    "since the start of the test or of the clock"};
+inline constexpr Quantity kTime{"time",
+                                "s",
+                                QuantityKind::kLargest,
+                                {0.0, 1e20},
+                                {0.0, 1e20},
+                                "10 s",
+                                "curves shifted in temperature reach over thirty decades",
+                                "since the start of the test or of the clock"};
 inline constexpr Quantity kRamp{
     "duration",
     "s",

@@ -34,8 +34,8 @@ CommandSyntax design_syntax(ClosedFormDesign& defaults) {
       "viscard design --diameter \"40 um\" --spacing \"60 um\" --length \"120 um\""};
   for (const DesignOption& option : options_of(defaults)) {
     const std::string what = fmt::format("{} ({:g}{}{})", option.what, *option.value,
-                                         std::string(option.unit) == "1" ? "" : " ",
-                                         std::string(option.unit) == "1" ? "" : option.unit);
+                                         std::string(option.unit.si) == "1" ? "" : " ",
+                                         std::string(option.unit.si) == "1" ? "" : option.unit.si);
     syntax.options.add_options()(option.name, po::value<std::string>(), what.c_str());
   }
   syntax.options.add_options()("lattice", po::value<std::string>(),
@@ -72,7 +72,9 @@ bool is_specification(const po::variables_map& values) {
 ClosedFormDesign design_from(const po::variables_map& values) {
   try {
     return closed_form_design(
-        [&](const char* name, const char* unit) { return given_quantity(values, name, unit); },
+        [&](const char* name, const QuantityOrUnit& unit) {
+          return given_quantity(values, name, unit);
+        },
         given(values, "lattice"));
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());

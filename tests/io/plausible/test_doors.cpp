@@ -293,7 +293,7 @@ TEST_CASE("an option that is not plausible is refused as a wrong word", "[io][cl
       {{"predict", material, "--strain", "5"}, "--strain \"5 %\""},
       {{"predict", material, "--test", "creep", "--stress", "1e15"}, "--plausible off"},
       {{"predict", material, "--temperature", "5000"}, "-200"},
-      {{"card", law, "--for", "abaqus", "--bulk-modulus", "2"}, "--bulk-modulus \"2 MPa\""},
+      {{"card", law, "--for", "abaqus", "--bulk-modulus", "2"}, "--bulk-modulus \"2 GPa\""},
       {{"card", law, "--for", "abaqus", "--bulk-modulus", "200 kPa"}, "2G/3"},
       {{"card", law, "--for", "lsdyna", "--density", "1.1"}, "--density \"1.1 g/cm3\""},
       {{"card", material, "--for", "abaqus", "--at-temperature", "2000"}, "1000"},

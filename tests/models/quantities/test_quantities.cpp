@@ -45,7 +45,7 @@ TEST_CASE("the README of the room has the table of the code", "[models]") {
       "| quantity | unit | judged | measured | in a scene | why | what it is |\n"
       "|---|---|---|---|---|---|---|\n";
   for (const Quantity* quantity : all_quantities()) table += row_of(*quantity);
-  std::ifstream file("models/quantities/README.md");
+  std::ifstream file(VISCARD_SOURCE_DIR "/models/quantities/README.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   INFO(table);
   CHECK(text.find(table) != std::string::npos);
@@ -64,6 +64,11 @@ TEST_CASE("a number that is not plausible is named with its range and what was m
   const auto light = doubt_about(quantities::kDensity, 1.1, Plausible::kMeasured);
   REQUIRE(light);
   CHECK(light->meant == "1.1 g/cm3");
+  // Of several units, the one that is nearest to the example.
+  CHECK(doubt_about(quantities::kBulkModulus, 2.0, Plausible::kMeasured)->meant == "2 GPa");
+  CHECK(doubt_about(quantities::kStress, 0.02, Plausible::kMeasured)->meant == "0.02 MPa");
+  CHECK(doubt_about(quantities::kLength, 40.0, Plausible::kScene)->meant == "40 um");
+  CHECK(doubt_about(quantities::kDepth, 0.13, Plausible::kMeasured)->meant == "0.13 mm");
   // No unit makes it plausible.
   const auto nothing = doubt_about(quantities::kModulus, 1e30, Plausible::kMeasured);
   REQUIRE(nothing);
