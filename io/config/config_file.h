@@ -18,6 +18,9 @@ namespace viscard {
 // keys without a sensible default are required. All readers throw std::runtime_error with file,
 // line, key and the expected value, and for an unknown key the nearest known key.
 RigConfig read_rig(const std::filesystem::path& path);
+// The same before its load cell is calibrated: the gain may be a guess, and the record that the file names
+// need not exist yet. Only the capacity is taken from an older record.
+RigConfig read_rig_to_calibrate(const std::filesystem::path& path);
 TestPlan read_test(const std::filesystem::path& path);
 Specimen read_specimen(const std::filesystem::path& path);
 EmulatedTruth read_truth(const std::filesystem::path& path);

@@ -27,10 +27,12 @@ struct CalibrateWords {
   bool is_gravity_given = false;
   double mass_relative_u = 1e-4;
   std::optional<double> capacity_N;
+  std::optional<double> span_V;        // of the converter, of either sign
+  std::optional<double> nonlinearity;  // of the cell's data sheet, relative to the capacity
   double settle_s = 1.0;
   double mean_s = 3.0;
   double force_N = 0.0;  // highest force on the block; 0: 70 % of the soft limit
-  int steps = 6;
+  int steps = 8;
   double speed = 1.0;
 };
 

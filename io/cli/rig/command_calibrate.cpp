@@ -38,10 +38,14 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
       "relative standard uncertainty of the masses");
   add("gravity", po::value<std::string>(), "gravity at this place, \"9.8067 m/s2\"");
   add("capacity", po::value<std::string>(), "rated load of the cell, if there is no rig file");
+  add("nonlinearity", po::value<std::string>(),
+      "of the cell by its data sheet, share of the capacity (0.001)");
+  add("span", po::value<std::string>(),
+      "largest voltage of the converter, if there is no rig file (\"10 V\")");
   add("settle", po::value<std::string>()->default_value("1 s"), "wait after putting on a weight");
   add("seconds", po::value<std::string>()->default_value("3 s"), "time of each mean reading");
   add("to", po::value<std::string>(), "highest force on the block (70 % of the soft limit)");
-  add("steps", po::value(&words.steps)->default_value(6), "number of steps of force on the block");
+  add("steps", po::value(&words.steps)->default_value(8), "number of steps of force on the block");
   add("id", po::value(&words.id), "name of the record");
   add("valid-until", po::value(&words.valid_until), "last day of validity (a year from today)");
   add("out", po::value(&words.out_file), "record to write (*.toml)");
@@ -78,6 +82,8 @@ void take_values(const po::variables_map& values, CalibrateWords& words) {
     words.is_gravity_given = true;
   }
   words.capacity_N = given_quantity(values, "capacity", "N");
+  words.span_V = given_quantity(values, "span", "V");
+  words.nonlinearity = given_quantity(values, "nonlinearity", "1");
   words.force_N = given_quantity(values, "to", "N").value_or(0.0);
   words.settle_s = *given_quantity(values, "settle", "s");
   words.mean_s = *given_quantity(values, "seconds", "s");
@@ -117,6 +123,14 @@ void check_words(const CalibrateWords& words) {
   }
   if (!(words.mass_relative_u >= 0.0) || !(words.mass_relative_u < 0.1)) {
     throw UsageError("--mass-u is outside 0 to 0.1");
+  }
+  if (words.capacity_N && !(*words.capacity_N > 0.0)) {
+    throw UsageError("--capacity must be positive");
+  }
+  if (words.span_V && !(*words.span_V > 0.0)) throw UsageError("--span must be positive");
+  if (words.nonlinearity && !(*words.nonlinearity > 0.0 && *words.nonlinearity <= 0.05)) {
+    throw UsageError(
+        "--nonlinearity is outside 0 to 0.05; it is a share of the capacity, 0.0005 for 0.05 %");
   }
   if (!words.is_emulated && (words.truth_file || words.speed != 1.0)) {
     throw UsageError("--truth and --speed are for an emulated rig: add --emulate");
