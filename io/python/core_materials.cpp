@@ -4,7 +4,7 @@
 #include "io/cards/targets/card_targets.h"
 #include "io/flow/card_material.h"
 #include "io/flow/predict_file.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/materials/material_file.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
