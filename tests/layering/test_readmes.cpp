@@ -69,8 +69,8 @@ TEST_CASE("paths and links of the READMEs lead somewhere", "[layering]") {
       ++n_links;
     }
   }
-  CHECK(n_paths > 150);
-  CHECK(n_links > 100);
+  CHECK(n_paths > 80);
+  CHECK(n_links > 80);
 }
 
 TEST_CASE("every room is named in the list of rooms of a folder above it", "[layering]") {
