@@ -22,9 +22,9 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-// README.md of the root and of all folders of ours, from the root.
+// The pages of the root and README.md of all folders of ours, from the root.
 std::vector<fs::path> readmes() {
-  std::vector<fs::path> found{"README.md"};
+  std::vector<fs::path> found{"README.md", "CONTRIBUTING.md"};
   for (const char* folder : {"models", "fit", "rig", "io", "tests", "data"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
       if (entry.path().filename() == "README.md") {
