@@ -26,7 +26,8 @@ Overload(Cases...) -> Overload<Cases...>;
 
 int whole_from(const Option& option, const std::string& text) {
   const auto number = integer_from_text(text);
-  constexpr long long kLeast = std::numeric_limits<int>::min(), kMost = std::numeric_limits<int>::max();
+  constexpr long long kLeast = std::numeric_limits<int>::min(),
+                      kMost = std::numeric_limits<int>::max();
   if (!number || *number < kLeast || *number > kMost) refuse_value(option, text);
   return static_cast<int>(*number);
 }
@@ -64,8 +65,13 @@ void check_choice(const Option& option, const std::string& value) {
   const auto& known = option.choices;
   if (known.empty() || option.has_other_choices) return;
   if (std::find(known.begin(), known.end(), value) != known.end()) return;
-  throw OptionError("--" + option.name + " " + value + " is not known" + did_you_mean(value, known) +
-                    " Use " + listed(known));
+  std::string list = known.front();
+  for (std::size_t i = 1; i < known.size(); ++i) {
+    list += (i + 1 < known.size() ? ", " : " or ") + known[i];
+  }
+  throw OptionError("--" + option.name + " " + value + " is not known" +
+                    did_you_mean(value, known, ";") +
+                    (nearest_word(value, known).empty() ? " use " : " Use ") + list);
 }
 
 }  // namespace
@@ -95,12 +101,19 @@ Option& Option::by_default(std::string text) {
   return *this;
 }
 
+Option& Option::read_from_file() {
+  is_file = true;
+  return *this;
+}
+
 Option& Option::only_typed() {
   is_keyword = false;
   return *this;
 }
 
-bool is_switch(const Option& option) { return std::holds_alternative<bool*>(option.target); }
+bool is_switch(const Option& option) {
+  return std::holds_alternative<bool*>(option.target);
+}
 
 bool is_list(const Option& option) {
   return std::holds_alternative<std::vector<std::string>*>(option.target) ||
@@ -109,6 +122,7 @@ bool is_list(const Option& option) {
 
 std::string type_of(const Option& option) {
   if (!option.unit.empty()) return "quantity";
+  if (option.is_file) return "file";
   return std::visit(
       Overload{[](bool*) { return "flag"; }, [](int*) { return "whole number"; },
                [](std::optional<int>*) { return "whole number"; },
@@ -147,15 +161,16 @@ void set_option(const Option& option, const std::vector<std::string>& values) {
     return;
   }
   const std::string& text = values.back();
-  std::visit(Overload{[&](int* target) { *target = whole_from(option, text); },
-                      [&](std::optional<int>* target) { *target = whole_from(option, text); },
-                      [&](std::size_t* target) { *target = count_from(option, text); },
-                      [&](std::optional<std::size_t>* target) { *target = count_from(option, text); },
-                      [&](double* target) { *target = number_from(option, text); },
-                      [&](std::optional<double>* target) { *target = number_from(option, text); },
-                      [&](std::string* target) { *target = text; },
-                      [&](std::optional<std::string>* target) { *target = text; }, [](auto*) {}},
-             option.target);
+  std::visit(
+      Overload{[&](int* target) { *target = whole_from(option, text); },
+               [&](std::optional<int>* target) { *target = whole_from(option, text); },
+               [&](std::size_t* target) { *target = count_from(option, text); },
+               [&](std::optional<std::size_t>* target) { *target = count_from(option, text); },
+               [&](double* target) { *target = number_from(option, text); },
+               [&](std::optional<double>* target) { *target = number_from(option, text); },
+               [&](std::string* target) { *target = text; },
+               [&](std::optional<std::string>* target) { *target = text; }, [](auto*) {}},
+      option.target);
 }
 
 Option& OptionList::add(std::string name, OptionTarget target, std::string what) {

@@ -20,8 +20,8 @@ class OptionError : public std::runtime_error {
 // Where the value of an option goes. The type says what may be written: a switch has no value, a list
 // may be given several times. A target keeps its value if the option is not given.
 using OptionTarget =
-    std::variant<bool*, int*, std::optional<int>*, std::size_t*, std::optional<std::size_t>*, double*,
-                 std::optional<double>*, std::vector<double>*, std::string*,
+    std::variant<bool*, int*, std::optional<int>*, std::size_t*, std::optional<std::size_t>*,
+                 double*, std::optional<double>*, std::vector<double>*, std::string*,
                  std::optional<std::string>*, std::vector<std::string>*>;
 
 // One option of a command. Command line, help, completion, manual page, keywords of Python and their
@@ -34,6 +34,7 @@ struct Option {
   std::string unit;     // SI unit of a quantity, which may be written with another one ("0.1 mm")
   std::string initial;  // the default as text; empty: none
   std::vector<std::string> choices;  // the values that are allowed; empty: any
+  bool is_file = false;              // the value names a file to read
   bool has_other_choices = false;    // the choices are examples
   std::string group;                 // heading above it in the help
   bool is_keyword = true;            // of Python as well, and not of the command line alone
@@ -43,6 +44,7 @@ struct Option {
   Option& among(std::vector<std::string> values);
   Option& such_as(std::vector<std::string> values);  // examples
   Option& by_default(std::string text);
+  Option& read_from_file();
   Option& only_typed();  // no keyword
 };
 
@@ -52,7 +54,7 @@ bool is_list(const Option& option);
 // What a value must be: "a whole number, such as 5".
 std::string expected_of(const Option& option);
 
-// Type of the value: "flag", "text", "whole number", "number", "quantity".
+// Type of the value: "flag", "text", "file", "whole number", "number", "quantity".
 std::string type_of(const Option& option);
 
 // Sets the target from values as typed; a switch takes none. Throws OptionError naming option, value and

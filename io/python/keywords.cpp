@@ -109,21 +109,4 @@ PredictWords predict_words_from(const py::dict& keywords) {
   return words;
 }
 
-py::list described_options(const std::string& command) {
-  FitWords fit;
-  LargeStrainWords large;
-  PredictWords predict;
-  OptionList options = command == "predict" ? options_of(predict) : options_of(fit);
-  if (command == "fit") add_large_strain_options(options, large);
-  py::list list;
-  for (const Option& option : options.all()) {
-    if (!option.is_keyword) continue;
-    list.append(py::dict(py::arg("keyword") = keyword_of(option), py::arg("type") = type_of(option),
-                         py::arg("is_list") = is_list(option), py::arg("what") = option.what,
-                         py::arg("group") = option.group, py::arg("default") = option.initial,
-                         py::arg("choices") = option.choices));
-  }
-  return list;
-}
-
 }  // namespace viscard::python

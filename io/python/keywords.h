@@ -18,8 +18,6 @@ namespace viscard::python {
 void take_keywords(const pybind11::dict& keywords, const OptionList& options);
 // "punch_diameter" of --punch-diameter.
 std::string keyword_of(const Option& option);
-// The options of "fit" or "predict" as dicts, for signatures, documentation and stubs.
-pybind11::list described_options(const std::string& command);
 
 FitWords fit_words_from(const pybind11::dict& keywords);
 LargeStrainWords large_strain_words_from(const pybind11::dict& keywords);

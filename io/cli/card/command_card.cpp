@@ -43,58 +43,79 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
   const auto add = [&](const char* name, OptionTarget target, const char* what) -> Option& {
     return syntax.options.add(name, target, what);
   };
-  add("for", &words.target, 
+  add("for", &words.target,
       "solver the card is for; --list shows them all. Cards by viscard name theirs, so --check and "
-      "--prove do not need it").shown_as("TARGET").such_as(target_names());
-  add("units", &words.units, 
-      "SI (default), mm-t-s, mm-kg-ms, mm-g-ms, um-kg-s or cgs").shown_as("SYSTEM").such_as(unit_names());
+      "--prove do not need it")
+      .shown_as("TARGET")
+      .such_as(target_names());
+  add("units", &words.units, "SI (default), mm-t-s, mm-kg-ms, mm-g-ms, um-kg-s or cgs")
+      .shown_as("SYSTEM")
+      .such_as(unit_names());
   add("out", &words.out, "where to write; stdout if not given").shown_as("FILE");
   add("list", &words.list, "show targets, conventions, limits and evidence");
   add("long", &words.is_long,
       "with --list: a table of what each target takes exactly, takes approximately, or refuses");
-  add("check", &words.check, 
-      "read a card back, print its meaning, and compare it with the material if one is named").shown_as("CARD");
-  add("tolerance", &words.tolerance, 
+  add("check", &words.check,
+      "read a card back, print its meaning, and compare it with the material if one is named")
+      .shown_as("CARD");
+  add("tolerance", &words.tolerance,
       "largest relative difference of E(t) that --check accepts; if not given 1e-6, or what the "
-      "target's columns can hold").shown_as("X");
-  add("prove", &words.prove, 
+      "target's columns can hold")
+      .shown_as("X");
+  add("prove", &words.prove,
       "run a card on one element in a solver against the exact answer, and write a certificate "
-      "beside it (CARD.SOLVER.proof.json, or --out); of a law of rubber calculix and sfepy run").shown_as("CARD");
-  add("solver", &words.solver, 
+      "beside it (CARD.SOLVER.proof.json, or --out); of a law of rubber calculix and sfepy run")
+      .shown_as("CARD");
+  add("solver", &words.solver,
       "with --prove: calculix, febio, mtest, frontistr, openradioss, or sfepy and dolfinx, which "
-      "run the numbers of any card; if not given the one that reads the card").shown_as("NAME").such_as(solver_names());
-  add("solver-path", &words.solver_path, 
+      "run the numbers of any card; if not given the one that reads the card")
+      .shown_as("NAME")
+      .such_as(solver_names());
+  add("solver-path", &words.solver_path,
       "with --prove: the program, if it is not in PATH; of OpenRadioss its starter, with the "
       "engine "
-      "and th_to_csv beside it").shown_as("PATH");
-  add("deck", &words.deck, 
-      "relaxation or creep: write a one-element model with the expected curve beside it").shown_as("TEST").among({"relaxation", "creep"});
+      "and th_to_csv beside it")
+      .shown_as("PATH");
+  add("deck", &words.deck,
+      "relaxation or creep: write a one-element model with the expected curve beside it")
+      .shown_as("TEST")
+      .among({"relaxation", "creep"});
   add("approximate", &words.may_approximate,
       "write what the target cannot take exactly, with the error in the header; too many terms are "
       "refitted to fewer; of a law of rubber for lsdyna, terms that hold at small strain");
   add("terms", &words.terms, "with --approximate: refit to N terms").shown_as("N");
-  add("ratio", &words.ratio, 
-      "mixing ratio, when the material is a joint fit: measured, or between measured ones").shown_as("R");
+  add("ratio", &words.ratio,
+      "mixing ratio, when the material is a joint fit: measured, or between measured ones")
+      .shown_as("R");
   add("extrapolate", &words.may_extrapolate,
       "with --ratio: also outside the measured range; the header says so");
-  add("at-temperature", &words.temperature_C, 
-      "card of one temperature, such as 37 or \"37 degC\": the material's shift moves its times").of("degC").shown_as("T");
-  add("bulk-modulus", &words.bulk_Pa, 
-      "of a law of rubber, such as \"2 GPa\"; without it incompressible where the solver can be").of("Pa").shown_as("K");
-  add("density", &words.density_kg_m3, 
-      "of a law of rubber, such as \"1.1 g/cm3\"; LS-DYNA and OpenRadioss need it").of("kg/m3").shown_as("RHO");
-  add("bound", &words.bound, 
+  add("at-temperature", &words.temperature_C,
+      "card of one temperature, such as 37 or \"37 degC\": the material's shift moves its times")
+      .of("degC")
+      .shown_as("T");
+  add("bulk-modulus", &words.bulk_Pa,
+      "of a law of rubber, such as \"2 GPa\"; without it incompressible where the solver can be")
+      .of("Pa")
+      .shown_as("K");
+  add("density", &words.density_kg_m3,
+      "of a law of rubber, such as \"1.1 g/cm3\"; LS-DYNA and OpenRadioss need it")
+      .of("kg/m3")
+      .shown_as("RHO");
+  add("bound", &words.bound,
       "lower or upper: the card at that end of the 95 % interval of E0, the rest by its covariance "
-      "with it").shown_as("END").among({"lower", "upper"});
-  add("elastic-only", &words.elastic_only, 
-      "instantaneous or long-term: leave relaxation out").shown_as("WHEN").among({"instantaneous", "long-term"});
-  add("band", &words.band_text, 
+      "with it")
+      .shown_as("END")
+      .among({"lower", "upper"});
+  add("elastic-only", &words.elastic_only, "instantaneous or long-term: leave relaxation out")
+      .shown_as("WHEN")
+      .among({"instantaneous", "long-term"});
+  add("band", &words.band_text,
       "frequencies in Hz that a table or reduction for vibration covers, for example 10,1000; if "
-      "not given those that the material's times support").shown_as("LOW,HIGH");
-  add("clamp-nu", &words.clamped_nu, 
-      "use this Poisson ratio instead of a larger one").shown_as("NU");
-  add("accept-flags", &words.accepts_flags,
-      "write terms that the fit has flagged");
+      "not given those that the material's times support")
+      .shown_as("LOW,HIGH");
+  add("clamp-nu", &words.clamped_nu, "use this Poisson ratio instead of a larger one")
+      .shown_as("NU");
+  add("accept-flags", &words.accepts_flags, "write terms that the fit has flagged");
   add("reproducible", &words.is_reproducible,
       "no date and no command line in the header: the same input gives the same bytes");
   add("force", &words.force, "replace an existing file");

@@ -48,8 +48,7 @@ CommandSyntax fit_syntax(FitCommand& command) {
            "g_2=5% (repeatable; E0, E_inf, sum_g, E_i, g_i, tau_i); prints what to measure next: "
            "what narrows the widest one most for a minute at the rig")
       .only_typed();
-  options
-      .add("out", &command.out, "material file to write (one input file, or several tests)")
+  options.add("out", &command.out, "material file to write (one input file, or several tests)")
       .only_typed();
   options.add("force", &command.overwrite, "replace an existing material file").only_typed();
   return syntax;
@@ -161,8 +160,7 @@ int run_fit(const Words& words, Streams& streams) {
   if (out) refuse_existing(*out, overwrite);
   if (options.joint) {
     JointRequest joint = with_usage_errors([&] { return joint_request(options, files, command); });
-    return run_joint_fit(std::move(joint), {out.value_or(""), overwrite, as_json},
-                         streams);
+    return run_joint_fit(std::move(joint), {out.value_or(""), overwrite, as_json}, streams);
   }
   with_usage_errors([&] {
     request = fit_request(options);

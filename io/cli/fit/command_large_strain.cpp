@@ -48,9 +48,8 @@ std::vector<LargeStrainFile> large_strain_given(const FitCommand& command,
 int run_large_strain(const std::vector<LargeStrainFile>& files, const FitCommand& command,
                      const CommandSyntax& syntax, Streams& streams) {
   refuse_other_options(syntax);
-  const LargeStrainRequest request = with_usage_errors([&] {
-    return large_strain_request(with_shared_options(command.large, command.fit), files);
-  });
+  const LargeStrainRequest request = with_usage_errors(
+      [&] { return large_strain_request(with_shared_options(command.large, command.fit), files); });
   const bool overwrite = command.overwrite;
   const auto &out = command.out, &svg = command.svg;
   for (const auto& output : {out, svg}) {

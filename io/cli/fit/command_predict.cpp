@@ -47,14 +47,15 @@ int run_predict(const Words& words, Streams& streams) {
   syntax.positional.add("material", &path, "material file");
   syntax.options = options_of(test);
   syntax.options.group("Output");
-  syntax.options.add("csv", &csv, "write the curve with its band here");
-  syntax.options.add("svg", &svg, "draw the curve here");
-  syntax.options.add("accept-flags", &accepts_flags,
-                     "exit with 0 also if the fit of the material is not to be trusted");
-  syntax.options.add("force", &overwrite, "overwrite existing files");
+  syntax.options.add("csv", &csv, "write the curve with its band here").only_typed();
+  syntax.options.add("svg", &svg, "draw the curve here").only_typed();
+  syntax.options
+      .add("accept-flags", &accepts_flags,
+           "exit with 0 also if the fit of the material is not to be trusted")
+      .only_typed();
+  syntax.options.add("force", &overwrite, "overwrite existing files").only_typed();
   if (!parse_words(syntax, words, streams)) return kDone;
-  const PredictFileRequest request =
-      with_usage_errors([&] { return predict_request(test, path); });
+  const PredictFileRequest request = with_usage_errors([&] { return predict_request(test, path); });
   for (const auto& output : {csv, svg}) {
     if (output) refuse_existing(*output, overwrite);
   }

@@ -1,6 +1,5 @@
 // viscard fit --want: what to measure next.
 #include "io/cli/fit/fit_command.h"
-
 #include "io/cli/words/command_line.h"
 #include "io/flow/planning/plan_tests.h"
 

@@ -60,8 +60,8 @@ int run_help(const Words& words, Streams& streams, const Words& names,
   const CommandDocument* one = name ? &named(*name, documents) : nullptr;
   if (what) check_subcommand(*one, *what);
   const std::string page = !is_page         ? ""
-                           : one != nullptr          ? manual_page(*one)
-                                                     : manual_overview(documents);
+                           : one != nullptr ? manual_page(*one)
+                                            : manual_overview(documents);
   if (syntax.as_json) {
     ordered_json object = one != nullptr ? json_from_syntax(one->syntax) : json_of_list(documents);
     if (!page.empty()) object["manual_page"] = page;

@@ -107,7 +107,8 @@ std::string zsh_completion(const CommandDocuments& documents) {
     }
     const std::string words = first_words(one.syntax);
     if (!words.empty()) {
-      script += " \\\n        " + quoted("1:" + one.syntax.positional.all().front().name + ":(" + words + ")");
+      script += " \\\n        " +
+                quoted("1:" + one.syntax.positional.all().front().name + ":(" + words + ")");
     }
     script += " \\\n        '*:file:_files'\n      ;;\n";
   }

@@ -32,7 +32,9 @@ SweepProgram described_program(double& lost_after_s) {
       "with --enable-recovery: then others answer its point.",
       "mpirun -n 2 viscard-mpi sweep data/studies/pillar.toml --out study.sqlite --csv study.csv"};
   program.add_options = [&lost_after_s](OptionList& options) {
-    options.add("lost-after", &lost_after_s, "a rank that is silent for so long counts as lost").of("s").by_default("60 s");
+    options.add("lost-after", &lost_after_s, "a rank that is silent for so long counts as lost")
+        .of("s")
+        .by_default("60 s");
   };
   return program;
 }

@@ -105,8 +105,13 @@ std::vector<std::string> take_rubbers(std::vector<std::string>& files) {
 
 ReportRequest checked_words(const ReportWords& asked, const Words& words,
                             std::vector<std::string>& rubbers) {
-  ReportRequest report{asked.files, {}, asked.truth, asked.cards,
-                       asked.units, "", quoted_command_line("report", words)};
+  ReportRequest report{asked.files,
+                       {},
+                       asked.truth,
+                       asked.cards,
+                       asked.units,
+                       "",
+                       quoted_command_line("report", words)};
   rubbers = take_rubbers(report.files);
   if (report.files.empty()) {
     throw UsageError(
@@ -225,8 +230,7 @@ int run_report(const Words& words, Streams& streams) {
   const bool is_forced = asked.overwrite;
   refuse_existing(page, is_forced);
 
-  const ReportInput input =
-      input_from_words(report, rubbers, asked.title, streams);
+  const ReportInput input = input_from_words(report, rubbers, asked.title, streams);
   const RenderedReport rendered = render_report(input);
   std::vector<std::string> pictures;
   if (asked.pictures) {

@@ -34,23 +34,24 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
   add("compliance", &words.is_compliance, "measure the frame on a rigid block");
   add("weights", &words.weights, "masses to put on, \"20 g, 50 g, 100 g, 200 g\"");
   add("series", &words.series, "number of times to go up and down");
-  add("mass-u", &words.mass_relative_u,
-      "relative standard uncertainty of the masses");
-  add("gravity", &words.gravity_m_s2, "gravity at this place, \"9.8067 m/s2\"").of("m/s2").by_default("");
+  add("mass-u", &words.mass_relative_u, "relative standard uncertainty of the masses");
+  add("gravity", &words.gravity_m_s2, "gravity at this place, \"9.8067 m/s2\"")
+      .of("m/s2")
+      .by_default("");
   add("capacity", &words.capacity_N, "rated load of the cell, if there is no rig file").of("N");
   add("settle", &words.settle_s, "wait after putting on a weight").of("s").by_default("1 s");
   add("seconds", &words.mean_s, "time of each mean reading").of("s").by_default("3 s");
-  add("to", &words.force_N, "highest force on the block (70 % of the soft limit)").of("N").by_default("");
+  add("to", &words.force_N, "highest force on the block (70 % of the soft limit)")
+      .of("N")
+      .by_default("");
   add("steps", &words.steps, "number of steps of force on the block");
   add("id", &words.id, "name of the record");
   add("valid-until", &words.valid_until, "last day of validity (a year from today)");
   add("out", &words.out_file, "record to write (*.toml)");
   add("emulate", &words.is_emulated, "calibrate an emulated rig");
   add("truth", &words.truth_file, "truth.toml: what the emulated cell is like");
-  add("speed", &words.speed,
-      "largest speed of the emulated clock over the wall clock");
-  add("yes", &words.asks_nobody,
-      "do not wait for Enter before the block is pressed");
+  add("speed", &words.speed, "largest speed of the emulated clock over the wall clock");
+  add("yes", &words.asks_nobody, "do not wait for Enter before the block is pressed");
   add("force", &words.overwrite, "replace an existing record");
   return syntax;
 }

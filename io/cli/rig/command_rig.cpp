@@ -167,8 +167,7 @@ int check_and_print(const RigWords& words, bool as_json, Streams& streams) {
   if (words.rig_file) add_calibration(rig, found);
   if (as_json) {
     const Words inputs = words.rig_file ? Words{*words.rig_file} : Words{};
-    print_json({"viscard-rig-check/1", inputs}, json_from_rig_check(found),
-               streams, kOneLine);
+    print_json({"viscard-rig-check/1", inputs}, json_from_rig_check(found), streams, kOneLine);
   } else {
     print_text(found, FittedText(streams));
   }

@@ -38,7 +38,9 @@ CommandSyntax cost_syntax(CostWords& words) {
       "viscard cost data/scenes/pillar_modal.toml --budget 20s"};
   syntax.positional.add("scene", &words.scene, "scene file");
   syntax.options.group("Discretisations of a scene");
-  syntax.options.add("budget", &words.budget_s, "wall time to spend, such as 60s or 5min").of("s").by_default("60s");
+  syntax.options.add("budget", &words.budget_s, "wall time to spend, such as 60s or 5min")
+      .of("s")
+      .by_default("60s");
   syntax.options.group("Tests at a rig");
   add_test_options(syntax.options, words.tests);
   syntax.options.group("Output");

@@ -46,7 +46,8 @@ CommandSyntax design_syntax(DesignWords& words, LimitValues& limits,
                          is_pure ? "" : option.unit))
         .of(option.unit);
   }
-  options.add("lattice", &lattice, "arrangement of the pillars (square)").among({"square", "hexagonal", "plain"});
+  options.add("lattice", &lattice, "arrangement of the pillars (square)")
+      .among({"square", "hexagonal", "plain"});
   options.group("A scene or a specification");
   options.add("require", &words.require,
               "judge SCENE.toml: file with a table [require], such as "

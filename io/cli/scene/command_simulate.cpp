@@ -124,8 +124,7 @@ int run_simulate(const Words& words, Streams& streams) {
   apply_tolerance(asked.tolerance, file.scene);
   const bool is_sweep = !file.sweep.is_empty();
   const std::string folder = asked.out.value_or("");
-  const SweepOutput output{folder, quoted_command_line("simulate", words),
-                           asked.overwrite};
+  const SweepOutput output{folder, quoted_command_line("simulate", words), asked.overwrite};
   const auto start = std::chrono::steady_clock::now();
   SceneAnswer answer =
       is_sweep ? run_sweep(file, path, output, streams) : answer_of(file.scene, path, streams);

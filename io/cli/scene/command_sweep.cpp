@@ -103,8 +103,7 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
     for (const std::string& part : asked.merge) merged += store.merge(part, study);
   } else {
     Progress progress(streams, "sweep");
-    outcome =
-        program.run({study, shard, store, [&](double done) { progress.show(done, ""); }});
+    outcome = program.run({study, shard, store, [&](double done) { progress.show(done, ""); }});
   }
   if (asked.csv) write_file(*asked.csv, csv_from_study(store, study), asked.overwrite);
   const auto n_done = static_cast<std::int64_t>(store.done().size());

@@ -84,7 +84,8 @@ int run_validate(const Words& words, Streams& streams) {
   syntax.positional.add("material", &path, "material file");
   syntax.options.add("csv", &relaxation_csv, "write the relaxation curve here");
   syntax.options.add("creep-csv", &creep_csv, "write the creep curve here");
-  syntax.options.add("max-error", &options.tolerance, "largest relative error allowed").by_default("1e-6");
+  syntax.options.add("max-error", &options.tolerance, "largest relative error allowed")
+      .by_default("1e-6");
   syntax.options.add("force", &overwrite, "overwrite existing files");
   if (!parse_words(syntax, words, streams)) return kDone;
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {

@@ -57,8 +57,8 @@ int run_design_judge(const DesignWords& asked, const CommandSyntax& syntax, cons
     stored["command"] = quoted_command_line("design", words);
     stored["created_by"] = "viscard " VISCARD_VERSION;
     std::filesystem::create_directories(*asked.out);
-    write_file(std::filesystem::path(*asked.out) / "judgement.json", text_from_json(stored, 2) + "\n",
-               asked.overwrite);
+    write_file(std::filesystem::path(*asked.out) / "judgement.json",
+               text_from_json(stored, 2) + "\n", asked.overwrite);
   }
   if (!print_json(syntax, head, object, streams)) {
     streams.out << *scene << "\n" << text_from_judgement(judgement);

@@ -57,12 +57,11 @@ void check_what(const CommandSyntax& syntax) {
   const std::vector<std::string>& known = option->choices;
   if (!what.empty() && std::find(known.begin(), known.end(), what.front()) != known.end()) return;
   const std::string who = command_of(syntax);
-  throw UsageError(
-      (what.empty() ? who + " needs a word more; "
-                    : "there is no '" + who + " " + what.front() + "'" +
-                          did_you_mean(what.front(), known, "; ")) +
-      (!what.empty() && !nearest_word(what.front(), known).empty() ? " " : "") +
-      "there are: " + listed(known) + ". Usage: " + syntax.usage);
+  throw UsageError((what.empty() ? who + " needs a word more; "
+                                 : "there is no '" + who + " " + what.front() + "'" +
+                                       did_you_mean(what.front(), known, "; ")) +
+                   (!what.empty() && !nearest_word(what.front(), known).empty() ? " " : "") +
+                   "there are: " + listed(known) + ". Usage: " + syntax.usage);
 }
 
 void check_positional(const CommandSyntax& syntax) {
@@ -119,7 +118,9 @@ void take_positional(const Words& free, CommandSyntax& syntax) {
   std::size_t next = 0;
   for (const Option& word : syntax.positional.all()) {
     const std::size_t end = is_list(word) ? free.size() : std::min(free.size(), next + 1);
-    if (next < end) syntax.given[word.name].assign(free.begin() + static_cast<long>(next), free.begin() + static_cast<long>(end));
+    if (next < end)
+      syntax.given[word.name].assign(free.begin() + static_cast<long>(next),
+                                     free.begin() + static_cast<long>(end));
     next = end;
   }
   if (next < free.size()) throw_too_many(free, syntax);
@@ -145,12 +146,15 @@ bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
   bool is_help = false;
   std::string color = "auto";  // read by main() before the command begins
   syntax.options.group("All commands");
-  syntax.options.add("json", &syntax.as_json,
-                     "print one machine-readable object on stdout, nothing else").only_typed();
+  syntax.options
+      .add("json", &syntax.as_json, "print one machine-readable object on stdout, nothing else")
+      .only_typed();
   syntax.options
       .add("color", &color,
            "auto, always or never; auto colours a terminal unless NO_COLOR is set or TERM is dumb")
-      .shown_as("WHEN").among({"auto", "always", "never"}).only_typed();
+      .shown_as("WHEN")
+      .among({"auto", "always", "never"})
+      .only_typed();
   syntax.options.add("help", &is_help, "print this").only_typed();
   const Words free = take_given(words, syntax);
   syntax.as_json = is_given(syntax, "json");

@@ -35,7 +35,8 @@ std::string wrapped(const std::string& text, std::size_t columns, std::size_t in
 
 std::string names_of(const Option& option) {
   const std::string letter = letter_of(option), value = value_of(option);
-  std::string text = letter.empty() ? "--" + option.name : "-" + letter + " [ --" + option.name + " ]";
+  std::string text =
+      letter.empty() ? "--" + option.name : "-" + letter + " [ --" + option.name + " ]";
   if (!value.empty()) text += " " + value;
   if (!option.initial.empty()) text += " (=" + option.initial + ")";
   return text;
@@ -55,10 +56,13 @@ std::string row_of(const Option& option, std::size_t columns, bool is_coloured) 
 
 std::string value_of(const Option& option) {
   if (is_switch(option)) return "";
-  return option.value.empty() ? "arg" : option.value;
+  if (!option.value.empty()) return option.value;
+  return option.is_file ? "FILE" : "arg";
 }
 
-std::string letter_of(const Option& option) { return option.name == "help" ? "h" : ""; }
+std::string letter_of(const Option& option) {
+  return option.name == "help" ? "h" : "";
+}
 
 std::string help_text(const CommandSyntax& syntax, std::size_t columns, bool is_coloured) {
   columns = columns == 0 ? kUsual : std::min(columns, kUsual);

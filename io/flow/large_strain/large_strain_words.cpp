@@ -88,10 +88,12 @@ void add_large_strain_options(OptionList& list, LargeStrainWords& words) {
       .among({"equal", "relative"});
   list.add("youngs-modulus", &words.youngs_modulus,
            "the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 MPa +- 0.1 "
-           "MPa\" (95 %); \"E_inf=1.5 MPa\" is that after all relaxation");
+           "MPa\" (95 %); \"E_inf=1.5 MPa\" is that after all relaxation")
+      .of("Pa");
   list.add("cycle", &words.cycle,
            "fit the loading of this cycle of records with unloading (default: the last), or all "
-           "rows");
+           "rows")
+      .of("1");
 }
 
 LargeStrainWords with_shared_options(LargeStrainWords words, const FitWords& fit) {

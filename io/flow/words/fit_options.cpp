@@ -28,14 +28,13 @@ void add_model(OptionList& list, FitWords& words) {
            "E_i, g_i, tau_i of term i (repeatable, needs --terms)");
   list.add("bound", &words.bound,
            "keep a parameter within bounds, such as g_2=0:0.1 (repeatable, needs --terms)");
-  list.add("constraints", &words.constraints,
-           "file with the text of one --fix or --bound a line");
+  list.add("constraints", &words.constraints, "file with the text of one --fix or --bound a line")
+      .read_from_file();
 }
 
 void add_noise(OptionList& list, FitWords& words) {
   list.group("Noise and intervals");
-  list.add("noise", &words.noise,
-           "white: no inflation for autocorrelation, sigma^2 = rss/(n - p)")
+  list.add("noise", &words.noise, "white: no inflation for autocorrelation, sigma^2 = rss/(n - p)")
       .among({"auto", "white"})
       .by_default("auto");
   list.add("drift", &words.drift,
@@ -58,9 +57,9 @@ void add_table(OptionList& list, FitWords& words) {
            "of an Excel workbook (.xlsx), or the struct of a MATLAB file (.mat); default: the one "
            "with most numbers");
   list.add("segment", &words.segment, "use only rows of this segment (repeatable)");
-  list.add("time-zero", &words.time_zero, "time in the table where t = 0").by_default("0");
-  list.add("from", &words.from, "fit only rows from this time on, such as \"2 s\"");
-  list.add("to", &words.to, "fit only rows up to this time");
+  list.add("time-zero", &words.time_zero, "time in the table where t = 0").of("s").by_default("0");
+  list.add("from", &words.from, "fit only rows from this time on, such as \"2 s\"").of("s");
+  list.add("to", &words.to, "fit only rows up to this time").of("s");
   list.add("hold", &words.hold,
            "fit only this hold of the record, from 1, with the ramp that leads to it");
   list.add("crop", &words.crop,
@@ -69,7 +68,8 @@ void add_table(OptionList& list, FitWords& words) {
       .among({"auto"});
   list.add("reference-temperature", &words.reference_temperature,
            "of the master curve of a table with several temperatures (temperature_C), such as "
-           "\"20 degC\"; default: the middle one");
+           "\"20 degC\"; default: the middle one")
+      .of("degC");
   list.add("vertical-shift", &words.vertical_shift,
            "factors on the moduli of each isotherm of a master curve: auto (if the data clearly "
            "need them), on or off")
@@ -80,16 +80,20 @@ void add_table(OptionList& list, FitWords& words) {
 void add_specimen(OptionList& list, FitWords& words) {
   list.group("The specimen");
   list.add("depth", &words.depth,
-           "constant depth of a table of force and time, such as \"0.1 mm\": gives stiffnesses");
-  list.add("specimen", &words.specimen, "specimen.toml with the geometry under the punch");
-  list.add("punch-diameter", &words.punch_diameter, "of a flat punch, such as \"4.4 mm\"");
+           "constant depth of a table of force and time, such as \"0.1 mm\": gives stiffnesses")
+      .of("m");
+  list.add("specimen", &words.specimen, "specimen.toml with the geometry under the punch")
+      .read_from_file();
+  list.add("punch-diameter", &words.punch_diameter, "of a flat punch, such as \"4.4 mm\"").of("m");
   list.add("layer-thickness", &words.layer_thickness,
-           "of the specimen on a rigid base; without it, the specimen is a half-space");
+           "of the specimen on a rigid base; without it, the specimen is a half-space")
+      .of("m");
   list.add("poisson-ratio", &words.poisson_ratio, "default 0.495");
   list.add("frame-stiffness", &words.frame_stiffness,
            "between stage and punch, such as \"10 N/mm\"; needed if depth_m is the stage's "
-           "position");
-  list.add("density", &words.density, "for the material file, such as \"965 kg/m3\"");
+           "position")
+      .of("N/m");
+  list.add("density", &words.density, "for the material file, such as \"965 kg/m3\"").of("kg/m3");
 }
 
 void add_several(OptionList& list, FitWords& words) {
