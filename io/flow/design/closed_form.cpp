@@ -26,7 +26,7 @@ Lattice lattice_of(const std::string& word) {
   if (word == "plain") return Lattice::kPlain;
   throw std::invalid_argument("--lattice " + word + " is not known" +
                               did_you_mean(word, {"square", "hexagonal", "plain"}) +
-                              " Use square, hexagonal, plain");
+                              " Use square, hexagonal or plain");
 }
 
 // No length of a sensor exceeds a metre; a longer one shows that a unit was forgotten or mistaken.
