@@ -21,6 +21,7 @@ struct CalibrateWords {
   bool asks_nobody = false;
   bool overwrite = false;
   bool as_json = false;
+  std::string weights;  // "20 g, 50 g"
   std::vector<double> masses_kg;
   int series = 3;
   double gravity_m_s2 = 9.80665;
