@@ -1,6 +1,6 @@
 #include "io/options/option.h"
 
-#include "io/basics/units.h"
+#include "io/basics/option_quantity.h"
 #include "io/basics/words.h"
 #include "models/maths/text_of_number.h"
 
@@ -38,12 +38,15 @@ std::size_t count_from(const Option& option, const std::string& text) {
   return static_cast<std::size_t>(*number);
 }
 
-double number_from(const Option& option, const std::string& text) {
+double number_from(const Option& option, const std::string& text, Plausible judged) {
   if (!option.unit.empty()) {
     try {
-      return si_from_text(text, option.unit.c_str());
+      const QuantityOrUnit what = option.quantity != nullptr
+                                      ? QuantityOrUnit(*option.quantity)
+                                      : QuantityOrUnit::any(option.unit.c_str());
+      return option_quantity("--" + option.name, text, what, judged);
     } catch (const std::invalid_argument& error) {
-      throw OptionError("--" + option.name + ": " + error.what());
+      throw OptionError(error.what());
     }
   }
   const auto number = number_from_text(text);
@@ -81,8 +84,9 @@ Option& Option::shown_as(std::string text) {
   return *this;
 }
 
-Option& Option::of(std::string si_unit) {
-  unit = std::move(si_unit);
+Option& Option::of(const QuantityOrUnit& what_it_is) {
+  unit = what_it_is.si;
+  quantity = what_it_is.quantity;
   return *this;
 }
 
@@ -145,7 +149,7 @@ std::string expected_of(const Option& option) {
   return type == "quantity" ? "a quantity in " + option.unit + " or with its unit" : "a text";
 }
 
-void set_option(const Option& option, const std::vector<std::string>& values) {
+void set_option(const Option& option, const std::vector<std::string>& values, Plausible judged) {
   if (auto* const* flag = std::get_if<bool*>(&option.target)) {
     **flag = true;
     return;
@@ -157,7 +161,7 @@ void set_option(const Option& option, const std::vector<std::string>& values) {
   }
   if (auto* const* numbers = std::get_if<std::vector<double>*>(&option.target)) {
     (*numbers)->clear();
-    for (const std::string& value : values) (*numbers)->push_back(number_from(option, value));
+    for (const std::string& value : values) (*numbers)->push_back(number_from(option, value, judged));
     return;
   }
   const std::string& text = values.back();
@@ -166,8 +170,8 @@ void set_option(const Option& option, const std::vector<std::string>& values) {
                [&](std::optional<int>* target) { *target = whole_from(option, text); },
                [&](std::size_t* target) { *target = count_from(option, text); },
                [&](std::optional<std::size_t>* target) { *target = count_from(option, text); },
-               [&](double* target) { *target = number_from(option, text); },
-               [&](std::optional<double>* target) { *target = number_from(option, text); },
+               [&](double* target) { *target = number_from(option, text, judged); },
+               [&](std::optional<double>* target) { *target = number_from(option, text, judged); },
                [&](std::string* target) { *target = text; },
                [&](std::optional<std::string>* target) { *target = text; }, [](auto*) {}},
       option.target);

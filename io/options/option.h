@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/quantities/plausible.h"
+
 #include <cstddef>
 #include <deque>
 #include <optional>
@@ -31,7 +33,9 @@ struct Option {
   OptionTarget target;  // outlives the option
   std::string what;     // for a person: a sentence or two
   std::string value;    // what stands for the value in the help: "FILE"
-  std::string unit;     // SI unit of a quantity, which may be written with another one ("0.1 mm")
+  // Of a quantity, which may be written with another unit ("0.1 mm"): its SI unit; empty: no quantity.
+  std::string unit;
+  const Quantity* quantity = nullptr;  // its plausible range; null: any number
   std::string initial;  // the default as text; empty: none
   std::vector<std::string> choices;  // the values that are allowed; empty: any
   bool is_file = false;              // the value names a file to read
@@ -40,7 +44,7 @@ struct Option {
   bool is_keyword = true;            // of Python as well, and not of the command line alone
 
   Option& shown_as(std::string text);
-  Option& of(std::string si_unit);
+  Option& of(const QuantityOrUnit& what_it_is);
   Option& among(std::vector<std::string> values);
   Option& such_as(std::vector<std::string> values);  // examples
   Option& by_default(std::string text);
@@ -59,7 +63,8 @@ std::string type_of(const Option& option);
 
 // Sets the target from values as typed; a switch takes none. Throws OptionError naming option, value and
 // what is expected.
-void set_option(const Option& option, const std::vector<std::string>& values);
+void set_option(const Option& option, const std::vector<std::string>& values,
+                Plausible judged = Plausible::kMeasured);
 
 // The options of one command, in the order of the help.
 class OptionList {

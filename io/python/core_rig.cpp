@@ -3,6 +3,7 @@
 #include "io/flow/json/flow_json.h"
 #include "io/options/option.h"
 #include "io/python/job.h"
+#include "io/python/keywords.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
 
@@ -37,7 +38,8 @@ py::object capture(const std::string& out, const py::dict& keywords, const py::o
                              .specimen_file = keywords["specimen"].cast<Text>().value_or(""),
                              .is_emulated = keywords["emulate"].cast<bool>(),
                              .seed = keywords["seed"].cast<std::optional<std::uint64_t>>(),
-                             .speed = keywords["speed"].cast<double>()};
+                             .speed = keywords["speed"].cast<double>(),
+                             .plausible = judged_by(keywords["plausible"].cast<std::string>())};
   check_emulation(request);
   const CaptureRequest asked{.setup = setup_from_files(request),
                              .path = out,

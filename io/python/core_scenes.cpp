@@ -26,8 +26,9 @@ constexpr double kNoPillar = std::numeric_limits<double>::quiet_NaN();
 
 // A scene of a file, or from text that Python has composed of a dict.
 SceneFile scene_of(const std::optional<std::string>& text, const std::string& path,
-                   std::optional<double> tolerance) {
-  SceneFile file = text ? scene_from_toml(*text, path) : read_scene(path);
+                   std::optional<double> tolerance, const std::string& plausible) {
+  const Plausible judged = judged_by(plausible, Plausible::kScene);
+  SceneFile file = text ? scene_from_toml(*text, path, {}, judged) : read_scene(path, judged);
   if (tolerance) set_tolerance(*tolerance, file.scene);
   return file;
 }
@@ -157,12 +158,14 @@ struct SceneOutcome {
 
 py::dict simulate_scene(const std::optional<std::string>& text, const std::string& path,
                         std::optional<double> tolerance, bool with_fields, bool with_uncertainty,
-                        std::optional<std::size_t> samples, const py::object& progress) {
+                        std::optional<std::size_t> samples, const std::string& plausible,
+                        const py::object& progress) {
   SceneOutcome found = in_background({.progress = progress}, [=](Job& job) {
-    const SceneFile file = scene_of(text, path, tolerance);
+    const SceneFile file = scene_of(text, path, tolerance, plausible);
     SceneOutcome outcome;
     outcome.answer = answer_scene(
         file, path, [&](double done, const std::string& point) { job.report(done, point); });
+    if (file.accepts_implausible) outcome.answer.notes.emplace_back(kPlausibleOffText);
     if (with_fields && file.sweep.is_empty()) {
       outcome.fields = solution_fields(file.scene, outcome.answer.discretisation);
     }
@@ -197,14 +200,14 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
 }
 
 py::dict plan_scene(const std::optional<std::string>& text, const std::string& path,
-                    std::optional<double> tolerance) {
+                    std::optional<double> tolerance, const std::string& plausible) {
   struct Planned {
     ScenePlan plan;
     std::vector<EffectSaving> savings;
     double tolerance = 0.0;
   };
   const Planned found = in_background({}, [=](Job& job) {
-    const Scene scene = scene_of(text, path, tolerance).scene;
+    const Scene scene = scene_of(text, path, tolerance, plausible).scene;
     Planned planned{
         with_lines_of(path, [&] { return checked_plan(scene); }), {}, common(scene).tolerance};
     job.report(0.5, "plan");
@@ -235,7 +238,8 @@ py::dict plan_scene(const std::optional<std::string>& text, const std::string& p
 }
 
 py::dict cost_scene(const std::optional<std::string>& text, const std::string& path,
-                    const py::object& budget, const py::object& progress) {
+                    const py::object& budget, const std::string& plausible,
+                    const py::object& progress) {
   const double budget_s = quantity_from("budget", budget, "s").value_or(60.0);
   if (!(budget_s > 0.0)) {
     throw OptionError("budget is " + fmt::format("{:g}", budget_s) +
@@ -244,7 +248,7 @@ py::dict cost_scene(const std::optional<std::string>& text, const std::string& p
   const CostStudy study = in_background({.progress = progress}, [=](Job& job) {
     CostOptions options{.budget_s = budget_s};
     options.progress = [&](double done, const std::string& row) { job.report(done, row); };
-    const Scene scene = scene_of(text, path, std::nullopt).scene;
+    const Scene scene = scene_of(text, path, std::nullopt, plausible).scene;
     return with_lines_of(path, [&] { return study_cost(scene, options); });
   });
   py::dict out;

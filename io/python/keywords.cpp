@@ -1,6 +1,6 @@
 #include "io/python/keywords.h"
 
-#include "io/basics/units.h"
+#include "io/basics/option_quantity.h"
 #include "io/options/option.h"
 
 #include <pybind11/stl.h>
@@ -40,14 +40,28 @@ OptionalText text_from(const char* name, const py::handle& value) {
   refuse_type(name, "a text or a number", value);
 }
 
-std::optional<double> quantity_from(const char* name, const py::handle& value,
-                                    const char* si_unit) {
-  const OptionalText text = text_from(name, value);
-  if (!text) return std::nullopt;
+Plausible judged_by(const std::string& plausible, Plausible otherwise) {
   try {
-    return si_from_text(*text, si_unit);
+    return plausible_from_word(plausible, otherwise);
   } catch (const std::invalid_argument& error) {
-    throw OptionError(std::string(name) + ": " + error.what());
+    throw OptionError(error.what());
+  }
+}
+
+void refuse_keyword(const char* name, double value, const Quantity& quantity, Plausible judged) {
+  try {
+    refuse_implausible_option(name, value, quantity, judged);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+}
+
+std::optional<double> quantity_from(const char* name, const py::handle& value,
+                                    const QuantityOrUnit& quantity, Plausible judged) {
+  try {
+    return option_quantity(name, text_from(name, value), quantity, judged);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
   }
 }
 

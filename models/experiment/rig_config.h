@@ -114,7 +114,8 @@ struct RigConfig {
   LoadCellCalibration calibration;
   FrameConfig frame;
   SafetyConfig safety;
-  double clock_speed = 1.0;  // > 1 only for an emulated rig: its clock over the wall clock
+  double clock_speed = 1.0;          // > 1 only for an emulated rig: its clock over the wall clock
+  bool accepts_implausible = false;  // of values that no bench can have (plausible = "off")
 };
 
 }  // namespace viscard

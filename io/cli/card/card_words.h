@@ -4,6 +4,7 @@
 #include "io/cards/read_card.h"
 #include "io/cli/words/streams.h"
 #include "io/flow/card_material.h"
+#include "models/quantities/plausible.h"
 
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ struct CardWords {
   bool list = false, is_long = false, force = false, json = false, is_reproducible = false;
   bool accepts_flags = false, may_approximate = false;
   std::string command_line;
+  Plausible plausible = Plausible::kMeasured;
 };
 
 // The material that the words name; checks that a mixing ratio is given where it is needed. Throws

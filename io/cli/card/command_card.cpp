@@ -238,6 +238,7 @@ int run_card(const Words& words, Streams& streams) {
   if (std::find(words.begin(), words.end(), "--deck") != words.end()) syntax.may_exist = {"out"};
   if (!parse_words(syntax, words, streams)) return kDone;
   card.material = material.value_or("");
+  card.plausible = given_plausible(syntax);
   card.json = syntax.as_json;
   if (card.band_text) card.band = band_from_text(*card.band_text);
   card.command_line = quoted_command_line("card", words);

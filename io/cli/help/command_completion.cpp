@@ -30,6 +30,7 @@ int run_completion(const Words& words, Streams& streams, const AskDocuments& doc
                        "Prints the script with which bash, zsh or fish complete commands, options "
                        "and their values. For bash: source <(viscard completion bash)",
                        "viscard completion bash"};
+  syntax.reads_quantities = false;
   syntax.positional.add("shell", &name, "the shell").such_as(shell_names());
   if (!parse_words(syntax, words, streams)) return kDone;
   for (const Shell& shell : kShells) {

@@ -48,6 +48,7 @@ int run_help(const Words& words, Streams& streams, const Words& names,
                        "Explains a command, as --help of the command does, or lists all commands. "
                        "--man prints the source of the manual page instead.",
                        "viscard help fit"};
+  syntax.reads_quantities = false;
   syntax.positional.add("command", &name, "a command").such_as(names);
   syntax.positional.add("what", &what, "its subcommand");
   syntax.options.add("man", &is_page, "print the manual page, for man -l -");

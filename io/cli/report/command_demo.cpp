@@ -202,6 +202,7 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
       "cards, validation and one HTML page. Prints each command as you would type it. Results of "
       "an earlier demo that are up to date are kept.",
       "viscard demo --out demo"};
+  syntax.reads_quantities = false;
   syntax.options.add("out", &folder, "folder for all results");
   syntax.options.add("data", &own_data,
                      "folder with the rig, test, specimen and truth files (otherwise those that "

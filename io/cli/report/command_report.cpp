@@ -33,6 +33,7 @@ struct ReportWords {
   std::optional<std::string> out, pictures;
   std::string title = "Soft polymer, from load cell to material", units = "mm-t-s";
   bool is_reproducible = false, overwrite = false;
+  Plausible plausible = Plausible::kMeasured;
 };
 
 CommandSyntax report_syntax(ReportWords& words) {
@@ -142,6 +143,7 @@ ReportRequest checked_words(const ReportWords& asked, const Words& words,
                                  counted(report.truth_files.size(), "truth file"),
                                  counted(measured_count(report.files), "capture")));
   }
+  report.plausible = asked.plausible;
   if (!asked.is_reproducible) report.created_at = now_iso8601();
   return report;
 }
@@ -224,6 +226,7 @@ int run_report(const Words& words, Streams& streams) {
   ReportWords asked;
   CommandSyntax syntax = report_syntax(asked);
   if (!parse_words(syntax, words, streams)) return kDone;
+  asked.plausible = given_plausible(syntax);
   std::vector<std::string> rubbers;
   const ReportRequest report = checked_words(asked, words, rubbers);
   const fs::path page = *asked.out;

@@ -149,7 +149,7 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
     gain_u = gain_u_of(run.rig);
   } else if (words.data_file) {
     points = points_from_table(*words.data_file);
-    if (words.rig_file) gain_u = gain_u_of(read_rig(*words.rig_file));
+    if (words.rig_file) gain_u = gain_u_of(read_rig(*words.rig_file, words.plausible));
   } else {
     const RigConfig rig = calibrate_rig(words);
     wait_for_block(words, streams);

@@ -15,6 +15,7 @@ namespace viscard {
 // The options of `viscard calibrate`. SI.
 struct CalibrateWords {
   std::optional<std::string> rig_file, data_file, truth_file;
+  Plausible plausible = Plausible::kMeasured;
   std::string out_file, id, valid_until;
   bool is_compliance = false;
   bool is_emulated = false;

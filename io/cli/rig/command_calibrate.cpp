@@ -75,6 +75,7 @@ std::vector<double> masses_from(const std::string& text) {
 // Fills in what follows from other options.
 void take_values(const CommandSyntax& syntax, CalibrateWords& words) {
   words.as_json = syntax.as_json;
+  words.plausible = given_plausible(syntax);
   if (words.id.empty()) words.id = (words.is_compliance ? "frame " : "load cell ") + today();
   if (!words.weights.empty()) words.masses_kg = masses_from(words.weights);
   words.is_gravity_given = is_given(syntax, "gravity");

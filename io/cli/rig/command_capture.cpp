@@ -216,6 +216,7 @@ int run_capture(const Words& words, Streams& streams) {
   CommandSyntax syntax = capture_syntax(asked);
   if (!parse_words(syntax, words, streams)) return kDone;
   asked.as_json = syntax.as_json;
+  asked.plausible = given_plausible(syntax);
   check_words(asked);
   const std::vector<SeriesStep> steps = series_from_words(asked);
   check_somebody_is_there(asked, steps);

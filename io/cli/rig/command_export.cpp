@@ -77,6 +77,7 @@ int run_export(const Words& words, Streams& streams) {
       "receipt. Of an interrupted run all committed samples are written, and the head states that "
       "it was interrupted. Without --out the table goes to standard output.";
   syntax.example = "viscard export run.viscap --out run.csv";
+  syntax.reads_quantities = false;
   syntax.positional.add("capture", &capture, "captured run");
   syntax.options.add("out", &out, "CSV file to write");
   syntax.options.add("raw", &is_raw, "the bytes as received and sent instead of the samples");

@@ -137,6 +137,7 @@ struct RigWords {
   std::optional<std::string> rig_file;
   double seconds = 3.0;
   bool is_emulated = false;
+  Plausible plausible = Plausible::kMeasured;
 };
 
 CommandSyntax rig_syntax(RigWords& words) {
@@ -162,7 +163,7 @@ int check_and_print(const RigWords& words, bool as_json, Streams& streams) {
   if (!(words.seconds >= 1.0) || words.seconds > 3600.0) {
     throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", words.seconds));
   }
-  const RigConfig rig = words.rig_file ? read_rig(*words.rig_file) : demo_rig();
+  const RigConfig rig = words.rig_file ? read_rig(*words.rig_file, words.plausible) : demo_rig();
   RigCheck found = check_rig_config(rig, words.is_emulated, words.seconds);
   if (words.rig_file) add_calibration(rig, found);
   if (as_json) {
@@ -180,6 +181,7 @@ int run_rig(const Words& words, Streams& streams) {
   RigWords asked;
   CommandSyntax syntax = rig_syntax(asked);
   if (!parse_words(syntax, words, streams)) return kDone;
+  asked.plausible = given_plausible(syntax);
   for (const char* option : {"rig", "seconds", "emulate"}) {
     const bool belongs =
         asked.what == "check" || (asked.what == "list" && option == std::string("rig"));
@@ -188,7 +190,7 @@ int run_rig(const Words& words, Streams& streams) {
   }
   if (asked.what == "list") {
     std::optional<RigConfig> rig;
-    if (asked.rig_file) rig = read_rig(*asked.rig_file);
+    if (asked.rig_file) rig = read_rig(*asked.rig_file, asked.plausible);
     return list_ports(rig, given_words(syntax, {"rig"}), syntax.as_json, streams);
   }
   if (asked.what == "overshoot") return show_overshoot(syntax.as_json, streams);

@@ -66,7 +66,9 @@ int run_cost(const Words& words, Streams& streams) {
   const std::string path = *asked.scene;
   CostOptions options{.budget_s = asked.budget_s};
   if (!(options.budget_s > 0.0)) throw UsageError("--budget must be positive, such as 60s");
-  const Scene scene = read_scene(path).scene;
+  const SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  const Scene scene = file.scene;
   CostStudy study;
   {
     Progress progress(streams, "cost");

@@ -99,6 +99,7 @@ int run_design(const Words& words, Streams& streams) {
   std::optional<std::string> lattice;
   CommandSyntax syntax = design_syntax(asked, limits, lattice);
   if (!parse_words(syntax, words, streams)) return kDone;
+  asked.judged = given_plausible(syntax);
   if (asked.scene || asked.require) {
     refuse_limit_options(syntax);
     return is_specification(asked) ? run_design_optimise(asked, syntax, words, streams)

@@ -149,7 +149,9 @@ int run_plan(const Words& words, Streams& streams) {
   syntax.positional.add("scene", &path, "scene file");
   add_tolerance_option(syntax.options, tolerance);
   if (!parse_words(syntax, words, streams)) return kDone;
-  Scene scene = read_scene(path).scene;
+  const SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  Scene scene = file.scene;
   apply_tolerance(tolerance, scene);
   const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
   std::vector<EffectSaving> savings;

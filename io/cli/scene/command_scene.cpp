@@ -26,7 +26,9 @@ int run_scene(const Words& words, Streams& streams) {
   syntax.options.add("svg", &svg, "file for the drawing");
   syntax.options.add("force", &overwrite, "overwrite an existing file");
   if (!parse_words(syntax, words, streams)) return kDone;
-  const Scene scene = read_scene(path).scene;
+  const SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  const Scene scene = file.scene;
   // Reading finds neither effects that cannot be off nor buckling.
   with_lines_of(path, [&] { return checked_plan(scene); });
   const std::string name = std::filesystem::path(path).filename().string();

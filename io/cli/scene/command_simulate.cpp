@@ -120,7 +120,8 @@ int run_simulate(const Words& words, Streams& streams) {
   CommandSyntax syntax = simulate_syntax(asked);
   if (!parse_words(syntax, words, streams)) return kDone;
   const std::string& path = asked.scene;
-  SceneFile file = read_scene(path);
+  SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
   apply_tolerance(asked.tolerance, file.scene);
   const bool is_sweep = !file.sweep.is_empty();
   const std::string folder = asked.out.value_or("");
@@ -130,10 +131,11 @@ int run_simulate(const Words& words, Streams& streams) {
       is_sweep ? run_sweep(file, path, output, streams) : answer_of(file.scene, path, streams);
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (file.accepts_implausible) answer.notes.emplace_back(kPlausibleOffText);
   const auto printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
   const auto uncertainty = uncertainty_of(asked, file, answer, streams);
-  const JsonHead head{"viscard-simulate/1", {path}};
+  const JsonHead head{"viscard-simulate/1", {path}, streams.accepts_implausible};
   nlohmann::json object = with_head(head, json_from_answer(answer, wall_s));
   if (!printed.empty()) object["printed"] = json_from_comparison(printed);
   if (uncertainty) object["uncertainty"] = json_from_uncertainty(*uncertainty);

@@ -52,7 +52,10 @@ const SweepProgram& on_all_cores() {
       "other "
       "machines (--shard) and be merged; viscard-mpi answers one on many machines at once.",
       "viscard sweep data/studies/pillar.toml --out study.sqlite --csv study.csv", nullptr,
-      [](const SweepJob& job) { return run_study(job.study, job.shard, job.store, job.progress); }};
+      [](const SweepJob& job) {
+        return run_study(job.study, job.shard, job.store, job.progress,
+                         job.judged);
+      }};
   return kProgram;
 }
 
@@ -91,9 +94,10 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
   }
   if (asked.out) refuse_folder_as_file("out", *asked.out);
   if (asked.csv) refuse_existing(*asked.csv, asked.overwrite);
+  const Plausible judged = given_plausible(syntax, Plausible::kScene);
   const Study study = read_study(path);
   // A mistake in the study or its scene is reported here, not once for each point.
-  scene_from_toml(scene_text_with(study, values_at(study, 0)), study.scene_path);
+  check_values(study, judged);
   const std::string file =
       asked.out.value_or(std::filesystem::path(path).stem().string() + ".sqlite");
   StudyStore store(file, study);
@@ -103,7 +107,7 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
     for (const std::string& part : asked.merge) merged += store.merge(part, study);
   } else {
     Progress progress(streams, "sweep");
-    outcome = program.run({study, shard, store, [&](double done) { progress.show(done, ""); }});
+    outcome = program.run({study, shard, store, [&](double done) { progress.show(done, ""); }, judged});
   }
   if (asked.csv) write_file(*asked.csv, csv_from_study(store, study), asked.overwrite);
   const auto n_done = static_cast<std::int64_t>(store.done().size());

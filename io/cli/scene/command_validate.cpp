@@ -91,7 +91,7 @@ int run_validate(const Words& words, Streams& streams) {
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
     throw UsageError("--max-error must lie between 0 and 1");
   }
-  const Material material = read_material(path).material;
+  const Material material = read_material(path, given_plausible(syntax)).material;
   refuse_liquid(material, path);
   const std::string name = material.name.empty() ? path : material.name;
   Progress progress(streams, "validate");

@@ -29,7 +29,9 @@ Judgement judgement_of(const DesignWords& words, const Requirements& requirement
   if (options.search_s < 0.0) throw UsageError("--search-time must not be negative, such as 60s");
   options.progress = [&](double done, const std::string& what) { progress.announce(done, what); };
   try {
-    return judge_scene(read_file(scene), scene, requirements, options);
+    std::string text = read_file(scene);
+    if (words.judged == Plausible::kOff) text = "plausible = \"off\"\n" + text;
+    return judge_scene(text, scene, requirements, options);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }

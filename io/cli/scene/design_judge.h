@@ -14,6 +14,7 @@ struct DesignWords {
   std::optional<double> tolerance;
   double search_s = 60.0;
   bool overwrite = false;
+  Plausible judged = Plausible::kMeasured;
 };
 
 // viscard design SCENE.toml --require FILE: judges a scene (io/flow/design), prints and stores.

@@ -14,6 +14,7 @@ struct SweepJob {
   const StudyShard& shard;
   StudyStore& store;
   std::function<void(double)> progress;  // called with the fraction done
+  Plausible judged = Plausible::kScene;
 };
 
 // A program that answers studies: its words, and how the points of a job are answered.

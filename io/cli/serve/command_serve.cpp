@@ -20,6 +20,7 @@ constexpr int kHighestPort = 65535;
 
 CommandSyntax serve_syntax(ServeOptions& options, std::string& folder) {
   CommandSyntax syntax;
+  syntax.reads_quantities = false;
   syntax.usage = "viscard serve FOLDER --rig FILE [OPTIONS]";
   syntax.description =
       "Shows a page at the rig: devices, specimens, the test, its expected course, live force and\n"

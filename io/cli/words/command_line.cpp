@@ -127,9 +127,10 @@ void take_positional(const Words& free, CommandSyntax& syntax) {
 }
 
 void set_all(const OptionList& options, const CommandSyntax& syntax) {
+  const Plausible judged = given_plausible(syntax);
   for (const Option& option : options.all()) {
     const auto found = syntax.given.find(option.name);
-    if (found != syntax.given.end()) set_option(option, found->second);
+    if (found != syntax.given.end()) set_option(option, found->second, judged);
   }
 }
 
@@ -145,7 +146,15 @@ void show_help(const CommandSyntax& syntax, Streams& streams) {
 bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
   bool is_help = false;
   std::string color = "auto";  // read by main() before the command begins
+  std::string plausible = "on";
   syntax.options.group("All commands");
+  if (syntax.reads_quantities && syntax.options.find("plausible") == nullptr) {
+    syntax.options
+        .add("plausible", &plausible,
+             "off: accept values that no test, material or scene can have (a wrong unit, most "
+             "often); the result says so")
+        .among({"on", "off"});
+  }
   syntax.options
       .add("json", &syntax.as_json, "print one machine-readable object on stdout, nothing else")
       .only_typed();
@@ -163,6 +172,7 @@ bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
     return false;
   }
   take_positional(free, syntax);
+  streams.accepts_implausible = given_plausible(syntax) == Plausible::kOff;
   check_output_paths(syntax);
   check_what(syntax);
   with_usage_errors([&] {
@@ -175,6 +185,15 @@ bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
 
 bool is_given(const CommandSyntax& syntax, const std::string& name) {
   return syntax.given.count(name) > 0;
+}
+
+Plausible given_plausible(const CommandSyntax& syntax, Plausible otherwise) {
+  const Words words = given_words(syntax, {"plausible"});
+  try {
+    return words.empty() ? otherwise : plausible_from_word(words.back(), otherwise);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--") + error.what());
+  }
 }
 
 Words given_words(const CommandSyntax& syntax, std::initializer_list<const char*> names) {

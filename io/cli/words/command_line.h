@@ -2,6 +2,7 @@
 
 #include "io/cli/words/command_syntax.h"
 #include "io/cli/words/streams.h"
+#include "models/quantities/plausible.h"
 
 #include <initializer_list>
 #include <string>
@@ -19,6 +20,9 @@ bool is_given(const CommandSyntax& syntax, const std::string& name);
 
 // The values as typed of those options and positional words that were given, in this order.
 Words given_words(const CommandSyntax& syntax, std::initializer_list<const char*> names);
+
+// How --plausible wants numbers judged: `otherwise`, or kOff.
+Plausible given_plausible(const CommandSyntax& syntax, Plausible otherwise = Plausible::kMeasured);
 
 // "viscard" and the words, quoted for a shell; output files record it.
 std::string quoted_command_line(const std::string& command, const Words& words);

@@ -17,6 +17,7 @@ struct CommandSyntax {
   // The words without a name, in order. A list takes all that remain and, like a text, must be given; an
   // optional text need not be. "what" is a subcommand.
   OptionList positional;
+  bool reads_quantities = true;  // has --plausible
   // The outputs that may exist already: folders, and files that are continued. All others are new files.
   std::vector<std::string> may_exist;
 

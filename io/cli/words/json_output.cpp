@@ -34,13 +34,15 @@ Json with_head(const JsonHead& head, Json object) {
   out["schema"] = head.schema;
   out["version"] = VISCARD_VERSION;
   out["inputs"] = head.inputs;
+  if (head.accepts_implausible) out["plausible"] = "off";
   for (auto& [key, value] : object.items()) out[key] = std::move(value);
   return out;
 }
 
 template <typename Json>
 void print_json(const JsonHead& head, Json object, Streams& streams, int indent) {
-  print_line(with_head(head, std::move(object)), streams, indent);
+  const JsonHead of_command{head.schema, head.inputs, streams.accepts_implausible};
+  print_line(with_head(of_command, std::move(object)), streams, indent);
 }
 
 template nlohmann::json with_head(const JsonHead&, nlohmann::json);

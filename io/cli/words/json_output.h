@@ -14,6 +14,7 @@ namespace viscard {
 struct JsonHead {
   const char* schema;  // "viscard-fit/1"
   Words inputs;
+  bool accepts_implausible = false;  // "plausible": "off"
 };
 
 // The object with its head in front. A schema of its own stays. Json: json or ordered_json.

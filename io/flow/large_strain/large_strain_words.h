@@ -14,7 +14,7 @@ namespace viscard {
 struct LargeStrainWords {
   // Not given: the default.
   using Text = std::optional<std::string>;
-  Text model, weight, youngs_modulus, cycle, sheet;
+  Text model, weight, youngs_modulus, cycle, sheet, plausible;
   std::vector<std::string> column;
   std::optional<int> terms, max_terms;  // of relaxation
 };

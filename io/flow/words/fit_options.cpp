@@ -123,6 +123,12 @@ OptionList options_of(FitWords& words) {
   add_model(list, words);
   add_noise(list, words);
   add_several(list, words);
+  list.group("Units");
+  list.add("plausible", &words.plausible,
+           "off: accept values that no test or material can have (a wrong unit, most often); the "
+           "result says so")
+      .among({"on", "off"})
+      .by_default("on");
   return list;
 }
 

@@ -24,7 +24,8 @@ struct FitWords {
   std::vector<std::string> column, segment;
   Text sheet, time_zero, from, to, crop, depth;
   std::optional<int> hold;
-  Text specimen, punch_diameter, layer_thickness, frame_stiffness, reference_temperature, density;
+  Text plausible, specimen, punch_diameter, layer_thickness, frame_stiffness, reference_temperature,
+      density;
   std::optional<double> poisson_ratio;
   // Several files.
   std::vector<double> ratio;

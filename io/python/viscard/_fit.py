@@ -55,7 +55,7 @@ def fit(data, *, errors: str = "raise", progress: Progress = None, **options: Un
         tests of one material, fitted together into one result; "uniaxial=a.csv", "compression=b.csv", "planar=c.csv",
         "equibiaxial=d.csv" are tests of rubber at large strain. A dict has arrays of shape (rows,) by header with
         unit: ``{"time_s": t, "modulus_Pa": E}``, ``{"Time [ms]": t, "Force [mN]": F}``; a message about
-        "arrays:7" means row 7, from 1.
+        "arrays:7" means row 7, from 1. Rows that a masked array masks are left out.
     errors : "raise" or "return"
         Of a list: "return" puts the Error of a file that cannot be fitted in the place of its result.
     progress : function of (fraction, step)
@@ -110,7 +110,7 @@ def _fit_rubber(paths, keywords):
     from ._rubber import RubberFit
 
     for name, value in keywords.items():
-        if name not in _RUBBER_ONLY + ("model", "column", "sheet", "terms", "max_terms") and value is not False:
+        if name not in _RUBBER_ONLY + ("model", "column", "sheet", "terms", "max_terms", "plausible") and value is not False:
             raise Error(f"{name} does not belong to tests at large strain; omit it", "usage")
     if isinstance(keywords.get("cycle"), int):
         keywords["cycle"] = str(keywords["cycle"])

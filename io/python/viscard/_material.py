@@ -28,6 +28,8 @@ class Material:
     rho_kg_m3 : float
         Density; 0: not given.
     name : str
+    plausible : "on" or "off"
+        "off" accepts a modulus or density that no material has; the material says so.
 
     Examples
     --------
@@ -40,7 +42,7 @@ class Material:
 
     @_check.arguments
     def __init__(self, E0_Pa: float, nu: float, *, terms: Sequence[Tuple[float, float]] = (),
-                 rho_kg_m3: float = 0.0, name: str = "") -> None:
+                 rho_kg_m3: float = 0.0, name: str = "", plausible: str = "on") -> None:
         if not isinstance(terms, (list, tuple, np.ndarray)):
             raise TypeError(f"terms must be a list of (g, tau_s), such as [(0.2, 1.5)], not {_check.shown(terms)}")
         try:
@@ -52,7 +54,7 @@ class Material:
                                 "nu": float(nu), "terms": rows}
         if rho_kg_m3:
             text["rho_kg_m3"] = float(rho_kg_m3)
-        self._core = _core.material_from_json(json.dumps(text), name or "Material()")
+        self._core = _core.material_from_json(json.dumps(text), name or "Material()", plausible)
 
     @classmethod
     def _of(cls, found) -> "Material":
@@ -62,7 +64,7 @@ class Material:
 
     @classmethod
     @_check.arguments
-    def load(cls, path: Path) -> "Material":
+    def load(cls, path: Path, *, plausible: str = "on") -> "Material":
         """Read a material file.
 
         Examples
@@ -70,7 +72,7 @@ class Material:
         >>> viscard.Material.load(viscard.data_file("materials/pdms_1to10_seed.json")).nu
         0.495
         """
-        return cls._of(_core.read_material(os.fspath(path)))
+        return cls._of(_core.read_material(os.fspath(path), plausible))
 
     @_check.arguments
     def save(self, path: Path, *, overwrite: bool = False) -> None:
@@ -181,7 +183,7 @@ class Material:
     def card(self, target: str, units: str = "SI", *, terms: Optional[int] = None,
              approximate: bool = False, accept_flags: bool = False, clamp_nu: Optional[float] = None,
              bound: str = "", elastic_only: str = "", temperature_C: Optional[float] = None,
-             reproducible: bool = False) -> Card:
+             reproducible: bool = False, plausible: str = "on") -> Card:
         """Write a material card for a solver, read it back and compare.
 
         Parameters
@@ -190,7 +192,7 @@ class Material:
             One of `card_targets()`.
         units : str
             Unit system of the card, such as "SI" or "mm-t-s".
-        terms, approximate, accept_flags, clamp_nu, bound, elastic_only, temperature_C, reproducible
+        terms, approximate, accept_flags, clamp_nu, bound, elastic_only, temperature_C, reproducible, plausible
             As in ``viscard card --help``.
 
         Examples
@@ -200,7 +202,8 @@ class Material:
         """
         words = {"terms": _arrays.whole(terms, "terms", 0), "approximate": approximate, "accept_flags": accept_flags,
                  "clamp_nu": clamp_nu, "bound": bound, "elastic_only": elastic_only,
-                 "temperature_C": temperature_C, "reproducible": reproducible}
+                 "temperature_C": temperature_C, "reproducible": reproducible,
+                 "plausible": plausible}
         return Card(_core.card(self._core, target, units, words))
 
     def predict(self, **options: Unpack[PredictOptions]) -> "Prediction":
@@ -216,7 +219,7 @@ class Material:
 
 
 def _from_json(text: str) -> Material:
-    return Material._of(_core.material_from_json(text, "material"))
+    return Material._of(_core.material_from_json(text, "material", "on"))
 
 
 class Prediction:
@@ -279,6 +282,8 @@ def predict(material: Union[Material, Path], **options: Unpack[PredictOptions]) 
     ['loss_modulus_Pa', 'storage_modulus_Pa', 'tan_delta']
     """
     keywords = {name: value for name, value in options.items() if value is not None}
-    one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"))
-    inputs = [os.fspath(path) for path in (material, options.get("history"), options.get("against")) if isinstance(path, (str, os.PathLike))]
+    plausible = options.get("plausible") or "on"
+    one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"), plausible=plausible)
+    inputs = [os.fspath(path) for path in (material, options.get("history"), options.get("against"))
+              if isinstance(path, (str, os.PathLike))]
     return Prediction(_arrays.with_head("viscard-predict/1", inputs, _core.predict(one._core, keywords)))
