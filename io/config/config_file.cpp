@@ -5,6 +5,7 @@
 #include "io/config/config_fields.h"
 #include "io/config/config_show.h"
 #include "io/config/performance_file.h"
+#include "models/experiment/calibration_check.h"
 #include "models/experiment/converter.h"
 #include "models/experiment/test_phases.h"
 #include "models/material/liquid.h"
@@ -147,7 +148,8 @@ EmulatedTruth truth_from_toml(const std::string& text, const std::string& name, 
 namespace {
 
 // Checks that apply only to a rig about to be used; the rig in an old capture is read without them.
-void check_before_use(const RigConfig& rig, const std::string& name) {
+// toml, name: of the file that holds the calibration.
+void check_before_use(const RigConfig& rig, const std::string& toml, const std::string& name) {
   const LoadCellConfig& cell = rig.load_cell;
   const bool may_count = has_converter(cell) && cell.unit.empty() && cell.line_format != "volts";
   if (may_count && cell.volts_per_count == 0.0) {
@@ -161,21 +163,39 @@ void check_before_use(const RigConfig& rig, const std::string& name) {
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name + ": " + error.what());
   }
+  if (!rig.calibration.file.empty()) return;  // the record is checked once it has been read
+  if (const auto fault = calibration_fault(rig.calibration, reading_span(cell))) {
+    const std::string key = "calibration." + fault->key;
+    const int line = line_of_key(toml, key);
+    throw std::runtime_error(name + (line > 0 ? ":" + std::to_string(line) : "") + ": " + key +
+                             ": " + fault->text);
+  }
 }
 
 }  // namespace
 
+RigConfig read_rig_to_calibrate(const std::filesystem::path& path, Plausible judged) {
+  RigConfig rig = read_for_use(path, judged, rig_from_toml);
+  LoadCellCalibration& calibration = rig.calibration;
+  const std::filesystem::path record = path.parent_path() / calibration.file;
+  if (calibration.file.empty() || calibration.capacity_N > 0.0 || !exists(record)) return rig;
+  const CalibrationRecord before = read_calibration(record);
+  if (before.calibration) calibration.capacity_N = before.calibration->capacity_N;
+  return rig;
+}
+
 RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
   RigConfig rig = read_for_use(path, judged, rig_from_toml);
-  check_before_use(rig, path.string());
+  check_before_use(rig, read_file(path), path.string());
   const std::filesystem::path folder = path.parent_path();
   // The record replaces the whole section, so that its numbers are never mixed with older ones.
   // Only the rated load of the cell may be in the rig file alone.
   if (!rig.calibration.file.empty()) {
     const double capacity_N = rig.calibration.capacity_N;
     const std::string file = rig.calibration.file;
-    const CalibrationRecord record = read_calibration(
-        path_at_key(read_file(path), path, "calibration.file", file, FileKind::kCalibration));
+    const std::filesystem::path where =
+        path_at_key(read_file(path), path, "calibration.file", file, FileKind::kCalibration);
+    const CalibrationRecord record = read_calibration(where);
     if (!record.calibration) {
       throw std::runtime_error((folder / rig.calibration.file).string() +
                                ": has no [calibration]; make one with viscard calibrate");
@@ -183,7 +203,7 @@ RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
     rig.calibration = *record.calibration;
     if (rig.calibration.capacity_N == 0.0) rig.calibration.capacity_N = capacity_N;
     validate(rig.calibration);
-    check_before_use(rig, (folder / file).string());
+    check_before_use(rig, read_file(where), where.string());
   }
   if (!rig.frame.file.empty()) {
     const CalibrationRecord record = read_calibration(

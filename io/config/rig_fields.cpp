@@ -36,6 +36,7 @@ void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
   fields.text({"converter", "ads1232"}, cell.converter);
   fields.quantity({"gain", "1", kNotNegative}, cell.gain);
   fields.quantity({"reference", "V", kNotNegative}, cell.reference_V);
+  fields.quantity({"span", "V", kNotNegative}, cell.span_V);
   fields.text({"frame", "a5 5a counts:i24 check:crc16"}, cell.frame);
   fields.boolean("compression_is_positive", cell.compression_is_positive);
   fields.text({"dialect", "34401a"}, cell.dialect);

@@ -3,7 +3,7 @@
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/design/judgement_output.h"
 #include "io/flow/optimise/optimised_output.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"

@@ -1,7 +1,7 @@
 #include "io/flow/capture_setup.h"
 #include "io/flow/capture_to_file.h"
 #include "io/flow/json/flow_json.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"

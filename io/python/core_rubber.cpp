@@ -1,7 +1,7 @@
 #include "fit/large_strain/rubber_band.h"
 #include "io/cards/hyperelastic/rubber_file_card.h"
 #include "io/flow/large_strain/large_strain_words.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"

@@ -3,6 +3,7 @@
 #include "io/flow/large_strain/large_strain_words.h"
 #include "io/flow/words/fit_words.h"
 #include "io/flow/words/predict_words.h"
+#include "io/options/option.h"
 #include "models/quantities/plausible.h"
 
 #include <pybind11/pybind11.h>
@@ -14,6 +15,11 @@ namespace viscard::python {
 
 // Keyword arguments as the options of commands. Quantities are texts or numbers in SI. viscard/_check.py has refused
 // other types, such as True for a number, which pybind11 takes for 1; what it cannot convert is a TypeError too.
+// Sets the targets of the options that are among the keywords. Throws OptionError.
+void take_keywords(const pybind11::dict& keywords, const OptionList& options);
+// "punch_diameter" of --punch-diameter.
+std::string keyword_of(const Option& option);
+
 FitWords fit_words_from(const pybind11::dict& keywords);
 LargeStrainWords large_strain_words_from(const pybind11::dict& keywords);
 PredictWords predict_words_from(const pybind11::dict& keywords);

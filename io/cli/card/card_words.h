@@ -31,6 +31,7 @@ struct CardWords {
   std::optional<double> ratio;  // of a joint fit
   std::optional<double> temperature_C;
   std::optional<double> bulk_Pa, density_kg_m3;  // of a law of rubber
+  std::optional<std::string> band_text;          // as typed
   std::optional<FrequencyBand> band;
   bool may_extrapolate = false;
   bool list = false, is_long = false, force = false, json = false, is_reproducible = false;

@@ -25,21 +25,19 @@ std::vector<std::string> shell_names() {
 }  // namespace
 
 int run_completion(const Words& words, Streams& streams, const AskDocuments& documents) {
+  std::string name;
   CommandSyntax syntax{"viscard completion SHELL [OPTIONS]",
                        "Prints the script with which bash, zsh or fish complete commands, options "
                        "and their values. For bash: source <(viscard completion bash)",
                        "viscard completion bash"};
   syntax.reads_quantities = false;
-  syntax.positional = {"shell"};
-  syntax.choices["shell"] = shell_names();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const auto name = required(*values, "shell", syntax);
+  syntax.positional.add("shell", &name, "the shell").such_as(shell_names());
+  if (!parse_words(syntax, words, streams)) return kDone;
   for (const Shell& shell : kShells) {
     if (name != shell.name) continue;
     const std::string script = shell.script(documents());
     const nlohmann::ordered_json object{{"shell", name}, {"script", script}};
-    if (!print_json(*values, {"viscard-completion/1", {}}, object, streams)) streams.out << script;
+    if (!print_json(syntax, {"viscard-completion/1", {}}, object, streams)) streams.out << script;
     return kDone;
   }
   throw UsageError("there is no completion for '" + name + "'" +

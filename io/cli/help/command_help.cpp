@@ -8,24 +8,10 @@
 #include <algorithm>
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
 using nlohmann::ordered_json;
-
-CommandSyntax help_syntax(const Words& names) {
-  CommandSyntax syntax{"viscard help [COMMAND] [OPTIONS]",
-                       "Explains a command, as --help of the command does, or lists all commands. "
-                       "--man prints the source of the manual page instead.",
-                       "viscard help fit"};
-  syntax.reads_quantities = false;
-  syntax.options.add_options()("man", "print the manual page, for man -l -");
-  syntax.positional = {"command", "what"};
-  syntax.choices["command"] = names;
-  return syntax;
-}
 
 const CommandDocument& named(const std::string& name, const CommandDocuments& documents) {
   return *std::find_if(documents.begin(), documents.end(),
@@ -34,11 +20,11 @@ const CommandDocument& named(const std::string& name, const CommandDocuments& do
 
 // "scene check": the help of a command explains its subcommands.
 void check_subcommand(const CommandDocument& one, const std::string& what) {
-  const auto choices = one.syntax.choices.find("what");
-  if (choices == one.syntax.choices.end()) {
+  const Option* option = one.syntax.positional.find("what");
+  if (option == nullptr) {
     throw UsageError("viscard " + one.name + " has no subcommands; write viscard help " + one.name);
   }
-  const Words& known = choices->second;
+  const Words& known = option->choices;
   if (std::find(known.begin(), known.end(), what) != known.end()) return;
   throw UsageError("there is no '" + one.name + " " + what + "'" + did_you_mean(what, known, ";") +
                    " there are: " + listed(known));
@@ -56,21 +42,28 @@ ordered_json json_of_list(const CommandDocuments& documents) {
 
 int run_help(const Words& words, Streams& streams, const Words& names,
              const AskDocuments& ask_documents, const std::string& overview) {
-  CommandSyntax syntax = help_syntax(names);
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const auto name = given(*values, "command");
+  std::optional<std::string> name, what;
+  bool is_page = false;
+  CommandSyntax syntax{"viscard help [COMMAND] [OPTIONS]",
+                       "Explains a command, as --help of the command does, or lists all commands. "
+                       "--man prints the source of the manual page instead.",
+                       "viscard help fit"};
+  syntax.reads_quantities = false;
+  syntax.positional.add("command", &name, "a command").such_as(names);
+  syntax.positional.add("what", &what, "its subcommand");
+  syntax.options.add("man", &is_page, "print the manual page, for man -l -");
+  if (!parse_words(syntax, words, streams)) return kDone;
   if (name && std::find(names.begin(), names.end(), *name) == names.end()) {
     throw UsageError("there is no command '" + *name + "'" + did_you_mean(*name, names, ";") +
                      " 'viscard help' lists the commands");
   }
   const CommandDocuments documents = ask_documents();
   const CommandDocument* one = name ? &named(*name, documents) : nullptr;
-  if (const auto what = given(*values, "what")) check_subcommand(*one, *what);
-  const std::string page = values->count("man") == 0 ? ""
-                           : one != nullptr          ? manual_page(*one)
-                                                     : manual_overview(documents);
-  if (values->count("json") > 0) {
+  if (what) check_subcommand(*one, *what);
+  const std::string page = !is_page         ? ""
+                           : one != nullptr ? manual_page(*one)
+                                            : manual_overview(documents);
+  if (syntax.as_json) {
     ordered_json object = one != nullptr ? json_from_syntax(one->syntax) : json_of_list(documents);
     if (!page.empty()) object["manual_page"] = page;
     print_json({one != nullptr ? "viscard-help/1" : "viscard-commands/1", {}}, object, streams);

@@ -13,31 +13,8 @@
 
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
-
-CommandSyntax export_syntax() {
-  CommandSyntax syntax;
-  syntax.reads_quantities = false;
-  syntax.usage = "viscard export RUN.viscap [--out FILE.csv] [OPTIONS]";
-  syntax.description =
-      "Writes every sample of a capture as CSV: time, counts, volts, force, stage position, "
-      "phase.\n"
-      "Times and positions are on the clock that viscard fit uses; host_time_s is the time of "
-      "receipt.\n"
-      "Of an interrupted run all committed samples are written, and the head states that it was "
-      "interrupted.\n"
-      "Without --out the table goes to standard output.";
-  syntax.example = "viscard export run.viscap --out run.csv";
-  syntax.options.add_options()("out", po::value<std::string>(), "CSV file to write")(
-      "raw", "the bytes as received and sent instead of the samples")(
-      "verify", "compare the capture with its checksums; writes no table")(
-      "force", "replace an existing file");
-  syntax.positional = {"capture"};
-  return syntax;
-}
 
 nlohmann::ordered_json summary_of(const CapturedRun& run, const std::string& capture) {
   std::size_t n_gaps = 0;
@@ -89,26 +66,35 @@ int verify(const std::string& capture, bool is_json, Streams& streams) {
 }  // namespace
 
 int run_export(const Words& words, Streams& streams) {
-  CommandSyntax syntax = export_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  if (values->count("capture") == 0) {
-    throw UsageError("export needs a capture. usage: " + std::string(syntax.usage));
-  }
-  const auto capture = (*values)["capture"].as<std::string>();
-  const bool is_json = values->count("json") > 0;
-  const bool is_raw = values->count("raw") > 0;
-  if (values->count("verify") > 0) {
-    if (is_raw || values->count("out") > 0) {
-      throw UsageError("--verify writes no table; omit --out and --raw");
-    }
+  std::string capture;
+  std::optional<std::string> out;
+  bool is_raw = false, verifies = false, overwrite = false;
+  CommandSyntax syntax;
+  syntax.usage = "viscard export RUN.viscap [--out FILE.csv] [OPTIONS]";
+  syntax.description =
+      "Writes every sample of a capture as CSV: time, counts, volts, force, stage position, phase. "
+      "Times and positions are on the clock that viscard fit uses; host_time_s is the time of "
+      "receipt. Of an interrupted run all committed samples are written, and the head states that "
+      "it was interrupted. Without --out the table goes to standard output.";
+  syntax.example = "viscard export run.viscap --out run.csv";
+  syntax.reads_quantities = false;
+  syntax.positional.add("capture", &capture, "captured run");
+  syntax.options.add("out", &out, "CSV file to write");
+  syntax.options.add("raw", &is_raw, "the bytes as received and sent instead of the samples");
+  syntax.options.add("verify", &verifies,
+                     "compare the capture with its checksums; writes no table");
+  syntax.options.add("force", &overwrite, "replace an existing file");
+  if (!parse_words(syntax, words, streams)) return kDone;
+  const bool is_json = syntax.as_json;
+  if (verifies) {
+    if (is_raw || out) throw UsageError("--verify writes no table; omit --out and --raw");
     return verify(capture, is_json, streams);
   }
   const CapturedRun run = read_capture(capture);
   const std::string table = is_raw ? csv_from_raw_bytes(capture) : table_from_capture(run);
   nlohmann::ordered_json summary = summary_of(run, capture);
-  if (const auto out = given(*values, "out")) {
-    write_file(*out, table, values->count("force") > 0);
+  if (out) {
+    write_file(*out, table, overwrite);
     summary["out"] = *out;
     if (!is_json) {
       streams.out << *out << ": " << counted(run.load_samples.size(), "sample") << " of " << capture

@@ -17,8 +17,6 @@
 #include <string>
 #include <vector>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -105,19 +103,6 @@ nlohmann::json json_from_savings(const std::vector<EffectSaving>& savings) {
   return list;
 }
 
-CommandSyntax plan_syntax() {
-  CommandSyntax syntax{
-      "viscard plan SCENE.toml [OPTIONS]",
-      "Prints the effects that a scene needs at its tolerance, with the number that "
-      "decides, the error of leaving each out, and what that saves in processor "
-      "time and unknowns. 'viscard simulate' follows it; [effects] in the scene "
-      "overrules it.",
-      "viscard plan data/scenes/pillar_modal.toml"};
-  add_tolerance_option(syntax.options);
-  syntax.positional = {"scene"};
-  return syntax;
-}
-
 }  // namespace
 
 nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects) {
@@ -138,13 +123,11 @@ nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects) {
   return list;
 }
 
-void add_tolerance_option(po::options_description& options) {
-  options.add_options()("tol", po::value<double>(),
-                        "relative error allowed, instead of the scene's");
+void add_tolerance_option(OptionList& options, std::optional<double>& tolerance) {
+  options.add("tol", &tolerance, "relative error allowed, instead of the scene's");
 }
 
-void apply_tolerance(const po::variables_map& values, Scene& scene) {
-  const auto tolerance = given<double>(values, "tol");
+void apply_tolerance(const std::optional<double>& tolerance, Scene& scene) {
   if (!tolerance) return;
   try {
     set_tolerance(*tolerance, scene);
@@ -154,14 +137,22 @@ void apply_tolerance(const po::variables_map& values, Scene& scene) {
 }
 
 int run_plan(const Words& words, Streams& streams) {
-  CommandSyntax syntax = plan_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const auto path = required(*values, "scene", syntax);
-  const SceneFile file = read_scene(path, given_plausible(*values, Plausible::kScene));
+  std::string path;
+  std::optional<double> tolerance;
+  CommandSyntax syntax{
+      "viscard plan SCENE.toml [OPTIONS]",
+      "Prints the effects that a scene needs at its tolerance, with the number that "
+      "decides, the error of leaving each out, and what that saves in processor "
+      "time and unknowns. 'viscard simulate' follows it; [effects] in the scene "
+      "overrules it.",
+      "viscard plan data/scenes/pillar_modal.toml"};
+  syntax.positional.add("scene", &path, "scene file");
+  add_tolerance_option(syntax.options, tolerance);
+  if (!parse_words(syntax, words, streams)) return kDone;
+  const SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
   streams.accepts_implausible |= file.accepts_implausible;
   Scene scene = file.scene;
-  apply_tolerance(*values, scene);
+  apply_tolerance(tolerance, scene);
   const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
   std::vector<EffectSaving> savings;
   try {
@@ -174,7 +165,7 @@ int run_plan(const Words& words, Streams& streams) {
                               {"left_out", plan.left_out},
                               {"savings", json_from_savings(savings)},
                               {"mesh_tolerance", common(plan.reduced).tolerance}};
-  if (!print_json(*values, {"viscard-plan/1", {path}}, object, streams)) {
+  if (!print_json(syntax, {"viscard-plan/1", {path}}, object, streams)) {
     print_plan(path, scene, plan, savings, FittedText(streams));
   }
   return kDone;

@@ -2,15 +2,28 @@
 
 #include "io/cli/words/command_line.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
-// viscard cost --rig: error against time at the rig, over tests of a specimen.
-int run_cost_of_tests(const boost::program_options::variables_map& values,
-                      const CommandSyntax& syntax, const std::string& command, Streams& streams);
+// The options of viscard cost --rig.
+struct CostOfTestsWords {
+  std::optional<std::string> rig, specimen, guess, test, scene;
+  std::vector<std::string> want;
+  double longest_s = 3600.0;
+};
+void add_test_options(OptionList& options, CostOfTestsWords& words);
 
-// Its options.
-void add_test_options(boost::program_options::options_description& options);
+// Where the results of a study go.
+struct StudyFiles {
+  std::optional<std::string> folder;
+  bool overwrite = false;
+};
+
+// viscard cost --rig: error against time at the rig, over tests of a specimen.
+int run_cost_of_tests(const CostOfTestsWords& words, const StudyFiles& files,
+                      const CommandSyntax& syntax, const std::string& command, Streams& streams);
 
 }  // namespace viscard

@@ -34,10 +34,10 @@ void write_designs(const DesignSpec& spec, const DesignFront& front, const nlohm
 
 }  // namespace
 
-int run_design_optimise(const boost::program_options::variables_map& values, const Words& words,
+int run_design_optimise(const DesignWords& asked, const CommandSyntax& syntax, const Words& words,
                         Streams& streams) {
-  const std::string path = *given(values, "scene");
-  if (values.count("tol") > 0) {
+  const std::string& path = *asked.scene;
+  if (asked.tolerance) {
     throw UsageError(
         "--tol belongs to a scene; the tolerance of a design stands in its scene file");
   }
@@ -50,13 +50,13 @@ int run_design_optimise(const boost::program_options::variables_map& values, con
   }
   const JsonHead head{"viscard-design-front/1", {path}};
   const nlohmann::json object = with_head(head, json_from_front(spec, front));
-  if (const auto out = given(values, "out")) {
+  if (asked.out) {
     nlohmann::json stored = object;
     stored["command"] = quoted_command_line("design", words);
     stored["created_by"] = "viscard " VISCARD_VERSION;
-    write_designs(spec, front, stored, *out, values.count("force") > 0);
+    write_designs(spec, front, stored, *asked.out, asked.overwrite);
   }
-  if (!print_json(values, head, object, streams)) {
+  if (!print_json(syntax, head, object, streams)) {
     streams.out << path << "\n" << text_from_front(spec, front);
   }
   return front.designs[0].is_feasible ? kDone : kFailed;

@@ -12,15 +12,13 @@
 #include <ostream>
 #include <thread>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr int kHighestPort = 65535;
 
-CommandSyntax serve_syntax(ServeOptions& options) {
+CommandSyntax serve_syntax(ServeOptions& options, std::string& folder) {
   CommandSyntax syntax;
   syntax.reads_quantities = false;
   syntax.usage = "viscard serve FOLDER --rig FILE [OPTIONS]";
@@ -30,16 +28,18 @@ CommandSyntax serve_syntax(ServeOptions& options) {
       "Open the printed address in a browser on this machine. Closing the page stops nothing;\n"
       "Ctrl-C here stops a run, lifts the punch and ends the program.";
   syntax.example = "viscard serve series --emulate --speed 10";
-  auto add = syntax.options.add_options();
-  add("rig", into(options.rig_file), "rig.toml: ports, calibration");
-  add("port", po::value(&options.port)->default_value(0), "port of 127.0.0.1; 0: any free one");
-  add("uncalibrated", po::bool_switch(&options.is_uncalibrated),
+  syntax.positional.add("folder", &folder, "folder of the series");
+  const auto add = [&](const char* name, OptionTarget target, const char* what) -> Option& {
+    return syntax.options.add(name, target, what);
+  };
+  add("rig", &options.rig_file, "rig.toml: ports, calibration");
+  add("port", &options.port, "port of 127.0.0.1; 0: any free one");
+  add("uncalibrated", &options.is_uncalibrated,
       "capture although the load cell's calibration has expired");
-  add("emulate", po::bool_switch(&options.is_emulated), "use an emulated rig");
-  add("seed", into(options.seed), "seed of the emulated noise");
-  add("speed", po::value(&options.speed)->default_value(1.0),
+  add("emulate", &options.is_emulated, "use an emulated rig");
+  add("seed", &options.seed, "seed of the emulated noise");
+  add("speed", &options.speed,
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
-  syntax.positional = {"folder"};
   return syntax;
 }
 
@@ -67,10 +67,9 @@ void check_options(const ServeOptions& options) {
 
 int run_serve(const Words& words, Streams& streams) {
   ServeOptions options;
-  CommandSyntax syntax = serve_syntax(options);
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const std::string folder = given(*values, "folder").value_or("");
+  std::string folder;
+  CommandSyntax syntax = serve_syntax(options, folder);
+  if (!parse_words(syntax, words, streams)) return kDone;
   options.folder = folder;
   options.command = quoted_command_line("serve", words);
   check_options(options);
@@ -78,7 +77,7 @@ int run_serve(const Words& words, Streams& streams) {
   RigServer server(options);
   const nlohmann::ordered_json about = {
       {"address", server.address()}, {"port", server.port()}, {"folder", folder}};
-  if (!print_json(*values, {"viscard-serve/1", given_words(*values, {"rig"})}, about, streams)) {
+  if (!print_json(syntax, {"viscard-serve/1", given_words(syntax, {"rig"})}, about, streams)) {
     streams.out << "Open in a browser on this machine: " << server.address() << "\n";
     streams.err << "Ctrl-C ends it; a run is then stopped and the punch lifted\n";
   }

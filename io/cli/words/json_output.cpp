@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -29,20 +27,6 @@ void print_line(const Json& object, Streams& streams, int indent) {
 }
 
 }  // namespace
-
-Words given_words(const po::variables_map& values, std::initializer_list<const char*> names) {
-  Words words;
-  for (const char* name : names) {
-    if (values.count(name) == 0) continue;
-    const boost::any& held = values[name].value();
-    if (const auto* text = boost::any_cast<std::string>(&held)) {
-      words.push_back(*text);
-    } else if (const auto* texts = boost::any_cast<std::vector<std::string>>(&held)) {
-      words.insert(words.end(), texts->begin(), texts->end());
-    }
-  }
-  return words;
-}
 
 template <typename Json>
 Json with_head(const JsonHead& head, Json object) {

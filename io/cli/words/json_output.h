@@ -1,12 +1,11 @@
 #pragma once
 
+#include "io/cli/words/command_syntax.h"
 #include "io/cli/words/streams.h"
 
-#include <boost/program_options/variables_map.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include <functional>
-#include <initializer_list>
 
 namespace viscard {
 
@@ -18,10 +17,6 @@ struct JsonHead {
   bool accepts_implausible = false;  // "plausible": "off"
 };
 
-// The values of those options and positional words that were given, in this order.
-Words given_words(const boost::program_options::variables_map& values,
-                  std::initializer_list<const char*> names);
-
 // The object with its head in front. A schema of its own stays. Json: json or ordered_json.
 template <typename Json>
 Json with_head(const JsonHead& head, Json object);
@@ -32,9 +27,9 @@ void print_json(const JsonHead& head, Json object, Streams& streams, int indent 
 
 // The same if --json was given; returns whether it was.
 template <typename Json>
-bool print_json(const boost::program_options::variables_map& values, const JsonHead& head,
-                const Json& object, Streams& streams) {
-  if (values.count("json") == 0) return false;
+bool print_json(const CommandSyntax& syntax, const JsonHead& head, const Json& object,
+                Streams& streams) {
+  if (!syntax.as_json) return false;
   print_json(head, object, streams);
   return true;
 }

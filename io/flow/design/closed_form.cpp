@@ -23,9 +23,9 @@ Lattice lattice_of(const std::string& word) {
   if (word == "square") return Lattice::kSquare;
   if (word == "hexagonal") return Lattice::kHexagonal;
   if (word == "plain") return Lattice::kPlain;
-  throw std::invalid_argument("--lattice cannot be '" + word + "'" +
+  throw std::invalid_argument("--lattice " + word + " is not known" +
                               did_you_mean(word, {"square", "hexagonal", "plain"}) +
-                              " There are: square, hexagonal, plain");
+                              " Use square, hexagonal or plain");
 }
 
 // Lengths in um, the rest as it is.

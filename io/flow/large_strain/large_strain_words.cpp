@@ -3,7 +3,6 @@
 #include "io/basics/option_quantity.h"
 #include "io/basics/units.h"
 #include "io/basics/words.h"
-#include "io/flow/words/option_error.h"
 #include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 
@@ -86,6 +85,31 @@ std::optional<KnownModulus> modulus_from(const LargeStrainWords& words, Plausibl
 }
 
 }  // namespace
+
+void add_large_strain_options(OptionList& list, LargeStrainWords& words) {
+  list.group("Large strain");
+  list.add("weight", &words.weight,
+           "equal (default; every stress counts alike) or relative (by its own size)")
+      .among({"equal", "relative"});
+  list.add("youngs-modulus", &words.youngs_modulus,
+           "the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 MPa +- 0.1 "
+           "MPa\" (95 %); \"E_inf=1.5 MPa\" is that after all relaxation")
+      .of("Pa");
+  list.add("cycle", &words.cycle,
+           "fit the loading of this cycle of records with unloading (default: the last), or all "
+           "rows")
+      .of("1");
+}
+
+LargeStrainWords with_shared_options(LargeStrainWords words, const FitWords& fit) {
+  words.model = fit.model;
+  words.sheet = fit.sheet;
+  words.plausible = fit.plausible;
+  words.column = fit.column;
+  words.terms = fit.terms;
+  words.max_terms = fit.max_terms;
+  return words;
+}
 
 LargeStrainRequest large_strain_request(const LargeStrainWords& words,
                                         std::vector<LargeStrainFile> files) {

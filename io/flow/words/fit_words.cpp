@@ -188,16 +188,11 @@ void add_chosen_part(const FitWords& words, FitRequest& request) {
 
 }  // namespace
 
-namespace {
-
-// Laws of viscoelasticity and of rubber.
 std::vector<std::string> all_model_names() {
   std::vector<std::string> names = law_names();
   for (const auto& name : hyperelastic_names()) names.emplace_back(name);
   return names;
 }
-
-}  // namespace
 
 FitRequest fit_request(const FitWords& words) {
   FitRequest request;

@@ -75,6 +75,58 @@ void check_test(const PredictFileRequest& request) {
 
 }  // namespace
 
+OptionList options_of(PredictWords& words) {
+  OptionList list;
+  list.group("The test");
+  list.add("test", &words.test,
+           "relaxation, creep, recovery, cycles, oscillation or history; by default the columns of "
+           "--history or --against decide, or else relaxation")
+      .among(names_of_predicted_tests());
+  list.add("strain", &words.strain,
+           "size of the strain, such as 0.01 or \"1 %\"; relaxation without it is E(t) after an "
+           "ideal step, cycles have 0.01")
+      .of("1");
+  list.add("stress", &words.stress,
+           "size of the stress, such as \"10 kPa\"; creep without it is J(t) after an ideal step, "
+           "recovery has 1 kPa")
+      .of("Pa");
+  list.add("ramp", &words.ramp, "duration of loading and of unloading; default: a jump").of("s");
+  list.add("hold", &words.hold,
+           "time under load, such as \"60 s\"; default: to the end of the window")
+      .of("s");
+  list.add("recovery", &words.recovery, "time after unloading; default: that of the hold").of("s");
+  list.add("period", &words.period, "of one cycle, up and down again").of("s").by_default("1 s");
+  list.add("cycles", &words.cycles, "number of cycles").by_default("5");
+  list.add("from", &words.from,
+           "first time of the curve, or lowest frequency of --test oscillation; default: the "
+           "window")
+      .of("s");
+  list.add("to", &words.to, "last time, or highest frequency").of("s");
+  list.add("points", &words.points, "of the curve, or of each motion").by_default("200");
+  list.add("temperature", &words.temperature,
+           "predict at this temperature, such as \"40 degC\", by the material's temperature "
+           "shift")
+      .of("degC");
+  list.group("Tables");
+  list.add("history", &words.history,
+           "table with time_s and any strain or stress_Pa, linear between rows; with both columns, "
+           "the strain is the input and the stress is compared")
+      .read_from_file();
+  list.add("driven-by", &words.driven_by, "the input of such a table").among({"strain", "stress"});
+  list.add("against", &words.against,
+           "table of measured values: rms, worst, and the share inside the band")
+      .read_from_file();
+  list.add("column", &words.column,
+           "NAME=HEADER or NAME=2: the column of a quantity in these tables, as in viscard fit");
+  list.add("plausible", &words.plausible,
+           "off: accept values that no test or material can have (a wrong unit, most often); the "
+           "result says so")
+      .among({"on", "off"})
+      .by_default("on");
+  list.add("time-zero", &words.time_zero, "time in the tables where t = 0").of("s").by_default("0");
+  return list;
+}
+
 PredictFileRequest predict_request(const PredictWords& words, const std::string& material) {
   PredictFileRequest request;
   request.material = material;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/flow/predict_file.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 
 #include <optional>
 #include <string>
@@ -18,6 +18,8 @@ struct PredictWords {
   std::optional<int> cycles, points;
   std::vector<std::string> column;
 };
+// Its options.
+OptionList options_of(PredictWords& words);
 
 // material: path of a material file; may be empty for predict_material(). Throws OptionError for a
 // value that is not allowed and for options that contradict the test.

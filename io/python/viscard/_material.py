@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, Unpack
 
 import numpy as np
 
 from . import _arrays, _check, _core
 from ._card import Card
-from ._check import OptionalPath, Path, Quantity, Texts
+from ._options import PredictOptions
+from ._types import Path
 
 
 class Material:
@@ -205,7 +206,7 @@ class Material:
                  "plausible": plausible}
         return Card(_core.card(self._core, target, units, words))
 
-    def predict(self, **options) -> "Prediction":
+    def predict(self, **options: Unpack[PredictOptions]) -> "Prediction":
         """What the material does in a test; the keywords are those of `viscard.predict`."""
         return predict(self, **options)
 
@@ -264,24 +265,15 @@ class Prediction:
 
 
 @_check.arguments
-def predict(material: Union[Material, Path], *, test: Optional[str] = None, strain: Quantity = None, stress: Quantity = None,
-            ramp: Quantity = None, hold: Quantity = None, recovery: Quantity = None,
-            period: Quantity = None, cycles: Optional[int] = None, from_: Quantity = None,
-            to: Quantity = None, points: Optional[int] = None, history: OptionalPath = None,
-            driven_by: Optional[str] = None, against: OptionalPath = None, column: Texts = None,
-            time_zero: Quantity = None, temperature: Quantity = None, plausible: Optional[str] = None) -> Prediction:
+def predict(material: Union[Material, Path], **options: Unpack[PredictOptions]) -> Prediction:
     """Predict what a material does in a test, with its 95 % band.
+
+    Quantities are texts with a unit ("10 kPa") or numbers in SI; from_ is --from.
 
     Parameters
     ----------
     material : Material or path
-    test : str
-        relaxation, creep, recovery, cycles, oscillation or history; default: relaxation, or what the columns of
-        `history` or `against` show.
-    history, against : path
-        Tables of the input and of measured values.
     **options
-        Those of ``viscard predict``; quantities are texts with a unit or numbers in SI, from_ is --from.
 
     Examples
     --------
@@ -289,8 +281,9 @@ def predict(material: Union[Material, Path], *, test: Optional[str] = None, stra
     >>> sorted(found.curves)
     ['loss_modulus_Pa', 'storage_modulus_Pa', 'tan_delta']
     """
-    given = dict(locals())
-    keywords = {name: value for name, value in given.items() if name != "material" and value is not None}
-    one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"), plausible=plausible or "on")
-    inputs = [os.fspath(path) for path in (material, history, against) if isinstance(path, (str, os.PathLike))]
+    keywords = {name: value for name, value in options.items() if value is not None}
+    plausible = options.get("plausible") or "on"
+    one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"), plausible=plausible)
+    inputs = [os.fspath(path) for path in (material, options.get("history"), options.get("against"))
+              if isinstance(path, (str, os.PathLike))]
     return Prediction(_arrays.with_head("viscard-predict/1", inputs, _core.predict(one._core, keywords)))
