@@ -260,6 +260,8 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
       data.moves.empty() ? fit_depth_table(data, options) : fit_stage_indentation(data, options);
   result.kind = FitKind::kIndentation;
   add_systematic_parts_to(data, result);
+  if (!data.force_doubt.empty())
+    result.flags.push_back({"beyond-calibration", 0, data.force_doubt});
   add_left_out(result, left_out::kSaturated, data.n_saturated);
   add_left_out(result, left_out::kGlitch, data.n_glitch);
   flag_left_out(result);

@@ -149,6 +149,28 @@ void take_moves_in_contact(const CapturedRun& run, IndentationData& data) {
   }
 }
 
+// Of the contact, above the mean before it. One reading in a hundred may be a spike.
+double largest_force_N(const IndentationData& data) {
+  constexpr double kShare = 0.99;
+  std::vector<double> in_contact_N;
+  double before_N = 0.0;
+  int n_before = 0;
+  for (std::size_t i = 0; i < data.time_s.size(); ++i) {
+    if (data.time_s[i] < data.contact_from_s) {
+      before_N += data.force_N[i];
+      ++n_before;
+    } else if (data.time_s[i] <= data.contact_to_s) {
+      in_contact_N.push_back(data.force_N[i]);
+    }
+  }
+  if (in_contact_N.empty()) return 0.0;
+  const auto place =
+      in_contact_N.begin() +
+      static_cast<std::ptrdiff_t>(kShare * static_cast<double>(in_contact_N.size() - 1));
+  std::nth_element(in_contact_N.begin(), place, in_contact_N.end());
+  return std::max(0.0, *place - (n_before > 0 ? before_N / n_before : 0.0));
+}
+
 }  // namespace
 
 ClockLine line_from_below(const std::vector<double>& x, const std::vector<double>& y) {
@@ -236,8 +258,9 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   }
   data.frame_stiffness_N_m = run.rig.frame.stiffness_N_m;
   data.frame_stiffness_relative_u = run.rig.frame.stiffness_relative_u;
-  data.force_relative_u =
-      std::abs(run.rig.calibration.volts_per_newton_u / run.rig.calibration.volts_per_newton);
+  data.largest_force_N = largest_force_N(data);
+  data.force_relative_u = gain_relative_u(run.rig.calibration, data.largest_force_N);
+  data.force_doubt = calibration_range_doubt(run.rig.calibration, data.largest_force_N);
   if (run.specimen.contact.punch_radius_m > 0.0) data.contact = run.specimen.contact;
   return data;
 }

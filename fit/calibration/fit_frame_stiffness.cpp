@@ -2,6 +2,8 @@
 
 #include "models/experiment/motion_profile.h"
 #include "models/experiment/sample_force.h"
+#include "models/maths/distributions.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +12,76 @@
 #include <string>
 
 namespace viscard {
+namespace {
+
+constexpr std::size_t kFewestForSeating = 5;
+constexpr double kLongestSeating = 0.5;  // F_s over the largest force
+constexpr double kSeatingStep = 1.15;    // of F_s in its search
+constexpr double kWorst = 0.2;           // half of the interval of 1/k, relative
+
+// Position over force, from a least-squares fit with or without a settling part.
+struct Compliance {
+  double per_N = 0.0;     // m/N
+  double variance = 0.0;  // of per_N, for a variance of 1 of each position
+  double squares = 0.0;   // of the residuals
+  double seating_m = 0.0;
+  double largest_residual_m = 0.0;
+};
+
+// seating: its shape at each force, or empty.
+Compliance compliance_of(const BlockPoints& points, const std::vector<double>& seating) {
+  const std::size_t n = points.force_N.size();
+  const auto count = static_cast<double>(n);
+  const bool has_seating = !seating.empty();
+  double mean_x = 0.0, mean_y = 0.0, mean_z = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    mean_x += points.force_N[i] / count;
+    mean_y += points.position_m[i] / count;
+    if (has_seating) mean_z += seating[i] / count;
+  }
+  double xx = 0.0, xy = 0.0, xz = 0.0, zz = 0.0, zy = 0.0;
+  const auto x = [&](std::size_t i) { return points.force_N[i] - mean_x; };
+  const auto y = [&](std::size_t i) { return points.position_m[i] - mean_y; };
+  const auto z = [&](std::size_t i) { return has_seating ? seating[i] - mean_z : 0.0; };
+  for (std::size_t i = 0; i < n; ++i) {
+    xx += x(i) * x(i);
+    xy += x(i) * y(i);
+    xz += x(i) * z(i);
+    zz += z(i) * z(i);
+    zy += z(i) * y(i);
+  }
+  Compliance found;
+  const double determinant = has_seating ? xx * zz - xz * xz : xx;
+  found.seating_m = has_seating ? (xx * zy - xz * xy) / determinant : 0.0;
+  found.per_N = (xy - xz * found.seating_m) / xx;
+  found.variance = has_seating ? zz / determinant : 1.0 / xx;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double rest = y(i) - found.per_N * x(i) - found.seating_m * z(i);
+    found.squares += rest * rest;
+    found.largest_residual_m = std::max(found.largest_residual_m, std::abs(rest));
+  }
+  return found;
+}
+
+// The line and every settling part that is not negative.
+std::vector<Compliance> candidates(const BlockPoints& points) {
+  std::vector<Compliance> all{compliance_of(points, {})};
+  if (points.force_N.size() < kFewestForSeating) return all;
+  const auto [low, high] = std::minmax_element(points.force_N.begin(), points.force_N.end());
+  const double range_N = *high - *low;
+  const double longest_N = kLongestSeating * std::max(*high, range_N);
+  for (double scale_N = 0.02 * range_N; scale_N <= longest_N; scale_N *= kSeatingStep) {
+    std::vector<double> seating;
+    for (const double force_N : points.force_N) {
+      seating.push_back(-std::exp(-(force_N - *low) / scale_N));
+    }
+    const Compliance found = compliance_of(points, seating);
+    if (found.seating_m >= 0.0 && std::isfinite(found.per_N)) all.push_back(found);
+  }
+  return all;
+}
+
+}  // namespace
 
 FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_relative_u) {
   const std::size_t n = points.force_N.size();
@@ -19,41 +91,54 @@ FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_rel
         "force in contact, but there are " +
         std::to_string(n));
   }
-  const auto count = static_cast<double>(n);
-  double mean_x = 0.0, mean_y = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    mean_x += points.force_N[i] / count;
-    mean_y += points.position_m[i] / count;
-  }
-  double sum_xx = 0.0, sum_xy = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double dx = points.force_N[i] - mean_x;
-    sum_xx += dx * dx;
-    sum_xy += dx * (points.position_m[i] - mean_y);
-  }
-  if (!(sum_xx > 0.0) || !(sum_xy > 0.0)) {
+  const std::vector<Compliance> all = candidates(points);
+  const Compliance& line = all.front();
+  if (!(line.per_N > 0.0) || !std::isfinite(line.per_N)) {
     throw std::invalid_argument(
         "the position does not grow with the force. Does the punch press on the block, and is "
         "toward_specimen of the rig file right?");
   }
-  const double compliance_m_N = sum_xy / sum_xx;
-  FrameStiffnessFit fit;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double residual_m =
-        points.position_m[i] - mean_y - compliance_m_N * (points.force_N[i] - mean_x);
-    squares += residual_m * residual_m;
-    fit.curvature_m = std::max(fit.curvature_m, std::abs(residual_m));
-  }
-  double noise_m2 = squares / (count - 2.0);
+  const Compliance& best = *std::min_element(
+      all.begin(), all.end(),
+      [](const Compliance& a, const Compliance& b) { return a.squares < b.squares; });
+  const auto count = static_cast<double>(n);
+  const double freedom = std::max(1.0, count - (&best == &line ? 2.0 : 4.0));
+  const auto [low_m, high_m] =
+      std::minmax_element(points.position_m.begin(), points.position_m.end());
+  const double rounding_m = 1e-9 * (*high_m - *low_m);
+  double noise_m2 = std::max(best.squares / freedom, rounding_m * rounding_m);
   for (const double se_N : points.force_se_N) {
-    noise_m2 = std::max(noise_m2, compliance_m_N * se_N * compliance_m_N * se_N);
+    noise_m2 = std::max(noise_m2, line.per_N * se_N * line.per_N * se_N);
   }
-  const double regression = std::sqrt(noise_m2 / sum_xx) / compliance_m_N;
-  fit.stiffness_N_m = 1.0 / compliance_m_N;
-  fit.relative_u = std::hypot(regression, gain_relative_u);
+  const double t = student_t_975(freedom);
+  const auto rise = [&](const Compliance& one) { return (one.squares - best.squares) / noise_m2; };
+  double low = best.per_N, high = best.per_N;
+  for (const Compliance& one : all) {
+    if (rise(one) > t * t) continue;
+    const double half = std::sqrt((t * t - rise(one)) * noise_m2 * one.variance);
+    low = std::min(low, one.per_N - half);
+    high = std::max(high, one.per_N + half);
+  }
+  FrameStiffnessFit fit;
+  fit.seating_m = rise(line) > t * t ? best.seating_m : 0.0;
+  const double middle = 0.5 * (low + high);
+  const double half_width = 0.5 * (high - low) / middle;
+  if (!(half_width < kWorst && middle > 0.0)) {
+    throw std::runtime_error(
+        (fit.seating_m > 0.0 ? "the block settled by about " + text_of(1e6 * fit.seating_m, 2) +
+                                   " um under the first forces (seating)"
+                             : "the positions leave a straight line by up to " +
+                                   text_of(1e6 * line.largest_residual_m, 2) +
+                                   " um (seating of the block, or a stage with coarse steps)") +
+        ", so the stiffness is unknown by " + text_of(100.0 * half_width, 2) +
+        " %; at most 20 % is allowed. Clean block and table, press the block once with the full "
+        "force, and measure again with more steps");
+  }
+  fit.stiffness_N_m = 1.0 / middle;
+  fit.relative_u = std::hypot(0.5 * half_width, gain_relative_u);
   fit.low_N_m = fit.stiffness_N_m * (1.0 - 2.0 * fit.relative_u);
   fit.high_N_m = fit.stiffness_N_m * (1.0 + 2.0 * fit.relative_u);
+  fit.curvature_m = line.largest_residual_m;
   fit.n_points = static_cast<int>(n);
   return fit;
 }

@@ -15,15 +15,19 @@ struct BlockPoints {
 
 struct FrameStiffnessFit {
   double stiffness_N_m = 0.0;
-  double relative_u = 0.0;  // standard uncertainty: regression and gain of the load cell
+  double relative_u = 0.0;  // standard uncertainty: regression, seating, gain of the load cell
   double low_N_m = 0.0, high_N_m = 0.0;  // k = 2
-  double curvature_m = 0.0;              // largest deviation of the position from the line
+  double curvature_m = 0.0;              // largest deviation of the position from a line
+  double seating_m = 0.0;  // by which the block settled under the first forces; 0: not seen
   int n_points = 0;
 };
 
-// Fits position = p0 + F/k by least squares. The standard error of 1/k comes from the regression;
-// the relative standard uncertainty of the gain is added in quadrature. Throws
-// std::invalid_argument unless there are three points and the position increases with the force.
+// Fits position = p0 + F/k + s (1 - exp(-F/F_s)) by least squares, s >= 0: a block that settles under the first
+// forces bends the line there. The interval of 1/k holds every s and F_s (up to half of the largest force) that
+// describe the points as well as the best ones do; its middle is the result. Fewer than five points
+// allow a straight line only. The relative standard uncertainty of the gain is added in quadrature.
+// Throws std::invalid_argument unless there are three points and the position increases with the
+// force, and std::runtime_error if seating or scatter leaves 1/k unknown by more than 20 %.
 FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_relative_u);
 
 // The holds of a run with protocol "compliance" (models/experiment/test_plan.h): stage position and

@@ -1,5 +1,6 @@
 #include "fit/calibration/fit_load_cell.h"
 
+#include "fit/calibration/cell_shape.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -71,15 +72,19 @@ struct Line {
   double gain = 0.0;
   std::vector<double> zeros;  // of each series
   double sum_xx = 0.0;        // within series
+  // Force from the mean of its series, and what a line through the readings leaves of its square.
+  std::vector<double> centred, square;
+  double square_slope = 0.0;  // of that line, N: where a parabola has the gain of the line
 };
 
 Line line_through(const WeightReadings& data, const std::vector<Point>& points) {
   const auto n_series = static_cast<std::size_t>(points.back().series) + 1;
-  std::vector<double> mean_x(n_series), mean_y(n_series), count(n_series);
+  std::vector<double> mean_x(n_series), mean_y(n_series), mean_xx(n_series), count(n_series);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto s = static_cast<std::size_t>(points[i].series);
     mean_x[s] += data.force_N[i];
     mean_y[s] += data.reading[i];
+    mean_xx[s] += data.force_N[i] * data.force_N[i];
     count[s] += 1.0;
   }
   Line line;
@@ -87,12 +92,20 @@ Line line_through(const WeightReadings& data, const std::vector<Point>& points) 
   for (std::size_t s = 0; s < n_series; ++s) {
     mean_x[s] /= count[s];
     mean_y[s] /= count[s];
+    mean_xx[s] /= count[s];
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto s = static_cast<std::size_t>(points[i].series);
     const double dx = data.force_N[i] - mean_x[s];
     line.sum_xx += dx * dx;
     sum_xy += dx * (data.reading[i] - mean_y[s]);
+    line.centred.push_back(dx);
+    line.square.push_back(data.force_N[i] * data.force_N[i] - mean_xx[s]);
+    line.square_slope += dx * line.square.back();
+  }
+  line.square_slope /= line.sum_xx;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    line.square[i] -= line.square_slope * line.centred[i];
   }
   line.gain = sum_xy / line.sum_xx;
   for (std::size_t s = 0; s < n_series; ++s) {
@@ -134,37 +147,96 @@ void describe(const Groups& groups, LoadCellFit& fit) {
     fit.repeatability = std::sqrt(scatter / freedom) / std::abs(fit.full_reading);
 }
 
-// Standard error of one mean reading: from the repeatability or, without it, from its own noise or
-// the residual of the line.
-double reading_u(const WeightReadings& data, const LoadCellFit& fit) {
+// Standard error of one mean reading: from its own noise, the repeatability, and the scatter about
+// parabola and loop.
+double reading_u(const WeightReadings& data, const CellShape& shape, const LoadCellFit& fit) {
   double noise = 0.0;
   for (const double se : data.reading_se) {
     noise += se * se / static_cast<double>(data.reading_se.size());
   }
-  const double repeated = fit.repeatability * std::abs(fit.full_reading);
-  if (fit.has_repeatability) return std::max(repeated, std::sqrt(noise));
-  double squares = 0.0;
-  for (const double residual : fit.residual) squares += residual * residual;
-  const double freedom = static_cast<double>(fit.residual.size()) - 1.0 - fit.n_series;
-  return std::sqrt(std::max(noise, freedom > 0.0 ? squares / freedom : 0.0));
+  return std::max(
+      {shape.scatter, std::sqrt(noise), fit.repeatability * std::abs(fit.full_reading)});
 }
 
-void add_budget(const WeightReadings& data, double sum_xx, LoadCellFit& fit) {
-  const double u = reading_u(data, fit);
-  const double full = std::abs(fit.full_reading);
+CellShape shape_of(const WeightReadings& data, const std::vector<Point>& points) {
+  std::vector<CellReading> readings;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double branch = points[i].load == 0 ? 0.0 : points[i].is_up ? 1.0 : -1.0;
+    readings.push_back(
+        {data.force_N[i], data.reading[i], branch, static_cast<std::size_t>(points[i].series)});
+  }
+  return cell_shape(readings);
+}
+
+// The readings decide if they determine the parabola better than the data sheet does, or if they show more
+// than it says. Where noise hides it, the data sheet stands.
+double allowed_parabola(const LoadCellFit& fit, double stated) {
+  const double size = std::abs(fit.parabola);
+  if (size + 2.0 * fit.parabola_se <= stated) return size + 2.0 * fit.parabola_se;
+  return size <= fit.parabola_se ? stated : std::max(stated, size + fit.parabola_se);
+}
+
+// Largest departure of the mean of both directions from the parabola, relative to full_reading.
+double departure_from_parabola(const Groups& groups, const Line& line,
+                               const std::vector<Point>& points, const LoadCellFit& fit) {
+  const double per_N2 = -4.0 * fit.gain / fit.calibration.capacity_N * fit.parabola;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].load == 0) continue;
+    const auto up = groups.find({points[i].load, true});
+    const auto down = groups.find({points[i].load, false});
+    if (up == groups.end()) continue;
+    const double middle =
+        down == groups.end() ? up->second.mean() : 0.5 * (up->second.mean() + down->second.mean());
+    worst = std::max(worst, std::abs(middle - per_N2 * line.square[i]));
+  }
+  return worst / std::abs(fit.full_reading);
+}
+
+void add_budget(const WeightReadings& data, const Groups& groups, const Line& line,
+                const std::vector<Point>& points, LoadCellFit& fit) {
+  const double root3 = std::sqrt(3.0);
+  const CellShape shape = shape_of(data, points);
+  const double per_parabola = -4.0 * fit.gain / fit.calibration.capacity_N;
+  fit.parabola = shape.per_N2 / per_parabola;
+  fit.parabola_se = shape.per_N2_se / std::abs(per_parabola);
+  fit.parabola_allowed = allowed_parabola(fit, data.nonlinearity.value_or(kUsualNonlinearity));
+  const double regression =
+      reading_u(data, shape, fit) / std::sqrt(line.sum_xx) / std::abs(fit.gain);
+  const double departure = departure_from_parabola(groups, line, points, fit) / root3;
+  const double resolution = data.resolution / std::abs(fit.full_reading) / std::sqrt(12.0);
+  LoadCellCalibration& cell = fit.calibration;
+  cell.largest_force_N = fit.largest_force_N;
+  const double closed = fit.hysteresis / 3.0 / root3;  // in gain_relative_u() at every force
+  const double open = std::abs(shape.of_loop / fit.gain) / std::sqrt(2.0);  // of known size
+  cell.common_u = std::hypot(data.force_relative_u, regression,
+                             std::sqrt(std::max(0.0, open * open - closed * closed)));
+  cell.shape_u = std::hypot(departure, resolution);
+  // A parabola that the readings show has a known size; otherwise any smaller one is as likely.
+  const bool is_shown = std::abs(fit.parabola) > 2.0 * fit.parabola_se;
+  cell.curvature_u = 4.0 * fit.parabola_allowed / (is_shown ? std::sqrt(2.0) : root3);
+  cell.curvature_at_N = std::max(0.0, line.square_slope);
+  const double at_largest = gain_relative_u(cell, fit.largest_force_N);
+  const double at_capacity = gain_relative_u(cell, cell.capacity_N);
+  fit.in_use_N = at_capacity >= at_largest ? cell.capacity_N : fit.largest_force_N;
+  fit.gain_u = gain_relative_u_in_use(cell) * std::abs(fit.gain);
+  cell.volts_per_newton_u = fit.gain_u;
+  const double curvature =
+      cell.curvature_u * std::abs(fit.in_use_N - cell.curvature_at_N) / cell.capacity_N;
   fit.budget = {
       {"weights", data.force_relative_u, "masses and local gravity, as stated"},
-      {"regression", u / std::sqrt(sum_xx) / std::abs(fit.gain),
+      {"regression", regression,
        fit.has_repeatability ? "repeatability of the readings through the line"
                              : "scatter about the line; one series shows no repeatability"},
-      {"nonlinearity", fit.nonlinearity / std::sqrt(3.0), "largest deviation, rectangular"},
-      {"hysteresis", 0.5 * fit.hysteresis / std::sqrt(3.0),
-       fit.has_hysteresis ? "half the largest difference, rectangular"
-                          : "not measured: no weight was removed"},
-      {"resolution", data.resolution / full / std::sqrt(12.0), "one digit of a reading"}};
-  double squares = 0.0;
-  for (const UncertaintyRow& row : fit.budget) squares += row.relative_u * row.relative_u;
-  fit.gain_u = std::sqrt(squares) * std::abs(fit.gain);
+      {"nonlinearity", std::hypot(curvature, departure),
+       "parabola of up to " + text_of(100.0 * fit.parabola_allowed, 2) + " % of the capacity, at " +
+           text_of(fit.in_use_N, 3) + (is_shown ? " N; U-shaped" : " N; rectangular")},
+      {"hysteresis", std::max(closed, open),
+       fit.has_hysteresis
+           ? (open > closed ? "a loop that the largest weight does not close, U-shaped"
+                            : "a third of the largest difference, rectangular")
+           : "not measured: no weight was removed"},
+      {"resolution", resolution, "one digit of a reading"}};
 }
 
 }  // namespace
@@ -199,7 +271,13 @@ LoadCellFit fit_load_cell(const WeightReadings& data) {
   }
   // The largest load is reached from below only, so it has no pair for the hysteresis.
   describe(groups, fit);
-  add_budget(data, line.sum_xx, fit);
+  fit.calibration.volts_per_newton = fit.gain;
+  fit.calibration.zero_volts = fit.zero;
+  fit.calibration.capacity_N = data.capacity_N > 0.0 ? data.capacity_N : fit.largest_force_N;
+  fit.calibration.nonlinearity = fit.nonlinearity;
+  fit.calibration.hysteresis = fit.hysteresis;
+  fit.calibration.repeatability = fit.repeatability;
+  add_budget(data, groups, line, points, fit);
   return fit;
 }
 

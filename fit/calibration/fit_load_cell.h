@@ -2,6 +2,7 @@
 
 #include "models/experiment/calibration.h"
 
+#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -14,12 +15,18 @@ struct WeightReadings {
   std::vector<double> reading_se;  // standard error of each mean; empty: unknown
   double force_relative_u = 0.0;   // common to all weights: masses, local gravity
   double resolution = 0.0;         // last digit of a reading, in its unit
+  double capacity_N = 0.0;         // of the cell; 0: the largest weight
+  // Largest departure of the cell from a line, relative to the capacity, by its data sheet. Without
+  // one it counts as kUsualNonlinearity, unless the readings show another.
+  std::optional<double> nonlinearity;
 };
+inline constexpr double kUsualNonlinearity = 1e-3;
 
 struct LoadCellFit {
   double gain = 0.0;          // V/N
   double zero = 0.0;          // mean reading at no load over all series
-  double gain_u = 0.0;        // standard uncertainty from the whole budget
+  double gain_u = 0.0;        // standard uncertainty at in_use_N
+  double in_use_N = 0.0;      // the less certain one of largest weight and capacity
   double full_reading = 0.0;  // gain times the largest load
   double largest_force_N = 0.0;
   // Shares of full_reading.
@@ -27,8 +34,12 @@ struct LoadCellFit {
   bool has_hysteresis = false;     // loads were also removed step by step
   bool has_repeatability = false;  // there was more than one series
   int n_series = 0;
-  std::vector<UncertaintyRow> budget;
-  std::vector<double> residual;  // of each reading from the line, in its unit
+  std::vector<UncertaintyRow> budget;  // at in_use_N
+  std::vector<double> residual;        // of each reading from the line, in its unit
+  // Departure of a parabola from the line through its ends, at half the capacity and relative to it: its
+  // estimate, the standard error, and the size that is allowed for.
+  double parabola = 0.0, parabola_se = 0.0, parabola_allowed = 0.0;
+  LoadCellCalibration calibration;  // gain, zero, capacity, and the uncertainty at every force
 };
 
 // Straight line through the readings with one zero per series (a series begins each time the load
@@ -37,11 +48,11 @@ struct LoadCellFit {
 // Nonlinearity is the largest deviation of the mean of rising and falling load from the line.
 // Hysteresis is the largest difference of the two. Repeatability is the pooled standard deviation
 // of the same load in the same direction over the series. The uncertainty budget of the gain (JCGM
-// 100:2008, 4.3 and 5.1) holds the weights, the regression, the deviations from the line
-// (nonlinearity and half the hysteresis as rectangular distributions) and the resolution. k = 2 for
-// the interval at 95 %. Sources: ISO 376:2011, 7.5 and 8; EURAMET cg-4 (2011), ch. 6. Throws
-// std::invalid_argument that names what is missing, unless there are three different loads, one of
-// them zero, with as many finite readings as loads.
+// 100:2008, 4.3 and 5.1; fit/calibration/README.md) holds the weights, the regression, the curvature
+// that the readings or the data sheet allow at the force of use, half the hysteresis and the
+// resolution. k = 2 for the interval at 95 %. Sources: ISO 376:2011, 7.5, 8 and annex C; EURAMET cg-4
+// (2011), ch. 6. Throws std::invalid_argument that names what is missing, unless there are three
+// different loads, one of them zero, with as many finite readings as loads.
 LoadCellFit fit_load_cell(const WeightReadings& readings);
 
 // Weight in N of a mass in air: m g (1 - rho_air/rho_mass), with the densities that define

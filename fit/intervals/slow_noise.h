@@ -13,9 +13,9 @@ struct SlowNoise {
   // If the noise is doubtful: every variance is at least this times that for white noise (batch
   // means).
   double batch_inflation = 1.0;
-  // Nothing, or a sentence for the flag slow-noise. It is set if the autocorrelation of the noise
-  // reaches a tenth of the record, if fewer than 40 independent values remain, or if means of
-  // samples scatter more than the autoregression implies.
+  // Nothing, or a sentence for the flag slow-noise. It is set if the inflation is above 5 and the
+  // autocorrelation of the noise reaches 8 % of the record or fewer than 50 independent values
+  // remain, or if means of samples scatter more than the autoregression implies.
   std::string doubt;
 };
 

@@ -126,8 +126,13 @@ void add_better_knowledge(const FittedRun& run, Ways& ways) {
                  "viscard calibrate --compliance", compliance_minutes(run),
                  [&](Bench& better) { better.rig.frame.stiffness_relative_u = frame_u; });
   ways.add_known("a calibration of the load cell that is twice as good", "viscard calibrate",
-                 kCalibration_min,
-                 [](Bench& better) { better.rig.calibration.volts_per_newton_u *= 0.5; });
+                 kCalibration_min, [](Bench& better) {
+                   LoadCellCalibration& cell = better.rig.calibration;
+                   for (double* u : {&cell.volts_per_newton_u, &cell.common_u, &cell.shape_u,
+                                     &cell.curvature_u, &cell.hysteresis}) {
+                     *u *= 0.5;
+                   }
+                 });
   const PunchContact& contact = bench.specimen.contact;
   ways.add_known("measuring the layer's thickness to " +
                      text_of(0.5e3 * contact.layer_thickness_u_m, 2) + " mm",
@@ -177,7 +182,11 @@ PredictedFit known_fit(const FittedRun& run) {
   }
   known.covariance = run.fit.covariance;
   known.result.gain_drift_relative = 0.0;  // the covariance contains it, so gain_drift stays empty
-  known.systematic_parts = systematic_parts_on(run.bench, known.series);
+  const std::vector<TestPhase> phases = phases_from_plan(run.plan);
+  const double force_N =
+      std::max(highest_force_N(phases), force_per_modulus_and_depth_m(run.bench.specimen.contact) *
+                                            run.fit.E0_Pa * deepest_m(phases));
+  known.systematic_parts = systematic_parts_on(run.bench, force_N, known.series);
   return known;
 }
 

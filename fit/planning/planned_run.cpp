@@ -92,10 +92,6 @@ class StageWalk {
 
 }  // namespace
 
-double force_relative_u(const RigConfig& rig) {
-  return std::abs(rig.calibration.volts_per_newton_u / rig.calibration.volts_per_newton);
-}
-
 PlannedRun planned_run(const TestPlan& plan, const Bench& bench) {
   const RigConfig& rig = bench.rig;
   const Specimen& specimen = bench.specimen;
@@ -113,7 +109,7 @@ PlannedRun planned_run(const TestPlan& plan, const Bench& bench) {
                  specimen_N_m * deepest_m(phases)};
   run.data.frame_stiffness_N_m = frame_N_m;
   run.data.frame_stiffness_relative_u = rig.frame.stiffness_relative_u;
-  run.data.force_relative_u = force_relative_u(rig);
+  run.data.force_relative_u = gain_relative_u(rig.calibration, run.peak_force_N);
   run.data.contact = specimen.contact;
   return run;
 }

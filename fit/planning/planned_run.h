@@ -15,9 +15,6 @@ struct Bench {
   Specimen specimen;
 };
 
-// Relative standard uncertainty of the load cell's calibration.
-double force_relative_u(const RigConfig& rig);
-
 // The data that one run of a test will record, before it is made: the times of the readings, the
 // moves of the stage, and the duration of the run. data.force_N are zeros, because the information
 // of a run does not depend on the values of the readings.

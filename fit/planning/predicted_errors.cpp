@@ -168,16 +168,17 @@ PredictedFit predicted_fit(const TestPlan& plan, const Bench& bench, const Mater
   predicted.covariance = predicted.result.covariance;
   predicted.gain_drift = gain_drift_part(model, fit, run.data, predicted.result);
   add_gain_drift(predicted.gain_drift, predicted.result);
-  predicted.systematic_parts = systematic_parts_on(bench, predicted.series);
+  predicted.systematic_parts = systematic_parts_on(bench, run.peak_force_N, predicted.series);
   return predicted;
 }
 
-std::vector<SystematicPart> systematic_parts_on(const Bench& bench, const PronySeries& series) {
+std::vector<SystematicPart> systematic_parts_on(const Bench& bench, double largest_force_N,
+                                                const PronySeries& series) {
   return systematic_parts_from(
       scaled(series, force_per_modulus_and_depth_m(bench.specimen.contact)),
       {.frame_stiffness_N_m = bench.rig.frame.stiffness_N_m,
        .frame_relative_u = bench.rig.frame.stiffness_relative_u,
-       .force_relative_u = force_relative_u(bench.rig),
+       .force_relative_u = gain_relative_u(bench.rig.calibration, largest_force_N),
        .geometry_relative_u = relative_uncertainty(bench.specimen.contact)});
 }
 

@@ -56,8 +56,10 @@ struct PredictedFit {
 // guess has no modulus.
 PredictedFit predicted_fit(const TestPlan& plan, const Bench& bench, const Material& guess);
 
-// Changes of a series (Pa) by the systematic uncertainties of the bench on which it was fitted.
-std::vector<SystematicPart> systematic_parts_on(const Bench& bench, const PronySeries& series);
+// Changes of a series (Pa) by the systematic uncertainties of the bench on which it was fitted; those of the
+// load cell at the largest force of the test.
+std::vector<SystematicPart> systematic_parts_on(const Bench& bench, double largest_force_N,
+                                                const PronySeries& series);
 
 ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit);
 

@@ -46,7 +46,9 @@ struct IndentationData {
   double contact_to_s = 0.0;         // ... to here belong to ramp and holds; others: no contact
   double frame_stiffness_N_m = 0.0;  // 0: rigid
   double frame_stiffness_relative_u = 0.0;
-  double force_relative_u = 0.0;  // relative standard uncertainty of the calibration
+  double force_relative_u = 0.0;  // of the calibration at the largest force, relative and standard
+  double largest_force_N = 0.0;   // of a capture, above that out of contact
+  std::string force_doubt;        // why the calibration is a doubt for that force, or ""
 
   std::optional<PunchContact> contact;
   std::size_t n_saturated = 0;  // already left out

@@ -59,6 +59,11 @@ void show_calibration(FieldVisitor& fields, LoadCellCalibration& calibration, bo
   fields.quantity({"nonlinearity", "1", kNotNegative}, calibration.nonlinearity);
   fields.quantity({"hysteresis", "1", kNotNegative}, calibration.hysteresis);
   fields.quantity({"repeatability", "1", kNotNegative}, calibration.repeatability);
+  fields.quantity({"largest_force", "N", kNotNegative}, calibration.largest_force_N);
+  fields.quantity({"common_u", "1", kNotNegative}, calibration.common_u);
+  fields.quantity({"shape_u", "1", kNotNegative}, calibration.shape_u);
+  fields.quantity({"curvature_u", "1", kNotNegative}, calibration.curvature_u);
+  fields.quantity({"curvature_at", "N", kNotNegative}, calibration.curvature_at_N);
 }
 
 CalibrationRecord calibration_from_toml(const std::string& text, const std::string& name) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/basics/file_kind.h"
+#include "models/quantities/plausible.h"
 #include "models/uncertainty/uncertain_number.h"
 
 #include <cstddef>
@@ -23,7 +24,7 @@ enum class Range { kAny, kPositive, kNotNegative, kFraction };  // fraction: [0,
 // A number with a unit, as a file has it: "40 um".
 struct QuantityField {
   const char* key;
-  const char* unit = "1";  // SI
+  QuantityOrUnit unit = "1";
   Range range = Range::kAny;
   bool is_required = false;
   double written_per_value = 1.0;  // 2 for a radius that is written as a diameter
@@ -42,6 +43,8 @@ struct TextField {
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
+  // How numbers are judged, also those of files that the fields name.
+  virtual Plausible judged() const { return Plausible::kOff; }
   // key = "40 um"; the value is in the SI unit of the field.
   virtual void quantity(const QuantityField& field, double& value) = 0;
   // key = "words".
@@ -54,7 +57,7 @@ class FieldVisitor {
   // key = ["a", "b"].
   virtual void texts(const TextField& field, std::vector<std::string>& values) = 0;
   // key = [["0 s", "10 kPa"], ...]; the values are in the SI units named.
-  virtual void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
+  virtual void quantity_pairs(const char* key, QuantityOrUnit first, QuantityOrUnit second,
                               std::vector<std::pair<double, double>>& values) = 0;
   // key = ["5 um", "10 um"]; every entry is read as by quantity(), values in SI.
   virtual void quantities(const QuantityField& field, std::vector<double>& values) = 0;
@@ -85,10 +88,16 @@ struct UncertainField {
 // Returns the value to take for it.
 using ChooseValue = std::function<double(const UncertainField& field)>;
 
+// How a file is read.
+struct ReadRules {
+  Plausible plausible = Plausible::kOff;  // a file may say plausible = "off"
+  ChooseValue choose = {};                // without it, uncertain quantities are refused
+};
+
 // Throws std::runtime_error with file, line, key and the expected value; messages show name in
-// place of the file. Without `choose`, uncertain quantities are refused.
-void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
-                      const ChooseValue& choose = {});
+// place of the file. Returns whether the file says plausible = "off".
+bool read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
+                      const ReadRules& rules = {});
 
 // The fields as TOML, with their units.
 std::string toml_from_fields(const ShowFields& show);

@@ -5,7 +5,7 @@
 #include "io/config/config_fields.h"
 #include "io/config/config_show.h"
 #include "io/config/performance_file.h"
-#include "io/config/sensible_bounds.h"
+#include "models/experiment/calibration_check.h"
 #include "models/experiment/converter.h"
 #include "models/experiment/test_phases.h"
 #include "models/material/liquid.h"
@@ -20,32 +20,43 @@ namespace {
 
 constexpr double kVoltsPerCount = 20.0 / 16777216.0;  // 24 bits from -10 V to +10 V
 
-// Reads the fields, then checks them together; an error of the checks gets the file's name.
+// Reads the fields, then checks them together; an error of the checks gets the file's name. Returns
+// whether the file says plausible = "off".
 template <typename Config>
-Config config_from_toml(const std::string& text, const std::string& name, Config config,
-                        void (*show)(FieldVisitor&, Config&), void (*check)(Config&)) {
-  read_toml_fields(text, name, [&](FieldVisitor& fields) { show(fields, config); });
+bool fill_from_toml(const std::string& text, const std::string& name, Plausible judged,
+                    void (*show)(FieldVisitor&, Config&), void (*check)(Config&), Config& config) {
+  const bool accepts_any = read_toml_fields(
+      text, name, [&](FieldVisitor& fields) { show(fields, config); }, {.plausible = judged});
   try {
     check(config);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name + ": " + error.what());
   }
+  return accepts_any;
+}
+
+// The same of a rig, a test or a specimen, which keep it.
+template <typename Config>
+Config config_from_toml(const std::string& text, const std::string& name, Plausible judged,
+                        Config config, void (*show)(FieldVisitor&, Config&),
+                        void (*check)(Config&)) {
+  config.accepts_implausible = fill_from_toml(text, name, judged, show, check, config);
   return config;
 }
 
 // Reads a file about to be used.
 template <typename Config>
-Config read_for_use(const std::filesystem::path& path,
-                    Config (*from_toml)(const std::string&, const std::string&)) {
-  const std::string text = read_file(path);
-  Config config = from_toml(text, path.string());
-  refuse_senseless(config, text, path.string());
+Config read_for_use(const std::filesystem::path& path, Plausible judged,
+                    Config (*from_toml)(const std::string&, const std::string&, Plausible)) {
+  Config config = from_toml(read_file(path), path.string(), judged);
+  config.accepts_implausible |= judged == Plausible::kOff;
   return config;
 }
 
 template <typename Config>
 std::string toml_from_config(Config config, void (*show)(FieldVisitor&, Config&)) {
-  return toml_from_fields([&](FieldVisitor& fields) { show(fields, config); });
+  const std::string head = config.accepts_implausible ? "plausible = \"off\"\n" : "";
+  return head + toml_from_fields([&](FieldVisitor& fields) { show(fields, config); });
 }
 
 // The counts of a named converter have one meaning. A capture stores both keys.
@@ -105,37 +116,40 @@ void show_rig_file(FieldVisitor& fields, RigConfig& rig) {
 
 }  // namespace
 
-RigConfig rig_from_toml(const std::string& text, const std::string& name) {
+RigConfig rig_from_toml(const std::string& text, const std::string& name, Plausible judged) {
   RigConfig unset;
   unset.load_cell.volts_per_count = kVoltsPerCount;
   return read_as(FileKind::kRig, text, name, [&] {
-    return config_from_toml<RigConfig>(text, name, unset, show_rig_file, check_rig);
+    return config_from_toml<RigConfig>(text, name, judged, unset, show_rig_file, check_rig);
   });
 }
 
-TestPlan test_from_toml(const std::string& text, const std::string& name) {
-  return read_as(FileKind::kRigTest, text, name,
-                 [&] { return config_from_toml<TestPlan>(text, name, {}, show_test, check_test); });
+TestPlan test_from_toml(const std::string& text, const std::string& name, Plausible judged) {
+  return read_as(FileKind::kRigTest, text, name, [&] {
+    return config_from_toml<TestPlan>(text, name, judged, {}, show_test, check_test);
+  });
 }
 
-Specimen specimen_from_toml(const std::string& text, const std::string& name) {
+Specimen specimen_from_toml(const std::string& text, const std::string& name, Plausible judged) {
   return read_as(FileKind::kSpecimen, text, name, [&] {
-    return config_from_toml<Specimen>(text, name, {}, show_specimen, check_specimen);
+    return config_from_toml<Specimen>(text, name, judged, {}, show_specimen, check_specimen);
   });
 }
 
-EmulatedTruth truth_from_toml(const std::string& text, const std::string& name) {
+EmulatedTruth truth_from_toml(const std::string& text, const std::string& name, Plausible judged) {
   EmulatedTruth unset;
   unset.material.nu = std::numeric_limits<double>::quiet_NaN();
   return read_as(FileKind::kTruth, text, name, [&] {
-    return config_from_toml<EmulatedTruth>(text, name, unset, show_truth, check_truth);
+    fill_from_toml(text, name, judged, show_truth, check_truth, unset);
+    return unset;
   });
 }
 
 namespace {
 
 // Checks that apply only to a rig about to be used; the rig in an old capture is read without them.
-void check_before_use(const RigConfig& rig, const std::string& name) {
+// toml, name: of the file that holds the calibration.
+void check_before_use(const RigConfig& rig, const std::string& toml, const std::string& name) {
   const LoadCellConfig& cell = rig.load_cell;
   const bool may_count = has_converter(cell) && cell.unit.empty() && cell.line_format != "volts";
   if (may_count && cell.volts_per_count == 0.0) {
@@ -149,21 +163,39 @@ void check_before_use(const RigConfig& rig, const std::string& name) {
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name + ": " + error.what());
   }
+  if (!rig.calibration.file.empty()) return;  // the record is checked once it has been read
+  if (const auto fault = calibration_fault(rig.calibration, reading_span(cell))) {
+    const std::string key = "calibration." + fault->key;
+    const int line = line_of_key(toml, key);
+    throw std::runtime_error(name + (line > 0 ? ":" + std::to_string(line) : "") + ": " + key +
+                             ": " + fault->text);
+  }
 }
 
 }  // namespace
 
-RigConfig read_rig(const std::filesystem::path& path) {
-  RigConfig rig = read_for_use(path, rig_from_toml);
-  check_before_use(rig, path.string());
+RigConfig read_rig_to_calibrate(const std::filesystem::path& path, Plausible judged) {
+  RigConfig rig = read_for_use(path, judged, rig_from_toml);
+  LoadCellCalibration& calibration = rig.calibration;
+  const std::filesystem::path record = path.parent_path() / calibration.file;
+  if (calibration.file.empty() || calibration.capacity_N > 0.0 || !exists(record)) return rig;
+  const CalibrationRecord before = read_calibration(record);
+  if (before.calibration) calibration.capacity_N = before.calibration->capacity_N;
+  return rig;
+}
+
+RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
+  RigConfig rig = read_for_use(path, judged, rig_from_toml);
+  check_before_use(rig, read_file(path), path.string());
   const std::filesystem::path folder = path.parent_path();
   // The record replaces the whole section, so that its numbers are never mixed with older ones.
   // Only the rated load of the cell may be in the rig file alone.
   if (!rig.calibration.file.empty()) {
     const double capacity_N = rig.calibration.capacity_N;
     const std::string file = rig.calibration.file;
-    const CalibrationRecord record = read_calibration(
-        path_at_key(read_file(path), path, "calibration.file", file, FileKind::kCalibration));
+    const std::filesystem::path where =
+        path_at_key(read_file(path), path, "calibration.file", file, FileKind::kCalibration);
+    const CalibrationRecord record = read_calibration(where);
     if (!record.calibration) {
       throw std::runtime_error((folder / rig.calibration.file).string() +
                                ": has no [calibration]; make one with viscard calibrate");
@@ -171,7 +203,7 @@ RigConfig read_rig(const std::filesystem::path& path) {
     rig.calibration = *record.calibration;
     if (rig.calibration.capacity_N == 0.0) rig.calibration.capacity_N = capacity_N;
     validate(rig.calibration);
-    check_before_use(rig, (folder / file).string());
+    check_before_use(rig, read_file(where), where.string());
   }
   if (!rig.frame.file.empty()) {
     const CalibrationRecord record = read_calibration(
@@ -185,14 +217,23 @@ RigConfig read_rig(const std::filesystem::path& path) {
   return rig;
 }
 
-TestPlan read_test(const std::filesystem::path& path) {
-  return read_for_use(path, test_from_toml);
+void require_id(const Specimen& specimen, const std::string& toml, const std::string& name) {
+  if (!trimmed(specimen.id).empty()) return;
+  throw std::runtime_error(name + ":" + std::to_string(line_of_key(toml, "id")) +
+                           ": id is empty; expected a name for the specimen, such as "
+                           "\"pdms-1to10-a\": results are filed under it");
 }
-Specimen read_specimen(const std::filesystem::path& path) {
-  return read_for_use(path, specimen_from_toml);
+
+TestPlan read_test(const std::filesystem::path& path, Plausible judged) {
+  return read_for_use(path, judged, test_from_toml);
+}
+Specimen read_specimen(const std::filesystem::path& path, Plausible judged) {
+  const Specimen specimen = read_for_use(path, judged, specimen_from_toml);
+  require_id(specimen, read_file(path), path.string());
+  return specimen;
 }
 EmulatedTruth read_truth(const std::filesystem::path& path) {
-  return truth_from_toml(read_file(path), path.string());
+  return truth_from_toml(read_file(path), path.string(), Plausible::kScene);
 }
 
 std::string toml_from_rig(const RigConfig& rig) {

@@ -5,6 +5,7 @@
 #include "models/experiment/rig_config.h"
 #include "models/experiment/specimen.h"
 #include "models/experiment/test_plan.h"
+#include "models/quantities/plausible.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,10 +17,15 @@ namespace viscard {
 // Reads the TOML files that a user writes; commented examples are data/demo/*.toml. A quantity is a
 // number in SI or a string with its unit ("40 um"). A missing key keeps the default of its struct;
 // keys without a sensible default are required. All readers throw std::runtime_error with file,
-// line, key and the expected value, and for an unknown key the nearest known key.
-RigConfig read_rig(const std::filesystem::path& path);
-TestPlan read_test(const std::filesystem::path& path);
-Specimen read_specimen(const std::filesystem::path& path);
+// line, key and the expected value, and for an unknown key the nearest known key. Values that no bench
+// can have are refused too, unless the file or `judged` accepts them.
+RigConfig read_rig(const std::filesystem::path& path, Plausible judged = Plausible::kMeasured);
+// The same before its load cell is calibrated: the gain may be a guess, and the record that the file names
+// need not exist yet. Only the capacity is taken from an older record.
+RigConfig read_rig_to_calibrate(const std::filesystem::path& path,
+                                Plausible judged = Plausible::kMeasured);
+TestPlan read_test(const std::filesystem::path& path, Plausible judged = Plausible::kMeasured);
+Specimen read_specimen(const std::filesystem::path& path, Plausible judged = Plausible::kMeasured);
 EmulatedTruth read_truth(const std::filesystem::path& path);
 
 // A record written by `viscard calibrate`. A rig file names it by file = "..." in [calibration] or
@@ -33,11 +39,18 @@ CalibrationRecord read_calibration(const std::filesystem::path& path);
 CalibrationRecord calibration_from_toml(const std::string& text, const std::string& name);
 std::string toml_from_calibration(const CalibrationRecord& record);
 
-// The same from text; messages show name in place of the file.
-RigConfig rig_from_toml(const std::string& text, const std::string& name);
-TestPlan test_from_toml(const std::string& text, const std::string& name);
-Specimen specimen_from_toml(const std::string& text, const std::string& name);
-EmulatedTruth truth_from_toml(const std::string& text, const std::string& name);
+// The same from text; messages show name in place of the file. Old captures are read as they are.
+RigConfig rig_from_toml(const std::string& text, const std::string& name,
+                        Plausible judged = Plausible::kOff);
+TestPlan test_from_toml(const std::string& text, const std::string& name,
+                        Plausible judged = Plausible::kOff);
+Specimen specimen_from_toml(const std::string& text, const std::string& name,
+                            Plausible judged = Plausible::kOff);
+EmulatedTruth truth_from_toml(const std::string& text, const std::string& name,
+                              Plausible judged = Plausible::kOff);
+
+// Throws std::runtime_error for a specimen without a name; results are filed under it.
+void require_id(const Specimen& specimen, const std::string& toml, const std::string& name);
 
 // The text that reads back as the same struct, every double exactly.
 std::string toml_from_rig(const RigConfig& rig);

@@ -18,7 +18,7 @@ void show_stage(FieldVisitor& fields, StageConfig& stage) {
   }
   stage.axis = axis.front();
   show_integer(fields, "toward_specimen", -1, 1, stage.toward_specimen);
-  fields.quantity({"travel", "m", kPositive}, stage.travel_m);
+  fields.quantity({"travel", quantities::kTravel, kPositive}, stage.travel_m);
   fields.quantity({"backlash", "m", kNotNegative}, stage.backlash_m);
   fields.boolean("home", stage.home);
   fields.quantity({"microstep", "m", kNotNegative}, stage.microstep_m);
@@ -31,11 +31,12 @@ void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
   fields.text({"port", "/dev/serial/by-id/usb-..."}, cell.port);
   show_integer(fields, "baud", 300, 4'000'000, cell.baud);
   fields.text({"line_format", "auto"}, cell.line_format);
-  fields.quantity({"expected_rate", "Hz", kPositive}, cell.expected_rate_Hz);
+  fields.quantity({"expected_rate", quantities::kRate, kPositive}, cell.expected_rate_Hz);
   fields.quantity({"volts_per_count", "V"}, cell.volts_per_count);
   fields.text({"converter", "ads1232"}, cell.converter);
   fields.quantity({"gain", "1", kNotNegative}, cell.gain);
   fields.quantity({"reference", "V", kNotNegative}, cell.reference_V);
+  fields.quantity({"span", "V", kNotNegative}, cell.span_V);
   fields.text({"frame", "a5 5a counts:i24 check:crc16"}, cell.frame);
   fields.boolean("compression_is_positive", cell.compression_is_positive);
   fields.text({"dialect", "34401a"}, cell.dialect);
@@ -49,9 +50,10 @@ void show_thermometer(FieldVisitor& fields, ThermometerConfig& thermometer) {
   show_integer(fields, "baud", 300, 4'000'000, thermometer.baud);
   fields.text({"framing", "8N1"}, thermometer.framing);
   fields.text({"query", "MEAS:TEMP?"}, thermometer.query);
-  fields.quantity({"period", "s", kPositive}, thermometer.period_s);
+  fields.quantity({"period", quantities::kPeriod, kPositive}, thermometer.period_s);
   fields.text({"unit", "degC"}, thermometer.unit);
-  fields.quantity({"drift_limit", "K", kPositive}, thermometer.drift_limit_K);
+  fields.quantity({"drift_limit", quantities::kDriftOfTemperature, kPositive},
+                  thermometer.drift_limit_K);
 }
 
 }  // namespace

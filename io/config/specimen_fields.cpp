@@ -24,7 +24,7 @@ void show_tip(FieldVisitor& fields, PunchContact& contact) {
                                     : TipShape::kFlat;
   fields.boolean("sticking", contact.is_sticking);
   if (shape == "sphere") {
-    fields.quantity({"radius", "m", kPositive, true}, contact.punch_radius_m);
+    fields.quantity({"radius", quantities::kTipSize, kPositive, true}, contact.punch_radius_m);
     fields.quantity({"radius_u", "m", kNotNegative}, contact.punch_radius_u_m);
   }
   if (shape == "cone") {
@@ -35,29 +35,33 @@ void show_tip(FieldVisitor& fields, PunchContact& contact) {
 
 void show_contact(FieldVisitor& fields, PunchContact& contact) {
   if (contact.shape == TipShape::kFlat) {
-    fields.quantity({"punch_diameter", "m", kPositive, true, 2.0}, contact.punch_radius_m);
+    fields.quantity({"punch_diameter", quantities::kTipSize, kPositive, true, 2.0},
+                    contact.punch_radius_m);
     fields.quantity(
         {.key = "punch_diameter_u", .unit = "m", .range = kNotNegative, .written_per_value = 2.0},
         contact.punch_radius_u_m);
   }
   // Required, because assuming a half-space overestimates the modulus of a thin layer.
   fields.quantity({.key = "layer_thickness",
-                   .unit = "m",
+                   .unit = quantities::kThickness,
                    .range = kPositive,
                    .is_required = true,
                    .word = "half-space",
                    .word_value = 0.0},
                   contact.layer_thickness_m);
   fields.quantity({"layer_thickness_u", "m", kNotNegative}, contact.layer_thickness_u_m);
-  fields.quantity({.key = "poisson_ratio", .range = kNotNegative, .is_required = true},
+  fields.quantity({.key = "poisson_ratio",
+                   .unit = quantities::kPoissonRatio,
+                   .range = kNotNegative,
+                   .is_required = true},
                   contact.poisson_ratio);
   fields.quantity({"poisson_ratio_u", "1", kNotNegative}, contact.poisson_ratio_u);
 }
 
 void show_truth_material(FieldVisitor& fields, Material& material) {
   fields.text({"name", "PDMS 1:10"}, material.name);
-  fields.quantity({"E0", "Pa", kPositive, true}, material.E0_Pa);
-  fields.quantity({"poisson_ratio", "1"}, material.nu);
+  fields.quantity({"E0", quantities::kModulus, kPositive, true}, material.E0_Pa);
+  fields.quantity({"poisson_ratio", quantities::kPoissonRatio}, material.nu);
   fields.quantity({"density", "kg/m3", kNotNegative}, material.rho_kg_m3);
   fields.list(
       "terms", material.terms.size(),
@@ -79,7 +83,8 @@ void show_specimen(FieldVisitor& fields, Specimen& specimen) {
   fields.text({"id", "pdms-1to10-a", true}, specimen.id);
   fields.text({"material", "PDMS"}, specimen.material);
   fields.quantity({"mixing_ratio", "1", kNotNegative}, specimen.mixing_ratio);
-  fields.quantity({"modulus_guess", "Pa", kPositive, true}, specimen.modulus_guess_Pa);
+  fields.quantity({"modulus_guess", quantities::kModulus, kPositive, true},
+                  specimen.modulus_guess_Pa);
   fields.quantity({"relaxation_guess", "1", kFraction}, specimen.relaxation_guess);
   fields.quantity({"density", "kg/m3", kNotNegative}, specimen.rho_kg_m3);
   fields.quantity({"temperature", "degC"}, specimen.temperature_C);

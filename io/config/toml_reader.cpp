@@ -29,9 +29,10 @@ bool is_in(Range range, double value) {
 
 class TomlReader final : public FieldVisitor {
  public:
-  TomlReader(const toml::table& table, std::string file, std::string prefix,
-             const ChooseValue& choose)
-      : table_(table), file_(std::move(file)), prefix_(std::move(prefix)), choose_(choose) {}
+  TomlReader(const toml::table& table, std::string file, std::string prefix, const ReadRules& rules)
+      : table_(table), file_(std::move(file)), prefix_(std::move(prefix)), rules_(rules) {}
+
+  Plausible judged() const override { return rules_.plausible; }
 
   void quantity(const QuantityField& field, double& value) override {
     const toml::node* node = find(field.key, field.is_required, expected(field));
@@ -81,17 +82,17 @@ class TomlReader final : public FieldVisitor {
               });
   }
 
-  void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
+  void quantity_pairs(const char* key, QuantityOrUnit first, QuantityOrUnit second,
                       std::vector<std::pair<double, double>>& values) override {
-    const bool are_numbers = std::string(first_unit) == "1" && std::string(second_unit) == "1";
+    const bool are_numbers = std::string(first.si) == "1" && std::string(second.si) == "1";
     const std::string what = are_numbers ? "a list of pairs, [[1, 1], [2, 1], ...]"
-                                         : std::string("a list of pairs, [[\"1 ") + first_unit +
-                                               "\", \"2 " + second_unit + "\"], ...]";
+                                         : std::string("a list of pairs, [[\"1 ") + first.si +
+                                               "\", \"2 " + second.si + "\"], ...]";
     read_list(key, false, what, values, [&](const toml::node& entry, const std::string& place) {
       const toml::array* pair = entry.as_array();
       if (pair == nullptr || pair->size() != 2) fail(entry, key, "expected " + what);
-      return std::pair(quantity_at(*pair->get(0), {key, first_unit}, place + ".1"),
-                       quantity_at(*pair->get(1), {key, second_unit}, place + ".2"));
+      return std::pair(quantity_at(*pair->get(0), {key, first}, place + ".1"),
+                       quantity_at(*pair->get(1), {key, second}, place + ".2"));
     });
   }
 
@@ -109,7 +110,7 @@ class TomlReader final : public FieldVisitor {
       fail(*node, key, std::string("expected a section [") + prefix_ + key + "]");
     }
     TomlReader inner(node != nullptr ? *node->as_table() : kEmpty, file_, prefix_ + key + ".",
-                     choose_);
+                     rules_);
     body(inner);
     inner.refuse_unknown_keys();
   }
@@ -135,10 +136,20 @@ class TomlReader final : public FieldVisitor {
     for (std::size_t i = 0; i < entries->size(); ++i) {
       const toml::table* entry = entries->get(i)->as_table();
       if (entry == nullptr) fail(*entries->get(i), key, "expected a list of tables");
-      TomlReader inner(*entry, file_, prefix_ + key + "[" + std::to_string(i + 1) + "].", choose_);
+      TomlReader inner(*entry, file_, prefix_ + key + "[" + std::to_string(i + 1) + "].", rules_);
       body(inner, i);
       inner.refuse_unknown_keys();
     }
+  }
+
+  // The key `plausible` of any file. Lists of known keys leave it out: few files need it.
+  bool accepts_any() {
+    const toml::node* node = table_.get("plausible");
+    if (node == nullptr) return false;
+    const auto word = node->value_exact<std::string>();
+    has_plausible_ = true;
+    if (word && (*word == "on" || *word == "off")) return *word == "off";
+    fail(*node, "plausible", "expected \"on\" (the default), or \"off\" to accept any value");
   }
 
   // Reports a misspelt key before a missing one, because the misspelling is usually the cause.
@@ -146,6 +157,7 @@ class TomlReader final : public FieldVisitor {
     for (const auto& [key, node] : table_) {
       const std::string word(key.str());
       if (std::find(known_.begin(), known_.end(), word) != known_.end()) continue;
+      if (has_plausible_ && word == "plausible") continue;
       throw std::runtime_error(where(node) + "there is no key '" + prefix_ + word + "'" +
                                did_you_mean(word, known_) + " Known here: " + listed(known_));
     }
@@ -164,10 +176,10 @@ class TomlReader final : public FieldVisitor {
     } else if (const auto text = node.value_exact<std::string>()) {
       if (field.word != nullptr && *text == field.word) return field.word_value;
       try {
-        if (const auto uncertain = uncertain_from_text(*text, field.unit)) {
-          written = chosen({prefix_ + field.key + place, *text, field.unit, *uncertain});
+        if (const auto uncertain = uncertain_from_text(*text, field.unit.si)) {
+          written = chosen({prefix_ + field.key + place, *text, field.unit.si, *uncertain});
         } else {
-          written = quantity_from_text(*text, field.unit);
+          written = quantity_from_text(*text, field.unit.si);
         }
       } catch (const std::invalid_argument& error) {
         fail(node, field.key, error.what());
@@ -175,29 +187,29 @@ class TomlReader final : public FieldVisitor {
     } else {
       fail(node, field.key, "expected " + expected(field));
     }
-    // No length here exceeds a metre; a longer one shows that a unit was forgotten.
-    if (node.is_number() && std::string_view(field.unit) == "m" && std::abs(written) > 1.0) {
-      const std::string number = text_from_number(written);
-      fail(node, field.key,
-           "is " + number + " m, because it has no unit; write one, such as \"" + number + " um\"");
-    }
     if (!is_in(field.range, written)) {
       fail(node, field.key,
            "is " + text_from_number(written) + "; expected " + text_of(field.range));
+    }
+    if (field.unit.quantity == nullptr) return written / field.written_per_value;
+    if (const auto doubt = doubt_about(*field.unit.quantity, written, rules_.plausible)) {
+      fail(node, field.key,
+           doubt->with_remedy("write \"" + doubt->meant + "\"",
+                              "write plausible = \"off\" at the top of the file"));
     }
     return written / field.written_per_value;
   }
 
   double chosen(const UncertainField& field) const {
-    if (!choose_) {
+    if (!rules_.choose) {
       throw std::invalid_argument("is read exactly here; leave out what stands behind +-");
     }
-    return choose_(field);
+    return rules_.choose(field);
   }
 
   static std::string expected(const QuantityField& field) {
     std::string what = text_of(field.range);
-    if (std::string(field.unit) != "1") what += std::string(" with a unit of ") + field.unit;
+    if (std::string(field.unit.si) != "1") what += std::string(" with a unit of ") + field.unit.si;
     if (field.word != nullptr) what += std::string(", or \"") + field.word + "\"";
     return what;
   }
@@ -230,26 +242,32 @@ class TomlReader final : public FieldVisitor {
     return file_ + ":" + std::to_string(node.source().begin.line) + ": ";
   }
 
+  // Of a value; BadNumber is also thrown for a text where a number is expected.
   [[noreturn]] void fail(const toml::node& node, const char* key, const std::string& what) const {
-    throw std::runtime_error(where(node) + prefix_ + key + ": " + what);
+    throw BadNumber(where(node) + prefix_ + key + ": " + what);
   }
 
   const toml::table& table_;
   std::string file_;
   std::string prefix_;  // "stage."
-  const ChooseValue& choose_;
+  const ReadRules& rules_;
   std::vector<std::string> known_;
-  std::string missing_;  // message about the first required key that is missing
+  bool has_plausible_ = false;  // was read before the fields
+  std::string missing_;         // message about the first required key that is missing
 };
 
 }  // namespace
 
-void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
-                      const ChooseValue& choose) {
+bool read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
+                      const ReadRules& rules) {
   const toml::table table = table_from_toml(text, name);
-  TomlReader reader(table, name, "", choose);
+  ReadRules of_file = rules;
+  TomlReader reader(table, name, "", of_file);
+  const bool accepts_any = reader.accepts_any();
+  if (accepts_any) of_file.plausible = Plausible::kOff;
   show(reader);
   reader.refuse_unknown_keys();
+  return accepts_any;
 }
 
 }  // namespace viscard

@@ -58,7 +58,7 @@ class TomlWriter final : public FieldVisitor {
     list_line(field.key, values,
               [&](double value) { return number(value * field.written_per_value); });
   }
-  void quantity_pairs(const char* key, const char*, const char*,
+  void quantity_pairs(const char* key, QuantityOrUnit, QuantityOrUnit,
                       std::vector<std::pair<double, double>>& values) override {
     list_line(key, values, [](const auto& pair) {
       return "[" + number(pair.first) + ", " + number(pair.second) + "]";

@@ -28,10 +28,11 @@ EmulatedTruth truth_like(const Specimen& specimen, std::uint64_t seed) {
 
 CaptureSetup setup_from_files(const SetupRequest& request) {
   CaptureSetup setup;
-  setup.rig = request.rig_file ? read_rig(*request.rig_file) : demo_rig();
-  setup.plan = request.test_file ? read_test(*request.test_file) : TestPlan{};
-  setup.specimen =
-      request.specimen_file.empty() ? demo_specimen(10.0) : read_specimen(request.specimen_file);
+  setup.rig = request.rig_file ? read_rig(*request.rig_file, request.plausible) : demo_rig();
+  setup.plan = request.test_file ? read_test(*request.test_file, request.plausible) : TestPlan{};
+  setup.specimen = request.specimen_file.empty()
+                       ? demo_specimen(10.0)
+                       : read_specimen(request.specimen_file, request.plausible);
   if (!request.is_emulated) return setup;
   setup.truth = request.truth_file ? read_truth(*request.truth_file)
                                    : truth_like(setup.specimen, request.seed.value_or(1));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/flow/capture_to_file.h"
+#include "models/quantities/plausible.h"
 #include "rig/run/preflight.h"
 
 #include <cstdint>
@@ -17,6 +18,7 @@ struct SetupRequest {
   std::optional<std::uint64_t> seed;
   double speed = 1.0;  // of the emulated clock over the wall clock
   int touch = 1;       // on the specimen; emulated touches may differ from each other
+  Plausible plausible = Plausible::kMeasured;  // kOff accepts any value in the files
 };
 
 // The largest speed of an emulated clock.

@@ -124,7 +124,7 @@ void reduce_to_target(const CardMaterialRequest& request, PreparedMaterial& prep
 
 // The material of a joint fit at one ratio, with notes for the header of the card.
 void take_ratio(const CardMaterialRequest& request, PreparedMaterial& prepared) {
-  const RatioFit fit = read_ratio_fit(request.material);
+  const RatioFit fit = read_ratio_fit(request.material, request.plausible);
   if (!request.ratio)
     throw std::invalid_argument(request.material + " is a joint fit; it needs a ratio");
   prepared.material = material_at_ratio(fit, *request.ratio, request.may_extrapolate);
@@ -178,7 +178,7 @@ PreparedMaterial prepare_card_material(const CardMaterialRequest& request) {
   } else {
     if (request.ratio)
       throw std::invalid_argument(request.material + " is one material; it has no ratio");
-    prepared.material = read_material(request.material).material;
+    prepared.material = read_material(request.material, request.plausible).material;
     refuse_liquid(prepared.material, request.material);
   }
   prepared.sha256 = sha256_of_file(request.material);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/material/material.h"
+#include "models/quantities/plausible.h"
 
 #include <optional>
 #include <string>
@@ -12,13 +13,14 @@ struct CardOptions;
 
 // Which material a card is written of.
 struct CardMaterialRequest {
-  std::string material;                 // path of a material or joint file
-  std::string target;                   // name of the card's target
-  std::string bound;                    // "", "lower", "upper": an end of the 95 % interval
-  std::string elastic_only;             // "", "instantaneous", "long-term"
-  std::optional<int> terms;             // at most this many, with may_approximate
-  std::optional<double> ratio;          // of a joint file
-  std::optional<double> temperature_C;  // by the material's shift, which the card then lacks
+  std::string material;                        // path of a material or joint file
+  std::string target;                          // name of the card's target
+  std::string bound;                           // "", "lower", "upper": an end of the 95 % interval
+  std::string elastic_only;                    // "", "instantaneous", "long-term"
+  std::optional<int> terms;                    // at most this many, with may_approximate
+  std::optional<double> ratio;                 // of a joint file
+  std::optional<double> temperature_C;         // by the material's shift, which the card then lacks
+  Plausible plausible = Plausible::kMeasured;  // kOff accepts any value
   bool may_extrapolate = false;
   bool may_approximate = false;  // refit the terms to the number that the target takes
 };

@@ -26,6 +26,12 @@ RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds) {
 }
 
 void add_calibration(const RigConfig& rig, RigCheck& found) {
+  if (rig.calibration.largest_force_N == 0.0) {
+    found.advice.push_back(
+        "the load cell's calibration does not state the range of force in which it was made "
+        "(largest_force), so a force beyond it is not noticed. A new record of viscard calibrate "
+        "states it");
+  }
   const std::string trouble = calibration_trouble(rig.calibration, today());
   if (trouble.empty()) return;
   found.advice.push_back(trouble);

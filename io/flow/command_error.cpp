@@ -1,6 +1,7 @@
 #include "io/flow/command_error.h"
 
 #include "models/maths/result_visitor.h"
+#include "models/quantities/plausible.h"
 #include "rig/lines/rig_error.h"
 #include "rig/run/run_control.h"
 
@@ -90,7 +91,7 @@ std::string code_of(const std::exception& error) {
   if (is_of<RunInterrupted>(error)) return "interrupted";
   if (is_of<RigError>(error)) return "device";
   if (is_of<std::filesystem::filesystem_error>(error)) return "file";
-  if (is_of<std::invalid_argument>(error)) return "input";
+  if (is_of<std::invalid_argument>(error) || is_of<BadNumber>(error)) return "input";
   return code_of_text(error.what());
 }
 

@@ -6,7 +6,9 @@
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/flow/fit_table.h"
+#include "io/flow/plausible_record.h"
 #include "io/flow/table_from_capture.h"
+#include "io/materials/plausible_numbers.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -106,6 +108,12 @@ FittedFile fit_named(const std::string& path, const FitRequest& request, bool is
     wanted.options.with_laws = request.diagnose || !request.model.empty();
     FittedFile fitted = fit(wanted);
     fitted.path = path;
+    const bool accepts_any =
+        request.plausible == Plausible::kOff || fitted.specimen.accepts_implausible;
+    if (accepts_any) flag_plausible_off(fitted.result.flags);
+    if (is_capture && !accepts_any && !fitted.result.is_stiffness) {
+      refuse_modulus(fitted.result.E0_Pa, nullptr, {}, request.plausible);
+    }
     if (request.diagnose) fitted.fractional = diagnose_fractional(fitted.result);
     take_laws(request, is_capture, fitted);
     return fitted;

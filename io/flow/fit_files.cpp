@@ -3,6 +3,7 @@
 #include "io/flow/fit_file.h"
 #include "io/flow/input_files.h"
 #include "io/flow/test_words.h"
+#include "io/materials/plausible_numbers.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -108,6 +109,10 @@ FittedFile fit_tests(const std::vector<TestFile>& tests, const FitRequest& reque
   fitted.has_no_depth = std::all_of(own.begin(), own.end(), has_no_depth);
   fitted.tests = tests;
   fitted.fitted_unit = "weighted";
+  const auto accepts_any = [](const FittedFile& file) {
+    return accepts_implausible(file.result.flags);
+  };
+  if (std::any_of(own.begin(), own.end(), accepts_any)) flag_plausible_off(fitted.result.flags);
   if (request.needs_modulus && fitted.result.is_stiffness) {
     throw std::runtime_error(
         "--out writes moduli, but every test gives only stiffnesses or forces; add --depth, "

@@ -7,6 +7,7 @@
 #include "io/tables/column_map.h"
 #include "models/experiment/run_temperature.h"
 #include "models/experiment/specimen.h"
+#include "models/quantities/plausible.h"
 
 #include <optional>
 #include <string>
@@ -43,7 +44,8 @@ struct FitRequest {
   // The user stated the kind of test of this file: other columns are refused, options for other
   // kinds are ignored.
   bool is_one_of_several = false;
-  std::optional<double> T_ref_C;  // reference temperature of a master curve
+  std::optional<double> T_ref_C;               // reference temperature of a master curve
+  Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the result
 };
 
 // The fit of one file, with the specimen that the file or the options describe.

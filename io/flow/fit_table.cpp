@@ -6,6 +6,7 @@
 #include "fit/fit_relaxation.h"
 #include "fit/intervals/left_out.h"
 #include "io/basics/words.h"
+#include "io/flow/plausible_record.h"
 #include "io/tables/csv_table.h"
 
 #include <algorithm>
@@ -272,6 +273,29 @@ FittedFile fit_rows(const CsvTable& table, const FitRequest& asked) {
   return fitted;
 }
 
+// What is doubtful about the strains or depths of a test that a linear law shall describe.
+std::optional<MaterialFlag> doubtful_size(const CsvTable& table, const FitRequest& request) {
+  const FitKind kind = kind_of_table(table, request);
+  if (kind == FitKind::kCreep || kind == FitKind::kRelaxation) {
+    return strain_flag(table, request.columns, request.plausible);
+  }
+  // A stage also moves before it touches.
+  if (kind != FitKind::kIndentation || request.frame_stiffness_N_m > 0.0) return std::nullopt;
+  const auto use = find_column(table, "depth_m", request.columns);
+  // An extension in its unit may be long.
+  if (!use || (!request.specimen && !use->is_unit_assumed)) return std::nullopt;
+  double deepest_m = 0.0;
+  for (const double depth_m : column_with_gaps_SI(table, "depth_m", request.columns)) {
+    if (std::isfinite(depth_m)) deepest_m = std::max(deepest_m, depth_m);
+  }
+  const std::string remedy =
+      use->is_unit_assumed ? words_for_factor(table, "depth_m", *use, 1e-3) : "";
+  refuse_depth(table, deepest_m, request.plausible, remedy);
+  if (!request.specimen) return std::nullopt;
+  return depth_flag(deepest_m, request.specimen->contact.layer_thickness_m, request.plausible,
+                    remedy);
+}
+
 }  // namespace
 
 FittedFile fit_table(const std::string& path, const FitRequest& request) {
@@ -280,11 +304,16 @@ FittedFile fit_table(const std::string& path, const FitRequest& request) {
 
 FittedFile fit_csv(CsvTable all, const FitRequest& request) {
   const auto [maker, n_all] = std::pair(all.maker, all.lines.size());
+  all.judged = request.plausible;
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
   ChosenPart part = choose_part(table, request);
+  const auto doubt = doubtful_size(table, request);
   FittedFile fitted = fit_rows(table, part.rise_s ? with_zero_in(*part.rise_s, request) : request);
   flag_assumed_units(table, request, fitted.result);
+  if (doubt) fitted.result.flags.push_back(*doubt);
+  const bool is_modulus = !fitted.result.is_stiffness && !fitted.has_no_depth;
+  if (is_modulus) refuse_modulus(fitted.result.E0_Pa, &table, request.columns, request.plausible);
   flag_history(part, fitted.result);
   fitted.maker = maker;
   fitted.chosen = std::move(part.text);

@@ -38,7 +38,8 @@ std::vector<JointRecord> read_records(const JointRequest& request) {
       measured.push_back(file);
       continue;
     }
-    Material& material = records.back().material = read_material(file).material;
+    Material& material = records.back().material =
+        read_material(file, request.fit.plausible).material;
     refuse_liquid(material, file);
     if (material.name.empty()) material.name = std::filesystem::path(file).stem().string();
   }

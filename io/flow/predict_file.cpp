@@ -2,7 +2,9 @@
 
 #include "fit/samples/noise_model.h"
 #include "io/basics/words.h"
+#include "io/flow/plausible_record.h"
 #include "io/materials/material_file.h"
+#include "io/materials/plausible_numbers.h"
 #include "io/tables/csv_table.h"
 #include "models/maths/text_of_number.h"
 
@@ -175,7 +177,7 @@ double largest_strain(const TestPrediction& prediction) {
 
 std::vector<std::string> notes_about(const Material& material, const PredictedFile& predicted) {
   std::vector<std::string> notes;
-  for (const MaterialFlag& flag : material.flags) {
+  for (const MaterialFlag& flag : predicted.flags) {
     if (flag.term == 0) notes.push_back(flag.name + ": " + flag.text);
   }
   if (!predicted.has_band) {
@@ -186,19 +188,13 @@ std::vector<std::string> notes_about(const Material& material, const PredictedFi
   if (!predicted.prediction.is_window_known) {
     notes.push_back("the material states no window of times, so nothing is marked as outside");
   }
-  constexpr double kLargeStrain = 0.5;
-  const double strain = largest_strain(predicted.prediction);
-  if (strain > kLargeStrain) {
-    notes.push_back("a strain of " + text_of(strain, 4) + " is " + text_of(100.0 * strain, 4) +
-                    " %, but the model is for small strains; write 1 % as \"1 %\" or 0.01");
-  }
   return notes;
 }
 
 }  // namespace
 
 PredictedFile predict_file(const PredictFileRequest& request) {
-  return predict_material(read_material(request.material).material, request);
+  return predict_material(read_material(request.material, request.plausible).material, request);
 }
 
 PredictedFile predict_material(Material material, const PredictFileRequest& request) {
@@ -215,8 +211,13 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
 
   PredictionRequest wanted = request.prediction;
   std::optional<ReadTable> history, measured;
-  if (!request.history.empty()) history.emplace(ReadTable{read_csv(request.history), &request});
-  if (!request.against.empty()) measured.emplace(ReadTable{read_csv(request.against), &request});
+  const auto read = [&](const std::string& path) {
+    ReadTable table{read_csv(path), &request};
+    table.table.judged = request.plausible;
+    return table;
+  };
+  if (!request.history.empty()) history.emplace(read(request.history));
+  if (!request.against.empty()) measured.emplace(read(request.against));
   wanted.test = request.test ? *request.test
                 : history    ? PredictedTest::kHistory
                 : measured   ? test_of_columns(*measured)
@@ -228,6 +229,9 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
     }
     const ReadTable& course = history ? *history : *measured;
     wanted.history = history_from(course);
+    if (!wanted.history->is_stress) {  // refuses per cent without a unit
+      strain_flag(course.table, request.columns, request.plausible);
+    }
     // A table with both columns also contains the measured answer.
     if (!measured && course.has("strain") && course.has("stress_Pa")) measured = history;
   }
@@ -237,6 +241,8 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
     out.against = measured->table.file;
     out.agreement = agreement_with(out.prediction, *measured);
   }
+  if (const auto flag = strain_flag(largest_strain(out.prediction))) out.flags.push_back(*flag);
+  if (request.plausible == Plausible::kOff) flag_plausible_off(out.flags);
   out.notes = notes_about(material, out);
   if (request.temperature_C) {
     out.notes.push_back("the band leaves out the error of the temperature shift");

@@ -23,6 +23,7 @@ struct PredictFileRequest {
   ColumnMap columns;                    // of both tables
   double time_zero_s = 0.0;             // time in the tables where t = 0
   std::optional<double> temperature_C;  // by the material's temperature shift
+  Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the prediction
 };
 
 // Measured values of one predicted curve, and how far the prediction is from them.

@@ -76,11 +76,12 @@ void put_on_one_clock(CapturedRun& run) {
 
 // Adds profile likelihoods, as `viscard fit FILE --profiles` does, if there are few terms. For many
 // terms they take long and the figure would be too crowded to read.
-FittedFile fit_for_page(const std::string& path) {
+FittedFile fit_for_page(const std::string& path, Plausible plausible) {
   constexpr std::size_t kFewTerms = 6;
-  FittedFile fitted = fit_file(path, {});
-  if (fitted.result.terms.size() > kFewTerms) return fitted;
   FitRequest request;
+  request.plausible = plausible;
+  FittedFile fitted = fit_file(path, request);
+  if (fitted.result.terms.size() > kFewTerms) return fitted;
   request.options.with_profiles = true;
   return fit_file(path, request);
 }
@@ -120,7 +121,7 @@ ShiftReport shift_report(const MasterCurve& curve) {
 // Fits a capture or a table as `viscard fit FILE` does.
 SpecimenReport specimen_from_fit(const ReportRequest& request, const std::string& path) {
   SpecimenReport report;
-  const FittedFile fitted = fit_for_page(path);
+  const FittedFile fitted = fit_for_page(path, request.plausible);
   if (fitted.has_no_depth) {
     throw std::runtime_error(path +
                              ": has force but no depth, and the page shows moduli or "
@@ -147,9 +148,9 @@ void add_truth(SpecimenReport& report, const std::string& path) {
   report.files.push_back({path, sha256_of_file(path)});
 }
 
-SpecimenReport specimen_from_material(const std::string& path) {
+SpecimenReport specimen_from_material(const ReportRequest& request, const std::string& path) {
   SpecimenReport report;
-  report.material = read_material(path).material;
+  report.material = read_material(path, request.plausible).material;
   report.specimen.id =
       report.material->name.empty() ? fs::path(path).stem().string() : report.material->name;
   report.specimen.mixing_ratio = report.material->mixing_ratio;
@@ -273,7 +274,7 @@ std::vector<SpecimenReport> read_specimens(const ReportRequest& request,
     step_done(files.measured[i]);
   });
   for (const std::string& path : files.materials) {
-    join_or_append(specimens, specimen_from_material(path));
+    join_or_append(specimens, specimen_from_material(request, path));
   }
   for_each_in_parallel(specimens.size(), [&](std::size_t i) {
     add_pillar_and_cards(specimens[i], request);

@@ -21,6 +21,7 @@ struct ReportRequest {
   std::string card_units;
   std::string created_at;  // ISO 8601
   std::string command;
+  Plausible plausible = Plausible::kMeasured;  // kOff accepts any value
 };
 
 // Reads and fits captures and tables, reads material files, runs the pillar and writes the cards in

@@ -1,4 +1,5 @@
 #include "io/flow/fit_table.h"
+#include "io/flow/plausible_record.h"
 #include "io/tables/column_names.h"
 #include "io/tables/column_proposal.h"
 
@@ -78,26 +79,8 @@ std::vector<std::string> columns_of(FitKind kind, const CsvTable& table,
 }  // namespace
 
 void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitResult& result) {
-  std::string headers, units, example;
-  for (const std::string& name : columns_of(result.kind, table, request)) {
-    const auto use = find_column(table, name, request.columns);
-    if (!use || !use->is_unit_assumed) continue;
-    const std::string& header = table.columns[use->index].header;
-    const std::string unit = quantity_named(name).si_unit;
-    headers += (headers.empty() ? "'" : ", '") + header + "'";
-    units += (units.empty() ? "" : ", ") + unit;
-    const std::string other = unit == "1/Pa"                 ? "1/MPa"
-                              : unit == "Pa" || unit == "Hz" ? "k" + unit
-                                                             : "m" + unit;
-    example = header + " (" + other + ")";
-  }
-  if (headers.empty()) return;
-  const bool is_one = headers.find(',') == std::string::npos;
-  result.flags.push_back({"unit-assumed", 0,
-                          std::string(is_one ? "the column " : "the columns ") + headers +
-                              (is_one ? " states no unit and was" : " state no unit and were") +
-                              " read in " + units + "; write the unit in the header, as in '" +
-                              example + "'"});
+  const auto flag = assumed_units(table, request.columns, columns_of(result.kind, table, request));
+  if (flag) result.flags.push_back(*flag);
 }
 
 FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {

@@ -4,6 +4,7 @@
 #include "io/basics/file_kind.h"
 #include "io/basics/json_string.h"
 #include "io/materials/material_json.h"
+#include "io/materials/plausible_numbers.h"
 
 #include <nlohmann/json.hpp>
 
@@ -98,16 +99,28 @@ void add_tests(const RubberJson& json, HyperelasticFile& file) {
 
 }  // namespace
 
+namespace {
+
+bool says_plausible_off(const RubberJson& json) {
+  const RubberJson flags = json.value("flags", RubberJson::array());
+  return std::any_of(flags.begin(), flags.end(), [](const RubberJson& flag) {
+    return flag.value("name", "") == kPlausibleOff;
+  });
+}
+
+}  // namespace
+
 bool looks_like_hyperelastic_file(const std::filesystem::path& path) {
   const RubberJson json = json_or_discarded(read_file(path));
   return json.is_object() && json.contains("schema") && json["schema"] == kHyperelasticSchema;
 }
 
-HyperelasticFile read_hyperelastic(const std::filesystem::path& path) {
-  return hyperelastic_from_json(read_file(path), path.string());
+HyperelasticFile read_hyperelastic(const std::filesystem::path& path, Plausible judged) {
+  return hyperelastic_from_json(read_file(path), path.string(), judged);
 }
 
-HyperelasticFile hyperelastic_from_json(const std::string& text, const std::string& name) {
+HyperelasticFile hyperelastic_from_json(const std::string& text, const std::string& name,
+                                        Plausible judged) {
   return read_as(FileKind::kRubberLaw, text, name, [&] {
     try {
       const RubberJson json = RubberJson(parse_json(text, name));
@@ -119,6 +132,10 @@ HyperelasticFile hyperelastic_from_json(const std::string& text, const std::stri
       file.is_trustworthy = law.at("trustworthy");
       for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
       add_tests(json, file);
+      file.accepts_implausible = judged == Plausible::kOff || says_plausible_off(json);
+      if (!file.accepts_implausible) {
+        refuse_implausible(name, "E0_Pa", quantities::kModulus, file.E0_Pa, judged);
+      }
       return file;
     } catch (const nlohmann::json::exception& error) {
       throw std::runtime_error(

@@ -3,6 +3,7 @@
 #include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 #include "models/maths/interval.h"
+#include "models/quantities/plausible.h"
 
 #include <array>
 #include <filesystem>
@@ -23,6 +24,7 @@ struct HyperelasticFile {
   double t_min_s = 0.0, t_max_s = 0.0;  // shortest step and longest test; 0: without times
   bool is_trustworthy = true;
   std::vector<std::string> defects;  // texts of its flags
+  bool accepts_implausible = false;  // the file, or who read it, says plausible = off
   // Measured stretches, in the order of Deformation; nothing where no test measured.
   struct Range {
     double low = 1.0, high = 1.0;
@@ -39,8 +41,10 @@ struct HyperelasticFile {
 bool looks_like_hyperelastic_file(const std::filesystem::path& path);
 
 // Throws std::runtime_error naming the file and the key.
-HyperelasticFile read_hyperelastic(const std::filesystem::path& path);
+HyperelasticFile read_hyperelastic(const std::filesystem::path& path,
+                                   Plausible judged = Plausible::kMeasured);
 // The same from text; messages show name in place of the file.
-HyperelasticFile hyperelastic_from_json(const std::string& text, const std::string& name);
+HyperelasticFile hyperelastic_from_json(const std::string& text, const std::string& name,
+                                        Plausible judged = Plausible::kMeasured);
 
 }  // namespace viscard

@@ -4,10 +4,12 @@
 #include "io/basics/file_kind.h"
 #include "io/basics/json_string.h"
 #include "io/materials/material_json.h"
+#include "io/materials/plausible_numbers.h"
 
 namespace viscard {
 
-MaterialFile material_from_json(const std::string& text, const std::string& name) {
+MaterialFile material_from_json(const std::string& text, const std::string& name,
+                                Plausible judged) {
   MaterialFile file = read_as(FileKind::kMaterial, text, name, [&] {
     return MaterialFile{material_from(parse_json(text, name), name), text};
   });
@@ -16,11 +18,13 @@ MaterialFile material_from_json(const std::string& text, const std::string& name
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name + ": " + error.what());
   }
+  if (judged == Plausible::kOff) flag_plausible_off(file.material.flags);
+  if (!accepts_implausible(file.material.flags)) refuse_implausible(name, file.material, judged);
   return file;
 }
 
-MaterialFile read_material(const std::filesystem::path& path) {
-  return material_from_json(read_file(path), path.string());
+MaterialFile read_material(const std::filesystem::path& path, Plausible judged) {
+  return material_from_json(read_file(path), path.string(), judged);
 }
 
 std::string json_from_material(const MaterialFile& file) {

@@ -2,6 +2,7 @@
 
 #include "models/material/material.h"
 #include "models/material/ratio_model.h"
+#include "models/quantities/plausible.h"
 
 #include <filesystem>
 #include <string>
@@ -21,9 +22,13 @@ struct MaterialFile {
 // Throws std::runtime_error naming the file and the key if the file is not JSON, has a newer
 // schema, a missing key, a value of the wrong type, or a value that validate(Material) refuses (sum
 // of g >= 1, nu > 0.5 ...).
-MaterialFile read_material(const std::filesystem::path& path);
+// A modulus, density or temperature that is not plausible is refused too, unless the flags of the
+// file, or `judged`, accept it; then it has the flag plausible-off.
+MaterialFile read_material(const std::filesystem::path& path,
+                           Plausible judged = Plausible::kMeasured);
 // The same from text; messages show name in place of the file.
-MaterialFile material_from_json(const std::string& text, const std::string& name);
+MaterialFile material_from_json(const std::string& text, const std::string& name,
+                                Plausible judged = Plausible::kMeasured);
 
 // Every double reads back exactly. Throws std::invalid_argument as validate(Material) does.
 std::string json_from_material(const MaterialFile& file);
@@ -39,9 +44,10 @@ std::string json_from_ratio_fit(const RatioFit& fit);
 void show_keys(ResultVisitor& v, const RatioFit& fit);
 
 // Throws std::runtime_error naming the file and the key.
-RatioFit read_ratio_fit(const std::filesystem::path& path);
+RatioFit read_ratio_fit(const std::filesystem::path& path, Plausible judged = Plausible::kMeasured);
 // The same from text; messages show name in place of the file.
-RatioFit ratio_fit_from_json(const std::string& text, const std::string& name);
+RatioFit ratio_fit_from_json(const std::string& text, const std::string& name,
+                             Plausible judged = Plausible::kMeasured);
 
 // True for a JSON file with the schema of a joint fit; false for any other or missing file.
 bool looks_like_ratio_file(const std::filesystem::path& path);

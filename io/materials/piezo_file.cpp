@@ -3,6 +3,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
 #include "io/materials/material_json.h"
+#include "io/materials/plausible_numbers.h"
 
 #include <nlohmann/json.hpp>
 
@@ -39,9 +40,10 @@ Matrix6d stiffness_from(const nlohmann::json& elastic) {
   return 0.5 * (inverse + inverse.transpose()) / s11;
 }
 
-MediumFile medium_from(const nlohmann::json& object) {
-  static const std::set<std::string> kKnown = {
-      "schema", "name", "rho_kg_m3", "elastic", "charge_C_N", "relative_permittivity", "source"};
+MediumFile medium_from(const nlohmann::json& object, const std::string& name, Plausible judged) {
+  static const std::set<std::string> kKnown = {"schema",  "name",       "rho_kg_m3",
+                                               "elastic", "charge_C_N", "relative_permittivity",
+                                               "source",  "plausible"};
   for (const auto& [key, value] : object.items()) {
     if (!kKnown.contains(key)) throw std::invalid_argument("there is no key '" + key + "'");
   }
@@ -52,7 +54,18 @@ MediumFile medium_from(const nlohmann::json& object) {
   MediumFile file;
   file.name = object.value("name", "");
   const double rho = number_in(object, "rho_kg_m3");
-  const Matrix6d stiffness = stiffness_from(object["elastic"]);
+  const nlohmann::json& elastic = object["elastic"];
+  judged = plausible_from_word(object.value("plausible", "on"), judged);
+  refuse_implausible(name, "rho_kg_m3", quantities::kDensity, rho, judged);
+  if (elastic.contains("E_Pa")) {
+    refuse_implausible(name, "E_Pa", quantities::kModulus, number_in(elastic, "E_Pa"), judged);
+  } else {  // the compliances along the axes
+    for (const char* key : {"s11", "s33"}) {
+      refuse_implausible(name, std::string("1/") + key, quantities::kModulus,
+                         1.0 / number_in(elastic, key), judged);
+    }
+  }
+  const Matrix6d stiffness = stiffness_from(elastic);
   if (!object.contains("charge_C_N")) {
     file.medium = elastic_medium(stiffness, rho);
     return file;
@@ -79,14 +92,14 @@ MediumFile medium_from(const nlohmann::json& object) {
 
 }  // namespace
 
-MediumFile read_medium(const std::filesystem::path& path) {
-  return medium_from_json(read_file(path), path.string());
+MediumFile read_medium(const std::filesystem::path& path, Plausible judged) {
+  return medium_from_json(read_file(path), path.string(), judged);
 }
 
-MediumFile medium_from_json(const std::string& text, const std::string& name) {
+MediumFile medium_from_json(const std::string& text, const std::string& name, Plausible judged) {
   return read_as(FileKind::kMedium, text, name, [&] {
     try {
-      return medium_from(nlohmann::json(parse_json(text, name)));
+      return medium_from(nlohmann::json(parse_json(text, name)), name, judged);
     } catch (const nlohmann::json::exception& error) {
       throw std::runtime_error(name + ": is not a medium file: " + reason_of(error));
     } catch (const std::invalid_argument& error) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/pillar/system/medium.h"
+#include "models/quantities/plausible.h"
 
 #include <filesystem>
 #include <string>
@@ -11,7 +12,8 @@ namespace viscard {
 // rho_kg_m3 and
 //   elastic: {E_Pa, nu} or {s11, s12, s13, s33, s55, s66 in 1/Pa} (transversely isotropic about z);
 //   charge_C_N: {d31, d32, d33, d24, d15}, d32 defaults to d31 and d24 to d15;
-//   relative_permittivity: [e11, e22, e33] at constant stress.
+//   relative_permittivity: [e11, e22, e33] at constant stress;
+//   plausible: "off" accepts any modulus and density.
 struct MediumFile {
   std::string name;
   Medium medium;
@@ -20,8 +22,9 @@ struct MediumFile {
 };
 
 // Throws std::runtime_error naming the file and the key.
-MediumFile read_medium(const std::filesystem::path& path);
+MediumFile read_medium(const std::filesystem::path& path, Plausible judged = Plausible::kScene);
 // The same from text; messages show name in place of the file.
-MediumFile medium_from_json(const std::string& text, const std::string& name);
+MediumFile medium_from_json(const std::string& text, const std::string& name,
+                            Plausible judged = Plausible::kScene);
 
 }  // namespace viscard

@@ -3,6 +3,7 @@
 #include "io/basics/json_string.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
+#include "io/materials/plausible_numbers.h"
 #include "io/materials/scatter_json.h"
 #include "io/results/result_json.h"
 
@@ -233,8 +234,8 @@ std::string json_from_ratio_fit(const RatioFit& fit) {
   return text_from_json(out, 2) + "\n";
 }
 
-RatioFit read_ratio_fit(const std::filesystem::path& path) {
-  return ratio_fit_from_json(read_file(path), path.string());
+RatioFit read_ratio_fit(const std::filesystem::path& path, Plausible judged) {
+  return ratio_fit_from_json(read_file(path), path.string(), judged);
 }
 
 namespace {
@@ -268,8 +269,19 @@ RatioFit ratio_fit_from(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-RatioFit ratio_fit_from_json(const std::string& text, const std::string& name) {
-  return read_as(FileKind::kJointFit, text, name, [&] { return ratio_fit_from(text, name); });
+RatioFit ratio_fit_from_json(const std::string& text, const std::string& name, Plausible judged) {
+  RatioFit fit =
+      read_as(FileKind::kJointFit, text, name, [&] { return ratio_fit_from(text, name); });
+  if (judged == Plausible::kOff) {
+    flag_plausible_off(fit.flags);
+    flag_plausible_off(fit.common.flags);
+  }
+  if (accepts_implausible(fit.flags)) return fit;
+  refuse_implausible(name, "rho_kg_m3", quantities::kDensity, fit.common.rho_kg_m3, judged);
+  for (const RatioSpecimen& one : fit.specimens) {
+    refuse_implausible(name, "specimens: E0_Pa", quantities::kModulus, one.E0_Pa, judged);
+  }
+  return fit;
 }
 
 bool looks_like_ratio_file(const std::filesystem::path& path) {

@@ -1,7 +1,7 @@
 // The compiled module viscard._core.
 #include "io/basics/words.h"
 #include "io/flow/command_error.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/parts.h"
 

@@ -3,7 +3,7 @@
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/design/judgement_output.h"
 #include "io/flow/optimise/optimised_output.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
@@ -68,7 +68,7 @@ PythonResult design_of_spec(const std::string& path, const py::object& progress)
 
 // viscard design without a scene.
 PythonResult closed_form(const py::dict& keywords) {
-  const auto given = [&](const char* name, const char* unit) -> std::optional<double> {
+  const auto given = [&](const char* name, const QuantityOrUnit& unit) -> std::optional<double> {
     std::string keyword = name;
     std::replace(keyword.begin(), keyword.end(), '-', '_');
     if (!keywords.contains(keyword)) return std::nullopt;

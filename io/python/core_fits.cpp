@@ -159,7 +159,9 @@ void add_fits(py::module_& module) {
   module.def("fit_paths", &fit_paths);
   module.def("fit_arrays", &fit_arrays);
   module.def("fit_ratios", &fit_ratios);
-  module.def("ratio_fit_from_json", &ratio_fit_from_json);
+  module.def("ratio_fit_from_json", [](const std::string& text, const std::string& name) {
+    return ratio_fit_from_json(text, name);
+  });
 }
 
 }  // namespace viscard::python

@@ -4,8 +4,8 @@
 #include "io/cards/targets/card_targets.h"
 #include "io/flow/card_material.h"
 #include "io/flow/predict_file.h"
-#include "io/flow/words/option_error.h"
 #include "io/materials/material_file.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
@@ -84,6 +84,7 @@ py::dict moduli(const Material& material) {
 }
 
 Material changed(const Material& material, double temperature_C) {
+  refuse_keyword("temperature_C", temperature_C, quantities::kTemperature, Plausible::kMeasured);
   return material_at_temperature(material, temperature_C);
 }
 
@@ -94,6 +95,10 @@ std::optional<double> number_of(const py::dict& keywords, const char* name) {
 py::dict card(const Material& material, const std::string& target, const std::string& units,
               const py::dict& keywords) {
   const auto word = [&](const char* name) { return keywords[name].cast<std::string>(); };
+  const Plausible judged = judged_by(word("plausible"));
+  if (const auto temperature_C = number_of(keywords, "temperature_C")) {
+    refuse_keyword("temperature_C", *temperature_C, quantities::kTemperature, judged);
+  }
   const CardMaterialRequest request{
       .material = material.name.empty() ? "the material" : material.name,
       .target = target,
@@ -102,6 +107,7 @@ py::dict card(const Material& material, const std::string& target, const std::st
       .terms =
           keywords["terms"].is_none() ? std::nullopt : std::optional(keywords["terms"].cast<int>()),
       .temperature_C = number_of(keywords, "temperature_C"),
+      .plausible = judged,
       .may_approximate = keywords["approximate"].cast<bool>()};
   CardOptions options{.units = units,
                       .is_reproducible = keywords["reproducible"].cast<bool>(),
@@ -148,15 +154,18 @@ PythonResult predict(const Material& material, const py::dict& keywords,
 }
 
 // From text that Python has composed, or from a file.
-Material material_from_text(const std::string& text, const std::string& name) {
-  return material_from_json(text, name).material;
+Material material_from_text(const std::string& text, const std::string& name,
+                            const std::string& plausible) {
+  return material_from_json(text, name, judged_by(plausible)).material;
 }
 
 }  // namespace
 
 void add_materials(py::module_& module) {
   module.def("material_from_json", &material_from_text);
-  module.def("read_material", [](const std::string& path) { return read_material(path).material; });
+  module.def("read_material", [](const std::string& path, const std::string& plausible) {
+    return read_material(path, judged_by(plausible)).material;
+  });
   module.def("json_from_material",
              [](const Material& material) { return json_from_material(material); });
   module.def("write_file", [](const std::string& path, const std::string& text, bool overwrite) {

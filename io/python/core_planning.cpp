@@ -1,5 +1,5 @@
 #include "io/flow/planning/study_output.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"

@@ -1,8 +1,9 @@
 #include "io/flow/capture_setup.h"
 #include "io/flow/capture_to_file.h"
 #include "io/flow/rig_keys.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
+#include "io/python/keywords.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
 
@@ -36,7 +37,8 @@ PythonResult capture(const std::string& out, const py::dict& keywords, const py:
                              .specimen_file = keywords["specimen"].cast<Text>().value_or(""),
                              .is_emulated = keywords["emulate"].cast<bool>(),
                              .seed = keywords["seed"].cast<std::optional<std::uint64_t>>(),
-                             .speed = keywords["speed"].cast<double>()};
+                             .speed = keywords["speed"].cast<double>(),
+                             .plausible = judged_by(keywords["plausible"].cast<std::string>())};
   check_emulation(request);
   const CaptureRequest asked{.setup = setup_from_files(request),
                              .path = out,

@@ -1,7 +1,7 @@
 #include "fit/large_strain/rubber_band.h"
 #include "io/cards/hyperelastic/rubber_file_card.h"
 #include "io/flow/large_strain/large_strain_words.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
@@ -73,7 +73,12 @@ std::string rubber_card_text(const HyperelasticFile& rubber, const std::string& 
                              const std::string& target, const std::string& units,
                              std::optional<double> bulk_Pa, std::optional<double> density_kg_m3,
                              bool accepts_flags, bool may_approximate,
-                             const std::string& elastic_only) {
+                             const std::string& elastic_only, const std::string& plausible) {
+  const Plausible judged = judged_by(plausible);
+  if (bulk_Pa) refuse_keyword("bulk_modulus_Pa", *bulk_Pa, quantities::kBulkModulus, judged);
+  if (density_kg_m3) {
+    refuse_keyword("density_kg_m3", *density_kg_m3, quantities::kDensity, judged);
+  }
   if (!elastic_only.empty() && elastic_only != "instantaneous" && elastic_only != "long-term")
     throw OptionError("--elastic-only is '" + elastic_only + "'; use instantaneous or long-term");
   RubberCardOptions options;
@@ -84,6 +89,7 @@ std::string rubber_card_text(const HyperelasticFile& rubber, const std::string& 
   options.accepts_flags = accepts_flags;
   options.may_approximate = may_approximate;
   options.elastic_only = elastic_only;
+  options.plausible = judged;
   return rubber_file_card(rubber, name, options);
 }
 
@@ -95,7 +101,9 @@ void add_rubber(py::module_& module) {
     return !large_strain_given(words).empty();
   });
   module.def("fit_rubber", &fit_rubber);
-  module.def("rubber_from_json", &hyperelastic_from_json);
+  module.def("rubber_from_json", [](const std::string& text, const std::string& name) {
+    return hyperelastic_from_json(text, name);
+  });
   module.def("rubber_stress", &rubber_stress);
   module.def("rubber_card", &rubber_card_text);
   module.def("rubber_card_targets", &rubber_card_targets);

@@ -26,8 +26,9 @@ constexpr double kNoPillar = std::numeric_limits<double>::quiet_NaN();
 
 // A scene of a file, or from text that Python has composed of a dict.
 SceneFile scene_of(const std::optional<std::string>& text, const std::string& path,
-                   std::optional<double> tolerance) {
-  SceneFile file = text ? scene_from_toml(*text, path) : read_scene(path);
+                   std::optional<double> tolerance, const std::string& plausible) {
+  const Plausible judged = judged_by(plausible, Plausible::kScene);
+  SceneFile file = text ? scene_from_toml(*text, path, {}, judged) : read_scene(path, judged);
   if (tolerance) set_tolerance(*tolerance, file.scene);
   return file;
 }
@@ -139,12 +140,14 @@ struct SceneOutcome {
 
 py::dict simulate_scene(const std::optional<std::string>& text, const std::string& path,
                         std::optional<double> tolerance, bool with_fields, bool with_uncertainty,
-                        std::optional<std::size_t> samples, const py::object& progress) {
+                        std::optional<std::size_t> samples, const std::string& plausible,
+                        const py::object& progress) {
   SceneOutcome found = in_background({.progress = progress}, [=](Job& job) {
-    const SceneFile file = scene_of(text, path, tolerance);
+    const SceneFile file = scene_of(text, path, tolerance, plausible);
     SceneOutcome outcome;
     outcome.answer = answer_scene(
         file, path, [&](double done, const std::string& point) { job.report(done, point); });
+    if (file.accepts_implausible) outcome.answer.notes.emplace_back(kPlausibleOffText);
     if (with_fields && file.sweep.is_empty()) {
       outcome.fields = solution_fields(file.scene, outcome.answer.discretisation);
     }
@@ -185,9 +188,9 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
 }
 
 PythonResult plan_scene(const std::optional<std::string>& text, const std::string& path,
-                        std::optional<double> tolerance) {
+                        std::optional<double> tolerance, const std::string& plausible) {
   const auto found = in_background({}, [=](Job& job) {
-    const Scene scene = scene_of(text, path, tolerance).scene;
+    const Scene scene = scene_of(text, path, tolerance, plausible).scene;
     const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
     auto shown = std::make_shared<ShownPlan>(
         ShownPlan{plan.effects, {}, plan.left_out, common(scene).tolerance,
@@ -203,7 +206,8 @@ PythonResult plan_scene(const std::optional<std::string>& text, const std::strin
 }
 
 PythonResult cost_scene(const std::optional<std::string>& text, const std::string& path,
-                        const py::object& budget, const py::object& progress) {
+                        const py::object& budget, const std::string& plausible,
+                        const py::object& progress) {
   const double budget_s = quantity_from("budget", budget, "s").value_or(60.0);
   if (!(budget_s > 0.0)) {
     throw OptionError("budget is " + fmt::format("{:g}", budget_s) +
@@ -212,7 +216,7 @@ PythonResult cost_scene(const std::optional<std::string>& text, const std::strin
   const auto study = in_background({.progress = progress}, [=](Job& job) {
     CostOptions options{.budget_s = budget_s};
     options.progress = [&](double done, const std::string& row) { job.report(done, row); };
-    const Scene scene = scene_of(text, path, std::nullopt).scene;
+    const Scene scene = scene_of(text, path, std::nullopt, plausible).scene;
     return std::make_shared<const CostStudy>(
         with_lines_of(path, [&] { return study_cost(scene, options); }));
   });

@@ -1,6 +1,7 @@
 #include "io/flow/sweep/run_study.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 #include "io/python/job.h"
+#include "io/python/keywords.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
 #include "io/scenes/scene_file.h"
@@ -69,7 +70,8 @@ py::dict results_by_name(const std::vector<StudyPoint>& points) {
 // The points of a study; those that the file does not hold yet are answered, or taken over from `merge`.
 py::dict sweep(const std::string& path, const std::string& file,
                const std::optional<std::string>& shard_text, const std::vector<std::string>& merge,
-               const py::object& progress) {
+               const std::string& plausible, const py::object& progress) {
+  const Plausible judged = judged_by(plausible, Plausible::kScene);
   const StudyShard shard = shard_of(shard_text);
   if (!merge.empty() && shard_text) {
     throw OptionError("--merge takes over points and answers none; leave --shard out");
@@ -79,13 +81,13 @@ py::dict sweep(const std::string& path, const std::string& file,
     swept.study = read_study(path);
     const Study& study = swept.study;
     // A mistake in the study or its scene is reported here, not once for each point.
-    scene_from_toml(scene_text_with(study, values_at(study, 0)), study.scene_path);
+    check_values(study, judged);
     StudyStore store(file, study);
     swept.outcome.n_points = count_points(study);
     for (const std::string& part : merge) swept.n_merged += store.merge(part, study);
     if (merge.empty()) {
-      swept.outcome =
-          run_study(study, shard, store, [&](double done) { job.report(done, "sweep"); });
+      swept.outcome = run_study(
+          study, shard, store, [&](double done) { job.report(done, "sweep"); }, judged);
     }
     store.for_each([&](const StudyPoint& point) { swept.points.push_back(point); });
     return swept;

@@ -20,7 +20,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // Columns in SI by quantity. A quantity that two columns could be is left out, unless the user named it.
 py::dict quantities_of(const CsvTable& table, const ColumnMap& map) {
   py::dict found;
-  for (const Quantity& quantity : quantities()) {
+  for (const ColumnKind& quantity : column_kinds()) {
     const std::string name = quantity.name;
     try {
       if (!find_column(table, name, map)) continue;

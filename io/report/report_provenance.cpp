@@ -99,6 +99,9 @@ void add_run_facts(Facts& facts, const CapturedRun& run) {
   if (!calibration.id.empty()) gain += ", " + calibration.id;
   if (!calibration.date.empty()) gain += ", " + calibration.date;
   facts.add("Calibration", gain);
+  if (calibration.largest_force_N > 0.0) {
+    facts.add_quantity("Calibrated up to", calibration.largest_force_N, "N");
+  }
   facts.add_quantity("Rated load of the cell", calibration.capacity_N, "N");
   if (rig.frame.stiffness_N_m > 0.0) {
     const ShownUnit unit = shown_unit("N/m", {rig.frame.stiffness_N_m});

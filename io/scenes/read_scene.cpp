@@ -81,7 +81,7 @@ MaterialCauses material_causes(const std::string& text, const std::filesystem::p
   const auto file = material["file"].value<std::string>();
   if (!file) return causes_of(common(scene).pillar);
   const std::filesystem::path named = path.parent_path() / *file;
-  if (ratio) return causes_at_ratio(read_ratio_fit(named), *ratio);
+  if (ratio) return causes_at_ratio(read_ratio_fit(named, Plausible::kOff), *ratio);
   if (!looks_like_hyperelastic_file(named)) return causes_of(common(scene).pillar);
   return {
       .causes = {},
@@ -98,12 +98,12 @@ std::string with_line(const std::string& text, const std::filesystem::path& path
 
 }  // namespace
 
-SceneFile read_scene(const std::filesystem::path& path) {
-  return scene_from_toml(read_file(path), path);
+SceneFile read_scene(const std::filesystem::path& path, Plausible judged) {
+  return scene_from_toml(read_file(path), path, {}, judged);
 }
 
 SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path,
-                          const std::map<std::string, double>& values) {
+                          const std::map<std::string, double>& values, Plausible judged) {
   SceneFile file;
   const ChooseValue choose = [&](const UncertainField& field) {
     refuse_uncertain(field.key);
@@ -115,7 +115,9 @@ SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& 
     return given == values.end() ? field.number.value : given->second;
   };
   const FieldReader read = [&](const std::function<void(FieldVisitor&)>& show) {
-    read_toml_fields(text, path.string(), show, choose);
+    file.accepts_implausible =
+        read_toml_fields(text, path.string(), show, {.plausible = judged, .choose = choose}) ||
+        judged == Plausible::kOff;
   };
   try {
     read_as(FileKind::kScene, text, path.string(),

@@ -85,8 +85,10 @@ void show_geometry(FieldVisitor& v, RawSpace& s) {
     f.text({"material", "pvdf", true}, s.film_material);
     f.text({"bottom", "fixed"}, s.film_bottom);
     f.section_or_word("backing", "rigid", [&](FieldVisitor& b) {
-      b.quantity({.key = "E", .unit = "Pa", .range = Range::kPositive}, s.backing_E_Pa);
-      b.quantity({.key = "nu", .range = Range::kNotNegative}, s.backing_nu);
+      b.quantity({.key = "E", .unit = quantities::kModulus, .range = Range::kPositive},
+                 s.backing_E_Pa);
+      b.quantity({.key = "nu", .unit = quantities::kPoissonRatio, .range = Range::kNotNegative},
+                 s.backing_nu);
     });
   });
   v.section("electrode", [&](FieldVisitor& e) {

@@ -37,16 +37,18 @@ struct SceneFile {
   MaterialCauses material_causes;         // what the file of the pillars' material states
   ArraySweep sweep;                       // of rows of pillars; otherwise empty
   std::vector<PrintedValue> printed;      // [[printed]]
+  bool accepts_implausible = false;       // the file, or who read it, says plausible = "off"
 };
 
 // Scene files are TOML; data/scenes/ holds commented examples. Material files are looked for in the
 // folder of the scene. Throws std::runtime_error with file:line, key and what is expected, or with
 // the name of a bad material file.
-SceneFile read_scene(const std::filesystem::path& path);
+SceneFile read_scene(const std::filesystem::path& path, Plausible judged = Plausible::kScene);
 // The same from text; messages show `path`, whose folder holds the material files. Uncertain quantities
 // named in `values` take these values (SI).
 SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path,
-                          const std::map<std::string, double>& values = {});
+                          const std::map<std::string, double>& values = {},
+                          Plausible judged = Plausible::kScene);
 
 // One combination; `label` names what varies: "diameter 40 um, spacing 60 um".
 struct SweepPoint {

@@ -9,10 +9,11 @@
 namespace viscard {
 
 void show_material(FieldVisitor& v, RawMaterial& m) {
+  m.judged = v.judged();
   v.text({"file", "pdms_1to10_seed.json"}, m.file);
   v.quantity({.key = "ratio", .range = Range::kPositive}, m.ratio);
-  v.quantity({.key = "E", .unit = "Pa", .range = Range::kPositive}, m.E_Pa);
-  v.quantity({.key = "nu"}, m.nu);
+  v.quantity({.key = "E", .unit = quantities::kModulus, .range = Range::kPositive}, m.E_Pa);
+  v.quantity({.key = "nu", .unit = quantities::kPoissonRatio}, m.nu);
   v.quantity({.key = "rho", .unit = "kg/m3", .range = Range::kPositive}, m.rho_kg_m3);
 }
 
@@ -73,7 +74,7 @@ std::filesystem::path named_file(const std::string& key, const std::filesystem::
 MediumFile film_medium(const std::string& key, const RawMaterial& raw,
                        const std::filesystem::path& folder) {
   if (!raw.file.empty()) {
-    return read_medium(named_file(key + ".file", folder, raw.file, FileKind::kMedium));
+    return read_medium(named_file(key + ".file", folder, raw.file, FileKind::kMedium), raw.judged);
   }
   if (!(raw.E_Pa > 0.0)) throw SceneMistake(key, "needs E (and nu, rho) or a file");
   try {
@@ -89,7 +90,7 @@ std::optional<HyperelasticFile> pillar_rubber(const RawMaterial& raw,
   if (raw.file.empty()) return std::nullopt;
   const auto path = named_file(key + ".file", folder, raw.file, FileKind::kMaterial);
   if (!looks_like_hyperelastic_file(path)) return std::nullopt;
-  HyperelasticFile file = read_hyperelastic(path);
+  HyperelasticFile file = read_hyperelastic(path, raw.judged);
   if (!file.is_trustworthy) {
     const std::string why = file.defects.empty() ? "" : " (" + file.defects.front() + ")";
     throw SceneMistake(key + ".file", "the law of rubber in '" + raw.file +
@@ -139,8 +140,8 @@ Material pillar_material(const RawMaterial& raw, const std::filesystem::path& fo
                                     "ratio = 10 (parts of base to one of curing agent)"
                                   : "the file holds one material, so ratio has no meaning");
     }
-    Material material = is_joint ? material_at_ratio(read_ratio_fit(path), raw.ratio)
-                                 : read_material(path).material;
+    Material material = is_joint ? material_at_ratio(read_ratio_fit(path, raw.judged), raw.ratio)
+                                 : read_material(path, raw.judged).material;
     refuse_liquid(material, raw.file);
     return material;
   }

@@ -50,6 +50,7 @@ struct RawMaterial {
   std::string file;
   double ratio = 0.0;
   double E_Pa = 0.0, nu = 0.0, rho_kg_m3 = 0.0;
+  Plausible judged = Plausible::kScene;  // the numbers of the file
 };
 void show_material(FieldVisitor& v, RawMaterial& material);
 void show_printed(FieldVisitor& v, std::vector<PrintedValue>& printed);

@@ -102,7 +102,8 @@ void fill_kind(const RawShape& raw, const std::filesystem::path& folder,
 
 void show_shape(FieldVisitor& v, RawShape& s) {
   v.text({"kind", "sphere"}, s.kind);
-  v.quantity({.key = "radius", .unit = "m", .range = Range::kPositive}, s.radius_m);
+  v.quantity({.key = "radius", .unit = quantities::kShapeRadius, .range = Range::kPositive},
+             s.radius_m);
   v.quantity({.key = "depth", .unit = "m"}, s.depth_m);
   v.quantity({.key = "force", .unit = "N", .range = Range::kPositive}, s.force_N);
   v.text({"friction", "none"}, s.friction);

@@ -62,6 +62,23 @@ bool is_set(const Json& request, const char* key) {
   throw ApiError(400, "bad-value", std::string("'") + key + "' must be true or false");
 }
 
+// How the page wants the numbers of this request judged: "plausible", "on" or "off". Throws ApiError 400.
+Plausible judged_by(const Json& request) {
+  if (!request.contains("plausible")) return Plausible::kMeasured;
+  try {
+    return plausible_from_word(text_at(request, "plausible"), Plausible::kMeasured);
+  } catch (const std::invalid_argument& error) {
+    throw ApiError(400, "bad-value", error.what());
+  }
+}
+
+// The configuration keeps it, and its file says it.
+template <typename Config>
+Config with_judgement(Config config, const Json& request) {
+  if (judged_by(request) == Plausible::kOff) config.accepts_implausible = true;
+  return config;
+}
+
 Json curves_of(const FitCurves& curves) {
   return {{"time_s", curves.time_s}, {"measured", curves.measured},
           {"fitted", curves.fitted}, {"sigma", curves.sigma},
@@ -147,7 +164,7 @@ Json RigApi::check_rig() {
 
 Json RigApi::preflight_of(const Json& request) const {
   const Json changes = request.contains("test") ? request.at("test") : Json::object();
-  const TestPlan plan = test_with(folder_.test(), changes);
+  const TestPlan plan = with_judgement(test_with(folder_.test(), changes), request);
   folder_.check_test(plan);
   const SeriesSpecimen found = folder_.specimen_named(text_at(request, "specimen"));
   if (!found.trouble.empty()) throw std::runtime_error(found.trouble);
@@ -156,15 +173,15 @@ Json RigApi::preflight_of(const Json& request) const {
 }
 
 Json RigApi::save_test(const Json& request) {
-  const TestPlan plan =
-      test_with(folder_.test(), request.contains("test") ? request.at("test") : Json());
+  const Json changes = request.contains("test") ? request.at("test") : Json();
+  const TestPlan plan = with_judgement(test_with(folder_.test(), changes), request);
   folder_.save_test(plan);
   return json_of_test(plan);
 }
 
 Json RigApi::add_specimen(const Json& request) {
-  const Specimen specimen =
-      specimen_from(request.contains("specimen") ? request.at("specimen") : Json());
+  const Json asked = request.contains("specimen") ? request.at("specimen") : Json();
+  const Specimen specimen = with_judgement(specimen_from(asked), request);
   return {{"name", folder_.add_specimen(specimen)}};
 }
 
@@ -259,7 +276,9 @@ Json RigApi::fit(const Json& request) {
   const std::filesystem::path path = folder_.path() / file;
   begin_job("the fit of " + file);
   const JobEnd at_end(job_);
-  const FittedFile fitted = fit_file(path, {});
+  FitRequest asked;
+  asked.plausible = judged_by(request);
+  const FittedFile fitted = fit_file(path, asked);
   Json json = json_from_result(fitted);
   json["file"] = file;
   json["status"] = read_capture_state(path).status;

@@ -3,7 +3,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
-#include "io/config/sensible_bounds.h"
 #include "io/flow/series_files.h"
 #include "io/serve/api_error.h"
 #include "models/experiment/test_phases.h"
@@ -158,8 +157,7 @@ TestPlan SeriesFolder::test() const {
 
 void SeriesFolder::check_test(const TestPlan& plan) const {
   phases_from_plan(plan);
-  const std::string toml = toml_from_test(plan);
-  refuse_senseless(test_from_toml(toml, "test.toml"), toml, "test.toml");
+  test_from_toml(toml_from_test(plan), "test.toml", Plausible::kMeasured);
 }
 
 void SeriesFolder::save_test(const TestPlan& plan) const {
@@ -201,7 +199,7 @@ SeriesSpecimen SeriesFolder::specimen_named(const std::string& name) const {
 
 std::string SeriesFolder::add_specimen(const Specimen& specimen) const {
   const std::string toml = toml_from_specimen(specimen);
-  refuse_senseless(specimen_from_toml(toml, "specimen"), toml, "specimen");
+  require_id(specimen_from_toml(toml, "specimen", Plausible::kMeasured), toml, "specimen");
   long long number = 1;
   for (const SeriesSpecimen& other : specimens()) {
     number = std::max(number, 1 + number_of_name(other.name));

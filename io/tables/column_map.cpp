@@ -49,13 +49,13 @@ std::string columns_there(const CsvTable& table) {
 }
 
 // Returns a column's scale from the command line's unit, the table's unit or its name's suffix.
-UnitScale scale_of(const CsvTable& table, const CsvColumn& column, const Quantity& quantity,
+UnitScale scale_of(const CsvTable& table, const CsvColumn& column, const ColumnKind& quantity,
                    const std::string& said_unit) {
   if (quantity.is_text) return {};
   const std::string& unit = is_stated(said_unit) ? said_unit : column.unit;
   if (is_stated(unit)) {
     try {
-      return scale_to_si(unit, quantity.si_unit);
+      return scale_to_si(unit, quantity.unit.si);
     } catch (const std::invalid_argument& error) {
       fail(table, "column" + quoted_header(column) + " for " + quantity.name + ": " + error.what());
     }
@@ -63,16 +63,18 @@ UnitScale scale_of(const CsvTable& table, const CsvColumn& column, const Quantit
   const std::size_t underscore = column.name.rfind('_');
   if (underscore != std::string::npos) {
     const std::string suffix = column.name.substr(underscore + 1);
-    if (is_unit_of(suffix, quantity.si_unit)) return scale_to_si(suffix, quantity.si_unit);
+    if (is_unit_of(suffix, quantity.unit.si)) return scale_to_si(suffix, quantity.unit.si);
   }
   return {};
 }
 
-ColumnUse use_of(const CsvTable& table, std::size_t index, const Quantity& quantity, double factor,
-                 UnitScale scale) {
+ColumnUse use_of(const CsvTable& table, std::size_t index, const ColumnKind& quantity,
+                 double factor, UnitScale scale) {
   ColumnUse use{index, factor * scale.factor, factor * scale.offset, ""};
   use.description =
       quantity.name + std::string(": column ") + place(index) + quoted_header(table.columns[index]);
+  use.written_factor = factor;
+  use.is_unit_stated = factor != 1.0 || !table.columns[index].unit.empty();
   if (use.factor != 1.0) use.description += " x " + text_from_number(use.factor);
   if (use.offset != 0.0) use.description += " + " + text_from_number(use.offset);
   return use;
@@ -109,7 +111,7 @@ std::size_t index_of(const CsvTable& table, std::string_view spec, std::string& 
   return index_of(table, trimmed(spec.substr(0, open)), said_unit);
 }
 
-ColumnUse mapped_column(const CsvTable& table, const Quantity& quantity,
+ColumnUse mapped_column(const CsvTable& table, const ColumnKind& quantity,
                         const std::string& expression) {
   double factor = 1.0;
   std::string_view spec = trimmed(expression);
@@ -136,11 +138,13 @@ ColumnUse mapped_column(const CsvTable& table, const Quantity& quantity,
     fail(table,
          "has no column '" + std::string(spec) + "' for " + quantity.name + columns_there(table));
   }
-  return use_of(table, index, quantity, factor,
-                scale_of(table, table.columns[index], quantity, said_unit));
+  ColumnUse use = use_of(table, index, quantity, factor,
+                         scale_of(table, table.columns[index], quantity, said_unit));
+  use.is_unit_stated |= !said_unit.empty();
+  return use;
 }
 
-std::optional<ColumnUse> found_column(const CsvTable& table, const Quantity& quantity) {
+std::optional<ColumnUse> found_column(const CsvTable& table, const ColumnKind& quantity) {
   std::optional<ColumnUse> best;
   int best_rank = 0;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -190,7 +194,7 @@ ColumnMap column_map_from_words(const std::vector<std::string>& words) {
 
 std::optional<ColumnUse> find_column(const CsvTable& table, const std::string& name,
                                      const ColumnMap& map) {
-  const Quantity& quantity = quantity_named(name);
+  const ColumnKind& quantity = column_kind(name);
   const auto mapped = map.find(name);
   if (mapped != map.end()) return mapped_column(table, quantity, mapped->second);
   const auto of_maker = table.maker_columns.find(name);
@@ -212,6 +216,42 @@ std::vector<double> values_SI(const CsvColumn& column, const ColumnUse& use) {
 
 }  // namespace
 
+namespace {
+
+// "1e6", "0.01", "1e-3".
+std::string factor_text(double factor) {
+  const double exponent = std::round(std::log10(std::abs(factor)));
+  const bool is_power = std::abs(std::abs(factor) / std::pow(10.0, exponent) - 1.0) < 1e-12;
+  if (!is_power || std::abs(exponent) < 3.0) return text_of(factor);
+  return (factor < 0.0 ? "-1e" : "1e") + text_of(exponent);
+}
+
+void refuse_implausible(const CsvTable& table, const std::string& name, const ColumnUse& use,
+                        const std::vector<double>& values) {
+  const Quantity* quantity = column_kind(name).unit.quantity;
+  if (quantity == nullptr) return;
+  const auto doubt = doubt_about(*quantity, values, table.judged);
+  if (!doubt) return;
+  const char* which =
+      quantity->kind == QuantityKind::kLargest ? "its largest value " : "one of its values ";
+  throw BadNumber(table.file + ": column " + place(use.index) +
+                  quoted_header(table.columns[use.index]) + " for " + name + ": " + which +
+                  doubt->with_remedy(words_for_factor(table, name, use, doubt->meant_factor),
+                                     "add --plausible off"));
+}
+
+}  // namespace
+
+std::string words_for_factor(const CsvTable& table, const std::string& name, const ColumnUse& use,
+                             double factor) {
+  const std::string& header = table.columns[use.index].header;
+  const bool has_header = !header.empty() && header.find('*') == std::string::npos;
+  const std::string word = name + "=" + factor_text(factor * use.written_factor) + "*" +
+                           (has_header ? header : place(use.index));
+  const bool is_plain = word.find_first_of(" \t\"'()[]$&;<>|\\") == std::string::npos;
+  return "write --column " + (is_plain ? word : "\"" + word + "\"");
+}
+
 std::vector<double> column_SI(const CsvTable& table, const std::string& name,
                               const ColumnMap& map) {
   const ColumnUse use = required_column(table, name, map);
@@ -225,7 +265,9 @@ std::vector<double> column_SI(const CsvTable& table, const std::string& name,
                              name + ": " + cell + "; expected a number" +
                              (table.has_decimal_comma ? " with a decimal comma" : ""));
   }
-  return values_SI(column, use);
+  std::vector<double> values = values_SI(column, use);
+  refuse_implausible(table, name, use, values);
+  return values;
 }
 
 std::vector<double> column_with_gaps_SI(const CsvTable& table, const std::string& name,

@@ -33,6 +33,9 @@ struct ColumnUse {
   std::string description;  // "force_N: column 2 'Force [nN]' x 1e-09"
   // Neither the table nor --column states a unit, so the SI unit was taken.
   bool is_unit_assumed = false;
+  // The table or --column states a unit ("%", "-") or a factor.
+  bool is_unit_stated = false;
+  double written_factor = 1.0;  // that of --column
 };
 
 // Returns nothing if the table has no such column. Throws std::runtime_error if the map names a
@@ -42,12 +45,17 @@ std::optional<ColumnUse> find_column(const CsvTable& table, const std::string& n
                                      const ColumnMap& map = {});
 
 // Returns the values in SI. Throws std::runtime_error as find_column() does, and if the column does
-// not exist (with a list of the columns) or a cell is not a finite number (with file, line, column
-// and the text of the cell).
+// not exist (with a list of the columns), a cell is not a finite number (with file, line, column and
+// the text of the cell), or the values are not plausible (with what to write instead).
 std::vector<double> column_SI(const CsvTable& table, const std::string& name,
                               const ColumnMap& map = {});
 
-// As column_SI(), but a cell that is not a finite number gives nan.
+// What to write where the numbers of a column are in another unit: "write --column
+// modulus_Pa=1e6*E", for 1e6 SI units in theirs.
+std::string words_for_factor(const CsvTable& table, const std::string& name, const ColumnUse& use,
+                             double factor);
+
+// As column_SI(), but a cell that is not a finite number gives nan, and any value is taken.
 std::vector<double> column_with_gaps_SI(const CsvTable& table, const std::string& name,
                                         const ColumnMap& map = {});
 

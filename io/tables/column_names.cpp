@@ -34,7 +34,7 @@ std::string with_plain_primes(std::string name) {
   return name;
 }
 
-bool has_alias(const Quantity& quantity, const std::string& name) {
+bool has_alias(const ColumnKind& quantity, const std::string& name) {
   const std::string primed = with_plain_primes(name);
   return std::any_of(quantity.aliases.begin(), quantity.aliases.end(), [&](const char* alias) {
     const std::string text = alias;
@@ -82,38 +82,38 @@ std::string unit_in_name(const std::string& text) {
 }
 
 std::optional<UnitScale> scale_if_fits(const std::string& name, const std::string& unit,
-                                       const Quantity& quantity) {
+                                       const ColumnKind& quantity) {
   if (quantity.is_text) return UnitScale{};
-  if (std::string(quantity.si_unit) == "Hz" && is_angular(name)) {
+  if (std::string(quantity.unit.si) == "Hz" && is_angular(name)) {
     if (is_stated(unit) && unit != "rad/s" && unit != "1/s" && unit != "s-1") return std::nullopt;
     return UnitScale{0.5 / std::numbers::pi, 0.0};
   }
   if (!is_stated(unit)) return UnitScale{};
-  if (!is_unit_of(unit, quantity.si_unit)) return std::nullopt;
-  return scale_to_si(unit, quantity.si_unit);
+  if (!is_unit_of(unit, quantity.unit.si)) return std::nullopt;
+  return scale_to_si(unit, quantity.unit.si);
 }
 
-bool is_unit_assumed(const CsvColumn& column, const Quantity& quantity) {
-  const bool has_unit = !quantity.is_text && std::string(quantity.si_unit) != "1";
+bool is_unit_assumed(const CsvColumn& column, const ColumnKind& quantity) {
+  const bool has_unit = !quantity.is_text && std::string(quantity.unit.si) != "1";
   return has_unit && !is_stated(column.unit) && !is_angular(column.name);
 }
 
 // What a test records over time.
-std::vector<Quantity> recorded_quantities() {
+std::vector<ColumnKind> recorded_kinds() {
   return {{"time_s",
            "time",
-           "s",
+           quantities::kTime,
            {"t", "elapsed time", "test time", "run time", "seconds", "zeit", "prüfzeit",
             "versuchszeit", "temps", "时间", "试验时间", "测试时间"}},
           {"force_N",
            "force",
-           "N",
+           quantities::kForce,
            {"F", "load", "normal force", "standard force", "compressive load", "tensile load",
             "kraft", "normalkraft", "standardkraft", "prüfkraft", "force normale", "力", "试验力",
             "载荷", "负荷", "法向力"}},
           {"depth_m",
            "depth",
-           "m",
+           quantities::kLength,
            {"h",
             "indentation",
             "indentation depth",
@@ -138,85 +138,87 @@ std::vector<Quantity> recorded_quantities() {
 }
 
 // What is computed from force and geometry.
-std::vector<Quantity> material_quantities() {
+std::vector<ColumnKind> material_kinds() {
   return {
       {"modulus_Pa",
        "modulus",
-       "Pa",
+       quantities::kModulus,
        {"E", "G", "e relax", "g relax", "e(t)", "g(t)", "relaxation modulus", "modul",
         "relaxationsmodul", "module", "module de relaxation", "模量", "松弛模量"}},
       {"stress_Pa",
        "stress",
-       "Pa",
+       quantities::kStress,
        {"sigma", "σ", "shear stress", "spannung", "schubspannung", "contrainte", "应力",
         "剪切应力"}},
       {"strain",
        "strain",
-       "1",
+       quantities::kStrain,
        {"epsilon", "eps", "ε", "gamma", "γ", "shear strain", "nominal strain", "engineering strain",
         "dehnung", "nenndehnung", "technische dehnung", "scherung", "deformation", "déformation",
         "déformation nominale", "应变", "剪切应变", "名义应变", "工程应变"}},
       {"nominal_stress_Pa",
        "nominal_stress",
-       "Pa",
+       quantities::kStress,
        {"engineering stress", "nennspannung", "contrainte nominale", "名义应力", "工程应力"}},
       {"stretch",
        "stretch",
-       "1",
+       quantities::kStretch,
        {"lambda", "λ", "stretch ratio", "extension ratio", "streckung", "伸长比"}},
       {"compliance_1_Pa",
        "compliance",
-       "1/Pa",
+       quantities::kCompliance,
        {"J", "D", "j(t)", "d(t)", "creep compliance", "kriechnachgiebigkeit", "nachgiebigkeit",
         "complaisance", "柔量"}},
-      {"frequency_Hz", "frequency", "Hz", frequency_names()},
+      {"frequency_Hz", "frequency", quantities::kFrequency, frequency_names()},
       {"storage_modulus_Pa",
        "storage_modulus",
-       "Pa",
+       quantities::kModulus,
        {"E'", "G'", "ep", "gp", "e prime", "g prime", "e stor", "g stor", "storage",
         "speichermodul", "module de conservation", "储能模量"}},
       {"loss_modulus_Pa",
        "loss_modulus",
-       "Pa",
+       QuantityOrUnit::any("Pa"),
        {"E''", "G''", "epp", "gpp", "e double prime", "g double prime", "e loss", "g loss", "loss",
         "verlustmodul", "module de perte", "损耗模量"}}};
 }
 
 // What a calibration or a rig adds, and what divides a file.
-std::vector<Quantity> rig_quantities() {
-  return {
-      {"mass_kg", "mass", "kg", {"m", "weight", "masse", "质量"}},
-      {"volts_V",
-       "volts",
-       "V",
-       {"U", "V", "voltage", "reading", "output", "amplifier", "spannung", "电压"}},
-      {"position_m", "position", "m", {"z", "stage", "stage position", "位置"}},
-      {"temperature_C", "temperature", "degC", {"T", "temp", "temperatur", "température", "温度"}},
-      {"segment", "segment", "1", {"set", "phase", "step", "step name"}, true},
-      {"specimen", "specimen", "1", {"specimen id", "specimen name"}, true}};
+std::vector<ColumnKind> rig_kinds() {
+  return {{"mass_kg", "mass", quantities::kMass, {"m", "weight", "masse", "质量"}},
+          {"volts_V",
+           "volts",
+           quantities::kVoltage,
+           {"U", "V", "voltage", "reading", "output", "amplifier", "spannung", "电压"}},
+          {"position_m", "position", quantities::kLength, {"z", "stage", "stage position", "位置"}},
+          {"temperature_C",
+           "temperature",
+           quantities::kTemperature,
+           {"T", "temp", "temperatur", "température", "温度"}},
+          {"segment", "segment", "1", {"set", "phase", "step", "step name"}, true},
+          {"specimen", "specimen", "1", {"specimen id", "specimen name"}, true}};
 }
 
 }  // namespace
 
-const std::vector<Quantity>& quantities() {
-  static const std::vector<Quantity> kQuantities = [] {
-    std::vector<Quantity> all;
-    for (const auto& group : {recorded_quantities(), material_quantities(), rig_quantities()}) {
+const std::vector<ColumnKind>& column_kinds() {
+  static const std::vector<ColumnKind> kKinds = [] {
+    std::vector<ColumnKind> all;
+    for (const auto& group : {recorded_kinds(), material_kinds(), rig_kinds()}) {
       all.insert(all.end(), group.begin(), group.end());
     }
     return all;
   }();
-  return kQuantities;
+  return kKinds;
 }
 
-const Quantity& quantity_named(const std::string& name) {
-  for (const Quantity& quantity : quantities()) {
+const ColumnKind& column_kind(const std::string& name) {
+  for (const ColumnKind& quantity : column_kinds()) {
     if (name == quantity.name) return quantity;
   }
   throw std::invalid_argument("there is no quantity '" + name + "'");
 }
 
-std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity& quantity) {
+std::optional<HeaderMatch> match_header(const CsvColumn& column, const ColumnKind& quantity) {
   if (column.name.empty()) return std::nullopt;
   if (column.header == quantity.name || column.name == quantity.name) {
     const auto scale = scale_if_fits(column.name, column.unit, quantity);
@@ -257,7 +259,7 @@ bool is_stated(const std::string& unit) {
 const std::vector<std::string>& column_names() {
   static const std::vector<std::string> kNames = [] {
     std::vector<std::string> names;
-    for (const Quantity& quantity : quantities()) names.emplace_back(quantity.name);
+    for (const ColumnKind& quantity : column_kinds()) names.emplace_back(quantity.name);
     return names;
   }();
   return kNames;

@@ -45,14 +45,14 @@ bool may_have_unit(const CsvColumn& column, const char* si_unit) {
 // header contains a name of it.
 std::optional<std::size_t> taken_by_name(const CsvTable& table, std::vector<std::size_t>& columns,
                                          const char* quantity_name) {
-  const Quantity& quantity = quantity_named(quantity_name);
+  const ColumnKind& quantity = column_kind(quantity_name);
   auto at = std::find_if(columns.begin(), columns.end(), [&](std::size_t i) {
     return match_header(table.columns[i], quantity).has_value();
   });
   if (at == columns.end()) {
     at = std::find_if(columns.begin(), columns.end(), [&](std::size_t i) {
       return speaks_of(table.columns[i], quantity) &&
-             may_have_unit(table.columns[i], quantity.si_unit);
+             may_have_unit(table.columns[i], quantity.unit.si);
     });
   }
   if (at == columns.end()) return std::nullopt;

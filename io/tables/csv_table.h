@@ -2,6 +2,7 @@
 
 #include "io/tables/csv_column.h"
 #include "io/tables/line_numbers.h"
+#include "models/quantities/plausible.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -27,6 +28,7 @@ struct CsvTable {
   std::string maker;  // whose file it is ("JPK force curve"), if it was recognised (maker_table.h)
   // Quantities of this maker's columns that their headers do not name, as --column writes them.
   std::map<std::string, std::string> maker_columns;
+  Plausible judged = Plausible::kMeasured;  // how column_SI() judges the numbers
 };
 
 // Throws std::runtime_error naming the file (and line) if it is missing, empty, not text, or has

@@ -42,7 +42,7 @@ std::vector<std::string> words_of_header(const std::string& header) {
   return words;
 }
 
-bool speaks_of(const CsvColumn& column, const Quantity& quantity) {
+bool speaks_of(const CsvColumn& column, const ColumnKind& quantity) {
   constexpr std::size_t kShortest = 3;
   const std::vector<std::string> words = words_of_header(column.name);
   const auto is_named = [&](const std::string& name) {

@@ -13,7 +13,7 @@ std::vector<std::string> words_of_header(const std::string& header);
 
 // True if a name of the quantity, of three bytes or more, stands among the words. For a proposal
 // only: it does not say that the column is that quantity.
-bool speaks_of(const CsvColumn& column, const Quantity& quantity);
+bool speaks_of(const CsvColumn& column, const ColumnKind& quantity);
 
 // True for a column that numbers its rows 1, 2, 3 ... or 0, 1, 2 ... and says so (point, row, No.).
 bool is_counter(const CsvColumn& column);

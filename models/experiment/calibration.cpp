@@ -2,6 +2,9 @@
 
 #include "models/maths/require.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace viscard {
 
 void validate(const LoadCellCalibration& calibration) {
@@ -70,6 +73,53 @@ std::string calibration_trouble(const LoadCellCalibration& calibration, const st
   if (today.substr(0, 10) <= last.substr(0, 10)) return {};
   return "the load cell's calibration" + name + " expired on " + last +
          ". Make a new one with: viscard calibrate";
+}
+
+namespace {
+
+bool has_parts(const LoadCellCalibration& calibration) {
+  return calibration.largest_force_N > 0.0 && calibration.common_u > 0.0;
+}
+
+double u_from_parts(const LoadCellCalibration& calibration, double force_N) {
+  constexpr double kSmallLoads = 4.0;   // departures shrink with the load
+  constexpr double kCreep = 1.0 / 3.0;  // of the hysteresis
+  const double largest_N = calibration.largest_force_N;
+  const double curvature =
+      calibration.curvature_u * (force_N - calibration.curvature_at_N) / calibration.capacity_N;
+  const double shape =
+      calibration.shape_u * std::clamp(largest_N / force_N, 1.0, kSmallLoads);  // inf at no load
+  const double loop = calibration.hysteresis * std::max(2.0 * (1.0 - force_N / largest_N), kCreep);
+  return std::hypot(std::hypot(calibration.common_u, curvature), shape, loop / std::sqrt(3.0));
+}
+
+}  // namespace
+
+double gain_relative_u_in_use(const LoadCellCalibration& calibration) {
+  return std::max(u_from_parts(calibration, calibration.largest_force_N),
+                  u_from_parts(calibration, calibration.capacity_N));
+}
+
+double gain_relative_u(const LoadCellCalibration& calibration, double force_N) {
+  const double stated = std::abs(calibration.volts_per_newton_u / calibration.volts_per_newton);
+  if (!has_parts(calibration)) return stated;
+  const double parts = u_from_parts(calibration, std::abs(force_N));
+  return parts * std::max(1.0, stated / gain_relative_u_in_use(calibration));
+}
+
+std::string calibration_range_doubt(const LoadCellCalibration& calibration, double force_N) {
+  constexpr double kBeyond = 1.2;
+  const double largest_N = calibration.largest_force_N;
+  const double at_N = std::abs(force_N);
+  if (!(largest_N > 0.0) || !(at_N > kBeyond * largest_N)) return {};
+  const auto percent = [&](double force) {
+    return text_of(100.0 * gain_relative_u(calibration, force), 2) + " %";
+  };
+  return "a force of " + text_of(at_N, 3) + " N is " + text_of(at_N / largest_N, 3) +
+         " times the largest one of the load cell's calibration, " + text_of(largest_N, 3) +
+         " N: the gain has a standard uncertainty of " + percent(at_N) + " there and of " +
+         percent(largest_N) + " in the range of the calibration. Calibrate with weights up to " +
+         text_of(at_N, 2) + " N";
 }
 
 double force_N_from_volts(const LoadCellCalibration& calibration, double volts) {

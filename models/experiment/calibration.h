@@ -22,6 +22,12 @@ struct LoadCellCalibration {
   double nonlinearity = 0.0;   // largest departure from the line
   double hysteresis = 0.0;     // largest difference between falling and rising load
   double repeatability = 0.0;  // standard deviation when the same load is repeated
+  // What gain_relative_u() needs; all 0 in a record of which the range of force is unknown.
+  double largest_force_N = 0.0;  // the range of the calibration is 0 to this
+  double common_u = 0.0;         // weights and regression: the same at every force, relative
+  double shape_u = 0.0;         // departures from a parabola, resolution: relative at largest_force
+  double curvature_u = 0.0;     // relative change of the gain from no load to the capacity
+  double curvature_at_N = 0.0;  // force at which the line through the readings meets the parabola
 };
 
 // One line of an uncertainty budget (JCGM 100:2008): standard uncertainty relative to the gain.
@@ -41,6 +47,23 @@ void validate_dates(const LoadCellCalibration& calibration);
 // Why a calibration should not be used on that day (ISO 8601), or "" if it may be used. It must not
 // be expired, dated later than that day, or without a date.
 std::string calibration_trouble(const LoadCellCalibration& calibration, const std::string& today);
+
+// Relative standard uncertainty of the gain for a force, counted from no load. A cell with a parabola
+// has another gain at each force; the weights determine that at curvature_at_N:
+//   u^2 = common_u^2 + (curvature_u (F - curvature_at)/capacity)^2 + (shape_u s)^2 + (hysteresis h)^2/3
+// with s = F_max/F, kept within 1 to 4, and h = 2 (1 - F/F_max), at least 1/3: a rising force departs from the
+// mean of both directions by half a loop, and a third of the loop counts as creep (ISO 376:2011, annex
+// C). A larger volts_per_newton_u, such as that of a certificate, enlarges it in proportion. Without a known
+// range it is volts_per_newton_u at every force.
+double gain_relative_u(const LoadCellCalibration& calibration, double force_N);
+
+// By its parts, the larger one of those at the largest weight and at the capacity; volts_per_newton_u of
+// a new record.
+double gain_relative_u_in_use(const LoadCellCalibration& calibration);
+
+// Why a force up to this size is a doubt: it is more than 1.2 times the largest one of the calibration. ""
+// if it is not, or if the range is unknown.
+std::string calibration_range_doubt(const LoadCellCalibration& calibration, double force_N);
 
 // Throws std::invalid_argument unless the gain is finite and not zero, and the capacity positive.
 void validate(const LoadCellCalibration& calibration);

@@ -39,7 +39,8 @@ struct LoadCellConfig {
   std::string converter;
   double gain = 0.0;  // of the converter, a pure number
   double reference_V = 0.0;
-  std::string frame;  // of "adc-frames": the fields of a frame (rig/protocols/binary_frame.h)
+  double span_V = 0.0;  // largest reading of either sign; 0: 2^23 counts, or 10 V for volts
+  std::string frame;    // of "adc-frames": the fields of a frame (rig/protocols/binary_frame.h)
   bool compression_is_positive = true;
   std::string dialect = "34401a";  // of a SCPI multimeter (rig/protocols/gauge_protocols.h)
   // Unit of forces that are sent without one: "N", "mN", "gf" ... Empty: numbers of an hx711 are
@@ -113,7 +114,8 @@ struct RigConfig {
   LoadCellCalibration calibration;
   FrameConfig frame;
   SafetyConfig safety;
-  double clock_speed = 1.0;  // > 1 only for an emulated rig: its clock over the wall clock
+  double clock_speed = 1.0;          // > 1 only for an emulated rig: its clock over the wall clock
+  bool accepts_implausible = false;  // of values that no bench can have (plausible = "off")
 };
 
 }  // namespace viscard

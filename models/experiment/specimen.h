@@ -18,6 +18,7 @@ struct Specimen {
   double relaxation_guess = 0.05;
   double rho_kg_m3 = 0.0;
   double temperature_C = 23.0;
+  bool accepts_implausible = false;  // of values that no bench can have (plausible = "off")
 };
 
 }  // namespace viscard

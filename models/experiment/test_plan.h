@@ -79,7 +79,8 @@ struct TestPlan {
   double unload_speed_m_s = 4e-3;
   double recovery_s = 20.0;
   double retract_speed_m_s = 1e-3;
-  double retract_m = 0.5e-3;  // clear of the surface
+  double retract_m = 0.5e-3;         // clear of the surface
+  bool accepts_implausible = false;  // of values that no bench can have (plausible = "off")
 };
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #include "rig/run/preflight.h"
 
+#include "models/experiment/calibration_check.h"
 #include "models/experiment/test_phases.h"
 #include "models/maths/text_of_number.h"
 
@@ -238,7 +239,7 @@ double stop_distance_m(double speed_m_s, const StageDynamics& dynamics) {
 
 Preflight preflight(const RigConfig& rig, const TestPlan& plan, const Specimen& specimen,
                     const std::optional<StageDynamics>& dynamics) {
-  validate(rig.calibration);
+  require_believable(rig);
   check_rig_and_specimen(rig, specimen);
   const std::vector<TestPhase> phases = phases_from_plan(plan);
   Preflight result;
@@ -267,6 +268,8 @@ Preflight preflight(const RigConfig& rig, const TestPlan& plan, const Specimen& 
   check_travel(rig, plan, result);
   check_lift_off(phases, specimen.relaxation_guess, result);
   check_rates(rig, phases, result);
+  const std::string range = calibration_range_doubt(rig.calibration, result.peak_force_N);
+  if (!range.empty()) result.warnings.push_back(range);
   if (dynamics) check_motion(rig, plan, phases, *dynamics, result);
   return result;
 }

@@ -207,6 +207,41 @@ TEST_CASE("the systematic uncertainty includes that of the frame", "[fit]") {
   CHECK(fit.systematic_relative == Approx(0.02 * share).epsilon(0.01));
 }
 
+TEST_CASE("a test above the range of the calibration carries the gain's uncertainty at its force",
+          "[fit]") {
+  const EmulatedTruth truth = demo_truth(10, 3);
+  CapturedRun run = in_memory_run(truth, {});
+  run.rig.frame.stiffness_relative_u = 0.0;
+  LoadCellCalibration& cell = run.rig.calibration;
+  cell.volts_per_newton_u = 1e-3 * cell.volts_per_newton;
+  const auto fitted = [&] { return fit_indentation(indentation_from_capture(run)); };
+  const double frame_share = force_per_modulus_and_depth_m(truth.contact) * truth.material.E0_Pa /
+                             truth.frame_stiffness_N_m;
+  // A record without a range: the same uncertainty at every force, and no doubt.
+  const FitResult before = fitted();
+  CHECK(before.systematic_relative == Approx(1e-3 * (1.0 + frame_share)).epsilon(0.02));
+  CHECK_FALSE(has_flag(before, "beyond-calibration"));
+  // Weights up to a tenth of the capacity; the test presses with some 1.8 N.
+  cell.volts_per_newton_u = 0.0;
+  cell.largest_force_N = cell.curvature_at_N = 0.1 * cell.capacity_N;
+  cell.common_u = 2e-4;
+  cell.curvature_u = 4e-3;
+  const FitResult beyond = fitted();
+  const double peak_N = indentation_from_capture(run).largest_force_N;
+  CHECK(peak_N == Approx(force_per_modulus_and_depth_m(truth.contact) * truth.material.E0_Pa *
+                         run.plan.depth_m)
+                      .epsilon(0.03));
+  CHECK(beyond.systematic_relative ==
+        Approx(gain_relative_u(cell, peak_N) * (1.0 + frame_share)).epsilon(0.02));
+  CHECK(beyond.systematic_relative > 2.0 * before.systematic_relative);
+  CHECK(has_flag(beyond, "beyond-calibration"));
+  // Weights up to the force of the test.
+  cell.largest_force_N = cell.curvature_at_N = peak_N;
+  const FitResult within = fitted();
+  CHECK(within.systematic_relative == Approx(2e-4 * (1.0 + frame_share)).epsilon(0.02));
+  CHECK_FALSE(has_flag(within, "beyond-calibration"));
+}
+
 TEST_CASE("without readings after contact the drift is flagged as unseen", "[fit]") {
   const EmulatedTruth truth = demo_truth(20, 5);
   CapturedRun run = in_memory_run(truth, {});

@@ -2,6 +2,7 @@
 
 #include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/quantities/plausible.h"
 
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ struct RubberCardOptions {
   bool accepts_flags = false;                // write a law that is not to be trusted
   bool may_approximate = false;              // terms that the solver takes at small strain only
   std::string elastic_only = {};  // "", "instantaneous", "long-term": the law without its terms
+  Plausible plausible = Plausible::kMeasured;  // kOff accepts any bulk modulus
 };
 
 // The card of a law. Each solver's convention, with its source, stands in rubber_card.cpp and in the

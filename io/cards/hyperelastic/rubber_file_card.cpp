@@ -43,8 +43,13 @@ std::vector<std::string> header_lines(const HyperelasticFile& file,
   if (!file.terms.empty() && options.elastic_only.empty()) {
     lines.push_back("terms: " + rubber_terms_rule(options.target));
   }
+  if (file.accepts_implausible || options.plausible == Plausible::kOff) {
+    lines.push_back(kPlausibleOffText);
+  }
   if (options.bulk_Pa) {
     lines.push_back("bulk modulus " + text_of(*options.bulk_Pa, 5) + " Pa");
+    const std::string doubt = doubtful_bulk_modulus(file, options);
+    if (!doubt.empty()) lines.push_back("warning: " + doubt);
   } else if (options.target == "abaqus" || options.target == "ansys") {
     lines.push_back("incompressible: use hybrid (mixed) elements, or --bulk-modulus");
   } else {
@@ -105,6 +110,35 @@ void read_back(const std::string& text, const HyperelasticFile& file, const std:
 
 }  // namespace
 
+namespace {
+
+// Of the law at rest, at once; rubber hardly changes its volume.
+double shear_modulus_Pa(const HyperelasticFile& file) {
+  return file.E0_Pa / 3.0;
+}
+
+}  // namespace
+
+void refuse_bulk_modulus(const HyperelasticFile& file, const RubberCardOptions& options) {
+  if (!options.bulk_Pa || options.plausible == Plausible::kOff) return;
+  const double least_Pa = 2.0 * shear_modulus_Pa(file) / 3.0;
+  if (*options.bulk_Pa >= least_Pa) return;
+  throw std::invalid_argument(
+      text_with_unit(*options.bulk_Pa, "Pa") + " is below 2G/3 = " + text_of(least_Pa, 4) +
+      " Pa, where G is the shear modulus at rest: the Poisson ratio would be negative. Rubber has "
+      "1 to 3 GPa, such as \"2 GPa\"; if the value is right, add --plausible off");
+}
+
+std::string doubtful_bulk_modulus(const HyperelasticFile& file, const RubberCardOptions& options) {
+  constexpr double kLeastRatio = 10.0;
+  if (!options.bulk_Pa) return "";
+  const double ratio = *options.bulk_Pa / shear_modulus_Pa(file);
+  if (ratio >= kLeastRatio) return "";
+  return "the bulk modulus is " + text_of(ratio, 3) +
+         " times the shear modulus at rest; rubber has about 1000 times, and below " +
+         text_of(kLeastRatio) + " it loses volume visibly";
+}
+
 std::string rubber_file_card(const HyperelasticFile& file, const std::string& name,
                              const RubberCardOptions& options) {
   if (!file.is_trustworthy && !options.accepts_flags) {
@@ -113,6 +147,7 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
     throw std::runtime_error(name + ": the law is not to be trusted: " + why +
                              ". --accept-flags writes it all the same");
   }
+  refuse_bulk_modulus(file, options);
   const std::string card = rubber_card(file.law, file.terms, options);
   std::string text = with_header(header_lines(file, options), options.target, card);
   read_back(text, file, name, options);

@@ -15,6 +15,17 @@
 // the model has units of its own: the ramp lasts 100 of time, the edge is 1e6 of length, the load of
 // the ramp is a stress of 1000. /BEGIN takes numbers in kg, m and s (unit_code.F); the card keeps
 // its own /UNIT.
+//
+// Sources in github.com/OpenRadioss/OpenRadioss, with the commit that was read: HOWTO.md 7a3d439 (double
+// precision unless built with -prec=sp); tools/th_to_csv/linux64/build.bash 14f5165; INSTALL.md 019a672
+// (RAD_CFG_PATH, OMP_STACKSIZE, LD_LIBRARY_PATH); execargcheck.F 1a91e5b (PREXECINFO); unit_code.F and
+// hm_read_mat40.F 0368758 (a branch of LAW40 with rate 0 gets 1e-20; nu below 0 or from 0.5 on is an
+// error); hm_read_unit.F 03eedb8; sigeps40.F 18cf844 (the rate of strain is linear in each cycle with the
+// right mean); fixvel.F 098a79f (/IMPDISP sets the velocity that reaches the curve at the end of the
+// cycle); radioss110/LOADS/impdisp.cfg 1e2f25a; damping.F 14c5981, DAMPING51 (mean velocity of the cycle);
+// hist2.F 0629536 (a row at the first cycle at or after each output time); wrtdes.F 1b68cc9; th_to_csv.c
+// 15df45f. Known from decks and scripts of users only: the columns of /DAMP, the name deckT01, "ERROR
+// TERMINATION" and "ENERGY ERROR LIMIT REACHED".
 #include "io/basics/atomic_file.h"
 #include "io/basics/patterns.h"
 #include "io/cards/card.h"

@@ -48,7 +48,7 @@ bool is_rubber(const CardWords& words) {
 
 int write_rubber_card(const CardWords& words, Streams& streams) {
   require_rubber_target(words);
-  const HyperelasticFile file = read_hyperelastic(words.material);
+  const HyperelasticFile file = read_hyperelastic(words.material, words.plausible);
   RubberCardOptions options;
   options.target = words.target;
   options.units = words.units.empty() ? "SI" : words.units;
@@ -57,6 +57,13 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   options.accepts_flags = words.accepts_flags;
   options.may_approximate = words.may_approximate;
   options.elastic_only = words.elastic_only;
+  options.plausible = words.plausible;
+  try {
+    refuse_bulk_modulus(file, options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError("--bulk-modulus: " + std::string(error.what()));
+  }
+  const std::string doubt = doubtful_bulk_modulus(file, options);
   const std::string text = rubber_file_card(file, words.material, options);
   if (!words.out.empty()) write_file(words.out, text, words.force);
   if (words.json) {
@@ -67,6 +74,7 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   } else {
     streams.out << "wrote " << words.out << "\n";
   }
+  if (!doubt.empty()) streams.err << "viscard: warning: " << doubt << "\n";
   return kDone;
 }
 

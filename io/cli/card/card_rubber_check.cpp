@@ -111,7 +111,7 @@ DescribedResult result_of_rubber_check() {
 
 int check_rubber_file(const CardWords& words, Streams& streams) {
   std::optional<HyperelasticFile> file;
-  if (!words.material.empty()) file = read_hyperelastic(words.material);
+  if (!words.material.empty()) file = read_hyperelastic(words.material, words.plausible);
   const RubberCheck check = [&] {
     try {
       return check_rubber_card(read_file(words.check), file ? &*file : nullptr,

@@ -116,7 +116,7 @@ int prove_rubber_file(const CardWords& words, Streams& streams) {
   refuse_existing(path, words.force);
   const std::string text = read_file(words.prove);
   std::optional<HyperelasticFile> file;
-  if (!words.material.empty()) file = read_hyperelastic(words.material);
+  if (!words.material.empty()) file = read_hyperelastic(words.material, words.plausible);
   const std::string elastic_only =
       words.elastic_only.empty() ? stated_elastic_only(text) : words.elastic_only;
   const FoundSolver found = find_solver(solver, words.solver_path);

@@ -5,6 +5,7 @@
 #include "io/cli/words/streams.h"
 #include "io/flow/card_material.h"
 #include "io/results/result_schema.h"
+#include "models/quantities/plausible.h"
 
 #include <optional>
 #include <string>
@@ -31,11 +32,13 @@ struct CardWords {
   std::optional<double> ratio;  // of a joint fit
   std::optional<double> temperature_C;
   std::optional<double> bulk_Pa, density_kg_m3;  // of a law of rubber
+  std::optional<std::string> band_text;          // as typed
   std::optional<FrequencyBand> band;
   bool may_extrapolate = false;
   bool list = false, is_long = false, force = false, json = false, is_reproducible = false;
   bool accepts_flags = false, may_approximate = false;
   std::string command_line;
+  Plausible plausible = Plausible::kMeasured;
 };
 
 // The material that the words name; checks that a mixing ratio is given where it is needed. Throws

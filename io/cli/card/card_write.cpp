@@ -53,7 +53,7 @@ std::string companion_path(const std::string& out, const std::string& suffix) {
 
 PreparedMaterial prepared_material(const CardWords& words) {
   if (looks_like_ratio_file(words.material)) {
-    const RatioFit fit = read_ratio_fit(words.material);
+    const RatioFit fit = read_ratio_fit(words.material, words.plausible);
     if (!words.ratio) {
       std::string measured;
       for (const double ratio : fit.best.ratios) {
@@ -73,6 +73,7 @@ PreparedMaterial prepared_material(const CardWords& words) {
                                 .terms = words.terms,
                                 .ratio = words.ratio,
                                 .temperature_C = words.temperature_C,
+                                .plausible = words.plausible,
                                 .may_extrapolate = words.may_extrapolate,
                                 .may_approximate = words.may_approximate});
 }

@@ -12,8 +12,6 @@
 #include <algorithm>
 #include <cmath>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -35,71 +33,92 @@ std::vector<std::string> unit_names() {
   return names;
 }
 
-void add_options(CommandSyntax& syntax, CardWords& words) {
-  auto add = syntax.options.add_options();
-  add("for", po::value(&words.target)->value_name("TARGET"),
-      "solver the card is for; --list shows them all. Cards by viscard name theirs, so --check and "
-      "--prove do not need it");
-  add("units", po::value(&words.units)->value_name("SYSTEM"),
-      "SI (default), mm-t-s, mm-kg-ms, mm-g-ms, um-kg-s or cgs");
-  add("out", po::value(&words.out)->value_name("FILE"), "where to write; stdout if not given");
-  add("list", po::bool_switch(&words.list), "show targets, conventions, limits and evidence");
-  add("long", po::bool_switch(&words.is_long),
-      "with --list: a table of what each target takes exactly, takes approximately, or refuses");
-  add("check", po::value(&words.check)->value_name("CARD"),
-      "read a card back, print its meaning, and compare it with the material if one is named");
-  add("tolerance", into(words.tolerance)->value_name("X"),
-      "largest relative difference of E(t) that --check accepts; if not given 1e-6, or what the "
-      "target's columns can hold");
-  add("prove", po::value(&words.prove)->value_name("CARD"),
-      "run a card on one element in a solver against the exact answer, and write a certificate "
-      "beside it (CARD.SOLVER.proof.json, or --out); of a law of rubber calculix and sfepy run");
-  add("solver", po::value(&words.solver)->value_name("NAME"),
-      "with --prove: calculix, febio, mtest, frontistr, openradioss, or sfepy and dolfinx, which "
-      "run the numbers of any card; if not given the one that reads the card");
-  add("solver-path", po::value(&words.solver_path)->value_name("PATH"),
-      "with --prove: the program, if it is not in PATH; of OpenRadioss its starter, with the "
-      "engine "
-      "and th_to_csv beside it");
-  add("deck", po::value(&words.deck)->value_name("TEST"),
-      "relaxation or creep: write a one-element model with the expected curve beside it");
-  add("approximate", po::bool_switch(&words.may_approximate),
-      "write what the target cannot take exactly, with the error in the header; too many terms are "
-      "refitted to fewer; of a law of rubber for lsdyna, terms that hold at small strain");
-  add("terms", po::value<std::string>()->value_name("N"), "with --approximate: refit to N terms");
-  add("ratio", into(words.ratio)->value_name("R"),
-      "mixing ratio, when the material is a joint fit: measured, or between measured ones");
-  add("extrapolate", po::bool_switch(&words.may_extrapolate),
-      "with --ratio: also outside the measured range; the header says so");
-  add("at-temperature", po::value<std::string>()->value_name("T"),
-      "card of one temperature, such as 37 or \"37 degC\": the material's shift moves its times");
-  add("bulk-modulus", po::value<std::string>()->value_name("K"),
-      "of a law of rubber, such as \"2 GPa\"; without it incompressible where the solver can be");
-  add("density", po::value<std::string>()->value_name("RHO"),
-      "of a law of rubber, such as \"1.1 g/cm3\"; LS-DYNA and OpenRadioss need it");
-  add("bound", po::value(&words.bound)->value_name("END"),
-      "lower or upper: the card at that end of the 95 % interval of E0, the rest by its covariance "
-      "with it");
-  add("elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
-      "instantaneous or long-term: leave relaxation out");
-  add("band", po::value<std::string>()->value_name("LOW,HIGH"),
-      "frequencies in Hz that a table or reduction for vibration covers, for example 10,1000; if "
-      "not given those that the material's times support");
-  add("clamp-nu", into(words.clamped_nu)->value_name("NU"),
-      "use this Poisson ratio instead of a larger one");
-  add("accept-flags", po::bool_switch(&words.accepts_flags),
-      "write terms that the fit has flagged");
-  add("reproducible", po::bool_switch(&words.is_reproducible),
-      "no date and no command line in the header: the same input gives the same bytes");
-  add("force", po::bool_switch(&words.force), "replace an existing file");
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names;
+  for (const Solver& solver : solvers()) names.emplace_back(solver.name);
+  return names;
 }
 
-int number_of_terms(const std::string& text) {
-  const auto terms = integer_from_text(text);
-  if (!terms || *terms < 1 || *terms > 100) {
-    throw UsageError("--terms " + text + " must be a whole number from 1 to 100");
-  }
-  return static_cast<int>(*terms);
+void add_options(CommandSyntax& syntax, CardWords& words) {
+  const auto add = [&](const char* name, OptionTarget target, const char* what) -> Option& {
+    return syntax.options.add(name, target, what);
+  };
+  add("for", &words.target,
+      "solver the card is for; --list shows them all. Cards by viscard name theirs, so --check and "
+      "--prove do not need it")
+      .shown_as("TARGET")
+      .such_as(target_names());
+  add("units", &words.units, "SI (default), mm-t-s, mm-kg-ms, mm-g-ms, um-kg-s or cgs")
+      .shown_as("SYSTEM")
+      .such_as(unit_names());
+  add("out", &words.out, "where to write; stdout if not given").shown_as("FILE");
+  add("list", &words.list, "show targets, conventions, limits and evidence");
+  add("long", &words.is_long,
+      "with --list: a table of what each target takes exactly, takes approximately, or refuses");
+  add("check", &words.check,
+      "read a card back, print its meaning, and compare it with the material if one is named")
+      .shown_as("CARD");
+  add("tolerance", &words.tolerance,
+      "largest relative difference of E(t) that --check accepts; if not given 1e-6, or what the "
+      "target's columns can hold")
+      .shown_as("X");
+  add("prove", &words.prove,
+      "run a card on one element in a solver against the exact answer, and write a certificate "
+      "beside it (CARD.SOLVER.proof.json, or --out); of a law of rubber calculix and sfepy run")
+      .shown_as("CARD");
+  add("solver", &words.solver,
+      "with --prove: calculix, febio, mtest, frontistr, openradioss, or sfepy and dolfinx, which "
+      "run the numbers of any card; if not given the one that reads the card")
+      .shown_as("NAME")
+      .such_as(solver_names());
+  add("solver-path", &words.solver_path,
+      "with --prove: the program, if it is not in PATH; of OpenRadioss its starter, with the "
+      "engine "
+      "and th_to_csv beside it")
+      .shown_as("PATH");
+  add("deck", &words.deck,
+      "relaxation or creep: write a one-element model with the expected curve beside it")
+      .shown_as("TEST")
+      .among({"relaxation", "creep"});
+  add("approximate", &words.may_approximate,
+      "write what the target cannot take exactly, with the error in the header; too many terms are "
+      "refitted to fewer; of a law of rubber for lsdyna, terms that hold at small strain");
+  add("terms", &words.terms, "with --approximate: refit to N terms").shown_as("N");
+  add("ratio", &words.ratio,
+      "mixing ratio, when the material is a joint fit: measured, or between measured ones")
+      .shown_as("R");
+  add("extrapolate", &words.may_extrapolate,
+      "with --ratio: also outside the measured range; the header says so");
+  add("at-temperature", &words.temperature_C,
+      "card of one temperature, such as 37 or \"37 degC\": the material's shift moves its times")
+      .of("degC")
+      .shown_as("T");
+  add("bulk-modulus", &words.bulk_Pa,
+      "of a law of rubber, such as \"2 GPa\"; without it incompressible where the solver can be")
+      .of("Pa")
+      .shown_as("K");
+  add("density", &words.density_kg_m3,
+      "of a law of rubber, such as \"1.1 g/cm3\"; LS-DYNA and OpenRadioss need it")
+      .of("kg/m3")
+      .shown_as("RHO");
+  add("bound", &words.bound,
+      "lower or upper: the card at that end of the 95 % interval of E0, the rest by its covariance "
+      "with it")
+      .shown_as("END")
+      .among({"lower", "upper"});
+  add("elastic-only", &words.elastic_only, "instantaneous or long-term: leave relaxation out")
+      .shown_as("WHEN")
+      .among({"instantaneous", "long-term"});
+  add("band", &words.band_text,
+      "frequencies in Hz that a table or reduction for vibration covers, for example 10,1000; if "
+      "not given those that the material's times support")
+      .shown_as("LOW,HIGH");
+  add("clamp-nu", &words.clamped_nu, "use this Poisson ratio instead of a larger one")
+      .shown_as("NU");
+  add("accept-flags", &words.accepts_flags, "write terms that the fit has flagged");
+  add("reproducible", &words.is_reproducible,
+      "no date and no command line in the header: the same input gives the same bytes");
+  add("force", &words.force, "replace an existing file");
 }
 
 // "10,1000"
@@ -185,6 +204,10 @@ void check_words(CardWords& words) {
   if (!words.elastic_only.empty()) {
     check_word("--elastic-only", words.elastic_only, {"instantaneous", "long-term"});
   }
+  if (words.terms && (*words.terms < 1 || *words.terms > 100)) {
+    throw UsageError("--terms " + std::to_string(*words.terms) +
+                     " must be a whole number from 1 to 100");
+  }
   if (words.terms && !words.may_approximate) {
     throw UsageError("--terms changes the material; say --approximate too");
   }
@@ -209,29 +232,20 @@ int run_card(const Words& words, Streams& streams) {
       "before it is saved. With --list, --check, --prove or --deck: shows the targets, checks a "
       "card, runs it, or writes a one-element model to run it in.",
       "viscard card data/materials/pdms_1to10_seed.json --for abaqus --units mm-t-s"};
+  std::optional<std::string> material;
+  syntax.positional.add("material", &material, "material file");
   add_options(syntax, card);
   if (std::find(words.begin(), words.end(), "--deck") != words.end()) syntax.may_exist = {"out"};
-  syntax.positional = {"material"};
-  syntax.choices = {{"for", target_names()},
-                    {"units", unit_names()},
-                    {"bound", {"lower", "upper"}},
-                    {"elastic-only", {"instantaneous", "long-term"}},
-                    {"deck", {"relaxation", "creep"}}};
   syntax.results = {result_of_card(), result_of_rubber_card(), result_of_rubber_check(),
                     result_of_rubber_proof()};
   for (const auto& some : {results_of_targets(), results_of_proof()}) {
     syntax.results.insert(syntax.results.end(), some.begin(), some.end());
   }
-  for (const Solver& solver : solvers()) syntax.choices["solver"].emplace_back(solver.name);
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  card.material = given(*values, "material").value_or("");
-  card.temperature_C = given_quantity(*values, "at-temperature", "degC");
-  card.bulk_Pa = given_quantity(*values, "bulk-modulus", "Pa");
-  card.density_kg_m3 = given_quantity(*values, "density", "kg/m3");
-  card.json = values->count("json") > 0;
-  if (const auto terms = given(*values, "terms")) card.terms = number_of_terms(*terms);
-  if (const auto band = given(*values, "band")) card.band = band_from_text(*band);
+  if (!parse_words(syntax, words, streams)) return kDone;
+  card.material = material.value_or("");
+  card.plausible = given_plausible(syntax);
+  card.json = syntax.as_json;
+  if (card.band_text) card.band = band_from_text(*card.band_text);
   card.command_line = quoted_command_line("card", words);
   check_words(card);
   if (card.list) return list_card_targets(card, streams);

@@ -10,67 +10,45 @@
 
 #include <set>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
 // Options of `viscard fit` that have a meaning at large strain.
-void refuse_other_options(const po::variables_map& values) {
+void refuse_other_options(const CommandSyntax& syntax) {
   static const std::set<std::string> kKnown{
-      "file",  "json",   "out", "force", "model",          "column", "sheet",
-      "cycle", "weight", "svg", "help",  "youngs-modulus", "terms",  "max-terms"};
-  for (const auto& [name, value] : values) {
-    if (value.defaulted() || kKnown.count(name) > 0) continue;
+      "file",  "json",   "out", "force", "model",          "column", "sheet",     "cycle",
+      "weight", "svg", "color", "youngs-modulus", "terms",  "max-terms", "plausible"};
+  for (const auto& [name, values] : syntax.given) {
+    if (kKnown.count(name) > 0) continue;
     throw UsageError("--" + name + " does not belong to tests at large strain; omit it");
   }
 }
 
 }  // namespace
 
-void add_large_strain_options(po::options_description& options) {
-  auto add = options.add_options();
-  add("weight", po::value<std::string>(),
-      "at large strain: equal (default; every stress counts alike) or relative (by its own size)");
-  add("youngs-modulus", po::value<std::string>(),
-      "at large strain: the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 "
-      "MPa +- 0.1 MPa\" (95 %); \"E_inf=1.5 MPa\" is that after all relaxation");
-  add("cycle", po::value<std::string>(),
-      "at large strain: fit the loading of this cycle of records with unloading (default: the "
-      "last), "
-      "or all rows");
-  add("svg", po::value<std::string>(), "at large strain: draw stress against stretch here");
-}
-
-std::vector<LargeStrainFile> large_strain_given(const Words& words,
-                                                const po::variables_map& values) {
+std::vector<LargeStrainFile> large_strain_given(const FitCommand& command,
+                                                const CommandSyntax& syntax) {
   std::vector<LargeStrainFile> files;
   try {
-    files = large_strain_from_words(words);
+    files = large_strain_from_words(command.files);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
   for (const char* option : {"svg", "weight", "youngs-modulus", "cycle"}) {
-    if (!files.empty() || values.count(option) == 0) continue;
+    if (!files.empty() || !is_given(syntax, option)) continue;
     throw UsageError(std::string("--") + option +
                      " is for tests at large strain (uniaxial=FILE); omit it");
   }
   return files;
 }
 
-int run_large_strain(const std::vector<LargeStrainFile>& files, const po::variables_map& values,
-                     Streams& streams) {
-  refuse_other_options(values);
-  const LargeStrainRequest request = with_usage_errors([&] {
-    return large_strain_request(
-        {given(values, "model"), given(values, "weight"), given(values, "youngs-modulus"),
-         given(values, "cycle"), given(values, "sheet"),
-         given<Words>(values, "column").value_or(Words{}), given<int>(values, "terms"),
-         values["max-terms"].defaulted() ? std::nullopt : given<int>(values, "max-terms")},
-        files);
-  });
-  const bool overwrite = values.count("force") > 0;
-  const auto out = given(values, "out"), svg = given(values, "svg");
+int run_large_strain(const std::vector<LargeStrainFile>& files, const FitCommand& command,
+                     const CommandSyntax& syntax, Streams& streams) {
+  refuse_other_options(syntax);
+  const LargeStrainRequest request = with_usage_errors(
+      [&] { return large_strain_request(with_shared_options(command.large, command.fit), files); });
+  const bool overwrite = command.overwrite;
+  const auto &out = command.out, &svg = command.svg;
   for (const auto& output : {out, svg}) {
     if (output) refuse_existing(*output, overwrite);
   }
@@ -79,7 +57,7 @@ int run_large_strain(const std::vector<LargeStrainFile>& files, const po::variab
   refuse_repeated_files(paths);
   const FittedLargeStrain fitted = fit_large_strain_files(request);
   const auto show = [&](ResultVisitor& v) { show_keys(v, fitted); };
-  if (!print_result(values, {"viscard-hyperelastic/1", paths}, show, streams)) {
+  if (!print_result(syntax, {"viscard-hyperelastic/1", paths}, show, streams)) {
     print_large_strain(fitted, FittedText(streams));
   }
   if (out) write_file(*out, file_of_large_strain(fitted), overwrite);

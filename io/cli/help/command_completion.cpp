@@ -28,22 +28,21 @@ void show_script(ResultVisitor& v, const std::string& shell, const std::string& 
 }  // namespace
 
 int run_completion(const Words& words, Streams& streams, const AskDocuments& documents) {
+  std::string name;
   CommandSyntax syntax{"viscard completion SHELL [OPTIONS]",
                        "Prints the script with which bash, zsh or fish complete commands, options "
                        "and their values. For bash: source <(viscard completion bash)",
                        "viscard completion bash"};
-  syntax.positional = {"shell"};
-  syntax.choices["shell"] = shell_names();
+  syntax.reads_quantities = false;
+  syntax.positional.add("shell", &name, "the shell").such_as(shell_names());
   syntax.results = {{"completion", "viscard completion SHELL",
                      {[](ResultVisitor& v) { show_script(v, "", ""); }}}};
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const auto name = required(*values, "shell", syntax);
+  if (!parse_words(syntax, words, streams)) return kDone;
   for (const Shell& shell : kShells) {
     if (name != shell.name) continue;
     const std::string script = shell.script(documents());
     const auto show = [&](ResultVisitor& v) { show_script(v, name, script); };
-    if (!print_result(*values, {"viscard-completion/1", {}}, show, streams)) streams.out << script;
+    if (!print_result(syntax, {"viscard-completion/1", {}}, show, streams)) streams.out << script;
     return kDone;
   }
   throw UsageError("there is no completion for '" + name + "'" +

@@ -10,8 +10,6 @@
 #include <filesystem>
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -22,11 +20,11 @@ const CommandDocument& named(const std::string& name, const CommandDocuments& do
 
 // "scene check": the help of a command explains its subcommands.
 void check_subcommand(const CommandDocument& one, const std::string& what) {
-  const auto choices = one.syntax.choices.find("what");
-  if (choices == one.syntax.choices.end()) {
+  const Option* option = one.syntax.positional.find("what");
+  if (option == nullptr) {
     throw UsageError("viscard " + one.name + " has no subcommands; write viscard help " + one.name);
   }
-  const Words& known = choices->second;
+  const Words& known = option->choices;
   if (std::find(known.begin(), known.end(), what) != known.end()) return;
   throw UsageError("there is no '" + one.name + " " + what + "'" + did_you_mean(what, known, ";") +
                    " there are: " + listed(known));
@@ -99,10 +97,17 @@ CommandSyntax help_syntax(const Words& names) {
 
 int run_help(const Words& words, Streams& streams, const Words& names,
              const AskDocuments& ask_documents, const std::string& overview) {
-  CommandSyntax syntax = help_syntax(names);
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const auto name = given(*values, "command");
+  std::optional<std::string> name, what;
+  bool is_page = false;
+  CommandSyntax syntax{"viscard help [COMMAND] [OPTIONS]",
+                       "Explains a command, as --help of the command does, or lists all commands. "
+                       "--man prints the source of the manual page instead.",
+                       "viscard help fit"};
+  syntax.reads_quantities = false;
+  syntax.positional.add("command", &name, "a command").such_as(names);
+  syntax.positional.add("what", &what, "its subcommand");
+  syntax.options.add("man", &is_page, "print the manual page, for man -l -");
+  if (!parse_words(syntax, words, streams)) return kDone;
   if (name && std::find(names.begin(), names.end(), *name) == names.end()) {
     throw UsageError("there is no command '" + *name + "'" + did_you_mean(*name, names, ";") +
                      " 'viscard help' lists the commands");
@@ -110,11 +115,11 @@ int run_help(const Words& words, Streams& streams, const Words& names,
   const CommandDocuments documents = ask_documents();
   if (const auto folder = given(*values, "schemas")) write_schemas(*folder, documents);
   const CommandDocument* one = name ? &named(*name, documents) : nullptr;
-  if (const auto what = given(*values, "what")) check_subcommand(*one, *what);
-  const std::string page = values->count("man") == 0 ? ""
-                           : one != nullptr          ? manual_page(*one)
-                                                     : manual_overview(documents);
-  if (values->count("json") > 0) {
+  if (what) check_subcommand(*one, *what);
+  const std::string page = !is_page         ? ""
+                           : one != nullptr ? manual_page(*one)
+                                            : manual_overview(documents);
+  if (syntax.as_json) {
     const auto show = [&](ResultVisitor& v) {
       one != nullptr ? show_keys(v, one->syntax) : show_list(v, documents);
       show_page(v, page);

@@ -20,9 +20,8 @@ std::string names_joined(const CommandDocuments& documents) {
 
 // The values of the first positional word; empty: a file.
 std::string first_words(const CommandSyntax& syntax) {
-  if (syntax.positional.empty()) return "";
-  const auto found = syntax.choices.find(syntax.positional.front());
-  return found == syntax.choices.end() ? "" : joined(found->second);
+  const auto& words = syntax.positional.all();
+  return words.empty() ? "" : joined(words.front().choices);
 }
 
 // For a shell's single quotes.
@@ -43,9 +42,9 @@ std::string before(const std::string& text, const std::string& of, char mark) {
 
 std::string bash_case(const CommandDocument& one) {
   std::string options, cases;
-  for (const ShownOption& option : shown_options(one.syntax)) {
+  for (const Option& option : one.syntax.options.all()) {
     options += (options.empty() ? "--" : " --") + option.name;
-    if (option.value.empty()) continue;
+    if (is_switch(option)) continue;
     cases += fmt::format("        --{}) values='{}'; is_value=1 ;;\n", option.name,
                          joined(option.choices));
   }
@@ -99,16 +98,17 @@ std::string zsh_completion(const CommandDocuments& documents) {
       "  local command=${words[2]}\n  shift words\n  ((CURRENT--))\n  case $command in\n";
   for (const CommandDocument& one : documents) {
     script += "    " + one.name + ")\n      _arguments";
-    for (const ShownOption& option : shown_options(one.syntax)) {
+    for (const Option& option : one.syntax.options.all()) {
       const std::string values =
           option.choices.empty() ? "_files" : "(" + joined(option.choices) + ")";
       script += " \\\n        " +
                 quoted("*--" + option.name + "[" + before(option.what, "[]:\\", '\\') + "]" +
-                       (option.value.empty() ? "" : ":" + option.name + ":" + values));
+                       (is_switch(option) ? "" : ":" + option.name + ":" + values));
     }
     const std::string words = first_words(one.syntax);
     if (!words.empty()) {
-      script += " \\\n        " + quoted("1:" + one.syntax.positional.front() + ":(" + words + ")");
+      script += " \\\n        " +
+                quoted("1:" + one.syntax.positional.all().front().name + ":(" + words + ")");
     }
     script += " \\\n        '*:file:_files'\n      ;;\n";
   }
@@ -125,16 +125,16 @@ std::string fish_completion(const CommandDocuments& documents) {
   for (const CommandDocument& one : documents) {
     const std::string after =
         "complete -c viscard -n '__fish_seen_subcommand_from " + one.name + "'";
-    for (const ShownOption& option : shown_options(one.syntax)) {
+    for (const Option& option : one.syntax.options.all()) {
       script += after + " -l " + option.name;
-      if (!option.letter.empty()) script += " -s " + option.letter;
-      if (!option.value.empty()) script += " -r";
+      if (!letter_of(option).empty()) script += " -s " + letter_of(option);
+      if (!is_switch(option)) script += " -r";
       if (!option.choices.empty()) script += " -f -a " + quoted(joined(option.choices));
       script += " -d " + quoted(option.what) + "\n";
     }
     const std::string words = first_words(one.syntax);
     if (words.empty()) continue;
-    const bool is_all = one.syntax.positional.size() == 1;  // no file follows
+    const bool is_all = one.syntax.positional.all().size() == 1;  // no file follows
     script += after + (is_all ? " -f -a " : " -a ") + quoted(words) + "\n";
   }
   return script;

@@ -1,4 +1,5 @@
 // The macros are those of man(7).
+#include "io/basics/words.h"
 #include "io/cli/help/documents.h"
 #include "io/cli/words/help_text.h"
 
@@ -42,18 +43,15 @@ std::string head_of(const std::string& name, const std::string& summary) {
          escaped(name) + " \\- " + line_of(summary);
 }
 
-std::string option_of(const ShownOption& option) {
+std::string option_of(const Option& option) {
   std::string text = ".TP\n";
-  if (!option.letter.empty()) text += "\\fB\\-" + option.letter + "\\fR, ";
+  const std::string letter = letter_of(option), value = value_of(option);
+  if (!letter.empty()) text += "\\fB\\-" + letter + "\\fR, ";
   text += "\\fB\\-\\-" + escaped(option.name) + "\\fR";
-  if (!option.value.empty()) text += " \\fI" + escaped(option.value) + "\\fR";
+  if (!value.empty()) text += " \\fI" + escaped(value) + "\\fR";
   text += "\n" + line_of(option.what);
   if (!option.initial.empty()) text += ".br\nDefault: " + line_of(option.initial);
-  if (!option.choices.empty()) {
-    std::string list;
-    for (const std::string& one : option.choices) list += (list.empty() ? "" : ", ") + one;
-    text += ".br\n" + line_of("Values: " + list + ".");
-  }
+  if (!option.choices.empty()) text += ".br\n" + line_of("Values: " + listed(option.choices) + ".");
   return text;
 }
 
@@ -75,15 +73,19 @@ std::string manual_page(const CommandDocument& document) {
   const CommandSyntax& syntax = document.syntax;
   std::string page = head_of("viscard-" + document.name, document.summary) + ".SH SYNOPSIS\n.nf\n" +
                      line_of(syntax.usage) + ".fi\n.SH DESCRIPTION\n" + line_of(syntax.description);
-  for (const std::string& word : syntax.positional) {
-    const auto choices = syntax.choices.find(word);
-    if (choices == syntax.choices.end()) continue;
-    std::string list;
-    for (const std::string& one : choices->second) list += (list.empty() ? "" : ", ") + one;
-    page += ".PP\n" + line_of(word + " is one of " + list + ".");
+  for (const Option& word : syntax.positional.all()) {
+    if (word.choices.empty()) continue;
+    page += ".PP\n" + line_of(word.name + " is one of " + listed(word.choices) + ".");
   }
   page += ".SH OPTIONS\n";
-  for (const ShownOption& option : shown_options(syntax)) page += option_of(option);
+  std::string heading;
+  for (const Option& option : syntax.options.all()) {
+    if (option.group != heading && !syntax.options.all().front().group.empty()) {
+      page += ".SS " + escaped(option.group) + "\n";
+    }
+    heading = option.group;
+    page += option_of(option);
+  }
   page += common_end();
   return page + ".SH EXAMPLES\n.nf\n" + line_of(syntax.example) +
          ".fi\n.SH SEE ALSO\n.BR viscard (1)" +

@@ -18,8 +18,10 @@ using namespace viscard;
 constexpr const char* kUsage = "mpirun -n N viscard-mpi sweep STUDY.toml [OPTIONS]";
 constexpr const char* kSummary = "answer a scene at many values of its parameters on many machines";
 
+constexpr double kLostAfter_s = 60.0;
+
 // All but the work.
-SweepProgram described_program() {
+SweepProgram described_program(double& lost_after_s) {
   SweepProgram program{
       kUsage,
       "Answers the points of a study as viscard sweep does, on all ranks that mpirun or srun has "
@@ -29,18 +31,17 @@ SweepProgram described_program() {
       "stopped continues where it was. A rank that dies ends all others, unless mpirun was called "
       "with --enable-recovery: then others answer its point.",
       "mpirun -n 2 viscard-mpi sweep data/studies/pillar.toml --out study.sqlite --csv study.csv"};
-  program.add_options = [](boost::program_options::options_description& options) {
-    options.add_options()("lost-after",
-                          boost::program_options::value<std::string>()->default_value("60 s"),
-                          "a rank that is silent for so long counts as lost");
+  program.add_options = [&lost_after_s](OptionList& options) {
+    options.add("lost-after", &lost_after_s, "a rank that is silent for so long counts as lost")
+        .of("s")
+        .by_default("60 s");
   };
   return program;
 }
 
-SweepProgram program_of(MpiRanks& ranks, Streams& streams, RanksEnd& end) {
-  SweepProgram program = described_program();
+SweepProgram program_of(double& lost_after_s, MpiRanks& ranks, Streams& streams, RanksEnd& end) {
+  SweepProgram program = described_program(lost_after_s);
   program.run = [&](const SweepJob& job) {
-    const double lost_after_s = *given_quantity(job.values, "lost-after", "s");
     if (!(lost_after_s >= 1.0)) throw UsageError("--lost-after must be at least 1 s");
     return dispatch_study(job, lost_after_s, ranks, streams, end);
   };
@@ -48,7 +49,8 @@ SweepProgram program_of(MpiRanks& ranks, Streams& streams, RanksEnd& end) {
 }
 
 int run_words(const Words& words, Streams& streams, MpiRanks& ranks, RanksEnd& end) {
-  const SweepProgram program = program_of(ranks, streams, end);
+  double lost_after_s = kLostAfter_s;
+  const SweepProgram program = program_of(lost_after_s, ranks, streams, end);
   if (words.empty()) {
     throw UsageError(std::string("no study given; usage: ") + kUsage);
   }
@@ -71,7 +73,8 @@ int print_manual_page() {
   streams.on_help = [](const CommandSyntax& syntax) {
     std::cout << manual_page({"mpi", kSummary, syntax});
   };
-  return run_sweep_program(described_program(), {"--help"}, streams);
+  double lost_after_s = kLostAfter_s;
+  return run_sweep_program(described_program(lost_after_s), {"--help"}, streams);
 }
 
 // Words, work and messages of rank 0. Returns the exit status.

@@ -16,8 +16,6 @@
 #include <sstream>
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -189,49 +187,43 @@ void show_scores(ResultVisitor& v, const std::vector<ScoreRow>& rows, const fs::
   });
 }
 
-CommandSyntax demo_syntax() {
+}  // namespace
+
+int run_demo(const Words& words, Streams& streams, const CommandRunner& run_command) {
+  std::string folder = "demo";
+  std::optional<std::string> own_data;
+  double speed = 50.0;
+  bool overwrite = false;
   CommandSyntax syntax{
       "viscard demo [--out DIR] [OPTIONS]",
       "Runs the whole flow on the emulated rig for three mixing ratios of PDMS: capture, fit, "
       "cards, validation and one HTML page. Prints each command as you would type it. Results of "
       "an earlier demo that are up to date are kept.",
       "viscard demo --out demo"};
-  auto add = syntax.options.add_options();
-  add("out", po::value<std::string>()->default_value("demo"), "folder for all results");
-  add("data", po::value<std::string>(),
-      "folder with the rig, test, specimen and truth files (otherwise those that came with "
-      "viscard)");
-  add("speed", po::value<double>()->default_value(50.0),
-      "speed of the emulated clock relative to real time");
-  add("force", "run every step again");
+  syntax.reads_quantities = false;
+  syntax.options.add("out", &folder, "folder for all results");
+  syntax.options.add("data", &own_data,
+                     "folder with the rig, test, specimen and truth files (otherwise those that "
+                     "came with viscard)");
+  syntax.options.add("speed", &speed, "speed of the emulated clock relative to real time");
+  syntax.options.add("force", &overwrite, "run every step again");
   syntax.may_exist = {"out"};
   syntax.results = {{"demo", "viscard demo", {[](ResultVisitor& v) { show_scores(v, {}, ""); }}}};
-  return syntax;
-}
-
-}  // namespace
-
-int run_demo(const Words& words, Streams& streams, const CommandRunner& run_command) {
-  CommandSyntax syntax = demo_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-
-  const double speed = (*values)["speed"].as<double>();
+  if (!parse_words(syntax, words, streams)) return kDone;
   if (!(speed > 0.0) || speed > kFastestEmulation) {
     throw UsageError(
         fmt::format("--speed is {}; it must be above 0 and at most {}", speed, kFastestEmulation));
   }
-  const fs::path out = (*values)["out"].as<std::string>();
+  const fs::path out = folder;
   fs::create_directories(out);
-  const auto own_data = given(*values, "data");
   const fs::path data = own_data ? fs::path(*own_data) : data_folder() / "demo";
   streams.err << depth_explained(data);
-  Demo demo(streams, run_command, out, data, text_from_number(speed), values->count("force") > 0);
+  Demo demo(streams, run_command, out, data, text_from_number(speed), overwrite);
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();
   const auto show = [&](ResultVisitor& v) { show_scores(v, rows, page); };
-  if (print_result(*values, {"viscard-demo/1", {data.string()}}, show, streams)) return kDone;
+  if (print_result(syntax, {"viscard-demo/1", {data.string()}}, show, streams)) return kDone;
   if (demo.n_kept() > 0) {
     streams.err << fmt::format(
         "{} results were up to date and kept (--force runs every step again).\n", demo.n_kept());

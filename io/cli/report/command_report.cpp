@@ -23,39 +23,46 @@
 #include <ostream>
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
-CommandSyntax report_syntax() {
+// The options of `viscard report`.
+struct ReportWords {
+  std::vector<std::string> files, truth, cards;
+  std::optional<std::string> out, pictures;
+  std::string title = "Soft polymer, from load cell to material", units = "mm-t-s";
+  bool is_reproducible = false, overwrite = false;
+  Plausible plausible = Plausible::kMeasured;
+};
+
+CommandSyntax report_syntax(ReportWords& words) {
   CommandSyntax syntax{
       "viscard report FILE... --out PAGE.html [OPTIONS]",
       "Writes one self-contained HTML page about captures and tables (which it fits), material "
       "files and a joint fit, laws of rubber beside them (viscard fit uniaxial=a.csv --out), or "
       "about several tests of one material (relaxation=a.csv creep=b.csv): estimates with "
-      "intervals, raw record, fit and residuals, spectrum, "
-      "mixing ratios, the pillar, cards and provenance.",
+      "intervals, raw record, fit and residuals, spectrum, mixing ratios, the pillar, cards and "
+      "provenance.",
       "viscard report data/materials/pdms_1to10_seed.json --out report.html"};
-  auto add = syntax.options.add_options();
-  add("out", po::value<std::string>(), "the page");
-  add("title", po::value<std::string>()->default_value("Soft polymer, from load cell to material"),
-      "heading of the page");
-  add("truth", po::value<std::vector<std::string>>(),
-      "truth of an emulated specimen; once for each capture, in their order. Default: the file "
-      "that capture --emulate wrote beside the capture");
-  add("card", po::value<std::vector<std::string>>(),
-      "target of a card to show (repeatable; default: abaqus, ansys, febio, json)");
-  add("units", po::value<std::string>()->default_value("mm-t-s"), "unit system of the cards");
-  add("pictures", po::value<std::string>(), "folder to write every picture into, as SVG");
-  add("reproducible", "omit the date, so that the same input gives the same bytes");
-  add("force", "overwrite existing files");
-  syntax.positional = {"files"};
-  for (const CardTarget& target : card_targets()) syntax.choices["card"].push_back(target.name);
-  for (const UnitSystem& system : unit_systems()) {
-    syntax.choices["units"].emplace_back(system.name);
-  }
-  syntax.last_is_repeatable = true;
+  std::vector<std::string> targets, units;
+  for (const CardTarget& target : card_targets()) targets.push_back(target.name);
+  for (const UnitSystem& system : unit_systems()) units.emplace_back(system.name);
+  syntax.positional.add("files", &words.files, "captures, tables, materials");
+  OptionList& options = syntax.options;
+  options.add("out", &words.out, "the page");
+  options.add("title", &words.title, "heading of the page");
+  options.add("truth", &words.truth,
+              "truth of an emulated specimen; once for each capture, in their order. Default: the "
+              "file that capture --emulate wrote beside the capture");
+  options
+      .add("card", &words.cards,
+           "target of a card to show (repeatable; default: abaqus, ansys, febio, json)")
+      .such_as(targets);
+  options.add("units", &words.units, "unit system of the cards").such_as(units);
+  options.add("pictures", &words.pictures, "folder to write every picture into, as SVG");
+  options.add("reproducible", &words.is_reproducible,
+              "omit the date, so that the same input gives the same bytes");
+  options.add("force", &words.overwrite, "overwrite existing files");
   return syntax;
 }
 
@@ -96,13 +103,13 @@ std::vector<std::string> take_rubbers(std::vector<std::string>& files) {
   return rubbers;
 }
 
-ReportRequest checked_words(const po::variables_map& values, const Words& words,
-                            const CommandSyntax& syntax, std::vector<std::string>& rubbers) {
-  ReportRequest report{required<Words>(values, "files", syntax),
+ReportRequest checked_words(const ReportWords& asked, const Words& words,
+                            std::vector<std::string>& rubbers) {
+  ReportRequest report{asked.files,
                        {},
-                       given<Words>(values, "truth").value_or(Words{}),
-                       given<Words>(values, "card").value_or(Words{}),
-                       values["units"].as<std::string>(),
+                       asked.truth,
+                       asked.cards,
+                       asked.units,
                        "",
                        quoted_command_line("report", words)};
   rubbers = take_rubbers(report.files);
@@ -120,7 +127,7 @@ ReportRequest checked_words(const po::variables_map& values, const Words& words,
     throw UsageError("there is one test only; give its file without the kind, or more tests");
   }
   if (!report.tests.empty()) report.files.clear();
-  if (values.count("out") == 0) {
+  if (!asked.out) {
     throw UsageError("no page given; name it with --out report.html");
   }
   if (report.card_targets.empty()) report.card_targets = {"abaqus", "ansys", "febio", "json"};
@@ -135,7 +142,8 @@ ReportRequest checked_words(const po::variables_map& values, const Words& words,
                                  counted(report.truth_files.size(), "truth file"),
                                  counted(measured_count(report.files), "capture")));
   }
-  if (values.count("reproducible") == 0) report.created_at = now_iso8601();
+  report.plausible = asked.plausible;
+  if (!asked.is_reproducible) report.created_at = now_iso8601();
   return report;
 }
 
@@ -232,22 +240,22 @@ void show_keys(ResultVisitor& v, const WrittenReport& written) {
 }  // namespace
 
 int run_report(const Words& words, Streams& streams) {
-  CommandSyntax syntax = report_syntax();
+  ReportWords asked;
+  CommandSyntax syntax = report_syntax(asked);
   syntax.results = {described<WrittenReport>("report", "viscard report")};
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
+  if (!parse_words(syntax, words, streams)) return kDone;
+  asked.plausible = given_plausible(syntax);
   std::vector<std::string> rubbers;
-  const ReportRequest report = checked_words(*values, words, syntax, rubbers);
-  const fs::path page = (*values)["out"].as<std::string>();
-  const bool is_forced = values->count("force") > 0;
+  const ReportRequest report = checked_words(asked, words, rubbers);
+  const fs::path page = *asked.out;
+  const bool is_forced = asked.overwrite;
   refuse_existing(page, is_forced);
 
-  const ReportInput input =
-      input_from_words(report, rubbers, (*values)["title"].as<std::string>(), streams);
+  const ReportInput input = input_from_words(report, rubbers, asked.title, streams);
   const RenderedReport rendered = render_report(input);
   std::vector<std::string> pictures;
-  if (const auto folder = given(*values, "pictures")) {
-    pictures = write_pictures(rendered, *folder, is_forced);
+  if (asked.pictures) {
+    pictures = write_pictures(rendered, *asked.pictures, is_forced);
   }
   write_file(page, rendered.html, is_forced);
   const std::vector<std::string> defects = defects_of(input);
@@ -255,7 +263,7 @@ int run_report(const Words& words, Streams& streams) {
   const WrittenReport written{page.string(), input.specimens, rendered.pictures.size(), pictures,
                               defects, disagreements};
   const auto show = [&](ResultVisitor& v) { show_keys(v, written); };
-  if (!print_result(*values, {"viscard-report/1", given_words(*values, {"files", "truth"})}, show,
+  if (!print_result(syntax, {"viscard-report/1", given_words(syntax, {"files", "truth"})}, show,
                     streams)) {
     streams.out << fmt::format(
         "{}: {}, {}, {} kB\n", page.string(), counted(input.specimens.size(), "specimen"),

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -115,6 +116,7 @@ void show_frame(ResultVisitor& v, const FrameStiffnessFit& fit, const CalibrateW
   v("stiffness_interval_95", Interval{fit.low_N_m, fit.high_N_m},
     "95 % interval in N/m, [low, high]");
   v("curvature_m", fit.curvature_m, "largest deviation from a straight line");
+  v("seating_m", fit.seating_m, "depth by which the block settled at first; left out of the fit");
   v("n_points", fit.n_points, "points of the line");
 }
 
@@ -126,6 +128,11 @@ void print(const FrameStiffnessFit& fit, const CalibrateWords& words, Streams& s
   }
   streams.out << fmt::format("stiffness   {:.4g} N/mm, {:.4g} to {:.4g} (k = 2)\n",
                              fit.stiffness_N_m * 1e-3, fit.low_N_m * 1e-3, fit.high_N_m * 1e-3)
+              << (fit.seating_m > 0.0
+                      ? fmt::format("seating     the block settled by {:.1f} um under the first "
+                                    "forces; fitted\n",
+                                    1e6 * fit.seating_m)
+                      : std::string())
               << fmt::format("curvature   {:.2f} um off the straight line at most, {} points\n",
                              fit.curvature_m * 1e6, fit.n_points)
               << fmt::format("{}: '{}'\n", words.out_file, words.id);
@@ -140,25 +147,25 @@ DescribedResult result_of_frame() {
 
 int calibrate_frame(const CalibrateWords& words, Streams& streams) {
   BlockPoints points;
-  double gain_relative_u = 0.0;
-  const auto gain_u_of = [](const RigConfig& rig) {
-    const LoadCellCalibration& cell = rig.calibration;
-    return std::abs(cell.volts_per_newton_u / cell.volts_per_newton);
+  double gain_u = 0.0;
+  const auto gain_u_of = [&points](const RigConfig& rig) {
+    const auto largest = std::max_element(points.force_N.begin(), points.force_N.end());
+    return largest == points.force_N.end() ? 0.0 : gain_relative_u(rig.calibration, *largest);
   };
   if (words.data_file && looks_like_capture(*words.data_file)) {
     const CapturedRun run = read_capture(*words.data_file);
     points = block_points_from_capture(run);
-    gain_relative_u = gain_u_of(run.rig);
+    gain_u = gain_u_of(run.rig);
   } else if (words.data_file) {
     points = points_from_table(*words.data_file);
-    if (words.rig_file) gain_relative_u = gain_u_of(read_rig(*words.rig_file));
+    if (words.rig_file) gain_u = gain_u_of(read_rig(*words.rig_file, words.plausible));
   } else {
     const RigConfig rig = calibrate_rig(words);
-    gain_relative_u = gain_u_of(rig);
     wait_for_block(words, streams);
     points = block_points_from_capture(press_block(words, rig));
+    gain_u = gain_u_of(rig);
   }
-  const FrameStiffnessFit fit = fit_frame_stiffness(points, gain_relative_u);
+  const FrameStiffnessFit fit = fit_frame_stiffness(points, gain_u);
   CalibrationRecord record;
   record.frame = FrameConfig{fit.stiffness_N_m, fit.relative_u, words.id, today(), {}};
   write_file(words.out_file, toml_from_calibration(record), words.overwrite);

@@ -8,6 +8,7 @@
 #include "io/cli/words/stop_on_signal.h"
 #include "io/tables/column_map.h"
 #include "io/tables/csv_table.h"
+#include "models/experiment/calibration_check.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
 #include "rig/weigh.h"
@@ -117,28 +118,34 @@ WeightReadings weigh_on(RigConfig rig, const CalibrateWords& words, EmulatedRig*
   return readings;
 }
 
-CalibrationRecord record_from(const LoadCellFit& fit, const CalibrateWords& words,
-                              double capacity_N) {
-  LoadCellCalibration calibration;
-  calibration.volts_per_newton = fit.gain;
-  calibration.volts_per_newton_u = fit.gain_u;
-  calibration.zero_volts = fit.zero;
-  calibration.capacity_N = capacity_N;
+CalibrationRecord record_from(const LoadCellFit& fit, const CalibrateWords& words) {
+  LoadCellCalibration calibration = fit.calibration;
   calibration.id = words.id;
   calibration.date = today();
   calibration.valid_until = words.valid_until;
   calibration.valid_until = last_valid_day(calibration);
-  calibration.nonlinearity = fit.nonlinearity;
-  calibration.hysteresis = fit.hysteresis;
-  calibration.repeatability = fit.repeatability;
   return {calibration, std::nullopt, fit.budget};
+}
+
+// Forces at which the uncertainty is reported: some of the range, its end, and the capacity.
+std::vector<double> reported_forces_N(const LoadCellCalibration& calibration) {
+  const double largest_N = calibration.largest_force_N;
+  std::vector<double> forces_N{0.1 * largest_N, 0.5 * largest_N, largest_N};
+  if (calibration.capacity_N > largest_N) forces_N.push_back(calibration.capacity_N);
+  return forces_N;
 }
 
 void print_text(const LoadCellFit& fit, const CalibrationRecord& record, const std::string& file,
                 std::ostream& out) {
   const double relative_u = fit.gain_u / std::abs(fit.gain);
-  out << fmt::format("gain           {:.6g} V/N, +-{:.3f} % (k = 2)\n", fit.gain,
-                     200.0 * relative_u)
+  out << fmt::format("gain           {:.6g} V/N, +-{:.3f} % (k = 2) at {:.4g} N\n", fit.gain,
+                     200.0 * relative_u, fit.in_use_N);
+  for (const double force_N : reported_forces_N(fit.calibration)) {
+    out << fmt::format("  at {:<10}+-{:.3f} %\n", fmt::format("{:.3g} N", force_N),
+                       200.0 * gain_relative_u(fit.calibration, force_N));
+  }
+  out << fmt::format("range          0 to {:.4g} N; a test above {:.4g} N is a doubt\n",
+                     fit.largest_force_N, 1.2 * fit.largest_force_N)
       << fmt::format("zero           {:.6g} V\n", fit.zero)
       << fmt::format("nonlinearity   {:.4f} % of the reading at {:.4f} N\n",
                      100.0 * fit.nonlinearity, fit.largest_force_N)
@@ -175,6 +182,14 @@ void show_load_cell(ResultVisitor& v, const LoadCellFit& fit,
   v("repeatability", fit.repeatability,
     "standard deviation between series, likewise; null: one series");
   v("n_series", fit.n_series, "number of times up and down");
+  v("parabola", fit.parabola, "curvature that the points show, share of the capacity");
+  v("parabola_allowed", fit.parabola_allowed, "curvature that the points or the data sheet allow");
+  v("in_use_N", fit.in_use_N, "force up to which the gain's uncertainty above holds");
+  v.list("gain_at", "relative uncertainty of the gain by force", reported_forces_N(calibration),
+         [&](double force_N) {
+           v("force_N", force_N, "force");
+           v("relative_u", gain_relative_u(calibration, force_N), "standard uncertainty there");
+         });
   v.list("budget", "the budget of uncertainty", fit.budget, [&](const UncertaintyRow& row) {
     v("source", row.source, "name");
     v("relative_u", row.relative_u, "relative standard uncertainty");
@@ -204,6 +219,29 @@ void check_line(const LoadCellFit& fit, const WeightReadings& readings) {
       100.0 * worst, furthest + 1, readings.force_N.size(), readings.force_N[furthest], largest_N));
 }
 
+// Weights and readings that no such cell can have had.
+void check_readings(const WeightReadings& readings, const ReadingSpan& span,
+                    const std::string& where) {
+  constexpr double kRounding = 1e-3;  // 250 g on a cell of 250 gf
+  for (std::size_t i = 0; i < readings.force_N.size(); ++i) {
+    const std::string which =
+        fmt::format("{}reading {} of {}: ", where, i + 1, readings.force_N.size());
+    if (readings.force_N[i] > (1.0 + kRounding) * readings.capacity_N) {
+      throw std::runtime_error(
+          which + fmt::format("a weight of {:.4g} N is above the capacity of the cell, {:.4g} N. "
+                              "Are the masses in g where the column says kg? Otherwise use smaller "
+                              "weights, or correct the capacity",
+                              readings.force_N[i], readings.capacity_N));
+    }
+    if (span.is_in_newton || std::abs(readings.reading[i]) <= span.largest) continue;
+    throw std::runtime_error(
+        which +
+        fmt::format("{:.4g} V is beyond the span of the converter, {:.4g} V. Are the "
+                    "readings in mV where the column says V? Otherwise state it with --span",
+                    readings.reading[i], span.largest));
+  }
+}
+
 WeightReadings readings_on_rig(const RigConfig& rig, const CalibrateWords& words, double capacity_N,
                                Streams& streams) {
   if (!words.is_emulated && words.masses_kg.empty()) {
@@ -230,24 +268,33 @@ DescribedResult result_of_load_cell() {
 }
 
 int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
-  WeightReadings readings;
-  double capacity_N = words.capacity_N.value_or(0.0);
-  if (words.data_file) {
-    if (capacity_N == 0.0 && words.rig_file) {
-      capacity_N = read_rig(*words.rig_file).calibration.capacity_N;
-    }
-    readings = readings_from_table(words);
-  } else {
-    const RigConfig rig = calibrate_rig(words);
-    if (capacity_N == 0.0) capacity_N = rig.calibration.capacity_N;
-    readings = readings_on_rig(rig, words, capacity_N, streams);
-  }
-  if (capacity_N == 0.0) {
+  const bool has_rig = words.rig_file || !words.data_file;
+  const RigConfig rig = has_rig ? calibrate_rig(words) : RigConfig{};
+  const double capacity_N = words.capacity_N.value_or(rig.calibration.capacity_N);
+  if (!(capacity_N > 0.0)) {
     throw UsageError("calibrate needs --capacity, the rated load of the cell, such as \"250 gf\"");
   }
-  const LoadCellFit fit = fit_load_cell(readings);
+  ReadingSpan span = has_rig ? reading_span(rig.load_cell) : ReadingSpan{};
+  if (words.span_V && !span.is_in_newton) span = {.largest = *words.span_V, .is_known = true};
+  WeightReadings readings = words.data_file ? readings_from_table(words)
+                                            : readings_on_rig(rig, words, capacity_N, streams);
+  readings.capacity_N = capacity_N;
+  readings.nonlinearity = words.nonlinearity;
+  const std::string where = words.data_file ? *words.data_file + ": " : std::string();
+  check_readings(readings, span, where);
+  LoadCellFit fit = fit_load_cell(readings);
   check_line(fit, readings);
-  const CalibrationRecord record = record_from(fit, words, capacity_N);
+  // Weights that press a cell whose compression is negative lower its reading.
+  if (has_rig && fit.gain < 0.0 && !rig.load_cell.compression_is_positive) {
+    for (double& reading : readings.reading) reading = -reading;
+    fit = fit_load_cell(readings);
+    fit.zero = -fit.zero;
+    fit.calibration.zero_volts = fit.zero;
+  }
+  if (const auto fault = calibration_fault(fit.calibration, span)) {
+    throw std::runtime_error(where + fault->text + ". Nothing was written");
+  }
+  const CalibrationRecord record = record_from(fit, words);
   write_file(words.out_file, toml_from_calibration(record), words.overwrite);
   if (words.as_json) {
     const auto show = [&](ResultVisitor& v) {

@@ -5,7 +5,9 @@
 namespace viscard {
 
 RigConfig calibrate_rig(const CalibrateWords& words) {
-  RigConfig rig = words.rig_file ? read_rig(*words.rig_file) : demo_rig();
+  RigConfig rig = !words.rig_file       ? demo_rig()
+                  : words.is_compliance ? read_rig(*words.rig_file, words.plausible)
+                                        : read_rig_to_calibrate(*words.rig_file, words.plausible);
   if (words.is_emulated) {
     rig.clock_speed = words.speed;
     if (rig.load_cell.volts_per_count == 0.0) {

@@ -16,22 +16,26 @@ namespace viscard {
 // The options of `viscard calibrate`. SI.
 struct CalibrateWords {
   std::optional<std::string> rig_file, data_file, truth_file;
+  Plausible plausible = Plausible::kMeasured;
   std::string out_file, id, valid_until;
   bool is_compliance = false;
   bool is_emulated = false;
   bool asks_nobody = false;
   bool overwrite = false;
   bool as_json = false;
+  std::string weights;  // "20 g, 50 g"
   std::vector<double> masses_kg;
   int series = 3;
   double gravity_m_s2 = 9.80665;
   bool is_gravity_given = false;
   double mass_relative_u = 1e-4;
   std::optional<double> capacity_N;
+  std::optional<double> span_V;        // of the converter, of either sign
+  std::optional<double> nonlinearity;  // of the cell's data sheet, relative to the capacity
   double settle_s = 1.0;
   double mean_s = 3.0;
   double force_N = 0.0;  // highest force on the block; 0: 70 % of the soft limit
-  int steps = 6;
+  int steps = 8;
   double speed = 1.0;
 };
 

@@ -58,8 +58,9 @@ void check_words(const CaptureWords& words) {
 }
 
 CaptureSetup capture_setup(const CaptureWords& words, const SeriesStep& step) {
-  SetupRequest request{words.rig_file,    words.test_file, {},          step.specimen_file,
-                       words.is_emulated, words.seed,      words.speed, std::max(1, step.touch)};
+  SetupRequest request{words.rig_file,     words.test_file,         {},
+                       step.specimen_file, words.is_emulated,       words.seed,
+                       words.speed,        std::max(1, step.touch), words.plausible};
   const bool is_shared = words.truth_files.size() == 1;
   if (!words.truth_files.empty()) {
     request.truth_file = words.truth_files[is_shared ? 0 : step.specimen];

@@ -29,7 +29,8 @@ struct CaptureWords {
   bool shows_page = false;       // --live
   bool is_uncalibrated = false;  // accept an expired calibration
   bool lifts_at_start = false;   // --lift: lift a punch that presses before the test, then go on
-  bool acknowledges = false;     // report on stderr how many records are safe, and from what
+  Plausible plausible = Plausible::kMeasured;  // kOff accepts any value in the files
+  bool acknowledges = false;  // report on stderr how many records are safe, and from what
 };
 
 // Throws UsageError on options that cannot be combined.

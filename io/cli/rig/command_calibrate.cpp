@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -28,30 +26,36 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
       "with\n"
       "force_N.";
   syntax.example = "viscard calibrate --emulate --speed 20 --out cell.toml";
-  auto add = syntax.options.add_options();
-  add("rig", into(words.rig_file), "rig.toml: port and driver of the load cell");
-  add("data", into(words.data_file), "table of weights and readings, in the order taken");
-  add("compliance", po::bool_switch(&words.is_compliance), "measure the frame on a rigid block");
-  add("weights", po::value<std::string>(), "masses to put on, \"20 g, 50 g, 100 g, 200 g\"");
-  add("series", po::value(&words.series)->default_value(3), "number of times to go up and down");
-  add("mass-u", po::value(&words.mass_relative_u)->default_value(1e-4),
-      "relative standard uncertainty of the masses");
-  add("gravity", po::value<std::string>(), "gravity at this place, \"9.8067 m/s2\"");
-  add("capacity", po::value<std::string>(), "rated load of the cell, if there is no rig file");
-  add("settle", po::value<std::string>()->default_value("1 s"), "wait after putting on a weight");
-  add("seconds", po::value<std::string>()->default_value("3 s"), "time of each mean reading");
-  add("to", po::value<std::string>(), "highest force on the block (70 % of the soft limit)");
-  add("steps", po::value(&words.steps)->default_value(6), "number of steps of force on the block");
-  add("id", po::value(&words.id), "name of the record");
-  add("valid-until", po::value(&words.valid_until), "last day of validity (a year from today)");
-  add("out", po::value(&words.out_file), "record to write (*.toml)");
-  add("emulate", po::bool_switch(&words.is_emulated), "calibrate an emulated rig");
-  add("truth", into(words.truth_file), "truth.toml: what the emulated cell is like");
-  add("speed", po::value(&words.speed)->default_value(1.0),
-      "largest speed of the emulated clock over the wall clock");
-  add("yes", po::bool_switch(&words.asks_nobody),
-      "do not wait for Enter before the block is pressed");
-  add("force", po::bool_switch(&words.overwrite), "replace an existing record");
+  const auto add = [&](const char* name, OptionTarget target, const char* what) -> Option& {
+    return syntax.options.add(name, target, what);
+  };
+  add("rig", &words.rig_file, "rig.toml: port and driver of the load cell");
+  add("data", &words.data_file, "table of weights and readings, in the order taken");
+  add("compliance", &words.is_compliance, "measure the frame on a rigid block");
+  add("weights", &words.weights, "masses to put on, \"20 g, 50 g, 100 g, 200 g\"");
+  add("series", &words.series, "number of times to go up and down");
+  add("mass-u", &words.mass_relative_u, "relative standard uncertainty of the masses");
+  add("gravity", &words.gravity_m_s2, "gravity at this place, \"9.8067 m/s2\"")
+      .of("m/s2")
+      .by_default("");
+  add("capacity", &words.capacity_N, "rated load of the cell, if there is no rig file").of("N");
+  add("nonlinearity", &words.nonlinearity,
+      "of the cell by its data sheet, share of the capacity (0.001)");
+  add("span", &words.span_V, "largest voltage of the converter, if there is no rig file").of("V");
+  add("settle", &words.settle_s, "wait after putting on a weight").of("s").by_default("1 s");
+  add("seconds", &words.mean_s, "time of each mean reading").of("s").by_default("3 s");
+  add("to", &words.force_N, "highest force on the block (70 % of the soft limit)")
+      .of("N")
+      .by_default("");
+  add("steps", &words.steps, "number of steps of force on the block");
+  add("id", &words.id, "name of the record");
+  add("valid-until", &words.valid_until, "last day of validity (a year from today)");
+  add("out", &words.out_file, "record to write (*.toml)");
+  add("emulate", &words.is_emulated, "calibrate an emulated rig");
+  add("truth", &words.truth_file, "truth.toml: what the emulated cell is like");
+  add("speed", &words.speed, "largest speed of the emulated clock over the wall clock");
+  add("yes", &words.asks_nobody, "do not wait for Enter before the block is pressed");
+  add("force", &words.overwrite, "replace an existing record");
   syntax.results = {result_of_load_cell(), result_of_frame()};
   return syntax;
 }
@@ -69,19 +73,13 @@ std::vector<double> masses_from(const std::string& text) {
   return masses_kg;
 }
 
-// Fills in the options whose values are not stored by the parser itself.
-void take_values(const po::variables_map& values, CalibrateWords& words) {
-  words.as_json = values.count("json") > 0;
+// Fills in what follows from other options.
+void take_values(const CommandSyntax& syntax, CalibrateWords& words) {
+  words.as_json = syntax.as_json;
+  words.plausible = given_plausible(syntax);
   if (words.id.empty()) words.id = (words.is_compliance ? "frame " : "load cell ") + today();
-  if (const auto weights = given(values, "weights")) words.masses_kg = masses_from(*weights);
-  if (const auto gravity_m_s2 = given_quantity(values, "gravity", "m/s2")) {
-    words.gravity_m_s2 = *gravity_m_s2;
-    words.is_gravity_given = true;
-  }
-  words.capacity_N = given_quantity(values, "capacity", "N");
-  words.force_N = given_quantity(values, "to", "N").value_or(0.0);
-  words.settle_s = *given_quantity(values, "settle", "s");
-  words.mean_s = *given_quantity(values, "seconds", "s");
+  if (!words.weights.empty()) words.masses_kg = masses_from(words.weights);
+  words.is_gravity_given = is_given(syntax, "gravity");
 }
 
 void check_valid_until(const std::string& day) {
@@ -119,6 +117,14 @@ void check_words(const CalibrateWords& words) {
   if (!(words.mass_relative_u >= 0.0) || !(words.mass_relative_u < 0.1)) {
     throw UsageError("--mass-u is outside 0 to 0.1");
   }
+  if (words.capacity_N && !(*words.capacity_N > 0.0)) {
+    throw UsageError("--capacity must be positive");
+  }
+  if (words.span_V && !(*words.span_V > 0.0)) throw UsageError("--span must be positive");
+  if (words.nonlinearity && !(*words.nonlinearity > 0.0 && *words.nonlinearity <= 0.05)) {
+    throw UsageError(
+        "--nonlinearity is outside 0 to 0.05; it is a share of the capacity, 0.0005 for 0.05 %");
+  }
   if (!words.is_emulated && (words.truth_file || words.speed != 1.0)) {
     throw UsageError("--truth and --speed are for an emulated rig: add --emulate");
   }
@@ -134,9 +140,8 @@ void check_words(const CalibrateWords& words) {
 int run_calibrate(const Words& words, Streams& streams) {
   CalibrateWords asked;
   CommandSyntax syntax = calibrate_syntax(asked);
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  take_values(*values, asked);
+  if (!parse_words(syntax, words, streams)) return kDone;
+  take_values(syntax, asked);
   check_words(asked);
   return asked.is_compliance ? calibrate_frame(asked, streams)
                              : calibrate_load_cell(asked, streams);

@@ -19,8 +19,6 @@
 #include <ostream>
 #include <set>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -60,36 +58,39 @@ CommandSyntax capture_syntax(CaptureWords& words) {
       "touches "
       "from that of specimens.";
   syntax.example = "viscard capture --emulate --speed 50 --out run.viscap";
-  auto add = syntax.options.add_options();
-  add("rig", into(words.rig_file), "rig.toml: ports, calibration");
-  add("test", into(words.test_file), "test.toml: depth, ramp, hold");
-  add("specimen", po::value(&words.specimen_files),
+  const auto add = [&](const char* name, OptionTarget target, const char* what) -> Option& {
+    return syntax.options.add(name, target, what);
+  };
+  add("rig", &words.rig_file, "rig.toml: ports, calibration");
+  add("test", &words.test_file, "test.toml: depth, ramp, hold");
+  add("specimen", &words.specimen_files,
       "specimen.toml: geometry, modulus guess; repeat for each further specimen");
-  add("out", po::value(&words.out_file), "capture file to write (*.viscap), or a folder");
-  add("resume", po::bool_switch(&words.resumes),
+  add("out", &words.out_file, "capture file to write (*.viscap), or a folder");
+  add("resume", &words.resumes,
       "skip finished captures, repeat interrupted ones in files beside them");
-  add("repeat", po::value(&words.repeats)->default_value(1),
+  add("repeat", &words.repeats,
       "touch each specimen this many times, with a new contact each time; --out is then a folder, "
       "and "
       "the touches in it are numbered on");
-  add("lift-wait", po::value<std::string>(),
-      "how long the punch stays lifted between two touches, such as \"60 s\" (default)");
-  add("yes", po::bool_switch(&words.asks_nobody), "do not wait for Enter between specimens");
-  add("live", po::bool_switch(&words.shows_page),
+  add("lift-wait", &words.lift_wait_s,
+      "how long the punch stays lifted between two touches, such as \"60 s\" (default)")
+      .of("s");
+  add("yes", &words.asks_nobody, "do not wait for Enter between specimens");
+  add("live", &words.shows_page,
       "keep a page with force against time beside the capture: *.live.html");
-  add("acknowledge", po::bool_switch(&words.acknowledges),
+  add("acknowledge", &words.acknowledges,
       "report on stderr how many records are safe from a crash, and how many from a power cut");
-  add("lift", po::bool_switch(&words.lifts_at_start),
+  add("lift", &words.lifts_at_start,
       "if the punch presses at the start (after a crash), lift it and go on instead of ending");
-  add("uncalibrated", po::bool_switch(&words.is_uncalibrated),
+  add("uncalibrated", &words.is_uncalibrated,
       "capture although the load cell's calibration has expired");
-  add("emulate", po::bool_switch(&words.is_emulated), "use an emulated rig");
-  add("truth", po::value(&words.truth_files),
+  add("emulate", &words.is_emulated, "use an emulated rig");
+  add("truth", &words.truth_files,
       "truth.toml: what the emulated specimen is made of; once, or once for each --specimen");
-  add("seed", into(words.seed), "seed of the emulated noise");
-  add("speed", po::value(&words.speed)->default_value(1.0),
+  add("seed", &words.seed, "seed of the emulated noise");
+  add("speed", &words.speed,
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
-  add("force", po::bool_switch(&words.overwrite), "replace an existing capture file");
+  add("force", &words.overwrite, "replace an existing capture file");
   syntax.may_exist = {"out"};
   syntax.results = results_of_capture();
   return syntax;
@@ -225,17 +226,16 @@ void print_rest(const std::vector<SeriesStep>& steps, const SeriesResult& result
 int run_capture(const Words& words, Streams& streams) {
   CaptureWords asked;
   CommandSyntax syntax = capture_syntax(asked);
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  asked.as_json = values->count("json") > 0;
-  asked.lift_wait_s = given_quantity(*values, "lift-wait", "s");
+  if (!parse_words(syntax, words, streams)) return kDone;
+  asked.as_json = syntax.as_json;
+  asked.plausible = given_plausible(syntax);
   check_words(asked);
   const std::vector<SeriesStep> steps = series_from_words(asked);
   check_somebody_is_there(asked, steps);
   const SeriesResult result =
       run_series(steps, asked, quoted_command_line("capture", words), streams);
   if (asked.as_json) {
-    const Words inputs = given_words(*values, {"rig", "test", "specimen", "truth"});
+    const Words inputs = given_words(syntax, {"rig", "test", "specimen", "truth"});
     if (steps.size() == 1) {
       print_result({"viscard-capture/1", inputs},
                    [&](ResultVisitor& v) { show_keys(v, result.runs.at(0)); }, streams, -1);

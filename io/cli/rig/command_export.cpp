@@ -12,8 +12,6 @@
 #include <optional>
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -49,31 +47,6 @@ void show_check(ResultVisitor& v, const CaptureCheck& check, const std::string& 
   });
 }
 
-CommandSyntax export_syntax() {
-  CommandSyntax syntax;
-  syntax.usage = "viscard export RUN.viscap [--out FILE.csv] [OPTIONS]";
-  syntax.description =
-      "Writes every sample of a capture as CSV: time, counts, volts, force, stage position, "
-      "phase.\n"
-      "Times and positions are on the clock that viscard fit uses; host_time_s is the time of "
-      "receipt.\n"
-      "Of an interrupted run all committed samples are written, and the head states that it was "
-      "interrupted.\n"
-      "Without --out the table goes to standard output.";
-  syntax.example = "viscard export run.viscap --out run.csv";
-  syntax.options.add_options()("out", po::value<std::string>(), "CSV file to write")(
-      "raw", "the bytes as received and sent instead of the samples")(
-      "verify", "compare the capture with its checksums; writes no table")(
-      "force", "replace an existing file");
-  syntax.positional = {"capture"};
-  syntax.results = {
-      {"export", "viscard export",
-       {[](ResultVisitor& v) { show_summary(v, CapturedRun{}, "", std::nullopt); }}},
-      {"export-verify", "viscard export --verify",
-       {[](ResultVisitor& v) { show_check(v, CaptureCheck{}, ""); }}}};
-  return syntax;
-}
-
 // Prints the result of checking the capture. A damaged capture is a failure.
 int verify(const std::string& capture, bool is_json, Streams& streams) {
   const CaptureCheck check = check_capture(capture);
@@ -99,26 +72,39 @@ int verify(const std::string& capture, bool is_json, Streams& streams) {
 }  // namespace
 
 int run_export(const Words& words, Streams& streams) {
-  CommandSyntax syntax = export_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  if (values->count("capture") == 0) {
-    throw UsageError("export needs a capture. usage: " + std::string(syntax.usage));
-  }
-  const auto capture = (*values)["capture"].as<std::string>();
-  const bool is_json = values->count("json") > 0;
-  const bool is_raw = values->count("raw") > 0;
-  if (values->count("verify") > 0) {
-    if (is_raw || values->count("out") > 0) {
-      throw UsageError("--verify writes no table; omit --out and --raw");
-    }
+  std::string capture;
+  std::optional<std::string> out;
+  bool is_raw = false, verifies = false, overwrite = false;
+  CommandSyntax syntax;
+  syntax.usage = "viscard export RUN.viscap [--out FILE.csv] [OPTIONS]";
+  syntax.description =
+      "Writes every sample of a capture as CSV: time, counts, volts, force, stage position, phase. "
+      "Times and positions are on the clock that viscard fit uses; host_time_s is the time of "
+      "receipt. Of an interrupted run all committed samples are written, and the head states that "
+      "it was interrupted. Without --out the table goes to standard output.";
+  syntax.example = "viscard export run.viscap --out run.csv";
+  syntax.reads_quantities = false;
+  syntax.positional.add("capture", &capture, "captured run");
+  syntax.options.add("out", &out, "CSV file to write");
+  syntax.options.add("raw", &is_raw, "the bytes as received and sent instead of the samples");
+  syntax.options.add("verify", &verifies,
+                     "compare the capture with its checksums; writes no table");
+  syntax.options.add("force", &overwrite, "replace an existing file");
+  syntax.results = {
+      {"export", "viscard export",
+       {[](ResultVisitor& v) { show_summary(v, CapturedRun{}, "", std::nullopt); }}},
+      {"export-verify", "viscard export --verify",
+       {[](ResultVisitor& v) { show_check(v, CaptureCheck{}, ""); }}}};
+  if (!parse_words(syntax, words, streams)) return kDone;
+  const bool is_json = syntax.as_json;
+  if (verifies) {
+    if (is_raw || out) throw UsageError("--verify writes no table; omit --out and --raw");
     return verify(capture, is_json, streams);
   }
   const CapturedRun run = read_capture(capture);
   const std::string table = is_raw ? csv_from_raw_bytes(capture) : table_from_capture(run);
-  const auto out = given(*values, "out");
   if (out) {
-    write_file(*out, table, values->count("force") > 0);
+    write_file(*out, table, overwrite);
     if (!is_json) {
       streams.out << *out << ": " << counted(run.load_samples.size(), "sample") << " of " << capture
                   << ", " << run.status << "\n";

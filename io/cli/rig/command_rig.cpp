@@ -19,8 +19,6 @@
 #include <ostream>
 #include <vector>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -157,22 +155,28 @@ int show_overshoot(bool as_json, Streams& streams) {
   return kDone;
 }
 
-CommandSyntax rig_syntax() {
+// The options of `viscard rig`.
+struct RigWords {
+  std::string what;
+  std::optional<std::string> rig_file;
+  double seconds = 3.0;
+  bool is_emulated = false;
+  Plausible plausible = Plausible::kMeasured;
+};
+
+CommandSyntax rig_syntax(RigWords& words) {
   CommandSyntax syntax;
   syntax.usage = "viscard rig list [--rig FILE] | check --rig FILE | overshoot [OPTIONS]";
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any but the "
-      "thermometer's of\n"
-      "a rig file. check opens all devices of a rig file, identifies and measures them, and "
-      "reports "
-      "what to change;\n"
-      "nothing moves. overshoot shows how far the force goes beyond a limit, on the emulated rig.";
+      "thermometer's of a rig file. check opens all devices of a rig file, identifies and measures "
+      "them, and reports what to change; nothing moves. overshoot shows how far the force goes "
+      "beyond a limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";
-  syntax.options.add_options()("rig", po::value<std::string>(), "rig.toml: ports, calibration")(
-      "seconds", po::value<double>()->default_value(3.0), "how long to listen")(
-      "emulate", "check an emulated rig");
-  syntax.positional = {"what"};
-  syntax.choices["what"] = {"list", "check", "overshoot"};
+  syntax.positional.add("what", &words.what, "what to do").among({"list", "check", "overshoot"});
+  syntax.options.add("rig", &words.rig_file, "rig.toml: ports, calibration");
+  syntax.options.add("seconds", &words.seconds, "how long to listen");
+  syntax.options.add("emulate", &words.is_emulated, "check an emulated rig");
   syntax.results = {described<RigList>("rig-list", "viscard rig list"),
                     described<RigCheck>("rig-check", "viscard rig check"),
                     {"rig-overshoot", "viscard rig overshoot",
@@ -180,22 +184,20 @@ CommandSyntax rig_syntax() {
   return syntax;
 }
 
-int check_and_print(const po::variables_map& values, bool as_json, Streams& streams) {
-  const bool is_emulated = values.count("emulate") > 0;
-  if (!is_emulated && values.count("rig") == 0) {
+int check_and_print(const RigWords& words, bool as_json, Streams& streams) {
+  if (!words.is_emulated && !words.rig_file) {
     throw UsageError("rig check needs --rig FILE (or --emulate to see what it prints)");
   }
-  const double seconds = values["seconds"].as<double>();
-  if (!(seconds >= 1.0) || seconds > 3600.0) {
-    throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", seconds));
+  if (!(words.seconds >= 1.0) || words.seconds > 3600.0) {
+    throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", words.seconds));
   }
-  const RigConfig rig =
-      values.count("rig") > 0 ? read_rig(values["rig"].as<std::string>()) : demo_rig();
-  RigCheck found = check_rig_config(rig, is_emulated, seconds);
-  if (values.count("rig") > 0) add_calibration(rig, found);
+  const RigConfig rig = words.rig_file ? read_rig(*words.rig_file, words.plausible) : demo_rig();
+  RigCheck found = check_rig_config(rig, words.is_emulated, words.seconds);
+  if (words.rig_file) add_calibration(rig, found);
   if (as_json) {
-    print_result({"viscard-rig-check/1", given_words(values, {"rig"})},
-                 [&](ResultVisitor& v) { show_keys(v, found); }, streams, kOneLine);
+    const Words inputs = words.rig_file ? Words{*words.rig_file} : Words{};
+    print_result({"viscard-rig-check/1", inputs}, [&](ResultVisitor& v) { show_keys(v, found); },
+                 streams, kOneLine);
   } else {
     print_text(found, FittedText(streams));
   }
@@ -205,28 +207,23 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
 }  // namespace
 
 int run_rig(const Words& words, Streams& streams) {
-  CommandSyntax syntax = rig_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const std::string what = values->count("what") > 0 ? (*values)["what"].as<std::string>() : "";
-  const bool as_json = values->count("json") > 0;
-  for (const std::string option : {"rig", "seconds", "emulate"}) {
-    if (what == "check" || (what == "list" && option == "rig") || values->count(option) == 0 ||
-        (*values)[option].defaulted())
-      continue;
-    throw UsageError("--" + option + " belongs to 'viscard rig check'");
+  RigWords asked;
+  CommandSyntax syntax = rig_syntax(asked);
+  if (!parse_words(syntax, words, streams)) return kDone;
+  asked.plausible = given_plausible(syntax);
+  for (const char* option : {"rig", "seconds", "emulate"}) {
+    const bool belongs =
+        asked.what == "check" || (asked.what == "list" && option == std::string("rig"));
+    if (belongs || !is_given(syntax, option)) continue;
+    throw UsageError(std::string("--") + option + " belongs to 'viscard rig check'");
   }
-  if (what == "list") {
+  if (asked.what == "list") {
     std::optional<RigConfig> rig;
-    if (values->count("rig") > 0) rig = read_rig((*values)["rig"].as<std::string>());
-    return list_ports(rig, given_words(*values, {"rig"}), as_json, streams);
+    if (asked.rig_file) rig = read_rig(*asked.rig_file, asked.plausible);
+    return list_ports(rig, given_words(syntax, {"rig"}), syntax.as_json, streams);
   }
-  if (what == "overshoot") return show_overshoot(as_json, streams);
-  if (what != "check") {
-    throw UsageError("rig needs one of list, check or overshoot. usage: " +
-                     std::string(syntax.usage));
-  }
-  return check_and_print(*values, as_json, streams);
+  if (asked.what == "overshoot") return show_overshoot(syntax.as_json, streams);
+  return check_and_print(asked, syntax.as_json, streams);
 }
 
 }  // namespace viscard

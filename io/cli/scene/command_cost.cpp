@@ -14,12 +14,18 @@
 #include <filesystem>
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
-CommandSyntax cost_syntax() {
+// The options of `viscard cost`.
+struct CostWords {
+  std::optional<std::string> scene;
+  double budget_s = 60.0;
+  CostOfTestsWords tests;
+  StudyFiles files;
+};
+
+CommandSyntax cost_syntax(CostWords& words) {
   CommandSyntax syntax{
       "viscard cost SCENE.toml [OPTIONS] | viscard cost --rig RIG.toml --specimen SPECIMEN.toml "
       "--want QUANTITY=TOLERANCE [OPTIONS]",
@@ -28,31 +34,40 @@ CommandSyntax cost_syntax() {
       "that the budget leaves out are predicted. With --rig: error against time at the rig over "
       "tests of a specimen, and the test file to use.",
       "viscard cost data/scenes/pillar_modal.toml --budget 20s"};
-  syntax.options.add_options()("budget", po::value<std::string>()->default_value("60s"),
-                               "wall time to spend, such as 60s or 5min")(
-      "out", po::value<std::string>(),
-      "folder for cost.csv, cost.json and cost.svg; with --rig also test.toml")(
-      "force", "overwrite existing files");
-  add_test_options(syntax.options);
+  syntax.positional.add("scene", &words.scene, "scene file");
+  syntax.options.group("Discretisations of a scene");
+  syntax.options.add("budget", &words.budget_s, "wall time to spend, such as 60s or 5min")
+      .of("s")
+      .by_default("60s");
+  syntax.options.group("Tests at a rig");
+  add_test_options(syntax.options, words.tests);
+  syntax.options.group("Output");
+  syntax.options.add("out", &words.files.folder,
+                     "folder for cost.csv, cost.json and cost.svg; with --rig also test.toml");
+  syntax.options.add("force", &words.files.overwrite, "overwrite existing files");
   syntax.may_exist = {"out"};
   syntax.results = {described<CostStudy>("cost", "viscard cost"), result_of_test_study()};
-  syntax.positional = {"scene"};
   return syntax;
 }
 
 }  // namespace
 
 int run_cost(const Words& words, Streams& streams) {
-  CommandSyntax syntax = cost_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  if (values->count("rig") > 0) {
-    return run_cost_of_tests(*values, syntax, quoted_command_line("cost", words), streams);
+  CostWords asked;
+  CommandSyntax syntax = cost_syntax(asked);
+  if (!parse_words(syntax, words, streams)) return kDone;
+  const std::string command = quoted_command_line("cost", words);
+  if (asked.tests.rig) {
+    asked.tests.scene = asked.scene;
+    return run_cost_of_tests(asked.tests, asked.files, syntax, command, streams);
   }
-  const auto path = required(*values, "scene", syntax);
-  CostOptions options{.budget_s = *given_quantity(*values, "budget", "s")};
+  if (!asked.scene) throw UsageError(std::string("no scene given; usage: ") + syntax.usage);
+  const std::string path = *asked.scene;
+  CostOptions options{.budget_s = asked.budget_s};
   if (!(options.budget_s > 0.0)) throw UsageError("--budget must be positive, such as 60s");
-  const Scene scene = read_scene(path).scene;
+  const SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  const Scene scene = file.scene;
   CostStudy study;
   {
     Progress progress(streams, "cost");
@@ -61,17 +76,16 @@ int run_cost(const Words& words, Streams& streams) {
   }
   const JsonHead head{"viscard-cost/1", {path}};
   const auto show = [&](ResultVisitor& v) { show_keys(v, study); };
-  if (const auto out = given(*values, "out")) {
-    const std::filesystem::path folder = *out;
-    const bool overwrite = values->count("force") > 0;
-    const std::string command = quoted_command_line("cost", words);
+  if (asked.files.folder) {
+    const std::filesystem::path folder = *asked.files.folder;
+    const bool overwrite = asked.files.overwrite;
     std::filesystem::create_directories(folder);
     write_file(folder / "cost.csv", csv_from_study(study, command), overwrite);
     write_file(folder / "cost.json", text_from_json(with_head(head, show), 2) + "\n", overwrite);
     const std::string name = std::filesystem::path(path).filename().string();
     write_file(folder / "cost.svg", svg_from_plot(plot_from_study(study, name), "cost"), overwrite);
   }
-  if (!print_result(*values, head, show, streams)) print_study(study, path, FittedText(streams));
+  if (!print_result(syntax, head, show, streams)) print_study(study, path, FittedText(streams));
   return kDone;
 }
 

@@ -13,9 +13,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <ostream>
-
-namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
@@ -30,60 +29,73 @@ std::vector<DescribedResult> results_of_design() {
           result_of_front()};
 }
 
-CommandSyntax design_syntax(ClosedFormDesign& defaults) {
+// What was given of the closed-form limits, by name.
+using LimitValues = std::map<std::string, std::optional<double>>;
+
+CommandSyntax design_syntax(DesignWords& words, LimitValues& limits,
+                            std::optional<std::string>& lattice) {
   CommandSyntax syntax{
       "viscard design [SCENE.toml --require FILE | SPEC.toml] [OPTIONS]",
       "With a scene: judges it by requirements, each against a computed quantity with its error; "
       "fails unless all pass. With a specification of ranges, requirements and objectives: the "
-      "scene "
-      "that is best in one objective, or the front between two, confirmed by the solver. Without "
-      "both: closed-form limits of a pillar sensor: buckling, matting, "
-      "ground collapse, flaw insensitivity, sensitivity, resolution, manufacture; the longest "
-      "admissible pillar. Values are in SI or carry their unit.",
+      "scene that is best in one objective, or the front between two, confirmed by the solver. "
+      "Without both: closed-form limits of a pillar sensor: buckling, matting, ground collapse, "
+      "flaw insensitivity, sensitivity, resolution, manufacture; the longest admissible pillar. "
+      "Values are in SI or carry their unit.",
       "viscard design --diameter \"40 um\" --spacing \"60 um\" --length \"120 um\""};
+  syntax.positional.add("scene", &words.scene, "scene file or specification");
+  OptionList& options = syntax.options;
+  options.group("Closed-form limits");
+  ClosedFormDesign defaults;
   for (const DesignOption& option : options_of(defaults)) {
-    const std::string what = fmt::format("{} ({:g}{}{})", option.what, *option.value,
-                                         std::string(option.unit) == "1" ? "" : " ",
-                                         std::string(option.unit) == "1" ? "" : option.unit);
-    syntax.options.add_options()(option.name, po::value<std::string>(), what.c_str());
+    const bool is_pure = std::string(option.unit.si) == "1";
+    options
+        .add(option.name, &limits[option.name],
+             fmt::format("{} ({:g}{}{})", option.what, *option.value, is_pure ? "" : " ",
+                         is_pure ? "" : option.unit.si))
+        .of(option.unit);
   }
-  syntax.options.add_options()("lattice", po::value<std::string>(),
-                               "square, hexagonal or plain (square)")(
-      "out", po::value<std::string>(),
-      "folder for design.json and pictures of the limits; of a scene, for judgement.json; of a "
-      "specification, for the scenes, design.json, designs.csv and front.svg")(
-      "force", "overwrite existing files");
-  add_judge_options(syntax.options);
+  options.add("lattice", &lattice, "arrangement of the pillars (square)")
+      .among({"square", "hexagonal", "plain"});
+  options.group("A scene or a specification");
+  options.add("require", &words.require,
+              "judge SCENE.toml: file with a table [require], such as "
+              "data/requirements/human_hand.toml");
+  options
+      .add("search-time", &words.search_s,
+           "processor time for the search of the dimensions that would pass, summed over all "
+           "cores; the judgement itself comes first and is not limited; 0s: no search")
+      .of("s")
+      .by_default("60s");
+  add_tolerance_option(options, words.tolerance);
+  options.group("Output");
+  options.add("out", &words.out,
+              "folder for design.json and pictures of the limits; of a scene, for judgement.json; "
+              "of a specification, for the scenes, design.json, designs.csv and front.svg");
+  options.add("force", &words.overwrite, "overwrite existing files");
   syntax.may_exist = {"out"};
   syntax.results = results_of_design();
-  syntax.positional = {"scene"};
-  syntax.choices["lattice"] = {"square", "hexagonal", "plain"};
   return syntax;
 }
 
 // A scene has its own geometry and material.
-void refuse_limit_options(const po::variables_map& values, ClosedFormDesign& defaults) {
-  const auto refuse = [](const std::string& name) {
-    throw UsageError("--" + name +
+void refuse_limit_options(const CommandSyntax& syntax) {
+  for (const Option& option : syntax.options.all()) {
+    if (option.group != "Closed-form limits" || !is_given(syntax, option.name)) continue;
+    throw UsageError("--" + option.name +
                      " belongs to the closed-form limits; a scene has its own values");
-  };
-  for (const DesignOption& option : options_of(defaults)) {
-    if (values.count(option.name) > 0) refuse(option.name);
   }
-  if (values.count("lattice") > 0) refuse("lattice");
 }
 
 // A specification names its scene; a scene has its geometry.
-bool is_specification(const po::variables_map& values) {
-  const auto path = given(values, "scene");
-  return path && values.count("require") == 0 && is_design_spec(read_file(*path));
+bool is_specification(const DesignWords& words) {
+  return words.scene && !words.require && is_design_spec(read_file(*words.scene));
 }
 
-ClosedFormDesign design_from(const po::variables_map& values) {
+ClosedFormDesign design_from(const LimitValues& limits, const std::optional<std::string>& lattice) {
   try {
     return closed_form_design(
-        [&](const char* name, const char* unit) { return given_quantity(values, name, unit); },
-        given(values, "lattice"));
+        [&](const char* name, const QuantityOrUnit&) { return limits.at(name); }, lattice);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
@@ -92,17 +104,19 @@ ClosedFormDesign design_from(const po::variables_map& values) {
 }  // namespace
 
 int run_design(const Words& words, Streams& streams) {
-  ClosedFormDesign defaults;
-  CommandSyntax syntax = design_syntax(defaults);
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  if (values->count("scene") + values->count("require") > 0) {
-    refuse_limit_options(*values, defaults);
-    return is_specification(*values) ? run_design_optimise(*values, words, streams)
-                                     : run_design_judge(*values, words, streams);
+  DesignWords asked;
+  LimitValues limits;
+  std::optional<std::string> lattice;
+  CommandSyntax syntax = design_syntax(asked, limits, lattice);
+  if (!parse_words(syntax, words, streams)) return kDone;
+  asked.judged = given_plausible(syntax);
+  if (asked.scene || asked.require) {
+    refuse_limit_options(syntax);
+    return is_specification(asked) ? run_design_optimise(asked, syntax, words, streams)
+                                   : run_design_judge(asked, syntax, words, streams);
   }
-  if (values->count("tol") > 0) throw UsageError("--tol belongs to a scene; name its file");
-  const ClosedFormDesign design = design_from(*values);
+  if (asked.tolerance) throw UsageError("--tol belongs to a scene; name its file");
+  const ClosedFormDesign design = design_from(limits, lattice);
   const JsonHead head{"viscard-design/1", {}};
   const auto show = [&](const std::string& command) {
     return [&design, command](ResultVisitor& v) {
@@ -110,9 +124,9 @@ int run_design(const Words& words, Streams& streams) {
       show_origin(v, command);
     };
   };
-  if (const auto out = given(*values, "out")) {
-    const std::filesystem::path folder = *out;
-    const bool overwrite = values->count("force") > 0;
+  if (asked.out) {
+    const std::filesystem::path folder = *asked.out;
+    const bool overwrite = asked.overwrite;
     std::filesystem::create_directories(folder);
     const auto stored = with_head(head, show(quoted_command_line("design", words)));
     write_file(folder / "design.json", text_from_json(stored, 2) + "\n", overwrite);
@@ -121,7 +135,7 @@ int run_design(const Words& words, Streams& streams) {
       write_file(folder / (name + ".svg"), svg_from_plot(plot, "design-" + name) + "\n", overwrite);
     }
   }
-  if (!print_result(*values, head, show(""), streams)) {
+  if (!print_result(syntax, head, show(""), streams)) {
     FittedText text(streams);
     static_cast<std::ostream&>(text) << text_from_design(design);
   }

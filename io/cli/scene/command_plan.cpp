@@ -15,8 +15,6 @@
 #include <string>
 #include <vector>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -86,29 +84,15 @@ void print_plan(const std::string& path, const Scene& scene, const ScenePlan& pl
       plan.left_out, common(plan.reduced).tolerance);
 }
 
-CommandSyntax plan_syntax() {
-  CommandSyntax syntax{
-      "viscard plan SCENE.toml [OPTIONS]",
-      "Prints the effects that a scene needs at its tolerance, with the number that "
-      "decides, the error of leaving each out, and what that saves in processor "
-      "time and unknowns. 'viscard simulate' follows it; [effects] in the scene "
-      "overrules it.",
-      "viscard plan data/scenes/pillar_modal.toml"};
-  add_tolerance_option(syntax.options);
-  syntax.positional = {"scene"};
-  syntax.results = {described<ShownPlan>("plan", "viscard plan")};
-  return syntax;
 }
 
 }  // namespace
 
-void add_tolerance_option(po::options_description& options) {
-  options.add_options()("tol", po::value<double>(),
-                        "relative error allowed, instead of the scene's");
+void add_tolerance_option(OptionList& options, std::optional<double>& tolerance) {
+  options.add("tol", &tolerance, "relative error allowed, instead of the scene's");
 }
 
-void apply_tolerance(const po::variables_map& values, Scene& scene) {
-  const auto tolerance = given<double>(values, "tol");
+void apply_tolerance(const std::optional<double>& tolerance, Scene& scene) {
   if (!tolerance) return;
   try {
     set_tolerance(*tolerance, scene);
@@ -118,12 +102,23 @@ void apply_tolerance(const po::variables_map& values, Scene& scene) {
 }
 
 int run_plan(const Words& words, Streams& streams) {
-  CommandSyntax syntax = plan_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const auto path = required(*values, "scene", syntax);
-  Scene scene = read_scene(path).scene;
-  apply_tolerance(*values, scene);
+  std::string path;
+  std::optional<double> tolerance;
+  CommandSyntax syntax{
+      "viscard plan SCENE.toml [OPTIONS]",
+      "Prints the effects that a scene needs at its tolerance, with the number that "
+      "decides, the error of leaving each out, and what that saves in processor "
+      "time and unknowns. 'viscard simulate' follows it; [effects] in the scene "
+      "overrules it.",
+      "viscard plan data/scenes/pillar_modal.toml"};
+  syntax.positional.add("scene", &path, "scene file");
+  syntax.results = {described<ShownPlan>("plan", "viscard plan")};
+  add_tolerance_option(syntax.options, tolerance);
+  if (!parse_words(syntax, words, streams)) return kDone;
+  const SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  Scene scene = file.scene;
+  apply_tolerance(tolerance, scene);
   const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
   std::vector<EffectSaving> savings;
   try {
@@ -134,7 +129,7 @@ int run_plan(const Words& words, Streams& streams) {
   const ShownPlan shown{plan.effects, savings, plan.left_out, common(scene).tolerance,
                         common(plan.reduced).tolerance};
   const auto show = [&](ResultVisitor& v) { show_keys(v, shown); };
-  if (!print_result(*values, {"viscard-plan/1", {path}}, show, streams)) {
+  if (!print_result(syntax, {"viscard-plan/1", {path}}, show, streams)) {
     print_plan(path, scene, plan, savings, FittedText(streams));
   }
   return kDone;

@@ -9,8 +9,6 @@
 #include <filesystem>
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -20,39 +18,34 @@ void show_check(ResultVisitor& v, const std::string& path, const std::string& ki
   v("scene", path, "the file");
 }
 
-CommandSyntax scene_syntax() {
+}  // namespace
+
+int run_scene(const Words& words, Streams& streams) {
+  std::string what, path;
+  std::optional<std::string> svg;
+  bool overwrite = false;
   CommandSyntax syntax{
       "viscard scene check SCENE.toml [OPTIONS]",
       "Reads a scene, says with the line of the file what is missing or contradicts itself, and "
       "draws the geometry. Nothing is solved.",
       "viscard scene check data/scenes/pillar_sensor.toml --svg sensor.svg --force"};
-  syntax.options.add_options()("svg", po::value<std::string>(), "file for the drawing")(
-      "force", "overwrite an existing file");
-  syntax.positional = {"what", "scene"};
-  syntax.choices["what"] = {"check"};
+  syntax.positional.add("what", &what, "what to do").among({"check"});
+  syntax.positional.add("scene", &path, "scene file");
+  syntax.options.add("svg", &svg, "file for the drawing");
+  syntax.options.add("force", &overwrite, "overwrite an existing file");
   syntax.results = {
       {"scene", "viscard scene check", {[](ResultVisitor& v) { show_check(v, "", ""); }}}};
-  return syntax;
-}
-
-}  // namespace
-
-int run_scene(const Words& words, Streams& streams) {
-  CommandSyntax syntax = scene_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  if (given(*values, "what") != "check" || values->count("scene") == 0) {
-    throw UsageError(std::string("usage: ") + syntax.usage);
-  }
-  const auto path = required(*values, "scene", syntax);
-  const Scene scene = read_scene(path).scene;
+  if (!parse_words(syntax, words, streams)) return kDone;
+  const SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  const Scene scene = file.scene;
   // Reading finds neither effects that cannot be off nor buckling.
   with_lines_of(path, [&] { return checked_plan(scene); });
   const std::string name = std::filesystem::path(path).filename().string();
   const std::string drawing = svg_from_scene(scene, name);
-  if (const auto svg = given(*values, "svg")) write_file(*svg, drawing, values->count("force") > 0);
+  if (svg) write_file(*svg, drawing, overwrite);
   const auto show = [&](ResultVisitor& v) { show_check(v, path, kind_of(scene)); };
-  if (!print_result(*values, {"viscard-scene/1", {path}}, show, streams)) {
+  if (!print_result(syntax, {"viscard-scene/1", {path}}, show, streams)) {
     streams.out << path << ": nothing contradicts itself\n";
   }
   return kDone;

@@ -20,8 +20,6 @@
 #include <filesystem>
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -55,11 +53,21 @@ void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutpu
 }
 
 // The uncertainty of an answer, if it is asked for.
-std::optional<SceneUncertainty> uncertainty_of(const po::variables_map& values,
-                                               const SceneFile& file, const std::string& path,
+// The options of `viscard simulate`.
+struct SimulateWords {
+  std::string scene;
+  std::optional<double> tolerance;
+  bool with_uncertainty = false;
+  std::optional<std::size_t> n_samples;
+  std::optional<std::string> out;
+  bool overwrite = false;
+};
+
+std::optional<SceneUncertainty> uncertainty_of(const SimulateWords& words, const SceneFile& file,
                                                const SceneAnswer& answer, Streams& streams) {
-  const auto n_samples = given<std::size_t>(values, "samples");
-  if (values.count("uncertainty") == 0) {
+  const std::string& path = words.scene;
+  const auto n_samples = words.n_samples;
+  if (!words.with_uncertainty) {
     if (n_samples) throw UsageError("--samples belongs to --uncertainty; give both");
     return std::nullopt;
   }
@@ -75,58 +83,58 @@ std::optional<SceneUncertainty> uncertainty_of(const po::variables_map& values,
                                            }});
 }
 
-CommandSyntax simulate_syntax() {
+CommandSyntax simulate_syntax(SimulateWords& words) {
   CommandSyntax syntax{
       "viscard simulate SCENE.toml [OPTIONS]",
       "Answers a scene: static, modal, buckling, creep, relaxation, harmonic or transient of one "
       "pillar, on a rigid base or a film; voltages, cross-talk and modes of a row of pillars, or "
-      "its "
-      "contact with a rigid shape; or "
-      "maps of voltages, cross-talk and contact forces over an array in the plane, under loads or "
-      "a "
-      "rigid shape. "
-      "The mesh is refined until the estimated error meets the tolerance.",
+      "its contact with a rigid shape; or maps of voltages, cross-talk and contact forces over an "
+      "array in the plane, under loads or a rigid shape. The mesh is refined until the estimated "
+      "error meets the tolerance.",
       "viscard simulate data/scenes/pillar_modal.toml"};
-  add_tolerance_option(syntax.options);
-  syntax.options.add_options()(
-      "out", po::value<std::string>(),
-      "folder for results as JSON and CSV, curves as CSV and pictures; static and modal scenes add "
-      "fields as .vtu for ParaView, modes of a row mode_shapes.csv, arrays in the plane "
-      "pillars.csv and maps as .npy")(
-      "uncertainty",
-      "95 % intervals of the results, and the share of each input in their variance: quantities "
-      "such as \"40 um +- 1 um\" (also: uniform, lognormal) and what material files state")(
-      "samples", po::value<std::size_t>(),
-      "with --uncertainty: sample with about this many answers, even if the linear answer is "
-      "enough; default: 4000 if it is not")("force", "overwrite existing files");
+  syntax.positional.add("scene", &words.scene, "scene file");
+  OptionList& options = syntax.options;
+  add_tolerance_option(options, words.tolerance);
+  options.add("uncertainty", &words.with_uncertainty,
+              "95 % intervals of the results, and the share of each input in their variance: "
+              "quantities such as \"40 um +- 1 um\" (also: uniform, lognormal) and what material "
+              "files state");
+  options.add("samples", &words.n_samples,
+              "with --uncertainty: sample with about this many answers, even if the linear answer "
+              "is enough; default: 4000 if it is not");
+  options.add("out", &words.out,
+              "folder for results as JSON and CSV, curves as CSV and pictures; static and modal "
+              "scenes add fields as .vtu for ParaView, modes of a row mode_shapes.csv, arrays in "
+              "the plane pillars.csv and maps as .npy");
+  options.add("force", &words.overwrite, "overwrite existing files");
   syntax.may_exist = {"out"};
   syntax.results = {described<ShownAnswer>(
       "simulate", "viscard simulate; results.json has command and created_by besides")};
-  syntax.positional = {"scene"};
   return syntax;
 }
 
 }  // namespace
 
 int run_simulate(const Words& words, Streams& streams) {
-  CommandSyntax syntax = simulate_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const auto path = required(*values, "scene", syntax);
-  SceneFile file = read_scene(path);
-  apply_tolerance(*values, file.scene);
+  SimulateWords asked;
+  CommandSyntax syntax = simulate_syntax(asked);
+  if (!parse_words(syntax, words, streams)) return kDone;
+  const std::string& path = asked.scene;
+  SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
+  streams.accepts_implausible |= file.accepts_implausible;
+  apply_tolerance(asked.tolerance, file.scene);
   const bool is_sweep = !file.sweep.is_empty();
-  const std::string folder = given(*values, "out").value_or("");
-  const SweepOutput output{folder, quoted_command_line("simulate", words),
-                           values->count("force") > 0};
+  const std::string folder = asked.out.value_or("");
+  const SweepOutput output{folder, quoted_command_line("simulate", words), asked.overwrite};
   const auto start = std::chrono::steady_clock::now();
   ShownAnswer shown{.scene = path};
   SceneAnswer& answer = shown.answer;
   answer = is_sweep ? run_sweep(file, path, output, streams) : answer_of(file.scene, path, streams);
   shown.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (file.accepts_implausible) answer.notes.emplace_back(kPlausibleOffText);
   shown.printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
-  shown.uncertainty = uncertainty_of(*values, file, path, answer, streams);
+  shown.uncertainty = uncertainty_of(asked, file, answer, streams);
   if (!folder.empty()) {
     shown.command = output.command;
     write_files(shown, folder, output.overwrite);
@@ -135,7 +143,7 @@ int run_simulate(const Words& words, Streams& streams) {
     if (shown.uncertainty) write_uncertainty(*shown.uncertainty, folder, output.command, output.overwrite);
   }
   const auto show = [&](ResultVisitor& v) { show_keys(v, shown); };
-  if (print_result(*values, {"viscard-simulate/1", {path}}, show, streams)) return kDone;
+  if (print_result(syntax, {"viscard-simulate/1", {path}}, show, streams)) return kDone;
   streams.out << path << "\n";
   print_answer(answer, shown.wall_s, FittedText(streams));
   print_comparison(shown.printed, FittedText(streams));

@@ -14,8 +14,6 @@
 #include <filesystem>
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -29,21 +27,30 @@ void show_sweep(ResultVisitor& v, const StudyOutcome& outcome, const std::string
   v("points", outcome.n_points, "of the whole study");
 }
 
-CommandSyntax sweep_syntax(const SweepProgram& program) {
+// The options of a command that sweeps.
+struct SweepWords {
+  std::string study;
+  std::optional<std::string> out, csv, shard;
+  std::vector<std::string> merge;
+  bool overwrite = false;
+};
+
+CommandSyntax sweep_syntax(const SweepProgram& program, SweepWords& words) {
   CommandSyntax syntax{program.usage, program.description, program.example};
-  auto add = syntax.options.add_options();
-  add("out", po::value<std::string>(),
-      "SQLite file of the points; default: the study's name with .sqlite, in this folder");
-  add("csv", po::value<std::string>(), "write the points as a table, too");
-  add("shard", po::value<std::string>(), "answer one part of the points only, such as 3/64");
-  add("merge", po::value<std::vector<std::string>>()->composing(),
-      "take over the points of another part (repeat it for several); nothing is answered then");
-  add("force", "overwrite an existing table");
-  if (program.add_options) program.add_options(syntax.options);
+  syntax.positional.add("study", &words.study, "study file");
+  OptionList& options = syntax.options;
+  options.add("out", &words.out,
+              "SQLite file of the points; default: the study's name with .sqlite, in this folder");
+  options.add("csv", &words.csv, "write the points as a table, too");
+  options.add("shard", &words.shard, "answer one part of the points only, such as 3/64");
+  options.add("merge", &words.merge,
+              "take over the points of another part (repeat it for several); nothing is answered "
+              "then");
+  options.add("force", &words.overwrite, "overwrite an existing table");
+  if (program.add_options) program.add_options(options);
   syntax.may_exist = {"out"};
   syntax.results = {{"sweep", "viscard sweep",
                      {[](ResultVisitor& v) { show_sweep(v, StudyOutcome{}, "", 0, 0); }}}};
-  syntax.positional = {"study"};
   return syntax;
 }
 
@@ -56,7 +63,10 @@ const SweepProgram& on_all_cores() {
       "other "
       "machines (--shard) and be merged; viscard-mpi answers one on many machines at once.",
       "viscard sweep data/studies/pillar.toml --out study.sqlite --csv study.csv", nullptr,
-      [](const SweepJob& job) { return run_study(job.study, job.shard, job.store, job.progress); }};
+      [](const SweepJob& job) {
+        return run_study(job.study, job.shard, job.store, job.progress,
+                         job.judged);
+      }};
   return kProgram;
 }
 
@@ -78,47 +88,45 @@ int run_sweep_command(const Words& words, Streams& streams) {
 }
 
 int run_sweep_program(const SweepProgram& program, const Words& words, Streams& streams) {
-  CommandSyntax syntax = sweep_syntax(program);
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const auto path = required(*values, "study", syntax);
+  SweepWords asked;
+  CommandSyntax syntax = sweep_syntax(program, asked);
+  if (!parse_words(syntax, words, streams)) return kDone;
+  const std::string& path = asked.study;
   StudyShard shard;
-  if (const auto text = given(*values, "shard")) {
+  if (asked.shard) {
     try {
-      shard = shard_from(*text);
+      shard = shard_from(*asked.shard);
     } catch (const std::invalid_argument& error) {
       throw UsageError(error.what());
     }
   }
-  const auto parts = given<std::vector<std::string>>(*values, "merge");
-  if (parts && values->count("shard") > 0) {
+  if (!asked.merge.empty() && asked.shard) {
     throw UsageError("--merge takes over points and answers none; leave --shard out");
   }
-  if (const auto out = given(*values, "out")) refuse_folder_as_file("out", *out);
-  const auto table = given(*values, "csv");
-  if (table) refuse_existing(*table, values->count("force") > 0);
+  if (asked.out) refuse_folder_as_file("out", *asked.out);
+  if (asked.csv) refuse_existing(*asked.csv, asked.overwrite);
+  const Plausible judged = given_plausible(syntax, Plausible::kScene);
   const Study study = read_study(path);
   // A mistake in the study or its scene is reported here, not once for each point.
-  scene_from_toml(scene_text_with(study, values_at(study, 0)), study.scene_path);
+  check_values(study, judged);
   const std::string file =
-      given(*values, "out").value_or(std::filesystem::path(path).stem().string() + ".sqlite");
+      asked.out.value_or(std::filesystem::path(path).stem().string() + ".sqlite");
   StudyStore store(file, study);
   StudyOutcome outcome{.n_points = count_points(study)};
   std::int64_t merged = 0;
-  if (parts) {
-    for (const std::string& part : *parts) merged += store.merge(part, study);
+  if (!asked.merge.empty()) {
+    for (const std::string& part : asked.merge) merged += store.merge(part, study);
   } else {
     Progress progress(streams, "sweep");
-    outcome =
-        program.run({study, shard, store, [&](double done) { progress.show(done, ""); }, *values});
+    outcome = program.run({study, shard, store, [&](double done) { progress.show(done, ""); }, judged});
   }
-  if (table) write_file(*table, csv_from_study(store, study), values->count("force") > 0);
+  if (asked.csv) write_file(*asked.csv, csv_from_study(store, study), asked.overwrite);
   const auto n_done = static_cast<std::int64_t>(store.done().size());
   const JsonHead head{"viscard-sweep/1", {path}};
   const auto show = [&](ResultVisitor& v) { show_sweep(v, outcome, file, merged, n_done); };
   const int status =
       outcome.n_answered > 0 && outcome.n_failed == outcome.n_answered ? kFailed : kDone;
-  if (print_result(*values, head, show, streams)) return status;
+  if (print_result(syntax, head, show, streams)) return status;
   FittedText text(streams);
   static_cast<std::ostream&>(text) << words_of(outcome, file, merged, n_done);
   return status;

@@ -12,8 +12,6 @@
 
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -74,35 +72,32 @@ void print_result(const ValidationResult& result, const std::string& name, std::
   out << (result.passed ? "  passed\n" : "  FAILED\n");
 }
 
-CommandSyntax validate_syntax() {
+}  // namespace
+
+int run_validate(const Words& words, Streams& streams) {
+  std::string path;
+  std::optional<std::string> relaxation_csv, creep_csv;
+  bool overwrite = false;
+  ValidateOptions options;
+  options.tolerance = 1e-6;
   CommandSyntax syntax{"viscard validate MATERIAL.json [OPTIONS]",
                        "Runs a pillar (40 um across, 120 um long, fixed base) in relaxation and in "
                        "creep with the material through the time-stepping solver and compares with "
                        "the exact answers. Exit status 1 if they differ by more than allowed.",
                        "viscard validate data/materials/pdms_1to10_seed.json"};
-  syntax.options.add_options()("csv", po::value<std::string>(), "write the relaxation curve here")(
-      "creep-csv", po::value<std::string>(), "write the creep curve here")(
-      "max-error", po::value<double>()->default_value(1e-6, "1e-6"),
-      "largest relative error allowed")("force", "overwrite existing files");
-  syntax.positional = {"material"};
+  syntax.positional.add("material", &path, "material file");
+  syntax.options.add("csv", &relaxation_csv, "write the relaxation curve here");
+  syntax.options.add("creep-csv", &creep_csv, "write the creep curve here");
+  syntax.options.add("max-error", &options.tolerance, "largest relative error allowed")
+      .by_default("1e-6");
+  syntax.options.add("force", &overwrite, "overwrite existing files");
   syntax.results = {{"validate", "viscard validate",
                      {[](ResultVisitor& v) { show_result(v, ValidationResult{}, ""); }}}};
-  return syntax;
-}
-
-}  // namespace
-
-int run_validate(const Words& words, Streams& streams) {
-  CommandSyntax syntax = validate_syntax();
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const auto path = required(*values, "material", syntax);
-  ValidateOptions options;
-  options.tolerance = (*values)["max-error"].as<double>();
+  if (!parse_words(syntax, words, streams)) return kDone;
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
     throw UsageError("--max-error must lie between 0 and 1");
   }
-  const Material material = read_material(path).material;
+  const Material material = read_material(path, given_plausible(syntax)).material;
   refuse_liquid(material, path);
   const std::string name = material.name.empty() ? path : material.name;
   Progress progress(streams, "validate");
@@ -111,16 +106,14 @@ int run_validate(const Words& words, Streams& streams) {
   progress.clear();
 
   const std::string command = quoted_command_line("validate", words);
-  const auto write = [&](const char* option, const ValidationCurve& curve, const char* quantity) {
-    const auto path_of_curve = given(*values, option);
-    if (!path_of_curve) return;
-    write_file(*path_of_curve, csv_from_curve(curve, quantity, command),
-               values->count("force") > 0);
+  const auto write = [&](const std::optional<std::string>& file, const ValidationCurve& curve,
+                         const char* quantity) {
+    if (file) write_file(*file, csv_from_curve(curve, quantity, command), overwrite);
   };
-  write("csv", result.relaxation, "stress_Pa");
-  write("creep-csv", result.creep, "displacement_m");
+  write(relaxation_csv, result.relaxation, "stress_Pa");
+  write(creep_csv, result.creep, "displacement_m");
   const auto show = [&](ResultVisitor& v) { show_result(v, result, name); };
-  if (!print_result(*values, {"viscard-validate/1", {path}}, show, streams)) {
+  if (!print_result(syntax, {"viscard-validate/1", {path}}, show, streams)) {
     print_result(result, name, FittedText(streams));
   }
   if (result.passed) return kDone;

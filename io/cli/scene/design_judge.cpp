@@ -15,38 +15,28 @@
 #include <filesystem>
 #include <ostream>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
-Judgement judgement_of(const po::variables_map& values, const std::string& scene,
-                       const Requirements& requirements, Streams& streams) {
+Judgement judgement_of(const DesignWords& words, const Requirements& requirements,
+                       Streams& streams) {
+  const std::string& scene = *words.scene;
   Progress progress(streams, "design");
   JudgeOptions options;
-  options.tolerance = given<double>(values, "tol");
-  options.search_s = *given_quantity(values, "search-time", "s");
+  options.tolerance = words.tolerance;
+  options.search_s = words.search_s;
   if (options.search_s < 0.0) throw UsageError("--search-time must not be negative, such as 60s");
   options.progress = [&](double done, const std::string& what) { progress.announce(done, what); };
   try {
-    return judge_scene(read_file(scene), scene, requirements, options);
+    std::string text = read_file(scene);
+    if (words.judged == Plausible::kOff) text = "plausible = \"off\"\n" + text;
+    return judge_scene(text, scene, requirements, options);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
 }
 
 }  // namespace
-
-void add_judge_options(po::options_description& options) {
-  options.add_options()("require", po::value<std::string>(),
-                        "judge SCENE.toml: file with a table [require], such as "
-                        "data/requirements/human_hand.toml");
-  options.add_options()(
-      "search-time", po::value<std::string>()->default_value("60s"),
-      "processor time for the search of the dimensions that would pass, summed over all cores; the "
-      "judgement itself comes first and is not limited; 0s: no search");
-  add_tolerance_option(options);
-}
 
 DescribedResult result_of_judgement() {
   const auto show = [](ResultVisitor& v) {
@@ -58,9 +48,9 @@ DescribedResult result_of_judgement() {
           {show}};
 }
 
-int run_design_judge(const po::variables_map& values, const Words& words, Streams& streams) {
-  const auto scene = given(values, "scene");
-  const auto require = given(values, "require");
+int run_design_judge(const DesignWords& asked, const CommandSyntax& syntax, const Words& words,
+                     Streams& streams) {
+  const std::optional<std::string>&scene = asked.scene, &require = asked.require;
   if (!scene) throw UsageError("--require judges a scene; name its file, such as SCENE.toml");
   if (!require) {
     refuse_other_kind(read_file(*scene), *scene, FileKind::kScene);
@@ -70,7 +60,7 @@ int run_design_judge(const po::variables_map& values, const Words& words, Stream
                           "data/requirements/human_hand.toml"));
   }
   const Requirements requirements = read_requirements(*require);
-  const Judgement judgement = judgement_of(values, *scene, requirements, streams);
+  const Judgement judgement = judgement_of(asked, requirements, streams);
   const JsonHead head{"viscard-design-judge/1", {*scene, *require}};
   const auto show = [&](const std::string& command) {
     return [&judgement, command](ResultVisitor& v) {
@@ -78,13 +68,13 @@ int run_design_judge(const po::variables_map& values, const Words& words, Stream
       show_origin(v, command);
     };
   };
-  if (const auto out = given(values, "out")) {
+  if (asked.out) {
     const auto stored = with_head(head, show(quoted_command_line("design", words)));
-    std::filesystem::create_directories(*out);
-    write_file(std::filesystem::path(*out) / "judgement.json", text_from_json(stored, 2) + "\n",
-               values.count("force") > 0);
+    std::filesystem::create_directories(*asked.out);
+    write_file(std::filesystem::path(*asked.out) / "judgement.json",
+               text_from_json(stored, 2) + "\n", asked.overwrite);
   }
-  if (!print_result(values, head, show(""), streams)) {
+  if (!print_result(syntax, head, show(""), streams)) {
     streams.out << *scene << "\n" << text_from_judgement(judgement);
   }
   return judgement.passes() ? kDone : kFailed;

@@ -43,10 +43,10 @@ DescribedResult result_of_front() {
           {show}};
 }
 
-int run_design_optimise(const boost::program_options::variables_map& values, const Words& words,
+int run_design_optimise(const DesignWords& asked, const CommandSyntax& syntax, const Words& words,
                         Streams& streams) {
-  const std::string path = *given(values, "scene");
-  if (values.count("tol") > 0) {
+  const std::string& path = *asked.scene;
+  if (asked.tolerance) {
     throw UsageError(
         "--tol belongs to a scene; the tolerance of a design stands in its scene file");
   }
@@ -64,11 +64,11 @@ int run_design_optimise(const boost::program_options::variables_map& values, con
       show_origin(v, command);
     };
   };
-  if (const auto out = given(values, "out")) {
+  if (asked.out) {
     const auto stored = with_head(head, show(quoted_command_line("design", words)));
-    write_designs(spec, front, stored, *out, values.count("force") > 0);
+    write_designs(spec, front, stored, *asked.out, asked.overwrite);
   }
-  if (!print_result(values, head, show(""), streams)) {
+  if (!print_result(syntax, head, show(""), streams)) {
     streams.out << path << "\n" << text_from_front(spec, front);
   }
   return front.designs[0].is_feasible ? kDone : kFailed;

@@ -1,9 +1,10 @@
 #pragma once
 
 #include "io/cli/words/streams.h"
+#include "io/options/option.h"
 #include "models/scene/scene.h"
 
-#include <boost/program_options.hpp>
+#include <optional>
 
 namespace viscard {
 
@@ -27,8 +28,8 @@ int run_design(const Words& words, Streams& streams);
 int run_cost(const Words& words, Streams& streams);
 
 // --tol: the relative error allowed, instead of the scene's.
-void add_tolerance_option(boost::program_options::options_description& options);
+void add_tolerance_option(OptionList& options, std::optional<double>& tolerance);
 // Sets the scene's tolerance if --tol is given. Throws UsageError outside the limits of its kind.
-void apply_tolerance(const boost::program_options::variables_map& values, Scene& scene);
+void apply_tolerance(const std::optional<double>& tolerance, Scene& scene);
 
 }  // namespace viscard

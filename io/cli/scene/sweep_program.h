@@ -2,8 +2,7 @@
 
 #include "io/cli/words/streams.h"
 #include "io/flow/sweep/run_study.h"
-
-#include <boost/program_options.hpp>
+#include "io/options/option.h"
 
 #include <functional>
 
@@ -14,8 +13,8 @@ struct SweepJob {
   const Study& study;
   const StudyShard& shard;
   StudyStore& store;
-  std::function<void(double)> progress;                 // called with the fraction done
-  const boost::program_options::variables_map& values;  // of the command line
+  std::function<void(double)> progress;  // called with the fraction done
+  Plausible judged = Plausible::kScene;
 };
 
 // A program that answers studies: its words, and how the points of a job are answered.
@@ -23,7 +22,7 @@ struct SweepProgram {
   const char* usage;
   const char* description;
   const char* example;
-  std::function<void(boost::program_options::options_description&)> add_options;  // may be empty
+  std::function<void(OptionList&)> add_options;  // of its own; may be empty
   std::function<StudyOutcome(const SweepJob&)> run;
 };
 

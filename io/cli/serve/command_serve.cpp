@@ -11,8 +11,6 @@
 #include <ostream>
 #include <thread>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -25,8 +23,9 @@ void show_page(ResultVisitor& v, const std::string& address, int port, const std
   v("folder", folder, "of the series");
 }
 
-CommandSyntax serve_syntax(ServeOptions& options) {
+CommandSyntax serve_syntax(ServeOptions& options, std::string& folder) {
   CommandSyntax syntax;
+  syntax.reads_quantities = false;
   syntax.usage = "viscard serve FOLDER --rig FILE [OPTIONS]";
   syntax.description =
       "Shows a page at the rig: devices, specimens, the test, its expected course, live force and\n"
@@ -34,16 +33,18 @@ CommandSyntax serve_syntax(ServeOptions& options) {
       "Open the printed address in a browser on this machine. Closing the page stops nothing;\n"
       "Ctrl-C here stops a run, lifts the punch and ends the program.";
   syntax.example = "viscard serve series --emulate --speed 10";
-  auto add = syntax.options.add_options();
-  add("rig", into(options.rig_file), "rig.toml: ports, calibration");
-  add("port", po::value(&options.port)->default_value(0), "port of 127.0.0.1; 0: any free one");
-  add("uncalibrated", po::bool_switch(&options.is_uncalibrated),
+  syntax.positional.add("folder", &folder, "folder of the series");
+  const auto add = [&](const char* name, OptionTarget target, const char* what) -> Option& {
+    return syntax.options.add(name, target, what);
+  };
+  add("rig", &options.rig_file, "rig.toml: ports, calibration");
+  add("port", &options.port, "port of 127.0.0.1; 0: any free one");
+  add("uncalibrated", &options.is_uncalibrated,
       "capture although the load cell's calibration has expired");
-  add("emulate", po::bool_switch(&options.is_emulated), "use an emulated rig");
-  add("seed", into(options.seed), "seed of the emulated noise");
-  add("speed", po::value(&options.speed)->default_value(1.0),
+  add("emulate", &options.is_emulated, "use an emulated rig");
+  add("seed", &options.seed, "seed of the emulated noise");
+  add("speed", &options.speed,
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
-  syntax.positional = {"folder"};
   syntax.results = {{"serve", "viscard serve, when the page can be opened",
                      {[](ResultVisitor& v) { show_page(v, "", 0, ""); }}}};
   return syntax;
@@ -73,10 +74,9 @@ void check_options(const ServeOptions& options) {
 
 int run_serve(const Words& words, Streams& streams) {
   ServeOptions options;
-  CommandSyntax syntax = serve_syntax(options);
-  const auto values = parse_words(syntax, words, streams);
-  if (!values) return kDone;
-  const std::string folder = given(*values, "folder").value_or("");
+  std::string folder;
+  CommandSyntax syntax = serve_syntax(options, folder);
+  if (!parse_words(syntax, words, streams)) return kDone;
   options.folder = folder;
   options.command = quoted_command_line("serve", words);
   check_options(options);
@@ -85,7 +85,7 @@ int run_serve(const Words& words, Streams& streams) {
   const auto show = [&](ResultVisitor& v) {
     show_page(v, server.address(), server.port(), folder);
   };
-  if (!print_result(*values, {"viscard-serve/1", given_words(*values, {"rig"})}, show, streams)) {
+  if (!print_result(syntax, {"viscard-serve/1", given_words(syntax, {"rig"})}, show, streams)) {
     streams.out << "Open in a browser on this machine: " << server.address() << "\n";
     streams.err << "Ctrl-C ends it; a run is then stopped and the punch lifted\n";
   }

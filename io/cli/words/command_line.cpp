@@ -1,44 +1,30 @@
 #include "io/cli/words/command_line.h"
 
-#include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/cli/words/help_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 
+#include <boost/program_options.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdint>
 #include <ostream>
-#include <typeinfo>
 
 namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
 
-std::vector<std::string> option_names(const po::options_description& options) {
+std::vector<std::string> option_names(const OptionList& options) {
   std::vector<std::string> names;
-  for (const auto& option : options.options()) names.push_back("--" + option->long_name());
+  for (const Option& option : options.all()) names.push_back("--" + option.name);
   return names;
 }
 
-[[noreturn]] void throw_unknown(const std::string& word, const po::options_description& options,
-                                const char* usage) {
-  throw UsageError("there is no option '" + word + "'" + did_you_mean(word, option_names(options)) +
-                   " Usage: " + usage);
-}
-
-// The words that belong to no option, in order.
-Words free_words(const Words& words, const po::options_description& options) {
-  Words free;
-  const auto parsed = po::command_line_parser(words).options(options).allow_unregistered().run();
-  for (const auto& option : parsed.options) {
-    if (!option.string_key.empty() || option.position_key < 0) continue;
-    free.insert(free.end(), option.value.begin(), option.value.end());
-  }
-  return free;
+[[noreturn]] void throw_unknown(const std::string& word, const CommandSyntax& syntax) {
+  throw UsageError("there is no option '" + word + "'" +
+                   did_you_mean(word, option_names(syntax.options)) + " Usage: " + syntax.usage);
 }
 
 // "viscard card" of "viscard card MATERIAL.json --for TARGET".
@@ -48,103 +34,110 @@ std::string command_of(const CommandSyntax& syntax) {
 }
 
 // Somebody may have typed an option as a subcommand: "viscard card check m.json".
-[[noreturn]] void throw_too_many(const Words& words, const CommandSyntax& syntax) {
-  const Words free = free_words(words, syntax.options);
+[[noreturn]] void throw_too_many(const Words& free, const CommandSyntax& syntax) {
   const std::string who = command_of(syntax);
   const std::string first = free.empty() ? "" : free.front();
   std::vector<std::string> names;
-  for (const std::string& name : option_names(syntax.options)) names.push_back(name.substr(2));
+  for (const Option& option : syntax.options.all()) names.push_back(option.name);
   const std::string near = nearest_word(first, names);
   if (!first.empty() && !near.empty()) {
     throw UsageError("there is no '" + who + " " + first + "'; did you mean '" + who + " --" +
                      near + "'? Usage: " + syntax.usage);
   }
-  const std::size_t n = syntax.positional.size();
+  const std::size_t n = syntax.positional.all().size();
   throw UsageError("too many words on the command line, from '" +
                    (n < free.size() ? free[n] : first) + "' on; usage: " + syntax.usage);
 }
 
-bool counts(const std::type_info& type) {
-  return type == typeid(std::uint64_t) || type == typeid(std::size_t);
-}
-
-const std::type_info& type_of(const po::option_description& option) {
-  const auto* typed = dynamic_cast<const po::typed_value_base*>(option.semantic().get());
-  return typed != nullptr ? typed->value_type() : typeid(void);
-}
-
-// What a value of an option must be.
-const char* expected_of(const po::option_description& option) {
-  const std::type_info& type = type_of(option);
-  if (type == typeid(void)) return "a value";
-  if (counts(type)) return "a whole number from 0 on, such as 5";
-  if (type == typeid(double) || type == typeid(std::vector<double>)) {
-    return "a number without unit, such as 0.5";
-  }
-  const bool is_text = type == typeid(std::string) || type == typeid(std::vector<std::string>);
-  return is_text ? "a text" : "a whole number, such as 5";
-}
-
-// "--terms cannot be 'x'; expected a whole number, such as 5".
-[[noreturn]] void throw_bad_value(const po::validation_error& error, const Words& words,
-                                  const po::options_description& options, const char* usage) {
-  const std::string name = error.get_option_name();
-  const std::string key = name.substr(std::min(name.size(), name.find_first_not_of('-')));
-  const po::option_description* option = options.find_nothrow(key, false);
-  if (option == nullptr) throw UsageError(std::string(error.what()) + "; usage: " + usage);
-  std::string value;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i].starts_with(name + "=")) value = words[i].substr(name.size() + 1);
-    if (words[i] == name && i + 1 < words.size()) value = words[i + 1];
-  }
-  throw UsageError(name + " cannot be '" + value + "'; expected " + expected_of(*option));
-}
-
-// The library reads "-3" as 18446744073709551613.
-void refuse_negative_counts(const po::parsed_options& parsed) {
-  for (const po::option& given : parsed.options) {
-    const po::option_description* option =
-        parsed.description->find_nothrow(given.string_key, false);
-    if (option == nullptr || !counts(type_of(*option)) || given.value.empty()) continue;
-    const std::string& value = given.value.front();
-    if (!value.starts_with('-')) continue;
-    throw UsageError("--" + given.string_key + " cannot be '" + value + "'; expected " +
-                     expected_of(*option));
-  }
-}
-
 // A command with subcommands takes them as its first word, "what".
-void check_what(const CommandSyntax& syntax, const po::variables_map& values) {
-  const auto choices = syntax.choices.find("what");
-  if (choices == syntax.choices.end()) return;
-  const auto what = given(values, "what");
-  const std::vector<std::string>& known = choices->second;
-  if (what && std::find(known.begin(), known.end(), *what) != known.end()) return;
+void check_what(const CommandSyntax& syntax) {
+  const Option* option = syntax.positional.find("what");
+  if (option == nullptr || option->choices.empty()) return;
+  const Words what = given_words(syntax, {"what"});
+  const std::vector<std::string>& known = option->choices;
+  if (!what.empty() && std::find(known.begin(), known.end(), what.front()) != known.end()) return;
   const std::string who = command_of(syntax);
-  throw UsageError(
-      (what ? "there is no '" + who + " " + *what + "'" + did_you_mean(*what, known, "; ")
-            : who + " needs a word more; ") +
-      (what && !nearest_word(*what, known).empty() ? " " : "") + "there are: " + listed(known) +
-      ". Usage: " + syntax.usage);
+  throw UsageError((what.empty() ? who + " needs a word more; "
+                                 : "there is no '" + who + " " + what.front() + "'" +
+                                       did_you_mean(what.front(), known, "; ")) +
+                   (!what.empty() && !nearest_word(what.front(), known).empty() ? " " : "") +
+                   "there are: " + listed(known) + ". Usage: " + syntax.usage);
 }
 
-void add_common_options(CommandSyntax& syntax) {
-  syntax.options.add_options()("json", "print one machine-readable object on stdout, nothing else")(
-      "color", po::value<std::string>()->default_value("auto")->value_name("WHEN"),
-      "auto, always or never; auto colours a terminal unless NO_COLOR is set or TERM is dumb")(
-      "help,h", "print this");
-  syntax.choices["color"] = {"auto", "always", "never"};
+void check_positional(const CommandSyntax& syntax) {
+  for (const Option& word : syntax.positional.all()) {
+    const bool is_optional = std::holds_alternative<std::optional<std::string>*>(word.target);
+    if (is_optional || is_given(syntax, word.name)) continue;
+    throw UsageError("no " + word.name + " given; usage: " + syntax.usage);
+  }
 }
 
-void check_color(const std::string& when) {
-  if (when == "auto" || when == "always" || when == "never") return;
-  throw UsageError("--color cannot be '" + when + "'; there are: auto, always, never");
+// The library splits words into names and values and knows nothing of their types.
+po::options_description described(const OptionList& options) {
+  po::options_description all;
+  for (const Option& option : options.all()) {
+    const std::string name = option.name == "help" ? "help,h" : option.name;
+    if (is_switch(option)) {
+      all.add_options()(name.c_str(), "");
+    } else if (is_list(option)) {
+      all.add_options()(name.c_str(), po::value<Words>()->composing(), "");
+    } else {
+      all.add_options()(name.c_str(), po::value<std::string>(), "");
+    }
+  }
+  return all;
+}
+
+// The values of all options that are given, and the words that belong to none.
+Words take_given(const Words& words, CommandSyntax& syntax) {
+  Words free;
+  try {
+    const po::options_description options = described(syntax.options);
+    // Shortened options are refused: a new option could change the meaning of an old script.
+    const int style =
+        po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+    const po::parsed_options parsed =
+        po::command_line_parser(words).options(options).style(style).run();
+    po::variables_map checked;  // refuses an option that is given twice
+    po::parsed_options named = parsed;
+    std::erase_if(named.options, [](const po::option& one) { return one.position_key >= 0; });
+    po::store(named, checked);
+    for (const po::option& one : parsed.options) {
+      Words& into = one.position_key >= 0 ? free : syntax.given[one.string_key];
+      into.insert(into.end(), one.value.begin(), one.value.end());
+    }
+  } catch (const po::unknown_option& error) {
+    throw_unknown(error.get_option_name(), syntax);
+  } catch (const po::error& error) {
+    throw UsageError(std::string(error.what()) + "; usage: " + syntax.usage);
+  }
+  return free;
+}
+
+void take_positional(const Words& free, CommandSyntax& syntax) {
+  std::size_t next = 0;
+  for (const Option& word : syntax.positional.all()) {
+    const std::size_t end = is_list(word) ? free.size() : std::min(free.size(), next + 1);
+    if (next < end)
+      syntax.given[word.name].assign(free.begin() + static_cast<long>(next),
+                                     free.begin() + static_cast<long>(end));
+    next = end;
+  }
+  if (next < free.size()) throw_too_many(free, syntax);
+}
+
+void set_all(const OptionList& options, const CommandSyntax& syntax) {
+  const Plausible judged = given_plausible(syntax);
+  for (const Option& option : options.all()) {
+    const auto found = syntax.given.find(option.name);
+    if (found != syntax.given.end()) set_option(option, found->second, judged);
+  }
 }
 
 // --help, or its object with --json, or the receiver of the syntax.
-void show_help(const CommandSyntax& syntax, bool as_json, Streams& streams) {
+void show_help(const CommandSyntax& syntax, Streams& streams) {
   if (streams.on_help) return streams.on_help(syntax);
-  if (as_json) {
+  if (syntax.as_json) {
     return print_result({"viscard-help/1", {}}, [&](ResultVisitor& v) { show_keys(v, syntax); },
                         streams);
   }
@@ -153,63 +146,67 @@ void show_help(const CommandSyntax& syntax, bool as_json, Streams& streams) {
 
 }  // namespace
 
-std::optional<po::variables_map> parse_words(CommandSyntax& syntax, const Words& words,
-                                             Streams& streams) {
-  add_common_options(syntax);
-  po::options_description all;
-  all.add(syntax.options);
-  po::options_description hidden;
-  po::positional_options_description positions;
-  for (std::size_t i = 0; i < syntax.positional.size(); ++i) {
-    const bool repeats = syntax.last_is_repeatable && i + 1 == syntax.positional.size();
-    const char* name = syntax.positional[i].c_str();
-    if (repeats) {
-      hidden.add_options()(name, po::value<std::vector<std::string>>());
-    } else {
-      hidden.add_options()(name, po::value<std::string>());
-    }
-    positions.add(name, repeats ? -1 : 1);
+bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
+  bool is_help = false;
+  std::string color = "auto";  // read by main() before the command begins
+  std::string plausible = "on";
+  syntax.options.group("All commands");
+  if (syntax.reads_quantities && syntax.options.find("plausible") == nullptr) {
+    syntax.options
+        .add("plausible", &plausible,
+             "off: accept values that no test, material or scene can have (a wrong unit, most "
+             "often); the result says so")
+        .among({"on", "off"});
   }
-  all.add(hidden);
-
-  po::variables_map values;
-  try {
-    // Shortened options are refused: a new option could change the meaning of an old script.
-    const int style =
-        po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
-    const po::parsed_options parsed =
-        po::command_line_parser(words).options(all).positional(positions).style(style).run();
-    refuse_negative_counts(parsed);
-    po::store(parsed, values);
-  } catch (const po::unknown_option& error) {
-    throw_unknown(error.get_option_name(), syntax.options, syntax.usage);
-  } catch (const po::too_many_positional_options_error&) {
-    throw_too_many(words, syntax);
-  } catch (const po::validation_error& error) {
-    throw_bad_value(error, words, all, syntax.usage);
-  } catch (const po::error& error) {
-    throw UsageError(std::string(error.what()) + "; usage: " + syntax.usage);
+  syntax.options
+      .add("json", &syntax.as_json, "print one machine-readable object on stdout, nothing else")
+      .only_typed();
+  syntax.options
+      .add("color", &color,
+           "auto, always or never; auto colours a terminal unless NO_COLOR is set or TERM is dumb")
+      .shown_as("WHEN")
+      .among({"auto", "always", "never"})
+      .only_typed();
+  syntax.options.add("help", &is_help, "print this").only_typed();
+  const Words free = take_given(words, syntax);
+  syntax.as_json = is_given(syntax, "json");
+  if (is_given(syntax, "help")) {
+    show_help(syntax, streams);
+    return false;
   }
-  if (values.count("help") > 0) {
-    show_help(syntax, values.count("json") > 0, streams);
-    return std::nullopt;
-  }
-  check_color(values["color"].as<std::string>());
-  check_output_paths(values, syntax.may_exist);
-  check_what(syntax, values);
-  po::notify(values);
-  return values;
+  take_positional(free, syntax);
+  streams.accepts_implausible = given_plausible(syntax) == Plausible::kOff;
+  check_output_paths(syntax);
+  check_what(syntax);
+  with_usage_errors([&] {
+    set_all(syntax.options, syntax);
+    set_all(syntax.positional, syntax);
+  });
+  check_positional(syntax);
+  return true;
 }
 
-std::optional<double> given_quantity(const po::variables_map& values, const char* name,
-                                     const char* si_unit) {
-  const auto text = given(values, name);
-  if (!text) return std::nullopt;
+bool is_given(const CommandSyntax& syntax, const std::string& name) {
+  return syntax.given.count(name) > 0;
+}
+
+Plausible given_plausible(const CommandSyntax& syntax, Plausible otherwise) {
+  const Words words = given_words(syntax, {"plausible"});
   try {
-    return si_from_text(*text, si_unit);
+    return words.empty() ? otherwise : plausible_from_word(words.back(), otherwise);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--") + name + ": " + error.what());
+    throw UsageError(std::string("--") + error.what());
   }
+}
+
+Words given_words(const CommandSyntax& syntax, std::initializer_list<const char*> names) {
+  Words words;
+  for (const char* name : names) {
+    const auto found = syntax.given.find(name);
+    if (found != syntax.given.end())
+      words.insert(words.end(), found->second.begin(), found->second.end());
+  }
+  return words;
 }
 
 std::string quoted_command_line(const std::string& command, const Words& words) {

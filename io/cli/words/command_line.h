@@ -2,48 +2,39 @@
 
 #include "io/cli/words/command_syntax.h"
 #include "io/cli/words/streams.h"
+#include "models/quantities/plausible.h"
 
-#include <boost/program_options.hpp>
-
-#include <optional>
+#include <initializer_list>
 #include <string>
 
 namespace viscard {
 
-// Parses the words. If --help is among them, prints the help and returns nothing. Adds --json, --color
-// and --help to every command. Throws UsageError for an unknown option (with the nearest known one), a
-// missing value or a value that cannot be read, and what check_output_paths() throws if an output
-// would replace an input.
-std::optional<boost::program_options::variables_map> parse_words(CommandSyntax& syntax,
-                                                                 const Words& words,
-                                                                 Streams& streams);
+// Parses the words into the targets of the syntax. If --help is among them, prints the help and returns
+// false. Adds --json, --color and --help to every command. Throws UsageError for an unknown option (with
+// the nearest known one), a missing word or value and a value that is not allowed, and what
+// check_output_paths() throws if an output would replace an input.
+bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams);
 
-// The value of an option that sets `target` if it is given.
-template <typename Value>
-auto* into(std::optional<Value>& target) {
-  return boost::program_options::value<Value>()->notifier(
-      [&target](const Value& value) { target = value; });
-}
+// Whether an option or a positional word was given.
+bool is_given(const CommandSyntax& syntax, const std::string& name);
 
-// A value that was given or has a default.
-template <typename Value = std::string>
-std::optional<Value> given(const boost::program_options::variables_map& values, const char* name) {
-  return values.count(name) > 0 ? std::optional(values[name].as<Value>()) : std::nullopt;
-}
+// The values as typed of those options and positional words that were given, in this order.
+Words given_words(const CommandSyntax& syntax, std::initializer_list<const char*> names);
 
-// The same in SI of a number or a text with its unit. Throws UsageError naming the option.
-std::optional<double> given_quantity(const boost::program_options::variables_map& values,
-                                     const char* name, const char* si_unit);
-
-// A positional word. Throws UsageError "no scene given; usage: ..." if it is missing.
-template <typename Value = std::string>
-Value required(const boost::program_options::variables_map& values, const char* name,
-               const CommandSyntax& syntax) {
-  if (const auto value = given<Value>(values, name)) return *value;
-  throw UsageError(std::string("no ") + name + " given; usage: " + syntax.usage);
-}
+// How --plausible wants numbers judged: `otherwise`, or kOff.
+Plausible given_plausible(const CommandSyntax& syntax, Plausible otherwise = Plausible::kMeasured);
 
 // "viscard" and the words, quoted for a shell; output files record it.
 std::string quoted_command_line(const std::string& command, const Words& words);
+
+// Does the work; a mistake in the options becomes a UsageError.
+template <typename Work>
+auto with_usage_errors(const Work& work) {
+  try {
+    return work();
+  } catch (const OptionError& error) {
+    throw UsageError(error.what());
+  }
+}
 
 }  // namespace viscard

@@ -33,15 +33,16 @@ std::string wrapped(const std::string& text, std::size_t columns, std::size_t in
   return lines;
 }
 
-std::string names_of(const ShownOption& option) {
-  std::string text = option.letter.empty() ? "--" + option.name
-                                           : "-" + option.letter + " [ --" + option.name + " ]";
-  if (!option.value.empty()) text += " " + option.value;
+std::string names_of(const Option& option) {
+  const std::string letter = letter_of(option), value = value_of(option);
+  std::string text =
+      letter.empty() ? "--" + option.name : "-" + letter + " [ --" + option.name + " ]";
+  if (!value.empty()) text += " " + value;
   if (!option.initial.empty()) text += " (=" + option.initial + ")";
   return text;
 }
 
-std::string row_of(const ShownOption& option, std::size_t columns, bool is_coloured) {
+std::string row_of(const Option& option, std::size_t columns, bool is_coloured) {
   const std::string names = "  " + names_of(option);
   if (columns < kTwoColumns || names.size() > kNames) {
     return fitted(bold(names, is_coloured), is_coloured ? 0 : columns) + "\n" +
@@ -53,36 +54,29 @@ std::string row_of(const ShownOption& option, std::size_t columns, bool is_colou
 
 }  // namespace
 
-std::vector<ShownOption> shown_options(const CommandSyntax& syntax) {
-  std::vector<ShownOption> shown;
-  for (const auto& option : syntax.options.options()) {
-    ShownOption one;
-    one.name = option->long_name();
-    const std::string names = option->format_name();  // "-h [ --help ]" or "--out"
-    if (names.size() > 1 && names[1] != '-') one.letter = names.substr(1, 1);
-    if (option->semantic()->max_tokens() > 0) {
-      std::string parameter = option->format_parameter();  // "arg (=50)"
-      const std::size_t at = parameter.find(" (=");
-      if (at != std::string::npos) {
-        one.initial = parameter.substr(at + 3, parameter.size() - at - 4);
-        parameter.erase(at);
-      }
-      one.value = parameter;
-    }
-    one.what = option->description();
-    const auto choices = syntax.choices.find(one.name);
-    if (choices != syntax.choices.end()) one.choices = choices->second;
-    shown.push_back(std::move(one));
-  }
-  return shown;
+std::string value_of(const Option& option) {
+  if (is_switch(option)) return "";
+  if (!option.value.empty()) return option.value;
+  return option.is_file ? "FILE" : "arg";
+}
+
+std::string letter_of(const Option& option) {
+  return option.name == "help" ? "h" : "";
 }
 
 std::string help_text(const CommandSyntax& syntax, std::size_t columns, bool is_coloured) {
   columns = columns == 0 ? kUsual : std::min(columns, kUsual);
   std::string text = fitted("usage: " + std::string(syntax.usage), columns) + "\n\n" +
-                     wrapped(syntax.description, columns, 0) + "\n\n" +
-                     bold("Options:", is_coloured) + "\n";
-  for (const ShownOption& option : shown_options(syntax)) {
+                     wrapped(syntax.description, columns, 0) + "\n\n";
+  // Short lists need no headings.
+  const bool has_groups = !syntax.options.all().front().group.empty();
+  std::string heading;
+  if (!has_groups) text += bold("Options:", is_coloured) + "\n";
+  for (const Option& option : syntax.options.all()) {
+    if (has_groups && option.group != heading) {
+      text += (heading.empty() ? "" : "\n") + bold(option.group + ":", is_coloured) + "\n";
+      heading = option.group;
+    }
     text += row_of(option, columns, is_coloured);
   }
   // The example stays one line, so that it can be copied.
@@ -95,18 +89,27 @@ void show_keys(ResultVisitor& v, const CommandSyntax& syntax) {
   std::string description, word;
   while (words >> word) description += (description.empty() ? "" : " ") + word;
   const auto text = [](const char* one) { return std::string(one == nullptr ? "" : one); };
+  std::vector<std::string> positional;
+  for (const Option& one : syntax.positional.all()) positional.push_back(one.name);
+  const auto& all = syntax.options.all();
   v("usage", text(syntax.usage), "the synopsis");
   v("description", description, "what the command does");
   v("example", text(syntax.example), "a command line that works as printed");
-  v("positional", syntax.positional, "names of the words that are no options");
-  v.list("options", "all options", shown_options(syntax), [&](const ShownOption& one) {
-    const auto initial = one.initial.empty() ? std::nullopt : std::optional(one.initial);
-    v("name", one.name, "without the dashes");
-    v("takes_value", !one.value.empty(), "whether a value follows");
-    v.or_null("default", initial, "the value if it is not given");
-    v("choices", one.choices, "the values that are allowed; empty: any");
-    v("description", one.what, "what it does");
-  });
+  v("positional", positional, "names of the words that are no options");
+  v.list("options", "all options", std::vector<Option>{all.begin(), all.end()},
+         [&](const Option& one) {
+           const auto initial = one.initial.empty() ? std::nullopt : std::optional(one.initial);
+           v("name", one.name, "without the dashes");
+           v("takes_value", !is_switch(one), "whether a value follows");
+           v.or_null("default", initial, "the value if it is not given");
+           v("choices", one.choices, "the values that are allowed; empty: any");
+           v("description", one.what, "what it does");
+           v("group", one.group, "heading above it in the help");
+           v("type", type_of(one), "flag, text, file, whole number, number or quantity");
+           v("is_list", is_list(one), "whether it may be given several times");
+           v("unit", one.unit, "SI unit of a quantity; empty: none");
+           v("is_keyword", one.is_keyword, "whether Python has it as a keyword");
+         });
 }
 
 }  // namespace viscard

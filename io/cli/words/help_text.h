@@ -7,16 +7,10 @@
 
 namespace viscard {
 
-// One option as help, manual pages and completion show it.
-struct ShownOption {
-  std::string name;                  // "out"
-  std::string letter;                // "h"; empty: none
-  std::string value;                 // "FILE", "arg"; empty: the option takes no value
-  std::string initial;               // its default as text; empty: none
-  std::string what;                  // the description
-  std::vector<std::string> choices;  // the values that are allowed; empty: any
-};
-std::vector<ShownOption> shown_options(const CommandSyntax& syntax);
+// What stands for the value of an option: "FILE", "arg"; empty: a switch.
+std::string value_of(const Option& option);
+// Its short form, "h" of --help; empty: none.
+std::string letter_of(const Option& option);
 
 // What --help prints, in lines of at most so many characters; 0: 96.
 std::string help_text(const CommandSyntax& syntax, std::size_t columns, bool is_coloured);

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-namespace po = boost::program_options;
-
 namespace viscard {
 namespace {
 
@@ -27,24 +25,13 @@ void print_line(const nlohmann::ordered_json& object, Streams& streams, int inde
 
 }  // namespace
 
-Words given_words(const po::variables_map& values, std::initializer_list<const char*> names) {
-  Words words;
-  for (const char* name : names) {
-    if (values.count(name) == 0) continue;
-    const boost::any& held = values[name].value();
-    if (const auto* text = boost::any_cast<std::string>(&held)) {
-      words.push_back(*text);
-    } else if (const auto* texts = boost::any_cast<std::vector<std::string>>(&held)) {
-      words.insert(words.end(), texts->begin(), texts->end());
-    }
-  }
-  return words;
-}
-
 void show_head(ResultVisitor& v, const JsonHead& head) {
   v.word("schema", head.schema, {head.schema}, "name and version of the description");
   v("version", VISCARD_VERSION, "version of viscard");
   v("inputs", head.inputs, "the files that were read, as they were named");
+  v.when(head.accepts_implausible, [&] {
+    v.word("plausible", "off", {"off"}, "that ranges of plausible values were switched off");
+  });
 }
 
 void show_origin(ResultVisitor& v, const std::string& command) {

@@ -1,12 +1,11 @@
 #pragma once
 
+#include "io/cli/words/command_syntax.h"
 #include "io/cli/words/streams.h"
 #include "io/results/result_json.h"
 
-#include <boost/program_options/variables_map.hpp>
 
 #include <functional>
-#include <initializer_list>
 
 namespace viscard {
 
@@ -15,11 +14,8 @@ namespace viscard {
 struct JsonHead {
   const char* schema;  // "viscard-fit/1"
   Words inputs;
+  bool accepts_implausible = false;  // "plausible": "off"
 };
-
-// The values of those options and positional words that were given, in this order.
-Words given_words(const boost::program_options::variables_map& values,
-                  std::initializer_list<const char*> names);
 
 // The head as keys, of an object within another one.
 void show_head(ResultVisitor& v, const JsonHead& head);
@@ -34,8 +30,8 @@ nlohmann::ordered_json with_head(const JsonHead& head, const ShowKeys& show);
 void print_result(const JsonHead& head, const ShowKeys& show, Streams& streams, int indent = 2);
 
 // The same if --json was given; returns whether it was.
-bool print_result(const boost::program_options::variables_map& values, const JsonHead& head,
-                  const ShowKeys& show, Streams& streams);
+bool print_result(const CommandSyntax& syntax, const JsonHead& head, const ShowKeys& show,
+                  Streams& streams);
 
 // Runs a command. If it throws, --json is among its words, and no object has been printed, prints
 // {"error": {"code", "message", "where", "hint"}} with schema and version as one line on stdout; the

@@ -15,7 +15,6 @@
 #include <vector>
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 
 namespace viscard {
 namespace {
@@ -28,15 +27,12 @@ struct NamedPath {
   bool is_output = false;
 };
 
-std::vector<NamedPath> paths_among(const po::variables_map& values) {
+std::vector<NamedPath> paths_among(const CommandSyntax& syntax) {
   std::vector<NamedPath> paths;
-  for (const auto& [name, value] : values) {
+  for (const auto& [name, values] : syntax.given) {
     const bool is_output = std::find(kOutputs.begin(), kOutputs.end(), name) != kOutputs.end();
-    const boost::any& held = value.value();
-    if (const auto* text = boost::any_cast<std::string>(&held)) {
-      if (!text->empty()) paths.push_back({name, *text, is_output});
-    } else if (const auto* texts = boost::any_cast<std::vector<std::string>>(&held)) {
-      for (const std::string& each : *texts) paths.push_back({name, each, is_output});
+    for (const std::string& each : values) {
+      if (!each.empty()) paths.push_back({name, each, is_output});
     }
   }
   return paths;
@@ -79,13 +75,6 @@ void refuse_unwritable_folder(const NamedPath& output) {
   }
 }
 
-// --force is an option without value or a switch.
-bool is_forced(const po::variables_map& values) {
-  if (values.count("force") == 0) return false;
-  const auto* is_on = boost::any_cast<bool>(&values["force"].value());
-  return is_on == nullptr || *is_on;
-}
-
 }  // namespace
 
 void refuse_folder_as_file(const std::string& option, const fs::path& output) {
@@ -113,16 +102,16 @@ void refuse_folder_as_file(const std::string& option, const fs::path& output) {
   }
 }
 
-void check_output_paths(const po::variables_map& values,
-                        const std::vector<std::string>& may_exist) {
-  const std::vector<NamedPath> paths = paths_among(values);
+void check_output_paths(const CommandSyntax& syntax) {
+  const std::vector<NamedPath> paths = paths_among(syntax);
   for (const NamedPath& path : paths) {
     if (!path.is_output) continue;
     refuse_shared_file(path, paths);
     refuse_unwritable_folder(path);
+    const auto& may_exist = syntax.may_exist;
     if (std::find(may_exist.begin(), may_exist.end(), path.option) != may_exist.end()) continue;
     refuse_folder_as_file(path.option, path.path);
-    refuse_existing(path.path, is_forced(values));
+    refuse_existing(path.path, syntax.given.count("force") > 0);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <boost/program_options/variables_map.hpp>
+#include "io/cli/words/command_syntax.h"
 
 #include <filesystem>
 #include <string>
@@ -11,10 +11,9 @@ namespace viscard {
 // Checks every option that names an output (--out, --csv, --creep-csv, --svg, --vtk) before the
 // work starts. Throws UsageError if the output is also an input of the command (--force would
 // destroy it) or another output, std::runtime_error if its folder is not a folder or not writable, or if a
-// new file is to be written to a name that is a folder, lies in none, or exists without --force. `may_exist`:
+// new file is to be written to a name that is a folder, lies in none, or exists without --force. syntax.may_exist:
 // the options for folders, which are made, and for files that are continued.
-void check_output_paths(const boost::program_options::variables_map& values,
-                        const std::vector<std::string>& may_exist);
+void check_output_paths(const CommandSyntax& syntax);
 
 // Of check_output_paths(): throws if a file cannot have that name, which is a folder or lies in none.
 void refuse_folder_as_file(const std::string& option, const std::filesystem::path& output);

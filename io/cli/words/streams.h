@@ -20,7 +20,8 @@ struct Streams {
   std::ostream& err;
   bool err_is_terminal = false;
   bool has_printed_json = false;  // --json prints one object; an error after it is only a message
-  std::size_t columns = 0;        // width of the terminal that out is; 0: not known
+  bool accepts_implausible = false;  // --plausible off, or so says a scene; --json states it
+  std::size_t columns = 0;           // width of the terminal that out is; 0: not known
   bool is_out_coloured = false, is_err_coloured = false;
   // Receives the syntax of a command in the place of its --help, for manual pages and completion.
   std::function<void(const CommandSyntax&)> on_help = nullptr;

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <string_view>
 
 namespace viscard {
 namespace {
@@ -24,17 +23,9 @@ Lattice lattice_of(const std::string& word) {
   if (word == "square") return Lattice::kSquare;
   if (word == "hexagonal") return Lattice::kHexagonal;
   if (word == "plain") return Lattice::kPlain;
-  throw std::invalid_argument("--lattice cannot be '" + word + "'" +
+  throw std::invalid_argument("--lattice " + word + " is not known" +
                               did_you_mean(word, {"square", "hexagonal", "plain"}) +
-                              " There are: square, hexagonal, plain");
-}
-
-// No length of a sensor exceeds a metre; a longer one shows that a unit was forgotten or mistaken.
-void refuse_mistaken_unit(const DesignOption& option, double value) {
-  if (std::string_view(option.unit) != "m" || std::abs(value) <= 1.0) return;
-  throw std::invalid_argument(fmt::format(
-      "--{} is {:g} m, but no length of a sensor is more than 1 m; did you mean \"{:g} um\"?",
-      option.name, value, value));
+                              " Use square, hexagonal or plain");
 }
 
 // Lengths in um, the rest as it is.
@@ -52,8 +43,8 @@ std::vector<DesignOption> options_of(ClosedFormDesign& d) {
       {"spacing", "m", "between pillars, edge to edge", &d.geometry.spacing_m},
       {"length", "m", "of a pillar", &d.geometry.length_m},
       {"pressure", "Pa", "largest, mean over the sensor", &r.pressure_Pa},
-      {"modulus", "Pa", "Young's modulus of the pillars", &m.young_modulus_Pa},
-      {"poisson", "1", "Poisson ratio of the pillars", &m.poisson_ratio},
+      {"modulus", quantities::kModulus, "Young's modulus of the pillars", &m.young_modulus_Pa},
+      {"poisson", quantities::kPoissonRatio, "Poisson ratio of the pillars", &m.poisson_ratio},
       {"surface-energy", "J/m2", "gamma of the pillars", &m.surface_energy_J_m2},
       {"work-of-adhesion", "J/m2", "w of the contact; twice gamma unless given",
        &m.work_of_adhesion_J_m2},
@@ -71,14 +62,13 @@ std::vector<DesignOption> options_of(ClosedFormDesign& d) {
 }
 
 ClosedFormDesign closed_form_design(
-    const std::function<std::optional<double>(const char* name, const char* unit)>& given,
+    const std::function<std::optional<double>(const char* name, const QuantityOrUnit& unit)>& given,
     const std::optional<std::string>& lattice) {
   ClosedFormDesign design;
   bool has_adhesion = false;
   for (const DesignOption& option : options_of(design)) {
     const std::optional<double> value = given(option.name, option.unit);
     if (!value) continue;
-    refuse_mistaken_unit(option, *value);
     *option.value = *value;
     has_adhesion = has_adhesion || option.value == &design.material.work_of_adhesion_J_m2;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/quantities/quantities.h"
 #include "models/sensor/sensor_design.h"
 
 #include <functional>
@@ -21,7 +22,7 @@ struct ClosedFormDesign {
 // A quantity of a design: a number in SI, or a text with its unit.
 struct DesignOption {
   const char* name;  // "film-thickness"
-  const char* unit;  // in SI; "1" of a pure number
+  QuantityOrUnit unit;
   const char* what;  // in words
   double* value;     // in the design
 };
@@ -34,7 +35,7 @@ std::vector<DesignOption> options_of(ClosedFormDesign& design);
 // work of adhesion, twice the surface energy is used (equal surfaces). Throws std::invalid_argument
 // naming the value that is outside its range.
 ClosedFormDesign closed_form_design(
-    const std::function<std::optional<double>(const char* name, const char* unit)>& given,
+    const std::function<std::optional<double>(const char* name, const QuantityOrUnit& unit)>& given,
     const std::optional<std::string>& lattice);
 
 // The keys of `viscard design --json`, and its text with one line for each limit.

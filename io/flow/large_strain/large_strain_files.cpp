@@ -2,6 +2,8 @@
 
 #include "fit/large_strain/load_cycles.h"
 #include "fit/large_strain/rubber_term_checks.h"
+#include "io/flow/plausible_record.h"
+#include "io/materials/plausible_numbers.h"
 #include "io/tables/column_proposal.h"
 #include "io/tables/csv_table.h"
 #include "models/maths/text_of_number.h"
@@ -39,6 +41,19 @@ std::optional<LargeStrainFile> large_strain_file(const std::string& word) {
     return LargeStrainFile{known.deformation, known.is_compression, path};
   }
   return std::nullopt;
+}
+
+// Flags what is doubtful about a fitted law, or throws for one that no rubber has.
+void judge_rubber(const std::vector<CsvTable>& tables, const LargeStrainRequest& request,
+                  LargeStrainResult& result) {
+  static const std::vector<std::string> kColumns{"nominal_stress_Pa", "stress_Pa", "time_s"};
+  for (const CsvTable& table : tables) {
+    if (const auto flag = assumed_units(table, request.columns, kColumns)) {
+      result.notes.push_back(*flag);
+    }
+  }
+  if (request.plausible == Plausible::kOff) return flag_plausible_off(result.notes);
+  refuse_modulus(result.best().E0_Pa, &tables.front(), request.columns, request.plausible);
 }
 
 // Stretches of a table, from a column of stretches or of nominal strains.
@@ -83,8 +98,8 @@ void turn_compression(LargeStrainTest& test, const std::string& file) {
   for (double& stress : test.nominal_stress_Pa) stress = -stress;
 }
 
-LargeStrainTest test_of_file(const LargeStrainFile& file, const LargeStrainRequest& request) {
-  const CsvTable table = read_csv(file.path, request.sheet);
+LargeStrainTest test_of_file(const LargeStrainFile& file, const CsvTable& table,
+                             const LargeStrainRequest& request) {
   LargeStrainTest test{file.is_compression ? "compression" : name_of(file.deformation),
                        file.deformation, stretches_of(table, request.columns),
                        stresses_of(table, request.columns)};
@@ -197,8 +212,11 @@ std::vector<LargeStrainFile> large_strain_from_words(const std::vector<std::stri
 FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   FittedLargeStrain fitted;
   fitted.files = request.files;
+  std::vector<CsvTable> tables;
   for (const LargeStrainFile& file : request.files) {
-    fitted.tests.push_back(test_of_file(file, request));
+    tables.push_back(read_csv(file.path, request.sheet));
+    tables.back().judged = request.plausible;
+    fitted.tests.push_back(test_of_file(file, tables.back(), request));
   }
   number_names(fitted.tests);
   std::vector<MaterialFlag> notes;  // those of the fitted rows are made by the fit
@@ -211,6 +229,7 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   for (std::size_t i = 0; i < fitted.tests.size(); ++i) {
     add_mullins_note(fitted.tests[i].name, fitted.cycles[i], fitted.result);
   }
+  judge_rubber(tables, request, fitted.result);
   return fitted;
 }
 

@@ -35,6 +35,7 @@ struct LargeStrainRequest {
   LargeStrainOptions options;
   // Of records with unloading: fit the loading of this cycle, from 1; 0: all rows; none: of the last.
   std::optional<int> cycle;
+  Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the result
 };
 
 // What was taken of a record with cycles.
@@ -56,7 +57,7 @@ struct FittedLargeStrain {
 // stress: force over area at rest. The strains and stresses of a compression test may be counted
 // positive. Times (time_s) in all tables give terms of relaxation beside the law. Of a record with
 // unloading one loading is fitted, of one with times and a single cycle all rows; softening by more than 5 % gives the note mullins. Throws std::runtime_error with the name
-// of the file.
+// of the file, also for stretches, stresses and a modulus that are not plausible.
 FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request);
 
 // The keys of `viscard fit --json`: laws with intervals, tests, flags.

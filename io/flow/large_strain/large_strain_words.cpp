@@ -1,8 +1,8 @@
 #include "io/flow/large_strain/large_strain_words.h"
 
+#include "io/basics/option_quantity.h"
 #include "io/basics/units.h"
 #include "io/basics/words.h"
-#include "io/flow/words/option_error.h"
 #include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 
@@ -55,7 +55,7 @@ void check_both(const LargeStrainOptions& options) {
 }
 
 // "1.8 MPa" or "1.8 MPa +- 0.1 MPa", of E0, or behind "E_inf=" of what is left after all relaxation.
-std::optional<KnownModulus> modulus_from(const LargeStrainWords& words) {
+std::optional<KnownModulus> modulus_from(const LargeStrainWords& words, Plausible judged) {
   const auto& text = words.youngs_modulus;
   if (!text) return std::nullopt;
   try {
@@ -74,6 +74,10 @@ std::optional<KnownModulus> modulus_from(const LargeStrainWords& words) {
       known.se_Pa = half / kNormal95;
     }
     if (!(known.value_Pa > 0.0)) throw std::invalid_argument("a modulus must be positive");
+    if (const auto doubt = doubt_about(quantities::kModulus, known.value_Pa, judged)) {
+      throw std::invalid_argument(
+          doubt->with_remedy("write \"" + doubt->meant + "\"", "add --plausible off"));
+    }
     return known;
   } catch (const std::invalid_argument& error) {
     throw OptionError("--youngs-modulus " + *text + ": " + error.what());
@@ -81,6 +85,31 @@ std::optional<KnownModulus> modulus_from(const LargeStrainWords& words) {
 }
 
 }  // namespace
+
+void add_large_strain_options(OptionList& list, LargeStrainWords& words) {
+  list.group("Large strain");
+  list.add("weight", &words.weight,
+           "equal (default; every stress counts alike) or relative (by its own size)")
+      .among({"equal", "relative"});
+  list.add("youngs-modulus", &words.youngs_modulus,
+           "the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 MPa +- 0.1 "
+           "MPa\" (95 %); \"E_inf=1.5 MPa\" is that after all relaxation")
+      .of("Pa");
+  list.add("cycle", &words.cycle,
+           "fit the loading of this cycle of records with unloading (default: the last), or all "
+           "rows")
+      .of("1");
+}
+
+LargeStrainWords with_shared_options(LargeStrainWords words, const FitWords& fit) {
+  words.model = fit.model;
+  words.sheet = fit.sheet;
+  words.plausible = fit.plausible;
+  words.column = fit.column;
+  words.terms = fit.terms;
+  words.max_terms = fit.max_terms;
+  return words;
+}
 
 LargeStrainRequest large_strain_request(const LargeStrainWords& words,
                                         std::vector<LargeStrainFile> files) {
@@ -94,7 +123,12 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   request.sheet = words.sheet.value_or("");
   request.options.forms = forms_from(words);
   request.options.weight = weight_from(words);
-  request.options.modulus = modulus_from(words);
+  try {
+    request.plausible = plausible_from_word(words.plausible.value_or("on"), Plausible::kMeasured);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(std::string("--") + error.what());
+  }
+  request.options.modulus = modulus_from(words, request.plausible);
   request.options.n_terms = terms_from(words.terms, "--terms");
   request.options.max_terms = terms_from(words.max_terms, "--max-terms");
   check_both(request.options);

@@ -81,7 +81,8 @@ Scene UncertainScene::scene_at(const Eigen::VectorXd& deviates) const {
   for (const UncertainField& one : file_.uncertain) {
     values[one.key] = value_at(one.number, deviates[next++]);
   }
-  Scene scene = scene_from_toml(text_, path_, values).scene;
+  // The file was judged at its values; an error bar may reach beyond a range.
+  Scene scene = scene_from_toml(text_, path_, values, Plausible::kOff).scene;
   SceneCommon& parts = common(scene);
   parts.tolerance = common(file_.scene).tolerance;
   parts.pillar = material_at(parts.pillar, file_.material_causes.causes,

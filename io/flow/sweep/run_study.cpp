@@ -10,10 +10,40 @@
 
 namespace viscard {
 
-StudyPoint answer_point(const Study& study, std::int64_t number) {
+namespace {
+
+// All values of a grid; the ends of a range.
+std::vector<std::string> texts_of(const StudyParameter& parameter) {
+  return parameter.values.empty() ? std::vector<std::string>{parameter.from, parameter.to}
+                                  : parameter.values;
+}
+
+}  // namespace
+
+void check_values(const Study& study, Plausible judged) {
+  const StudyValues first = values_at(study, 0);
+  // A mistake in the study or its scene.
+  scene_from_toml(scene_text_with(study, first), study.scene_path, {}, judged);
+  for (std::size_t k = 0; k < study.parameters.size(); ++k) {
+    for (const std::string& text : texts_of(study.parameters[k])) {
+      StudyValues values = first;
+      values[k].second = text;
+      try {
+        scene_from_toml(scene_text_with(study, values), study.scene_path, {}, judged);
+      } catch (const BadNumber& error) {
+        throw BadNumber(study.path.string() + ": parameter '" + values[k].first +
+                                 "' cannot be \"" + text + "\" (" + error.what() + ")");
+      } catch (const std::exception&) {  // perhaps right beside other values
+      }
+    }
+  }
+}
+
+StudyPoint answer_point(const Study& study, std::int64_t number, Plausible judged) {
   StudyPoint point{.point = number, .values = values_at(study, number)};
   try {
-    const SceneFile file = scene_from_toml(scene_text_with(study, point.values), study.scene_path);
+    const SceneFile file =
+        scene_from_toml(scene_text_with(study, point.values), study.scene_path, {}, judged);
     point.results = named_values(answer_scene(file, study.scene_path.string(), {}));
   } catch (const std::exception& error) {
     point.failure = error.what();
@@ -52,12 +82,12 @@ std::vector<std::int64_t> open_points(const Study& study, const StudyShard& shar
 }
 
 StudyOutcome run_study(const Study& study, const StudyShard& shard, StudyStore& store,
-                       const std::function<void(double)>& progress) {
+                       const std::function<void(double)>& progress, Plausible judged) {
   StudyOutcome outcome;
   const std::vector<std::int64_t> open = open_points(study, shard, store, outcome);
   std::mutex mutex;
   for_each_in_parallel(open.size(), [&](std::size_t i) {
-    const StudyPoint point = answer_point(study, open[i]);
+    const StudyPoint point = answer_point(study, open[i], judged);
     const std::lock_guard<std::mutex> lock(mutex);
     store.add(point);
     ++outcome.n_answered;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/flow/sweep/study_store.h"
+#include "models/quantities/plausible.h"
 
 #include <cstdint>
 #include <functional>
@@ -25,8 +26,14 @@ struct StudyOutcome {
   std::int64_t n_failed = 0;    // of those answered now
 };
 
+// Reads the scene at every value of every parameter. Throws std::runtime_error naming the parameter and
+// the value for one that the scene cannot take: a wrong unit, or no plausible number. What only some
+// combinations contradict stays with their points.
+void check_values(const Study& study, Plausible judged = Plausible::kScene);
+
 // The scene's answer at one point, or the reason why there is none.
-StudyPoint answer_point(const Study& study, std::int64_t number);
+StudyPoint answer_point(const Study& study, std::int64_t number,
+                        Plausible judged = Plausible::kScene);
 
 // The points of the shard that the store does not hold yet, ascending. Sets n_points and n_before of
 // the outcome.
@@ -37,6 +44,7 @@ std::vector<std::int64_t> open_points(const Study& study, const StudyShard& shar
 // ends. A point without an answer is kept with the reason. progress: called with the fraction done; may
 // be empty.
 StudyOutcome run_study(const Study& study, const StudyShard& shard, StudyStore& store,
-                       const std::function<void(double)>& progress);
+                       const std::function<void(double)>& progress,
+                       Plausible judged = Plausible::kScene);
 
 }  // namespace viscard

@@ -3,8 +3,8 @@
 #include "fit/assembly/constraints.h"
 #include "fit/laws/law_values.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/option_quantity.h"
 #include "io/basics/timestamp.h"
-#include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/config/config_file.h"
 #include "models/hyperelastic/hyperelastic_law.h"
@@ -19,13 +19,22 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// In SI of a number or a text with its unit. Throws OptionError naming the option.
-std::optional<double> quantity(const FitWords::Text& text, const char* name, const char* si_unit) {
-  if (!text) return std::nullopt;
+// Throws OptionError for a word that is neither on nor off.
+Plausible plausible_of(const FitWords& words) {
   try {
-    return si_from_text(*text, si_unit);
+    return plausible_from_word(words.plausible.value_or("on"), Plausible::kMeasured);
   } catch (const std::invalid_argument& error) {
-    throw OptionError(std::string("--") + name + ": " + error.what());
+    throw OptionError(std::string("--") + error.what());
+  }
+}
+
+// In SI of a number or a text with its unit. Throws OptionError naming the option.
+std::optional<double> quantity(const FitWords& words, FitWords::Text FitWords::*text,
+                               const char* name, const QuantityOrUnit& unit) {
+  try {
+    return option_quantity(std::string("--") + name, words.*text, unit, plausible_of(words));
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
   }
 }
 
@@ -121,12 +130,24 @@ FitOptions options_from(const FitWords& words) {
   return options;
 }
 
+void refuse_implausible_number(const std::string& name, double value, const Quantity& quantity,
+                               const FitWords& words) {
+  try {
+    refuse_implausible_option(name, value, quantity, plausible_of(words));
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+}
+
 std::optional<Specimen> specimen_from(const FitWords& words) {
   std::optional<Specimen> specimen;
-  const auto layer_m = quantity(words.layer_thickness, "layer-thickness", "m");
+  const auto layer_m =
+      quantity(words, &FitWords::layer_thickness, "layer-thickness", quantities::kThickness);
   const std::optional<double> nu = words.poisson_ratio;
-  if (words.specimen) specimen = read_specimen(*words.specimen);
-  if (const auto diameter_m = quantity(words.punch_diameter, "punch-diameter", "m")) {
+  if (nu) refuse_implausible_number("--poisson-ratio", *nu, quantities::kPoissonRatio, words);
+  if (words.specimen) specimen = read_specimen(*words.specimen, plausible_of(words));
+  if (const auto diameter_m =
+          quantity(words, &FitWords::punch_diameter, "punch-diameter", quantities::kTipSize)) {
     if (!specimen) {
       specimen.emplace();
       specimen->contact.poisson_ratio = 0.495;
@@ -144,8 +165,8 @@ std::optional<Specimen> specimen_from(const FitWords& words) {
 
 // The options that choose rows, and the depth of a record of force.
 void add_chosen_part(const FitWords& words, FitRequest& request) {
-  request.from_s = quantity(words.from, "from", "s");
-  request.to_s = quantity(words.to, "to", "s");
+  request.from_s = quantity(words, &FitWords::from, "from", "s");
+  request.to_s = quantity(words, &FitWords::to, "to", "s");
   if (request.from_s && request.to_s && !(*request.from_s < *request.to_s)) {
     throw OptionError("--from must be before --to");
   }
@@ -159,7 +180,7 @@ void add_chosen_part(const FitWords& words, FitRequest& request) {
     request.crop = true;
     if (request.hold > 0) throw OptionError("--hold and --crop choose two parts; give one of them");
   }
-  request.depth_m = quantity(words.depth, "depth", "m");
+  request.depth_m = quantity(words, &FitWords::depth, "depth", quantities::kDepth);
   if (request.depth_m && !(*request.depth_m > 0.0)) {
     throw OptionError("--depth must be positive, such as \"0.1 mm\"");
   }
@@ -167,19 +188,15 @@ void add_chosen_part(const FitWords& words, FitRequest& request) {
 
 }  // namespace
 
-namespace {
-
-// Laws of viscoelasticity and of rubber.
 std::vector<std::string> all_model_names() {
   std::vector<std::string> names = law_names();
   for (const auto& name : hyperelastic_names()) names.emplace_back(name);
   return names;
 }
 
-}  // namespace
-
 FitRequest fit_request(const FitWords& words) {
   FitRequest request;
+  request.plausible = plausible_of(words);
   if (words.kind) request.kind = kind_from_word(*words.kind);
   request.options = options_from(words);
   request.diagnose = words.diagnose;
@@ -195,7 +212,7 @@ FitRequest fit_request(const FitWords& words) {
       throw OptionError("--terms does not belong to --model, because a law has no terms; omit it");
     }
   }
-  request.time_zero_s = quantity(words.time_zero, "time-zero", "s").value_or(0.0);
+  request.time_zero_s = quantity(words, &FitWords::time_zero, "time-zero", "s").value_or(0.0);
   try {
     request.columns = column_map_from_words(words.column);
   } catch (const std::invalid_argument& error) {
@@ -203,14 +220,16 @@ FitRequest fit_request(const FitWords& words) {
   }
   request.sheet = words.sheet.value_or("");
   request.segments = words.segment;
-  if (const auto stiffness_N_m = quantity(words.frame_stiffness, "frame-stiffness", "N/m")) {
+  if (const auto stiffness_N_m =
+          quantity(words, &FitWords::frame_stiffness, "frame-stiffness", quantities::kStiffness)) {
     request.frame_stiffness_N_m = *stiffness_N_m;
     if (!(*stiffness_N_m > 0.0)) {
       throw OptionError("--frame-stiffness must be positive; omit it for a rigid frame");
     }
   }
   add_chosen_part(words, request);
-  request.T_ref_C = quantity(words.reference_temperature, "reference-temperature", "degC");
+  request.T_ref_C =
+      quantity(words, &FitWords::reference_temperature, "reference-temperature", "degC");
   request.specimen = specimen_from(words);
   return request;
 }
@@ -218,7 +237,7 @@ FitRequest fit_request(const FitWords& words) {
 MaterialRequest material_request(const FitWords& words, const std::string& command) {
   MaterialRequest request{
       .nu = words.poisson_ratio, .command = command, .created_at = now_iso8601()};
-  request.rho_kg_m3 = quantity(words.density, "density", "kg/m3");
+  request.rho_kg_m3 = quantity(words, &FitWords::density, "density", "kg/m3");
   if (request.rho_kg_m3 && !(*request.rho_kg_m3 > 0.0)) {
     throw OptionError("--density must be positive, such as \"965 kg/m3\"");
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/flow/fit_file.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 
 #include <cstddef>
 #include <optional>
@@ -24,13 +24,19 @@ struct FitWords {
   std::vector<std::string> column, segment;
   Text sheet, time_zero, from, to, crop, depth;
   std::optional<int> hold;
-  Text specimen, punch_diameter, layer_thickness, frame_stiffness, reference_temperature, density;
+  Text plausible, specimen, punch_diameter, layer_thickness, frame_stiffness, reference_temperature,
+      density;
   std::optional<double> poisson_ratio;
   // Several files.
   std::vector<double> ratio;
   std::vector<std::string> specimen_id, share;
   bool joint = false, own_terms = false;
 };
+// Its options.
+OptionList options_of(FitWords& words);
+
+// Names of the laws that --model takes: of viscoelasticity and of rubber.
+std::vector<std::string> all_model_names();
 
 // What to fit and how. Throws OptionError for a value that is not allowed, and std::runtime_error
 // for a bad specimen or constraint file.

@@ -1,6 +1,6 @@
 #include "io/flow/words/predict_words.h"
 
-#include "io/basics/units.h"
+#include "io/basics/option_quantity.h"
 #include "io/basics/words.h"
 
 #include <algorithm>
@@ -18,29 +18,18 @@ std::optional<PredictedTest> predicted_test(const PredictWords::Text& word) {
                     listed(names));
 }
 
-// In SI of a number or a text with its unit. Throws OptionError naming the option.
-std::optional<double> size_of(const PredictWords::Text& text, const char* name, const char* unit) {
-  if (!text) return std::nullopt;
-  try {
-    return si_from_text(*text, unit);
-  } catch (const std::invalid_argument& error) {
-    throw OptionError(std::string("--") + name + ": " + error.what());
-  }
-}
-
-// A quantity that has to be positive if it is given.
-std::optional<double> positive(const PredictWords::Text& text, const char* name, const char* unit) {
-  const auto value = size_of(text, name, unit);
-  if (value && !(*value > 0.0)) {
-    throw OptionError(std::string("--") + name + " must be positive, such as \"1 " + unit + "\"");
-  }
-  return value;
-}
-
-PredictionRequest prediction_request(const PredictWords& words, bool is_sweep) {
+PredictionRequest prediction_request(const PredictWords& words, bool is_sweep, Plausible judged) {
+  // A quantity that has to be positive if it is given.
+  const auto positive = [&](const PredictWords::Text& text, const char* name, const char* unit) {
+    const auto value = option_quantity(std::string("--") + name, text, unit, judged);
+    if (value && !(*value > 0.0)) {
+      throw OptionError(std::string("--") + name + " must be positive, such as \"1 " + unit + "\"");
+    }
+    return value;
+  };
   PredictionRequest request;
-  request.strain = size_of(words.strain, "strain", "1");
-  request.stress_Pa = size_of(words.stress, "stress", "Pa");
+  request.strain = option_strain("--strain", words.strain, judged);
+  request.stress_Pa = option_quantity("--stress", words.stress, quantities::kStress, judged);
   if (request.strain && request.stress_Pa) {
     throw OptionError("--strain and --stress exclude each other: one of them is the input");
   }
@@ -86,6 +75,58 @@ void check_test(const PredictFileRequest& request) {
 
 }  // namespace
 
+OptionList options_of(PredictWords& words) {
+  OptionList list;
+  list.group("The test");
+  list.add("test", &words.test,
+           "relaxation, creep, recovery, cycles, oscillation or history; by default the columns of "
+           "--history or --against decide, or else relaxation")
+      .among(names_of_predicted_tests());
+  list.add("strain", &words.strain,
+           "size of the strain, such as 0.01 or \"1 %\"; relaxation without it is E(t) after an "
+           "ideal step, cycles have 0.01")
+      .of("1");
+  list.add("stress", &words.stress,
+           "size of the stress, such as \"10 kPa\"; creep without it is J(t) after an ideal step, "
+           "recovery has 1 kPa")
+      .of("Pa");
+  list.add("ramp", &words.ramp, "duration of loading and of unloading; default: a jump").of("s");
+  list.add("hold", &words.hold,
+           "time under load, such as \"60 s\"; default: to the end of the window")
+      .of("s");
+  list.add("recovery", &words.recovery, "time after unloading; default: that of the hold").of("s");
+  list.add("period", &words.period, "of one cycle, up and down again").of("s").by_default("1 s");
+  list.add("cycles", &words.cycles, "number of cycles").by_default("5");
+  list.add("from", &words.from,
+           "first time of the curve, or lowest frequency of --test oscillation; default: the "
+           "window")
+      .of("s");
+  list.add("to", &words.to, "last time, or highest frequency").of("s");
+  list.add("points", &words.points, "of the curve, or of each motion").by_default("200");
+  list.add("temperature", &words.temperature,
+           "predict at this temperature, such as \"40 degC\", by the material's temperature "
+           "shift")
+      .of("degC");
+  list.group("Tables");
+  list.add("history", &words.history,
+           "table with time_s and any strain or stress_Pa, linear between rows; with both columns, "
+           "the strain is the input and the stress is compared")
+      .read_from_file();
+  list.add("driven-by", &words.driven_by, "the input of such a table").among({"strain", "stress"});
+  list.add("against", &words.against,
+           "table of measured values: rms, worst, and the share inside the band")
+      .read_from_file();
+  list.add("column", &words.column,
+           "NAME=HEADER or NAME=2: the column of a quantity in these tables, as in viscard fit");
+  list.add("plausible", &words.plausible,
+           "off: accept values that no test or material can have (a wrong unit, most often); the "
+           "result says so")
+      .among({"on", "off"})
+      .by_default("on");
+  list.add("time-zero", &words.time_zero, "time in the tables where t = 0").of("s").by_default("0");
+  return list;
+}
+
 PredictFileRequest predict_request(const PredictWords& words, const std::string& material) {
   PredictFileRequest request;
   request.material = material;
@@ -102,9 +143,17 @@ PredictFileRequest predict_request(const PredictWords& words, const std::string&
   } catch (const std::invalid_argument& error) {
     throw OptionError(error.what());
   }
-  request.time_zero_s = size_of(words.time_zero, "time-zero", "s").value_or(0.0);
-  request.temperature_C = size_of(words.temperature, "temperature", "degC");
-  request.prediction = prediction_request(words, request.test == PredictedTest::kOscillation);
+  try {
+    request.plausible = plausible_from_word(words.plausible.value_or("on"), Plausible::kMeasured);
+    request.time_zero_s =
+        option_quantity("--time-zero", words.time_zero, "s", request.plausible).value_or(0.0);
+    request.temperature_C =
+        option_quantity("--temperature", words.temperature, "degC", request.plausible);
+    request.prediction =
+        prediction_request(words, request.test == PredictedTest::kOscillation, request.plausible);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
   check_test(request);
   return request;
 }

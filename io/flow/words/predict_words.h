@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/flow/predict_file.h"
-#include "io/flow/words/option_error.h"
+#include "io/options/option.h"
 
 #include <optional>
 #include <string>
@@ -14,10 +14,12 @@ namespace viscard {
 struct PredictWords {
   using Text = std::optional<std::string>;
   Text test, strain, stress, ramp, hold, recovery, period, from, to, history, driven_by, against;
-  Text time_zero, temperature;
+  Text time_zero, temperature, plausible;
   std::optional<int> cycles, points;
   std::vector<std::string> column;
 };
+// Its options.
+OptionList options_of(PredictWords& words);
 
 // material: path of a material file; may be empty for predict_material(). Throws OptionError for a
 // value that is not allowed and for options that contradict the test.

@@ -58,7 +58,9 @@ def numbers(values, name: str, shape: "tuple[int, ...] | None" = None) -> np.nda
         raise TypeError(f"{name} must hold real numbers, not {found}")
     if shape is not None and array.shape != shape:
         raise Error(f"{name} has the shape {array.shape}; it must be {shape}", "input")
-    return np.asarray(array, dtype=np.float64, order="C")  # keeps a single number without dimension
+    array = np.asarray(array, dtype=np.float64, order="C")  # keeps a single number without dimension
+    masked = np.ma.getmask(values)  # what a masked array masks is no number
+    return np.where(masked, np.nan, array) if np.any(masked) else array
 
 
 def arguments(values, name: str, unit: str) -> np.ndarray:
@@ -84,6 +86,11 @@ def table(columns, name: str) -> "dict[str, np.ndarray]":
     if len(set(lengths.values())) > 1:
         raise Error(f"{name}: the columns have different lengths: " +
                     ", ".join(f"{header} {n}" for header, n in lengths.items()), "input")
+    masked = [header for header, values in columns.items() if np.any(np.ma.getmask(values))]
+    if masked:  # a row that one of them masks is no reading
+        kept = ~np.any([np.ma.getmaskarray(columns[header]) for header in masked], axis=0)
+        out = {header: values[kept] for header, values in out.items()}
+        lengths = {header: int(kept.sum()) for header in out}
     if not lengths or min(lengths.values()) == 0:
         raise Error(f"{name} holds no rows", "input")
     return out

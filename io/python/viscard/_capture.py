@@ -45,7 +45,7 @@ class CaptureOutcome(Result):
 @_check.arguments
 def capture(out: Path, *, rig: OptionalPath = None, test: OptionalPath = None, specimen: OptionalPath = None,
             emulate: bool = False, truth: OptionalPath = None, seed: Optional[int] = None, speed: float = 1.0, overwrite: bool = False,
-            uncalibrated: bool = False, lift: bool = False,
+            uncalibrated: bool = False, plausible: str = "on", lift: bool = False,
             sample: Optional[Callable[[float, float, float], object]] = None,
             progress: Progress = None) -> CaptureOutcome:
     """Run one indentation test on a rig and record every byte of it.
@@ -61,6 +61,8 @@ def capture(out: Path, *, rig: OptionalPath = None, test: OptionalPath = None, s
         TOML files; an emulated rig needs none of them.
     emulate : bool
         Use an emulated rig, with `truth` (file), `seed` and `speed` (up to 500; changes no result).
+    plausible : "on" or "off"
+        "off" accepts values in these files that no bench can have; the record says so.
     sample : function of (time_s, force_N, depth_m)
         Called for every reading of the load cell, in this thread.
     progress : function of (fraction, phase)
@@ -79,7 +81,7 @@ def capture(out: Path, *, rig: OptionalPath = None, test: OptionalPath = None, s
     words = {name: None if path is None else os.fspath(path)
              for name, path in (("rig", rig), ("test", test), ("specimen", specimen), ("truth", truth))}
     words.update(emulate=emulate, seed=whole(seed, "seed", 0, 2**64 - 1), speed=float(speed), overwrite=overwrite,
-                 uncalibrated=uncalibrated, lift=lift, command="viscard.capture()")
+                 uncalibrated=uncalibrated, lift=lift, plausible=plausible, command="viscard.capture()")
     file = os.fspath(out)
     was_enough = []
 

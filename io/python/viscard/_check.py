@@ -16,13 +16,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, TypeV
 import numpy as np
 
 from ._error import Error
-
-Path = Union[str, os.PathLike]
-OptionalPath = Union[str, os.PathLike, None]
-Scene = Union[str, os.PathLike, Mapping]
-Quantity = Union[str, float, None]
-Texts = Union[str, Sequence[str], None]
-Progress = Optional[Callable[[float, str], object]]
+from ._types import OptionalPath, Path, Progress, Quantity, Scene, Texts  # noqa: F401
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -114,15 +108,37 @@ def _no_such_keyword(function: str, name: str, known: "List[str]") -> str:
                                                       f"; help(viscard.{function}) lists them")
 
 
+def _options_of(function: Callable[..., Any]) -> Any:
+    """The TypedDict of `**options: Unpack[FitOptions]`; None of other functions."""
+    written = function.__annotations__.get("options", "")
+    return typing.get_args(eval(written, function.__globals__))[0] if written.startswith("Unpack[") else None
+
+
+def _listed(signature: inspect.Signature, options: Any) -> inspect.Signature:
+    """The signature with each option as a keyword, and what they are set to if they are left out."""
+    named = [one for one in signature.parameters.values() if one.kind is not inspect.Parameter.VAR_KEYWORD]
+    listed = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, annotation=hint,
+                                default=False if hint is bool else None)
+              for name, hint in typing.get_type_hints(options).items()]
+    return signature.replace(parameters=named + listed)
+
+
 def arguments(function: _Function) -> _Function:
-    """The function, with the types of its arguments checked. Those without annotation it checks itself."""
+    """The function, with the types of its arguments checked. Those without annotation it checks itself.
+
+    Options that a TypedDict lists (`**options: Unpack[FitOptions]`) stand in its signature and its docstring.
+    """
     parameters = inspect.signature(function).parameters.values()
     positional = [one.name for one in parameters if one.kind is not inspect.Parameter.VAR_KEYWORD]
     others = next((one.name for one in parameters if one.kind is inspect.Parameter.VAR_KEYWORD), None)
+    options = _options_of(function) if others else None
+    if options:
+        positional += typing.get_type_hints(options)
+        others = None
 
     @functools.cache  # at the first call, when all names of the module are there
     def hints() -> Dict[str, Any]:
-        found = typing.get_type_hints(function)
+        found = typing.get_type_hints(function) | (typing.get_type_hints(options) if options else {})
         return {name: hint for name, hint in found.items() if name != "return" and _is_known(hint)}
 
     @functools.wraps(function)
@@ -136,4 +152,8 @@ def arguments(function: _Function) -> _Function:
                 _check(name, value, hint)
         return function(*given, **keywords)
 
+    if options:
+        checked.__signature__ = _listed(inspect.signature(function), options)  # type: ignore[attr-defined]
+        described = "\n".join("    " + line for line in options.__doc__.split("\n"))
+        checked.__doc__ = function.__doc__.replace("    **options", described)
     return typing.cast(_Function, checked)

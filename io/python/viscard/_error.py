@@ -16,9 +16,16 @@ def _keyword(match: "re.Match[str]") -> str:
     return _OTHER_NAMES.get(name, name.replace("-", "_"))
 
 
+# What messages advise to write: 'write --column stress_Pa=1e6*stress', '--density "1.1 g/cm3"'.
+_COLUMN = re.compile(r'write --column (?:"([^"]*)"|([^\s;]+))')
+_TEXT = re.compile(r'--([a-z]+(?:-[a-z]+)*) (?=")')
+
+
 def _in_python(text: str) -> str:
     """The same words with keywords (max_terms) in the place of options (--max-terms)."""
-    return _OPTION.sub(_keyword, text)
+    text = text.replace("--plausible off", 'plausible="off"')
+    text = _COLUMN.sub(lambda match: f'write column="{match.group(1) or match.group(2)}"', text)
+    return _OPTION.sub(_keyword, _TEXT.sub(lambda match: _keyword(match) + "=", text))
 
 
 class Error(RuntimeError):

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import inspect
 import os
 import warnings
 from collections.abc import Mapping as _Mapping
-from typing import Any, List, Optional, Sequence, Union
+from typing import Any, List, Unpack
 
 import numpy as np
 
 from . import _arrays, _check, _core
-from ._check import OptionalPath, Progress, Quantity, Texts
 from ._error import DoubtWarning, Error
 from ._fit_result import FitResult, JointFit
+from ._options import FitOptions
 from ._table import Capture, Table
+from ._types import Progress
 
 
 def _paths(data, name: str = "data") -> "list[str]":
@@ -42,23 +42,11 @@ def _warn(result, name: str) -> None:
 
 
 @_check.arguments
-def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
-        max_terms: Optional[int] = None, liquid: bool = False, solid: bool = False,
-        allow_negative: bool = False, noise: Optional[str] = None, drift: bool = False,
-        no_drift: bool = False, full_data: bool = False, profiles: bool = False,
-        diagnose: bool = False, model: Optional[str] = None, bootstrap: Optional[int] = None,
-        fix: Texts = None, bound: Texts = None, constraints: OptionalPath = None, column: Texts = None,
-        sheet: Optional[str] = None, segment: Texts = None, time_zero: Quantity = None,
-        from_: Quantity = None, to: Quantity = None, hold: Optional[int] = None,
-        crop: Optional[str] = None, depth: Quantity = None, specimen: OptionalPath = None,
-        punch_diameter: Quantity = None, layer_thickness: Quantity = None,
-        poisson_ratio: Optional[float] = None, frame_stiffness: Quantity = None,
-        reference_temperature: Quantity = None, vertical_shift: Optional[str] = None,
-        density: Quantity = None, ratio: Union[float, Sequence[float], None] = None,
-        joint: bool = False, specimen_id: Texts = None, own_terms: bool = False,
-        share: Texts = None, weight: Optional[str] = None, youngs_modulus: Quantity = None,
-        cycle: Union[int, str, None] = None, errors: str = "raise", progress: Progress = None):
+def fit(data, *, errors: str = "raise", progress: Progress = None, **options: Unpack[FitOptions]):
     """Fit the instantaneous modulus and a Prony series, with 95 % intervals.
+
+    Quantities are texts with a unit ("0.1 mm") or numbers in SI. The options are those of ``viscard fit``, with "_"
+    for "-"; from_ is --from.
 
     Parameters
     ----------
@@ -67,13 +55,11 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
         tests of one material, fitted together into one result; "uniaxial=a.csv", "compression=b.csv", "planar=c.csv",
         "equibiaxial=d.csv" are tests of rubber at large strain. A dict has arrays of shape (rows,) by header with
         unit: ``{"time_s": t, "modulus_Pa": E}``, ``{"Time [ms]": t, "Force [mN]": F}``; a message about
-        "arrays:7" means row 7, from 1.
+        "arrays:7" means row 7, from 1. Rows that a masked array masks are left out.
     errors : "raise" or "return"
         Of a list: "return" puts the Error of a file that cannot be fitted in the place of its result.
     progress : function of (fraction, step)
     **options
-        Those of ``viscard fit``, with "_" for "-" (``viscard fit --help`` explains each). Quantities are texts
-        with a unit ("0.1 mm") or numbers in SI; from_ is --from.
 
     Returns
     -------
@@ -91,8 +77,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
     >>> viscard.fit({"time_s": t, "modulus_Pa": E + noise}).tau_s.round(1)
     array([2.])
     """
-    given = dict(locals())
-    keywords = {name: given[name] for name in _OPTIONS if given[name] is not None}
+    keywords = {name: value for name, value in options.items() if value is not None}
     if errors not in ("raise", "return"):
         raise Error(f"errors is {errors!r}; use 'raise' or 'return'", "usage")
     command = "viscard.fit(" + ", ".join(f"{k}={v!r}" for k, v in keywords.items() if v is not False) + ")"
@@ -105,7 +90,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
     if _core.is_large_strain(paths):
         return _fit_rubber(paths, keywords)
     _refuse_rubber_options(keywords)
-    if joint:
+    if keywords.get("joint"):
         return JointFit(_core.fit_ratios(paths, keywords, command, progress))
     found = _core.fit_paths(paths, keywords, command, progress)
     return _results(data, found, errors)
@@ -124,7 +109,7 @@ def _fit_rubber(paths, keywords):
     from ._rubber import RubberFit
 
     for name, value in keywords.items():
-        if name not in _RUBBER_ONLY + ("model", "column", "sheet", "terms", "max_terms") and value is not False:
+        if name not in _RUBBER_ONLY + ("model", "column", "sheet", "terms", "max_terms", "plausible") and value is not False:
             raise Error(f"{name} does not belong to tests at large strain; omit it", "usage")
     if isinstance(keywords.get("cycle"), int):
         keywords["cycle"] = str(keywords["cycle"])
@@ -160,6 +145,3 @@ def _results(data, found, errors):
         results.append(FitResult(one))
         _warn(results[-1], results[-1].file)
     return results[0] if is_one else results
-
-
-_OPTIONS = [name for name in inspect.signature(fit).parameters if name not in ("data", "errors", "progress")]

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, Unpack
 
 import numpy as np
 
 from . import _arrays, _check, _core
 from ._card import Card
-from ._check import OptionalPath, Path, Quantity, Texts
+from ._options import PredictOptions
 from ._result import Result
+from ._types import Path
 
 
 class Material:
@@ -28,6 +29,8 @@ class Material:
     rho_kg_m3 : float
         Density; 0: not given.
     name : str
+    plausible : "on" or "off"
+        "off" accepts a modulus or density that no material has; the material says so.
 
     Examples
     --------
@@ -40,7 +43,7 @@ class Material:
 
     @_check.arguments
     def __init__(self, E0_Pa: float, nu: float, *, terms: Sequence[Tuple[float, float]] = (),
-                 rho_kg_m3: float = 0.0, name: str = "") -> None:
+                 rho_kg_m3: float = 0.0, name: str = "", plausible: str = "on") -> None:
         if not isinstance(terms, (list, tuple, np.ndarray)):
             raise TypeError(f"terms must be a list of (g, tau_s), such as [(0.2, 1.5)], not {_check.shown(terms)}")
         try:
@@ -52,7 +55,7 @@ class Material:
                                 "nu": float(nu), "terms": rows}
         if rho_kg_m3:
             text["rho_kg_m3"] = float(rho_kg_m3)
-        self._core = _core.material_from_json(json.dumps(text), name or "Material()")
+        self._core = _core.material_from_json(json.dumps(text), name or "Material()", plausible)
 
     @classmethod
     def _of(cls, found) -> "Material":
@@ -62,7 +65,7 @@ class Material:
 
     @classmethod
     @_check.arguments
-    def load(cls, path: Path) -> "Material":
+    def load(cls, path: Path, *, plausible: str = "on") -> "Material":
         """Read a material file.
 
         Examples
@@ -70,7 +73,7 @@ class Material:
         >>> viscard.Material.load(viscard.data_file("materials/pdms_1to10_seed.json")).nu
         0.495
         """
-        return cls._of(_core.read_material(os.fspath(path)))
+        return cls._of(_core.read_material(os.fspath(path), plausible))
 
     @_check.arguments
     def save(self, path: Path, *, overwrite: bool = False) -> None:
@@ -181,7 +184,7 @@ class Material:
     def card(self, target: str, units: str = "SI", *, terms: Optional[int] = None,
              approximate: bool = False, accept_flags: bool = False, clamp_nu: Optional[float] = None,
              bound: str = "", elastic_only: str = "", temperature_C: Optional[float] = None,
-             reproducible: bool = False) -> Card:
+             reproducible: bool = False, plausible: str = "on") -> Card:
         """Write a material card for a solver, read it back and compare.
 
         Parameters
@@ -190,7 +193,7 @@ class Material:
             One of `card_targets()`.
         units : str
             Unit system of the card, such as "SI" or "mm-t-s".
-        terms, approximate, accept_flags, clamp_nu, bound, elastic_only, temperature_C, reproducible
+        terms, approximate, accept_flags, clamp_nu, bound, elastic_only, temperature_C, reproducible, plausible
             As in ``viscard card --help``.
 
         Examples
@@ -200,10 +203,11 @@ class Material:
         """
         words = {"terms": _arrays.whole(terms, "terms", 0), "approximate": approximate, "accept_flags": accept_flags,
                  "clamp_nu": clamp_nu, "bound": bound, "elastic_only": elastic_only,
-                 "temperature_C": temperature_C, "reproducible": reproducible}
+                 "temperature_C": temperature_C, "reproducible": reproducible,
+                 "plausible": plausible}
         return Card(_core.card(self._core, target, units, words))
 
-    def predict(self, **options) -> "Prediction":
+    def predict(self, **options: Unpack[PredictOptions]) -> "Prediction":
         """What the material does in a test; the keywords are those of `viscard.predict`."""
         return predict(self, **options)
 
@@ -216,7 +220,7 @@ class Material:
 
 
 def _from_json(text: str) -> Material:
-    return Material._of(_core.material_from_json(text, "material"))
+    return Material._of(_core.material_from_json(text, "material", "on"))
 
 
 class Prediction(Result):
@@ -261,24 +265,15 @@ class Prediction(Result):
 
 
 @_check.arguments
-def predict(material: Union[Material, Path], *, test: Optional[str] = None, strain: Quantity = None, stress: Quantity = None,
-            ramp: Quantity = None, hold: Quantity = None, recovery: Quantity = None,
-            period: Quantity = None, cycles: Optional[int] = None, from_: Quantity = None,
-            to: Quantity = None, points: Optional[int] = None, history: OptionalPath = None,
-            driven_by: Optional[str] = None, against: OptionalPath = None, column: Texts = None,
-            time_zero: Quantity = None, temperature: Quantity = None) -> Prediction:
+def predict(material: Union[Material, Path], **options: Unpack[PredictOptions]) -> Prediction:
     """Predict what a material does in a test, with its 95 % band.
+
+    Quantities are texts with a unit ("10 kPa") or numbers in SI; from_ is --from.
 
     Parameters
     ----------
     material : Material or path
-    test : str
-        relaxation, creep, recovery, cycles, oscillation or history; default: relaxation, or what the columns of
-        `history` or `against` show.
-    history, against : path
-        Tables of the input and of measured values.
     **options
-        Those of ``viscard predict``; quantities are texts with a unit or numbers in SI, from_ is --from.
 
     Examples
     --------
@@ -286,8 +281,9 @@ def predict(material: Union[Material, Path], *, test: Optional[str] = None, stra
     >>> sorted(found.curves)
     ['loss_modulus_Pa', 'storage_modulus_Pa', 'tan_delta']
     """
-    given = dict(locals())
-    keywords = {name: value for name, value in given.items() if name != "material" and value is not None}
-    one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"))
-    inputs = [os.fspath(path) for path in (material, history, against) if isinstance(path, (str, os.PathLike))]
+    keywords = {name: value for name, value in options.items() if value is not None}
+    plausible = options.get("plausible") or "on"
+    one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"), plausible=plausible)
+    inputs = [os.fspath(path) for path in (material, options.get("history"), options.get("against"))
+              if isinstance(path, (str, os.PathLike))]
     return Prediction(_core.predict(one._core, keywords, inputs))

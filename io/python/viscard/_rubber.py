@@ -203,7 +203,7 @@ class RubberFit:
     @_check.arguments
     def card(self, target: str, units: str = "SI", *, bulk_modulus_Pa: Optional[float] = None,
              density_kg_m3: Optional[float] = None, accept_flags: bool = False, approximate: bool = False,
-             elastic_only: str = "") -> RubberCard:
+             elastic_only: str = "", plausible: str = "on") -> RubberCard:
         """A card for a solver: "abaqus", "ansys", "calculix", "comsol", "febio", "frontistr", "lsdyna", "mfront", "moose",
         "openradioss" or "sfepy".
 
@@ -222,9 +222,11 @@ class RubberFit:
         elastic_only : str
             "instantaneous" or "long-term": the law without its terms. "abaqus", "ansys", "febio", "openradioss" and
             "sfepy" take them, "lsdyna" with `approximate`, the others not.
+        plausible : "on" or "off"
+            "off" accepts any bulk modulus and density.
         """
         text = _core.rubber_card(self._law, self._name, target, units, bulk_modulus_Pa, density_kg_m3,
-                                 accept_flags, approximate, elastic_only)
+                                 accept_flags, approximate, elastic_only, plausible)
         return RubberCard(text, target)
 
     @_check.arguments

@@ -77,7 +77,8 @@ def _with_scene(scene, folder, work):
 
 @_check.arguments
 def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False, uncertainty: bool = False,
-             samples: Optional[int] = None, folder: OptionalPath = None, progress: Progress = None) -> Answer:
+             samples: Optional[int] = None, folder: OptionalPath = None, plausible: str = "on",
+             progress: Progress = None) -> Answer:
     """Answer a scene; the mesh is refined until the estimated error meets the tolerance.
 
     The GIL is released. Ctrl-C raises KeyboardInterrupt at once; the mesh that is being solved ends in the background.
@@ -98,6 +99,8 @@ def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False,
         With uncertainty: sample with about so many answers, also where the linear answer would do.
     folder : path
         Of a dict: where files that it names are looked for; default: the working folder.
+    plausible : "on" or "off"
+        "off" accepts values that no scene can have; the notes say so. A scene may say it, too.
     progress : function of (fraction, point)
 
     Examples
@@ -121,7 +124,7 @@ def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False,
         raise Error("samples belongs to uncertainty=True; give both", "usage")
     tolerance = None if tol is None else float(tol)
     return Answer(_with_scene(scene, folder, lambda text, path: _core.simulate(
-        text, path, tolerance, fields, uncertainty, _arrays.whole(samples, "samples", 1), progress)))
+        text, path, tolerance, fields, uncertainty, _arrays.whole(samples, "samples", 1), plausible, progress)))
 
 
 @_check.arguments
@@ -193,12 +196,12 @@ def forces_from_voltages(scene: Scene, voltages, *, noise: Optional[float] = Non
 
 
 @_check.arguments
-def plan(scene: Scene, *, tol: Optional[float] = None, folder: OptionalPath = None) -> Plan:
+def plan(scene: Scene, *, tol: Optional[float] = None, folder: OptionalPath = None, plausible: str = "on") -> Plan:
     """Which effects a scene needs at its tolerance, the error of leaving each out, and what that saves.
 
     Parameters
     ----------
-    scene, tol, folder
+    scene, tol, folder, plausible
         As in `simulate`.
 
     Examples
@@ -207,16 +210,17 @@ def plan(scene: Scene, *, tol: Optional[float] = None, folder: OptionalPath = No
     0.001
     """
     tolerance = None if tol is None else float(tol)
-    return Plan(_with_scene(scene, folder, lambda text, path: _core.plan(text, path, tolerance)))
+    return Plan(_with_scene(scene, folder, lambda text, path: _core.plan(text, path, tolerance, plausible)))
 
 
 @_check.arguments
-def cost(scene: Scene, *, budget: Union[str, float] = 60.0, folder: OptionalPath = None, progress: Progress = None) -> Cost:
+def cost(scene: Scene, *, budget: Union[str, float] = 60.0, folder: OptionalPath = None, plausible: str = "on",
+         progress: Progress = None) -> Cost:
     """What accuracy costs: error against processor time, memory and unknowns.
 
     Parameters
     ----------
-    scene, folder, progress
+    scene, folder, plausible, progress
         As in `simulate`.
     budget : str or float
         Wall time to spend, such as "20 s" or 20.
@@ -226,4 +230,4 @@ def cost(scene: Scene, *, budget: Union[str, float] = 60.0, folder: OptionalPath
     >>> bool(viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget=0.2).pareto.any())
     True
     """
-    return Cost(_with_scene(scene, folder, lambda text, path: _core.cost(text, path, budget, progress)))
+    return Cost(_with_scene(scene, folder, lambda text, path: _core.cost(text, path, budget, plausible, progress)))

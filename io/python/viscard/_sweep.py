@@ -64,7 +64,7 @@ class Sweep:
 
 @_check.arguments
 def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None, merge: Union[Path, Sequence[Path], None] = None,
-          progress: Progress = None) -> Sweep:
+          plausible: str = "on", progress: Progress = None) -> Sweep:
     """Answer a scene at many values of its parameters, on all cores, as ``viscard sweep`` does.
 
     The GIL is released. Ctrl-C, or an exception of `progress`, ends it; the points that are being answered end in the background.
@@ -80,6 +80,8 @@ def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None,
         Answer one part of the points only, such as "3/64".
     merge : path or list of paths
         Take over the points of other parts; nothing is answered then.
+    plausible : "on" or "off"
+        "off" accepts values that no scene can have. All values are checked before the first point is answered.
     progress : function of (fraction, step)
 
     Examples
@@ -98,6 +100,6 @@ def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None,
     if file is None and parts:
         raise Error("merge needs out, the file that takes the points over", "usage")
     if file is not None:
-        return Sweep(_core.sweep(path, file, shard, parts, progress))
+        return Sweep(_core.sweep(path, file, shard, parts, plausible, progress))
     with tempfile.TemporaryDirectory(prefix="viscard-", ignore_cleanup_errors=True) as own:
-        return Sweep(_core.sweep(path, os.path.join(own, "points.sqlite"), shard, parts, progress))
+        return Sweep(_core.sweep(path, os.path.join(own, "points.sqlite"), shard, parts, plausible, progress))

@@ -184,5 +184,6 @@ export function startPlan(handlers) {
     clearTimeout(timer);
     timer = setTimeout(refreshPlan, kWait_ms);
   });
+  element("plausible-off").addEventListener("change", refreshPlan);
   element("start").addEventListener("click", start);
 }

@@ -7,7 +7,7 @@
 namespace viscard {
 namespace {
 
-// Rounding of an answer at the last Poisson ratio (bent pillars: models/pillar/README.md, stability table).
+// Rounding of an answer at the last Poisson ratio (bent pillars: tests/golden/pillar_stability.csv).
 constexpr double kRounding = 1e-4;
 // Part of a larger change that a straight line may be wrong by: of f = 1/(a + b x), which a bonded layer
 // follows, it is a quarter of the change times the relative change.

@@ -12,8 +12,10 @@ namespace viscard {
 // Steps a small viscoelastic body with inertia (ReducedBody). The motion uses the trapezoidal rule
 // (Newmark 1/4, 1/2), the memory the exact exponential recursion for displacement linear per step
 // (eq. 24). For any step size, energy_J() changes over a step by the work of the load, (F0 + F1)/2
-// . (change of u), less a sum of squares, so it never grows without work. Sources: Newmark, J. Eng.
-// Mech. Div. ASCE 85 (1959) 67; Taylor, Pister & Goudreau, IJNME 2 (1970) 45.
+// . (change of u), less sum (x/4) (d_0 + d_1)' K_i (d_0 + d_1), x = dt/tau_i, so it never grows without
+// work: with d_1 = e^-x d_0 + phi_1 du, (d_0 + d_1)(d_1 - e^-x d_0)/(2 phi_1) - c (d_1^2 - d_0^2)/2 is a
+// square for c = (x/2) coth(x/2). Sources: Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67; Taylor, Pister
+// & Goudreau, IJNME 2 (1970) 45.
 class InertialStepper {
  public:
   // The body must outlive the stepper, have no constraints and have mass.

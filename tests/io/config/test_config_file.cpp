@@ -247,14 +247,15 @@ TEST_CASE("values that contradict each other are refused with the file's name", 
 
 // What is printed when a demo file with one line replaced is about to be used.
 template <typename Config>
-std::string use_error(Config (*read)(const std::filesystem::path&), const std::string& file,
-                      const std::string& old_text, const std::string& new_text) {
+std::string use_error(Config (*read)(const std::filesystem::path&, Plausible),
+                      const std::string& file, const std::string& old_text,
+                      const std::string& new_text) {
   const test::ScratchFolder folder;
   std::string text = read_file(kDemo / file);
   const std::size_t at = text.find(old_text);
   REQUIRE(at != std::string::npos);
   write_file(folder.path() / file, text.replace(at, old_text.size(), new_text), true);
-  return error_of([&] { read(folder.path() / file); });
+  return error_of([&] { read(folder.path() / file, Plausible::kMeasured); });
 }
 
 TEST_CASE("values that no bench can have are refused with line, bounds and an example",
@@ -266,21 +267,38 @@ TEST_CASE("values that no bench can have are refused with line, bounds and an ex
     return use_error(read_test, "02_test.toml", old_text, new_text);
   };
   CHECK_THAT(specimen_error("modulus_guess = \"2 MPa\"", "modulus_guess = 2"),
-             Contains(".toml:9: modulus_guess is 2 Pa; expected 100 Pa to 1 TPa") &&
-                 Contains("\"2 MPa\"") && Contains("unit"));
+             Contains(".toml:9: modulus_guess: is 2 Pa; plausible are 100 Pa to 1 TPa") &&
+                 Contains("write \"2 MPa\"") && Contains("plausible = \"off\""));
   CHECK_THAT(specimen_error("temperature = \"23 degC\"", "temperature = \"-400 degC\""),
-             Contains("temperature is -400 degC") && Contains("23 degC"));
+             Contains("temperature: is -400 degC") && Contains("23 degC"));
   CHECK_THAT(specimen_error("id = \"pdms-1to10\"", "id = \" \""),
              Contains(".toml:3: id is empty") && Contains("such as"));
   CHECK_THAT(test_error("hold = \"60 s\"", "hold = 1e30"),
-             Contains("ramp.hold is 1e+30 s; expected 0 to 30 days"));
+             Contains("ramp.hold: is 1e+30 s; plausible are 0 to 30 days"));
   CHECK_THAT(test_error("limit = \"5 mm\"", "limit = \"1 km\""),
-             Contains("approach.limit is 1000 m") && Contains("5 mm"));
+             Contains("approach.limit: is 1000 m; plausible are 0 to 1 m"));
   // What an old capture holds is still read.
   CHECK(specimen_from_toml("id = \"\"\nmodulus_guess = 2\n[contact]\npunch_diameter = 1e-3\n"
                            "layer_thickness = \"half-space\"\npoisson_ratio = 0.4\n",
                            "specimen.toml")
             .modulus_guess_Pa == 2.0);
+}
+
+TEST_CASE("a file that says plausible = off is read, written and read again as it is",
+          "[io][config]") {
+  const std::string text =
+      "plausible = \"off\"\nid = \"gas\"\nmodulus_guess = 2\n[contact]\n"
+      "punch_diameter = 1e-3\nlayer_thickness = \"half-space\"\npoisson_ratio = 0.4\n";
+  const Specimen specimen = specimen_from_toml(text, "specimen.toml", Plausible::kMeasured);
+  CHECK(specimen.modulus_guess_Pa == 2.0);
+  CHECK(specimen.accepts_implausible);
+  const Specimen again =
+      specimen_from_toml(toml_from_specimen(specimen), "specimen.toml", Plausible::kMeasured);
+  CHECK(again.accepts_implausible);
+  CHECK_THAT(
+      error_of([&] { specimen_from_toml("plausible = \"no\"\n" + text.substr(18), "s.toml"); }),
+      Contains("s.toml:1: plausible: expected \"on\""));
+  CHECK_FALSE(specimen_from_toml(text.substr(18), "s.toml").accepts_implausible);
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ TEST_CASE("a design that cannot be is refused in one line", "[cli][design]") {
       Case{{"--diameter", "-1 um"}, "diameter"}, Case{{"--diameter", "40 kg"}, "--diameter"},
       Case{{"--poisson", "0.6"}, "Poisson"}, Case{{"--lattice", "sqare"}, "did you mean 'square'"},
       Case{{"--modulus", "0"}, "modulus"},
-      Case{{"--diameter", "40"}, "--diameter is 40 m, but no length of a sensor is more than 1 m"},
-      Case{{"--diameter", "40 m"}, "did you mean \"40 um\"?"},
+      Case{{"--diameter", "40"}, "--diameter is 40 m; plausible are 0 to 1 m"},
+      Case{{"--diameter", "40 m"}, "write --diameter \"40 um\""},
       Case{{"--nonsense", "1"}, "nonsense"});
   CAPTURE(c.words[0], c.words[1]);
   std::vector<std::string> words = {"design"};

@@ -17,7 +17,7 @@ struct Seen {
 };
 
 // An extreme case for the solver: its relative error there and the largest allowed one, within five
-// times what is seen. The table in models/pillar/README.md lists these cases.
+// times what is seen. tests/golden/pillar_stability.csv lists these cases.
 struct StabilityCase {
   std::string name;
   std::function<Seen()> error;
