@@ -174,6 +174,18 @@ void check_before_use(const RigConfig& rig, const std::string& toml, const std::
 
 }  // namespace
 
+namespace {
+
+void check_frame(const FrameConfig& frame, const std::string& toml, const std::string& name) {
+  const std::string fault = frame_fault(frame);
+  if (fault.empty()) return;
+  const int line = line_of_key(toml, "frame.stiffness");
+  throw std::runtime_error(name + (line > 0 ? ":" + std::to_string(line) : "") +
+                           ": frame.stiffness: " + fault);
+}
+
+}  // namespace
+
 RigConfig read_rig_to_calibrate(const std::filesystem::path& path, Plausible judged) {
   RigConfig rig = read_for_use(path, judged, rig_from_toml);
   LoadCellCalibration& calibration = rig.calibration;
@@ -205,14 +217,18 @@ RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
     validate(rig.calibration);
     check_before_use(rig, read_file(where), where.string());
   }
-  if (!rig.frame.file.empty()) {
-    const CalibrationRecord record = read_calibration(
-        path_at_key(read_file(path), path, "frame.file", rig.frame.file, FileKind::kCalibration));
+  if (rig.frame.file.empty()) {
+    check_frame(rig.frame, read_file(path), path.string());
+  } else {
+    const std::filesystem::path where =
+        path_at_key(read_file(path), path, "frame.file", rig.frame.file, FileKind::kCalibration);
+    const CalibrationRecord record = read_calibration(where);
     if (!record.frame) {
       throw std::runtime_error((folder / rig.frame.file).string() +
                                ": has no [frame]; make one with viscard calibrate --compliance");
     }
     rig.frame = *record.frame;
+    check_frame(rig.frame, read_file(where), where.string());
   }
   return rig;
 }

@@ -100,11 +100,28 @@ std::optional<CalibrationFault> calibration_fault(const LoadCellCalibration& cal
   return {};
 }
 
+std::string frame_fault(const FrameConfig& frame) {
+  constexpr double kSoftest_N_m = 100.0, kStiffest_N_m = 1e9;
+  const double stiffness_N_m = frame.stiffness_N_m;
+  if (stiffness_N_m == 0.0) return {};
+  if (!(stiffness_N_m >= kSoftest_N_m && stiffness_N_m <= kStiffest_N_m)) {
+    return "the stiffness of the frame is " + text_of(stiffness_N_m, 4) +
+           " N/m; expected 100 N/m to 1e9 N/m, such as \"10 N/mm\". Is a column or a key a "
+           "thousand "
+           "times off (mm for m)?";
+  }
+  if (frame.stiffness_relative_u < 1.0) return {};
+  return "the stiffness of the frame has a relative standard uncertainty of " +
+         text_of(frame.stiffness_relative_u, 3) + "; expected a share below 1, such as 0.02";
+}
+
 void require_believable(const RigConfig& rig) {
   validate(rig.calibration);
   if (const auto fault = calibration_fault(rig.calibration, reading_span(rig.load_cell))) {
     throw std::invalid_argument("calibration." + fault->key + ": " + fault->text);
   }
+  const std::string frame = frame_fault(rig.frame);
+  if (!frame.empty()) throw std::invalid_argument("frame: " + frame);
 }
 
 }  // namespace viscard

@@ -28,6 +28,9 @@ struct CalibrationFault {
 std::optional<CalibrationFault> calibration_fault(const LoadCellCalibration& calibration,
                                                   const ReadingSpan& span);
 
+// Why no frame has this stiffness (0: rigid), or "".
+std::string frame_fault(const FrameConfig& frame);
+
 // Throws std::invalid_argument "calibration.KEY ..." for such a rig, and whatever validate() refuses.
 void require_believable(const RigConfig& rig);
 

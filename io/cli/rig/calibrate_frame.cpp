@@ -8,6 +8,7 @@
 #include "io/cli/words/stop_on_signal.h"
 #include "io/tables/column_map.h"
 #include "io/tables/csv_table.h"
+#include "models/experiment/calibration_check.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
 #include "rig/run_indentation.h"
@@ -167,7 +168,12 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
   }
   const FrameStiffnessFit fit = fit_frame_stiffness(points, gain_u);
   CalibrationRecord record;
-  record.frame = FrameConfig{fit.stiffness_N_m, fit.relative_u, words.id, today(), {}};
+  const FrameConfig frame{fit.stiffness_N_m, fit.relative_u, words.id, today(), {}};
+  if (const std::string fault = frame_fault(frame); !fault.empty()) {
+    throw std::runtime_error((words.data_file ? *words.data_file + ": " : "") + fault +
+                             ". Nothing was written");
+  }
+  record.frame = frame;
   write_file(words.out_file, toml_from_calibration(record), words.overwrite);
   print(fit, words, streams);
   return kDone;

@@ -78,6 +78,19 @@ TEST_CASE("weights above the capacity and a zero outside the span are refused", 
   CHECK_THAT(fault_of(rig), Contains("zero_volts") && Contains("outside the span"));
 }
 
+TEST_CASE("a frame a thousand times too soft is refused", "[models]") {
+  RigConfig rig = amplified();
+  for (const double stiffness_N_m : {0.0, 100.0, 10e3, 5e6}) {
+    rig.frame.stiffness_N_m = stiffness_N_m;
+    CHECK_NOTHROW(require_believable(rig));
+  }
+  rig.frame.stiffness_N_m = 10.0;  // N/mm without its unit
+  CHECK_THROWS_WITH(require_believable(rig), Contains("10 N/m; expected 100 N/m"));
+  rig.frame.stiffness_N_m = 10e3;
+  rig.frame.stiffness_relative_u = 2.0;  // per cent without the sign
+  CHECK_THROWS_WITH(require_believable(rig), Contains("a share below 1"));
+}
+
 TEST_CASE("the uncertainty of a gain is that at the force of use", "[models]") {
   LoadCellCalibration cell = amplified().calibration;
   // A record without a range has one uncertainty, and no force is a doubt.

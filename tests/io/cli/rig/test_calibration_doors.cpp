@@ -179,6 +179,26 @@ TEST_CASE("a record that was edited by hand is refused with its own line, by eve
   CHECK_THROWS_WITH(safe_preflight(setup), Contains("calibration.volts_per_newton"));
 }
 
+TEST_CASE("a frame whose positions are in mm where the column says m makes no record", "[cli]") {
+  const Door door;
+  std::string table = "position_m,force_N\n";
+  for (int i = 1; i <= 8; ++i) {
+    table += std::to_string(0.02 * i) + "," + std::to_string(0.2 * i) + "\n";
+  }
+  const auto calibrate = [&](const std::string& header) {
+    write(door.folder() / "block.csv", header + table.substr(table.find('\n')));
+    std::ostringstream out, err;
+    Streams streams{out, err, false};
+    return run_calibrate({"--compliance", "--data", (door.folder() / "block.csv").string(), "--out",
+                          (door.folder() / "frame.toml").string()},
+                         streams);
+  };
+  CHECK_THROWS_WITH(calibrate("position_m,force_N"), Contains("10 N/m; expected 100 N/m"));
+  CHECK_FALSE(exists(door.folder() / "frame.toml"));
+  CHECK(calibrate("position_mm,force_N") == kDone);
+  CHECK(read_calibration(door.folder() / "frame.toml").frame->stiffness_N_m == Approx(10e3));
+}
+
 TEST_CASE("a test far above the weights of the calibration is announced with the numbers",
           "[cli]") {
   CaptureSetup setup = setup_from_files({.is_emulated = true});
