@@ -236,6 +236,7 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   }
   data.frame_stiffness_N_m = run.rig.frame.stiffness_N_m;
   data.frame_stiffness_relative_u = run.rig.frame.stiffness_relative_u;
+  data.depth_relative_u = run.rig.stage.depth_relative_u;
   data.force_relative_u =
       std::abs(run.rig.calibration.volts_per_newton_u / run.rig.calibration.volts_per_newton);
   if (run.specimen.contact.punch_radius_m > 0.0) data.contact = run.specimen.contact;

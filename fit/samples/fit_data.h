@@ -46,6 +46,7 @@ struct IndentationData {
   double contact_to_s = 0.0;         // ... to here belong to ramp and holds; others: no contact
   double frame_stiffness_N_m = 0.0;  // 0: rigid
   double frame_stiffness_relative_u = 0.0;
+  double depth_relative_u = 0.0;  // of the travel that the stage counts
   double force_relative_u = 0.0;  // relative standard uncertainty of the calibration
 
   std::optional<PunchContact> contact;

@@ -70,6 +70,9 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("seed", into(words.seed), "seed of the emulated noise");
   add("speed", po::value(&words.speed)->default_value(1.0),
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
+  add("fault", into(words.fault),
+      "what breaks on the emulated rig, in which phase of the test and how many seconds after it "
+      "has begun: frozen@hold+0.5; without @PHASE from the start");
   add("force", po::bool_switch(&words.overwrite), "replace an existing capture file");
   syntax.may_exist = {"out"};
   return syntax;

@@ -1,12 +1,15 @@
+#include "io/basics/timestamp.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
 #include "io/flow/json/flow_json.h"
+#include "io/flow/touch_rig.h"
 #include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/lines/port_probe.h"
@@ -135,21 +138,30 @@ int show_overshoot(bool as_json, Streams& streams) {
 
 CommandSyntax rig_syntax() {
   CommandSyntax syntax;
-  syntax.usage = "viscard rig list [--rig FILE] | check --rig FILE | overshoot [OPTIONS]";
+  syntax.usage =
+      "viscard rig list [--rig FILE] | check --rig FILE | touch --rig FILE | overshoot [OPTIONS]";
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any but the "
       "thermometer's of\n"
       "a rig file. check opens all devices of a rig file, identifies and measures them, and "
       "reports "
       "what to change;\n"
-      "nothing moves. overshoot shows how far the force goes beyond a limit, on the emulated rig.";
+      "nothing moves. touch waits for a finger or a weight on a load cell whose readings show no "
+      "noise, and\nwrites the day into the rig file. overshoot shows how far the force goes beyond "
+      "a limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";
   syntax.options.add_options()("rig", po::value<std::string>(), "rig.toml: ports, calibration")(
-      "seconds", po::value<double>()->default_value(3.0), "how long to listen")(
+      "seconds", po::value<double>()->default_value(3.0), "how long to listen (touch: 30)")(
       "emulate", "check an emulated rig");
   syntax.positional = {"what"};
-  syntax.choices["what"] = {"list", "check", "overshoot"};
+  syntax.choices["what"] = {"list", "check", "touch", "overshoot"};
   return syntax;
+}
+
+double listening_seconds(const po::variables_map& values) {
+  const double seconds = values["seconds"].as<double>();
+  if (seconds >= 1.0 && seconds <= 3600.0) return seconds;
+  throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", seconds));
 }
 
 int check_and_print(const po::variables_map& values, bool as_json, Streams& streams) {
@@ -157,10 +169,7 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
   if (!is_emulated && values.count("rig") == 0) {
     throw UsageError("rig check needs --rig FILE (or --emulate to see what it prints)");
   }
-  const double seconds = values["seconds"].as<double>();
-  if (!(seconds >= 1.0) || seconds > 3600.0) {
-    throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", seconds));
-  }
+  const double seconds = listening_seconds(values);
   const RigConfig rig =
       values.count("rig") > 0 ? read_rig(values["rig"].as<std::string>()) : demo_rig();
   RigCheck found = check_rig_config(rig, is_emulated, seconds);
@@ -174,6 +183,34 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
   return found.is_usable ? kDone : kFailed;
 }
 
+int touch_and_write(const po::variables_map& values, bool as_json, Streams& streams) {
+  const bool is_emulated = values.count("emulate") > 0;
+  if (!is_emulated && values.count("rig") == 0) {
+    throw UsageError("rig touch needs --rig FILE, whose load cell is touched");
+  }
+  constexpr double kWait_s = 30.0;
+  const double wait_s = values["seconds"].defaulted() ? kWait_s : listening_seconds(values);
+  const std::optional<std::string> file = given(values, "rig");
+  const StopOnSignal on_signal;
+  const double force_N = touch_rig(
+      file ? read_rig(*file) : demo_rig(), is_emulated, wait_s,
+      [&] {
+        streams.err << "Put a finger or a weight on the load cell now, within " << wait_s << " s\n";
+      },
+      &StopOnSignal::is_asked());
+  if (file && !is_emulated) write_answer(*file, today());
+  if (as_json) {
+    print_json<ordered_json>({"viscard-rig-touch/1", given_words(values, {"rig"})},
+                             {{"force_N", force_N}, {"answered_on", today()}}, streams, kOneLine);
+  } else {
+    streams.out << fmt::format("the load cell answered with {:.4f} N", force_N)
+                << (file && !is_emulated ? "; answered_on = " + today() + " is written to " + *file
+                                         : "")
+                << "\n";
+  }
+  return kDone;
+}
+
 }  // namespace
 
 int run_rig(const Words& words, Streams& streams) {
@@ -183,8 +220,8 @@ int run_rig(const Words& words, Streams& streams) {
   const std::string what = values->count("what") > 0 ? (*values)["what"].as<std::string>() : "";
   const bool as_json = values->count("json") > 0;
   for (const std::string option : {"rig", "seconds", "emulate"}) {
-    if (what == "check" || (what == "list" && option == "rig") || values->count(option) == 0 ||
-        (*values)[option].defaulted())
+    if (what == "check" || what == "touch" || (what == "list" && option == "rig") ||
+        values->count(option) == 0 || (*values)[option].defaulted())
       continue;
     throw UsageError("--" + option + " belongs to 'viscard rig check'");
   }
@@ -194,8 +231,9 @@ int run_rig(const Words& words, Streams& streams) {
     return list_ports(rig, given_words(*values, {"rig"}), as_json, streams);
   }
   if (what == "overshoot") return show_overshoot(as_json, streams);
+  if (what == "touch") return touch_and_write(*values, as_json, streams);
   if (what != "check") {
-    throw UsageError("rig needs one of list, check or overshoot. usage: " +
+    throw UsageError("rig needs one of list, check, touch or overshoot. usage: " +
                      std::string(syntax.usage));
   }
   return check_and_print(*values, as_json, streams);

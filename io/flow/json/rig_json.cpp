@@ -20,6 +20,7 @@ CommandError error_of_run(const RunOutcome& outcome) {
 
 nlohmann::ordered_json json_from_rig_check(const RigCheck& found) {
   nlohmann::ordered_json json = {{"is_usable", found.is_usable},
+                                 {"is_proven", found.is_proven},
                                  {"stage",
                                   {{"identity", found.stage_identity},
                                    {"steps_per_m", found.dynamics.steps_per_m},
@@ -73,6 +74,7 @@ nlohmann::ordered_json json_from_outcome(const RunOutcome& outcome, const std::s
                                    : nlohmann::ordered_json(nullptr);
   json["noise_N"] = outcome.noise_N;
   json["hidden_error_N"] = outcome.hidden_error_N;
+  json["is_doubtful"] = !outcome.doubts.empty();
   json["doubts"] = outcome.doubts;
   json["line_format"] = outcome.line_format;
   if (outcome.temperature) {
