@@ -233,7 +233,8 @@ FitResult fit_depth_table(const IndentationData& data, const FitOptions& options
 void add_systematic_parts_to(const IndentationData& data, FitResult& result) {
   BenchDoubt doubt{.frame_stiffness_N_m = data.frame_stiffness_N_m,
                    .frame_relative_u = data.frame_stiffness_relative_u,
-                   .force_relative_u = data.force_relative_u};
+                   .force_relative_u = data.force_relative_u,
+                   .depth_relative_u = data.depth_relative_u};
   if (data.contact) doubt.geometry_relative_u = relative_uncertainty(*data.contact);
   const DepthLaw law = data.contact ? depth_law(*data.contact) : DepthLaw{1.0, 1.0};
   // Stiffness of the contact divided by the modulus, at the largest depth.

@@ -258,6 +258,7 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   }
   data.frame_stiffness_N_m = run.rig.frame.stiffness_N_m;
   data.frame_stiffness_relative_u = run.rig.frame.stiffness_relative_u;
+  data.depth_relative_u = run.rig.stage.depth_relative_u;
   data.largest_force_N = largest_force_N(data);
   data.force_relative_u = gain_relative_u(run.rig.calibration, data.largest_force_N);
   data.force_doubt = calibration_range_doubt(run.rig.calibration, data.largest_force_N);

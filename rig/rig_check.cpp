@@ -4,6 +4,7 @@
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
 #include "rig/run/preflight.h"
+#include "rig/run/rest_findings.h"
 
 #include <algorithm>
 #include <array>
@@ -32,6 +33,7 @@ struct Readings {
   std::vector<Delay> delays;  // host time minus device time, if the device has a clock
   std::vector<double> force_N;
   double first_made_s = 0.0, last_made_s = 0.0;
+  LifeWatch life;
   double shortest_delay_s = 1e9, longest_delay_s = -1e9;
 };
 
@@ -94,7 +96,7 @@ std::string lag_trouble(const RigConfig& rig, const RigCheck& check) {
          std::to_string(baud_for(needed_B_s)) + " baud or more";
 }
 
-void advise(const RigConfig& rig, RigCheck& check) {
+void advise(const RigConfig& rig, const RestReadings& seen, RigCheck& check) {
   const auto add = [&](bool is_fatal, const std::string& text) {
     check.advice.push_back(text);
     check.is_usable = check.is_usable && !is_fatal;
@@ -113,8 +115,24 @@ void advise(const RigConfig& rig, RigCheck& check) {
     add(true, text_from_number(check.rate_Hz, 1) +
                   " readings/s are too few to stop an approach in time: " +
                   remedy_for_slow_readings(rig.load_cell));
-  } else if (!is_late && lag.empty() &&
-             std::abs(check.rate_Hz / rig.load_cell.expected_rate_Hz - 1.0) > 0.1) {
+  }
+  bool is_rate_wrong = false;
+  for (const RestFinding& found : findings_at_rest(seen, rig)) {
+    const bool is_rate = found.about == RestFinding::About::kRate;
+    is_rate_wrong = is_rate_wrong || is_rate;
+    // A late computer has no rate, and a line that falls behind has its own remedy.
+    if (!is_rate || (!is_late && lag.empty())) add(true, found.text);
+  }
+  for (const RestFinding& found : findings_of_stage(check.dynamics)) add(true, found.text);
+  check.is_proven = is_proven_by_noise(seen);
+  if (!check.is_proven && rig.load_cell.answered_on.empty() && check.is_usable) {
+    add(true,
+        "the last digit of the readings hides their noise, so they do not show whether the load "
+        "cell measures. Put a finger or a weight on it while 'viscard rig touch --rig FILE' "
+        "listens: it writes the day into the rig file (answered_on under [load_cell])");
+  }
+  if (check.rate_Hz >= kLeastRate_Hz && !is_rate_wrong && !is_late && lag.empty() &&
+      std::abs(check.rate_Hz / rig.load_cell.expected_rate_Hz - 1.0) > 0.1) {
     add(false, "the readings come at " + text_from_number(check.rate_Hz, 1) +
                    "/s: set expected_rate of the load cell in the rig file to that");
   }
@@ -137,10 +155,6 @@ void advise(const RigConfig& rig, RigCheck& check) {
   if (check.noise_N > 0.005 * capacity_N) {
     add(false, "noise of " + text_from_number(check.noise_N * 1e3, 2) +
                    " mN is above 0.5 % of capacity: shield the cell's wires");
-  }
-  if (std::abs(check.force_N) > 0.5 * capacity_N) {
-    add(true, "the cell reads " + text_from_number(check.force_N, 3) +
-                  " N at rest: take away what presses on it, or correct zero_volts");
   }
 }
 
@@ -184,8 +198,10 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
     readings.shortest_delay_s = std::min(readings.shortest_delay_s, delay_s);
     readings.longest_delay_s = std::max(readings.longest_delay_s, delay_s);
     const std::optional<double> force_N = force_N_from_sample(sample, rig);
+    if (sample.is_saturated) readings.life.take_at_end();
     if (sample.is_glitch || sample.is_saturated || !force_N) return;
     readings.force_N.push_back(*force_N);
+    readings.life.take(received_value(sample), made_s);
   });
   const std::size_t n_bytes_before = load_cell.n_bytes();
   const std::int64_t n_before = load_cell.counts().received;
@@ -213,6 +229,12 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
                  .is_usable = true,
                  .late_s = late_s};
   const auto n = static_cast<double>(readings.force_N.size());
+  if (readings.life.signs().n_at_end > 0 && n < kFewestReadings) {
+    throw RigError(
+        "the readings from '" + load_cell.transport().name() +
+        "' are the end of the converter's range: a wire between the load cell and its amplifier is "
+        "open, or far too much presses on the cell. Check the four wires of the cell");
+  }
   if (n < kFewestReadings) {
     throw RigError("only " + text_from_number(n, 0) + " usable readings came in " +
                    text_from_number(duration_s, 1) + " s from '" + load_cell.transport().name() +
@@ -231,7 +253,13 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
   check.line_bytes = static_cast<double>(load_cell.n_bytes() - n_bytes_before) /
                      static_cast<double>(load_cell.counts().received - n_before);
   if (thermometer != nullptr) take_thermometer(*thermometer, check);
-  advise(rig, check);
+  const RestReadings seen{.force_N = check.force_N,
+                          .noise_N = check.noise_N,
+                          .drift = drift_of(readings.force_N, check.noise_N,
+                                            readings.last_made_s - readings.first_made_s),
+                          .rate_Hz = check.rate_Hz,
+                          .life = readings.life.signs()};
+  advise(rig, seen, check);
   return check;
 }
 

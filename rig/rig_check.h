@@ -32,7 +32,10 @@ struct RigCheck {
   double force_N = 0.0;             // mean by the calibration, without a tare
   double noise_N = 0.0;             // standard deviation of one reading
   std::vector<std::string> advice;  // what to change and why
-  bool is_usable = false;           // true if no piece of advice forbids a run
+  // The readings show the noise of a converter; otherwise only an answer to a touch proves that the
+  // cell measures.
+  bool is_proven = false;
+  bool is_usable = false;  // true if no piece of advice forbids a run
   // Of a rig with a thermometer: its newest temperature, and what is wrong with it.
   bool has_thermometer = false;
   std::optional<double> temperature_C;

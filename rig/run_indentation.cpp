@@ -5,23 +5,27 @@
 #include "rig/run/approach_phase.h"
 #include "rig/run/force_phases.h"
 #include "rig/run/preflight.h"
+#include "rig/run/rest_findings.h"
 #include "rig/run/tare_phase.h"
 #include "rig/run/test_run.h"
+#include "rig/run/unload_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <optional>
 
 namespace viscard {
 namespace {
 
 constexpr double kSamePlace_m = 10e-6;
+constexpr double kSeenPeriods = 5.0;   // of the readings: a shorter wait shows no force
 constexpr double kDepthAfter_s = 0.5;  // after a hold begins: the depth reached is noted then
 
 // Carries out the phases of one test, one after another.
 class IndentationRun {
  public:
-  explicit IndentationRun(TestRun& run) : run_(run), force_phases_(run) {}
+  explicit IndentationRun(TestRun& run) : run_(run), force_phases_(run), unload_check_(run) {}
 
   void connect() {
     RunSession& session = run_.session;
@@ -32,6 +36,9 @@ class IndentationRun {
     run_.start_m = session.stage().position_m();
     outcome.expected = preflight(run_.rig, run_.plan, run_.specimen, session.stage().dynamics());
     session.expect_stiffness(outcome.expected.total_stiffness_N_m);
+    for (const RestFinding& found : findings_of_stage(session.stage().dynamics())) {
+      throw RigError(found.text);
+    }
     if (!outcome.expected.problems.empty()) throw RigError(outcome.expected.problems.front());
     for (const std::string& text : outcome.expected.warnings) session.event("advice", "test", text);
     for (const std::string& text : session.stage().advice()) session.event("advice", "stage", text);
@@ -93,6 +100,11 @@ class IndentationRun {
     const double end_s = session.stage().expected_end_s();
     session.pump_until(end_s + std::min(kDepthAfter_s, phase.duration_s));
     note_depth(run_);
+    if (phase.duration_s > kSeenPeriods * session.load_cell().period_s()) check_last_move();
+    if (const auto due_s = unload_check_.due_after_s(); due_s && *due_s <= phase.duration_s) {
+      session.pump_until(end_s + *due_s);
+      unload_check_.judge();
+    }
     session.pump_until(end_s + phase.duration_s);
   }
 
@@ -101,8 +113,11 @@ class IndentationRun {
     const double way_m = std::abs(expected.stage_travel_of(phase.depth_m - depth_asked_m_));
     const double speed_m_s = phase.move_s > 0.0 ? way_m / phase.move_s : phase.speed_m_s;
     run_.is_in_contact = true;
+    last_move_ = {run_.session.stage().position_m(),
+                  run_.session.sound_force_N(run_.outcome.noise_N)};
     run_.session.move(run_.contact_m + expected.stage_travel_of(phase.depth_m), speed_m_s,
                       phase.purpose);
+    unload_check_.take_move(last_move_->from_m, last_move_->force_N, way_m / speed_m_s);
     depth_asked_m_ = phase.depth_m;
     // The newest reading is later than the end of the move, so a hold reads its depth itself.
     const TestPhase* next = &phase + 1;
@@ -110,9 +125,28 @@ class IndentationRun {
     if (!is_held && phase.depth_m >= deepest_m(run_.phases)) note_depth(run_);
   }
 
+  // The force must have followed the move before this wait: up by a tenth of what the stiffness of
+  // the contact implies, or down by a tenth of what there was.
+  void check_last_move() {
+    if (!last_move_) return;
+    const LastMove last = *last_move_;
+    last_move_.reset();
+    RunSession& session = run_.session;
+    const double to_m = session.stage().position_m();
+    const double change_N = session.sound_force_N(run_.outcome.noise_N) - last.force_N;
+    const double implied_N = std::max(session.implied_N(last.from_m, to_m), -last.force_N);
+    if (session.follows(implied_N, change_N)) return;
+    run_.is_place_doubtful = true;
+    RunSession::throw_unfollowed(to_m > last.from_m ? "pressed" : "unloaded", last.from_m, to_m,
+                                 implied_N, change_N);
+  }
+
   void retract() {
+    RunSession& session = run_.session;
+    const double before_N = session.sound_force_N(run_.outcome.noise_N);
     run_.is_in_contact = false;
-    run_.session.move(safe_position_m(), run_.plan.retract_speed_m_s, "retract");
+    session.move(safe_position_m(), run_.plan.retract_speed_m_s, "retract");
+    check_lifted(run_, before_N);
   }
 
   double planned_from_s(std::size_t phase) const {
@@ -122,7 +156,12 @@ class IndentationRun {
 
   TestRun& run_;
   ForcePhases force_phases_;
-  double depth_asked_m_ = 0.0;  // where the last phase that changed the depth has left it
+  UnloadCheck unload_check_;
+  struct LastMove {
+    double from_m = 0.0, force_N = 0.0;
+  };
+  std::optional<LastMove> last_move_;  // in contact, not judged yet
+  double depth_asked_m_ = 0.0;         // where the last phase that changed the depth has left it
   bool is_begun_ = false;
   std::string name_ = "connect";
 };
@@ -133,16 +172,18 @@ std::string mm_text(double length_m) {
 
 // Position of the punch relative to the contact or, before the contact is known, to the start.
 std::string place_of_stage(TestRun& run) {
+  const std::string counted = run.is_place_doubtful ? "by its count, which is in doubt, " : "";
   const double position_m = run.session.stage().position_m();
   if (run.outcome.contact_position_m) {
     const double clear_m = run.contact_m - position_m;
-    return clear_m > 0.0 ? "the punch is " + mm_text(clear_m) + " above the contact"
-                         : "the punch is still " + mm_text(-clear_m) + " below the contact";
+    return counted + (clear_m > 0.0
+                          ? "the punch is " + mm_text(clear_m) + " above the contact"
+                          : "the punch is still " + mm_text(-clear_m) + " below the contact");
   }
   const double above_m = run.start_m - position_m;
-  if (std::abs(above_m) < kSamePlace_m) return "it stands where it started";
-  return "it stands " + mm_text(std::abs(above_m)) + (above_m > 0.0 ? " above" : " below") +
-         " where it started";
+  if (std::abs(above_m) < kSamePlace_m) return counted + "it stands where it started";
+  return counted + "it stands " + mm_text(std::abs(above_m)) +
+         (above_m > 0.0 ? " above" : " below") + " where it started";
 }
 
 // Where the punch is after a run that ended early: the first information that a person at the rig
@@ -173,6 +214,9 @@ std::string code_of_end(const std::exception& error, bool presses_at_start) {
   if (is_a<DeviceRestarted>(error)) return "device-restarted";
   if (is_a<StageAlarm>(error)) return "stage-alarm";
   if (is_a<ReadingsTooOld>(error)) return "readings-old";
+  if (is_a<CellIsDead>(error)) return "cell-dead";
+  if (is_a<ForceDoesNotFollow>(error)) return "no-response";
+  if (is_a<PunchNotFree>(error)) return "not-lifted";
   if (is_a<ComputerLate>(error)) return "computer-late";
   return is_a<RigError>(error) ? "device" : "failed";
 }
@@ -194,6 +238,7 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   outcome.phase = phases.name();
   outcome.has_begun = run.session.has_moved() && run.is_tared;
   if (run.is_in_contact) note_depth(run);
+  if (is_a<ForceDoesNotFollow>(error)) run.is_place_doubtful = true;
   const SafeEnd end = run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s);
   const bool knows_position = !is_a<DeviceRestarted>(error) && !is_a<StageAlarm>(error);
   outcome.reason += place_of_punch(run, end, run.session.has_moved(), knows_position);

@@ -57,6 +57,9 @@ std::vector<SystematicPart> systematic_parts_from(const PronySeries& specimen_N_
   if (doubt.force_relative_u > 0.0) {
     parts.push_back(part(doubt.force_relative_u, 1.0, 0.0, 1.0 + s, kLoadCellCause));
   }
+  if (doubt.depth_relative_u > 0.0) {
+    parts.push_back(part(doubt.depth_relative_u, 1.0, 0.0, 1.0 + s, kStageCause));
+  }
   if (doubt.geometry_relative_u > 0.0) {
     parts.push_back({kGeometryCause, doubt.geometry_relative_u, {}, {}});
   }

@@ -179,6 +179,7 @@ std::vector<SystematicPart> systematic_parts_on(const Bench& bench, double large
       {.frame_stiffness_N_m = bench.rig.frame.stiffness_N_m,
        .frame_relative_u = bench.rig.frame.stiffness_relative_u,
        .force_relative_u = gain_relative_u(bench.rig.calibration, largest_force_N),
+       .depth_relative_u = bench.rig.stage.depth_relative_u,
        .geometry_relative_u = relative_uncertainty(bench.specimen.contact)});
 }
 
@@ -196,10 +197,10 @@ ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit) {
   };
   causes.gain_drift = effect(fit.gain_drift);
   for (const SystematicPart& part : fit.systematic_parts) {
-    double& cause = part.cause == kFrameCause      ? causes.frame
-                    : part.cause == kLoadCellCause ? causes.calibration
-                                                   : causes.geometry;
-    cause = effect(part);
+    double& cause = part.cause == kFrameCause || part.cause == kStageCause ? causes.frame
+                    : part.cause == kLoadCellCause                         ? causes.calibration
+                                                                           : causes.geometry;
+    cause = std::hypot(cause, effect(part));
   }
   return causes;
 }

@@ -46,6 +46,7 @@ struct IndentationData {
   double contact_to_s = 0.0;         // ... to here belong to ramp and holds; others: no contact
   double frame_stiffness_N_m = 0.0;  // 0: rigid
   double frame_stiffness_relative_u = 0.0;
+  double depth_relative_u = 0.0;  // of the travel that the stage counts
   double force_relative_u = 0.0;  // of the calibration at the largest force, relative and standard
   double largest_force_N = 0.0;   // of a capture, above that out of contact
   std::string force_doubt;        // why the calibration is a doubt for that force, or ""

@@ -1,11 +1,25 @@
 #include "io/config/config_show.h"
 
+#include <cctype>
 #include <stdexcept>
 
 namespace viscard {
 namespace {
 
 using enum Range;
+
+// The shape of 2026-11-28.
+bool is_day(const std::string& text) {
+  constexpr std::size_t kLength = 10;
+  if (text.size() != kLength) return false;
+  for (std::size_t i = 0; i < kLength; ++i) {
+    const bool is_dash = i == 4 || i == 7;
+    if (is_dash ? text[i] != '-' : std::isdigit(static_cast<unsigned char>(text[i])) == 0) {
+      return false;
+    }
+  }
+  return true;
+}
 
 void show_stage(FieldVisitor& fields, StageConfig& stage) {
   fields.text({"driver", "grbl"}, stage.driver);
@@ -20,6 +34,7 @@ void show_stage(FieldVisitor& fields, StageConfig& stage) {
   show_integer(fields, "toward_specimen", -1, 1, stage.toward_specimen);
   fields.quantity({"travel", quantities::kTravel, kPositive}, stage.travel_m);
   fields.quantity({"backlash", "m", kNotNegative}, stage.backlash_m);
+  fields.quantity({"depth_relative_u", "1", kNotNegative}, stage.depth_relative_u);
   fields.boolean("home", stage.home);
   fields.quantity({"microstep", "m", kNotNegative}, stage.microstep_m);
   show_integer(fields, "device", 1, 99, stage.device);
@@ -42,6 +57,12 @@ void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
   fields.text({"dialect", "34401a"}, cell.dialect);
   fields.text({"unit", "N"}, cell.unit);
   fields.text({"framing", "8N1"}, cell.framing);
+  fields.text({"answered_on", "2026-11-28"}, cell.answered_on);
+  if (!cell.answered_on.empty() && !is_day(cell.answered_on)) {
+    throw std::runtime_error("load_cell.answered_on is '" + cell.answered_on +
+                             "'; expected the day on which the cell answered a finger or a weight, "
+                             "such as 2026-11-28 (viscard rig touch writes it)");
+  }
 }
 
 void show_thermometer(FieldVisitor& fields, ThermometerConfig& thermometer) {

@@ -58,6 +58,8 @@ void show_test(FieldVisitor& fields, TestPlan& plan) {
   fields.section("approach", [&](FieldVisitor& inner) {
     inner.quantity({"speed", "m/s", kPositive}, plan.approach_speed_m_s);
     inner.quantity({"limit", "m", kPositive}, plan.approach_limit_m);
+    inner.quantity({"surface", "m", kNotNegative}, plan.surface_m);
+    inner.quantity({"surface_margin", "m", kPositive}, plan.surface_margin_m);
     inner.quantity({"contact_force", quantities::kBenchForce, kPositive}, plan.contact_force_N);
     inner.quantity({"gap", quantities::kDepth, kNotNegative}, plan.gap_m);
     inner.quantity({"baseline", quantities::kHold, kNotNegative}, plan.baseline_s);

@@ -36,6 +36,7 @@ CaptureSetup setup_from_files(const SetupRequest& request) {
   if (!request.is_emulated) return setup;
   setup.truth = request.truth_file ? read_truth(*request.truth_file)
                                    : truth_like(setup.specimen, request.seed.value_or(1));
+  setup.fault = request.fault;
   if (request.seed) setup.truth->seed = *request.seed;
   setup.truth = truth_of_touch(*setup.truth, setup.specimen.id, request.touch);
   setup.rig.load_cell.expected_rate_Hz = setup.truth->sample_rate_Hz;

@@ -17,6 +17,7 @@ struct SetupRequest {
   bool is_emulated = false;
   std::optional<std::uint64_t> seed;
   double speed = 1.0;  // of the emulated clock over the wall clock
+  RigFault fault;      // of the emulated rig
   int touch = 1;       // on the specimen; emulated touches may differ from each other
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value in the files
 };

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -52,8 +53,18 @@ class ClosingCall {
   const CaptureWatch& watch_;
 };
 
-RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, const CaptureRequest& request,
-                        const CaptureWatch& watch) {
+// An emulated rig learns in which phase the test is, because its fault may begin with one.
+RecordSink told_to(EmulatedRig* emulated, RecordSink sink) {
+  if (emulated == nullptr) return sink;
+  return [emulated, sink = std::move(sink)](const RunRecord& record) {
+    sink(record);
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (event != nullptr && event->name == "phase") emulated->enter_phase(event->value);
+  };
+}
+
+RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig* emulated,
+                        const CaptureRequest& request, const CaptureWatch& watch) {
   const CaptureSetup& setup = request.setup;
   RigDevices devices = open_ports(rig, clock);
   CaptureOptions options;
@@ -64,8 +75,8 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, const Captu
     std::filesystem::path path = request.path;
     write_file(path.replace_extension(kTruthEnding), json_from_truth(*setup.truth), true);
   }
-  const RecordSink sink =
-      failing_once([&writer](const RunRecord& record) { writer.append(record); });
+  const RecordSink sink = told_to(
+      emulated, failing_once([&writer](const RunRecord& record) { writer.append(record); }));
   add_drivers(devices, rig, clock, sink);
   const ClosingCall closing(watch);
   if (watch.opened) watch.opened(rig, writer);
@@ -93,9 +104,12 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, const Captu
 
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch) {
   const RigConfig& rig = request.setup.rig;
-  if (!request.setup.truth) return capture_with(rig, RigClock(rig.clock_speed), request, watch);
-  const EmulatedRig emulated({.truth = *request.setup.truth, .config = rig});
-  return capture_with(emulated.config(), emulated.clock(), request, watch);
+  if (!request.setup.truth) {
+    return capture_with(rig, RigClock(rig.clock_speed), nullptr, request, watch);
+  }
+  EmulatedRig emulated(
+      {.truth = *request.setup.truth, .config = rig, .fault = request.setup.fault});
+  return capture_with(emulated.config(), emulated.clock(), &emulated, request, watch);
 }
 
 }  // namespace viscard

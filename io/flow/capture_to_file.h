@@ -5,6 +5,7 @@
 #include "models/experiment/rig_config.h"
 #include "models/experiment/specimen.h"
 #include "models/experiment/test_plan.h"
+#include "rig/emulator/rig_fault.h"
 #include "rig/run/run_control.h"
 #include "rig/run/run_outcome.h"
 
@@ -22,6 +23,7 @@ struct CaptureSetup {
   TestPlan plan;
   Specimen specimen;
   std::optional<EmulatedTruth> truth;  // of an emulated rig
+  RigFault fault;                      // of an emulated rig
 };
 
 // One capture: what is run, and the file it goes to.

@@ -65,6 +65,7 @@ void show_run(ResultVisitor& v, const RunOutcome& outcome) {
     "where the punch touched; null: nowhere");
   v("noise_N", outcome.noise_N, "standard deviation of a reading at rest");
   v("hidden_error_N", outcome.hidden_error_N, "error of force that readings at rest do not show");
+  v("is_doubtful", !outcome.doubts.empty(), "whether anything limits the trust in the record");
   v("doubts", outcome.doubts, "what limits the trust in the record");
   v("line_format", outcome.line_format, "how lines of the load cell were read");
   v("temperature", outcome.temperature, "measured during the run");
@@ -82,6 +83,7 @@ void show_run(ResultVisitor& v, const RunOutcome& outcome) {
 
 void show_keys(ResultVisitor& v, const RigCheck& found) {
   v("is_usable", found.is_usable, "whether a test can begin");
+  v("is_proven", found.is_proven, "whether the readings show the noise of a converter");
   v.object("stage", "measured of the stage", [&] { show_stage(v, found); });
   v.object("load_cell", "measured of the load cell", [&] { show_load_cell(v, found); });
   v("advice", found.advice, "what to change");

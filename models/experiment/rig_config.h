@@ -17,6 +17,9 @@ struct StageConfig {
   int toward_specimen = -1;  // sign of machine motion that presses into the specimen
   double travel_m = 10e-3;   // largest travel toward the specimen from the position at connection
   double backlash_m = 0.0;
+  // Standard uncertainty of the depth that an open-loop stage counts, relative: pitch of the screw,
+  // and steps that the motor lags or loses unnoticed.
+  double depth_relative_u = 0.005;
   bool home = false;  // run the controller's homing cycle before a test
   // Zaber only: length of a microstep of the motor, from the maker's page. No controller knows it.
   double microstep_m = 0.0;
@@ -47,6 +50,9 @@ struct LoadCellConfig {
   // counts or volts, and gauges are set to N.
   std::string unit;
   std::string framing = "8N1";  // data bits, parity (N E O), stop bits
+  // ISO 8601: the day on which it answered a finger or a weight. Needed only if the last digit of
+  // its readings hides their noise, because equal readings then do not show whether it measures.
+  std::string answered_on;
 };
 
 // True for a converter behind a board that sends counts, or volts made of them.

@@ -65,6 +65,10 @@ struct TestPlan {
   // approach
   double approach_speed_m_s = 0.05e-3;
   double approach_limit_m = 5e-3;  // the run ends if nothing is touched within this distance
+  // From the start to the surface, as a person has measured it; 0: not stated. A load cell that has
+  // not shown that it measures is brought no further than surface_margin_m beyond.
+  double surface_m = 0.0;
+  double surface_margin_m = 50e-6;
   double contact_force_N = 0.01;   // force above the baseline that counts as contact
   double gap_m = 20e-6;            // distance from contact before the ramp
   double baseline_s = 10.0;        // recorded out of contact before the ramp, and after retract

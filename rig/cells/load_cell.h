@@ -65,6 +65,8 @@ class LoadCell {
   virtual std::string reads_as() const { return {}; }
   // The format of its lines as a rig file names it; empty if the instrument's protocol fixes it.
   virtual std::string line_format() const { return {}; }
+  // True if the readings carry the time of the device's own clock.
+  virtual bool has_own_clock() const { return false; }
   // True if each reading carries a checksum.
   virtual bool has_check() const { return false; }
   // Measured time between readings, rig seconds.

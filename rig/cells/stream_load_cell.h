@@ -16,6 +16,7 @@ namespace viscard {
 class StreamLoadCell : public LoadCell {
  public:
   bool sends_by_itself() const override { return true; }
+  bool has_own_clock() const override { return device_clock_.has_value(); }
   double made_at_s(const LoadSample& sample) const override;
 
  protected:

@@ -20,11 +20,25 @@ EmulatedAmplifier::EmulatedAmplifier(const EmulatedTruth& truth,
 std::string EmulatedAmplifier::reset(double time_s) {
   reset_s_ = time_s;
   index_ = 0;
+  paced_from_s_ = reset_s_ + options_.boot_s;
+  paced_from_ = 0;
   return "HX711 ready" + options_.line_end;
 }
 
 double EmulatedAmplifier::next_sample_s() const {
-  return reset_s_ + options_.boot_s + static_cast<double>(index_ + 1) / rate_Hz_;
+  return paced_from_s_ + static_cast<double>(index_ - paced_from_ + 1) / rate_Hz_;
+}
+
+void EmulatedAmplifier::set_rate(double rate_Hz) {
+  paced_from_s_ = next_sample_s() - 1.0 / rate_Hz_;
+  paced_from_ = index_;
+  rate_Hz_ = rate_Hz;
+}
+
+void EmulatedAmplifier::set_fault(RigFaultKind kind) {
+  cell_.set_fault(kind);
+  if (kind == RigFaultKind::kFastReadings) set_rate(3.0 * rate_Hz_);
+  if (kind == RigFaultKind::kSlowReadings) set_rate(10.0);
 }
 
 std::string EmulatedAmplifier::convert(double force_N, bool is_cell_broken) {
@@ -32,7 +46,7 @@ std::string EmulatedAmplifier::convert(double force_N, bool is_cell_broken) {
   const double volts = cell_.signal(force_N, time_s, noise_index_++);
   double counts = std::round(volts / volts_per_count_);
   counts = std::clamp(counts, kHx711Lowest, kHx711Highest);
-  if (is_cell_broken) counts = kHx711Highest;
+  if (is_cell_broken || cell_.is_off_scale()) counts = kHx711Highest;
   ++index_;
   const bool is_glitch = options_.glitch_every > 0 && index_ % options_.glitch_every == 0;
   if (options_.format == AmplifierFormat::kFrames) return frame(counts, time_s);

@@ -44,17 +44,23 @@ class EmulatedAmplifier {
   double next_sample_s() const;
   // Converts the force that acts now and returns the line.
   std::string convert(double force_N, bool is_cell_broken);
+  // From now on the cell or the amplifier is broken in that way.
+  void set_fault(RigFaultKind kind);
 
  private:
   std::uint32_t micros_at(double time_s) const;
   std::string frame(double counts, double time_s) const;
   std::string line(double counts, double time_s) const;  // without its end
 
+  void set_rate(double rate_Hz);
+
   double rate_Hz_;
   EmulatedCell cell_;
   double volts_per_count_;
   AmplifierOptions options_;
   double reset_s_ = 0.0;
+  double paced_from_s_ = 0.0;     // time of the reading before the rate was set
+  std::int64_t paced_from_ = 0;   // its number
   std::int64_t index_ = 0;        // readings since the last reset
   std::int64_t noise_index_ = 0;  // readings since the start
 };

@@ -2,8 +2,10 @@
 
 #include "models/experiment/calibration.h"
 #include "models/experiment/emulated_specimen.h"
+#include "rig/emulator/rig_fault.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace viscard {
 
@@ -17,12 +19,24 @@ class EmulatedCell {
 
   // The signal of reading number `index` made at time_s, in V (in N for a force gauge).
   double signal(double force_N, double time_s, std::int64_t index);
+  // From now on the signal is that of a broken cell or amplifier; kinds of other parts change
+  // nothing.
+  void set_fault(RigFaultKind kind) { fault_ = kind; }
+  // The wire to the converter is open: it reads the end of its range.
+  bool is_off_scale() const { return fault_ == RigFaultKind::kOpenWire; }
 
  private:
+  double sound_signal(double force_N, double time_s, std::int64_t index);
+  double drifting_signal(double time_s, std::int64_t index);
+
   EmulatedTruth truth_;
   LoadCellCalibration calibration_;
   double turned_N_ = 0.0;  // the previous force, which shows whether the load rises or falls
   double direction_ = 1.0;
+  RigFaultKind fault_ = RigFaultKind::kNone;
+  double last_ = 0.0;  // signal
+  std::optional<double> drifts_from_s_;
+  double drifts_from_ = 0.0;  // signal
 };
 
 }  // namespace viscard

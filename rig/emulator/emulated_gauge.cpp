@@ -131,6 +131,15 @@ double EmulatedGauge::next_sample_s() const {
                   due_s_.empty() ? std::numeric_limits<double>::infinity() : due_s_.front());
 }
 
+void EmulatedGauge::set_fault(RigFaultKind kind) {
+  cell_.set_fault(kind);
+  double factor = 1.0;
+  if (kind == RigFaultKind::kFastReadings) factor = 3.0;
+  if (kind == RigFaultKind::kSlowReadings) factor = 10.0 / rate_Hz_;
+  rate_Hz_ *= factor;
+  if (stream_Hz_ > 0.0 && factor != 1.0) begin_stream(factor * stream_Hz_, next_of_stream_s());
+}
+
 void EmulatedGauge::convert(double force_N, bool is_cell_broken) {
   const double time_s = next_sample_s();
   if (time_s == next_of_stream_s()) {
@@ -144,7 +153,8 @@ void EmulatedGauge::convert(double force_N, bool is_cell_broken) {
   const double late_s = is_nth(habits_.late_answer_every) ? habits_.late_s : 0.0;
   const double shown = cell_.signal(force_N, time_s, index);
   peak_ = std::max(peak_, shown);
-  answers_.add(time_s + late_s, text_of(habits_.shows_peak ? peak_ : shown, is_cell_broken));
+  answers_.add(time_s + late_s,
+               text_of(habits_.shows_peak ? peak_ : shown, is_cell_broken || cell_.is_off_scale()));
 }
 
 // The gain of a multimeter's rig is V/N, that of a force gauge newtons shown per newton.

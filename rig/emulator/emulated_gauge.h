@@ -42,6 +42,8 @@ class EmulatedGauge {
   double next_sample_s() const;
   // Makes the next reading with the force that acts then.
   void convert(double force_N, bool is_cell_broken);
+  // From now on the cell or the instrument is broken in that way.
+  void set_fault(RigFaultKind kind);
   std::string take_output(double time_s) { return answers_.take_due(time_s); }
 
  private:

@@ -1,5 +1,6 @@
 #include "rig/emulator/emulated_rig.h"
 
+#include "rig/emulator/emulated_motor.h"
 #include "rig/emulator/emulated_parts.h"
 #include "rig/emulator/emulated_specimen.h"
 #include "rig/emulator/pty_port.h"
@@ -13,6 +14,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -23,7 +25,8 @@ namespace {
 constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulated time
 constexpr double kShortestNap_s = 0.2e-3;  // wall
 constexpr double kLongestNap_s = 2e-3;     // wall; bounds the delay until an incident is noticed
-constexpr double kFrame_s = 1e-3;          // a rig that waits exchanges bytes so often, as USB does
+constexpr double kNever_s = 1e300;
+constexpr double kFrame_s = 1e-3;  // a rig that waits exchanges bytes so often, as USB does
 
 }  // namespace
 
@@ -39,7 +42,9 @@ class EmulatedRig::Impl final : public WaitingRig {
         amplifier_(options.truth, options.config.calibration,
                    options.config.load_cell.volts_per_count, amplifier_options(options)),
         thermometer_(options.config.thermometer, options.thermometer),
+        motor_(options.travel_scale),
         pace_(options.config.clock_speed) {
+    if (options.fault.phase.empty()) enter_phase("");
     if (options.is_on_wall_clock) thread_ = std::thread([this] { run(); });
   }
 
@@ -63,6 +68,14 @@ class EmulatedRig::Impl final : public WaitingRig {
     pace_.keep(now_s_);
   }
 
+  // The fault is due from here on; it begins with the next service.
+  void enter_phase(const std::string& phase) {
+    const RigFault& fault = options_.fault;
+    if (fault.kind == RigFaultKind::kNone || phase != fault.phase) return;
+    const double from_s = options_.is_on_wall_clock ? clock_.now_s() : now_s_;
+    if (fault_due_s_ == kNever_s) fault_due_s_ = from_s + fault.after_s;
+  }
+
   EmulatedOutcome outcome() const {
     const std::lock_guard lock(outcome_mutex_);
     return outcome_;
@@ -78,6 +91,7 @@ class EmulatedRig::Impl final : public WaitingRig {
   std::atomic<unsigned> incidents_{0};
   std::atomic<double> stall_wall_s_{0.0};
   std::atomic<double> weight_N_{0.0};
+  std::atomic<double> fault_due_s_{kNever_s};
   mutable std::mutex outcome_mutex_;
   EmulatedOutcome outcome_;
   std::vector<std::string> sent_lines_;
@@ -94,6 +108,7 @@ class EmulatedRig::Impl final : public WaitingRig {
     watch_port(stage_port_, stage_board_, now_s);
     watch_port(cell_port_, cell_board_, now_s);
     happen(now_s);
+    if (now_s >= fault_due_s_) begin_fault();
     // Conversions up to now depend on the motion up to now; bytes from the host act from now on.
     stage_->tick(now_s);
     serve_cell(now_s);
@@ -102,7 +117,8 @@ class EmulatedRig::Impl final : public WaitingRig {
     {
       // Set before a report of this moment can reach the host.
       const std::lock_guard lock(outcome_mutex_);
-      outcome_.final_position_m = stage_->bench_position_m(now_s);
+      outcome_.final_position_m =
+          motor_.position_m(stage_->bench_position_m(now_s), specimen_.force_N());
       outcome_.is_moving = stage_->is_moving(now_s);
     }
     serve_stage(now_s);
@@ -128,7 +144,8 @@ class EmulatedRig::Impl final : public WaitingRig {
     while (bench_s_ < to_s) {
       const double next_s =
           std::min({to_s, bench_s_ + kLargestStep_s, stage_->next_knot_s(bench_s_)});
-      const double force_N = specimen_.advance(next_s - bench_s_, stage_->bench_position_m(next_s));
+      const double at_m = motor_.position_m(stage_->bench_position_m(next_s), specimen_.force_N());
+      const double force_N = specimen_.advance(next_s - bench_s_, at_m);
       bench_s_ = next_s;
       if (!specimen_.is_touched() && !stage_->is_moving(bench_s_)) {
         bench_s_ = to_s;  // nothing can happen until the stage moves
@@ -218,6 +235,16 @@ class EmulatedRig::Impl final : public WaitingRig {
     if (stall_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(stall_s));
   }
 
+  void begin_fault() {
+    fault_due_s_ = std::numeric_limits<double>::infinity();
+    const RigFaultKind kind = options_.fault.kind;
+    amplifier_.set_fault(kind);
+    gauge_.set_fault(kind);
+    motor_.set_fault(kind);
+    if (kind == RigFaultKind::kLoadCellPort) cell_port_.hang_up();
+    if (kind == RigFaultKind::kStagePort) stage_port_.hang_up();
+  }
+
   // Waits until the next conversion is due or the host sends bytes.
   void nap(double now_s) {
     double wall_s = kLongestNap_s;
@@ -237,6 +264,7 @@ class EmulatedRig::Impl final : public WaitingRig {
   EmulatedGauge gauge_;
   EmulatedAmplifier amplifier_;
   EmulatedThermometer thermometer_;
+  EmulatedMotor motor_;
   Board stage_board_, cell_board_;
   bool is_cell_silent_ = false;
   double now_s_ = 0.0;  // of a rig that waits
@@ -291,6 +319,9 @@ void EmulatedRig::hang_weight(double force_N) {
 }
 void EmulatedRig::cause(Incident incident) {
   impl_->incidents_ |= static_cast<unsigned>(incident);
+}
+void EmulatedRig::enter_phase(const std::string& phase) {
+  impl_->enter_phase(phase);
 }
 void EmulatedRig::stall(double wall_s) {
   impl_->stall_wall_s_ = wall_s;

@@ -60,6 +60,10 @@ class EmulatedRig {
   void cause(Incident incident);
   void stall(double wall_s);  // the thread does nothing for that time; for a rig on the wall clock
 
+  // A phase of the test has begun; the fault of the options begins with it. May be called from any
+  // thread.
+  void enter_phase(const std::string& phase);
+
   // Serves something else on the lines of a rig that waits, such as a FaultProxy. It is called
   // repeatedly with the time, and returns true if bytes have gone to the program.
   void serve_too(std::function<bool(double now_s)> serve);

@@ -7,6 +7,7 @@
 #include "rig/emulator/emulated_grbl.h"
 #include "rig/emulator/emulated_thermometer.h"
 #include "rig/emulator/emulated_zaber.h"
+#include "rig/emulator/rig_fault.h"
 
 namespace viscard {
 
@@ -26,6 +27,8 @@ struct EmulatedRigOptions {
   GaugeHabits gauge;
   AmplifierOptions amplifier;
   ThermometerHabits thermometer;  // of the one that config names
+  RigFault fault;
+  double travel_scale = 1.0;  // true travel of the stage over the one it counts
   // Boards with a USB converter (UNO, Nano) reset when their port is opened, native USB does not.
   bool resets_on_open = true;
   double boot_wall_s = 0.1;  // from that reset to the welcome; rig time for a rig that waits

@@ -19,7 +19,9 @@ constexpr double kReported_m = 2e-6;  // twice the resolution of a report
 constexpr double kFewestSteps = 4.0;  // of the motor
 constexpr double kSureRise = 10.0;    // over the smallest rise that is felt
 constexpr double kMostFurther = 0.5;  // of the soft limit
-constexpr double kOfFrame = 0.95;     // a stiffer contact says nothing of the specimen
+constexpr double kSurelySeen = 4.0;   // times the noise of a difference of means
+constexpr int kMostPulls = 5;
+constexpr double kOfFrame = 0.95;  // a stiffer contact says nothing of the specimen
 
 struct Touch {
   JogEnd before;  // the last stop before contact
@@ -50,14 +52,38 @@ std::string nothing_touched_text(const TestRun& run) {
          "enable input of its driver";
 }
 
+// Of the way toward the specimen. Without proof that the load cell measures, it is only the one to
+// the surface and a margin, whatever the cell says.
+double farthest_m(TestRun& run) {
+  const TestPlan& plan = run.plan;
+  if (run.is_proven) return plan.approach_limit_m;
+  if (!(plan.surface_m > 0.0)) {
+    throw CellIsDead(
+        "nothing shows that the load cell measures: its readings are equal or nearly so, as those "
+        "of a dead one are. Put a finger or a weight on it while 'viscard rig touch --rig FILE' "
+        "listens, which writes the day into the rig file; or state the distance from the punch to "
+        "the surface as surface under [approach] of the test file");
+  }
+  return std::min(plan.approach_limit_m, plan.surface_m + plan.surface_margin_m);
+}
+
+[[noreturn]] void throw_nothing_touched(const TestRun& run) {
+  if (run.is_proven) throw RigError(nothing_touched_text(run));
+  throw CellIsDead(
+      "the punch has gone " + text_from_number(run.plan.surface_margin_m * 1e3, 3) +
+      " mm beyond the stated surface, and the load cell, whose readings show no noise, has not "
+      "answered. Put a finger or a weight on it while 'viscard rig touch --rig FILE' listens, or "
+      "correct surface under [approach] of the test file");
+}
+
 Touch jog_until_touched(TestRun& run, double threshold_N) {
   RunSession& session = run.session;
-  const double limit_m = run.start_m + run.plan.approach_limit_m;
+  const double limit_m = run.start_m + farthest_m(run);
   const double jog_m = std::max(kLongestJog_m, 1.01 / session.stage().dynamics().steps_per_m);
   while (true) {
     const double next_m = session.stage().position_m() + jog_m;
     if (next_m > limit_m) {
-      throw RigError(nothing_touched_text(run));
+      throw_nothing_touched(run);
     }
     const JogEnd before{session.stage().position_m(), session.sound_force_N(run.outcome.noise_N)};
     if (!session.move(next_m, run.plan.approach_speed_m_s, "approach", threshold_N)) continue;
@@ -72,6 +98,35 @@ JogEnd pressed_to(TestRun& run, double position_m, double most_N) {
   run.session.move(position_m, run.plan.approach_speed_m_s, "approach", most_N);
   const double force_N = run.session.mean_force(kSettle_s).force_N;
   return {run.session.stage().position_m(), force_N};
+}
+
+// Standard deviation of the difference of two mean forces.
+double difference_N(const TestRun& run) {
+  const double n = std::max(1.0, kSettle_s / run.session.load_cell().period_s());
+  return run.outcome.noise_N * std::sqrt(2.0 / n);
+}
+
+[[noreturn]] void throw_no_contact(TestRun& run, const std::string& what) {
+  run.is_place_doubtful = true;
+  throw ForceDoesNotFollow(
+      "a force was felt in the approach, but it does not follow the stage: " + what +
+      ". This is no contact. An open wire of the load cell drifts like that; a motor without power "
+      "counts without moving; or something else touched the cell. Check the wires, then the "
+      "motor's supply and its enable input, and run: viscard rig check");
+}
+
+// A punch that presses further raises the force by at least a tenth of what the touch has shown.
+void check_rise(TestRun& run, const Touch& touch, const JogEnd& first, const JogEnd& second) {
+  const double way_m = second.position_m - first.position_m;
+  const double touch_m = touch.at.position_m - touch.before.position_m;
+  const double noise_N = difference_N(run);
+  const double seen_N = std::max(0.0, touch.at.force_N - kContactSigmas * run.outcome.noise_N);
+  const double implied_N = touch_m > 0.0 ? seen_N * way_m / touch_m : 0.0;
+  const double rise_N = second.force_N - first.force_N;
+  if (rise_N > std::max(kSurelySeen * noise_N, RunSession::kFollows * implied_N)) return;
+  throw_no_contact(run, "it changed by " + text_from_number(rise_N * 1e3, 2) +
+                            " mN when the stage pressed " + text_from_number(way_m * 1e3, 4) +
+                            " mm further");
 }
 
 // Presses a few per cent of the depth further, so that two stops in contact show the stiffness.
@@ -92,6 +147,7 @@ Touch pressed_further(TestRun& run, const Touch& touch) {
   if (touch.at.force_N + rise_N > most_N) return touch;
   const JogEnd first = pressed_to(run, touch.at.position_m + first_m, most_N);
   const JogEnd second = pressed_to(run, first.position_m + jog_m, most_N);
+  check_rise(run, touch, first, second);
   return second.force_N > first.force_N ? Touch{first, second} : touch;
 }
 
@@ -122,9 +178,8 @@ void use_stiffness(TestRun& run, double total_N_m) {
   expected.ramp_speed_m_s *= expected.travel_per_depth / before;
 }
 
-// A punch that presses must raise the force; otherwise the load cell is wired the other way round.
-void check_sign(const TestRun& run, double touched_N) {
-  if (touched_N > 0.0) return;
+// A punch that presses must raise the force.
+[[noreturn]] void throw_wrong_sign(const TestRun& run, double touched_N) {
   const bool is_positive = run.rig.load_cell.compression_is_positive;
   throw RigError("the force fell to " + text_from_number(touched_N, 4) +
                  " N when the punch touched: the load cell reads compression with the other sign. "
@@ -133,6 +188,46 @@ void check_sign(const TestRun& run, double touched_N) {
                  (is_positive ? "true" : "false") + ")");
 }
 
+// A force that falls at the touch. If it falls further when the punch presses and comes back when the
+// punch lifts, the load cell is wired the other way round. If it rises, the specimen has pulled the
+// punch at the touch (adhesion), and the approach goes on. Otherwise it was no touch.
+void judge_negative_touch(TestRun& run, const Touch& touch) {
+  const double noise_N = difference_N(run);
+  const double steps_m = kFewestSteps / run.session.stage().dynamics().steps_per_m;
+  const double touch_m = std::max(steps_m, touch.at.position_m - touch.before.position_m);
+  const double further_m = std::clamp(kSureRise * noise_N * touch_m / -touch.at.force_N,
+                                      std::max(steps_m, kReported_m), kLongestJog_m);
+  const double most_N = kMostFurther * limit_N(run);
+  const JogEnd pressed = pressed_to(run, touch.at.position_m + further_m, most_N);
+  const double change_N = pressed.force_N - touch.at.force_N;
+  if (change_N > kSurelySeen * noise_N) {
+    run.session.event("adhesion", text_from_number(touch.at.force_N, 6),
+                      "The specimen pulled the punch by " +
+                          text_from_number(-touch.at.force_N * 1e3, 2) + " mN at the touch");
+    return;
+  }
+  run.session.move(touch.before.position_m - touch_m, run.plan.approach_speed_m_s, "back off");
+  const double lifted_N = run.session.mean_force(kSettle_s).force_N;
+  if (change_N > -kSurelySeen * noise_N || lifted_N < kStillThere * touch.at.force_N) {
+    throw_no_contact(run, "it was " + text_from_number(touch.at.force_N * 1e3, 2) +
+                              " mN, changed by " + text_from_number(change_N * 1e3, 2) +
+                              " mN when the stage pressed further, and was " +
+                              text_from_number(lifted_N * 1e3, 2) + " mN after a lift");
+  }
+  throw_wrong_sign(run, touch.at.force_N);
+}
+
+// Jogs on after an adhesion until the force is one of compression.
+Touch touched_in_compression(TestRun& run, double threshold_N) {
+  for (int i = 0; i < kMostPulls; ++i) {
+    const Touch touch = jog_until_touched(run, threshold_N);
+    if (touch.at.force_N > 0.0) return touch;
+    judge_negative_touch(run, touch);
+  }
+  throw RigError(
+      "the specimen pulls the punch again and again in the approach. Clean the punch, or cover "
+      "the specimen with powder or a drop of water");
+}
 // With the stiffness measured at the touch, a ramp that reaches the soft limit must come to a stop
 // before the capacity of the cell, independent of the guessed modulus.
 void check_stiffness(TestRun& run, double least_N_m) {
@@ -174,14 +269,14 @@ void back_off(TestRun& run, double contact_m) {
   }
   throw RigError(
       "the force does not return to zero when the punch is backed off. Is the specimen "
-      "sticky, or does the cell drift? Raise gap under [approach] of the test file");
+      "sticky, or does the cell drift (an open wire)? Raise gap under [approach] of the test file, "
+      "or check the wires of the load cell");
 }
 
 }  // namespace
 
 void carry_out_approach(TestRun& run) {
-  const Touch first = jog_until_touched(run, contact_threshold_N(run));
-  check_sign(run, first.at.force_N);
+  const Touch first = touched_in_compression(run, contact_threshold_N(run));
   const Touch touch = pressed_further(run, first);
   const ContactEstimate contact = contact_from_stops(
       touch.before, touch.at, run.outcome.noise_N, 1.0 / run.session.stage().dynamics().steps_per_m,
@@ -190,26 +285,11 @@ void carry_out_approach(TestRun& run) {
   use_stiffness(run, contact.stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
   back_off(run, contact.position_m);
-}
-
-ContactEstimate contact_from_stops(const JogEnd& before, const JogEnd& touched, double noise_N,
-                                   double step_m, double guess_N_m) {
-  constexpr double kFeltSigmas = 6.0;
-  const double felt_N = kFeltSigmas * noise_N;
-  const double way_m = touched.position_m - before.position_m;
-  ContactEstimate estimate;
-  estimate.position_m = touched.position_m - touched.force_N / guess_N_m;
-  if (!(way_m > 0.0)) return estimate;
-  const bool was_felt = before.force_N > felt_N;
-  const double rise_N = touched.force_N - (was_felt ? before.force_N : 0.0);
-  estimate.least_stiffness_N_m = std::max(0.0, rise_N - felt_N) / (way_m + step_m);
-  if (!was_felt) {
-    estimate.position_m = std::max(estimate.position_m, before.position_m);
-  } else if (rise_N > felt_N) {
-    estimate.stiffness_N_m = rise_N / way_m;
-    estimate.position_m = touched.position_m - touched.force_N / estimate.stiffness_N_m;
-  }
-  return estimate;
+  // It rose when the stage pressed, and went when the stage lifted.
+  run.is_proven = true;
+  run.contact_N_m =
+      contact.stiffness_N_m > 0.0 ? contact.stiffness_N_m : contact.least_stiffness_N_m;
+  run.session.expect_force(run.contact_m, run.contact_N_m);
 }
 
 }  // namespace viscard

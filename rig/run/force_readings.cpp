@@ -55,6 +55,19 @@ std::vector<double> without_spikes(const std::vector<double>& values) {
   return result.size() < 2 ? values : result;
 }
 
+Drift drift_of(const std::vector<double>& force_N, double noise_N, double took_s) {
+  const std::size_t half = force_N.size() / 2;
+  const double between_s = 0.5 * took_s;
+  if (half == 0 || !(between_s > 0.0)) return {};
+  double early_N = 0.0, late_N = 0.0;
+  for (std::size_t i = 0; i < half; ++i) {
+    early_N += force_N[i];
+    late_N += force_N[force_N.size() - 1 - i];
+  }
+  const auto n = static_cast<double>(half);
+  return {(late_N - early_N) / n / between_s, noise_N * std::sqrt(2.0 / n) / between_s};
+}
+
 double ForceReadings::sound_force_N(double noise_N) const {
   const double by_N = end_stands_out(force_N_, earlier_N_[0], earlier_N_[1]);
   return n_forces_ >= 3 && by_N > kSigmas * noise_N ? earlier_N_[0] : force_N_;
@@ -113,6 +126,7 @@ ForceMean ForceReadings::collected_mean() const {
   for (const double force_N : sound_N) squares_N2 += (force_N - mean_N) * (force_N - mean_N);
   result.force_N = mean_N - tare_N_;
   result.sd_N = std::sqrt(squares_N2 / (result.n - 1));
+  result.drift = drift_of(sound_N, result.sd_N, collected_until_s_ - collected_first_s_);
   result.rate_Hz = (n_collected() - 1) / std::max(1e-9, collected_until_s_ - collected_first_s_);
   return result;
 }

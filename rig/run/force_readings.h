@@ -10,10 +10,18 @@
 
 namespace viscard {
 
+// Change of a force per second, from the first half of its readings to the second, and its standard
+// uncertainty by their noise.
+struct Drift {
+  double N_per_s = 0.0, u_N_per_s = 0.0;
+};
+Drift drift_of(const std::vector<double>& force_N, double noise_N, double took_s);
+
 struct ForceMean {
   double force_N = 0.0;  // mean from the tare, without readings that stand out of both neighbours
   double sd_N = 0.0;     // standard deviation of one reading
   double rate_Hz = 0.0;  // of the readings that have a force
+  Drift drift;
   int n = 0;
 };
 
@@ -35,6 +43,7 @@ class ForceReadings {
   Reading take(const LoadSample& sample, double made_at_s);
 
   double force_N() const { return force_N_; }
+  double earlier_N() const { return earlier_N_[0]; }  // the force before it
   // The newest force, or the one before it if the newest stands out of the last ones by more than 8
   // times the noise.
   double sound_force_N(double noise_N) const;

@@ -64,7 +64,7 @@ std::string PunchLift::lift(double share) {
     while (stage.is_moving() && clock.awake_s() < deadline_s) pump();
     lifted_m = from_m - stage.position_m();
   }
-  const bool was_pressing = before_N > options.pressing_N;
+  const bool was_pressing = before_N > options.pressing_N || !options.blind.empty();
   if (to_m < from_m && !(lifted_m > 0.0) && was_pressing) {
     return "THE PUNCH WAS NOT LIFTED: the controller's own travel ends where it stands ($20, "
            "$130-132). Lift it by hand";
@@ -78,6 +78,7 @@ std::string PunchLift::trouble_with_force(double before_N) {
     return std::string("whether the force has fallen cannot be seen, because the load cell ") +
            why + ": look at the punch";
   };
+  if (!options.blind.empty()) return unseen(options.blind.c_str());
   if (devices.is_cell_restarted()) return unseen("has restarted");
   if (!devices.is_cell_usable()) return unseen("is gone");
   const std::int64_t n_before = readings.n_forces();

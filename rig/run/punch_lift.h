@@ -22,6 +22,7 @@ struct PunchLift {
     double retract_to_m = 0.0;
     double speed_m_s = 0.0;
     double pressing_N = 0.0;  // a force above this means that the punch presses
+    std::string blind;        // why no reading shows the force; empty: they do
   };
   ServedDevices& devices;
   const ForceReadings& readings;

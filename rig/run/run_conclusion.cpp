@@ -113,6 +113,8 @@ void conclude(RunSession& session, const RigConfig& rig, RunOutcome& outcome,
   outcome.line_format = session.load_cell().line_format();
   try {
     session.finish_marking();
+    const std::vector<std::string>& seen = session.doubts();
+    outcome.doubts.insert(outcome.doubts.end(), seen.begin(), seen.end());
     outcome.stream.implausible += session.n_implausible();
     record_hidden_error(session, outcome);
     doubt_line(session, outcome);

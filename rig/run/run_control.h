@@ -55,6 +55,24 @@ class ReadingsTooOld : public RigError {
   using RigError::RigError;
 };
 
+// The readings of the load cell go on but measure nothing any more.
+class CellIsDead : public RigError {
+ public:
+  using RigError::RigError;
+};
+
+// The stage counts a move that the force does not show: its motor stands, or the cell is blind.
+class ForceDoesNotFollow : public RigError {
+ public:
+  using RigError::RigError;
+};
+
+// After the last lift the force says that the punch still presses.
+class PunchNotFree : public RigError {
+ public:
+  using RigError::RigError;
+};
+
 // The computer was late while the stage was pressing, and nobody watched the force meanwhile.
 class ComputerLate : public RigError {
  public:

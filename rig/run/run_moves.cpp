@@ -110,7 +110,12 @@ void RunSession::press(double to_m, double speed_m_s, const std::string& purpose
   const bool is_in_steps = ages_.needs_steps(period_s);
   const double step_m = is_in_steps ? std::max(kLongestStep_m, 1.01 / dynamics.steps_per_m) : 1e300;
   const auto is_old = [&] { return age_s() > ages_.allowed_s(period_s); };
+  press_speed_m_s_ = std::max(speed_m_s, dynamics.min_speed_m_s);
+  pressed_from_m_ = stage().position_m();
+  pressed_from_N_ = readings_.sound_force_N(noise_N_);
+  places_.clear();
   while (!readings_.has_exceeded() && stage().position_m() < to_m) {
+    await_change();
     if (!pump_while(is_old, kFresh_wall_s)) throw_too_old("before the stage was to press");
     if (readings_.has_exceeded()) return;
     is_pressing_ = !is_in_steps;
@@ -119,6 +124,7 @@ void RunSession::press(double to_m, double speed_m_s, const std::string& purpose
     is_pressing_ = false;
     if (next_m == to_m) return;
     await_reading_after(clock_.now_s());
+    judge_press(stage().position_m());
   }
 }
 

@@ -15,6 +15,7 @@ constexpr double kLateMean_wall_s = 3.0;
 // On an emulated clock that runs fast, every stall of the machine counts as seconds of rig time.
 constexpr double kOldEmulated_wall_s = 2.0;
 constexpr double kWhileUnwatched_wall_s = 0.5;  // after a delay its readings are judged
+constexpr double kJumpShare = 0.5;              // of the capacity, between two readings
 constexpr double kPressingShare = 0.1;          // of the soft limit
 
 std::string force_text(double force_N) {
@@ -60,6 +61,7 @@ void RunSession::pump() {
     }
     check_stream();
     check_age();
+    check_follow();
     // At rest a doubtful reading waits for the next one; a stream that has stopped is noticed above.
     if (guards_force() && stage().is_moving())
       act_on(guard_.silent_until(clock_.now_s()), readings_.force_N());
@@ -88,6 +90,7 @@ bool RunSession::guards_force() const {
 void RunSession::take_sample(const LoadSample& sample) {
   const double made_at_s = load_cell().made_at_s(sample);
   const auto [force_N, is_doubtful] = readings_.take(sample, made_at_s);
+  is_doubtful_ = is_doubtful;
   if (!is_doubtful) {
     ages_.take(force_N, made_at_s);
     progress_.report_reading(made_at_s, force_N, stage().position_m(), stage().is_moving());
@@ -98,6 +101,7 @@ void RunSession::take_sample(const LoadSample& sample) {
   if (!guards_force() && !devices_.is_stopping()) return;
   const GuardAction action = guard_.take(force_N, is_doubtful, sample.host_time_s,
                                          load_cell().period_s(), stage().is_moving());
+  if (action == GuardAction::kNone || action == GuardAction::kWarn) take_life(sample, made_at_s);
   if (is_guarded_) {
     act_on(action, force_N);
   } else if (action == GuardAction::kHardStop) {
@@ -153,13 +157,21 @@ void RunSession::act_on(GuardAction action, double force_N) {
 // can be lifted.
 void RunSession::throw_limit(GuardAction action, double force_N) const {
   const bool is_hard = action == GuardAction::kHardStop;
-  if (is_hard && std::abs(force_N) < guard_.hard_limit_N()) {
+  if (is_hard && is_doubtful_) {
     throw LimitReached(
-        "readings of the load cell make no force (end of the converter's range, "
-        "overload, or a broken wire), and what cannot be read may be too much. Check the load cell "
-        "with: viscard rig check");
+        "readings of the load cell make no force: they are the end of the converter's range (an "
+        "open wire of the cell, or an overload), and what cannot be read may be too much. Check "
+        "the wires, and the load cell with: viscard rig check");
   }
   const std::string late = lateness_text(kWhileUnwatched_wall_s);
+  const double before_N = readings_.earlier_N();
+  const double jump_N = std::abs(force_N) - std::abs(before_N);
+  if (has_moved_ && late.empty() && jump_N > kJumpShare * rig_.calibration.capacity_N) {
+    throw LimitReached("the force jumped from " + force_text(before_N) + " to " +
+                       force_text(force_N) +
+                       " within one reading, which no stage can press so fast: a wire of the load "
+                       "cell is open, or its amplifier fails. Check both with: viscard rig check");
+  }
   const std::string reached = "the force reached " + force_text(force_N) + ", above the " +
                               (is_hard ? "hard limit of " + force_text(guard_.hard_limit_N())
                                        : "limit of " + force_text(guard_.soft_limit_N()));
@@ -191,10 +203,15 @@ void RunSession::check_stream() {
         "No reading of the load cell for " + text_from_number(silence->silent_s, 3) + " s " +
             (is_moving ? "while the stage moved" : "at rest") + ", which may be " +
             text_from_number(silence->limit_s, 3) + " s" + (is_moving ? ": it was reset" : ""));
+  const std::string slower = life_.usual_rate_Hz() > 0.0
+                                 ? " (or its rate has dropped far below the " +
+                                       text_from_number(life_.usual_rate_Hz(), 1) +
+                                       "/s of the tare)"
+                                 : "";
   throw RigError(std::string("the load cell fell silent ") +
                  (is_moving ? "while the stage was moving; the stage was stopped"
                             : "while the stage stood still") +
-                 ". Check the amplifier and its cable, then start the run again");
+                 slower + ". Check the amplifier and its cable, then start the run again");
 }
 
 ForceMean RunSession::mean_force(double duration_s) {
@@ -219,6 +236,7 @@ ForceMean RunSession::mean_force(double duration_s) {
 ForceMean RunSession::tare(double duration_s) {
   const ForceMean mean = mean_force(duration_s);
   readings_.add_to_tare(mean.force_N);
+  noise_N_ = mean.sd_N;
   event("tare", text_from_number(readings_.tare_N(), 6),
         "Zero is at " + text_from_number(readings_.tare_N(), 4) + " N of the calibration; noise " +
             text_from_number(mean.sd_N * 1e3, 3) + " mN per reading");
@@ -241,7 +259,7 @@ SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s) {
                  readings_,
                  clock_,
                  [this] { pump(); },
-                 {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N()}};
+                 {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_}};
   return lift.carry_out();
 }
 

@@ -6,15 +6,19 @@
 #include "rig/run/age_watch.h"
 #include "rig/run/force_guard.h"
 #include "rig/run/force_readings.h"
+#include "rig/run/life_watch.h"
 #include "rig/run/punch_lift.h"
 #include "rig/run/run_control.h"
 #include "rig/run/served_devices.h"
 #include "rig/run/spike_watch.h"
 #include "rig/stages/stage.h"
 
+#include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -45,6 +49,26 @@ class RunSession {
   // The stiffness of specimen and frame in series is at least this. Each move toward the specimen
   // is judged by the largest value so far.
   void expect_stiffness(double stiffness_N_m);
+  // The readings since then were made at rest.
+  void forget_readings() { life_.restart(); }
+  LifeSigns life_signs() const { return life_.signs(); }
+  // From now on readings that stop measuring stop the stage and end the run (CellIsDead).
+  void watch_life() { life_.begin_watch(load_cell().has_own_clock()); }
+  // The contact and the stiffness seen in the approach: from now on the force must follow the moves
+  // toward the specimen, by at least a tenth of that stiffness; otherwise ForceDoesNotFollow.
+  void expect_force(double contact_m, double stiffness_N_m) {
+    follow_ = {contact_m, stiffness_N_m};
+  }
+  // What a change of that size in the stage's position does to the force, N.
+  double implied_N(double from_m, double to_m) const;
+  static constexpr double kFollows = 0.1;  // of what the stiffness implies
+  // True if the force has changed as the stiffness implies, by a tenth at least, or if too little is
+  // implied to be judged.
+  bool follows(double implied_N, double change_N) const;
+  [[noreturn]] static void throw_unfollowed(const std::string& what, double from_m, double to_m,
+                                            double implied_N, double change_N);
+  // Smallest change of the force that is judged: more than noise, far less than the cell can bear.
+  double judged_N() const;
   // Moves and waits for standstill. While it presses, the readings must be younger than AgeWatch
   // allows, otherwise ReadingsTooOld is thrown after an immediate stop; if they come too rarely for
   // that, the stage moves in steps and waits for a reading after each.
@@ -84,6 +108,8 @@ class RunSession {
   // Why this computer may be the cause if the run ends now: it was late within the last seconds.
   // Empty if it was not.
   std::string lateness_text(double within_wall_s = 2.0) const;
+  // Reasons to distrust the record that the session has noticed.
+  const std::vector<std::string>& doubts() const { return doubts_; }
   // Judges the last readings too; call when no more readings follow.
   void finish_marking() { marks_.finish(); }
 
@@ -96,6 +122,13 @@ class RunSession {
   void check_stream();
   void check_age();
   void check_lateness();
+  void take_life(const LoadSample& sample, double made_at_s);
+  void check_life();
+  void note_wild();
+  [[noreturn]] void end_blind(LifeWatch::Trouble trouble);
+  void await_change();
+  void check_follow();
+  void judge_press(double position_m);
   double age_s() const;
   [[noreturn]] void throw_too_old(const std::string& what) const;
   void press(double to_m, double speed_m_s, const std::string& purpose,
@@ -124,6 +157,25 @@ class RunSession {
   bool has_moved_ = false;
   bool is_pressing_ = false;  // a move toward the specimen that is judged by the readings' age
   double stiffness_N_m_ = 0.0;
+  double press_speed_m_s_ = 0.0;
+  LifeWatch life_;
+  std::int64_t n_changes_before_ = 0;  // of the readings, before the last move toward the specimen
+  struct Follow {
+    double contact_m = 0.0;
+    double stiffness_N_m = 0.0;  // 0: nothing is known yet
+  };
+  Follow follow_;
+  struct Place {
+    double time_s = 0.0, position_m = 0.0;
+  };
+  std::deque<Place> places_;  // of the move that presses, oldest first
+  double pressed_from_m_ = 0.0, pressed_from_N_ = 0.0;
+  double noise_N_ = 0.0;
+  std::int64_t n_at_rest_ = 0;  // readings since the stage stands still
+  bool is_doubtful_ = false;    // the newest reading has no force
+  bool is_wild_ = false;        // the noise has grown many times
+  std::vector<std::string> doubts_;
+  std::string blind_;  // why the readings say nothing about the force any more; empty: they do
 };
 
 }  // namespace viscard

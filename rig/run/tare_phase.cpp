@@ -2,7 +2,7 @@
 
 #include "models/maths/text_of_number.h"
 #include "rig/run/approach_phase.h"
-#include "rig/run/preflight.h"
+#include "rig/run/rest_findings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,35 +11,45 @@ namespace viscard {
 namespace {
 
 constexpr int kMostRestarts = 3;     // of the amplifier before its zero is known
-constexpr double kSlow = 0.8;        // of the expected rate: measured again, then checked
-constexpr double kFarTooSlow = 0.5;  // of the expected rate: refused in any case
 constexpr double kProbe_m = 0.1e-3;  // lifted before the tare
 constexpr double kHighest_m = 2e-3;  // farther than any test presses
 constexpr double kProbeMean_s = 0.25;
 constexpr double kChangeSigmas = 6.0;   // of the difference of two means
 constexpr double kChangeOfTouch = 0.5;  // of contact_force: a smaller change is no contact
+constexpr double kStillChanging = 0.3;  // of the change in the lift
 constexpr double kAlmost = 0.8;         // of the way of a lift: here the force must have gone
 
-// How far an approach overshoots depends on the rate of readings, so the rate in the rig file must
-// be true. A rate that is too low is measured twice, because the machine may have stalled.
-void check_rate(TestRun& run, const ForceMean& zero, double duration_s) {
-  const double expected_Hz = run.rig.load_cell.expected_rate_Hz;
-  double rate_Hz = zero.rate_Hz;
-  if (rate_Hz < kSlow * expected_Hz) {
-    rate_Hz = std::max(rate_Hz, run.session.mean_force(duration_s).rate_Hz);
+RestReadings seen_at_rest(TestRun& run, const ForceMean& zero) {
+  return {.force_N = zero.force_N,
+          .noise_N = zero.sd_N,
+          .drift = zero.drift,
+          .rate_Hz = zero.rate_Hz,
+          .life = run.session.life_signs()};
+}
+
+// What forbids any move, even a lift: a cell that does not measure would not notice that
+// toward_specimen is wrong.
+void refuse_dead_cell(TestRun& run, const RestReadings& seen) {
+  using About = RestFinding::About;
+  for (const RestFinding& found : findings_at_rest(seen, run.rig)) {
+    const bool is_signal = found.about == About::kSignal || found.about == About::kNoise ||
+                           found.about == About::kDrift;
+    if (is_signal) throw CellIsDead(found.text);
   }
-  if (rate_Hz >= kSlow * expected_Hz) return;
-  RigConfig measured = run.rig;
-  measured.load_cell.expected_rate_Hz = rate_Hz;
-  const Preflight found =
-      preflight(measured, run.plan, run.specimen, run.session.stage().dynamics());
-  if (found.problems.empty() && rate_Hz >= kFarTooSlow * expected_Hz) return;
-  throw RigError("the load cell gives " + text_from_number(rate_Hz, 1) +
-                 " readings/s, but expected_rate in the rig file is " +
-                 text_from_number(expected_Hz, 1) +
-                 " Hz, so the approach would not stop in time: " +
-                 remedy_for_slow_readings(run.rig.load_cell) +
-                 ", or correct expected_rate under [load_cell] of the rig file");
+}
+
+// How far an approach overshoots depends on the rate of readings, so the rate in the rig file must
+// be true. A wrong rate is measured twice, because the machine may have stalled.
+void check_rate(TestRun& run, RestReadings seen, double duration_s) {
+  const auto wrong = [&]() -> std::string {
+    for (const RestFinding& found : findings_at_rest(seen, run.rig)) {
+      if (found.about == RestFinding::About::kRate) return found.text;
+    }
+    return "";
+  };
+  if (wrong().empty()) return;
+  seen.rate_Hz = run.session.mean_force(duration_s).rate_Hz;
+  if (const std::string text = wrong(); !text.empty()) throw RigError(text);
 }
 
 // A board that restarts while its zero is measured has a new zero, which is measured again from the
@@ -49,6 +59,7 @@ ForceMean undisturbed_tare(TestRun& run, double duration_s) {
   for (int i = 0; i < kMostRestarts; ++i) {
     if (cell.n_restarts() > 0) cell.connect([&] { run.session.pump(); });
     const std::int64_t n_before = cell.n_restarts();
+    run.session.forget_readings();
     try {
       const ForceMean zero = run.session.tare(duration_s);
       if (cell.n_restarts() != n_before) continue;
@@ -107,6 +118,20 @@ ForceMean change_when_lifted(TestRun& run) {
                   "ends where it stands: whether the punch presses is not known");
   }
   return session.mean_force(kProbeMean_s);
+}
+
+// A force that goes on changing while the stage stands still was not changed by the lift.
+void refuse_drift(TestRun& run, const ForceMean& change) {
+  const ForceMean later = run.session.mean_force(kProbeMean_s);
+  const double still_N = later.force_N - change.force_N;
+  if (still_N * change.force_N <= 0.0 || std::abs(still_N) < felt_N(run, later) ||
+      std::abs(still_N) < kStillChanging * std::abs(change.force_N)) {
+    return;
+  }
+  throw CellIsDead("the force changed by " + millinewtons(change.force_N) +
+                   " in the lift before the approach and by another " + millinewtons(still_N) +
+                   " while the stage stood still: it drifts. Look for an open wire of the load "
+                   "cell; otherwise let the amplifier warm up, and keep hands and draught away");
 }
 
 // The stage went the wrong way, or the force is read with the wrong sign.
@@ -204,26 +229,28 @@ ForceMean first_tare(TestRun& run, double duration_s) {
 void carry_out_tare(TestRun& run, const TestPhase& phase) {
   ForceMean zero = first_tare(run, phase.duration_s);
   run.outcome.noise_N = zero.sd_N;
+  const RestReadings seen = seen_at_rest(run, zero);
+  refuse_dead_cell(run, seen);
+  run.is_proven = is_proven_by_noise(seen) || !run.rig.load_cell.answered_on.empty();
   const double most_N = kPressesAtStart * run.rig.calibration.capacity_N;
   // First away from what may press: for this move the rate of the readings does not matter.
-  if (std::abs(zero.force_N) <= most_N) check_rate(run, zero, phase.duration_s);
+  if (std::abs(zero.force_N) <= most_N) check_rate(run, seen, phase.duration_s);
+  run.session.watch_life();
   const ForceMean change = change_when_lifted(run);
+  if (std::abs(change.force_N) > felt_N(run, change)) refuse_drift(run, change);
   if (change.force_N > felt_N(run, change)) refuse_wrong_way(run, change.force_N);
   if (change.force_N < -felt_N(run, change)) {
     free_punch(run, -change.force_N);
     const double pressed_N = zero.force_N;
     zero = undisturbed_tare(run, phase.duration_s);
     zero.force_N += pressed_N;
-    check_rate(run, zero, phase.duration_s);
+    check_rate(run, seen_at_rest(run, zero), phase.duration_s);
+    run.session.watch_life();
   }
-  if (std::abs(zero.force_N) > most_N) {
-    throw PressesAtStart(
-        "the load cell reads " + text_from_number(zero.force_N, 3) +
-        " N before anything was touched, more than " +
-        text_from_number(100.0 * kPressesAtStart, 0) + " % of its capacity of " +
-        text_from_number(run.rig.calibration.capacity_N, 3) +
-        " N, and that does not fall when the stage lifts by " + in_mm_lifted(lifted_m(run)) +
-        ". Take away what presses on it, or correct zero_volts of the calibration");
+  for (const RestFinding& found : findings_at_rest(seen_at_rest(run, zero), run.rig)) {
+    if (found.about != RestFinding::About::kForce) continue;
+    throw PressesAtStart(found.text + ". It does not fall when the stage lifts by " +
+                         in_mm_lifted(lifted_m(run)));
   }
   run.is_tared = true;
 }

@@ -1,8 +1,20 @@
 #include "rig/run/test_run.h"
 
+#include "models/maths/text_of_number.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace viscard {
+namespace {
+
+constexpr double kLiftMean_s = 0.25;
+constexpr double kLiftMeanReadings = 8.0;
+constexpr double kLiftSigmas = 6.0;
+constexpr double kZeroDrift = 0.02;    // of the peak force: creep and hysteresis of a cell
+constexpr double kHardlyFallen = 0.5;  // of the force before the lift
+
+}  // namespace
 
 double limit_N(const TestRun& run) {
   return run.rig.safety.soft_fraction * run.rig.calibration.capacity_N;
@@ -16,6 +28,55 @@ double live_depth_m(TestRun& run) {
 
 void note_depth(TestRun& run) {
   run.outcome.achieved_depth_m = std::max(run.outcome.achieved_depth_m, live_depth_m(run));
+}
+
+void check_lifted(TestRun& run, double before_N) {
+  RunSession& session = run.session;
+  const double duration_s =
+      std::max(kLiftMean_s, kLiftMeanReadings * session.load_cell().period_s());
+  const ForceMean after = session.mean_force(duration_s);
+  const double allowed_N = kLiftSigmas * run.outcome.noise_N * std::sqrt(2.0 / after.n) +
+                           run.plan.contact_force_N + kZeroDrift * session.peak_force_N();
+  const double rest_N = after.force_N;
+  if (std::abs(rest_N) <= allowed_N) return;
+  const std::string text = "after the lift the force is " + text_from_number(rest_N, 3) +
+                           " N and not the zero of the tare within " +
+                           text_from_number(allowed_N, 3) + " N";
+  const std::string place =
+      "; by the stage's count the punch is " +
+      text_from_number((run.contact_m - session.stage().position_m()) * 1e3, 3) +
+      " mm above the contact";
+  if (std::abs(rest_N) > kHardlyFallen * std::abs(before_N)) {
+    run.is_place_doubtful = true;
+    throw PunchNotFree("THE PUNCH MAY STILL PRESS: " + text + place +
+                       ". Lift it by hand. Either the motor does not turn (supply, cable, enable "
+                       "input of its driver), or the load cell does not measure");
+  }
+  run.outcome.doubts.insert(run.outcome.doubts.begin(),
+                            text + place +
+                                ". Look whether it is free of the specimen; otherwise the zero has "
+                                "drifted, and the forces of this run with it");
+  session.event("doubt", "after_lift", run.outcome.doubts.front());
+}
+
+ContactEstimate contact_from_stops(const JogEnd& before, const JogEnd& touched, double noise_N,
+                                   double step_m, double guess_N_m) {
+  constexpr double kFeltSigmas = 6.0;
+  const double felt_N = kFeltSigmas * noise_N;
+  const double way_m = touched.position_m - before.position_m;
+  ContactEstimate estimate;
+  estimate.position_m = touched.position_m - touched.force_N / guess_N_m;
+  if (!(way_m > 0.0)) return estimate;
+  const bool was_felt = before.force_N > felt_N;
+  const double rise_N = touched.force_N - (was_felt ? before.force_N : 0.0);
+  estimate.least_stiffness_N_m = std::max(0.0, rise_N - felt_N) / (way_m + step_m);
+  if (!was_felt) {
+    estimate.position_m = std::max(estimate.position_m, before.position_m);
+  } else if (rise_N > felt_N) {
+    estimate.stiffness_N_m = rise_N / way_m;
+    estimate.position_m = touched.position_m - touched.force_N / estimate.stiffness_N_m;
+  }
+  return estimate;
 }
 
 }  // namespace viscard

@@ -24,8 +24,11 @@ struct TestRun {
   bool is_in_contact = false;  // the last move pressed the punch into the specimen
   bool lifts_at_start =
       false;  // a punch that presses before the test is lifted and the test goes on
-  bool presses_at_start = false;  // it pressed, and the run ends because of that
-  bool is_tared = false;          // the zero is known and nothing presses
+  bool presses_at_start = false;   // it pressed, and the run ends because of that
+  bool is_tared = false;           // the zero is known and nothing presses
+  bool is_proven = false;          // the load cell has shown that it measures
+  double contact_N_m = 0.0;        // stiffness of the contact, as the approach has seen it
+  bool is_place_doubtful = false;  // the force contradicts the stage's count
 };
 
 // Soft limit of the force, N.
@@ -34,6 +37,10 @@ double limit_N(const TestRun& run);
 // Indentation by the live contact point and the newest force.
 double live_depth_m(TestRun& run);
 
+// After the last lift: the force must be the zero again, within what a cell drifts. Throws
+// PunchNotFree if it is not and has hardly fallen; a smaller rest is a doubt.
+void check_lifted(TestRun& run, double before_N);
+
 // Keeps the deepest indentation so far as outcome.achieved_depth_m.
 void note_depth(TestRun& run);
 
@@ -41,5 +48,26 @@ void note_depth(TestRun& run);
 // that cannot be recorded any more, the outcome still carries the reason for the early end.
 void conclude(RunSession& session, const RigConfig& rig, RunOutcome& outcome,
               const RigClock& clock);
+
+// Where a jog of the approach ended, and the force there (from the tare).
+struct JogEnd {
+  double position_m = 0.0;
+  double force_N = 0.0;
+};
+
+// The surface as the last two stops of an approach show it.
+struct ContactEstimate {
+  double position_m = 0.0;  // of the stage when the punch just touches
+  // Lower bound of the stiffness of specimen and frame in series; independent of the guess.
+  double least_stiffness_N_m = 0.0;
+  double stiffness_N_m = 0.0;  // between the two stops; 0 unless both were in contact
+};
+
+// Extrapolates the force at the touch to zero with the guessed stiffness. The result is never
+// before a stop at which no force was seen, because a specimen stiffer than guessed touches later.
+// If both stops were in contact, their secant replaces the guess. noise_N: standard deviation of
+// one reading; step_m: resolution of the stage; guess_N_m > 0: specimen and frame in series.
+ContactEstimate contact_from_stops(const JogEnd& before, const JogEnd& touched, double noise_N,
+                                   double step_m, double guess_N_m);
 
 }  // namespace viscard

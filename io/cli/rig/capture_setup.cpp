@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace viscard {
 namespace {
@@ -28,9 +30,20 @@ void check_repeats(const CaptureWords& words) {
   }
 }
 
+// Throws UsageError on a fault that is unknown or begins in no phase.
+RigFault fault_from_words(const CaptureWords& words) {
+  if (!words.fault) return {};
+  try {
+    return rig_fault_from_text(*words.fault);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--") + error.what());
+  }
+}
+
 }  // namespace
 
 void check_words(const CaptureWords& words) {
+  fault_from_words(words);
   if (words.out_file.empty()) {
     throw UsageError("capture needs --out FILE, the capture file to write");
   }
@@ -48,8 +61,8 @@ void check_words(const CaptureWords& words) {
                                  counted(words.specimen_files.size(), "specimen"), n_truths));
   }
   if (words.is_emulated) return;
-  if (n_truths > 0 || words.seed || words.speed != 1.0) {
-    throw UsageError("--truth, --seed and --speed are for an emulated rig: add --emulate");
+  if (n_truths > 0 || words.seed || words.fault || words.speed != 1.0) {
+    throw UsageError("--truth, --seed, --speed and --fault are for an emulated rig: add --emulate");
   }
   if (!words.rig_file || !words.test_file || words.specimen_files.empty()) {
     throw UsageError(
@@ -60,7 +73,8 @@ void check_words(const CaptureWords& words) {
 CaptureSetup capture_setup(const CaptureWords& words, const SeriesStep& step) {
   SetupRequest request{words.rig_file,     words.test_file,         {},
                        step.specimen_file, words.is_emulated,       words.seed,
-                       words.speed,        std::max(1, step.touch), words.plausible};
+                       words.speed,        fault_from_words(words), std::max(1, step.touch),
+                       words.plausible};
   const bool is_shared = words.truth_files.size() == 1;
   if (!words.truth_files.empty()) {
     request.truth_file = words.truth_files[is_shared ? 0 : step.specimen];

@@ -17,8 +17,10 @@ constexpr std::size_t kPictureWidth = 60;
 void print_text(const CaptureOutcome& capture, std::ostream& out) {
   const RunOutcome& outcome = capture.run;
   const StreamCounts& stream = outcome.stream;
-  out << fmt::format("{}: {}\n", capture.file, outcome.status)
-      << (outcome.line_format.empty() ? std::string()
+  const bool is_doubtful = !outcome.doubts.empty();
+  out << fmt::format("{}: {}{}\n", capture.file, outcome.status, is_doubtful ? ", doubtful" : "");
+  for (const std::string& doubt : outcome.doubts) out << "  doubt           " << doubt << "\n";
+  out << (outcome.line_format.empty() ? std::string()
                                       : fmt::format("  lines read as   {}\n", outcome.line_format))
       << fmt::format("  peak force      {:.4f} N (expected at most {:.4f}, limit {:.4f})\n",
                      outcome.peak_force_N, outcome.expected.peak_force_N, outcome.expected.limit_N)
@@ -48,7 +50,6 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
                        outcome.longest_late_s,
                        counted(static_cast<std::size_t>(outcome.n_late), "time"));
   }
-  for (const std::string& doubt : outcome.doubts) out << "  doubt           " << doubt << "\n";
   if (!capture.force_N.empty()) {
     out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
   }

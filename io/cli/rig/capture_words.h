@@ -20,6 +20,7 @@ struct CaptureWords {
   bool is_emulated = false;
   std::optional<std::uint64_t> seed;
   double speed = 1.0;
+  std::optional<std::string> fault;   // of the emulated rig: frozen@hold+0.5
   int repeats = 1;                    // touches on each specimen
   std::optional<double> lift_wait_s;  // between two touches
   bool overwrite = false;

@@ -90,6 +90,9 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("seed", &words.seed, "seed of the emulated noise");
   add("speed", &words.speed,
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
+  add("fault", &words.fault,
+      "what breaks on the emulated rig, in which phase of the test and how many seconds after it "
+      "has begun: frozen@hold+0.5; without @PHASE from the start");
   add("force", &words.overwrite, "replace an existing capture file");
   syntax.may_exist = {"out"};
   syntax.results = results_of_capture();

@@ -1,12 +1,15 @@
+#include "io/basics/timestamp.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
 #include "io/flow/rig_keys.h"
+#include "io/flow/touch_rig.h"
 #include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/lines/port_probe.h"
@@ -159,40 +162,55 @@ int show_overshoot(bool as_json, Streams& streams) {
 struct RigWords {
   std::string what;
   std::optional<std::string> rig_file;
-  double seconds = 3.0;
+  std::optional<double> seconds;
   bool is_emulated = false;
   Plausible plausible = Plausible::kMeasured;
 };
 
+void show_touch(ResultVisitor& v, double force_N) {
+  v("force_N", force_N, "the largest change of the force");
+  v("answered_on", today(), "the day");
+}
+
 CommandSyntax rig_syntax(RigWords& words) {
   CommandSyntax syntax;
-  syntax.usage = "viscard rig list [--rig FILE] | check --rig FILE | overshoot [OPTIONS]";
+  syntax.usage =
+      "viscard rig list [--rig FILE] | check --rig FILE | touch --rig FILE | overshoot [OPTIONS]";
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any but the "
       "thermometer's of a rig file. check opens all devices of a rig file, identifies and measures "
-      "them, and reports what to change; nothing moves. overshoot shows how far the force goes "
-      "beyond a limit, on the emulated rig.";
+      "them, and reports what to change; nothing moves. touch waits for a finger or a weight on a "
+      "load cell whose readings show no noise, and writes the day into the rig file. overshoot "
+      "shows how far the force goes beyond a limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";
-  syntax.positional.add("what", &words.what, "what to do").among({"list", "check", "overshoot"});
+  syntax.positional.add("what", &words.what, "what to do")
+      .among({"list", "check", "touch", "overshoot"});
   syntax.options.add("rig", &words.rig_file, "rig.toml: ports, calibration");
-  syntax.options.add("seconds", &words.seconds, "how long to listen");
+  syntax.options.add("seconds", &words.seconds, "how long to listen (3; touch: 30)");
   syntax.options.add("emulate", &words.is_emulated, "check an emulated rig");
   syntax.results = {described<RigList>("rig-list", "viscard rig list"),
                     described<RigCheck>("rig-check", "viscard rig check"),
+                    {"rig-touch", "viscard rig touch",
+                     {[](ResultVisitor& v) { show_touch(v, 0.0); }}},
                     {"rig-overshoot", "viscard rig overshoot",
                      {[](ResultVisitor& v) { show_keys(v, std::vector<OvershootRow>{}); }}}};
   return syntax;
+}
+
+double listening_seconds(const RigWords& words, double otherwise_s) {
+  const double seconds = words.seconds.value_or(otherwise_s);
+  if (seconds >= 1.0 && seconds <= 3600.0) return seconds;
+  throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", seconds));
 }
 
 int check_and_print(const RigWords& words, bool as_json, Streams& streams) {
   if (!words.is_emulated && !words.rig_file) {
     throw UsageError("rig check needs --rig FILE (or --emulate to see what it prints)");
   }
-  if (!(words.seconds >= 1.0) || words.seconds > 3600.0) {
-    throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", words.seconds));
-  }
+  constexpr double kListen_s = 3.0;
+  const double seconds = listening_seconds(words, kListen_s);
   const RigConfig rig = words.rig_file ? read_rig(*words.rig_file, words.plausible) : demo_rig();
-  RigCheck found = check_rig_config(rig, words.is_emulated, words.seconds);
+  RigCheck found = check_rig_config(rig, words.is_emulated, seconds);
   if (words.rig_file) add_calibration(rig, found);
   if (as_json) {
     const Words inputs = words.rig_file ? Words{*words.rig_file} : Words{};
@@ -204,6 +222,34 @@ int check_and_print(const RigWords& words, bool as_json, Streams& streams) {
   return found.is_usable ? kDone : kFailed;
 }
 
+int touch_and_write(const RigWords& words, bool as_json, Streams& streams) {
+  const std::optional<std::string>& file = words.rig_file;
+  if (!words.is_emulated && !file) {
+    throw UsageError("rig touch needs --rig FILE, whose load cell is touched");
+  }
+  constexpr double kWait_s = 30.0;
+  const double wait_s = listening_seconds(words, kWait_s);
+  const StopOnSignal on_signal;
+  const double force_N = touch_rig(
+      file ? read_rig(*file, words.plausible) : demo_rig(), words.is_emulated, wait_s,
+      [&] {
+        streams.err << "Put a finger or a weight on the load cell now, within " << wait_s << " s\n";
+      },
+      &StopOnSignal::is_asked());
+  if (file && !words.is_emulated) write_answer(*file, today());
+  if (as_json) {
+    print_result({"viscard-rig-touch/1", file ? Words{*file} : Words{}},
+                 [&](ResultVisitor& v) { show_touch(v, force_N); }, streams, kOneLine);
+  } else {
+    streams.out << fmt::format("the load cell answered with {:.4f} N", force_N)
+                << (file && !words.is_emulated
+                        ? "; answered_on = " + today() + " is written to " + *file
+                        : "")
+                << "\n";
+  }
+  return kDone;
+}
+
 }  // namespace
 
 int run_rig(const Words& words, Streams& streams) {
@@ -212,8 +258,8 @@ int run_rig(const Words& words, Streams& streams) {
   if (!parse_words(syntax, words, streams)) return kDone;
   asked.plausible = given_plausible(syntax);
   for (const char* option : {"rig", "seconds", "emulate"}) {
-    const bool belongs =
-        asked.what == "check" || (asked.what == "list" && option == std::string("rig"));
+    const bool belongs = asked.what == "check" || asked.what == "touch" ||
+                         (asked.what == "list" && option == std::string("rig"));
     if (belongs || !is_given(syntax, option)) continue;
     throw UsageError(std::string("--") + option + " belongs to 'viscard rig check'");
   }
@@ -223,6 +269,7 @@ int run_rig(const Words& words, Streams& streams) {
     return list_ports(rig, given_words(syntax, {"rig"}), syntax.as_json, streams);
   }
   if (asked.what == "overshoot") return show_overshoot(syntax.as_json, streams);
+  if (asked.what == "touch") return touch_and_write(asked, syntax.as_json, streams);
   return check_and_print(asked, syntax.as_json, streams);
 }
 

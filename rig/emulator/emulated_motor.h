@@ -1,0 +1,35 @@
+#pragma once
+
+#include "rig/emulator/rig_fault.h"
+
+namespace viscard {
+
+// The motor and screw between the controller's count and the punch. Without a fault the punch is
+// where the controller counts it.
+class EmulatedMotor {
+ public:
+  // travel_scale: true travel over the counted one (an error of the screw's pitch).
+  explicit EmulatedMotor(double travel_scale = 1.0) : scale_(travel_scale) {}
+
+  void set_fault(RigFaultKind kind) { kind_ = kind; }
+  // The true position when the controller counts counted_m and that force presses on the punch.
+  double position_m(double counted_m, double force_N) {
+    constexpr double kUnderLoad_N = 0.05;
+    constexpr double kShareLost = 0.2;
+    const double step_m = counted_m - counted_m_;
+    counted_m_ = counted_m;
+    if (kind_ == RigFaultKind::kDeadMotor) lost_m_ += step_m;
+    if (kind_ == RigFaultKind::kLostSteps && step_m > 0.0 && force_N > kUnderLoad_N) {
+      lost_m_ += kShareLost * step_m;
+    }
+    return scale_ * (counted_m - lost_m_);
+  }
+  double lost_m() const { return lost_m_; }  // counted and not travelled
+
+ private:
+  double scale_;
+  RigFaultKind kind_ = RigFaultKind::kNone;
+  double counted_m_ = 0.0, lost_m_ = 0.0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What can break on an emulated rig in the middle of a run while its devices go on answering.
+enum class RigFaultKind {
+  kNone,
+  kFrozen,        // each reading repeats the last one
+  kZeros,         // each reading is exactly 0
+  kOpenWire,      // each reading is the end of the converter's range
+  kDriftingWire,  // noise and a drifting offset that no force moves
+  kSaturation,    // the amplifier clips at a quarter of the cell's full scale
+  kFastReadings,  // three times as many readings per second
+  kSlowReadings,  // 10 readings per second
+  kDeadMotor,     // the stage counts on, its motor stands
+  kLostSteps,     // toward the specimen and under load every fifth step is lost
+  kLoadCellPort,  // the port hangs up
+  kStagePort,
+};
+
+// A fault, and when it begins.
+struct RigFault {
+  RigFaultKind kind = RigFaultKind::kNone;
+  std::string phase;     // of the test; empty: from the start
+  double after_s = 0.0;  // so long after the phase has begun, emulated time
+};
+
+// The words for the kinds: "frozen", "zeros" ...
+std::vector<std::string> rig_fault_names();
+std::string name_of(RigFaultKind kind);
+
+// "frozen", "frozen@hold" or "frozen@hold+0.5" (seconds). Throws std::invalid_argument naming the
+// known words.
+RigFault rig_fault_from_text(const std::string& text);
+
+}  // namespace viscard

@@ -1,0 +1,59 @@
+#include "rig/run/unload_check.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+constexpr double kContactError = 0.025;  // of the peak: the contact is known to some um
+constexpr double kStillRelaxing = 0.3;   // of what has relaxed in the hold, until judge()
+constexpr double kSeen_s = 0.5;
+
+}  // namespace
+
+void UnloadCheck::take_move(double from_m, double force_before_N, double took_s) {
+  RunSession& session = run_.session;
+  const double to_m = session.stage().position_m();
+  least_N_.reset();
+  if (to_m > from_m) {
+    // Only a press from the contact: what earlier ones have left in the specimen is not known.
+    const bool is_first = !press_ && from_m <= run_.contact_m;
+    press_ = is_first ? std::optional(Press{to_m - run_.contact_m, session.peak_force_N(), took_s})
+                      : std::optional(Press{});
+    return;
+  }
+  if (!press_ || !(press_->way_m > 0.0) || to_m <= run_.contact_m) return;
+  unloaded_m_ = from_m - to_m;
+  relaxed_N_ = std::max(0.0, press_->peak_N - force_before_N);
+  least_N_ = force_before_N - unloaded_m_ / press_->way_m * press_->peak_N;
+}
+
+std::optional<double> UnloadCheck::due_after_s() const {
+  if (!least_N_ || *least_N_ <= 0.0) return std::nullopt;
+  return std::max(kSeen_s, 0.5 * press_->took_s);
+}
+
+void UnloadCheck::judge() {
+  const double least_N = *least_N_;
+  least_N_.reset();
+  RunSession& session = run_.session;
+  const double force_N = session.sound_force_N(run_.outcome.noise_N);
+  const double slack_N =
+      kContactError * press_->peak_N + kStillRelaxing * relaxed_N_ + 6.0 * run_.outcome.noise_N;
+  if (force_N >= least_N - slack_N) return;
+  const double stiffness_N_m = press_->peak_N / press_->way_m;
+  run_.outcome.doubts.push_back(
+      "the stage may have lost steps while it pressed: after an unloading by " +
+      text_from_number(unloaded_m_ * 1e6, 1) + " um by its count the force is " +
+      text_from_number(force_N * 1e3, 1) + " mN, where a stage that lost none leaves at least " +
+      text_from_number(least_N * 1e3, 1) + " mN; the difference is " +
+      text_from_number((least_N - force_N) / stiffness_N_m * 1e6, 1) +
+      " um or more. Depth and modulus of this run are then wrong. Lower the speed or the "
+      "acceleration, or raise the motor's current");
+  session.event("doubt", "lost_steps", run_.outcome.doubts.back());
+}
+
+}  // namespace viscard

@@ -1,0 +1,112 @@
+// viscard rig touch, faults of the emulated rig on the command line, and doubts that come first.
+#include "io/basics/atomic_file.h"
+#include "io/config/config_file.h"
+#include "io/flow/touch_rig.h"
+#include "tests/support/error_text.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::run_command;
+using test::ScratchFolder;
+
+constexpr const char* kShortTest = R"(
+[approach]
+speed = "0.2 mm/s"
+baseline = "1 s"
+[ramp]
+depth = "0.13 mm"
+duration = "1 s"
+hold = "3 s"
+[recovery]
+hold = "2 s"
+)";
+
+test::CommandOutcome capture_with(const ScratchFolder& folder, const std::string& fault,
+                                  const std::string& more = "--json") {
+  const std::string test_file = folder / "test.toml";
+  write_file(test_file, kShortTest, false);
+  return run_command({"capture", "--emulate", "--speed", "200", "--test", test_file, "--fault",
+                      fault, "--out", (folder / "run.viscap").string(), more});
+}
+
+}  // namespace
+
+TEST_CASE("a touch of the load cell is waited for, and its day is written into the rig file only",
+          "[cli][rig][pty]") {
+  const auto touched = run_command({"rig", "touch", "--emulate", "--json"});
+  INFO(touched.err);
+  REQUIRE(touched.status == kDone);
+  const auto json = nlohmann::json::parse(touched.out);
+  CHECK(json["force_N"].get<double>() == Approx(0.245).epsilon(0.02));  // a tenth of the capacity
+
+  const ScratchFolder folder;
+  const std::string before =
+      "# mine\n[stage]\nport = \"a\"\n[load_cell]  # the cell\nport = \"b\"\n";
+  write_file(folder / "rig.toml", before, false);
+  write_answer(folder / "rig.toml", "2026-11-28");
+  write_answer(folder / "rig.toml", "2026-11-29");
+  CHECK(read_file(folder / "rig.toml") ==
+        "# mine\n[stage]\nport = \"a\"\n[load_cell]  # the cell\nanswered_on = 2026-11-29\n"
+        "port = \"b\"\n");
+  write_file(folder / "none.toml", "[stage]\n", false);
+  CHECK_THROWS_WITH(write_answer(folder / "none.toml", "2026-11-28"),
+                    Catch::Contains("no section [load_cell]"));
+}
+
+TEST_CASE("the day of an answer is read from the rig file, and another text is refused",
+          "[cli][rig]") {
+  std::string rig = read_file(VISCARD_SOURCE_DIR "/data/demo/01_rig.toml");
+  const std::string section = "[load_cell]\n";
+  const auto with = [&](const std::string& line) {
+    std::string text = rig;
+    text.insert(text.find(section) + section.size(), line + "\n");
+    return text;
+  };
+  CHECK(rig_from_toml(with("answered_on = 2026-11-28"), "rig").load_cell.answered_on ==
+        "2026-11-28");
+  CHECK_THROWS_WITH(rig_from_toml(with("answered_on = \"yes\""), "rig"),
+                    Catch::Contains("load_cell.answered_on is 'yes'"));
+}
+
+TEST_CASE("a fault of the emulated rig ends the capture with status 1 and its name",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const auto run = capture_with(folder, "frozen@ramp+0.4");
+  CHECK(run.status == kFailed);
+  const auto json = nlohmann::json::parse(run.out);
+  CHECK(json["status"] == "interrupted");
+  CHECK(json["error"]["code"] == "cell-dead");
+  CHECK(contains(json["reason"].get<std::string>(), "frozen"));
+}
+
+TEST_CASE("a doubtful run says so in its first line, and its doubts come before its values",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const auto run = capture_with(folder, "lost-steps@ramp", "--force");
+  INFO(run.out << run.err);
+  CHECK(run.status == kDone);
+  CHECK(contains(run.out.substr(0, run.out.find('\n')), "finished, doubtful"));
+  CHECK(run.out.find("lost steps") < run.out.find("peak force"));
+}
+
+TEST_CASE("an unknown fault, and a fault of a real rig, are wrong words", "[cli][capture]") {
+  const ScratchFolder folder;
+  const auto unknown = capture_with(folder, "melted");
+  CHECK(unknown.status == kBadWords);
+  CHECK(contains(unknown.err, "melted"));
+  CHECK(contains(unknown.err, "known are frozen"));
+  const auto real = run_command({"capture", "--fault", "frozen", "--out", "x.viscap"});
+  CHECK(real.status == kBadWords);
+  CHECK(contains(real.err, "--fault"));
+}
+
+}  // namespace viscard

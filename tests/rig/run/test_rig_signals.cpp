@@ -1,0 +1,189 @@
+// Whole runs on a rig whose signals arrive but do not measure, or whose stage counts but does not
+// move.
+#include "tests/rig/rig_fixture.h"
+
+#include <catch2/catch.hpp>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+EmulatedRigOptions rig_with(const std::string& fault) {
+  EmulatedRigOptions options = RigFixture::options();
+  options.truth.surface_position_m = 0.4e-3;
+  options.truth.overload_N = 100.0;  // a broken cell would hide how far the force went
+  options.fault = rig_fault_from_text(fault);
+  return options;
+}
+
+struct FaultedRun {
+  RunOutcome outcome;
+  EmulatedOutcome bench;
+  std::string said;  // reason and doubts
+};
+
+FaultedRun run_with(const EmulatedRigOptions& options, const TestPlan& plan = short_plan()) {
+  RigFixture rig(options);
+  rig.sink = [&rig](const RunRecord& record) {
+    rig.records.push_back(record);
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (event != nullptr && event->name == "phase") rig.emulated.enter_phase(event->value);
+  };
+  FaultedRun run;
+  run.outcome = rig.run(plan);
+  run.bench = rig.emulated.outcome();
+  run.said = run.outcome.reason;
+  for (const std::string& doubt : run.outcome.doubts) run.said += " | " + doubt;
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("a signal that is dead from the start lets nothing move", "[rig][pty]") {
+  const auto [fault, word] =
+      GENERATE(std::pair<std::string, std::string>{"frozen", "frozen"},
+               std::pair<std::string, std::string>{"zeros", "exactly 0"},
+               std::pair<std::string, std::string>{"open-wire", "open wire"},
+               std::pair<std::string, std::string>{"fast-readings", "240.0 readings/s"},
+               std::pair<std::string, std::string>{"slow-readings", "10.0 readings/s"});
+  const FaultedRun run = run_with(rig_with(fault));
+  INFO(fault << ": " << run.said);
+  CHECK(run.outcome.status != "finished");
+  CHECK_THAT(run.said, Contains(word));
+  CHECK_THAT(run.said, Contains("not moved"));
+  CHECK(run.bench.final_position_m == 0.0);
+}
+
+TEST_CASE("a signal that dies in the approach stops the stage before the cell is loaded",
+          "[rig][pty]") {
+  const auto [fault, word] = GENERATE(
+      std::pair<std::string, std::string>{"frozen@approach+0.4", "frozen"},
+      std::pair<std::string, std::string>{"zeros@approach+0.4", "frozen"},
+      std::pair<std::string, std::string>{"open-wire@approach+0.4", "open wire"},
+      std::pair<std::string, std::string>{"drifting-wire@approach+0.4", "wire"},
+      std::pair<std::string, std::string>{"fast-readings@approach+0.4", "rate"},
+      std::pair<std::string, std::string>{"slow-readings@approach+0.4", "rate has dropped"});
+  const FaultedRun run = run_with(rig_with(fault));
+  INFO(fault << ": " << run.said);
+  CHECK(run.outcome.status != "finished");
+  CHECK_THAT(run.said, Contains(word));
+  CHECK_THAT(run.said, !Contains("compression_is_positive") && !Contains("approach speed"));
+  CHECK(run.bench.peak_force_N < 0.3);
+}
+
+TEST_CASE("a signal that dies in the ramp stops the stage within a tenth of the capacity",
+          "[rig][pty]") {
+  const auto [fault, word] =
+      GENERATE(std::pair<std::string, std::string>{"frozen@ramp+0.4", "frozen"},
+               std::pair<std::string, std::string>{"zeros@ramp+0.4", "frozen"},
+               std::pair<std::string, std::string>{"saturation@ramp+0.2", "frozen"},
+               std::pair<std::string, std::string>{"open-wire@ramp+0.4", "open wire"});
+  // The force at the time of the fault: a ramp of 1 s to 1.3 N; the clip is at 0.61 N.
+  const double force_N = fault[0] == 's' ? 0.62 : 0.5;
+  const FaultedRun run = run_with(rig_with(fault));
+  INFO(fault << ": " << run.said);
+  CHECK(run.outcome.status != "finished");
+  CHECK_THAT(run.said, Contains(word));
+  CHECK(run.bench.peak_force_N < force_N + 0.1 * 2.4517);
+  CHECK(run.bench.final_position_m < 0.4e-3);
+}
+
+TEST_CASE("a signal that dies in the hold ends the run, lifted, with the cause", "[rig][pty]") {
+  const std::string fault =
+      GENERATE("frozen@hold+0.5", "zeros@hold+0.5", "saturation@hold+0.5", "open-wire@hold+0.5",
+               "slow-readings@hold+0.5", "fast-readings@hold+0.5");
+  const FaultedRun run = run_with(rig_with(fault));
+  INFO(fault << ": " << run.said);
+  CHECK(run.outcome.status != "finished");
+  CHECK_THAT(run.said, Contains("frozen") || Contains("open wire") || Contains("rate"));
+  CHECK(run.bench.final_position_m < 0.4e-3);
+}
+
+TEST_CASE("a motor that stands while its controller counts on is noticed by the force",
+          "[rig][pty]") {
+  const std::string phase = GENERATE("ramp+0.3", "hold+1.0", "recovery+0.5", "retract");
+  const FaultedRun run = run_with(rig_with("dead-motor@" + phase));
+  INFO(phase << ": " << run.said);
+  CHECK(run.outcome.status == "interrupted");
+  CHECK_THAT(run.said, Contains("motor"));
+  CHECK_THAT(run.said, Contains("count"));
+  if (phase != "ramp+0.3") CHECK_THAT(run.said, Contains("by hand"));
+  CHECK(run.outcome.code ==
+        (phase == "ramp+0.3" || phase == "hold+1.0" ? "no-response" : "not-lifted"));
+}
+
+TEST_CASE("a motor that stands from the start touches nothing, and the motor is named",
+          "[rig][pty]") {
+  TestPlan plan = short_plan();
+  plan.approach_limit_m = 1e-3;
+  const FaultedRun run = run_with(rig_with("dead-motor"), plan);
+  CHECK(run.outcome.status == "interrupted");
+  CHECK_THAT(run.said, Contains("motor is dead"));
+  CHECK(run.bench.peak_force_N == 0.0);
+}
+
+TEST_CASE("a zero that drifts during a run is a doubt that says where the punch is", "[rig][pty]") {
+  RigFixture rig(rig_with("dead-motor@never"));
+  when_phase(rig, "hold", [&rig] { rig.emulated.hang_weight(0.1); });
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "finished");
+  REQUIRE_FALSE(outcome.doubts.empty());
+  CHECK_THAT(outcome.doubts.front(),
+             Contains("after the lift the force is 0.1") && Contains("above the contact"));
+  CHECK(rig.has_event("doubt", "after_lift"));
+}
+
+TEST_CASE("a load cell whose readings show no noise is not brought to the specimen unproven",
+          "[rig][pty]") {
+  EmulatedRigOptions options = rig_with("dead-motor@never");
+  options.truth.force_noise_N = 0.0;
+  options.config.load_cell.volts_per_count *= 4096.0;  // 12 bits: a digit of 7 mN
+  TestPlan plan = short_plan();
+  plan.contact_force_N = 0.03;
+  SECTION("without a surface it ends and asks for a touch") {
+    const FaultedRun run = run_with(options, plan);
+    INFO(run.said);
+    CHECK(run.outcome.code == "cell-dead");
+    CHECK_THAT(run.said, Contains("finger or a weight") && Contains("rig touch"));
+    CHECK(run.bench.peak_force_N == 0.0);
+  }
+  SECTION("with a stated surface it goes there, and the answer is the proof") {
+    plan.surface_m = 0.4e-3;
+    plan.surface_margin_m = 60e-6;
+    const FaultedRun run = run_with(options, plan);
+    INFO(run.said);
+    CHECK(run.outcome.status == "finished");
+  }
+  SECTION("a frozen one goes no further than the margin") {
+    plan.surface_m = 0.4e-3;
+    options.fault = rig_fault_from_text("frozen");
+    const FaultedRun run = run_with(options, plan);
+    INFO(run.said);
+    CHECK(run.outcome.code == "cell-dead");
+    CHECK_THAT(run.said, Contains("beyond the stated surface"));
+    CHECK(run.bench.peak_force_N < 0.5);  // 50 um at 8.8 N/mm
+  }
+  SECTION("a day on which it answered is a proof") {
+    options.config.load_cell.answered_on = "2026-11-28";
+    const FaultedRun run = run_with(options, plan);
+    INFO(run.said);
+    CHECK(run.outcome.status == "finished");
+  }
+}
+
+TEST_CASE("the words of the faults are read, and an unknown one is refused", "[rig]") {
+  const RigFault fault = rig_fault_from_text("frozen@hold+0.5");
+  CHECK(fault.kind == RigFaultKind::kFrozen);
+  CHECK(fault.phase == "hold");
+  CHECK(fault.after_s == 0.5);
+  for (const std::string& name : rig_fault_names()) {
+    CHECK(name_of(rig_fault_from_text(name).kind) == name);
+  }
+  CHECK_THROWS_WITH(rig_fault_from_text("freezing"), Contains("known are frozen"));
+  CHECK_THROWS_WITH(rig_fault_from_text("frozen@hold+x"), Contains("number of seconds"));
+  CHECK_THROWS_WITH(rig_fault_from_text("frozen@"), Contains("a phase"));
+}
+
+}  // namespace viscard
