@@ -76,6 +76,7 @@ def data(name):
 def check_rig():
     run(["rig", "list"], "rig-list")
     run(["rig", "check", "--emulate", "--seconds", "1"], "rig-check")
+    run(["rig", "touch", "--emulate"], "rig-touch")
     run(["rig", "overshoot"], "rig-overshoot")
     pathlib.Path("test.toml").write_text('[ramp]\ndepth = "0.13 mm"\nduration = "1 s"\nhold = "3 s"\n')
     fast = ["--emulate", "--speed", "500", "--test", "test.toml"]
