@@ -39,8 +39,9 @@ void show_keys(ResultVisitor& v, const CardTarget& target) {
 }
 
 void show_targets(ResultVisitor& v) {
-  v.list("targets", "all targets", card_targets(),
-         [&](const CardTarget& target) { show_keys(v, target); });
+  std::vector<const CardTarget*> targets;  // a target has no default for the list to describe
+  for (const CardTarget& target : card_targets()) targets.push_back(&target);
+  v.list("targets", "all targets", targets, [&](const CardTarget* target) { show_keys(v, *target); });
   v.list("units", "all unit systems", unit_systems(), [&](const UnitSystem& system) {
     v("name", system.name, "as in --units");
     v("description", system.description, "its units");
@@ -199,8 +200,8 @@ void print_list(std::ostream& out) {
 }  // namespace
 
 std::vector<DescribedResult> results_of_targets() {
-  CardCheck check, of_values;
-  check.read.understood = of_values.read.understood = card_targets().front();
+  CardCheck check{.read = {.understood = card_targets().front(), .units = unit_systems().front()}};
+  CardCheck of_values = check;
   for (const CardTarget& target : card_targets()) {
     if (target.values != nullptr) of_values.read.understood = target;
   }

@@ -78,26 +78,11 @@ void write_schemas(const std::filesystem::path& folder, const CommandDocuments& 
   write_file(folder / "keys.txt", list_of_keys(results), true);
 }
 
-CommandSyntax help_syntax(const Words& names) {
-  CommandSyntax syntax{"viscard help [COMMAND] [OPTIONS]",
-                       "Explains a command, as --help of the command does, or lists all commands. "
-                       "--man prints the source of the manual page instead.",
-                       "viscard help fit"};
-  syntax.options.add_options()("man", "print the manual page, for man -l -")(
-      "schemas", po::value<std::string>(),
-      "folder to write JSON Schemas of what --json prints into, with a table of all keys");
-  syntax.may_exist = {"schemas"};
-  syntax.results = common_results();
-  syntax.positional = {"command", "what"};
-  syntax.choices["command"] = names;
-  return syntax;
-}
-
 }  // namespace
 
 int run_help(const Words& words, Streams& streams, const Words& names,
              const AskDocuments& ask_documents, const std::string& overview) {
-  std::optional<std::string> name, what;
+  std::optional<std::string> name, what, schemas;
   bool is_page = false;
   CommandSyntax syntax{"viscard help [COMMAND] [OPTIONS]",
                        "Explains a command, as --help of the command does, or lists all commands. "
@@ -107,13 +92,18 @@ int run_help(const Words& words, Streams& streams, const Words& names,
   syntax.positional.add("command", &name, "a command").such_as(names);
   syntax.positional.add("what", &what, "its subcommand");
   syntax.options.add("man", &is_page, "print the manual page, for man -l -");
+  syntax.options.add("schemas", &schemas,
+                     "folder to write JSON Schemas of what --json prints into, with a table of all "
+                     "keys");
+  syntax.may_exist = {"schemas"};
+  syntax.results = common_results();
   if (!parse_words(syntax, words, streams)) return kDone;
   if (name && std::find(names.begin(), names.end(), *name) == names.end()) {
     throw UsageError("there is no command '" + *name + "'" + did_you_mean(*name, names, ";") +
                      " 'viscard help' lists the commands");
   }
   const CommandDocuments documents = ask_documents();
-  if (const auto folder = given(*values, "schemas")) write_schemas(*folder, documents);
+  if (schemas) write_schemas(*schemas, documents);
   const CommandDocument* one = name ? &named(*name, documents) : nullptr;
   if (what) check_subcommand(*one, *what);
   const std::string page = !is_page         ? ""

@@ -211,7 +211,7 @@ void show_specimen(ResultVisitor& v, const SpecimenReport& specimen) {
   v("id", specimen.specimen.id, "of the specimen");
   v("notes", specimen.notes, "what to keep in mind");
   v.when(specimen.pillar.has_value(), [&] {
-    const ValidationResult pillar = specimen.pillar.value_or(ValidationResult{});
+    const PillarCheck pillar = specimen.pillar.value_or(PillarCheck{});
     v.object("pillar", "largest relative error of the pillar", [&] {
       v("creep", pillar.creep.largest_relative_error, "in creep");
       v("relaxation", pillar.relaxation.largest_relative_error, "in relaxation");

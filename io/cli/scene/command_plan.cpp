@@ -84,8 +84,6 @@ void print_plan(const std::string& path, const Scene& scene, const ScenePlan& pl
       plan.left_out, common(plan.reduced).tolerance);
 }
 
-}
-
 }  // namespace
 
 void add_tolerance_option(OptionList& options, std::optional<double>& tolerance) {

@@ -49,12 +49,14 @@ nlohmann::ordered_json with_head(const JsonHead& head, const ShowKeys& show) {
 }
 
 void print_result(const JsonHead& head, const ShowKeys& show, Streams& streams, int indent) {
-  print_line(with_head(head, show), streams, indent);
+  const JsonHead of_command{head.schema, head.inputs,
+                            head.accepts_implausible || streams.accepts_implausible};
+  print_line(with_head(of_command, show), streams, indent);
 }
 
-bool print_result(const po::variables_map& values, const JsonHead& head, const ShowKeys& show,
+bool print_result(const CommandSyntax& syntax, const JsonHead& head, const ShowKeys& show,
                   Streams& streams) {
-  if (values.count("json") == 0) return false;
+  if (!syntax.as_json) return false;
   print_result(head, show, streams);
   return true;
 }
