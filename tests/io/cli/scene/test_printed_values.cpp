@@ -1,4 +1,5 @@
 #include "io/cli/scene/answer_output.h"
+#include "io/results/result_json.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -34,7 +35,7 @@ TEST_CASE("values printed elsewhere stand beside ours with the difference of the
   std::ostringstream text;
   print_comparison(rows, text);
   CHECK_THAT(text.str(), Catch::Contains("lateral 2") && Catch::Contains("coarse mesh"));
-  CHECK(json_from_comparison(rows)[1]["unit"] == "V");
+  CHECK(json_from_result(ShownAnswer{.printed = rows})["printed"][1]["unit"] == "V");
 }
 
 TEST_CASE("a printed value that the answer does not have is refused with the nearest name",
@@ -52,7 +53,8 @@ TEST_CASE("percentages are compared in points, with their sign", "[cli]") {
   std::ostringstream text;
   print_comparison(rows, text);
   CHECK_THAT(text.str(), Catch::Contains("-0.0013 points"));
-  CHECK(json_from_comparison(rows)[0]["difference_points"] == *rows[0].difference_points);
+  CHECK(json_from_result(ShownAnswer{.printed = rows})["printed"][0]["difference_points"] ==
+        *rows[0].difference_points);
   CHECK_FALSE(compare_printed({{"lateral 1", "1 Hz", ""}}, answer()).at(0).difference_points);
 }
 
