@@ -4,6 +4,7 @@
 #include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/parts.h"
+#include "io/python/values.h"
 
 #include <pybind11/stl.h>
 

@@ -14,7 +14,6 @@ CsvTable table_from_arrays(const pybind11::dict& arrays, const std::string& name
 // The compiled module in parts, one for each subject. Python code in viscard/ gives them their public
 // names, types and documentation.
 void add_errors(pybind11::module_& module);
-void add_results(pybind11::module_& module);
 void add_tables(pybind11::module_& module);     // read_table, read_capture
 void add_fits(pybind11::module_& module);       // fit, joint fits
 void add_rubber(pybind11::module_& module);     // tests at large strain, cards of rubber

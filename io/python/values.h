@@ -56,4 +56,7 @@ auto array_over(const std::vector<Row>& rows, const Value& value) {
   return array_of(std::move(values));
 }
 
+// The class of results in Python.
+void add_results(pybind11::module_& module);
+
 }  // namespace viscard::python

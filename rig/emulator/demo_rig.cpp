@@ -43,6 +43,7 @@ PunchContact demo_contact() {
 RigConfig demo_rig() {
   RigConfig rig;
   rig.name = "emulated";
+  rig.stage.depth_relative_u = 0.0;  // the emulated stage moves as far as it counts
   rig.load_cell.line_format = "micros,counts";
   rig.load_cell.volts_per_count = 20.0 / 16777216.0;  // 24 bits over -10 V to +10 V
   rig.calibration.volts_per_newton = 0.7255;
