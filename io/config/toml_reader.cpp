@@ -192,7 +192,12 @@ class TomlReader final : public FieldVisitor {
            "is " + text_from_number(written) + "; expected " + text_of(field.range));
     }
     if (field.unit.quantity == nullptr) return written / field.written_per_value;
-    if (const auto doubt = doubt_about(*field.unit.quantity, written, rules_.plausible)) {
+    // Above a metre a length has to state its unit: without one it was most likely forgotten.
+    const bool is_bare_length = node.is_number() && field.unit.quantity == &quantities::kLength;
+    const Plausible judged = is_bare_length && rules_.plausible == Plausible::kScene
+                                 ? Plausible::kMeasured
+                                 : rules_.plausible;
+    if (const auto doubt = doubt_about(*field.unit.quantity, written, judged)) {
       fail(node, field.key,
            doubt->with_remedy("write \"" + doubt->meant + "\"",
                               "write plausible = \"off\" at the top of the file"));

@@ -95,7 +95,7 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       .shown_as("T");
   add("bulk-modulus", &words.bulk_Pa,
       "of a law of rubber, such as \"2 GPa\"; without it incompressible where the solver can be")
-      .of("Pa")
+      .of(quantities::kBulkModulus)
       .shown_as("K");
   add("density", &words.density_kg_m3,
       "of a law of rubber, such as \"1.1 g/cm3\"; LS-DYNA and OpenRadioss need it")

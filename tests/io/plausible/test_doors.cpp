@@ -337,6 +337,10 @@ TEST_CASE("a scene is refused for what no scene has, and takes more than a bench
   };
   CHECK(outcome_of(scene()).status == 0);
   CHECK(outcome_of(scene("1.8 MPa", "1e15 Pa")).status == 0);
+  std::string large = scene("\"40 um\"", "\"2 m\"");
+  large.replace(large.find("\"120 um\""), 8, "\"6 m\"");
+  CHECK(outcome_of(large).status == 0);  // the units are stated
+  CHECK(outcome_of(scene("\"120 um\"", "2")).status == 1);
   struct Wrong {
     const char *from, *to, *advice;
   };
