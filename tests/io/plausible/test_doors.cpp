@@ -184,7 +184,7 @@ TEST_CASE("a table in another unit is refused, and the advised words read it", "
   }
 }
 
-TEST_CASE("--plausible off fits such a table and says so", "[io][cli]") {
+TEST_CASE("a table with a wrong unit is fitted with --plausible off, and the result says so", "[io][cli]") {
   const ScratchFolder folder;
   for (const Case& one : wrong_units()) {
     INFO(one.what);
