@@ -19,7 +19,7 @@ struct StageConfig {
   double backlash_m = 0.0;
   // Standard uncertainty of the depth that an open-loop stage counts, relative: pitch of the screw,
   // and steps that the motor lags or loses unnoticed.
-  double depth_relative_u = 0.005;
+  double depth_relative_u = 0.0;
   bool home = false;  // run the controller's homing cycle before a test
   // Zaber only: length of a microstep of the motor, from the maker's page. No controller knows it.
   double microstep_m = 0.0;
