@@ -25,6 +25,7 @@ struct MasterCurve {
   ShiftLaws laws;
 };
 
+// Shows all keys of it to a visitor.
 void show_keys(ResultVisitor& v, const MasterCurve& curve);
 
 // Fits all segments together: one spectrum and one factor on time for each temperature. The factors

@@ -22,6 +22,7 @@ struct FractionalDiagnosis {
   double bic_difference = 0.0;     // as above
 };
 
+// Shows all keys of it to a visitor.
 void show_keys(ResultVisitor& v, const FractionalDiagnosis& fractional);
 
 // Returns nothing for tests other than relaxation after a step, and for fewer than five averages.

@@ -74,6 +74,7 @@ struct CostStudy {
   CostMachine machine;
 };
 
+// Shows all keys of it to a visitor.
 void show_keys(ResultVisitor& v, const CostStudy& study);
 
 // How long a study may take.

@@ -43,16 +43,24 @@ struct Option {
   std::string group;                 // heading above it in the help
   bool is_keyword = true;            // of Python as well, and not of the command line alone
 
+  // Each returns the option itself, so that they can be chained.
+  // "FILE" in the place of "arg".
   Option& shown_as(std::string text);
+  // A quantity, with its unit and range.
   Option& of(const QuantityOrUnit& what_it_is);
+  // Other values are refused.
   Option& among(std::vector<std::string> values);
   Option& such_as(std::vector<std::string> values);  // examples
+  // Shown as its default.
   Option& by_default(std::string text);
+  // The value names a file to read.
   Option& read_from_file();
   Option& only_typed();  // no keyword
 };
 
+// True if it takes no value.
 bool is_switch(const Option& option);
+// True if it may be given several times.
 bool is_list(const Option& option);
 
 // What a value must be: "a whole number, such as 5".
@@ -73,10 +81,12 @@ class OptionList {
   void group(std::string heading) { heading_ = std::move(heading); }
   // The reference is valid as long as the list.
   Option& add(std::string name, OptionTarget target, std::string what);
+  // Appends those of another list.
   void add_all(const OptionList& others);
 
   const std::deque<Option>& all() const { return options_; }
   bool empty() const { return options_.empty(); }
+  // The option of that name; nullptr: none.
   const Option* find(const std::string& name) const;
 
  private:

@@ -52,6 +52,7 @@ std::vector<double> column_SI(const CsvTable& table, const std::string& name,
 
 // What to write where the numbers of a column are in another unit: "write --column
 // modulus_Pa=1e6*E", for 1e6 SI units in theirs.
+// factor: the pure number by which a column is multiplied.
 std::string words_for_factor(const CsvTable& table, const std::string& name, const ColumnUse& use,
                              double factor);
 

@@ -19,6 +19,7 @@ struct RunTemperature {
   std::size_t n_readings = 0;
 };
 
+// Shows all keys of it to a visitor.
 void show_keys(ResultVisitor& v, const RunTemperature& measured);
 
 // Values that are not finite are left out; nothing without a value.

@@ -34,19 +34,24 @@ struct Doubt {
 
 // Nothing if the value is plausible. Numbers that are not finite are not judged.
 std::optional<Doubt> doubt_about(const Quantity& quantity, double value, Plausible judged);
-// The same of a column, by the kind of the quantity.
+// The same of a column, by the kind of the quantity; values: in its SI unit.
 std::optional<Doubt> doubt_about(const Quantity& quantity, const std::vector<double>& values,
                                  Plausible judged);
 
-// "100 Pa", "1 TPa", "30 days": a number in SI with a prefix that makes it short.
+// "100 Pa", "1 TPa", "30 days": a number in SI with a prefix that makes it short;
+// value: in that SI unit.
 std::string text_with_unit(double value, const std::string& unit);
 
 // A linear law describes strains up to a tenth well. Above a half a strain is refused unless its
 // unit was stated, because a number without one is often per cent.
-inline constexpr double kDoubtfulStrain = 0.1, kLargestBareStrain = 0.5;
+inline constexpr double kDoubtfulStrain = 0.1;  // a pure number
+// The largest one without a unit, a pure number.
+inline constexpr double kLargestBareStrain = 0.5;
 // Depth of a tip over the thickness of the layer: small strains below the first, and a rigid base
 // at the second.
-inline constexpr double kDoubtfulDepth = 0.3, kDeepest = 1.0;
+inline constexpr double kDoubtfulDepth = 0.3;  // a pure number
+// Depth at the rigid base, a pure number.
+inline constexpr double kDeepest = 1.0;
 
 // A number of a file has a wrong unit, or is not plausible.
 class BadNumber : public std::runtime_error {

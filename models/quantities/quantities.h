@@ -14,7 +14,8 @@ enum class QuantityKind {
 
 // From a lowest number of 0 or above, the range is that of the magnitude.
 struct PlausibleRange {
-  double lowest = 0.0, highest = 0.0;
+  double lowest = 0.0;   // in the SI unit of the quantity
+  double highest = 0.0;  // likewise
 };
 
 // What a number that enters viscard means, and how large it can be. All readers take unit and range
@@ -35,6 +36,7 @@ struct Quantity {
 namespace quantities {
 
 inline constexpr double kMonth_s = 30.0 * 86400.0;
+// The end of a range without an end, in any unit.
 inline constexpr double kAny = std::numeric_limits<double>::infinity();
 
 // Materials.
@@ -313,7 +315,9 @@ const Quantity* quantity_of_unit(const std::string& unit);
 struct QuantityOrUnit {
   const char* si;            // "m"; "1": a plain number
   const Quantity* quantity;  // null: any number is plausible
+  // A quantity of the table.
   constexpr QuantityOrUnit(const Quantity& of) : si(of.unit), quantity(&of) {}
+  // The general quantity of an SI unit.
   QuantityOrUnit(const char* unit) : si(unit), quantity(quantity_of_unit(unit)) {}
   // Any number in this unit.
   static constexpr QuantityOrUnit any(const char* unit) { return {unit, nullptr}; }

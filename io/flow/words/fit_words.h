@@ -13,6 +13,7 @@ namespace viscard {
 // The options of `viscard fit` as a user gives them; `viscard fit --help` explains each. Quantities
 // are texts with a unit ("0.1 mm"), or numbers in SI.
 struct FitWords {
+  // As typed; nothing: not given.
   using Text = std::optional<std::string>;
   // How to fit.
   Text kind, noise, model, constraints, vertical_shift;

@@ -122,6 +122,7 @@ void show_solution(ResultVisitor& v, const SceneAnswer& answer);
 void show_notes(ResultVisitor& v, const SceneAnswer& answer);
 void show_results(ResultVisitor& v, const SceneAnswer& answer);
 // Numbers of a map by pillar, NaN for pillars without one.
+// numbers: one for each pillar, in the unit of the map.
 std::vector<double> by_pillar(const SceneArray& array, const SceneMap& map,
                               const std::vector<double>& numbers);
 
