@@ -18,7 +18,7 @@ TEST_CASE("a doubt in frame and load cell moves E0, shares and times as the clos
   // holds for the glassy and the relaxed stiffness, and the retardation time is the same.
   const double g = 0.4, s = 1.5, frame_N_m = 10e3;
   const PronySeries specimen{s * frame_N_m * (1.0 - g), {{s * frame_N_m * g, 2.0}}};
-  const BenchDoubt doubt{frame_N_m, 0.02, 0.003, 0.01};
+  const BenchDoubt doubt{frame_N_m, 0.02, 0.003, 0.0, 0.01};
   const std::vector<SystematicPart> parts = systematic_parts_from(specimen, doubt);
   REQUIRE(parts.size() == 3);
   CHECK(parts[0].cause == kFrameCause);
