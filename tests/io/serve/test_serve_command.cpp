@@ -25,7 +25,7 @@ TEST_CASE("serve refuses words that make no sense", "[serve][cli]") {
     CHECK(outcome.out.empty());
     return outcome.err;
   };
-  CHECK(contains(refusal({"serve"}), "needs the folder of the series"));
+  CHECK(contains(refusal({"serve"}), "no folder given"));
   CHECK(contains(refusal({"serve", "/tmp/x"}), "needs --rig FILE"));
   CHECK(
       contains(refusal({"serve", "/tmp/x", "--emulate", "--port", "70000"}), "outside 0 to 65535"));
