@@ -253,6 +253,9 @@ Json schema_of(const DescribedResult& result) {
         {"items", {{"type", "string"}}},
         {"description", "the files that were read, as they were named"}};
     head["required"].push_back("inputs");
+    head["properties"]["plausible"] = {
+        {"const", "off"},
+        {"description", "the ranges of plausible values were switched off; missing otherwise"}};
   }
   Json keys = schema_of_keys(result);
   for (const auto& [key, below] : keys["properties"].items()) head["properties"][key] = below;

@@ -21,7 +21,7 @@ void require_rubber_target(const CardWords& words) {
 }
 
 void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const CardWords& words,
-                      const std::string& text) {
+                      const std::string& doubt, const std::string& text) {
   v("target", words.target, "solver of the card");
   v("units", words.units.empty() ? "SI" : words.units, "unit system");
   v("out", words.out, "the card; empty: stdout");
@@ -31,6 +31,7 @@ void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const Card
     "Young's modulus at rest after all relaxation; E0_Pa without terms");
   v("terms", words.elastic_only.empty() ? file.terms.size() : 0,
     "number of terms of relaxation in the card; 0 for an elastic law and with --elastic-only");
+  v("warnings", doubt.empty() ? Words{} : Words{doubt}, "what is doubtful about the card");
   v.when(words.out.empty(), [&] { v("card", text, "the card itself, without --out"); });
 }
 
@@ -38,7 +39,7 @@ void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const Card
 
 DescribedResult result_of_rubber_card() {
   return {"card-rubber", "viscard card of a law of rubber",
-          {[](ResultVisitor& v) { show_rubber_card(v, {}, {}, ""); }}};
+          {[](ResultVisitor& v) { show_rubber_card(v, {}, {}, "", ""); }}};
 }
 
 bool is_rubber(const CardWords& words) {
@@ -68,7 +69,7 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   if (!words.out.empty()) write_file(words.out, text, words.force);
   if (words.json) {
     print_result({"viscard-card-rubber/1", {words.material}},
-                 [&](ResultVisitor& v) { show_rubber_card(v, file, words, text); }, streams);
+                 [&](ResultVisitor& v) { show_rubber_card(v, file, words, doubt, text); }, streams);
   } else if (words.out.empty()) {
     streams.out << text;
   } else {

@@ -171,7 +171,7 @@ void show_load_cell(ResultVisitor& v, const LoadCellFit& fit,
   v("date", calibration.date, "day of the calibration");
   v("valid_until", calibration.valid_until, "last day of validity");
   v("gain_V_N", fit.gain, "volts for a newton");
-  v("gain_u_V_N", fit.gain_u, "its standard uncertainty");
+  v("gain_u_V_N", fit.gain_u, "its standard uncertainty at in_use_N");
   v("gain_interval_95", Interval{fit.gain - 2.0 * fit.gain_u, fit.gain + 2.0 * fit.gain_u},
     "gain plus and minus twice its uncertainty, [low, high]");
   v("zero_V", fit.zero, "reading without a force");

@@ -37,7 +37,8 @@ struct ShownAnswer {
   double wall_s = 0.0;
   std::vector<PrintedComparison> printed;
   std::optional<SceneUncertainty> uncertainty;
-  std::string command;  // of results.json
+  std::string command;               // of results.json
+  bool accepts_implausible = false;  // of values
 };
 void show_keys(ResultVisitor& v, const ShownAnswer& shown);
 

@@ -137,6 +137,7 @@ int run_simulate(const Words& words, Streams& streams) {
   shown.uncertainty = uncertainty_of(asked, file, answer, streams);
   if (!folder.empty()) {
     shown.command = output.command;
+    shown.accepts_implausible = streams.accepts_implausible;
     write_files(shown, folder, output.overwrite);
     shown.command.clear();
     if (!is_sweep) write_looks(file.scene, answer, output, streams);

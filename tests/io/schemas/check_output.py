@@ -113,6 +113,9 @@ def check_fit():
     run(["fit", relaxation, "--profiles", "--diagnose", "--bootstrap", "20"], "fit")
     run(["fit", "run.viscap", "--want", "E0=1%", "--want", "sum_g=5%"], "fit")
     run(["fit", relaxation, "missing.csv"], "fits", 1)
+    printed = run(["fit", relaxation, "--plausible", "off"], "fit")
+    if printed and printed.get("plausible") != "off":
+        mistakes.append("viscard fit --plausible off: the object does not say so")
     material = data("materials/pdms_1to10_seed.json")
     for test in ("relaxation", "creep", "oscillation"):
         run(["predict", material, "--test", test, "--csv", f"{test}.csv"], "predict")
