@@ -142,3 +142,19 @@ def test_plots_of_results(relaxation):
     assert len(axes.lines) == 2
     assert result.plot(ax=axes, color="C3") is axes and len(axes.lines) == 4
     plt.close("all")
+
+
+def test_values_are_those_of_json_as_arrays_and_a_key_is_found_where_it_stands():
+    result = viscard.fit(EXAMPLE, profiles=True)
+    json.dumps(result.json)
+    assert result.find("E0_Pa") == result["E0_Pa"] == result.E0_Pa
+    assert result.find("E0_interval_95") == tuple(result["E0_interval_95"])
+    assert result.find("terms.1.tau_s") == result["terms"][1]["tau_s"]
+    assert result.find("inflation") == result["noise"]["inflation"]  # stands below
+    profile = result.find("profiles.0.value")
+    assert isinstance(profile, np.ndarray) and profile.tolist() == result["profiles"][0]["value"]
+    assert "covariance" not in result.json and result.values["covariance"].shape == (5, 5)
+    for name, says in (("E0_kPa", "there is no"), ("sigma", "in 2 places"), ("terms.9.tau_s", "'9' is missing"),
+                       ("terms.0.E0", "'E0' is missing")):
+        with pytest.raises(KeyError, match=says):
+            result.find(name)
