@@ -29,16 +29,17 @@ void check_emulation(const SetupRequest& request) {
 }
 
 PythonResult capture(const std::string& out, const py::dict& keywords, const py::object& sample,
-                   const py::object& progress) {
+                     const py::object& progress) {
   using Text = std::optional<std::string>;
-  const SetupRequest request{.rig_file = keywords["rig"].cast<Text>(),
-                             .test_file = keywords["test"].cast<Text>(),
-                             .truth_file = keywords["truth"].cast<Text>(),
-                             .specimen_file = keywords["specimen"].cast<Text>().value_or(""),
-                             .is_emulated = keywords["emulate"].cast<bool>(),
-                             .seed = keywords["seed"].cast<std::optional<std::uint64_t>>(),
-                             .speed = keywords["speed"].cast<double>(),
-                             .plausible = judged_by(keywords["plausible"].cast<std::string>())};
+  SetupRequest request;  // filled in one by one: a keyword of a wrong type leaves a whole one
+  request.rig_file = keywords["rig"].cast<Text>();
+  request.test_file = keywords["test"].cast<Text>();
+  request.truth_file = keywords["truth"].cast<Text>();
+  request.specimen_file = keywords["specimen"].cast<Text>().value_or("");
+  request.is_emulated = keywords["emulate"].cast<bool>();
+  request.seed = keywords["seed"].cast<std::optional<std::uint64_t>>();
+  request.speed = keywords["speed"].cast<double>();
+  request.plausible = judged_by(keywords["plausible"].cast<std::string>());
   check_emulation(request);
   const CaptureRequest asked{.setup = setup_from_files(request),
                              .path = out,
