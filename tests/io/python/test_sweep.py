@@ -60,10 +60,10 @@ def test_an_interrupted_sweep_continues(tmp_path):
 def test_a_point_without_an_answer_is_nan_with_its_reason(tmp_path):
     scene = pathlib.Path("data/scenes/pillar_press.toml").resolve()
     study = tmp_path / "study.toml"
-    study.write_text(f'scene = "{scene}"\n[[parameter]]\nkey = "materials.pillar.nu"\nvalues = ["0.33", "0.7"]\n')
+    study.write_text(f'scene = "{scene}"\n[[parameter]]\nkey = "materials.pillar.nu"\nvalues = ["0.33", "-1"]\n')
     found = viscard.sweep(study)
     assert np.isfinite(found["electrode_voltage"]).tolist() == [True, False]
-    assert found.failures[0] == "" and "Poisson ratio is 0.7" in found.failures[1] and "1 without an answer" in repr(found)
+    assert found.failures[0] == "" and "Poisson ratio is -1" in found.failures[1] and "1 without an answer" in repr(found)
     with pytest.raises(KeyError, match="voltage2"):
         found["voltage2"]
 

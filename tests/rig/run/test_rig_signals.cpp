@@ -140,6 +140,7 @@ TEST_CASE("a load cell whose readings show no noise is not brought to the specim
   EmulatedRigOptions options = rig_with("dead-motor@never");
   options.truth.force_noise_N = 0.0;
   options.config.load_cell.volts_per_count *= 4096.0;  // 12 bits: a digit of 7 mN
+  options.config.load_cell.span_V = 10.0;
   TestPlan plan = short_plan();
   plan.contact_force_N = 0.03;
   SECTION("without a surface it ends and asks for a touch") {
