@@ -17,7 +17,6 @@ namespace {
 
 constexpr int kFewestReadings = 10;
 constexpr double kSlowLink_s = 0.020;
-constexpr double kLeastRate_Hz = 20.0;
 constexpr double kFullLine = 0.95;           // of the bytes per second that a baud rate allows
 constexpr double kBits = 10.0;               // of one byte on the wire
 constexpr double kBaudReserve = 1.25;        // of the baud rate proposed over the one needed
@@ -111,10 +110,15 @@ void advise(const RigConfig& rig, const RestReadings& seen, RigCheck& check) {
   }
   const std::string lag = is_late ? "" : lag_trouble(rig, check);
   if (!lag.empty()) add(true, lag);
-  if (check.rate_Hz < kLeastRate_Hz) {
+  if (check.rate_Hz < kSlowestReadings_Hz) {
     add(true, text_from_number(check.rate_Hz, 1) +
                   " readings/s are too few to stop an approach in time: " +
                   remedy_for_slow_readings(rig.load_cell));
+  } else if (check.rate_Hz < kSlowReadings_Hz) {
+    add(false, text_from_number(check.rate_Hz, 1) +
+                   " readings/s: an approach waits for a reading after each of its steps. For a "
+                   "faster one, " +
+                   remedy_for_slow_readings(rig.load_cell));
   }
   bool is_rate_wrong = false;
   for (const RestFinding& found : findings_at_rest(seen, rig)) {
@@ -131,7 +135,7 @@ void advise(const RigConfig& rig, const RestReadings& seen, RigCheck& check) {
         "cell measures. Put a finger or a weight on it while 'viscard rig touch --rig FILE' "
         "listens: it writes the day into the rig file (answered_on under [load_cell])");
   }
-  if (check.rate_Hz >= kLeastRate_Hz && !is_rate_wrong && !is_late && lag.empty() &&
+  if (check.rate_Hz >= kSlowestReadings_Hz && !is_rate_wrong && !is_late && lag.empty() &&
       std::abs(check.rate_Hz / rig.load_cell.expected_rate_Hz - 1.0) > 0.1) {
     add(false, "the readings come at " + text_from_number(check.rate_Hz, 1) +
                    "/s: set expected_rate of the load cell in the rig file to that");

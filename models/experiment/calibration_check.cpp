@@ -63,10 +63,15 @@ std::optional<CalibrationFault> fault_of_size(const LoadCellCalibration& calibra
 ReadingSpan reading_span(const LoadCellConfig& cell) {
   if (measures_force(cell)) return {.is_in_newton = true};
   if (cell.span_V > 0.0) return {.largest = cell.span_V, .is_known = true};
+  const ReadingSpan usual;
   if (has_converter(cell) && cell.line_format != "volts" && cell.volts_per_count != 0.0) {
-    return {.largest = kHalfOfCodes * std::abs(cell.volts_per_count), .is_known = true};
+    const double counts_V = kHalfOfCodes * std::abs(cell.volts_per_count);
+    // More than an amplifier can send: the converter has fewer than 24 bits, and how many is unknown.
+    if (counts_V <= (1.0 + kRounding) * usual.largest) {
+      return {.largest = counts_V, .is_known = true};
+    }
   }
-  return {};
+  return usual;
 }
 
 std::optional<CalibrationFault> calibration_fault(const LoadCellCalibration& calibration,

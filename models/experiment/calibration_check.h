@@ -13,7 +13,7 @@ struct ReadingSpan {
   bool is_known = false;      // stated, or of a converter; otherwise that of a usual amplifier
   bool is_in_newton = false;  // of an instrument that sends forces; it has no converter to saturate
 };
-// From [load_cell]: span, or 2^23 counts of volts_per_count, or +-10 V.
+// From [load_cell]: span, or 2^23 counts of volts_per_count if that is at most 10 V, or +-10 V.
 ReadingSpan reading_span(const LoadCellConfig& cell);
 
 struct CalibrationFault {

@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kLinkDelay_s = 0.010;  // to read a line, decide and write a byte
 constexpr int kFewestRampReadings = 10;
-constexpr double kSlowestRate_Hz = 20.0;
+constexpr double kApproachStep_m = 25e-6;
+constexpr double kUsualRate_Hz = 80.0;
+constexpr double kWaitPeriods = 1.5;  // for the first reading made after a step
 
 std::string in_N(double force_N) {
   return text_from_number(force_N, 3) + " N";
@@ -89,14 +91,57 @@ void check_lift_off(const std::vector<TestPhase>& phases, double relaxation, Pre
   }
 }
 
-void check_rates(const RigConfig& rig, const std::vector<TestPhase>& phases, Preflight& result) {
+// Between a reading and the end of the stop that it causes the force must not rise from the limit to the
+// capacity, at the stiffness that is expected.
+void check_rise_between_readings(const RigConfig& rig, const std::vector<TestPhase>& phases,
+                                 Preflight& result) {
+  const double seen_after_s = kWaitPeriods / rig.load_cell.expected_rate_Hz + kLinkDelay_s;
+  const double room_N = rig.calibration.capacity_N - result.limit_N;
+  double before_m = 0.0;
+  for (const TestPhase& phase : phases) {
+    const double way_m = result.stage_travel_of(phase.depth_m - before_m);
+    before_m = phase.depth_m;
+    if (phase.kind != TestPhase::Kind::kMove || !(phase.move_s > 0.0) || !(way_m > 0.0)) continue;
+    const double rise_N = result.total_stiffness_N_m * way_m * seen_after_s / phase.move_s;
+    if (rise_N <= room_N) continue;
+    result.problems.push_back(
+        "in the move '" + phase.name + "' the force rises by " + in_N(rise_N) +
+        " until a reading stops it, more than the " + in_N(room_N) +
+        " between limit and capacity, because the load cell gives only " +
+        text_from_number(rig.load_cell.expected_rate_Hz, 1) + " readings/s. Raise " +
+        phase.speed_key + " of the test file to " +
+        text_from_number(std::ceil(phase.move_s * rise_N / room_N * 10.0) / 10.0, 1) + " s, or " +
+        remedy_for_slow_readings(rig.load_cell));
+    return;
+  }
+}
+
+void check_rates(const RigConfig& rig, const TestPlan& plan, const std::vector<TestPhase>& phases,
+                 Preflight& result) {
   const double rate_Hz = rig.load_cell.expected_rate_Hz;
-  if (rate_Hz < kSlowestRate_Hz) {
+  if (rate_Hz < kSlowestReadings_Hz) {
     result.problems.push_back("the load cell gives " + text_from_number(rate_Hz, 1) +
-                              " readings/s, too few to stop an approach in time: " +
-                              remedy_for_slow_readings(rig.load_cell) +
+                              " readings/s, fewer than the " +
+                              text_from_number(kSlowestReadings_Hz, 0) +
+                              "/s of any test: " + remedy_for_slow_readings(rig.load_cell) +
                               ", then expected_rate in the rig file");
     return;
+  }
+  const double way_m = 0.5 * plan.approach_limit_m;
+  const auto total_s = [&](double at_Hz) {
+    return planned_s(phases, 0, way_m / plan.approach_speed_m_s) +
+           way_m / kApproachStep_m * kWaitPeriods / at_Hz;
+  };
+  result.total_s = total_s(rate_Hz);
+  if (rate_Hz < kSlowReadings_Hz) {
+    result.warnings.push_back(
+        "the load cell gives " + text_from_number(rate_Hz, 1) +
+        " readings/s: the approach goes in steps of " + text_from_number(kApproachStep_m * 1e6, 0) +
+        " um and waits for a reading after each, so the test takes about " +
+        text_from_number(result.total_s, 0) + " s instead of " +
+        text_from_number(total_s(kUsualRate_Hz), 0) + " s. For a faster approach, " +
+        remedy_for_slow_readings(rig.load_cell));
+    check_rise_between_readings(rig, phases, result);
   }
   for (const TestPhase& phase : phases) {
     if (phase.kind != TestPhase::Kind::kMove || !(phase.move_s > 0.0)) continue;
@@ -267,7 +312,7 @@ Preflight preflight(const RigConfig& rig, const TestPlan& plan, const Specimen& 
   check_least_force(rig, plan, result);
   check_travel(rig, plan, result);
   check_lift_off(phases, specimen.relaxation_guess, result);
-  check_rates(rig, phases, result);
+  check_rates(rig, plan, phases, result);
   const std::string range = calibration_range_doubt(rig.calibration, result.peak_force_N);
   if (!range.empty()) result.warnings.push_back(range);
   if (dynamics) check_motion(rig, plan, phases, *dynamics, result);

@@ -11,6 +11,11 @@
 
 namespace viscard {
 
+// Below the first rate of readings, 1/s, the waits after the steps of the approach count; below the second
+// one no test is possible.
+inline constexpr double kSlowReadings_Hz = 20.0;
+inline constexpr double kSlowestReadings_Hz = 2.0;
+
 // What a test will do to the load cell, computed before anything moves.
 struct Preflight {
   double specimen_stiffness_N_m = 0.0;  // c E, with the layer
@@ -18,9 +23,11 @@ struct Preflight {
   double peak_force_N = 0.0;  // elastic, at full depth: an upper bound for a relaxing solid
   double limit_N = 0.0;       // soft limit of the cell
   double deepest_safe_depth_m = 0.0;
-  double travel_per_depth = 1.0;      // of the stage, because the frame deforms too
-  double stage_travel_m = 0.0;        // to full depth: depth + peak_force/frame stiffness
-  double ramp_speed_m_s = 0.0;        // of the stage in the first ramp
+  double travel_per_depth = 1.0;  // of the stage, because the frame deforms too
+  double stage_travel_m = 0.0;    // to full depth: depth + peak_force/frame stiffness
+  double ramp_speed_m_s = 0.0;    // of the stage in the first ramp
+  double total_s =
+      0.0;  // of the test, with half of the approach limit, and the waits of a slow cell
   double approach_overshoot_N = 0.0;  // force above contact_force until the stage has stopped
   std::vector<std::string> problems;  // the test must not start if there is one
   std::vector<std::string> warnings;

@@ -214,7 +214,9 @@ void RunSession::check_stream() {
                  slower + ". Check the amplifier and its cable, then start the run again");
 }
 
-ForceMean RunSession::mean_force(double duration_s) {
+ForceMean RunSession::mean_force(double asked_s) {
+  // A slow cell needs longer for its fewest readings.
+  const double duration_s = std::max(asked_s, (kFewestReadings + 1) * load_cell().period_s());
   const double start_s = clock_.now_s();
   const double deadline_s = clock_.awake_s() + duration_s / clock_.speed() + kLateMean_wall_s;
   readings_.collect_from(start_s);

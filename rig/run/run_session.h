@@ -77,8 +77,9 @@ class RunSession {
   // round, its force falls while the punch presses.
   bool move(double to_m, double speed_m_s, const std::string& purpose,
             std::optional<double> stop_above_N = std::nullopt);
-  // Mean over the readings made from now on. Throws RigError if fewer than five arrive.
-  ForceMean mean_force(double duration_s);
+  // Mean over the readings made from now on, for at least six periods. Throws RigError if fewer than five
+  // arrive.
+  ForceMean mean_force(double asked_s);
   // Takes the mean of the next readings as the new zero.
   ForceMean tare(double duration_s);
 

@@ -14,6 +14,7 @@ constexpr int kMostRestarts = 3;     // of the amplifier before its zero is know
 constexpr double kProbe_m = 0.1e-3;  // lifted before the tare
 constexpr double kHighest_m = 2e-3;  // farther than any test presses
 constexpr double kProbeMean_s = 0.25;
+constexpr double kFewestOfTare = 20.0;  // readings
 constexpr double kChangeSigmas = 6.0;   // of the difference of two means
 constexpr double kChangeOfTouch = 0.5;  // of contact_force: a smaller change is no contact
 constexpr double kStillChanging = 0.3;  // of the change in the lift
@@ -227,14 +228,17 @@ ForceMean first_tare(TestRun& run, double duration_s) {
 }  // namespace
 
 void carry_out_tare(TestRun& run, const TestPhase& phase) {
-  ForceMean zero = first_tare(run, phase.duration_s);
+  // A slow cell needs longer to show its noise.
+  const double duration_s =
+      std::max(phase.duration_s, kFewestOfTare * run.session.load_cell().period_s());
+  ForceMean zero = first_tare(run, duration_s);
   run.outcome.noise_N = zero.sd_N;
   const RestReadings seen = seen_at_rest(run, zero);
   refuse_dead_cell(run, seen);
   run.is_proven = is_proven_by_noise(seen) || !run.rig.load_cell.answered_on.empty();
   const double most_N = kPressesAtStart * run.rig.calibration.capacity_N;
   // First away from what may press: for this move the rate of the readings does not matter.
-  if (std::abs(zero.force_N) <= most_N) check_rate(run, seen, phase.duration_s);
+  if (std::abs(zero.force_N) <= most_N) check_rate(run, seen, duration_s);
   run.session.watch_life();
   const ForceMean change = change_when_lifted(run);
   if (std::abs(change.force_N) > felt_N(run, change)) refuse_drift(run, change);
@@ -242,9 +246,9 @@ void carry_out_tare(TestRun& run, const TestPhase& phase) {
   if (change.force_N < -felt_N(run, change)) {
     free_punch(run, -change.force_N);
     const double pressed_N = zero.force_N;
-    zero = undisturbed_tare(run, phase.duration_s);
+    zero = undisturbed_tare(run, duration_s);
     zero.force_N += pressed_N;
-    check_rate(run, seen_at_rest(run, zero), phase.duration_s);
+    check_rate(run, seen_at_rest(run, zero), duration_s);
     run.session.watch_life();
   }
   for (const RestFinding& found : findings_at_rest(seen_at_rest(run, zero), run.rig)) {

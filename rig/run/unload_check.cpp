@@ -26,6 +26,8 @@ void UnloadCheck::take_move(double from_m, double force_before_N, double took_s)
     return;
   }
   if (!press_ || !(press_->way_m > 0.0) || to_m <= run_.contact_m) return;
+  // The reading of the peak may have come after the end of the press.
+  press_->peak_N = std::max(press_->peak_N, session.peak_force_N());
   unloaded_m_ = from_m - to_m;
   relaxed_N_ = std::max(0.0, press_->peak_N - force_before_N);
   least_N_ = force_before_N - unloaded_m_ / press_->way_m * press_->peak_N;

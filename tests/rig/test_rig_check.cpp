@@ -31,12 +31,17 @@ TEST_CASE("a rig check measures rate and noise, reads settings and moves nothing
   CHECK(names_rate);
 }
 
-TEST_CASE("a converter at 10 readings/s makes a rig unusable", "[rig][pty]") {
+TEST_CASE("a converter at 10 readings/s is usable, one at 1 reading/s is not", "[rig][pty]") {
+  const double rate_Hz = GENERATE(10.0, 1.0);
   EmulatedRigOptions options = RigFixture::options();
-  options.truth.sample_rate_Hz = 10.0;
-  options.config.load_cell.expected_rate_Hz = 10.0;
+  options.truth.sample_rate_Hz = rate_Hz;
+  options.config.load_cell.expected_rate_Hz = rate_Hz;
   RigFixture rig(options);
-  CHECK_FALSE(check_rig(rig.stage, rig.load_cell, rig.config, rig.clock, 10.0).is_usable);
+  const RigCheck check = check_rig(rig.stage, rig.load_cell, rig.config, rig.clock, 20.0);
+  CHECK(check.is_usable == (rate_Hz == 10.0));
+  CHECK(std::any_of(check.advice.begin(), check.advice.end(), [&](const std::string& text) {
+    return text.find(rate_Hz == 10.0 ? "waits for a reading" : "too few") != std::string::npos;
+  }));
 }
 
 TEST_CASE("numbers with a decimal point and no unit are read as volts, and the advice reports it",

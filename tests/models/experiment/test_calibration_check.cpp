@@ -38,6 +38,9 @@ TEST_CASE("cells of every usual kind are believed", "[models]") {
     meter.load_cell.driver = "scpi";
     CHECK(fault_of(meter).empty());
   }
+  RigConfig coarse = amplified();  // the 10 bits of a microcontroller
+  coarse.load_cell.volts_per_count = 5.0 / 1024.0;
+  CHECK(fault_of(coarse).empty());
   RigConfig gauge = amplified();
   gauge.load_cell.driver = "mark10";
   gauge.calibration.volts_per_newton = 1.003;

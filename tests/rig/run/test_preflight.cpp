@@ -1,4 +1,5 @@
 #include "models/contact/punch_contact.h"
+#include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/run/preflight.h"
 
@@ -96,12 +97,33 @@ TEST_CASE("an approach that would overshoot the limit is refused", "[rig]") {
   CHECK(problems_at(named_m_s + 2e-6) == 1);
 }
 
-TEST_CASE("a converter at 10 readings/s is refused", "[rig]") {
+TEST_CASE("a converter at 10 readings/s is waited for, and the time is stated beforehand",
+          "[rig]") {
   RigConfig rig = demo_rig();
+  const Preflight fast = preflight(rig, TestPlan{}, demo_specimen(10.0));
   rig.load_cell.expected_rate_Hz = 10.0;
-  const Preflight result = preflight(rig, TestPlan{}, demo_specimen(10.0));
-  REQUIRE(result.problems.size() == 1);
-  CHECK(result.problems[0].find("80/s") != std::string::npos);
+  const Preflight slow = preflight(rig, TestPlan{}, demo_specimen(10.0));
+  CHECK(slow.problems.empty());
+  REQUIRE_FALSE(slow.warnings.empty());
+  CHECK_THAT(slow.warnings.front(),
+             Catch::Matchers::Contains("10.0 readings/s") &&
+                 Catch::Matchers::Contains("in steps") &&
+                 Catch::Matchers::Contains(text_from_number(slow.total_s, 0) + " s instead of " +
+                                           text_from_number(fast.total_s, 0) + " s") &&
+                 Catch::Matchers::Contains("80/s"));
+  CHECK(slow.total_s > fast.total_s + 10.0);
+  // A ramp so fast that it cannot be stopped in time is refused with one that can.
+  TestPlan quick;
+  quick.ramp_s = 0.3;
+  const Preflight refused = preflight(rig, quick, demo_specimen(10.0));
+  REQUIRE(refused.problems.size() == 1);
+  CHECK_THAT(refused.problems[0], Catch::Matchers::Contains("until a reading stops it"));
+  quick.ramp_s = std::stod(refused.problems[0].substr(refused.problems[0].find("file to ") + 8));
+  CHECK(preflight(rig, quick, demo_specimen(10.0)).problems.empty());
+  rig.load_cell.expected_rate_Hz = 1.0;
+  const Preflight slowest = preflight(rig, TestPlan{}, demo_specimen(10.0));
+  REQUIRE(slowest.problems.size() == 1);
+  CHECK_THAT(slowest.problems[0], Catch::Matchers::Contains("fewer than the 2/s of any test"));
 }
 
 TEST_CASE("impossible plans and rigs are refused with the value to change", "[rig]") {
