@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 namespace viscard {
 namespace {
@@ -57,8 +58,11 @@ double example_of(const Quantity& quantity) {
 const OtherUnit* meant_unit(const Quantity& quantity, const PlausibleRange& range, double value) {
   const OtherUnit* found = nullptr;
   double least = 0.0;
+  const bool is_percentage = std::string_view(quantity.example).ends_with('%');
   for (const OtherUnit& other : kOtherUnits) {
     const double meant = value * other.factor;
+    // Nobody writes a Poisson ratio in per cent, and a stretch of 200 % is most often a strain.
+    if (std::string_view(other.unit) == "%" && !is_percentage) continue;
     if (std::string(other.si) != quantity.unit || meant == 0.0 || !is_in(range, meant)) continue;
     const double off = std::abs(std::log(std::abs(meant / example_of(quantity))));
     if (found != nullptr && off >= least) continue;

@@ -73,8 +73,7 @@ void check_positional(const CommandSyntax& syntax) {
 }
 
 // The library splits words into names and values and knows nothing of their types.
-po::options_description described(const OptionList& options) {
-  po::options_description all;
+void describe(const OptionList& options, po::options_description& all) {
   for (const Option& option : options.all()) {
     const std::string name = option.name == "help" ? "help,h" : option.name;
     if (is_switch(option)) {
@@ -85,14 +84,15 @@ po::options_description described(const OptionList& options) {
       all.add_options()(name.c_str(), po::value<std::string>(), "");
     }
   }
-  return all;
 }
 
 // The values of all options that are given, and the words that belong to none.
 Words take_given(const Words& words, CommandSyntax& syntax) {
   Words free;
   try {
-    const po::options_description options = described(syntax.options);
+    po::options_description options;
+    describe(syntax.options, options);
+    describe(syntax.positional, options);  // a word may be named, such as --scene FILE
     // Shortened options are refused: a new option could change the meaning of an old script.
     const int style =
         po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
@@ -117,6 +117,7 @@ Words take_given(const Words& words, CommandSyntax& syntax) {
 void take_positional(const Words& free, CommandSyntax& syntax) {
   std::size_t next = 0;
   for (const Option& word : syntax.positional.all()) {
+    if (is_given(syntax, word.name)) continue;  // by its name
     const std::size_t end = is_list(word) ? free.size() : std::min(free.size(), next + 1);
     if (next < end)
       syntax.given[word.name].assign(free.begin() + static_cast<long>(next),

@@ -45,7 +45,7 @@ TEST_CASE("data that cannot be fitted give one line with the file and exit statu
   const TableFolder folder;
   const std::vector<std::pair<std::string, std::string>> cases{
       {folder.file("missing.csv"), "missing.csv"},
-      {folder.write("two.csv", "time_s,modulus_Pa\n0,1\n1,0.9\n"), "at least 4"},
+      {folder.write("two.csv", "time_s,modulus_Pa\n0,1e6\n1,9e5\n"), "at least 4"},
       {folder.write("text.csv", "time_s,modulus_Pa\n0,1\n1,abc\n2,1\n3,1\n4,1\n"), "abc"},
       {folder.write("other.csv", "a,b\n0,1\n1,2\n2,3\n3,4\n"), "--column"}};
   for (const auto& [file, expected] : cases) {

@@ -50,7 +50,7 @@ TEST_CASE("a workbook is not called the file of a maker", "[cli]") {
 TEST_CASE("columns without a unit are read in SI, and a flag says so", "[cli]") {
   const TableFolder folder;
   const auto flag_of = [&](const std::string& header, const std::vector<std::string>& more = {}) {
-    const std::string rows = "0.01,1.8\n0.03,1.78\n0.1,1.75\n0.3,1.72\n1,1.7\n3,1.69\n10,1.68\n";
+    const std::string rows = "0.01,1.8e6\n0.03,1.78e6\n0.1,1.75e6\n0.3,1.72e6\n1,1.7e6\n3,1.69e6\n10,1.68e6\n";
     std::vector<std::string> words{"fit", folder.write("t.csv", header + "\n" + rows), "--json"};
     words.insert(words.end(), more.begin(), more.end());
     const auto json = nlohmann::json::parse(run_command(words).out);

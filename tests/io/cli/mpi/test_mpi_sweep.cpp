@@ -56,7 +56,7 @@ to = "50 um"
 count = 10
 [[parameter]]
 key = "materials.pillar.nu"
-values = ["0.3", "0.4", "0.6"]
+values = ["0.3", "0.4", "-1"]
 )";
 
 struct MpiStudy {
