@@ -44,6 +44,7 @@ class EmulatedRig::Impl final : public WaitingRig {
         thermometer_(options.config.thermometer, options.thermometer),
         motor_(options.travel_scale),
         pace_(options.config.clock_speed) {
+    if (options.fault.kind == RigFaultKind::kStagePortBack) stage_port_.name_stably();
     if (options.fault.phase.empty()) enter_phase("");
     if (options.is_on_wall_clock) thread_ = std::thread([this] { run(); });
   }
@@ -108,7 +109,11 @@ class EmulatedRig::Impl final : public WaitingRig {
     watch_port(stage_port_, stage_board_, now_s);
     watch_port(cell_port_, cell_board_, now_s);
     happen(now_s);
-    if (now_s >= fault_due_s_) begin_fault();
+    if (now_s >= fault_due_s_) begin_fault(now_s);
+    if (now_s >= stage_back_at_s_) {
+      stage_back_at_s_ = kNever_s;
+      stage_port_.come_back();
+    }
     // Conversions up to now depend on the motion up to now; bytes from the host act from now on.
     stage_->tick(now_s);
     serve_cell(now_s);
@@ -235,7 +240,7 @@ class EmulatedRig::Impl final : public WaitingRig {
     if (stall_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(stall_s));
   }
 
-  void begin_fault() {
+  void begin_fault(double now_s) {
     fault_due_s_ = std::numeric_limits<double>::infinity();
     const RigFaultKind kind = options_.fault.kind;
     amplifier_.set_fault(kind);
@@ -243,6 +248,10 @@ class EmulatedRig::Impl final : public WaitingRig {
     motor_.set_fault(kind);
     if (kind == RigFaultKind::kLoadCellPort) cell_port_.hang_up();
     if (kind == RigFaultKind::kStagePort) stage_port_.hang_up();
+    if (kind == RigFaultKind::kStagePortBack) {
+      stage_port_.hang_up();
+      stage_back_at_s_ = now_s + clock_.from_wall_s(1.0);
+    }
   }
 
   // Waits until the next conversion is due or the host sends bytes.
@@ -267,6 +276,7 @@ class EmulatedRig::Impl final : public WaitingRig {
   EmulatedMotor motor_;
   Board stage_board_, cell_board_;
   bool is_cell_silent_ = false;
+  double stage_back_at_s_ = kNever_s;
   double now_s_ = 0.0;  // of a rig that waits
   WallPace pace_;
   std::thread thread_;

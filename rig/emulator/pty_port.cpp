@@ -8,12 +8,18 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 namespace viscard {
 
 PtyPort::PtyPort() {
+  open();
+}
+
+void PtyPort::open() {
   int slave = -1;
   std::array<char, 256> name{};
   termios raw{};
@@ -25,6 +31,12 @@ PtyPort::PtyPort() {
                              std::strerror(errno) + ". Close other terminals and retry");
   }
   path_ = name.data();
+  if (!link_.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(link_, ignored);
+    std::filesystem::create_symlink(path_, link_);
+    path_ = link_;
+  }
   fcntl(master_, F_SETFL, O_NONBLOCK);
   fcntl(master_, F_SETFD, FD_CLOEXEC);
   // After the slave was opened and closed, the master reports a hang-up until a host opens it. That
@@ -34,6 +46,26 @@ PtyPort::PtyPort() {
 
 PtyPort::~PtyPort() {
   hang_up();
+  if (link_.empty()) return;
+  std::error_code ignored;
+  std::filesystem::remove_all(std::filesystem::path(link_).parent_path(), ignored);
+}
+
+void PtyPort::name_stably() {
+  std::string folder = (std::filesystem::temp_directory_path() / "viscard-port-XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) {
+    throw std::runtime_error("no folder for the name of an emulated port: " +
+                             std::string(std::strerror(errno)));
+  }
+  link_ = folder + "/tty";
+  std::filesystem::create_symlink(path_, link_);
+  path_ = link_;
+}
+
+void PtyPort::come_back() {
+  hang_up();
+  unsent_.clear();
+  open();
 }
 
 void PtyPort::hang_up() {

@@ -25,10 +25,18 @@ class PtyPort {
   bool has_unsent() const { return !unsent_.empty(); }
   // Drops unread bytes from the host and unsent bytes, as a reset does.
   void discard();
-  // Pulls the cable: the host sees a hang-up. The port cannot be used afterwards.
+  // Pulls the cable: the host sees a hang-up.
   void hang_up();
 
+  // From now on path() is a name that stays when the port comes back, as those in /dev/serial/by-id.
+  void name_stably();
+  // Plugs the cable in again; only a host that opens a stable name finds the port.
+  void come_back();
+
  private:
+  void open();
+
+  std::string link_;  // the stable name; empty: none
   int master_ = -1;
   std::string path_;
   std::string unsent_;

@@ -10,7 +10,7 @@
 namespace viscard {
 namespace {
 
-constexpr std::array<std::pair<RigFaultKind, const char*>, 11> kFaults{
+constexpr std::array<std::pair<RigFaultKind, const char*>, 12> kFaults{
     {{RigFaultKind::kFrozen, "frozen"},
      {RigFaultKind::kZeros, "zeros"},
      {RigFaultKind::kOpenWire, "open-wire"},
@@ -21,7 +21,8 @@ constexpr std::array<std::pair<RigFaultKind, const char*>, 11> kFaults{
      {RigFaultKind::kDeadMotor, "dead-motor"},
      {RigFaultKind::kLostSteps, "lost-steps"},
      {RigFaultKind::kLoadCellPort, "load-cell-port"},
-     {RigFaultKind::kStagePort, "stage-port"}}};
+     {RigFaultKind::kStagePort, "stage-port"},
+     {RigFaultKind::kStagePortBack, "stage-port-back"}}};
 
 }  // namespace
 

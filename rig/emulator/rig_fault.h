@@ -19,6 +19,7 @@ enum class RigFaultKind {
   kLostSteps,     // toward the specimen and under load every fifth step is lost
   kLoadCellPort,  // the port hangs up
   kStagePort,
+  kStagePortBack,  // it hangs up and is back under its name after 1 s of wall time
 };
 
 // A fault, and when it begins.

@@ -117,29 +117,49 @@ void SerialLine::SafeClose::operator()(LibSerial::SerialPort* port) const noexce
 
 SerialLine::SerialLine(const std::string& path, int baud, const RigClock& clock,
                        const std::string& framing)
-    : path_(path), baud_(baud), clock_(clock) {
-  check_framing(framing);
-  const LibSerial::BaudRate rate = baud_constant(path, baud);
-  lock_descriptor_ = open_exclusively(path);
+    : path_(path), baud_(baud), framing_(framing), clock_(clock) {
+  open();
+}
+
+void SerialLine::open() {
+  check_framing(framing_);
+  const LibSerial::BaudRate rate = baud_constant(path_, baud_);
+  lock_descriptor_ = open_exclusively(path_);
   try {
     port_.reset(new LibSerial::SerialPort());
-    port_->Open(path);
+    port_->Open(path_);
     port_->SetBaudRate(rate);
-    set_framing(*port_, framing);
+    set_framing(*port_, framing_);
     port_->SetFlowControl(LibSerial::FlowControl::FLOW_CONTROL_NONE);
     descriptor_ = port_->GetFileDescriptor();
     keep_dtr_on_close(descriptor_);
   } catch (const std::exception& error) {
-    port_.reset();
-    ::close(lock_descriptor_);
-    throw RigError("'" + path + "' opened, but could not be configured: " + error.what() +
+    close();
+    throw RigError("'" + path_ + "' opened, but could not be configured: " + error.what() +
                    ". Unplug the device, plug it in again, and retry");
   }
 }
 
 SerialLine::~SerialLine() {
+  close();
+}
+
+void SerialLine::close() {
   port_.reset();
+  descriptor_ = -1;
   if (lock_descriptor_ >= 0) ::close(lock_descriptor_);
+  lock_descriptor_ = -1;
+}
+
+bool SerialLine::reopen() {
+  close();
+  n_empty_reads_ = 0;
+  try {
+    open();
+  } catch (const RigError&) {
+    return false;
+  }
+  return true;
 }
 
 // The bytes of a rig that waits have all been sent at this moment, so all of them are read: how the

@@ -34,8 +34,11 @@ class SerialLine final : public Transport {
   int descriptor() const override { return descriptor_; }
   Chunk read_available() override;
   void write(std::string_view bytes, double timeout_s) override;
+  bool reopen() override;
 
  private:
+  void open();
+  void close();
   Chunk read_once();
   struct SafeClose {
     void operator()(LibSerial::SerialPort* port) const noexcept;
@@ -43,6 +46,7 @@ class SerialLine final : public Transport {
 
   std::string path_;
   int baud_;
+  std::string framing_;
   const RigClock& clock_;
   int lock_descriptor_ = -1;
   std::unique_ptr<LibSerial::SerialPort, SafeClose> port_;

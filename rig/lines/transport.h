@@ -30,6 +30,9 @@ class Transport {
   // Returns when the operating system has taken all bytes. Throws PortHungUp, or RigError if that
   // takes longer than timeout_s of wall time.
   virtual void write(std::string_view bytes, double timeout_s = 0.5) = 0;
+  // Opens the same path again after a hang-up, such as that of a USB plug with a loose contact. False
+  // if nothing that can be opened is there (yet). Which device answers must be verified.
+  virtual bool reopen() { return false; }
 };
 
 // Sleeps until one of the transports has bytes to read or hangs up, a signal arrives, or timeout_s

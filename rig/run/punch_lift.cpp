@@ -11,6 +11,8 @@ constexpr double kStandstill_wall_s = 10.0;  // longest wait for standstill
 constexpr double kLargestLift_m = 2e-3;      // one lift is at most this long, contact known or not
 constexpr double kOldReadings_wall_s = 1.0;  // longest wait for a reading made after the lift
 constexpr int kAttempts = 4;
+constexpr double kReopen_wall_s = 5.0;  // longest wait for a port; USB needs 1 to 3 s to list it again
+constexpr double kBlindSpeed_m_s = 0.2e-3;  // of a lift from a position that is not known
 constexpr double kFallen = 0.9;  // of the force before the lift
 
 }  // namespace
@@ -26,12 +28,35 @@ SafeEnd PunchLift::carry_out() {
       const std::string trouble = lift(std::pow(0.5, attempt));
       return {lifted_m, trouble};
     } catch (const PortHungUp& error) {
-      return {lifted_m,
-              std::string(error.what()) +
-                  ". THE STAGE CANNOT BE STOPPED FROM HERE: use its emergency stop and lift the "
-                  "punch by hand"};
+      return after_hang_up(error.what());
     } catch (const std::exception& error) {
       if (attempt + 1 == kAttempts) return {lifted_m, error.what()};
+    }
+  }
+  return {lifted_m, ""};
+}
+
+// The port of the stage may come back. Its position is lost then, and with it all that was known of
+// the way, so the punch is lifted slowly, no further than it had come, while the force is watched.
+SafeEnd PunchLift::after_hang_up(const std::string& what) {
+  const std::string cannot =
+      ". THE STAGE CANNOT BE STOPPED FROM HERE: use its emergency stop and lift the punch by hand";
+  if (!devices.is_cell_usable() || !options.blind.empty()) {
+    return {lifted_m, what + cannot};
+  }
+  pressed_m = std::max(0.0, devices.stage().position_m() - options.retract_to_m);
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    try {
+      if (attempt == 0) {
+        devices.reopen_stage(kReopen_wall_s, pump);
+      } else if (devices.needs_recovery()) {
+        devices.recover(pump);
+      }
+      return {lifted_m, lift(std::pow(0.5, attempt))};
+    } catch (const PortHungUp& error) {
+      return {lifted_m, error.what() + cannot};
+    } catch (const std::exception& error) {
+      if (attempt == 0 || attempt + 1 == kAttempts) return {lifted_m, error.what()};
     }
   }
   return {lifted_m, ""};
@@ -51,17 +76,24 @@ std::string PunchLift::lift(double share) {
   Stage& stage = devices.stage();
   const double before_N = std::abs(readings.force_N());
   const double from_m = stage.position_m();
-  const double shortest_m = from_m - share * kLargestLift_m;
+  const double shortest_m = from_m - share * std::min(kLargestLift_m, pressed_m);
   const double to_m =
       devices.is_position_lost()
           ? shortest_m
           : std::min(from_m,
                      std::max(from_m - share * (from_m - options.retract_to_m), shortest_m));
   if (to_m < from_m) {
-    stage.begin_move(to_m, options.speed_m_s, "retract");
-    const double deadline_s =
-        clock.awake_s() + kStandstill_wall_s + (from_m - to_m) / options.speed_m_s;
-    while (stage.is_moving() && clock.awake_s() < deadline_s) pump();
+    const double speed_m_s =
+        devices.is_position_lost() ? std::min(options.speed_m_s, kBlindSpeed_m_s) : options.speed_m_s;
+    stage.begin_move(to_m, speed_m_s, "retract");
+    const double deadline_s = clock.awake_s() + kStandstill_wall_s + (from_m - to_m) / speed_m_s;
+    const double highest_N = before_N + options.pressing_N;
+    while (stage.is_moving() && clock.awake_s() < deadline_s) {
+      pump();
+      if (!devices.is_position_lost() || std::abs(readings.force_N()) <= highest_N) continue;
+      devices.stop_hard();
+      return "THE FORCE RISES while the punch is lifted: lift it by hand";
+    }
     lifted_m = from_m - stage.position_m();
   }
   const bool was_pressing = before_N > options.pressing_N || !options.blind.empty();

@@ -3,6 +3,7 @@
 #include "rig/run/force_readings.h"
 #include "rig/run/served_devices.h"
 
+#include <limits>
 #include <string>
 
 namespace viscard {
@@ -30,9 +31,11 @@ struct PunchLift {
   Pump pump;  // serves both devices
   Options options;
   double lifted_m = 0.0;  // so far
+  double pressed_m = std::numeric_limits<double>::infinity();  // the way to here, once the position is lost
 
   SafeEnd carry_out();
 
+  SafeEnd after_hang_up(const std::string& what);
   void stop_gently();
   std::string lift(double share);
   std::string trouble_with_force(double before_N);

@@ -1,5 +1,6 @@
 #include "rig/run/served_devices.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/run/run_control.h"
 
 #include <algorithm>
@@ -45,7 +46,8 @@ void ServedDevices::serve(bool is_guarded) {
 }
 
 void ServedDevices::wait() {
-  std::vector<const Transport*> transports{&stage_.transport()};
+  std::vector<const Transport*> transports;
+  if (!is_stage_lost_) transports.push_back(&stage_.transport());
   if (!is_cell_lost_) transports.push_back(&load_cell_.transport());
   if (thermometer_ != nullptr && thermometer_->transport() != nullptr) {
     transports.push_back(thermometer_->transport());
@@ -71,6 +73,7 @@ void ServedDevices::serve_cell(bool is_guarded) {
 }
 
 void ServedDevices::serve_stage() {
+  if (is_stage_lost_) return;
   try {
     stage_.service();
   } catch (const StageAlarm&) {
@@ -80,6 +83,30 @@ void ServedDevices::serve_stage() {
     needs_recovery_ = true;
     is_position_lost_ = true;
     throw;
+  }
+}
+
+void ServedDevices::reopen_stage(double wall_s, const Pump& pump) {
+  constexpr double kBetween_wall_s = 0.1;
+  const std::string before = stage_.identity();
+  is_stage_lost_ = true;
+  is_stopping_ = false;
+  const double deadline_s = clock_.awake_s() + wall_s;
+  while (!stage_.transport().reopen()) {
+    if (clock_.awake_s() > deadline_s) {
+      throw PortHungUp("'" + stage_.transport().name() + "' is gone and did not come back within " +
+                       text_from_number(wall_s, 0) + " s");
+    }
+    const double next_s = clock_.awake_s() + kBetween_wall_s;
+    while (clock_.awake_s() < next_s) pump();
+  }
+  is_stage_lost_ = false;
+  needs_recovery_ = true;
+  is_position_lost_ = true;
+  recover(pump);
+  if (stage_.identity() != before) {
+    throw RigError("'" + stage_.transport().name() + "' came back with another device: '" +
+                   stage_.identity() + "' instead of '" + before + "'. Lift the punch by hand");
   }
 }
 

@@ -63,6 +63,10 @@ class ServedDevices {
   void end_gentle_stop() { is_stopping_ = false; }
   bool is_stopping() const { return is_stopping_; }
   void recover(const Pump& pump);
+  // After the stage's port hung up: opens it again, verifies that the same controller answers, and
+  // unlocks it. Its position is lost then. Waits up to wall_s for the port. Throws PortHungUp if it
+  // does not come back, RigError if another device answers.
+  void reopen_stage(double wall_s, const Pump& pump);
 
   struct Silence {
     double silent_s = 0.0;  // wall time without a reading
@@ -93,6 +97,7 @@ class ServedDevices {
   bool is_cell_lost_ = false;
   bool is_cell_restarted_ = false;
   bool is_stage_connected_ = false;
+  bool is_stage_lost_ = false;  // its port hung up
   bool needs_recovery_ = false;
   bool is_position_lost_ = false;
   bool is_stopping_ = false;

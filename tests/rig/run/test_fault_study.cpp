@@ -56,6 +56,7 @@ std::vector<std::string> names_of(RigFaultKind kind) {
     case kLostSteps:
       return {"lost steps"};
     case kStagePort:
+    case kStagePortBack:
     case kLoadCellPort:
       return {"is gone", "port"};
     case kNone:

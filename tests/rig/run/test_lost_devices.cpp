@@ -39,6 +39,24 @@ TEST_CASE("a cable pulled in any phase ends the run and keeps all records before
   }
 }
 
+TEST_CASE("a stage whose port comes back lifts the punch as far as it had pressed", "[rig][pty]") {
+  const std::string phase = GENERATE("approach", "ramp", "hold", "unload");
+  const bool resets = GENERATE(true, false);  // a board that restarts when its port is opened
+  EmulatedRigOptions options = RigFixture::options();
+  options.truth.surface_position_m = 0.06e-3;
+  options.resets_on_open = resets;
+  options.fault = rig_fault_from_text("stage-port-back@" + phase);
+  RigFixture rig(options);
+  when_phase(rig, phase, [&] { rig.emulated.enter_phase(phase); });
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(phase << ": " << outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, !Contains("by hand") && !Contains("BY HAND"));
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.emulated.outcome().final_position_m < options.truth.surface_position_m);
+  CHECK(rig.emulated.outcome().final_position_m > -1e-3);  // no further than it had come
+}
+
 TEST_CASE("a stall of this program changes no reading and stops nothing", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::on_wall_clock(2.0);
   options.truth.surface_position_m = 0.1e-3;
