@@ -9,8 +9,8 @@ const charts = new Set();
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
 // One chart. options: labels of the columns, colors by name, right: label of the column on the right
-// axis, limits: [{value, text, color}], range() of the left axis, window() of the time, readout(row),
-// points, band.
+// axis, titles: {xlabel, ylabel, y2label}, limits: [{value, text, color}], range() of the left axis, window()
+// of the time, onWindow([from, to]) when that changes, readout(row), points, band.
 export class Chart {
   constructor(node, options) {
     this.node = node;
@@ -34,13 +34,22 @@ export class Chart {
     if (this.data.length >= 2) this.build();
   }
 
+  // Shows this part of the time, as another chart does that it belongs to.
+  showWindow([from, to]) {
+    if (!this.graph) return;
+    const [now_from, now_to] = this.graph.xAxisRange();
+    const least = 1e-6 * (to - from);  // charts that follow each other must come to an end
+    if (Math.abs(now_from - from) + Math.abs(now_to - to) < least) return;
+    this.graph.updateOptions({ dateWindow: [from, to] });
+  }
+
   // The zeros of both axes lie at one height, and the right one reaches half of the height, so that its
   // curve does not meet the limit lines of the left one.
   ranges() {
     const left = this.options.range ? this.options.range() : null;
     const most = this.options.right ? Math.max(...this.data.map((row) => row[2])) : 0;
     const scale = left && most > 0 ? 2 * most / left[1] : 0;
-    const label = { axisLabelWidth: 44, drawGrid: true };
+    const label = { axisLabelWidth: 54, drawGrid: true };
     return {
       axes: {
         x: { drawGrid: false, pixelsPerLabel: 45 },
@@ -53,7 +62,7 @@ export class Chart {
   }
 
   build() {
-    const { labels, colors, right, points } = this.options;
+    const { labels, colors, right, points, titles, onWindow } = this.options;
     const series = {};
     labels.slice(1).forEach((name, i) => {
       series[name] = { color: color(colors[i]), strokeWidth: 1.75 };
@@ -65,7 +74,8 @@ export class Chart {
     this.graph = new Dygraph(this.node, this.data, {
       labels, series, legend: "never", rightGap: 12, xRangePad: 4, connectSeparatedPoints: true,
       gridLineColor: color("line"), axisLineColor: color("line"), axisLabelFontSize: 13,
-      digitsAfterDecimal: 4, ...this.ranges(),
+      digitsAfterDecimal: 4, xLabelHeight: 16, yLabelWidth: 16, ...titles, ...this.ranges(),
+      ...(onWindow ? { drawCallback: (graph) => onWindow(graph.xAxisRange()) } : {}),
       // A finger must be able to scroll the page over a chart.
       ...(isTouch ? { interactionModel: {} } : {}),
       underlayCallback: (context, area, graph) => this.drawUnder(context, area, graph),

@@ -20,6 +20,8 @@ const isWhole = () => element("fit-whole").checked;
 
 const fitChart = new Chart(element("fit-chart"), {
   labels: ["time", "measured", "fit"], colors: ["measured", "fit"], points: ["measured"],
+  titles: { xlabel: "time (s)", ylabel: "force (N)" },
+  onWindow: (range) => residualChart.showWindow(range),
   window: () => {
     const hold = isWhole() ? [] : firstHold(fitChart.data);
     return hold.length > 0 ? [starts.length > 0 ? starts[0] : hold[0][0], hold[hold.length - 1][0]] : null;
@@ -38,6 +40,8 @@ const fitChart = new Chart(element("fit-chart"), {
 });
 const residualChart = new Chart(element("residual-chart"), {
   labels: ["time", "residual"], colors: ["depth"], points: ["residual"], band: [-2, 2],
+  titles: { xlabel: "time (s)", ylabel: "residual / deviation" },
+  onWindow: (range) => fitChart.showWindow(range),
   range: () => {
     const largest = Math.max(3, ...residualChart.data.map((row) => Math.abs(row[1])));
     return [-1.1 * largest, 1.1 * largest];
@@ -73,10 +77,10 @@ function showFit(fit) {
   const { time_s, measured, fitted, sigma } = fit.curves;
   show(element("result-body"), true);
   starts = fit.curves.motion_start_s;
-  fitChart.show(time_s.map((t, i) => [t, measured[i], fitted[i]]));
-  fitChart.rebuild();
   residualChart.show(time_s.map((t, i) => [t, (measured[i] - fitted[i]) / (sigma[i] || 1)]));
   residualChart.rebuild();
+  fitChart.show(time_s.map((t, i) => [t, measured[i], fitted[i]]));
+  fitChart.rebuild();  // last, because its window is that of both
 }
 
 // Another page may fit just now, for example the same run.

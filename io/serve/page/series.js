@@ -81,10 +81,10 @@ function choose(name) {
 
 function actionsOf(entry) {
   const actions = [];
-  for (const capture of entry.captures) {
+  for (const [i, capture] of entry.captures.entries()) {
     if (capture.status === "running" || capture.status === "unreadable") continue;
-    const button = make("button", { type: "button", class: "link", "aria-label": `Fit ${capture.file}` },
-                        entry.captures.length > 1 ? `fit ${capture.file}` : "fit");
+    const button = make("button", { type: "button", class: "link", title: capture.file, "aria-label": `Fit ${capture.file}` },
+                        entry.captures.length > 1 ? `fit run ${i + 1}` : "fit");
     button.addEventListener("click", () => onFit(capture.file));
     actions.push(button);
   }
@@ -100,7 +100,7 @@ function rowOf(entry) {
   const radio = make("input", { type: "radio", name: "specimen", value: entry.name, id: `choose-${entry.name}` });
   radio.checked = entry.name === chosen;
   radio.addEventListener("change", () => choose(entry.name));
-  const ratio = entry.specimen && entry.specimen.mixing_ratio > 0 ? `${significant(entry.specimen.mixing_ratio)} : 1` : "";
+  const ratio = entry.specimen && entry.specimen.mixing_ratio > 0 ? `${significant(entry.specimen.mixing_ratio)}\u00a0:\u00a01` : "";
   const material = entry.material && entry.material.E0_interval_95
     ? { title: `95 %: ${range(entry.material.E0_interval_95, 1e-6)} MPa` } : {};
   const state = make("td", { class: "state" }, kStates[entry.state], ...actionsOf(entry));
