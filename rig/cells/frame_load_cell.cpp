@@ -1,6 +1,7 @@
 #include "rig/cells/frame_load_cell.h"
 
 #include "rig/lines/rig_error.h"
+#include "rig/lines/who_answers.h"
 
 #include <algorithm>
 #include <cctype>
@@ -45,9 +46,11 @@ FrameLoadCell::FrameLoadCell(Transport& transport, const LoadCellConfig& config,
 
 void FrameLoadCell::connect(const Pump& pump) {
   if (await_readings(pump, kFirstFrame_wall_s, false)) return;
+  const std::string known = who_answers({frames_.skipped()});
   throw RigError("no frame of '" + description_ + "' is in the bytes that came on '" +
                  transport_.name() + "'; the newest are '" + shown_bytes(frames_.skipped()) +
-                 "'. Check frame and baud under [load_cell] of the rig file");
+                 "'. " +
+                 (known.empty() ? "Check frame and baud under [load_cell] of the rig file" : known));
 }
 
 void FrameLoadCell::service() {

@@ -2,6 +2,7 @@
 
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
+#include "rig/lines/who_answers.h"
 #include "rig/protocols/gauge_protocols.h"
 
 #include <algorithm>
@@ -35,11 +36,14 @@ void Hx711LoadCell::connect(const Pump& pump) {
   const double wall_s =
       patience_ * (kFirstReading_wall_s + kPeriodsToLearn * period_s_ / clock_.speed());
   if (await_readings(pump, wall_s, true)) return;
+  const std::string known = who_answers({learner_.newest_text()});
   throw RigError("no line on '" + transport_.name() +
                  "' could be read as a reading; the last one was '" +
-                 shown_bytes(learner_.newest_text()) +
-                 "'. Set line_format in the rig file to counts, micros,counts, millis,counts or "
-                 "volts, or name the columns, such as -,counts");
+                 shown_bytes(learner_.newest_text()) + "'. " +
+                 (known.empty()
+                      ? "Set line_format in the rig file to counts, micros,counts, millis,counts "
+                        "or volts, or name the columns, such as -,counts"
+                      : known));
 }
 
 void Hx711LoadCell::service() {

@@ -106,7 +106,14 @@ std::optional<int> parse_grbl_error(std::string_view line) {
 }
 
 std::optional<int> parse_grbl_alarm(std::string_view line) {
-  return code_after(line, "alarm:");
+  if (const auto code = code_after(line, "alarm:")) return code;
+  // GRBL 0.9 sends words (report.c, report_alarm_message).
+  static constexpr std::array<std::pair<const char*, int>, 3> kWords{
+      {{"alarm: hard/soft limit", 1}, {"alarm: abort during cycle", 3}, {"alarm: probe fail", 5}}};
+  for (const auto& [words, code] : kWords) {
+    if (starts_with_nocase(trimmed(line), words)) return code;
+  }
+  return std::nullopt;
 }
 
 std::optional<GrblWelcome> parse_grbl_welcome(std::string_view line) {

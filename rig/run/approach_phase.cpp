@@ -182,10 +182,11 @@ void use_stiffness(TestRun& run, double total_N_m) {
 [[noreturn]] void throw_wrong_sign(const TestRun& run, double touched_N) {
   const bool is_positive = run.rig.load_cell.compression_is_positive;
   throw RigError("the force fell to " + text_from_number(touched_N, 4) +
-                 " N when the punch touched: the load cell reads compression with the other sign. "
-                 "Set compression_is_positive = " +
+                 " N when the punch touched, and came back after a lift. If a finger that presses "
+                 "on the cell lowers the force of 'viscard rig check', too, set "
+                 "compression_is_positive = " +
                  (is_positive ? "false" : "true") + " under [load_cell] of the rig file (it is " +
-                 (is_positive ? "true" : "false") + ")");
+                 (is_positive ? "true" : "false") + "); otherwise look at the wires of the cell");
 }
 
 // A force that falls at the touch. If it falls further when the punch presses and comes back when the

@@ -146,7 +146,8 @@ void refuse_drift(TestRun& run, const ForceMean& change) {
       in_mm_lifted(way_m) + ", before the approach. It went back to where it stood. If it " +
       "moved toward the specimen, set toward_specimen = " + std::to_string(-sign) +
       " under [stage] of the rig file (it is " + std::to_string(sign) +
-      "); if it did lift, set compression_is_positive = " + (is_positive ? "false" : "true") +
+      "); if it did lift, and a finger that presses on the cell lowers the force of 'viscard rig "
+      "check', set compression_is_positive = " + (is_positive ? "false" : "true") +
       " under [load_cell] (it is " + (is_positive ? "true" : "false") + ")");
 }
 

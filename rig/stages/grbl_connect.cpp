@@ -1,4 +1,5 @@
 // The exchanges of GrblStage that wait for answers: connecting, settings, recovery.
+#include "models/maths/leading_number.h"
 #include "models/maths/text_of_number.h"
 #include "rig/stages/grbl_stage.h"
 
@@ -36,10 +37,18 @@ void GrblStage::await_welcome(const Pump& pump) {
     send_realtime(grbl::kSoftReset);
     is_welcome = wait_for(is_there, pump, kReset_wall_s);
   }
-  if (is_welcome) return;
+  if (is_welcome) return refuse_old_firmware();
   throw_no_answer("GRBL controller",
                   "is the baud rate of " + std::to_string(transport_.baud()) + " right?",
                   "Is this the stage's port, and is it switched on?");
+}
+
+// Jogs ($J=), their cancellation and the reports that the driver reads came with GRBL 1.1.
+void GrblStage::refuse_old_firmware() const {
+  const auto version = number_from_text(identity().substr(identity().rfind(' ') + 1, 3));
+  if (is_hal_ || !version || *version >= 1.1) return;
+  throw RigError("the stage on '" + transport_.name() + "' runs " + identity() +
+                 ", which has no jogs that can be stopped. Update its firmware to GRBL 1.1");
 }
 
 void GrblStage::ask_position(const Pump& pump) {

@@ -83,7 +83,7 @@ void GrblStage::take_line(const ReceivedLine& line) {
   if (const auto welcome = parse_grbl_welcome(line.text)) {
     return take_welcome(*welcome, line.time_s);
   }
-  if (!is_connected_) return;  // sent before the controller started
+  if (!is_connected_) return hear(line.text);  // sent before the controller started
   if (const auto status = parse_grbl_status(line.text)) return take_status(*status, line.time_s);
   if (is_grbl_ok(line.text)) return take_answer(std::nullopt, line.time_s);
   if (const auto error = parse_grbl_error(line.text)) return take_answer(*error, line.time_s);

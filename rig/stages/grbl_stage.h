@@ -73,6 +73,7 @@ class GrblStage final : public PolledStage {
   std::optional<double> reported_position_m(const GrblStatus& status);
   void await_welcome(const Pump& pump);
   void converse(const Pump& pump);
+  void refuse_old_firmware() const;
   void ask_position(const Pump& pump);
   void read_settings(const Pump& pump);
   double setting(int number, double otherwise) const;

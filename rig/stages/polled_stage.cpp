@@ -1,6 +1,7 @@
 #include "rig/stages/polled_stage.h"
 
 #include "models/maths/text_of_number.h"
+#include "rig/lines/who_answers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,12 +50,19 @@ void PolledStage::await_report(const Pump& pump, double wall_s, const std::strin
                  remedy);
 }
 
+void PolledStage::hear(const std::string& line) {
+  constexpr std::size_t kMost = 12;
+  if (heard_.size() < kMost && !trimmed(line).empty()) heard_.push_back(line);
+}
+
 void PolledStage::throw_no_answer(const std::string& what, const std::string& if_unreadable,
                                   const std::string& otherwise) const {
   const bool is_noise = splitter_.n_bytes() > 20 && splitter_.unprintable_fraction() > 0.2;
+  const std::string known = is_noise ? "" : who_answers(heard_);
   throw RigError("no " + what + " answered on '" + transport_.name() + "' (" +
                  std::to_string(splitter_.n_bytes()) + " bytes received). " +
-                 (is_noise ? "They are mostly unreadable: " + if_unreadable : otherwise));
+                 (is_noise ? "They are mostly unreadable: " + if_unreadable
+                           : quoted_lines(heard_) + (known.empty() ? otherwise : known)));
 }
 
 void PolledStage::take_report(double time_s, double position_m, const std::string& state) {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -34,7 +35,9 @@ class PolledStage : public Stage {
   bool wait_for(const std::function<bool()>& is_there, const Pump& pump, double wall_s) const;
   // Asks for the position until it is reported. Throws RigError with the remedy if it is not.
   void await_report(const Pump& pump, double wall_s, const std::string& remedy);
-  // "no ... answered on '/dev/ttyUSB0' (12 bytes received). " and what to look at.
+  // Keeps the first lines that are no answer of the driver's controller.
+  void hear(const std::string& line);
+  // "no ... answered on '/dev/ttyUSB0' (12 bytes received). ", what was heard, and what to look at.
   [[noreturn]] void throw_no_answer(const std::string& what, const std::string& if_unreadable,
                                     const std::string& otherwise) const;
 
@@ -61,6 +64,7 @@ class PolledStage : public Stage {
   std::optional<double> start_m_;  // position at connect(), from which travel is counted
   std::size_t n_reports_ = 0;
   bool polls_ = false;
+  std::vector<std::string> heard_;
   int n_missed_ = 0;
   ReportLatency latency_;
   double next_poll_s_ = 0.0;

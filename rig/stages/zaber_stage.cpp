@@ -60,6 +60,7 @@ void ZaberStage::take_line(const ReceivedLine& line) {
   if (trimmed(line.text).empty()) return;
   const auto message = parse_zaber_message(line.text);
   if (!message) {
+    hear(line.text);
     note(line.time_s, "stage_unreadable", shown_bytes(line.text, 80),
          "A line from the stage could not be read or has a wrong checksum");
     return;
