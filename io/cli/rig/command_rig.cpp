@@ -8,6 +8,7 @@
 #include "io/cli/words/stop_on_signal.h"
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
+#include "io/flow/move_rig_stage.h"
 #include "io/flow/rig_keys.h"
 #include "io/flow/touch_rig.h"
 #include "models/maths/text_of_number.h"
@@ -164,8 +165,23 @@ struct RigWords {
   std::optional<std::string> rig_file;
   std::optional<double> seconds;
   bool is_emulated = false;
+  std::optional<double> toward_m, away_m;
+  double speed_m_s = 0.2e-3;
+  double limit_N = 0.1;
   Plausible plausible = Plausible::kMeasured;
 };
+
+bool moves(const RigWords& words) {
+  return words.what == "jog" || words.what == "home" || words.what == "lift";
+}
+
+void show_move(ResultVisitor& v, const StageMoved& moved) {
+  v("from_m", moved.from_m, "position of the controller before the move, toward the specimen");
+  v("to_m", moved.to_m, "position after it");
+  v("force_before_N", moved.force_before_N, "force by the calibration before the move");
+  v("force_after_N", moved.force_after_N, "force after it");
+  v("is_stopped_by_force", moved.is_stopped_by_force, "the change of force reached --limit");
+}
 
 void show_touch(ResultVisitor& v, double force_N) {
   v("force_N", force_N, "the largest change of the force");
@@ -175,23 +191,37 @@ void show_touch(ResultVisitor& v, double force_N) {
 CommandSyntax rig_syntax(RigWords& words) {
   CommandSyntax syntax;
   syntax.usage =
-      "viscard rig list [--rig FILE] | check --rig FILE | touch --rig FILE | overshoot [OPTIONS]";
+      "viscard rig list [--rig FILE] | check --rig FILE | touch --rig FILE | jog --rig FILE "
+      "--away WAY | lift --rig FILE | home --rig FILE | overshoot [OPTIONS]";
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any but the "
       "thermometer's of a rig file. check opens all devices of a rig file, identifies and measures "
       "them, and reports what to change; nothing moves. touch waits for a finger or a weight on a "
-      "load cell whose readings show no noise, and writes the day into the rig file. overshoot "
+      "load cell whose readings show no noise, and writes the day into the rig file. jog moves the "
+      "stage toward the specimen or away from it, lift moves it 2 mm away, home runs the homing "
+      "cycle of its controller; a force that changes by --limit stops it. overshoot "
       "shows how far the force goes beyond a limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";
   syntax.positional.add("what", &words.what, "what to do")
-      .among({"list", "check", "touch", "overshoot"});
+      .among({"list", "check", "touch", "jog", "lift", "home", "overshoot"});
   syntax.options.add("rig", &words.rig_file, "rig.toml: ports, calibration");
   syntax.options.add("seconds", &words.seconds, "how long to listen (3; touch: 30)");
-  syntax.options.add("emulate", &words.is_emulated, "check an emulated rig");
+  syntax.options.add("emulate", &words.is_emulated, "use an emulated rig");
+  syntax.options.add("toward", &words.toward_m, "jog: way toward the specimen, such as \"0.5 mm\"")
+      .of("m");
+  syntax.options.add("away", &words.away_m, "jog, lift: way from the specimen, such as \"1 mm\"")
+      .of("m");
+  syntax.options.add("speed", &words.speed_m_s, "jog, lift: speed").of("m/s").by_default("0.2 mm/s");
+  syntax.options
+      .add("limit", &words.limit_N, "jog, lift: the stage stops when the force has changed by this")
+      .of("N")
+      .by_default("0.1 N");
   syntax.results = {described<RigList>("rig-list", "viscard rig list"),
                     described<RigCheck>("rig-check", "viscard rig check"),
                     {"rig-touch", "viscard rig touch",
                      {[](ResultVisitor& v) { show_touch(v, 0.0); }}},
+                    {"rig-move", "viscard rig jog",
+                     {[](ResultVisitor& v) { show_move(v, {}); }}},
                     {"rig-overshoot", "viscard rig overshoot",
                      {[](ResultVisitor& v) { show_keys(v, std::vector<OvershootRow>{}); }}}};
   return syntax;
@@ -250,6 +280,66 @@ int touch_and_write(const RigWords& words, bool as_json, Streams& streams) {
   return kDone;
 }
 
+StageOrder order_from(const RigWords& words) {
+  constexpr double kLift_m = 2e-3, kFarthest_m = 0.1, kFastest_m_s = 10e-3;
+  StageOrder order;
+  order.is_home = words.what == "home";
+  order.speed_m_s = words.speed_m_s;
+  order.limit_N = words.limit_N;
+  const bool has_both = words.toward_m && words.away_m;
+  if (words.what == "home" ? (words.toward_m || words.away_m)
+                           : has_both || (words.what == "lift" && words.toward_m)) {
+    throw UsageError("rig jog takes --toward or --away, rig lift --away alone, rig home none");
+  }
+  if (words.what == "jog" && !words.toward_m && !words.away_m) {
+    throw UsageError("rig jog needs --toward or --away, such as --away \"0.5 mm\"");
+  }
+  const double way_m = words.toward_m.value_or(words.away_m.value_or(kLift_m));
+  if (!(way_m > 0.0) || way_m > kFarthest_m) {
+    throw UsageError(fmt::format("the way is {} mm; it must be above 0 and at most {} mm",
+                                 way_m * 1e3, kFarthest_m * 1e3));
+  }
+  if (!(order.speed_m_s > 0.0) || order.speed_m_s > kFastest_m_s) {
+    throw UsageError(fmt::format("--speed is {} mm/s; it must be above 0 and at most {} mm/s",
+                                 order.speed_m_s * 1e3, kFastest_m_s * 1e3));
+  }
+  if (!(order.limit_N > 0.0)) throw UsageError("--limit must be a force above 0, such as \"0.1 N\"");
+  order.toward_m = words.toward_m ? way_m : -way_m;
+  return order;
+}
+
+int move_and_print(const RigWords& words, bool as_json, Streams& streams) {
+  const std::optional<std::string>& file = words.rig_file;
+  if (!words.is_emulated && !file) {
+    throw UsageError("rig " + words.what + " needs --rig FILE, whose stage is moved");
+  }
+  const StageOrder order = order_from(words);
+  const RigConfig rig = file ? read_rig(*file, words.plausible) : demo_rig();
+  if (!order.is_home && order.limit_N > rig.safety.soft_fraction * rig.calibration.capacity_N) {
+    throw UsageError(fmt::format(
+        "--limit is {} N; at most {:.3f} N is allowed, {} of the capacity (soft_fraction)",
+        order.limit_N, rig.safety.soft_fraction * rig.calibration.capacity_N,
+        rig.safety.soft_fraction));
+  }
+  const StopOnSignal on_signal;
+  const StageMoved moved = move_rig_stage(rig, words.is_emulated, order, &StopOnSignal::is_asked());
+  if (as_json) {
+    print_result({"viscard-rig-move/1", file ? Words{*file} : Words{}},
+                 [&](ResultVisitor& v) { show_move(v, moved); }, streams, kOneLine);
+  } else if (order.is_home) {
+    streams.out << fmt::format("homed; the stage stands at {:.3f} mm\n", moved.to_m * 1e3);
+  } else {
+    streams.out << fmt::format("from {:.3f} to {:.3f} mm; force {:.4f} N, before {:.4f} N\n",
+                               moved.from_m * 1e3, moved.to_m * 1e3, moved.force_after_N,
+                               moved.force_before_N);
+  }
+  if (!moved.is_stopped_by_force) return kDone;
+  streams.err << fmt::format(
+      "viscard: the stage stopped before the end of its way, because the force changed by {} N\n",
+      order.limit_N);
+  return kFailed;
+}
+
 }  // namespace
 
 int run_rig(const Words& words, Streams& streams) {
@@ -257,11 +347,15 @@ int run_rig(const Words& words, Streams& streams) {
   CommandSyntax syntax = rig_syntax(asked);
   if (!parse_words(syntax, words, streams)) return kDone;
   asked.plausible = given_plausible(syntax);
-  for (const char* option : {"rig", "seconds", "emulate"}) {
-    const bool belongs = asked.what == "check" || asked.what == "touch" ||
-                         (asked.what == "list" && option == std::string("rig"));
+  for (const std::string option : {"rig", "seconds", "emulate", "toward", "away", "speed", "limit"}) {
+    const bool is_of_move = option != "rig" && option != "seconds" && option != "emulate";
+    const bool belongs =
+        moves(asked) ? option != "seconds"
+                     : !is_of_move && (asked.what == "check" || asked.what == "touch" ||
+                                       (asked.what == "list" && option == "rig"));
     if (belongs || !is_given(syntax, option)) continue;
-    throw UsageError(std::string("--") + option + " belongs to 'viscard rig check'");
+    throw UsageError("--" + option + " belongs to 'viscard rig " +
+                     (is_of_move ? "jog'" : "check'"));
   }
   if (asked.what == "list") {
     std::optional<RigConfig> rig;
@@ -269,6 +363,7 @@ int run_rig(const Words& words, Streams& streams) {
     return list_ports(rig, given_words(syntax, {"rig"}), syntax.as_json, streams);
   }
   if (asked.what == "overshoot") return show_overshoot(syntax.as_json, streams);
+  if (moves(asked)) return move_and_print(asked, syntax.as_json, streams);
   if (asked.what == "touch") return touch_and_write(asked, syntax.as_json, streams);
   return check_and_print(asked, syntax.as_json, streams);
 }

@@ -1,0 +1,89 @@
+#include "rig/move_stage.h"
+
+#include "models/maths/text_of_number.h"
+#include "rig/lines/rig_error.h"
+#include "rig/run/approach_phase.h"
+#include "rig/run/rest_findings.h"
+#include "rig/run/run_session.h"
+
+#include <algorithm>
+#include <string>
+
+namespace viscard {
+namespace {
+
+constexpr double kRest_s = 1.0;  // of readings before a move
+
+std::string in_mm(double way_m) {
+  return text_from_number(way_m * 1e3, 4) + " mm";
+}
+
+// What forbids the move. A lift is allowed under a force, because it is what ends it.
+void refuse(const RestReadings& seen, const RigConfig& rig, bool is_toward) {
+  for (const RestFinding& found : findings_at_rest(seen, rig)) {
+    if (found.about == RestFinding::About::kForce && !is_toward) continue;
+    throw RigError(found.text);
+  }
+  if (is_toward && !is_proven_by_noise(seen) && rig.load_cell.answered_on.empty()) {
+    throw RigError(
+        "the readings of the load cell do not vary, so nothing shows that it measures. Touch it "
+        "once with: viscard rig touch");
+  }
+}
+
+// In the short jogs of an approach, because nothing is known of what lies in the way. True if the
+// force stopped it.
+bool press(RunSession& session, double from_m, const StageOrder& order) {
+  Stage& stage = session.stage();
+  const double jog_m = std::max(kLongestJog_m, 1.01 / stage.dynamics().steps_per_m);
+  const double to_m = from_m + order.toward_m;
+  const double rounding_m = 0.5 / stage.dynamics().steps_per_m;
+  for (double before_m = -1e300; stage.position_m() < to_m - rounding_m;) {
+    if (stage.position_m() <= before_m) break;  // less than one step is left
+    before_m = stage.position_m();
+    const double next_m = std::min(to_m, before_m + jog_m);
+    if (session.move(next_m, order.speed_m_s, "press", order.limit_N)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
+                      const RecordSink& sink, const RunControl& control, const StageOrder& order) {
+  RigConfig used = rig;
+  used.stage.home = order.is_home;
+  RunSession session(stage, load_cell, used, sink, control);
+  StageMoved moved;
+  try {
+    session.connect();
+    session.begin_phase("move", 0.0, "A move outside of any test");
+    session.forget_readings();
+    const ForceMean rest = session.tare(kRest_s);
+    moved.force_before_N = rest.force_N;
+    moved.from_m = stage.position_m();
+    if (order.is_home) {
+      moved.to_m = moved.from_m;
+      moved.force_after_N = moved.force_before_N;
+      return moved;
+    }
+    const bool is_toward = order.toward_m > 0.0;
+    refuse({rest.force_N, rest.sd_N, rest.drift, rest.rate_Hz, session.life_signs()}, rig,
+           is_toward);
+    session.watch_life();
+    moved.is_stopped_by_force = is_toward ? press(session, moved.from_m, order)
+                                          : session.move(moved.from_m + order.toward_m,
+                                                         order.speed_m_s, "lift", order.limit_N);
+    moved.force_after_N = moved.force_before_N + session.mean_force(kRest_s).force_N;
+    moved.to_m = stage.position_m();
+  } catch (const RigError& error) {
+    if (!session.is_stage_connected() || !session.has_moved()) throw;
+    const double back_m = order.is_home ? stage.position_m() : std::min(moved.from_m, stage.position_m());
+    const SafeEnd end = session.make_safe(back_m, order.speed_m_s);
+    throw RigError(std::string(error.what()) + ". The stage was stopped at " +
+                   in_mm(stage.position_m()) + (end.trouble.empty() ? "" : "; " + end.trouble));
+  }
+  return moved;
+}
+
+}  // namespace viscard

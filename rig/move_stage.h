@@ -1,0 +1,32 @@
+#pragma once
+
+#include "models/experiment/rig_config.h"
+#include "rig/cells/load_cell.h"
+#include "rig/lines/record_sink.h"
+#include "rig/run/run_control.h"
+#include "rig/stages/stage.h"
+
+namespace viscard {
+
+// A move that a person asks for, outside of any test.
+struct StageOrder {
+  double toward_m = 0.0;     // way toward the specimen; negative: away from it
+  double speed_m_s = 0.2e-3;
+  double limit_N = 0.0;      // the stage stops when the force has changed by this; > 0
+  bool is_home = false;      // the controller's homing cycle, before any move
+};
+
+struct StageMoved {
+  double from_m = 0.0, to_m = 0.0;                    // positions of the controller
+  double force_before_N = 0.0, force_after_N = 0.0;  // by the calibration, without a tare
+  bool is_stopped_by_force = false;
+};
+
+// Moves the stage while the force is watched as in a test: a limit, a dead cell or a lost port stops
+// it. Nothing moves if the cell does not measure (findings_at_rest()); toward the specimen nothing
+// moves either if something presses already. Throws RigError with the reason and where the stage
+// stands.
+StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
+                      const RecordSink& sink, const RunControl& control, const StageOrder& order);
+
+}  // namespace viscard

@@ -1,0 +1,58 @@
+#include "rig/move_stage.h"
+#include "tests/rig/rig_fixture.h"
+
+#include <catch2/catch.hpp>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+StageMoved moved_on(RigFixture& rig, const StageOrder& order) {
+  RunControl control;
+  control.clock = &rig.clock;
+  control.stop = &rig.stop;
+  return move_stage(rig.stage, rig.load_cell, rig.config, rig.sink, control, order);
+}
+
+StageOrder jog(double toward_m, double limit_N = 0.1) {
+  StageOrder order;
+  order.toward_m = toward_m;
+  order.limit_N = limit_N;
+  return order;
+}
+
+}  // namespace
+
+TEST_CASE("a jog moves the stage by its way in either direction", "[rig][pty]") {
+  const double way_m = GENERATE(-0.3e-3, 0.04e-3);
+  EmulatedRigOptions options = RigFixture::options();
+  options.truth.surface_position_m = 0.5e-3;
+  RigFixture rig(options);
+  const StageMoved moved = moved_on(rig, jog(way_m));
+  CHECK_FALSE(moved.is_stopped_by_force);
+  CHECK(moved.to_m - moved.from_m == Approx(way_m).margin(1e-6));
+  CHECK(rig.emulated.outcome().final_position_m == Approx(way_m).margin(1e-6));
+}
+
+TEST_CASE("a jog into the specimen ends at its limit of force", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.truth.surface_position_m = 0.1e-3;
+  RigFixture rig(options);
+  const StageMoved moved = moved_on(rig, jog(1e-3, 0.05));
+  CHECK(moved.is_stopped_by_force);
+  CHECK(moved.to_m < 0.2e-3);
+  // One jog of 25 um at 8.8 N/mm beyond the limit at most.
+  CHECK(rig.emulated.outcome().peak_force_N < 0.05 + 8.8e3 * 25e-6);
+}
+
+TEST_CASE("a stage does not move toward a specimen with a load cell that does not measure",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.fault = rig_fault_from_text(GENERATE("frozen", "zeros", "open-wire"));
+  RigFixture rig(options);
+  CHECK_THROWS_AS(moved_on(rig, jog(0.1e-3)), RigError);
+  CHECK(rig.emulated.outcome().final_position_m == 0.0);
+}
+
+}  // namespace viscard
