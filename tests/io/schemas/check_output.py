@@ -77,6 +77,7 @@ def check_rig():
     run(["rig", "list"], "rig-list")
     run(["rig", "check", "--emulate", "--seconds", "1"], "rig-check")
     run(["rig", "touch", "--emulate"], "rig-touch")
+    run(["rig", "jog", "--emulate", "--away", "0.1 mm"], "rig-move")
     run(["rig", "overshoot"], "rig-overshoot")
     pathlib.Path("test.toml").write_text('[ramp]\ndepth = "0.13 mm"\nduration = "1 s"\nhold = "3 s"\n')
     fast = ["--emulate", "--speed", "500", "--test", "test.toml"]
