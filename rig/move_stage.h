@@ -23,7 +23,7 @@ struct StageMoved {
 };
 
 // Moves the stage while the force is watched as in a test: a limit, a dead cell or a lost port stops
-// it. Nothing moves if the cell does not measure (findings_at_rest()); toward the specimen nothing
+// it. Apart from homing nothing moves if the cell does not measure (findings_at_rest()); toward the specimen nothing
 // moves either if something presses already. Throws RigError with the reason and where the stage
 // stands.
 StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,

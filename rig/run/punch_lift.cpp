@@ -90,9 +90,13 @@ std::string PunchLift::lift(double share) {
     const double highest_N = before_N + options.pressing_N;
     while (stage.is_moving() && clock.awake_s() < deadline_s) {
       pump();
-      if (!devices.is_position_lost() || std::abs(readings.force_N()) <= highest_N) continue;
+      if (!devices.is_position_lost()) continue;
+      // Only fresh readings show that the stage goes the right way.
+      const bool is_blind = !devices.is_cell_usable() || devices.silence().has_value();
+      if (!is_blind && std::abs(readings.force_N()) <= highest_N) continue;
       devices.stop_hard();
-      return "THE FORCE RISES while the punch is lifted: lift it by hand";
+      return is_blind ? "THE LOAD CELL FELL SILENT while the punch was lifted: lift it by hand"
+                      : "THE FORCE RISES while the punch is lifted: lift it by hand";
     }
     lifted_m = from_m - stage.position_m();
   }
