@@ -139,13 +139,16 @@ void drop_rows(std::vector<Value>& column, const std::vector<std::size_t>& rows)
 
 ContactTable contact_table(const IndentationData& data) {
   ContactTable table;
-  CleanViews clean({data.time_s, data.force_N, data.depth_m}, kLeastContactRows);
+  CheckedRecord record({data.time_s, data.force_N, data.depth_m}, kLeastContactRows,
+                       RecordKind::kHistory);
+  CleanViews& clean = record.clean;
   check_force(clean.column(1));
   const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));
   clean.drop(spikes);
   const std::vector<std::size_t> jumps = depth_jumps(clean.column(1), clean.column(2));
   clean.drop(jumps);
   table.n_not_a_number = clean.n_left_out();
+  table.notes = record.notes;
   table.n_spikes = spikes.size();
   table.n_depth_spikes = jumps.size();
   const auto copy = [&](std::size_t i) {

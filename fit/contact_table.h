@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fit/curves/history_model.h"
+#include "fit/samples/check_record.h"
 #include "fit/samples/contact_onset.h"
 #include "fit/samples/fit_data.h"
 #include "models/material/prony_series.h"
@@ -18,6 +19,7 @@ struct ContactTable {
   TableContact contact;
   std::size_t loaded = 0;  // index of the end of the first loading
   bool goes_back = false;  // the punch is pulled back by at least a fifth of its travel
+  RecordNotes notes;       // of the check of the record
   // Rows left out, by reason.
   std::size_t n_not_a_number = 0, n_spikes = 0, n_depth_spikes = 0, n_touch = 0;
 };

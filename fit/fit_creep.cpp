@@ -10,6 +10,7 @@
 #include "fit/intervals/left_out.h"
 #include "fit/intervals/time_rounding.h"
 #include "fit/laws/law_fit.h"
+#include "fit/samples/check_record.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/end_rows.h"
 #include "fit/samples/rounded_times.h"
@@ -89,17 +90,18 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     throw std::runtime_error(
         "moduli and times of creep follow from its retardation spectrum and cannot be constrained");
   }
-  CleanViews clean({data.time_s, data.compliance_1_Pa}, kLeastRows);
+  CheckedRecord record({data.time_s, data.compliance_1_Pa}, kLeastRows, RecordKind::kCreep);
+  CleanViews& clean = record.clean;
   if (clean.column(0).front() < 0.0) {
     throw std::runtime_error("the first time is " + text_of(clean.column(0).front()) +
                              " s; t = 0 must be the step of stress (set it with --time-zero)");
   }
+  check_clock(clean, record.notes);
   const std::optional<double> rounded_s = rounding_step_s(clean.column(0));
   const EndRows ends = drop_end_rows(clean, StepRecord::kCreep);
   const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));
   clean.drop(spikes);
-  const auto time_s = clean.column(0);
-  if (!(time_s.back() > time_s.front())) {
+  if (!(clean.column(0).back() > clean.column(0).front())) {
     throw std::runtime_error("all rows have the same time, so no creep can be fitted");
   }
   check_sign(clean.column(1), "a creep compliance", "compliance_1_Pa");
@@ -107,9 +109,13 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     throw std::invalid_argument(
         "creep terms cannot be negative: the compliance of a solid only increases");
   }
-  FitResult result = fit_solid_or_liquid(
-      options, [&](const FitOptions& as) { return fit_creep_as(time_s, clean.column(1), as); });
+  FitResult result = fit_from_begin(record, [&] {
+    return fit_solid_or_liquid(options, [&](const FitOptions& as) {
+      return fit_creep_as(clean.column(0), clean.column(1), as);
+    });
+  });
   add_left_out(result, left_out::kNotANumber, clean.n_left_out());
+  add_record_notes(record.notes, result);
   add_spikes(result, spikes.size());
   add_end_rows(result, ends, "1/Pa");
   if (rounded_s) report_time_rounding(*rounded_s, /*is_spread=*/false, result);

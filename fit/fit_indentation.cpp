@@ -151,6 +151,7 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
 // Rows that the fit does not use.
 void count_left_out(const ContactTable& table, const HistoryFit& fitted, FitResult& result) {
   add_left_out(result, left_out::kNotANumber, table.n_not_a_number);
+  add_record_notes(table.notes, result);
   add_spikes(result, table.n_spikes);
   add_left_out(result, left_out::kDepthSpike, table.n_depth_spikes);
   add_left_out(result, left_out::kEarlierTouch, table.n_touch);

@@ -11,6 +11,7 @@
 #include "fit/intervals/left_out.h"
 #include "fit/intervals/time_rounding.h"
 #include "fit/laws/law_fit.h"
+#include "fit/samples/check_record.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
 #include "fit/samples/end_rows.h"
@@ -155,7 +156,7 @@ FitResult fit_robustly(CleanViews& clean, const std::string& unit, const FitOpti
   if (n_spikes > 0 || !is_evenly_sampled(clean.steps(), clean.column(0).size())) {
     const auto value = clean.column(1);
     const std::vector<std::size_t> outliers =
-        outlying_samples(residual_of(result, clean.column(0), value), largest_of(value));
+        outlying_samples(residual_of(result, clean.column(0), value), value, largest_of(value));
     if (!outliers.empty()) {
       clean.drop(outliers);
       n_spikes += outliers.size();
@@ -167,8 +168,8 @@ FitResult fit_robustly(CleanViews& clean, const std::string& unit, const FitOpti
   return result;
 }
 
-void check_values(std::span<const double> time_s, std::span<const double> value, bool is_step,
-                  const std::string& unit) {
+void check_step_values(std::span<const double> time_s, std::span<const double> value, bool is_step,
+                       const std::string& unit) {
   if (time_s.size() < kLeastStepRows) {
     throw std::runtime_error("only " + std::to_string(time_s.size()) +
                              " rows lie at or after t = 0; a fit needs at least " +
@@ -192,18 +193,21 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
       rounded ? std::optional(rounded->step_s) : rounding_step_s(data.time_s);
   std::vector<std::span<const double>> columns{rounded ? rounded->time_s : data.time_s, data.value};
   if (!is_step) columns.emplace_back(data.strain);
-  CleanViews clean(columns, kLeastStepRows);
+  CheckedRecord record(columns, kLeastStepRows,
+                       is_step ? RecordKind::kRelaxation : RecordKind::kHistory);
+  CleanViews& clean = record.clean;
   std::size_t n_early = 0;
   if (is_step) {  // rows before the step carry no information about relaxation
     const auto time_s = clean.column(0);
     n_early = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), 0.0) -
                                        time_s.begin());
     clean.drop_first(n_early);
+    check_clock(clean, record.notes);
   }
-  check_values(clean.column(0), clean.column(1), is_step, data.unit);
+  check_step_values(clean.column(0), clean.column(1), is_step, data.unit);
   FitResult result;
   if (is_step) {
-    result = fit_robustly(clean, data.unit, options);
+    result = fit_from_begin(record, [&] { return fit_robustly(clean, data.unit, options); });
   } else {
     const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));
     clean.drop(spikes);
@@ -213,6 +217,7 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
     add_spikes(result, spikes.size());
   }
   add_left_out(result, left_out::kNotANumber, clean.n_left_out());
+  add_record_notes(record.notes, result);
   if (n_early > 0) {
     result.flags.push_back(
         {"samples-before-zero", 0, counted(n_early, "sample") + " before t = 0 left out"});

@@ -38,8 +38,9 @@ Index speed_nuisance(const IndentationData& data) {
 }
 
 // Averages of measured and fitted force in contact for plots, in log time from each motion's start.
-void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
+void fill_curves(const StageModel& model, const AveragedRun& run, const SpectralState& state,
                  const Eigen::VectorXd& residual_N, FitResult& result) {
+  const IndentationData& data = run.rows;
   FitCurves& curves = result.curves;
   for (std::size_t m = 0; m < data.moves.size(); ++m) {
     curves.motion_start_s.push_back(data.moves[m].start_time_s +
@@ -63,12 +64,13 @@ void fill_curves(const StageModel& model, const IndentationData& data, const Spe
            data.time_s[end] < next_motion_s && model.is_moving()[end] == model.is_moving()[begin]) {
       ++end;
     }
-    const auto count = static_cast<double>(end - begin);
+    const auto count = static_cast<double>(run.begins[end] - run.begins[begin]);
     double time = 0.0, force_N = 0.0, residual = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      time += data.time_s[i] / count;
-      force_N += data.force_N[i] / count;
-      residual += residual_N[static_cast<Index>(i)] / count;
+      const double share = run.count(static_cast<Index>(i)) / count;
+      time += share * data.time_s[i];
+      force_N += share * data.force_N[i];
+      residual += share * residual_N[static_cast<Index>(i)];
     }
     curves.add(time, force_N, force_N - residual,
                model.sigma_N()[static_cast<Index>(begin)] / std::sqrt(count));
@@ -176,7 +178,8 @@ void report_fastest(const IndentationData& data, const SpectralFit& fit, FitResu
 }
 
 // Fills window, flags and the two-point modulus.
-void report_stage_fit(const StageModel& model, const IndentationData& data, const SpectralFit& fit,
+void report_stage_fit(const StageModel& model, const IndentationData& data,
+                      const IndentationData& rows, const SpectralFit& fit,
                       const Eigen::VectorXd& residual_N, ContactFit& out) {
   FitResult& result = out.result;
   const StageMove& ramp = data.moves.front();
@@ -190,7 +193,7 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
     if (model.common()[static_cast<std::size_t>(j)].name != "offset_N") continue;
     const double offset_N = fit.state.coefficients[j];
     out.lost_by_move =
-        move_losing_contact(data, fit.state, offset_N, residual_N, result.noise.sigma);
+        move_losing_contact(rows, fit.state, offset_N, residual_N, result.noise.sigma);
     result.two_point = two_points(data, fit.state, offset_N, result.noise.sigma);
   }
   flag_stage_misfit(data, result);
@@ -209,17 +212,18 @@ struct Preparation {
   StageNoise noise;
 };
 
-Preparation prepared(const IndentationData& data, const FitOptions& options) {
+Preparation prepared(const IndentationData& data, const AveragedRun& run,
+                     const FitOptions& options) {
   Preparation now{nuisance_start(data), {}};
   OrderPathOptions path_options;
   path_options.max_terms = 4;
   for (int pass = 0; pass < 2; ++pass) {
-    const StageModel model(data, now.start, now.noise, options);
+    const StageModel model(run, data, now.start, now.noise, options);
     const SpectralState state = order_path(model, path_options).back();
     now.start = state.nuisance;
-    StageResidual left{data.time_s, model.is_moving(), model.is_out_of_contact(), {}, {}};
-    left.fitted_N = model.fitted(state).cwiseProduct(model.sigma_N());
-    left.residual_N = model.data().cwiseProduct(model.sigma_N()) - left.fitted_N;
+    StageResidual left{run.rows.time_s, model.is_moving(), model.is_out_of_contact(), {}, {}};
+    left.fitted_N = model.fitted(state).cwiseProduct(model.row_sigma());
+    left.residual_N = model.reading_residuals_N(state);
     now.noise = stage_noise(left);
     if (now.noise.stamp_s == 0.0) break;
   }
@@ -227,10 +231,11 @@ Preparation prepared(const IndentationData& data, const FitOptions& options) {
 }
 
 ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options) {
-  const Preparation prepared_for = prepared(data, options);
-  const StageModel model(data, prepared_for.start, prepared_for.noise, options);
+  const AveragedRun run = averaged_run(data, options.full_data);
+  const Preparation prepared_for = prepared(data, run, options);
+  const StageModel model(run, data, prepared_for.start, prepared_for.noise, options);
   const SpectralFit fit =
-      fit_spectrum(model, log_time_blocks(data.time_s, data.contact_from_s, 4), options);
+      fit_spectrum(model, log_time_blocks(run.rows.time_s, data.contact_from_s, 4), options);
 
   ContactFit out;
   FitResult& result = out.result;
@@ -246,9 +251,10 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   result.noise.sigma = prepared_for.noise.resting_N;
   result.contact_position_m = fit.state.nuisance[contact_nuisance(data)];
   report_stage_speed(fit, result);
-  const Eigen::VectorXd residual_N = model.residual_series(fit.state).cwiseProduct(model.sigma_N());
-  report_stage_fit(model, data, fit, residual_N, out);
-  if (options.with_curves) fill_curves(model, data, fit.state, residual_N, result);
+  const Eigen::VectorXd residual_N =
+      (model.data() - model.fitted(fit.state)).cwiseProduct(model.row_sigma());
+  report_stage_fit(model, data, run.rows, fit, residual_N, out);
+  if (options.with_curves) fill_curves(model, run, fit.state, residual_N, result);
   return out;
 }
 

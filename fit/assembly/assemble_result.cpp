@@ -235,7 +235,8 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   const Eigen::VectorXd sigma = model.row_sigma();
   if (sigma.size() > 0) {  // convert every rss to the unit of the data
     const auto in_unit = [&](const SpectralState& state) {
-      return (model.fitted(state) - model.data()).cwiseProduct(sigma).squaredNorm();
+      const Eigen::VectorXd left = model.fitted(state) - model.data();
+      return model.in_unit_of_samples(left).squaredNorm() + model.hidden_rss_in_unit(state);
     };
     for (std::size_t i = 0; i < fit.path.size(); ++i) result.orders[i].rss = in_unit(fit.path[i]);
     result.rss = in_unit(fit.state);

@@ -110,6 +110,8 @@ class SpectralModel {
     ModelColumns columns;
   };
   virtual HiddenRows hidden_rows(const Eigen::VectorXd& /*ln_tau*/) const { return {}; }
+  // The same in the square of the unit of the data, for models with row_sigma().
+  virtual double hidden_rss_in_unit(const SpectralState& /*state*/) const { return 0.0; }
   // For a last polish: the sum of squares over all samples and its negative gradient, J^T (data -
   // model), with respect to the coefficients and ln tau. Nothing if rows are samples, or if
   // averaging loses no information.
@@ -128,6 +130,11 @@ class SpectralModel {
   virtual std::unique_ptr<SpectralModel> coarse() const { return nullptr; }
   // Standard deviation by which each row was divided; empty: rows are in the unit of the data.
   virtual Eigen::VectorXd row_sigma() const { return {}; }
+  // Rows times that standard deviation: in the unit of the data, and of an average of n samples sqrt(n)
+  // times its mean.
+  virtual Eigen::VectorXd in_unit_of_samples(const Eigen::VectorXd& rows) const {
+    return rows.cwiseProduct(row_sigma());
+  }
   // Weighted residuals of consecutive samples (some, in long records), for their autocorrelation.
   virtual Eigen::VectorXd residual_series(const SpectralState& state) const;
 

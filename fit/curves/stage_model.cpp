@@ -93,9 +93,30 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
 StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start,
                        const StageNoise& noise, const FitOptions& options)
     : time_s_(data.time_s), moves_(data.moves) {
+  set_up(data, usual_step_s(time_s_), start, noise, options);
+}
+
+StageModel::StageModel(const AveragedRun& run, const IndentationData& readings,
+                       const Eigen::VectorXd& start, const StageNoise& noise,
+                       const FitOptions& options)
+    : time_s_(run.rows.time_s), moves_(run.rows.moves) {
+  if (run.has_averages()) {
+    run_ = &run;
+    readings_ = &readings;
+  }
+  set_up(run.rows, usual_step_s(readings.time_s), start, noise, options);
+}
+
+void StageModel::set_up(const IndentationData& data, double dt_s, const Eigen::VectorXd& start,
+                        const StageNoise& noise, const FitOptions& options) {
   const std::size_t count = time_s_.size();
   const auto n_moves = static_cast<Index>(moves_.size());
-  const double dt_s = usual_step_s(time_s_);
+  root_count_ = Eigen::VectorXd::Ones(static_cast<Index>(count));
+  if (run_ != nullptr) {
+    for (Index row = 0; row < root_count_.size(); ++row) {
+      root_count_[row] = std::sqrt(run_->count(row));
+    }
+  }
   with_equilibrium_ = !options.is_liquid;
   may_be_negative_ = options.allow_negative;
 
@@ -118,7 +139,7 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
     if (noise.of_stamps_N.size() > 0) {
       sigma_N_[row] = std::hypot(sigma_N_[row], noise.of_stamps_N[row]);
     }
-    data_[row] = data.force_N[i] / sigma_N_[row];
+    data_[row] = root_count_[row] * data.force_N[i] / sigma_N_[row];
   }
 
   if (with_equilibrium_) common_.push_back({"E_inf", false});
@@ -250,13 +271,101 @@ ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vec
           -moved.direction * std::exp(-(t - moved.contact_s) / std::exp(ln_tau[i]));
     }
   }
-  const auto weight = sigma_N_.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd weights = root_count_.cwiseQuotient(sigma_N_);
+  const auto weight = weights.asDiagonal();
   out.values = weight * out.values;
   if (with_slopes) {
     out.term_slopes = weight * out.term_slopes;
     for (Eigen::MatrixXd& slopes : out.nuisance_slopes) slopes = weight * slopes;
   }
   return out;
+}
+
+std::vector<std::size_t> StageModel::row_begins() const {
+  return run_ == nullptr ? SpectralModel::row_begins() : run_->begins;
+}
+
+double StageModel::n_samples() const {
+  return static_cast<double>(run_ == nullptr ? time_s_.size() : run_->n_readings());
+}
+
+// By differences of neighbouring averages; the fitted force is smooth where there are any.
+Eigen::VectorXd StageModel::slopes_N_s(const Eigen::VectorXd& fitted_N) const {
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(fitted_N.size());
+  const auto is_average = [&](Index row) {
+    return row >= 0 && row < slopes.size() && root_count_[row] > 1.0;
+  };
+  for (Index row = 0; row < slopes.size(); ++row) {
+    if (!is_average(row)) continue;
+    const auto is_beside = [&](Index other) {
+      return is_average(other) && is_out_of_contact_[static_cast<std::size_t>(other)] ==
+                                      is_out_of_contact_[static_cast<std::size_t>(row)];
+    };
+    const Index low = is_beside(row - 1) ? row - 1 : row, high = is_beside(row + 1) ? row + 1 : row;
+    const double apart_s =
+        time_s_[static_cast<std::size_t>(high)] - time_s_[static_cast<std::size_t>(low)];
+    if (apart_s > 0.0) slopes[row] = (fitted_N[high] - fitted_N[low]) / apart_s;
+  }
+  return slopes;
+}
+
+Eigen::VectorXd StageModel::squares_within(const SpectralState& state) const {
+  if (run_ == nullptr) return Eigen::VectorXd::Zero(n_rows());
+  const Eigen::VectorXd slope = slopes_N_s(fitted(state).cwiseProduct(row_sigma()));
+  const Eigen::ArrayXd mean = run_->force_square.array() -
+                              2.0 * slope.array() * run_->product.array() +
+                              slope.array().square() * run_->time_square.array();
+  return (root_count_.array().square() * mean.max(0.0)).matrix();
+}
+
+double StageModel::hidden_rss(const SpectralState& state) const {
+  return squares_within(state).cwiseQuotient(sigma_N_.cwiseAbs2()).sum();
+}
+
+double StageModel::hidden_rss_in_unit(const SpectralState& state) const {
+  return squares_within(state).sum();
+}
+
+Eigen::VectorXd StageModel::reading_residuals_N(const SpectralState& state) const {
+  const Eigen::VectorXd mean_N = (data() - fitted(state)).cwiseProduct(row_sigma());
+  if (run_ == nullptr) return mean_N;
+  const Eigen::VectorXd within = squares_within(state).cwiseQuotient(root_count_.cwiseAbs2());
+  Eigen::VectorXd residual = (mean_N.cwiseAbs2() + within).cwiseSqrt();
+  for (Index row = 0; row < residual.size(); ++row) {
+    if (root_count_[row] == 1.0) residual[row] = mean_N[row];
+  }
+  return residual;
+}
+
+Eigen::VectorXd StageModel::residual_series(const SpectralState& state) const {
+  if (run_ == nullptr) return SpectralModel::residual_series(state);
+  // The last readings of the longest rest in contact, where the sampling is even.
+  constexpr std::size_t kLongest = 16384;
+  std::size_t first_row = 0, end_row = 0, begin = 0;
+  for (std::size_t row = 0; row <= time_s_.size(); ++row) {
+    const bool rests = row < time_s_.size() && !is_out_of_contact_[row] && !is_moving_[row];
+    if (rests) continue;
+    if (run_->begins[row] - run_->begins[begin] > run_->begins[end_row] - run_->begins[first_row]) {
+      first_row = begin;
+      end_row = row;
+    }
+    begin = row + 1;
+    if (begin > time_s_.size()) break;
+  }
+  if (end_row == first_row) return SpectralModel::residual_series(state);
+  const Eigen::VectorXd fitted_N = fitted(state).cwiseProduct(row_sigma());
+  const Eigen::VectorXd slope = slopes_N_s(fitted_N);
+  const std::size_t last = run_->begins[end_row];
+  const std::size_t from = std::max(run_->begins[first_row], last > kLongest ? last - kLongest : 0);
+  std::vector<double> left;
+  for (std::size_t row = first_row; row < end_row; ++row) {
+    const auto at = static_cast<Index>(row);
+    for (std::size_t i = std::max(from, run_->begins[row]); i < run_->begins[row + 1]; ++i) {
+      const double expected_N = fitted_N[at] + slope[at] * (readings_->time_s[i] - time_s_[row]);
+      left.push_back((readings_->force_N[i] - expected_N) / sigma_N_[at]);
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(left.data(), static_cast<Index>(left.size()));
 }
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fit/curves/averaged_run.h"
 #include "fit/curves/spectral_model.h"
 #include "fit/samples/fit_data.h"
 #include "fit/samples/noise_model.h"
@@ -30,6 +31,10 @@ class StageModel final : public SpectralModel {
   // logarithm of the speed. The half-widths of the bounds of the first two come from the data.
   StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start,
              const StageNoise& noise, const FitOptions& options);
+  // Of a long run whose readings are averaged; both must outlive the model.
+  StageModel(const AveragedRun& run, const IndentationData& readings,
+             const Eigen::VectorXd& nuisance_start, const StageNoise& noise,
+             const FitOptions& options);
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;
@@ -38,11 +43,27 @@ class StageModel final : public SpectralModel {
   const std::vector<bool>& is_moving() const { return is_moving_; }
   bool has_drift() const { return with_drift_; }
   const std::vector<bool>& is_out_of_contact() const { return is_out_of_contact_; }
-  const Eigen::VectorXd& sigma_N() const { return sigma_N_; }  // of each sample
-  Eigen::VectorXd row_sigma() const override { return sigma_N_; }
+  // Standard deviation of one reading of each row, and of the row's mean.
+  const Eigen::VectorXd& sigma_N() const { return sigma_N_; }
+  Eigen::VectorXd row_sigma() const override { return sigma_N_.cwiseQuotient(root_count_); }
+  Eigen::VectorXd in_unit_of_samples(const Eigen::VectorXd& rows) const override {
+    return rows.cwiseProduct(sigma_N_);
+  }
+  std::vector<std::size_t> row_begins() const override;
+  double n_samples() const override;
+  double hidden_rss(const SpectralState& state) const override;
+  double hidden_rss_in_unit(const SpectralState& state) const override;
+  Eigen::VectorXd residual_series(const SpectralState& state) const override;
+  // Root mean square residual of the readings of each row, N; of a row of one reading with its sign.
+  Eigen::VectorXd reading_residuals_N(const SpectralState& state) const;
 
  private:
+  void set_up(const IndentationData& data, double dt_s, const Eigen::VectorXd& start,
+              const StageNoise& noise, const FitOptions& options);
   struct Drive;
+  // Sum of squares within each average about the fitted force, which is straight there.
+  Eigen::VectorXd squares_within(const SpectralState& state) const;
+  Eigen::VectorXd slopes_N_s(const Eigen::VectorXd& fitted_N) const;
   Drive drive(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance) const;
   void add_depth(Eigen::MatrixXd& matrix, Eigen::Index row, double depth_m) const;
   void add_move(const Drive& drive, std::size_t m, Eigen::Index row, bool with_slopes,
@@ -53,7 +74,10 @@ class StageModel final : public SpectralModel {
   std::vector<bool> is_moving_;
   std::vector<bool> is_out_of_contact_;
   Eigen::VectorXd sigma_N_;
-  double ramp_s_ = 0.0;  // time from which drift and creep count
+  Eigen::VectorXd root_count_;                 // of the readings of each row
+  const AveragedRun* run_ = nullptr;           // nullptr: every row is one reading
+  const IndentationData* readings_ = nullptr;  // of run_
+  double ramp_s_ = 0.0;                        // time from which drift and creep count
   bool with_drift_ = false;
   bool with_equilibrium_ = true;
 };

@@ -1,6 +1,7 @@
 #include "fit/intervals/flags.h"
 
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/time_rounding.h"
 #include "fit/intervals/viscosity.h"
 #include "models/maths/text_of_number.h"
 
@@ -184,6 +185,41 @@ void add_end_rows(FitResult& result, const EndRows& ends, const std::string& uni
   };
   add(ends.first, "first", "after");
   add(ends.last, "last", "before");
+}
+
+void add_record_notes(const RecordNotes& notes, FitResult& result) {
+  for (const auto& [reason, count] : notes.left_out) add_left_out(result, reason, count);
+  for (const RecordFault& fault : notes.faults) {
+    result.flags.push_back({fault.flag, 0, fault.text});
+    if (is_defect(fault.flag)) result.is_trustworthy = false;
+  }
+  if (notes.rise_s) report_rise(notes.rise_s->first, notes.rise_s->second, result);
+  if (notes.clock_step_s) widen_for_zero(0.5 * *notes.clock_step_s, result);
+  if (notes.counts_from_first) widen_for_zero(0.5 * notes.late_step_s, result);
+}
+
+bool is_zero_decisive(const RecordNotes& notes, const FitResult& result) {
+  constexpr double kVisible = 1.02;
+  return notes.late_s && result.first && result.E0_Pa > kVisible * result.first->modulus_Pa &&
+         result.E0_interval_95.high > kVisible * result.first->modulus_Pa;
+}
+
+void flag_time_zero(const RecordNotes& notes, std::optional<double> extrapolated_Pa,
+                    FitResult& result) {
+  const double late_s = notes.late_s.value_or(0.0), step_s = notes.late_step_s;
+  const auto seconds = [](double value) { return text_of(value, 6); };
+  add_defect(
+      result, "time-zero-doubtful",
+      "the record begins at t = " + seconds(late_s) + " s, " +
+          std::to_string(std::llround(late_s / step_s)) +
+          " sampling steps after 0, and does not contain its loading, so that the time of "
+          "the load is not sure. E0 is the modulus at the first row; the times count from "
+          "half a step before it. If the record was cropped, the modulus at t = 0 is "
+          "higher" +
+          (extrapolated_Pa ? " (extrapolated: " + number(*extrapolated_Pa) + ")" : std::string()) +
+          ": fit the record with its first rows. If the clock began earlier than the load, "
+          "--time-zero " +
+          seconds(late_s - step_s) + " is right");
 }
 
 void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "fit/intervals/fit_result.h"
+#include "fit/samples/check_record.h"
 #include "fit/samples/end_rows.h"
 #include "fit/search/separable.h"
 #include "models/material/material.h"
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace viscard {
@@ -43,6 +45,22 @@ void add_spikes(FitResult& result, std::size_t count);
 // as spikes. Call it after add_spikes().
 void add_end_rows(FitResult& result, const EndRows& ends, const std::string& unit);
 
+// Adds what the check of the record found and left out (fit/samples/check_record.h), and widens the
+// interval of E0 where t = 0 is uncertain. Call it after judge().
+void add_record_notes(const RecordNotes& notes, FitResult& result);
+
+// The defect time-zero-doubtful for a record that begins late: E0 is the modulus at its first row.
+// extrapolated_Pa: E0 if the clock began with the load; nothing: not known.
+void flag_time_zero(const RecordNotes& notes, std::optional<double> extrapolated_Pa,
+                    FitResult& result);
+
+// A fit of a record; if it begins late and its beginning decides E0, with the times from its first row.
+template <typename Fit>
+FitResult fit_from_begin(CheckedRecord& record, const Fit& fit);
+
+// True if E0 is so far above the modulus at the first row that the beginning of a late record matters.
+bool is_zero_decisive(const RecordNotes& notes, const FitResult& result);
+
 // One of the flags that make the whole result untrustworthy (models/material/material.h).
 inline constexpr const char* kContradictsData = "contradicts-data";
 
@@ -57,5 +75,25 @@ void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double p
 
 // Adds the flag step-before-record if the record begins under load, at first_s.
 void flag_step_before(std::optional<double> step_s, double first_s, FitResult& result);
+
+template <typename Fit>
+FitResult fit_from_begin(CheckedRecord& record, const Fit& fit) {
+  RecordNotes& notes = record.notes;
+  if (!notes.late_s) return fit();
+  std::optional<double> extrapolated_Pa;
+  if (!notes.counts_from_first) {
+    try {
+      FitResult result = fit();
+      if (!is_zero_decisive(notes, result)) return result;
+      extrapolated_Pa = result.E0_Pa;
+    } catch (const std::runtime_error&) {
+      // E0 may be infinite (creep); with the times from the first row it is not.
+    }
+    count_from_first(record.clean, notes);
+  }
+  FitResult result = fit();
+  flag_time_zero(notes, extrapolated_Pa, result);
+  return result;
+}
 
 }  // namespace viscard

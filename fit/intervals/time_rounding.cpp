@@ -10,8 +10,12 @@ namespace viscard {
 
 namespace {
 
-// Widens the interval of E0 for a zero of time that is uncertain by half_s. Returns the change of E0
-// between both ends.
+std::string percent_of_E0(double change_Pa, const FitResult& result) {
+  return text_of(50.0 * change_Pa / result.E0_Pa, 2) + " %";
+}
+
+}  // namespace
+
 double widen_for_zero(double half_s, FitResult& result) {
   double early_Pa = result.E_inf_Pa, late_Pa = result.E_inf_Pa;
   for (const FittedTerm& term : result.terms) {
@@ -22,12 +26,6 @@ double widen_for_zero(double half_s, FitResult& result) {
   result.E0_interval_95.high += late_Pa - result.E0_Pa;
   return late_Pa - early_Pa;
 }
-
-std::string percent_of_E0(double change_Pa, const FitResult& result) {
-  return text_of(50.0 * change_Pa / result.E0_Pa, 2) + " %";
-}
-
-}  // namespace
 
 void report_time_rounding(double step_s, bool is_spread, FitResult& result) {
   constexpr double kVisible = 0.25;

@@ -16,4 +16,8 @@ void report_time_rounding(double step_s, bool is_spread, FitResult& result);
 // flag time-zero-chosen.
 void report_rise(double begin_s, double end_s, FitResult& result);
 
+// Widens the interval of E0 for a zero of time that is uncertain by half_s. Returns the change of E0
+// between both ends.
+double widen_for_zero(double half_s, FitResult& result);
+
 }  // namespace viscard

@@ -18,9 +18,15 @@ bool all_columns_finite(const std::vector<std::span<const double>>& columns) {
 }
 
 // Indices of the usable rows in order of time.
-std::vector<std::size_t> usable_rows(const std::vector<std::span<const double>>& columns) {
+std::vector<std::size_t> usable_rows(const std::vector<std::span<const double>>& columns,
+                                     const std::vector<std::size_t>& wrong) {
   std::vector<std::size_t> order;
+  auto next = wrong.begin();
   for (std::size_t i = 0; i < columns[0].size(); ++i) {
+    if (next != wrong.end() && *next == i) {
+      ++next;
+      continue;
+    }
     const bool is_finite = std::all_of(columns.begin(), columns.end(), [&](const auto& column) {
       return std::isfinite(column[i]);
     });
@@ -41,7 +47,8 @@ void check_count(std::size_t usable, std::size_t rows, std::size_t least) {
 
 }  // namespace
 
-CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std::size_t least)
+CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std::size_t least,
+                       const std::vector<std::size_t>& wrong)
     : views_(columns) {
   const std::size_t rows = columns.at(0).size();
   for (const std::span<const double> column : columns) {
@@ -51,15 +58,16 @@ CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std:
                                   " values do not belong to one table");
     }
   }
-  if (all_columns_finite(columns)) {
+  if (wrong.empty() && all_columns_finite(columns)) {
     steps_ = step_range(columns[0]);
     if (steps_.shortest >= 0.0) {
       check_count(rows, rows, least);
       return;
     }
   }
-  const std::vector<std::size_t> order = usable_rows(columns);
-  n_left_out_ = rows - order.size();
+  origin_ = usable_rows(columns, wrong);
+  const std::vector<std::size_t>& order = origin_;
+  n_left_out_ = rows - wrong.size() - order.size();
   check_count(order.size(), rows, least);
   for (std::span<const double>& view : views_) {
     std::vector<double>& target = copies_.emplace_back();
@@ -73,16 +81,37 @@ CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std:
 void CleanViews::drop_first(std::size_t rows) {
   if (rows == 0) return;
   for (std::span<const double>& view : views_) view = view.subspan(rows);
+  if (origin_.empty()) {
+    n_first_ += rows;
+  } else {
+    origin_.erase(origin_.begin(), origin_.begin() + static_cast<std::ptrdiff_t>(rows));
+  }
   steps_ = step_range(views_[0]);
 }
 
 void CleanViews::drop(const std::vector<std::size_t>& rows) {
   if (rows.empty()) return;
+  std::vector<std::size_t> origin;
+  auto next = rows.begin();
+  for (std::size_t i = 0; i < views_[0].size(); ++i) {
+    if (next != rows.end() && *next == i) {
+      ++next;
+    } else {
+      origin.push_back(this->origin(i));
+    }
+  }
+  origin_ = std::move(origin);
   std::vector<std::vector<double>> kept;
   for (const std::span<const double> view : views_) kept.push_back(without_rows(view, rows));
   copies_ = std::move(kept);
   for (std::size_t i = 0; i < views_.size(); ++i) views_[i] = copies_[i];
   steps_ = step_range(views_[0]);
+}
+
+void CleanViews::set_times(std::vector<double> time_s) {
+  time_s_ = std::move(time_s);
+  views_[0] = time_s_;
+  steps_ = step_range(time_s_);
 }
 
 void check_sign(std::span<const double> values, const std::string& what,

@@ -14,21 +14,29 @@ namespace viscard {
 // ones are, is not copied. The input and this object must outlive the views.
 class CleanViews {
  public:
-  // Throws std::invalid_argument if the columns differ in length, and std::runtime_error if fewer
-  // than `least` usable rows remain.
-  CleanViews(const std::vector<std::span<const double>>& columns, std::size_t least);
+  // wrong: rows that are left out as well, ascending. Throws std::invalid_argument if the columns
+  // differ in length, and std::runtime_error if fewer than `least` usable rows remain.
+  CleanViews(const std::vector<std::span<const double>>& columns, std::size_t least,
+             const std::vector<std::size_t>& wrong = {});
   CleanViews(const CleanViews&) = delete;
   CleanViews& operator=(const CleanViews&) = delete;
 
   std::span<const double> column(std::size_t i) const { return views_[i]; }
-  std::size_t n_left_out() const { return n_left_out_; }
-  const StepRange& steps() const { return steps_; }  // of the first column, s
+  std::size_t n_left_out() const { return n_left_out_; }  // without a number
+  const StepRange& steps() const { return steps_; }       // of the first column, s
   void drop_first(std::size_t rows);
   void drop(const std::vector<std::size_t>& rows);  // ascending
+  // Replaces the first column by other times of the same rows, in ascending order.
+  void set_times(std::vector<double> time_s);
+  // Row of the input that has become row i, from 0.
+  std::size_t origin(std::size_t i) const { return origin_.empty() ? i + n_first_ : origin_[i]; }
 
  private:
   std::vector<std::span<const double>> views_;
   std::vector<std::vector<double>> copies_;
+  std::vector<double> time_s_;       // of set_times()
+  std::vector<std::size_t> origin_;  // empty: the rows of the input from n_first_ on
+  std::size_t n_first_ = 0;
   std::size_t n_left_out_ = 0;
   StepRange steps_;
 };

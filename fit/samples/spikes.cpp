@@ -1,7 +1,6 @@
 #include "fit/samples/spikes.h"
 
-#include "fit/samples/median.h"
-#include "fit/samples/noise_model.h"
+#include "fit/samples/reading_noise.h"
 #include "fit/samples/sample_passes.h"
 
 #include <algorithm>
@@ -12,22 +11,6 @@ namespace viscard {
 namespace {
 
 constexpr std::size_t kLeastRecord = 200;
-
-// Noise from several stretches of the record; a few thousand differences suffice for the median.
-double noise_of(std::span<const double> values) {
-  constexpr std::size_t kStretches = 16;
-  constexpr std::size_t kLength = 128;
-  if (values.size() <= kStretches * kLength) {
-    return sigma_from_differences({values.begin(), values.end()});
-  }
-  std::vector<double> sigmas;
-  for (std::size_t k = 0; k < kStretches; ++k) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>((values.size() - kLength) * k /
-                                                                    (kStretches - 1));
-    sigmas.push_back(sigma_from_differences({begin, begin + kLength}));
-  }
-  return median(std::move(sigmas));
-}
 
 // Range without the highest and lowest half per cent.
 double usual_range(std::span<const double> values) {
@@ -100,30 +83,44 @@ std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
 std::vector<std::size_t> isolated_spikes(const StepRange& steps_s, std::span<const double> values) {
   std::vector<std::size_t> spikes;
   if (!is_evenly_sampled(steps_s, values.size())) return spikes;
-  const double sigma = noise_of(values);
-  if (!(sigma > 0.0)) return spikes;
-  const double far = 8.0 * std::sqrt(1.5) * sigma;  // the variance of e below is 1.5 sigma^2
-  for (const std::size_t i : far_from_neighbours(values, far)) {
-    const double e = std::abs(values[i] - 0.5 * (values[i - 1] + values[i + 1]));
-    if (e >= 2.0 * std::abs(values[i + 1] - values[i - 1])) spikes.push_back(i);
+  const ReadingNoise noise = reading_noise(values);
+  const double far = 8.0 * std::sqrt(1.5);  // the variance of e below is 1.5 sigma^2
+  const auto least = [](std::span<const double> all) {
+    double smallest = std::abs(all.front());
+    for (const double value : all) smallest = std::min(smallest, std::abs(value));
+    return smallest;
+  };
+  // Noise that grows with the value makes large readings scatter more.
+  const double least_sigma = noise.share > 0.0 ? noise.sigma(least(values)) : noise.floor;
+  if (!(noise.floor > 0.0 || noise.share > 0.0)) return spikes;
+  for (const std::size_t i : far_from_neighbours(values, far * least_sigma)) {
+    const double beside = 0.5 * (values[i - 1] + values[i + 1]);
+    const double e = std::abs(values[i] - beside);
+    if (e > far * noise.sigma(beside) && e >= 2.0 * std::abs(values[i + 1] - values[i - 1])) {
+      spikes.push_back(i);
+    }
   }
   return spikes;
 }
 
-std::vector<std::size_t> outlying_samples(std::span<const double> residual, double largest_value) {
-  constexpr std::size_t kFewest = 1000, kEnough = 8192, kLongestGroup = 3;
+std::vector<std::size_t> outlying_samples(std::span<const double> residual,
+                                          std::span<const double> values, double largest_value) {
+  constexpr std::size_t kFewest = 1000, kLongestGroup = 3;
   constexpr double kFar = 5.5, kLeastShare = 1e-6, kMost = 0.03;
   const std::size_t n = residual.size();
   std::vector<std::size_t> outliers;
   if (n < kFewest) return outliers;
-  std::vector<double> sizes;
-  for (std::size_t i = 0; i < n; i += 1 + n / kEnough) sizes.push_back(std::abs(residual[i]));
-  const double far =
-      std::max(kFar * median(std::move(sizes)) / kMedianOfNormal, kLeastShare * largest_value);
+  const ReadingNoise noise = noise_of_deviations(values, residual);
+  const auto is_far = [&](std::size_t i) {
+    // By the value that the fit expects there.
+    const double far =
+        std::max(kFar * noise.sigma(values[i] - residual[i]), kLeastShare * largest_value);
+    return std::abs(residual[i]) > far;
+  };
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    if (!(std::abs(residual[i]) > far) || std::abs(residual[i - 1]) > far) continue;
+    if (!is_far(i) || is_far(i - 1)) continue;
     std::size_t end = i + 1;
-    while (end < n && std::abs(residual[end]) > far) ++end;
+    while (end < n && is_far(end)) ++end;
     if (end < n && end - i <= kLongestGroup) {
       for (std::size_t k = i; k < end; ++k) outliers.push_back(k);
     }

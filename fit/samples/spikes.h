@@ -9,8 +9,7 @@
 namespace viscard {
 
 // Indices of isolated spikes: samples that differ from the mean of their two neighbours by more
-// than eight standard deviations of the noise (median of third differences, which spikes do not
-// change), and by more than twice the difference of the neighbours, so that a steep curve is not
+// than eight standard deviations of the noise at that value (reading_noise.h), and by more than twice the difference of the neighbours, so that a steep curve is not
 // taken for a spike. Only for evenly sampled records of at least 200 samples; elsewhere neighbours
 // give no estimate. A local form of Hampel's identifier (J. Am. Stat. Assoc. 69 (1974) 383).
 std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
@@ -26,12 +25,13 @@ bool is_evenly_sampled(const StepRange& steps_s, std::size_t count);
 std::vector<std::size_t> depth_jumps(std::span<const double> force_N,
                                      std::span<const double> depth_m);
 
-// Outliers among the residuals of a fit: samples beyond 5.5 standard deviations (from the median of
-// |residual|), in groups of at most three with good samples on either side, so that neither a fast
+// Outliers among the residuals of a fit to `values`: samples beyond 5.5 standard deviations of the noise
+// at that value (noise_of_deviations), in groups of at most three with good samples on either side, so that neither a fast
 // term at the start nor a misfit is taken for spikes. Returns none for records of fewer than 1000
 // samples (a point far from the curve may be the only information there), if more than 3 % would be
 // removed, or if all residuals are below 1e-6 of the largest value.
-std::vector<std::size_t> outlying_samples(std::span<const double> residual, double largest_value);
+std::vector<std::size_t> outlying_samples(std::span<const double> residual,
+                                          std::span<const double> values, double largest_value);
 
 // The column without these rows (ascending indices).
 std::vector<double> without_rows(std::span<const double> column,

@@ -190,6 +190,19 @@ Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralS
   return all;
 }
 
+constexpr double kVeryStrong = 10.0;  // as kStrongBic
+
+// The blocks of a long hold are few beside its readings, and their errors scatter: cross-validation may
+// not see a term that the readings show very clearly. The smallest order from `choice` on that the BIC of
+// the readings (with the memory of their noise) does not reject.
+std::size_t not_against_bic(const Candidates& all, std::size_t choice) {
+  const double most = all.rows[all.best_bic].bic + kVeryStrong;
+  while (choice < all.best_bic && (!all.is_eligible[choice] || all.rows[choice].bic > most)) {
+    ++choice;
+  }
+  return choice;
+}
+
 // Drift of the force and autocorrelated noise look like a term slower than a third of the record.
 // Such a term needs strong evidence; otherwise the next smaller order without one replaces it.
 std::size_t without_lasting_term(const SpectralModel& model, const std::vector<SpectralState>& path,
@@ -215,14 +228,14 @@ OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralS
   for (std::size_t i = all.best_cv; i-- > 0;) {
     if (all.is_eligible[i] && !is_worse(all.errors[i], all.errors[all.best_cv])) choice = i;
   }
+  choice = not_against_bic(all, std::min(choice, all.best_bic));
   OrderScores scores;
-  scores.chosen = without_lasting_term(model, path, all, std::min(choice, all.best_bic));
+  scores.chosen = without_lasting_term(model, path, all, choice);
   scores.rows = std::move(all.rows);
   scores.n_effective = all.n_effective;
   scores.least_rss = all.least_rss;
   scores.rows[scores.chosen].is_chosen = true;
   // Orders that are not eligible although they describe the data much better.
-  constexpr double kVeryStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool better = scores.rows[i].bic < scores.rows[scores.chosen].bic - kVeryStrong;
     if (all.is_eligible[i] || !better) continue;

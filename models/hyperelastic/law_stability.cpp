@@ -41,8 +41,14 @@ double drucker_stiffness_Pa(const HyperelasticLaw& law, const Eigen::Vector3d& l
   const double b = h(0, 1) - h(0, 2) - h(1, 2) + h(2, 2);
   const double c = h(1, 1) - 2.0 * h(1, 2) + h(2, 2);
   const double largest = 0.5 * (a + c) + std::hypot(0.5 * (a - c), b);
-  // The product of both is the determinant; their difference would lose the digits of the smaller.
-  return largest > 0.0 ? (a * c - b * b) / largest : 0.5 * (a + c) - std::hypot(0.5 * (a - c), b);
+  if (!(largest > 0.0)) return 0.5 * (a + c) - std::hypot(0.5 * (a - c), b);
+  // The product of both is the determinant; their difference would lose the digits of the smaller. Of a
+  // law whose energy is a sum over the stretches (Ogden) the matrix is diagonal, a = h1 + h3, b = h3 and
+  // c = h2 + h3, and a c - b^2 would lose h1 h2 beside h3^2.
+  const bool is_separable = h(0, 1) == 0.0 && h(0, 2) == 0.0 && h(1, 2) == 0.0;
+  const double determinant =
+      is_separable ? h(0, 0) * h(1, 1) + h(1, 1) * h(2, 2) + h(2, 2) * h(0, 0) : a * c - b * b;
+  return determinant / largest;
 }
 
 StableRange stable_range(const HyperelasticLaw& law, Deformation deformation, double least,

@@ -183,6 +183,22 @@ TEST_CASE("hyperelastic: stability ends where Drucker's postulate fails", "[mode
   CHECK(std::isnan(nominal_stress_Pa(some_laws()[7], Deformation::kUniaxial, 9.2)));
 }
 
+TEST_CASE("Ogden terms with positive moduli are stable at every stretch, however large alpha is",
+          "[models]") {
+  // W is a sum of convex functions of the logarithmic strains (Ogden, Non-linear Elastic Deformations
+  // (1984), sect. 6.2.3), so that Drucker's postulate holds everywhere.
+  const double alpha = GENERATE(-30.0, -12.0, 0.7, 12.0, 30.0, 40.0);
+  const HyperelasticLaw law{HyperelasticForm::kOgden2, Eigen::Vector2d(1e5, 2e4),
+                            Eigen::Vector2d(alpha, -0.5 * alpha)};
+  for (const Deformation deformation :
+       {Deformation::kUniaxial, Deformation::kPlanar, Deformation::kEquibiaxial}) {
+    const StableRange range = stable_range(law, deformation);
+    CAPTURE(alpha, static_cast<int>(deformation), range.low, range.high);
+    CHECK(range.low_is_open);
+    CHECK(range.high_is_open);
+  }
+}
+
 TEST_CASE("hyperelastic: bad parameters are refused by name", "[models]") {
   HyperelasticLaw law = some_laws()[7];
   law.shapes[0] = -1.0;
