@@ -44,7 +44,7 @@ debian_package(development libviscard-dev libdevel "library of viscard for C++ p
   "${about}\n.\nThis package has the static library, its headers and an example, for CMake and\npkg-config.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS  # what viscardConfig.cmake and viscard.pc ask for
     "libboost-program-options-dev, libceres-dev, libcpp-httplib-dev, libeigen3-dev, libfmt-dev, libgoogle-glog-dev, libnlopt-dev,\
- libmatio-dev, libpugixml-dev, libserial-dev, libsqlite3-dev, libssl-dev, libtomlplusplus-dev, libudunits2-dev, libzip-dev,\
+ libhdf5-dev, libmatio-dev, libpugixml-dev, libserial-dev, libsqlite3-dev, libssl-dev, libtomlplusplus-dev, libudunits2-dev, libzip-dev,\
  nlohmann-json3-dev, pkg-config, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "viscard-doc")
 

@@ -75,24 +75,19 @@ std::string with_known_words(std::string_view text, bool is_temperature) {
                                         {"counts", "count"},
                                         {"secs", "s"},
                                         {"deg", "arc_degree"}}};
-  constexpr std::array<Word, 15> kChinese{{{"秒", "s"},
-                                           {"毫秒", "ms"},
-                                           {"分钟", "min"},
-                                           {"牛", "N"},
-                                           {"牛顿", "N"},
-                                           {"毫牛", "mN"},
-                                           {"千牛", "kN"},
-                                           {"毫米", "mm"},
-                                           {"微米", "um"},
-                                           {"帕", "Pa"},
-                                           {"千帕", "kPa"},
-                                           {"兆帕", "MPa"},
-                                           {"赫兹", "Hz"},
-                                           {"弧度/秒", "rad/s"},
-                                           {"摄氏度", "degC"}}};
+  constexpr std::array<Word, 33> kLocal{
+      {{"秒", "s"},         {"毫秒", "ms"},       {"分钟", "min"},    {"牛", "N"},
+       {"牛顿", "N"},       {"毫牛", "mN"},       {"千牛", "kN"},     {"毫米", "mm"},
+       {"微米", "um"},      {"帕", "Pa"},         {"千帕", "kPa"},    {"兆帕", "MPa"},
+       {"赫兹", "Hz"},      {"弧度/秒", "rad/s"}, {"摄氏度", "degC"}, {"分", "min"},
+       {"ニュートン", "N"}, {"с", "s"},           {"сек", "s"},       {"мс", "ms"},
+       {"мин", "min"},      {"Н", "N"},           {"мН", "mN"},       {"кН", "kN"},
+       {"м", "m"},          {"мм", "mm"},         {"мкм", "um"},      {"Па", "Pa"},
+       {"кПа", "kPa"},      {"МПа", "MPa"},       {"ГПа", "GPa"},     {"Гц", "Hz"},
+       {"рад/с", "rad/s"}}};
   if (is_temperature && (text == "C" || text == "°C")) return "degC";
-  for (const Word& chinese : kChinese) {
-    if (text == chinese.word) return std::string(chinese.meaning);
+  for (const Word& local : kLocal) {
+    if (text == local.word) return std::string(local.meaning);
   }
   std::string out;
   for (std::size_t i = 0; i < text.size();) {

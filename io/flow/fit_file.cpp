@@ -48,11 +48,12 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
     throw std::runtime_error(path + ": a capture is an indentation; omit --kind");
   }
   if (!request.columns.empty() || !request.segments.empty() || request.time_zero_s != 0.0 ||
-      request.from_s || request.to_s || request.hold > 0 || request.crop || request.depth_m) {
-    throw std::runtime_error(path +
-                             ": --column, --segment, --time-zero, --from, --to, --hold, --crop and "
-                             "--depth apply only to "
-                             "tables; omit them for a capture");
+      request.from_s || request.to_s || request.hold > 0 || request.crop || request.depth_m ||
+      request.modulus_kind) {
+    throw std::runtime_error(
+        path +
+        ": --column, --segment, --time-zero, --from, --to, --hold, --crop, "
+        "--depth and --modulus-kind apply only to tables; omit them for a capture");
   }
   CapturedRun run = read_capture(path);
   // The geometry may be replaced, this value may not.

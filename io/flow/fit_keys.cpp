@@ -15,7 +15,8 @@ void show_rows(ResultVisitor& v, const FittedFile& fitted) {
   v("n_left_out", fit.n_left_out, "rows that were not fitted");
   v.map("left_out", "rows that were not fitted, by reason", fit.left_out,
         [&](const LeftOutRows& left) { v(left.reason, left.count, "rows"); });
-  v.when(fit.n_contacts > 0, [&] { v("n_contacts", fit.n_contacts, "how often contact was made"); });
+  v.when(fit.n_contacts > 0,
+         [&] { v("n_contacts", fit.n_contacts, "how often contact was made"); });
   v("n_before_test", fitted.n_before_test, "rows before the test");
 }
 
@@ -25,6 +26,31 @@ void show_tests(ResultVisitor& v, const FittedFile& fitted) {
   v.list("tests", "the tests of a joint answer", tests, [&](const FittedTest& test) {
     show_keys(v, test, k < fitted.tests.size() ? fitted.tests[k].path : "");
     ++k;
+  });
+}
+
+// The kind of modulus that was measured, and its values beside Young's.
+void show_measured(ResultVisitor& v, const FittedFile& fitted) {
+  v.when(fitted.modulus.has_value(), [&] {
+    const MeasuredModulus modulus = fitted.modulus.value_or(MeasuredModulus{});
+    const ModulusKindText& text = text_of(modulus.kind);
+    v.word("modulus_kind", text.word, {"tension", "shear", "plane-strain", "indentation", "bulk"},
+           "what was measured; E0_Pa and all other moduli are Young's");
+    v("modulus_kind_from", modulus.assumed_header.empty() ? modulus.from : "assumed",
+      "what states it: a header, a format or an option");
+    v("nu", modulus.nu, "Poisson ratio of the conversion");
+    v("nu_stated", modulus.is_nu_stated, "whether it was given, and not assumed");
+    const FitResult& fit = fitted.result;
+    const double share = 1.0 / modulus.young_factor();
+    const auto of = [&](const Interval& range) {
+      return Interval{range.low * share, range.high * share};
+    };
+    v.when(modulus.kind == ModulusKind::kShear, [&] {
+      v("G0_Pa", fit.E0_Pa * share, "instantaneous shear modulus");
+      v("G_inf_Pa", fit.E_inf_Pa * share, "equilibrium shear modulus");
+      v("G0_interval_95", of(fit.E0_interval_95), "95 % interval of G0, [low, high]");
+      v("G_inf_interval_95", of(fit.E_inf_interval_95), "95 % interval of G_inf, [low, high]");
+    });
   });
 }
 
@@ -60,11 +86,14 @@ void show_keys(ResultVisitor& v, const FittedFile& fitted) {
   v("file", fitted.path, "the table or capture");
   v.when(!fitted.maker.empty(),
          [&] { v("maker", fitted.maker, "maker of the machine that wrote the table"); });
+  v.when(!fitted.notes.empty(),
+         [&] { v("notes", fitted.notes, "how the table was read, where that was not plain"); });
   v.word("kind", name_of_kind(fit.kind), {"indentation", "relaxation", "creep", "dma", "several"},
          "kind of test");
   v("trustworthy", fit.is_trustworthy,
     "whether the result may be used; if not, flags say why and the exit status is 1");
   show_moduli(v, fit, names);
+  show_measured(v, fitted);
   show_quality(v, fit);
   show_systematic(v, fit, names);
   v("temperature", fitted.temperature, "measured during the test");

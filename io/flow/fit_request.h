@@ -5,8 +5,11 @@
 #include "fit/laws/fractional_diagnosis.h"
 #include "fit/samples/fit_data.h"
 #include "io/tables/column_map.h"
+#include "io/tables/csv_table.h"
+#include "io/tables/derived_columns.h"
 #include "models/experiment/run_temperature.h"
 #include "models/experiment/specimen.h"
+#include "models/quantities/modulus_kind.h"
 #include "models/quantities/plausible.h"
 
 #include <optional>
@@ -14,6 +17,9 @@
 #include <vector>
 
 namespace viscard {
+
+// Poisson ratio where none is given: typical of rubber.
+inline constexpr double kUsualNu = 0.495;
 
 // One of several tests of a material.
 struct TestFile {
@@ -26,8 +32,8 @@ struct FitRequest {
   std::optional<FitKind> kind;  // none: the columns decide
   FitOptions options;
   ColumnMap columns;
-  std::string
-      sheet;  // of an Excel workbook, or struct of a MATLAB file; empty: the one with most numbers
+  TableChoice table;
+  SpecimenSize size;                   // for tables of load and extension, and of relative moduli
   std::vector<std::string> segments;   // use only rows of these; empty: all
   double time_zero_s = 0.0;            // time in the table where t = 0
   std::optional<double> from_s, to_s;  // only rows of these times, after time_zero_s
@@ -44,8 +50,22 @@ struct FitRequest {
   // The user stated the kind of test of this file: other columns are refused, options for other
   // kinds are ignored.
   bool is_one_of_several = false;
+  // Of the moduli, compliances and stresses in a table; none: its headers or its format decide.
+  std::optional<ModulusKind> modulus_kind;
+  std::optional<double> nu;   // converts other moduli to Young's; none: 0.495
+  double young_factor = 1.0;  // Young's modulus over the moduli of this table; set by fit_table()
   std::optional<double> T_ref_C;               // reference temperature of a master curve
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the result
+};
+
+// What a table of moduli was measured in, and how it became Young's modulus.
+struct MeasuredModulus {
+  ModulusKind kind = ModulusKind::kTension;
+  std::string from;  // what states the kind: "the header 'G(t)'", "--modulus-kind"; "": assumed
+  double nu = 0.5;   // of the conversion
+  bool is_nu_stated = false;
+  std::string assumed_header;  // of a column that states no kind, taken as of tension
+  double young_factor() const { return young_over(kind, nu); }
 };
 
 // The fit of one file, with the specimen that the file or the options describe.
@@ -55,10 +75,12 @@ struct FittedFile {
   FitResult result;
   Specimen specimen;        // empty for a table without --specimen
   std::string specimen_id;  // of the capture, or of the table's column "specimen"; empty: not known
-  std::string maker;        // whose file it is, if it was recognised ("JPK force curve")
-  std::string fitted_unit;  // unit of the fitted column: "N", "Pa", "1/Pa"
+  std::vector<std::string> notes;  // how the table was read, where that was not plain
+  std::string maker;               // whose file it is, if it was recognised ("JPK force curve")
+  std::string fitted_unit;         // unit of the fitted column: "N", "Pa", "1/Pa"
   // Rows of an exported capture before its first baseline, which are not fitted.
   std::size_t n_before_test = 0;
+  std::optional<MeasuredModulus> modulus;  // nothing: force and depth, or several tests
   std::string chosen;         // the part that --from, --to, --hold or --crop chose; empty: all
   bool has_no_depth = false;  // the results are forces in N, because the depth is unknown
   // By the thermometer of the run; nothing if there was none.

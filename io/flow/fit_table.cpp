@@ -8,6 +8,8 @@
 #include "io/basics/words.h"
 #include "io/flow/plausible_record.h"
 #include "io/tables/csv_table.h"
+#include "io/tables/modulus_of_columns.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,8 +80,16 @@ Column time_of(const CsvTable& table, const FitRequest& request) {
   return time_s;
 }
 
+// Moduli or stresses as those of tension.
+Column moduli_of(const CsvTable& table, const char* name, const FitRequest& request) {
+  Column values = column_SI(table, name, request.columns);
+  if (request.young_factor == 1.0) return values;
+  for (double& value : values) value *= request.young_factor;
+  return values;
+}
+
 // Measured, or strain over constant stress.
-Column compliance_of(const CsvTable& table, const FitRequest& request) {
+Column measured_compliance(const CsvTable& table, const FitRequest& request) {
   if (find_column(table, "compliance_1_Pa", request.columns) ||
       !find_column(table, "stress_Pa", request.columns) ||
       !find_column(table, "strain", request.columns)) {
@@ -88,6 +98,14 @@ Column compliance_of(const CsvTable& table, const FitRequest& request) {
   Column compliance = column_SI(table, "strain", request.columns);
   const Column stress_Pa = column_SI(table, "stress_Pa", request.columns);
   for (std::size_t i = 0; i < compliance.size(); ++i) compliance[i] /= stress_Pa[i];
+  return compliance;
+}
+
+// As that of tension.
+Column compliance_of(const CsvTable& table, const FitRequest& request) {
+  Column compliance = measured_compliance(table, request);
+  if (request.young_factor == 1.0) return compliance;
+  for (double& value : compliance) value /= request.young_factor;
   return compliance;
 }
 
@@ -139,7 +157,7 @@ FitResult fit_relaxation_table(const CsvTable& table, const FitRequest& request)
   RelaxationData data;
   data.time_s = time_of(table, request);
   const bool has_modulus = find_column(table, "modulus_Pa", request.columns).has_value();
-  data.value = column_SI(table, has_modulus ? "modulus_Pa" : "stress_Pa", request.columns);
+  data.value = moduli_of(table, has_modulus ? "modulus_Pa" : "stress_Pa", request);
   if (!has_modulus && find_column(table, "strain", request.columns)) {
     data.strain = column_SI(table, "strain", request.columns);
   }
@@ -180,11 +198,11 @@ std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
   }
   if (is_step) {
     data.argument = time_of(table, request);
-    data.modulus_Pa = column_SI(table, "modulus_Pa", request.columns);
+    data.modulus_Pa = moduli_of(table, "modulus_Pa", request);
   } else {
     data.argument = column_SI(table, "frequency_Hz", request.columns);
-    data.modulus_Pa = column_SI(table, "storage_modulus_Pa", request.columns);
-    data.loss_Pa = column_SI(table, "loss_modulus_Pa", request.columns);
+    data.modulus_Pa = moduli_of(table, "storage_modulus_Pa", request);
+    data.loss_Pa = moduli_of(table, "loss_modulus_Pa", request);
   }
   data.T_ref_C = request.T_ref_C;
   return fit_master_curve(data, request.options);
@@ -220,15 +238,96 @@ FitRequest of_this_test(const CsvTable& table, const FitRequest& request) {
   return one;
 }
 
+// What the moduli of a table are, unless it has forces.
+std::optional<MeasuredModulus> measured_modulus(const CsvTable& table, FitKind kind,
+                                                const FitRequest& request) {
+  const bool has_forces = kind == FitKind::kIndentation ||
+                          (kind == FitKind::kRelaxation && is_force_alone(table, request));
+  if (has_forces) {
+    if (!request.modulus_kind) return std::nullopt;
+    throw std::runtime_error(
+        "--modulus-kind is for tables of moduli, compliances or stresses; omit it");
+  }
+  MeasuredModulus modulus;
+  modulus.nu = request.nu.value_or(kUsualNu);
+  modulus.is_nu_stated = request.nu.has_value();
+  if (request.modulus_kind) {
+    modulus.kind = *request.modulus_kind;
+    modulus.from = "--modulus-kind";
+  } else {
+    TableModulusKind found =
+        modulus_kind_of(table, request.columns, columns_of_kind(kind, table, request));
+    modulus.kind = found.kind;
+    modulus.from = std::move(found.from);
+    if (found.is_assumed) modulus.assumed_header = std::move(found.header);
+  }
+  if (modulus.kind == ModulusKind::kBulk && !request.nu) {
+    throw std::runtime_error(
+        "a bulk modulus gives Young's modulus only with an exact Poisson ratio; state it with "
+        "--poisson-ratio");
+  }
+  return modulus;
+}
+
+// Sums of squares, noise and curves in the unit of the column that was fitted.
+// factor: by which its values were multiplied.
+void show_in_column(double factor, FitResult& result) {
+  if (factor == 1.0) return;
+  const double squared = factor * factor;
+  result.rss /= squared;
+  for (OrderRow& row : result.orders) row.rss /= squared;
+  for (FittedLaw& law : result.laws) law.rss /= squared;
+  if (result.kind != FitKind::kDma) result.noise.sigma /= factor;
+  if (result.drift) {
+    result.drift->per_s /= factor;
+    result.drift->se_per_s /= factor;
+  }
+  if (result.lack_of_fit) {
+    for (double* value : {&result.lack_of_fit->structure, &result.lack_of_fit->noise,
+                          &result.lack_of_fit->worst, &result.lack_of_fit->rise}) {
+      *value /= factor;
+    }
+  }
+  FitCurves& curves = result.curves;
+  for (auto* column : {&curves.measured, &curves.fitted, &curves.sigma, &curves.loss_measured,
+                       &curves.loss_fitted, &curves.loss_sigma}) {
+    for (double& value : *column) value /= factor;
+  }
+}
+
+// What a material shall tell about its moduli, and cards and predictions with it: that they were measured in
+// another kind of load, or that nothing states the kind, which is asked.
+void flag_kind(const MeasuredModulus& modulus, FitResult& result) {
+  const ModulusKindText& text = text_of(modulus.kind);
+  if (modulus.kind != ModulusKind::kTension) {
+    result.flags.push_back(
+        {std::string("measured-as-") + text.word, 0,
+         "by " + modulus.from + " the moduli are of " + text.word + ": " + text.letter +
+             "0 = " + text_with_unit(result.E0_Pa / modulus.young_factor(), "Pa") + ", and " +
+             text.conversion + " with a Poisson ratio of " + text_of(modulus.nu) +
+             (modulus.is_nu_stated ? "" : ", which is assumed; state --poisson-ratio")});
+  }
+  if (modulus.assumed_header.empty()) return;
+  result.flags.push_back(
+      {"modulus-kind-assumed", 0,
+       "'" + modulus.assumed_header +
+           "' does not state whether it is of tension or of shear, and was taken as of tension; of "
+           "shear, E0 would be " +
+           text_of(young_over(ModulusKind::kShear, modulus.nu), 3) +
+           " times as large. State --modulus-kind tension or --modulus-kind shear"});
+}
+
 // Fits the rows of a table that are in the chosen part.
 FittedFile fit_rows(const CsvTable& table, const FitRequest& asked) {
-  const FitRequest request = of_this_test(table, asked);
+  FitRequest request = of_this_test(table, asked);
   FittedFile fitted;
   if (request.specimen) fitted.specimen = *request.specimen;
   fitted.specimen_id = specimen_id_of(table, request);
   const FitKind kind = kind_of_table(table, request);
   refuse_several_parts(table, kind, request);
   check_options(table, kind, request);
+  fitted.modulus = measured_modulus(table, kind, request);
+  if (fitted.modulus) request.young_factor = fitted.modulus->young_factor();
   fitted.master = fit_temperatures(table, kind, request);
   // Of an exported capture; tables of several temperatures make a master curve instead.
   if (kind == FitKind::kIndentation && find_column(table, "temperature_C", request.columns)) {
@@ -262,8 +361,8 @@ FittedFile fit_rows(const CsvTable& table, const FitRequest& asked) {
       break;
     case FitKind::kDma:
       fitted.result = fit_dma({column_SI(table, "frequency_Hz", request.columns),
-                               column_SI(table, "storage_modulus_Pa", request.columns),
-                               column_SI(table, "loss_modulus_Pa", request.columns)},
+                               moduli_of(table, "storage_modulus_Pa", request),
+                               moduli_of(table, "loss_modulus_Pa", request)},
                               request.options);
       fitted.fitted_unit = "Pa";
       break;
@@ -299,25 +398,41 @@ std::optional<MaterialFlag> doubtful_size(const CsvTable& table, const FitReques
 }  // namespace
 
 FittedFile fit_table(const std::string& path, const FitRequest& request) {
-  return fit_csv(read_csv(path, request.sheet), request);
+  return fit_csv(read_csv(path, request.table), request);
 }
 
-FittedFile fit_csv(CsvTable all, const FitRequest& request) {
+FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   const auto [maker, n_all] = std::pair(all.maker, all.lines.size());
+  FitRequest request = asked;
   all.judged = request.plausible;
+  if (!request.specimen && !request.depth_m) request.size = size_from_notes(all, request.size);
+  derive_columns(all, request.columns, request.size);
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
+  std::size_t n_gaps = 0;
+  table = rows_without_gaps(std::move(table),
+                            columns_of_kind(kind_of_table(table, request), table, request),
+                            request.columns, n_gaps);
   ChosenPart part = choose_part(table, request);
   const auto doubt = doubtful_size(table, request);
   FittedFile fitted = fit_rows(table, part.rise_s ? with_zero_in(*part.rise_s, request) : request);
   flag_assumed_units(table, request, fitted.result);
+  if (fitted.modulus) {
+    flag_kind(*fitted.modulus, fitted.result);
+    const double factor = fitted.modulus->young_factor();
+    if (!request.options.keep_rows) {
+      show_in_column(fitted.result.kind == FitKind::kCreep ? 1.0 / factor : factor, fitted.result);
+    }
+  }
   if (doubt) fitted.result.flags.push_back(*doubt);
   const bool is_modulus = !fitted.result.is_stiffness && !fitted.has_no_depth;
   if (is_modulus) refuse_modulus(fitted.result.E0_Pa, &table, request.columns, request.plausible);
   flag_history(part, fitted.result);
   fitted.maker = maker;
+  fitted.notes = table.notes;
   fitted.chosen = std::move(part.text);
-  add_left_out(fitted.result, left_out::kNotChosen, n_in_segments - table.lines.size());
+  add_left_out(fitted.result, left_out::kNotANumber, n_gaps);
+  add_left_out(fitted.result, left_out::kNotChosen, n_in_segments - n_gaps - table.lines.size());
   const std::size_t n_other = n_all - n_in_segments;
   if (request.segments.empty()) fitted.n_before_test = n_other;
   add_left_out(fitted.result,

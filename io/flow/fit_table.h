@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -21,6 +22,10 @@ FitKind kind_of_table(const CsvTable& table, const FitRequest& request);
 
 // Throws std::runtime_error if the columns are not those of the stated kind of test.
 void require_kind(const CsvTable& table, FitKind kind, const FitRequest& request);
+
+// The columns that a fit of this kind of test reads.
+std::vector<std::string> columns_of_kind(FitKind kind, const CsvTable& table,
+                                         const FitRequest& request);
 
 // True for a table of force without a depth, modulus or stress.
 bool is_force_alone(const CsvTable& table, const FitRequest& request);

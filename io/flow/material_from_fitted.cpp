@@ -1,16 +1,16 @@
 #include "io/basics/atomic_file.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/test_words.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace viscard {
 namespace {
-
-constexpr double kUsualNu = 0.495;  // typical of rubber; used if none is given
 
 ValidityWindow window_of(const FitResult& fit) {
   ValidityWindow window;
@@ -47,7 +47,15 @@ void set_temperature(const FittedFile& fitted, Material& material) {
 Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& request) {
   const Specimen& specimen = fitted.specimen;
   const bool has_contact = specimen.contact.punch_radius_m > 0.0;
-  const double nu = request.nu.value_or(has_contact ? specimen.contact.poisson_ratio : kUsualNu);
+  const double usual = has_contact ? specimen.contact.poisson_ratio : kUsualNu;
+  const double nu = request.nu.value_or(fitted.modulus ? fitted.modulus->nu : usual);
+  const bool is_converted = fitted.modulus && fitted.modulus->kind != ModulusKind::kTension;
+  if (is_converted && nu != fitted.modulus->nu) {
+    throw std::invalid_argument(
+        "the moduli were converted to Young's modulus with a Poisson ratio of " +
+        text_of(fitted.modulus->nu) +
+        "; state another one where they are fitted (--poisson-ratio)");
+  }
   Material material =
       material_from_fit(fitted.result, nu, request.rho_kg_m3.value_or(specimen.rho_kg_m3));
   const std::string& first = fitted.tests.empty() ? fitted.path : fitted.tests.front().path;

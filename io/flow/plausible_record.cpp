@@ -96,9 +96,14 @@ void refuse_modulus(double E0_Pa, const CsvTable* table, const ColumnMap& column
 
 std::optional<MaterialFlag> assumed_units(const CsvTable& table, const ColumnMap& columns,
                                           const std::vector<std::string>& names) {
-  std::string headers, units, example;
+  std::string headers, units, example, weight;
   for (const std::string& name : names) {
     const auto use = find_column(table, name, columns);
+    if (use && use->is_weight) {
+      weight = "'" + table.columns[use->index].header +
+               "' is in a unit of mass and was read as its weight, 9.80665 N for 1 kg; write gf or "
+               "kgf if it is";
+    }
     if (!use || !use->is_unit_assumed) continue;
     const std::string& header = table.columns[use->index].header;
     const std::string unit = column_kind(name).unit.si;
@@ -109,13 +114,15 @@ std::optional<MaterialFlag> assumed_units(const CsvTable& table, const ColumnMap
                                                              : "m" + unit;
     example = header + " (" + other + ")";
   }
-  if (headers.empty()) return std::nullopt;
+  if (headers.empty() && weight.empty()) return std::nullopt;
+  if (headers.empty()) return MaterialFlag{"unit-assumed", 0, weight};
+  if (!weight.empty()) weight = "; " + weight;
   const bool is_one = headers.find(',') == std::string::npos;
   return MaterialFlag{"unit-assumed", 0,
                       std::string(is_one ? "the column " : "the columns ") + headers +
                           (is_one ? " states no unit and was" : " state no unit and were") +
                           " read in " + units + "; write the unit in the header, as in '" +
-                          example + "'"};
+                          example + "'" + weight};
 }
 
 }  // namespace viscard

@@ -6,6 +6,8 @@
 #include "io/materials/material_file.h"
 #include "io/materials/plausible_numbers.h"
 #include "io/tables/csv_table.h"
+#include "io/tables/derived_columns.h"
+#include "io/tables/modulus_of_columns.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -14,6 +16,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -22,15 +25,32 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 using Values = std::vector<double>;
 
+// The quantities that a test compares, and those that drive it.
+const std::vector<std::string>& compared_names() {
+  static const std::vector<std::string> kNames{"modulus_Pa",         "compliance_1_Pa", "stress_Pa",
+                                               "storage_modulus_Pa", "loss_modulus_Pa", "strain"};
+  return kNames;
+}
+
 // A table with the column of its argument.
 struct ReadTable {
   CsvTable table;
   const PredictFileRequest* request;
+  double young_factor = 1.0;  // Young's modulus over the moduli of the table
+  std::string note;           // about their kind; may be empty
 
   bool has(const std::string& name) const {
     return find_column(table, name, request->columns).has_value();
   }
-  Values column(const std::string& name) const { return column_SI(table, name, request->columns); }
+  // Moduli, compliances and stresses as of tension.
+  Values column(const std::string& name) const {
+    Values values = column_SI(table, name, request->columns);
+    const bool is_compliance = name == "compliance_1_Pa";
+    const bool is_modulus = name.ends_with("_Pa") && !is_compliance;
+    if (young_factor == 1.0 || (!is_modulus && !is_compliance)) return values;
+    for (double& value : values) value *= is_modulus ? young_factor : 1.0 / young_factor;
+    return values;
+  }
   Values argument(const std::string& name) const {
     Values values = column(name);
     if (name != "time_s") return values;
@@ -38,6 +58,36 @@ struct ReadTable {
     return values;
   }
 };
+
+ReadTable read_compared(const std::string& path, const PredictFileRequest& request, double nu) {
+  ReadTable read{read_csv(path), &request};
+  read.table.judged = request.plausible;
+  derive_columns(read.table, request.columns, {});
+  std::vector<std::string> used = compared_names();
+  used.insert(used.end(), {"time_s", "frequency_Hz"});
+  std::size_t n_gaps = 0;
+  read.table = rows_without_gaps(std::move(read.table), used, request.columns, n_gaps);
+  if (n_gaps > 0) read.note = path + ": " + counted(n_gaps, "row") + " without a number left out";
+  TableModulusKind found;
+  if (request.modulus_kind) {
+    found.kind = *request.modulus_kind;
+    found.from = "--modulus-kind";
+  } else {
+    found = modulus_kind_of(read.table, request.columns, compared_names());
+  }
+  read.young_factor = young_over(found.kind, nu);
+  std::string about;
+  if (found.is_assumed && !found.header.empty()) {
+    about = "'" + found.header +
+            "' does not state whether it is of tension or of shear, and was "
+            "compared as of tension; state --modulus-kind";
+  } else if (found.kind != ModulusKind::kTension) {
+    about = std::string("compared as Young's modulus: ") + text_of(found.kind).conversion +
+            " with nu = " + text_of(nu) + " of the material, by " + found.from;
+  }
+  if (!about.empty()) read.note += (read.note.empty() ? path + ": " : "; ") + about;
+  return read;
+}
 
 PredictedTest test_of_columns(const ReadTable& measured) {
   if (measured.has("storage_modulus_Pa") && measured.has("loss_modulus_Pa")) {
@@ -211,13 +261,10 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
 
   PredictionRequest wanted = request.prediction;
   std::optional<ReadTable> history, measured;
-  const auto read = [&](const std::string& path) {
-    ReadTable table{read_csv(path), &request};
-    table.table.judged = request.plausible;
-    return table;
-  };
-  if (!request.history.empty()) history.emplace(read(request.history));
-  if (!request.against.empty()) measured.emplace(read(request.against));
+  for (auto [path, table] :
+       {std::pair(&request.history, &history), std::pair(&request.against, &measured)}) {
+    if (!path->empty()) table->emplace(read_compared(*path, request, material.nu));
+  }
   wanted.test = request.test ? *request.test
                 : history    ? PredictedTest::kHistory
                 : measured   ? test_of_columns(*measured)
@@ -244,6 +291,12 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
   if (const auto flag = strain_flag(largest_strain(out.prediction))) out.flags.push_back(*flag);
   if (request.plausible == Plausible::kOff) flag_plausible_off(out.flags);
   out.notes = notes_about(material, out);
+  for (const auto* table : {&history, &measured}) {
+    if (!*table || (*table)->note.empty()) continue;
+    if (std::find(out.notes.begin(), out.notes.end(), (*table)->note) == out.notes.end()) {
+      out.notes.push_back((*table)->note);
+    }
+  }
   if (request.temperature_C) {
     out.notes.push_back("the band leaves out the error of the temperature shift");
   }

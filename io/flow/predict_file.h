@@ -3,6 +3,7 @@
 #include "io/tables/column_map.h"
 #include "models/material/material.h"
 #include "models/material/prediction.h"
+#include "models/quantities/modulus_kind.h"
 
 #include <optional>
 #include <string>
@@ -14,15 +15,16 @@ class ResultVisitor;
 
 // What a material file predicts for a test, beside a measured curve if there is one.
 struct PredictFileRequest {
-  std::string material;                 // path of a material file
-  std::optional<PredictedTest> test;    // none: the columns of the measured table decide
-  PredictionRequest prediction;         // its `test`, `history` and `also_at` are filled in
-  std::string history;                  // table with time_s and strain or stress_Pa; may be empty
-  std::string against;                  // table of measured values; may be empty
-  bool is_driven_by_stress = false;     // of a table with strain and stress, which one is the input
-  ColumnMap columns;                    // of both tables
-  double time_zero_s = 0.0;             // time in the tables where t = 0
-  std::optional<double> temperature_C;  // by the material's temperature shift
+  std::string material;               // path of a material file
+  std::optional<PredictedTest> test;  // none: the columns of the measured table decide
+  PredictionRequest prediction;       // its `test`, `history` and `also_at` are filled in
+  std::string history;                // table with time_s and strain or stress_Pa; may be empty
+  std::string against;                // table of measured values; may be empty
+  bool is_driven_by_stress = false;   // of a table with strain and stress, which one is the input
+  ColumnMap columns;                  // of both tables
+  std::optional<ModulusKind> modulus_kind;     // of both; none: their headers decide
+  double time_zero_s = 0.0;                    // time in the tables where t = 0
+  std::optional<double> temperature_C;         // by the material's temperature shift
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the prediction
 };
 

@@ -12,16 +12,30 @@
 namespace viscard {
 namespace {
 
-[[noreturn]] void refuse_unknown_columns(const CsvTable& table) {
+[[noreturn]] void refuse_unknown_columns(const CsvTable& table, const FitRequest& request) {
+  const auto has = [&](const char* name) {
+    return find_column(table, name, request.columns).has_value();
+  };
+  const std::string columns = ". The columns are " + columns_with_values(table);
+  if (has("storage_modulus_Pa") || has("loss_modulus_Pa") || has("complex_modulus_Pa") ||
+      has("complex_viscosity_Pa_s")) {
+    throw std::runtime_error(
+        table.file +
+        ": an oscillation needs two of storage modulus, loss modulus, tan delta and phase (or "
+        "|E*|, "
+        "|G*| or the complex viscosity with one of the last two), because one of them does not "
+        "determine the other" +
+        columns);
+  }
   const std::string words = proposed_words(table);
   throw std::runtime_error(
       table.file +
       ": no known column to fit; expected force_N with depth_m, modulus_Pa, stress_Pa, "
-      "compliance_1_Pa, or storage_modulus_Pa with loss_modulus_Pa. The columns are " +
-      columns_with_values(table) +
-      (words.empty() ? ". Name a column with --column modulus_Pa=\"HEADER\", or with its number "
-                       "from 1"
-                     : ". If these are the right ones: " + words));
+      "compliance_1_Pa, or storage_modulus_Pa with loss_modulus_Pa" +
+      columns +
+      (words.empty() ? ". State what each is, as in --column compliance_1_Pa=\"HEADER\", or with "
+                       "its number from 1"
+                     : ". By their headers these may be: " + words));
 }
 
 // A constant stress with a strain that changes is a creep test.
@@ -52,9 +66,10 @@ bool has_unknown_numbers(const CsvTable& table, const FitRequest& request) {
   return false;
 }
 
-// The columns that a fit of this kind reads.
-std::vector<std::string> columns_of(FitKind kind, const CsvTable& table,
-                                    const FitRequest& request) {
+}  // namespace
+
+std::vector<std::string> columns_of_kind(FitKind kind, const CsvTable& table,
+                                         const FitRequest& request) {
   const auto first_of = [&](const std::vector<std::string>& names) {
     const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
       return find_column(table, name, request.columns).has_value();
@@ -65,9 +80,9 @@ std::vector<std::string> columns_of(FitKind kind, const CsvTable& table,
     case FitKind::kIndentation:
       return {"time_s", "force_N", "depth_m"};
     case FitKind::kRelaxation:
-      return {"time_s", first_of({"modulus_Pa", "stress_Pa", "force_N"})};
+      return {"time_s", first_of({"modulus_Pa", "stress_Pa", "force_N"}), "strain"};
     case FitKind::kCreep:
-      return {"time_s", first_of({"compliance_1_Pa", "stress_Pa"})};
+      return {"time_s", first_of({"compliance_1_Pa", "stress_Pa"}), "strain"};
     case FitKind::kDma:
       return {"frequency_Hz", "storage_modulus_Pa", "loss_modulus_Pa"};
     case FitKind::kSeveral:
@@ -76,10 +91,9 @@ std::vector<std::string> columns_of(FitKind kind, const CsvTable& table,
   return {};
 }
 
-}  // namespace
-
 void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitResult& result) {
-  const auto flag = assumed_units(table, request.columns, columns_of(result.kind, table, request));
+  const auto flag =
+      assumed_units(table, request.columns, columns_of_kind(result.kind, table, request));
   if (flag) result.flags.push_back(*flag);
 }
 
@@ -88,7 +102,8 @@ FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
   const auto has = [&](const char* name) {
     return find_column(table, name, request.columns).has_value();
   };
-  if (has("force_N") && has("depth_m")) return FitKind::kIndentation;
+  const bool is_strip = request.size.area_m2 > 0.0 && has("strain") && has("stress_Pa");
+  if (has("force_N") && has("depth_m") && !is_strip) return FitKind::kIndentation;
   const bool is_dma = has("storage_modulus_Pa") && has("loss_modulus_Pa");
   if (is_dma && has("frequency_Hz")) return FitKind::kDma;
   if (has("modulus_Pa")) return FitKind::kRelaxation;
@@ -97,7 +112,7 @@ FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
   if (has("stress_Pa")) return FitKind::kRelaxation;
   if (is_dma) return FitKind::kDma;
   if (has("time_s") && is_force_alone(table, request)) return FitKind::kRelaxation;
-  refuse_unknown_columns(table);
+  refuse_unknown_columns(table, request);
 }
 
 void require_kind(const CsvTable& table, FitKind kind, const FitRequest& request) {

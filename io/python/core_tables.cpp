@@ -163,7 +163,7 @@ void add_tables(py::module_& module) {
     std::optional<CsvTable> table;
     {
       const py::gil_scoped_release others_may_run;
-      table = read_csv(path, sheet);
+      table = read_csv(path, {sheet});
     }
     return table_dict(std::move(*table), map);
   });

@@ -158,6 +158,7 @@ std::optional<ColumnUse> found_column(const CsvTable& table, const ColumnKind& q
     }
     best = use_of(table, i, quantity, 1.0, match->scale);
     best->is_unit_assumed = match->is_unit_assumed;
+    best->is_weight = match->is_weight;
     best_rank = match->rank;
   }
   return best;
@@ -295,6 +296,31 @@ CsvTable rows_of_segment(const CsvTable& table, const std::string& segment, cons
     if (is_new && names.size() < 20) names.push_back(segments[row]);
   }
   if (rows.empty()) fail(table, "has no segment '" + segment + "'; there are " + listed(names));
+  return chosen_rows(table, rows);
+}
+
+CsvTable rows_without_gaps(CsvTable table, const std::vector<std::string>& names,
+                           const ColumnMap& map, std::size_t& n_left_out) {
+  std::vector<const CsvColumn*> used;
+  for (const std::string& name : names) {
+    const auto use = find_column(table, name, map);
+    if (use && table.columns[use->index].first_bad_line != 0) {
+      used.push_back(&table.columns[use->index]);
+    }
+  }
+  n_left_out = 0;
+  if (used.empty()) return table;
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < table.lines.size(); ++row) {
+    const bool has_gap = std::any_of(used.begin(), used.end(), [&](const CsvColumn* column) {
+      return !std::isfinite(column->values[row]) &&
+             (column->text.empty() || is_gap(column->text[row]));
+    });
+    if (!has_gap) rows.push_back(row);
+  }
+  n_left_out = table.lines.size() - rows.size();
+  if (n_left_out == 0) return table;
+  if (rows.empty()) return table;  // column_SI() names the first gap
   return chosen_rows(table, rows);
 }
 

@@ -33,6 +33,8 @@ struct ColumnUse {
   std::string description;  // "force_N: column 2 'Force [nN]' x 1e-09"
   // Neither the table nor --column states a unit, so the SI unit was taken.
   bool is_unit_assumed = false;
+  // A force in a unit of mass, "Load (kg)": the weight of that mass was taken.
+  bool is_weight = false;
   // The table or --column states a unit ("%", "-") or a factor.
   bool is_unit_stated = false;
   double written_factor = 1.0;  // that of --column
@@ -59,6 +61,11 @@ std::string words_for_factor(const CsvTable& table, const std::string& name, con
 // As column_SI(), but a cell that is not a finite number gives nan, and any value is taken.
 std::vector<double> column_with_gaps_SI(const CsvTable& table, const std::string& name,
                                         const ColumnMap& map = {});
+
+// Returns the table without the rows in which one of these columns has a gap (an empty cell, NaN, "n/a");
+// n_left_out counts them. Other cells that are no numbers stay, and column_SI() refuses them.
+CsvTable rows_without_gaps(CsvTable table, const std::vector<std::string>& names,
+                           const ColumnMap& map, std::size_t& n_left_out);
 
 // Returns the cells as text, for "segment" and "specimen". Throws std::runtime_error if the column does not exist.
 std::vector<std::string> column_text(const CsvTable& table, const std::string& name,

@@ -1,8 +1,11 @@
 #include "io/tables/column_names.h"
 
+#include "io/tables/header_words.h"
+
 #include <algorithm>
 #include <iterator>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -12,10 +15,10 @@ namespace {
 // Returns the text in lower case; each run of blanks, underscores, hyphens and dots becomes one blank.
 std::string plain(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : lower_case(text)) {
     const bool is_gap = c == ' ' || c == '_' || c == '-' || c == '.' || c == '\t';
     if (is_gap && (out.empty() || out.back() == ' ')) continue;
-    out += is_gap ? ' ' : static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    out += is_gap ? ' ' : c;
   }
   while (!out.empty() && out.back() == ' ') out.pop_back();
   return out;
@@ -43,8 +46,41 @@ bool has_alias(const ColumnKind& quantity, const std::string& name) {
   });
 }
 
+// The name without the kind of load ("Tensile stress") and without symbols beside words: "Shear
+// relaxation modulus G(t)" is a "relaxation modulus", "E' - Storage modulus" a "Storage modulus".
+std::string without_kind_and_symbol(const std::string& name) {
+  constexpr const char* kKinds[] = {"shear",   "tensile", "tension", "compressive", "compression",
+                                    "young's", "youngs",  "young",   "axial",       "uniaxial"};
+  constexpr const char* kSymbols[] = {
+      "e",    "g",     "j",     "d",    "e(t)", "g(t)",   "j(t)",   "d(t)", "e'",    "g'",
+      "e''",  "g''",   "|e*|",  "|g*|", "e*",   "g*",     "|eta*|", "|η*|", "eta*",  "η*",
+      "δ",    "σ",     "τ",     "ε",    "γ",    "λ",      "ω",      "f",    "t",     "(e)",
+      "(g)",  "(δ)",   "(ω)",   "(t)",  "(f)",  "(σ)",    "(τ)",    "(ε)",  "(γ)",   "(e')",
+      "(g')", "(e'')", "(g'')", "(e*)", "(g*)", "(|e*|)", "(|g*|)", "(η*)", "(|η*|)"};
+  std::string rest;
+  std::string text = plain(with_plain_primes(name));
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream words(text);
+  std::size_t n_words = 0, n_left = 0;
+  for (std::string word; words >> word; ++n_words) {
+    const auto is_among = [&](const auto& list) {
+      return std::find(std::begin(list), std::end(list), word) != std::end(list);
+    };
+    if (is_among(kKinds) || is_among(kSymbols)) continue;
+    rest += (n_left++ == 0 ? "" : " ") + word;
+  }
+  return n_left < n_words ? rest : "";
+}
+
 // Names of angular frequencies, in rad/s even if the column has no unit.
-constexpr const char* kAngular[] = {"w",
+constexpr const char* kAngular[] = {"pulsazione",
+                                    "frecuencia angular",
+                                    "frequenza angolare",
+                                    "frequência angular",
+                                    "угловая частота",
+                                    "круговая частота",
+                                    "角周波数",
+                                    "w",
                                     "ω",
                                     "omega",
                                     "angular frequency",
@@ -68,7 +104,8 @@ bool is_angular(const std::string& name) {
 }
 
 std::vector<const char*> frequency_names() {
-  std::vector<const char*> names{"f", "freq", "frequenz", "fréquence", "频率"};
+  std::vector<const char*> names{"f",         "freq",       "frequenz",   "fréquence", "频率",
+                                 "frequenza", "frecuencia", "frequência", "частота",   "周波数"};
   names.insert(names.end(), std::begin(kAngular), std::end(kAngular));
   return names;
 }
@@ -81,6 +118,11 @@ std::string unit_in_name(const std::string& text) {
   return text;
 }
 
+// A force in "g" or "kg": the weight of that mass.
+bool is_weight_unit(const std::string& unit) {
+  return is_stated(unit) && is_unit_of(unit, "kg");
+}
+
 std::optional<UnitScale> scale_if_fits(const std::string& name, const std::string& unit,
                                        const ColumnKind& quantity) {
   if (quantity.is_text) return UnitScale{};
@@ -89,6 +131,10 @@ std::optional<UnitScale> scale_if_fits(const std::string& name, const std::strin
     return UnitScale{0.5 / std::numbers::pi, 0.0};
   }
   if (!is_stated(unit)) return UnitScale{};
+  if (std::string(quantity.unit.si) == "N" && is_weight_unit(unit)) {
+    constexpr double kStandardGravity_m_s2 = 9.80665;  // BIPM, The International System of Units
+    return UnitScale{kStandardGravity_m_s2 * scale_to_si(unit, "kg").factor, 0.0};
+  }
   if (!is_unit_of(unit, quantity.unit.si)) return std::nullopt;
   return scale_to_si(unit, quantity.unit.si);
 }
@@ -103,14 +149,40 @@ std::vector<ColumnKind> recorded_kinds() {
   return {{"time_s",
            "time",
            quantities::kTime,
-           {"t", "elapsed time", "test time", "run time", "seconds", "zeit", "prüfzeit",
-            "versuchszeit", "temps", "时间", "试验时间", "测试时间"}},
+           {"t",          "elapsed time", "test time", "run time",     "step time", "seconds",
+            "timestamp",  "time stamp",   "date time", "date/time",    "datetime",  "clock",
+            "clock time", "zeit",         "prüfzeit",  "versuchszeit", "temps",     "tempo",
+            "tiempo",     "время",        "时间",      "试验时间",     "测试时间",  "時間",
+            "経過時間",   "試験時間"}},
           {"force_N",
            "force",
            quantities::kForce,
-           {"F", "load", "normal force", "standard force", "compressive load", "tensile load",
-            "kraft", "normalkraft", "standardkraft", "prüfkraft", "force normale", "力", "试验力",
-            "载荷", "负荷", "法向力"}},
+           {"F",
+            "load",
+            "normal force",
+            "standard force",
+            "compressive load",
+            "tensile load",
+            "kraft",
+            "normalkraft",
+            "standardkraft",
+            "prüfkraft",
+            "force normale",
+            "forza",
+            "carico",
+            "fuerza",
+            "carga",
+            "força",
+            "сила",
+            "нагрузка",
+            "усилие",
+            "力",
+            "试验力",
+            "载荷",
+            "负荷",
+            "法向力",
+            "荷重",
+            "試験力"}},
           {"depth_m",
            "depth",
            quantities::kLength,
@@ -132,6 +204,18 @@ std::vector<ColumnKind> recorded_kinds() {
             "deplacement",
             "enfoncement",
             "profondeur",
+            "spostamento",
+            "profondità",
+            "allungamento",
+            "desplazamiento",
+            "profundidad",
+            "deslocamento",
+            "перемещение",
+            "глубина",
+            "удлинение",
+            "変位",
+            "押込み深さ",
+            "伸び",
             "位移",
             "压入深度",
             "深度"}}};
@@ -143,23 +227,80 @@ std::vector<ColumnKind> material_kinds() {
       {"modulus_Pa",
        "modulus",
        quantities::kModulus,
-       {"E", "G", "e relax", "g relax", "e(t)", "g(t)", "relaxation modulus", "modul",
-        "relaxationsmodul", "module", "module de relaxation", "模量", "松弛模量"}},
+       {"E",
+        "G",
+        "e relax",
+        "g relax",
+        "e(t)",
+        "g(t)",
+        "relaxation modulus",
+        "modul",
+        "relaxationsmodul",
+        "module",
+        "module de relaxation",
+        "modulo",
+        "modulo di rilassamento",
+        "módulo",
+        "módulo de relajación",
+        "módulo de relaxação",
+        "модуль",
+        "модуль релаксации",
+        "модуль упругости",
+        "模量",
+        "松弛模量",
+        "弾性率",
+        "緩和弾性率"}},
       {"stress_Pa",
        "stress",
        quantities::kStress,
-       {"sigma", "σ", "shear stress", "spannung", "schubspannung", "contrainte", "应力",
-        "剪切应力"}},
+       {"sigma", "σ", "shear stress", "spannung", "schubspannung", "contrainte", "sforzo", "tau",
+        "τ", "tensione", "esfuerzo", "tensión", "tensão", "напряжение", "应力", "剪切应力",
+        "応力"}},
       {"strain",
        "strain",
        quantities::kStrain,
-       {"epsilon", "eps", "ε", "gamma", "γ", "shear strain", "nominal strain", "engineering strain",
-        "dehnung", "nenndehnung", "technische dehnung", "scherung", "deformation", "déformation",
-        "déformation nominale", "应变", "剪切应变", "名义应变", "工程应变"}},
+       {"epsilon",
+        "eps",
+        "ε",
+        "gamma",
+        "γ",
+        "shear strain",
+        "nominal strain",
+        "engineering strain",
+        "dehnung",
+        "nenndehnung",
+        "technische dehnung",
+        "scherung",
+        "deformation",
+        "déformation",
+        "déformation nominale",
+        "deformazione",
+        "deformación",
+        "deformação",
+        "деформация",
+        "应变",
+        "剪切应变",
+        "名义应变",
+        "工程应变",
+        "ひずみ",
+        "歪み",
+        "歪"}},
       {"nominal_stress_Pa",
        "nominal_stress",
        quantities::kStress,
-       {"engineering stress", "nennspannung", "contrainte nominale", "名义应力", "工程应力"}},
+       {"engineering stress", "nennspannung", "contrainte nominale", "名义应力", "工程应力",
+        "公称応力"}},
+      {"true_stress_Pa",
+       "true_stress",
+       quantities::kStress,
+       {"cauchy stress", "wahre spannung", "contrainte vraie", "sforzo reale", "esfuerzo real",
+        "истинное напряжение", "真应力", "真応力"}},
+      {"true_strain",
+       "true_strain",
+       quantities::kStrain,
+       {"logarithmic strain", "log strain", "hencky strain", "wahre dehnung",
+        "logarithmische dehnung", "déformation vraie", "deformazione reale", "deformación real",
+        "истинная деформация", "真应变", "対数ひずみ", "真ひずみ"}},
       {"stretch",
        "stretch",
        quantities::kStretch,
@@ -168,32 +309,76 @@ std::vector<ColumnKind> material_kinds() {
        "compliance",
        quantities::kCompliance,
        {"J", "D", "j(t)", "d(t)", "creep compliance", "kriechnachgiebigkeit", "nachgiebigkeit",
-        "complaisance", "柔量"}},
+        "complaisance", "cedevolezza", "complianza", "podatność", "податливость", "柔量",
+        "コンプライアンス", "クリープコンプライアンス"}},
+      {"relative_modulus",
+       "relative_modulus",
+       "1",
+       {"g r(t)", "g r", "e/e0", "g/g0", "e(t)/e0", "g(t)/g0", "g(t)/g(0)", "e(t)/e(0)",
+        "normalized modulus", "normalised modulus", "normalized relaxation modulus",
+        "normalised relaxation modulus", "normalized shear modulus", "normalised shear modulus",
+        "normierter modul", "module normalisé"}},
       {"frequency_Hz", "frequency", quantities::kFrequency, frequency_names()},
       {"storage_modulus_Pa",
        "storage_modulus",
        quantities::kModulus,
        {"E'", "G'", "ep", "gp", "e prime", "g prime", "e stor", "g stor", "storage",
-        "speichermodul", "module de conservation", "储能模量"}},
+        "speichermodul", "module de conservation", "modulo conservativo", "modulo di accumulo",
+        "módulo de almacenamiento", "módulo de armazenamento", "модуль накопления", "储能模量",
+        "貯蔵弾性率"}},
       {"loss_modulus_Pa",
        "loss_modulus",
        QuantityOrUnit::any("Pa"),
        {"E''", "G''", "epp", "gpp", "e double prime", "g double prime", "e loss", "g loss", "loss",
-        "verlustmodul", "module de perte", "损耗模量"}}};
+        "verlustmodul", "module de perte", "modulo dissipativo", "modulo di perdita",
+        "módulo de pérdida", "módulo de perda", "модуль потерь", "损耗模量", "損失弾性率"}},
+      {"complex_modulus_Pa",
+       "complex_modulus",
+       quantities::kModulus,
+       {"|e*|", "|g*|", "e*", "g*", "abs(e*)", "abs(g*)", "dynamic modulus", "komplexer modul",
+        "module complexe", "modulo complesso", "módulo complejo", "комплексный модуль", "复数模量",
+        "複素弾性率"}},
+      {"complex_viscosity_Pa_s",
+       "complex_viscosity",
+       QuantityOrUnit::any("Pa s"),
+       {"|eta*|", "|η*|", "eta*", "η*", "dynamic viscosity", "komplexe viskosität",
+        "viscosité complexe", "viscosità complessa", "viscosidad compleja", "комплексная вязкость",
+        "复数粘度", "複素粘度"}},
+      {"phase_rad",
+       "phase",
+       QuantityOrUnit::any("rad"),
+       {"delta", "δ", "phase angle", "phase lag", "loss angle", "phasenwinkel", "verlustwinkel",
+        "angle de phase", "angolo di fase", "ángulo de fase", "фазовый угол", "相位角", "位相角",
+        "位相差"}},
+      {"tan_delta",
+       "tan_delta",
+       "1",
+       {"tan(delta)", "tan(d)", "tan d", "tand", "tandelta", "tan δ", "tanδ", "tan(δ)",
+        "loss factor", "loss tangent", "damping factor", "verlustfaktor", "facteur de perte",
+        "fattore di perdita", "factor de pérdida", "тангенс угла потерь", "损耗因子", "損失正接"}}};
 }
 
 // What a calibration or a rig adds, and what divides a file.
 std::vector<ColumnKind> rig_kinds() {
-  return {{"mass_kg", "mass", quantities::kMass, {"m", "weight", "masse", "质量"}},
+  return {{"mass_kg",
+           "mass",
+           quantities::kMass,
+           {"m", "weight", "masse", "massa", "masa", "масса", "质量", "質量"}},
           {"volts_V",
            "volts",
            quantities::kVoltage,
-           {"U", "V", "voltage", "reading", "output", "amplifier", "spannung", "电压"}},
+           {"U", "V", "voltage", "reading", "output", "amplifier", "spannung", "tensione",
+            "tensión", "tensão", "напряжение", "电压", "電圧"}},
           {"position_m", "position", quantities::kLength, {"z", "stage", "stage position", "位置"}},
           {"temperature_C",
            "temperature",
            quantities::kTemperature,
-           {"T", "temp", "temperatur", "température", "温度"}},
+           {"T", "temp", "temperatur", "température", "temperatura", "температура", "温度"}},
+          {"humidity",
+           "humidity",
+           "1",
+           {"relative humidity", "rh", "r h", "luftfeuchte", "feuchte", "humidité", "umidità",
+            "humedad", "влажность", "湿度"}},
           {"segment", "segment", "1", {"set", "phase", "step", "step name"}, true},
           {"specimen", "specimen", "1", {"specimen id", "specimen name"}, true}};
 }
@@ -229,11 +414,18 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const ColumnKin
     if (!scale || (names_unit && !is_si)) return std::nullopt;
     return HeaderMatch{3, *scale};
   }
+  // tau is a relaxation time, too.
+  const bool is_tau = column.name == "tau" || column.name == "τ";
+  if (is_tau && !is_stated(column.unit)) return std::nullopt;
   const bool is_own_name = plain(column.name) == plain(quantity.base);
-  if (is_own_name || has_alias(quantity, column.name)) {
+  const std::string rest = quantity.is_text ? "" : without_kind_and_symbol(column.name);
+  const bool is_named_inside =
+      rest.size() > 1 && (rest == plain(quantity.base) || has_alias(quantity, rest));
+  if (is_own_name || is_named_inside || has_alias(quantity, column.name)) {
     const auto scale = scale_if_fits(column.name, column.unit, quantity);
     if (!scale) return std::nullopt;
-    return HeaderMatch{is_own_name ? 2 : 1, *scale, is_unit_assumed(column, quantity)};
+    const bool is_weight = std::string(quantity.unit.si) == "N" && is_weight_unit(column.unit);
+    return HeaderMatch{is_own_name ? 2 : 1, *scale, is_unit_assumed(column, quantity), is_weight};
   }
   if (quantity.is_text || is_stated(column.unit)) return std::nullopt;
   // force_mN, depth_um: the quantity's own name followed by another unit.

@@ -37,6 +37,7 @@ struct HeaderMatch {
   int rank = 0;
   UnitScale scale;
   bool is_unit_assumed = false;  // the header states none, and the quantity is no plain number
+  bool is_weight = false;        // a force in a unit of mass, taken as the weight of it
 };
 std::optional<HeaderMatch> match_header(const CsvColumn& column, const ColumnKind& kind);
 

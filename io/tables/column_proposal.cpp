@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,11 +15,6 @@ namespace viscard {
 namespace {
 
 constexpr std::size_t kMostColumns = 12;
-
-bool is_rising(const CsvColumn& column) {
-  return std::is_sorted(column.values.begin(), column.values.end()) &&
-         column.values.front() < column.values.back();
-}
 
 // The columns that hold numbers only and do not just count the rows.
 std::vector<std::size_t> number_columns(const CsvTable& table) {
@@ -77,47 +71,6 @@ std::optional<std::size_t> taken(const CsvTable& table, std::vector<std::size_t>
   return std::nullopt;
 }
 
-// Takes the column of time: by name or unit, or else the first without a unit that only rises, or the
-// first without a unit.
-std::optional<std::size_t> taken_time(const CsvTable& table, std::vector<std::size_t>& columns) {
-  if (const auto column = taken(table, columns, "s", "time_s")) return column;
-  const auto is_plain = [&](std::size_t i) { return !is_stated(table.columns[i].unit); };
-  auto at = std::find_if(columns.begin(), columns.end(),
-                         [&](std::size_t i) { return is_plain(i) && is_rising(table.columns[i]); });
-  if (at == columns.end()) at = std::find_if(columns.begin(), columns.end(), is_plain);
-  if (at == columns.end()) return std::nullopt;
-  const std::size_t column = *at;
-  columns.erase(at);
-  return column;
-}
-
-bool names_any(const CsvColumn& column, std::initializer_list<const char*> parts) {
-  std::string text = column.header;
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](const char* part) { return text.find(part) != std::string::npos; });
-}
-
-// The first column if its header speaks of a frequency and two more are left.
-std::optional<std::size_t> taken_frequency(const CsvTable& table,
-                                           std::vector<std::size_t>& columns) {
-  if (const auto found = taken(table, columns, "Hz", "frequency_Hz")) return found;
-  const bool is_one = columns.size() == 3 &&
-                      names_any(table.columns[columns[0]], {"freq", "omega", "ω", "hz", "rad"});
-  if (!is_one) return std::nullopt;
-  const std::size_t column = columns.front();
-  columns.erase(columns.begin());
-  return column;
-}
-
-// What a single column beside the time may be.
-const char* lone_quantity(const CsvColumn& column) {
-  return names_any(column, {"compl", "nachgieb", "creep", "kriech", "柔量"}) ? "compliance_1_Pa"
-                                                                             : "modulus_Pa";
-}
-
 // Words for force and depth beside those for the time; force alone if there is no other column.
 std::string words_of_contact(const CsvTable& table, const std::string& words, std::size_t force,
                              std::optional<std::size_t> depth) {
@@ -132,32 +85,20 @@ std::string words_of_contact(const CsvTable& table, const std::string& words, st
       .substr(1);
 }
 
-// Words for a force and a depth that the headers name; other columns do not matter.
-std::optional<std::string> named_contact(const CsvTable& table, std::vector<std::size_t> columns) {
-  const auto force = taken_by_name(table, columns, "force_N");
-  const auto depth = taken_by_name(table, columns, "depth_m");
-  if (!force || !depth) return std::nullopt;
-  const auto time = taken_time(table, columns);
-  if (!time) return std::nullopt;
-  return words_of_contact(table, word("time_s", *time), *force, depth);
-}
-
-// Words for an oscillation: storage and loss modulus by name, by unit, or in the order of the columns.
-std::optional<std::string> named_sweep(const CsvTable& table, std::vector<std::size_t> columns) {
-  const auto frequency = taken_frequency(table, columns);
-  if (!frequency) return std::nullopt;
-  auto storage = taken_by_name(table, columns, "storage_modulus_Pa");
-  auto loss = taken_by_name(table, columns, "loss_modulus_Pa");
-  for (auto* missing : {&storage, &loss}) {
-    if (!*missing) *missing = taken(table, columns, "Pa");
-    if (*missing || columns.empty() || is_stated(table.columns[columns.front()].unit)) continue;
-    *missing = columns.front();
-    columns.erase(columns.begin());
+// Words for an oscillation; none if a modulus of it has no name.
+std::string words_of_sweep(const CsvTable& table, std::vector<std::size_t> columns,
+                           std::size_t frequency) {
+  std::string words = word("frequency_Hz", frequency);
+  std::size_t n_found = 0;
+  for (const char* name :
+       {"storage_modulus_Pa", "loss_modulus_Pa", "complex_modulus_Pa", "tan_delta", "phase_rad"}) {
+    if (n_found == 2) break;
+    const auto found = taken_by_name(table, columns, name);
+    if (!found) continue;
+    words += word(name, *found);
+    ++n_found;
   }
-  if (!storage || !loss) return std::nullopt;
-  return (word("frequency_Hz", *frequency) + word("storage_modulus_Pa", *storage) +
-          word("loss_modulus_Pa", *loss))
-      .substr(1);
+  return n_found == 2 ? words.substr(1) : "";
 }
 
 }  // namespace
@@ -189,27 +130,21 @@ std::string columns_with_values(const CsvTable& table) {
 
 std::string proposed_words(const CsvTable& table) {
   std::vector<std::size_t> rest = number_columns(table);
-  if (rest.size() < 2) return "";
-  if (const auto sweep = named_sweep(table, rest)) return *sweep;
-  if (const auto contact = named_contact(table, rest)) return *contact;
-  const auto modulus = taken(table, rest, "Pa", "modulus_Pa");
-  const auto time = taken_time(table, rest);
+  if (const auto frequency = taken(table, rest, "Hz", "frequency_Hz")) {
+    return words_of_sweep(table, rest, *frequency);
+  }
+  const auto time = taken(table, rest, "s", "time_s");
   if (!time) return "";
   const std::string words = word("time_s", *time);
-  if (modulus) return (words + word("modulus_Pa", *modulus)).substr(1);
-  auto force = taken(table, rest, "N", "force_N");
-  auto depth = taken(table, rest, "m", "depth_m");
-  const auto is_without_unit = [&](std::size_t i) { return !is_stated(table.columns[i].unit); };
-  std::erase_if(rest, [&](std::size_t i) { return !is_without_unit(i); });
-  if (!force && !depth && rest.size() == 1) {
-    return (words + word(lone_quantity(table.columns[rest[0]]), rest[0])).substr(1);
+  const auto force = taken(table, rest, "N", "force_N");
+  const auto depth = taken(table, rest, "m", "depth_m");
+  if (force && depth) return words_of_contact(table, words, *force, depth);
+  for (const char* name : {"modulus_Pa", "compliance_1_Pa", "stress_Pa"}) {
+    if (const auto found = taken_by_name(table, rest, name)) {
+      return (words + word(name, *found)).substr(1);
+    }
   }
-  for (auto* missing : {&force, &depth}) {
-    if (*missing || rest.empty()) continue;
-    *missing = rest.front();
-    rest.erase(rest.begin());
-  }
-  return force ? words_of_contact(table, words, *force, depth) : "";
+  return force && rest.empty() ? words_of_contact(table, words, *force, depth) : "";
 }
 
 }  // namespace viscard

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "models/quantities/modulus_kind.h"
+
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,9 @@ struct CsvColumn {
   // The first cell that is not a finite number: its line (from 1; 0 if there is none) and its text.
   std::size_t first_bad_line = 0;
   std::string first_bad_cell;
+  // Of a computed column: the header that it follows from, and the kind of modulus that this one states.
+  std::string derived_from;
+  std::optional<ModulusKind> modulus_kind;
 };
 
 }  // namespace viscard

@@ -45,6 +45,7 @@ std::size_t count_outside_quotes(std::string_view line, char separator) {
 
 // "1,5 2,3": with commas as separators, one cell would hold two numbers with a blank between them.
 bool has_blank_between_numbers(std::string_view line) {
+  if (line.find(':') != std::string_view::npos) return false;  // a date and a time
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
     if (!is_blank(line[i])) continue;
     const std::size_t next = line.find_first_not_of(" \t", i);
@@ -189,6 +190,17 @@ std::optional<double> number_from_cell(std::string_view cell, const Dialect& dia
   }
   if (result.ec != std::errc()) return std::nullopt;
   return value;
+}
+
+bool is_gap(std::string_view cell) {
+  constexpr std::string_view kGaps[] = {
+      "",        "-",        "--",     "---",      "nan",       "na",   "n/a",       "#n/a",
+      "n.a.",    "null",     "none",   "inf",      "-inf",      "+inf", "#div/0!",   "#value!",
+      "#num!",   "infinity", "*",      "**",       "***",       "?",    ".",         "missing",
+      "1.#qnan", "-1.#ind",  "1.#inf", "nan(ind)", "-nan(ind)", "-nan", "-infinity", "#na"};
+  std::string lower(cell);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return std::find(std::begin(kGaps), std::end(kGaps), lower) != std::end(kGaps);
 }
 
 Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& name) {

@@ -18,7 +18,9 @@ struct TextLine {
 // Iterates over the lines, which end in LF, CRLF or CR; skips blank lines and comments (#, %, //).
 class LineReader {
  public:
-  explicit LineReader(std::string_view text) : rest_(text) {}
+  // first: number of its first line.
+  explicit LineReader(std::string_view text, std::size_t first = 1)
+      : rest_(text), number_(first - 1) {}
   bool next(TextLine& line);
   // The last comment before this line, without its mark: numpy writes the header there.
   std::string_view last_comment() const { return last_comment_; }
@@ -48,6 +50,9 @@ std::vector<std::string_view> header_cells(const TextLine& line, char separator)
 
 // Returns the number that a cell holds (NaN and infinities included), or nothing.
 std::optional<double> number_from_cell(std::string_view cell, const Dialect& dialect);
+
+// True for a cell that stands for a missing value: empty, "-", "NaN", "n/a", "#N/A", "null" ....
+bool is_gap(std::string_view cell);
 
 // Throws std::runtime_error naming the file if it mixes decimal points and decimal commas.
 Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& name);

@@ -1,21 +1,25 @@
 #include "io/tables/csv_table.h"
 
 #include "io/basics/units.h"
+#include "io/tables/clock_times.h"
+#include "io/tables/column_names.h"
 #include "io/tables/csv_dialect.h"
 #include "io/tables/csv_header.h"
 #include "io/tables/maker_table.h"
+#include "io/tables/table_choice.h"
 #include "io/tables/table_rows.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 namespace viscard {
 namespace {
 
-constexpr std::size_t kSampleLines = 200;
+using Cells = std::vector<std::string_view>;
 
 std::string without_doubled_quotes(std::string_view cell) {
   std::string out;
@@ -26,9 +30,23 @@ std::string without_doubled_quotes(std::string_view cell) {
   return out;
 }
 
+bool are_empty(const Cells& cells) {
+  return std::all_of(cells.begin(), cells.end(),
+                     [](std::string_view cell) { return cell.empty(); });
+}
+
+// A line that may be a row of numbers, by its first character.
+bool begins_with_number(std::string_view line) {
+  const std::size_t at = line.find_first_not_of(" \t\"+-.,;");
+  return at != std::string_view::npos && line[at] >= '0' && line[at] <= '9';
+}
+
+// Reads one table: notes, a header, a row of units, rows. The block of numbers is found first, by the
+// cells that most lines fill with numbers; what stands above it are its header, its units and notes.
 class TableReader {
  public:
-  TableReader(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {
+  TableReader(std::string_view text, std::string name, RowPlace begin)
+      : text_(text), name_(std::move(name)), begin_(begin) {
     table_.file = name_;
   }
 
@@ -38,37 +56,52 @@ class TableReader {
     table_.separator = dialect_.separator;
     table_.has_decimal_comma = dialect_.has_decimal_comma;
     find_width();
+    find_number_columns();
     read_head();
     read_rows();
     drop_empty_edge_columns();
+    read_clock_times(table_);
     return std::move(table_);
   }
 
+  // After read(): where the next table of the text may begin; its end if none does.
+  RowPlace next() const { return next_; }
+
  private:
+  // Enough lines to see the rows, also below long notes.
   void take_sample() {
-    LineReader lines(text_);
+    constexpr std::size_t kLines = 200, kMost = 5000;
+    LineReader lines(text_.substr(begin_.at), begin_.line);
     TextLine line;
-    while (sample_.size() < kSampleLines && lines.next(line)) sample_.push_back(line);
+    std::size_t n_numbers = 0;
+    while (sample_.size() < kLines || (sample_.size() < kMost && 2 * n_numbers < sample_.size())) {
+      if (!lines.next(line)) break;
+      sample_.push_back(line);
+      if (begins_with_number(line.text)) ++n_numbers;
+    }
     if (sample_.empty()) {
       throw std::runtime_error(name_ + ": is empty; expected a table of numbers");
     }
   }
 
-  bool has_number(const std::vector<std::string_view>& cells) const {
-    return std::any_of(cells.begin(), cells.end(), [&](std::string_view cell) {
-      return number_from_cell(cell, dialect_).has_value();
-    });
+  bool is_number(std::string_view cell) const {
+    return number_from_cell(cell, dialect_).has_value();
+  }
+  std::size_t n_numbers(const Cells& cells) const {
+    return static_cast<std::size_t>(std::count_if(
+        cells.begin(), cells.end(), [&](std::string_view cell) { return is_number(cell); }));
   }
 
   // Finds the number of cells that most lines with numbers have, and how many of them are empty at
   // the end of all these lines.
   void find_width() {
     std::map<std::size_t, std::size_t> counts;
-    std::vector<std::string_view> cells;
+    Cells cells;
     for (const TextLine& line : sample_) {
       split_cells(line, dialect_.separator, cells);
-      if (!has_number(cells)) continue;
-      ++counts[cells.size()];
+      const std::size_t found = n_numbers(cells);
+      if (found == 0) continue;
+      counts[cells.size()] += found;
       width_ = cells.size();  // the last line wins a tie, because notes come first
     }
     if (counts.empty()) {
@@ -81,101 +114,198 @@ class TableReader {
     n_empty_end_ = width_;
     for (const TextLine& line : sample_) {
       split_cells(line, dialect_.separator, cells);
-      if (!has_number(cells) || cells.size() != width_) continue;
+      if (n_numbers(cells) == 0 || cells.size() != width_) continue;
       std::size_t n_empty = 0;
       while (n_empty < width_ && cells[width_ - 1 - n_empty].empty()) ++n_empty;
       n_empty_end_ = std::min(n_empty_end_, n_empty);
     }
   }
 
+  // The columns in which most of the lines with most numbers have a number.
+  void find_number_columns() {
+    std::map<std::size_t, std::size_t> lines_with;
+    Cells cells;
+    for (const TextLine& line : sample_) {
+      split_cells(line, dialect_.separator, cells);
+      fit_to_width(cells);
+      if (cells.size() == width_) ++lines_with[n_numbers(cells)];
+    }
+    lines_with.erase(0);
+    std::size_t typical = 1, most = 0;
+    for (const auto& [count, n_lines] : lines_with) {
+      if (count * n_lines < most) continue;
+      most = count * n_lines;
+      typical = count;
+    }
+    std::vector<std::size_t> filled(width_, 0);
+    std::size_t n_lines = 0;
+    for (const TextLine& line : sample_) {
+      split_cells(line, dialect_.separator, cells);
+      fit_to_width(cells);
+      if (cells.size() != width_ || n_numbers(cells) < typical) continue;
+      ++n_lines;
+      for (std::size_t i = 0; i < width_; ++i) filled[i] += is_number(cells[i]) ? 1 : 0;
+    }
+    counts_rows_ = first_column_counts();
+    has_numbers_.assign(width_, 0);
+    for (std::size_t i = 0; i < width_; ++i) has_numbers_[i] = 2 * filled[i] > n_lines ? 1 : 0;
+  }
+
+  // The first column has the numbers of the rows.
+  bool first_column_counts() const {
+    std::optional<double> last;
+    Cells cells;
+    for (const TextLine& line : sample_) {
+      split_cells(line, dialect_.separator, cells);
+      const auto number =
+          cells.size() == width_ ? number_from_cell(cells.front(), dialect_) : std::nullopt;
+      if (!number) continue;
+      if (last && *number != *last + 1.0) return false;
+      last = number;
+    }
+    return last.has_value();
+  }
+
   // Without the empty cells that separators at the end of a line make.
-  void fit_to_width(std::vector<std::string_view>& cells) const {
+  void fit_to_width(Cells& cells) const {
     while (cells.size() > width_ && cells.back().empty()) cells.pop_back();
   }
 
+  // A row: numbers, or gaps, in all columns of numbers, and at least one number.
+  bool is_row(const Cells& cells) const {
+    if (cells.size() != width_) return false;
+    bool has_one = false;
+    for (std::size_t i = 0; i < width_; ++i) {
+      if (has_numbers_[i] == 0) continue;
+      if (!is_number(cells[i]) && !is_gap(cells[i])) return false;
+      has_one = has_one || is_number(cells[i]);
+    }
+    return has_one;
+  }
+
   // The names or units of a line, with the empty cells at the end that only lines of numbers have.
-  std::vector<std::string_view> names_of(const TextLine& line) const {
-    std::vector<std::string_view> names = header_cells(line, dialect_.separator);
+  // One more name than columns at the end, such as "Comment", belongs to no numbers.
+  Cells names_of(const TextLine& line) const {
+    Cells names = header_cells(line, dialect_.separator);
     fit_to_width(names);
     const bool is_short = names.size() < width_ && names.size() + n_empty_end_ >= width_;
     if (is_short && !names.empty() && !names.back().empty()) names.resize(width_);
+    if (names.size() + 1 == width_ && counts_rows_ && n_known(names) > 0) {
+      names.insert(names.begin(), std::string_view());  // as R writes names of rows
+    }
+    if (names.size() == width_ + 1 && n_known({names.back()}) == 0 && n_known(names) > 1) {
+      names.pop_back();
+    }
     return names;
   }
 
-  static bool are_empty(const std::vector<std::string_view>& cells) {
-    return std::all_of(cells.begin(), cells.end(),
-                       [](std::string_view cell) { return cell.empty(); });
+  // The names that belong to a quantity.
+  static std::size_t n_known(const Cells& names) {
+    std::size_t known = 0;
+    for (const std::string_view name : names) {
+      CsvColumn column;
+      column.header = without_doubled_quotes(name);
+      const HeaderParts parts = split_header(column.header);
+      column.name = parts.name;
+      column.unit = parts.unit;
+      const auto& kinds = column_kinds();
+      known += std::any_of(kinds.begin(), kinds.end(),
+                           [&](const ColumnKind& kind) { return match_header(column, kind); })
+                   ? 1
+                   : 0;
+    }
+    return known;
   }
 
-  // The line of the header: the line of text above a row of units, or else the first one, with as
-  // many cells as the table. A short table of results may stand before the record: its rows are
-  // notes if a later header has units below it and three times as many rows. 0: no header.
-  std::size_t header_line() const {
-    struct Run {
-      std::size_t header = 0, last_text = 0, n_rows = 0;
-      bool has_units = false;
+  bool is_row_of_units(const Cells& cells) const {
+    return cells.size() == width_ && !are_empty(cells) &&
+           std::all_of(cells.begin(), cells.end(),
+                       [](std::string_view cell) { return is_unit(without_brackets(cell)); });
+  }
+
+  // A row of units of which some are not known: a column is not read rather than in a wrong unit.
+  bool is_mostly_units(const Cells& cells) const {
+    std::size_t n_filled = 0, n_units = 0;
+    for (const std::string_view cell : cells) {
+      if (cell.empty()) continue;
+      ++n_filled;
+      n_units += is_unit(without_brackets(cell)) ? 1 : 0;
+    }
+    return cells.size() == width_ && 2 * n_units >= n_filled && n_units > 0;
+  }
+
+  struct Head {
+    std::size_t header = 0, units = 0, first_row = 0;  // numbers of lines; 0: none
+  };
+
+  // Of the lines of text above the first row, the header is the one with most names of quantities, else
+  // with fewest empty cells, else the last. A row of units may follow it.
+  Head find_head() const {
+    Head head;
+    struct Line {
+      std::size_t number = 0;
+      Cells names;
+      std::size_t known = 0, filled = 0;
     };
-    Run chosen, run;
-    std::vector<std::string_view> cells;
-    const auto choose = [&] {
-      const bool is_record = run.has_units && run.n_rows > 3 * chosen.n_rows;
-      if (run.n_rows > 0 && (chosen.n_rows == 0 || is_record)) chosen = run;
-    };
+    std::vector<Line> lines;
+    Cells cells;
     for (const TextLine& line : sample_) {
       split_cells(line, dialect_.separator, cells);
-      const std::vector<std::string_view> names = names_of(line);
       fit_to_width(cells);
-      if (has_number(cells)) {
-        if (cells.size() == width_) ++run.n_rows;
-        continue;
-      }
-      if (names.size() != width_ || are_empty(names)) continue;
-      if (run.n_rows > 0) {
-        choose();
-        run = {};
-      }
-      if (run.last_text != 0 && !run.has_units && is_row_of_units(names)) {
-        run.header = run.last_text;
-        run.has_units = true;
-      } else {
-        if (run.header == 0) run.header = line.number;
-        run.last_text = line.number;
-      }
-    }
-    choose();
-    return chosen.header;
-  }
-
-  // Reads the notes, the header and the units; leaves first_row_ at the first line of numbers.
-  void read_head() {
-    table_.columns.resize(width_);
-    const std::size_t header = header_line();
-    LineReader lines(text_);
-    TextLine line;
-    std::vector<std::string_view> cells;
-    bool has_units = false;
-    while (lines.next(line)) {
-      split_cells(line, dialect_.separator, cells);
-      const std::vector<std::string_view> names = names_of(line);
-      fit_to_width(cells);
-      const bool is_text = !has_number(cells);
-      if (line.number > header && header != 0 && are_empty(cells)) continue;
-      if (line.number == header) {
-        take_header(names);
-      } else if (is_text && table_.has_header && !has_units && is_row_of_units(names)) {
-        has_units = true;
-        take_units(names);
-      } else if (line.number < header ||
-                 (header == 0 && (is_text || (cells.size() != width_ && !is_all_numbers(cells))))) {
-        table_.preamble.emplace_back(line.text);
-      } else {
+      const auto n_columns = std::count(has_numbers_.begin(), has_numbers_.end(), 1);
+      if (is_row(cells) && 2 * n_numbers(cells) >= static_cast<std::size_t>(n_columns)) {
+        head.first_row = line.number;
         break;
       }
+      Line one{line.number, names_of(line), 0, 0};
+      if (one.names.size() != width_ || are_empty(one.names) || n_numbers(cells) > 0) continue;
+      one.known = n_known(one.names);
+      one.filled = width_ - static_cast<std::size_t>(
+                                std::count(one.names.begin(), one.names.end(), std::string_view()));
+      lines.push_back(std::move(one));
     }
-    first_line_ = line.number;
-    first_at_ = static_cast<std::size_t>(line.text.data() - text_.data());
-    while (first_at_ > 0 && text_[first_at_ - 1] != '\n' && text_[first_at_ - 1] != '\r') {
-      --first_at_;
+    const Line* best = nullptr;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const bool is_below_names = i > 0 && (lines[i - 1].known > 0 || lines[i].known < width_);
+      const bool is_units = is_row_of_units(lines[i].names) ||
+                            (lines[i].known == 0 && is_mostly_units(lines[i].names));
+      if (is_below_names && is_units) continue;
+      const auto rank = [](const Line& line) { return std::pair(line.known, line.filled); };
+      if (best == nullptr || rank(lines[i]) >= rank(*best)) best = &lines[i];
+    }
+    if (best == nullptr) return head;
+    head.header = best->number;
+    for (const Line& line : lines) {
+      const bool is_units =
+          line.number > head.header && head.units == 0 && is_mostly_units(line.names);
+      if (is_units) head.units = line.number;
+    }
+    return head;
+  }
+
+  // Reads the notes, the header and the units; leaves first_ at the first line of numbers.
+  void read_head() {
+    table_.columns.resize(width_);
+    const Head head = find_head();
+    if (head.first_row == 0) {
+      throw std::runtime_error(name_ + ": has no row of numbers in its first " +
+                               counted(sample_.size(), "line") +
+                               "; omit lines above the table with --skip N");
+    }
+    LineReader lines(text_.substr(begin_.at), begin_.line);
+    TextLine line;
+    while (lines.next(line) && line.number != head.first_row) {
+      if (line.number == head.header) {
+        take_header(names_of(line));
+      } else if (line.number == head.units) {
+        take_units(names_of(line));
+      } else if (!are_empty(cells_of(line)) && (head.header == 0 || line.number < head.header)) {
+        table_.preamble.emplace_back(line.text);
+      }
+    }
+    first_ = {static_cast<std::size_t>(line.text.data() - text_.data()), line.number};
+    while (first_.at > 0 && text_[first_.at - 1] != '\n' && text_[first_.at - 1] != '\r') {
+      --first_.at;
     }
     if (!table_.has_header) take_header_from_comment(lines.last_comment());
     for (CsvColumn& column : table_.columns) {
@@ -186,13 +316,13 @@ class TableReader {
     }
   }
 
-  bool is_all_numbers(const std::vector<std::string_view>& cells) const {
-    return std::all_of(cells.begin(), cells.end(), [&](std::string_view cell) {
-      return number_from_cell(cell, dialect_).has_value();
-    });
+  Cells cells_of(const TextLine& line) const {
+    Cells cells;
+    split_cells(line, dialect_.separator, cells);
+    return cells;
   }
 
-  void take_header(const std::vector<std::string_view>& names) {
+  void take_header(const Cells& names) {
     table_.has_header = true;
     std::string whole;
     for (const std::string_view name : names) whole += std::string(name) + "\t";
@@ -203,13 +333,7 @@ class TableReader {
     }
   }
 
-  bool is_row_of_units(const std::vector<std::string_view>& cells) const {
-    return cells.size() == width_ && !are_empty(cells) &&
-           std::all_of(cells.begin(), cells.end(),
-                       [](std::string_view cell) { return is_unit(without_brackets(cell)); });
-  }
-
-  void take_units(const std::vector<std::string_view>& cells) {
+  void take_units(const Cells& cells) {
     for (std::size_t i = 0; i < width_; ++i) {
       table_.columns[i].unit = std::string(without_brackets(cells[i]));
     }
@@ -219,36 +343,63 @@ class TableReader {
     if (comment.empty()) return;
     try {
       const auto names = header_cells({0, comment}, dialect_.separator);
-      if (names.size() == width_ && !has_number(names)) take_header(names);
+      if (names.size() == width_ && n_numbers(names) == 0) take_header(names);
     } catch (const std::runtime_error&) {
       // A comment may contain a single quote.
     }
   }
 
+  // The rows end where a line is none and nothing but text follows, or where another header follows.
+  // Any other line stays a row, whose bad cell is refused if its column is used.
+  bool ends_before(const TextLine& line) {
+    if (line.number < no_end_before_) return false;
+    LineReader lines(text_.substr(static_cast<std::size_t>(line.text.data() - text_.data())),
+                     line.number);
+    TextLine next;
+    while (lines.next(next)) {
+      Cells cells = cells_of(next);
+      fit_to_width(cells);
+      if (is_row(cells)) {
+        no_end_before_ = next.number;
+        return false;
+      }
+      if (n_numbers(cells) > 0) continue;
+      const Cells names = header_cells(next, dialect_.separator);
+      if (names.size() > 1 && n_known(names) > 0) return true;
+    }
+    return true;
+  }
+
+  // A line whose first column of numbers has a word in it.
+  bool begins_with_word(Cells cells) const {
+    fit_to_width(cells);
+    const auto first = static_cast<std::size_t>(
+        std::find(has_numbers_.begin(), has_numbers_.end(), 1) - has_numbers_.begin());
+    return first < cells.size() && !is_number(cells[first]) && !is_gap(cells[first]);
+  }
+
   void read_rows() {
     const auto guess = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
     for (CsvColumn& column : table_.columns) column.values.reserve(guess);
-    is_text_ =
-        append_rows(text_, {first_at_, first_line_}, dialect_, name_, table_.columns, table_.lines);
-    const bool has_text =
-        std::any_of(is_text_.begin(), is_text_.end(), [](char is) { return is != 0; });
-    if (!has_text) return;
-    for_each_row([&](const TextLine&, const std::vector<std::string_view>& cells) {
-      for (std::size_t i = 0; i < width_; ++i) {
-        if (is_text_[i] != 0) table_.columns[i].text.push_back(without_doubled_quotes(cells[i]));
-      }
-    });
-  }
-
-  template <typename Take>
-  void for_each_row(Take take) {
-    LineReader lines(text_);
+    const auto is_end = [&](const TextLine& line, const Cells& cells) {
+      return (n_numbers(cells) == 0 || begins_with_word(cells)) && ends_before(line);
+    };
+    const RowsRead rows =
+        append_rows(text_, first_, dialect_, name_, table_.columns, table_.lines, is_end);
+    next_ = rows.next;
+    if (std::none_of(rows.is_text.begin(), rows.is_text.end(), [](char is) { return is != 0; })) {
+      return;
+    }
+    LineReader lines(text_.substr(first_.at, next_.at - first_.at), first_.line);
     TextLine line;
-    std::vector<std::string_view> cells;
+    Cells cells;
     while (lines.next(line)) {
-      if (line.number < first_line_) continue;
       row_cells(line, dialect_, width_, name_, cells);
-      take(line, cells);
+      if (are_empty(cells)) continue;
+      for (std::size_t i = 0; i < width_; ++i) {
+        if (rows.is_text[i] != 0)
+          table_.columns[i].text.push_back(without_doubled_quotes(cells[i]));
+      }
     }
   }
 
@@ -267,20 +418,69 @@ class TableReader {
 
   std::string_view text_;
   std::string name_;
+  RowPlace begin_, first_, next_;
   CsvTable table_;
   Dialect dialect_;
   std::vector<TextLine> sample_;
-  std::vector<char> is_text_;
+  std::vector<char> has_numbers_;  // by column
+  bool counts_rows_ = false;       // the first column numbers the rows
   std::size_t width_ = 0;
   std::size_t n_empty_end_ = 0;
-  std::size_t first_line_ = 0;  // of numbers: its number from 1, and ...
-  std::size_t first_at_ = 0;    // ... the character at which it begins
+  std::size_t no_end_before_ = 0;  // a line of a row: no line before it ends the table
 };
+
+bool has_number_line(std::string_view text) {
+  LineReader lines(text, 1);
+  for (TextLine line; lines.next(line);) {
+    if (line.text.find_first_of("0123456789") != std::string_view::npos) return true;
+  }
+  return false;
+}
+
+// The place after the first lines, which are not read.
+RowPlace place_after(std::string_view text, std::size_t n_lines) {
+  RowPlace place;
+  for (; place.line <= n_lines && place.at < text.size(); ++place.line) {
+    place.at += first_line(text.substr(place.at)).size();
+  }
+  return place;
+}
 
 }  // namespace
 
+std::vector<CsvTable> plain_tables(std::string_view text, const std::string& name,
+                                   std::size_t skip) {
+  std::vector<CsvTable> tables;
+  RowPlace place = place_after(text, skip);
+  if (skip > 0 && place.at >= text.size()) {
+    throw std::runtime_error(name + ": has fewer than " + counted(skip, "line") +
+                             "; give a smaller --skip");
+  }
+  while (tables.empty() || (place.at < text.size() && has_number_line(text.substr(place.at)))) {
+    TableReader reader(text, name, place);
+    if (tables.empty()) {
+      tables.push_back(reader.read());
+    } else {
+      std::optional<CsvTable> next;
+      try {
+        next = reader.read();
+      } catch (const std::runtime_error&) {
+        // What follows the table is none.
+      }
+      if (!next || !next->has_header) {
+        tables.back().notes.push_back("the lines from " + std::to_string(place.line) +
+                                      " on are no rows of the table");
+        break;
+      }
+      tables.push_back(std::move(*next));
+    }
+    place = reader.next();
+  }
+  return tables;
+}
+
 CsvTable plain_table(std::string_view text, const std::string& name) {
-  return TableReader(text, name).read();
+  return std::move(plain_tables(text, name).front());
 }
 
 }  // namespace viscard

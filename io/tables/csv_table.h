@@ -2,11 +2,13 @@
 
 #include "io/tables/csv_column.h"
 #include "io/tables/line_numbers.h"
+#include "models/quantities/modulus_kind.h"
 #include "models/quantities/plausible.h"
 
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,25 +24,33 @@ struct CsvTable {
   std::vector<CsvColumn> columns;     // all of the same length
   LineNumbers lines;                  // line of the file, from 1, of each row
   std::vector<std::string> preamble;  // lines before the header, which are not part of the table
+  std::vector<std::string> notes;     // how it was read, where that was not plain: sentences
   bool has_header = false;
   char separator = ',';  // ' ' for runs of blanks
   bool has_decimal_comma = false;
   std::string maker;  // whose file it is ("JPK force curve"), if it was recognised (maker_table.h)
   // Quantities of this maker's columns that their headers do not name, as --column writes them.
   std::map<std::string, std::string> maker_columns;
+  std::optional<ModulusKind> modulus_kind;  // that a maker's format has, if the headers state none
   Plausible judged = Plausible::kMeasured;  // how column_SI() judges the numbers
+};
+
+// Which table of a file is meant.
+struct TableChoice {
+  std::string sheet;      // of an Excel workbook, or struct of a MATLAB file; empty: most numbers
+  std::size_t table = 0;  // of those in the sheet or file, from 1; 0: the one with most numbers
+  std::size_t skip = 0;   // lines at the begin of a text file that are not read
 };
 
 // Throws std::runtime_error naming the file (and line) if it is missing, empty, not text, or has
 // rows of different lengths. A cell may hold no number; column_map.h refuses it in a used column.
-// sheet: of an Excel workbook, or the struct of a MATLAB file; empty: the one with most numbers.
-CsvTable read_csv(const std::filesystem::path& path, const std::string& sheet = "");
+CsvTable read_csv(const std::filesystem::path& path, const TableChoice& choice = {});
 
 // The same from bytes; name stands for the file in messages.
 CsvTable csv_from_text(std::string_view bytes, const std::string& name,
-                       const std::string& sheet = "");
+                       const TableChoice& choice = {});
 
-// The same for UTF-8 text that is a plain table. An error about one line begins with "line N".
+// The first table of a UTF-8 text. An error about one line begins with "line N".
 CsvTable plain_table(std::string_view text, const std::string& name);
 
 }  // namespace viscard

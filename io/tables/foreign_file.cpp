@@ -21,10 +21,9 @@ constexpr Magic kMagic[] = {
     {"II*\0"sv, "a TIFF picture, not a table"},
     {"MM\0*"sv, "a TIFF picture, not a table"},
     {"%PDF-"sv, "a PDF document, not a table; export the numbers as CSV"},
-    {"\xd0\xcf\x11\xe0"sv, "an old Office document (.xls), not text; save its sheet as CSV"},
+    {"\xd0\xcf\x11\xe0"sv,
+     "an old Office document (.xls), not text; save its sheet as .xlsx or CSV"},
     {"\x1f\x8b"sv, "compressed with gzip; unpack it first"},
-    {"\x89HDF\r\n"sv, "an HDF5 file, not text; export its arrays as CSV"},
-    {"MATLAB 7.3 MAT-file"sv, "a MATLAB file of version 7.3 (HDF5); save it with save -v7"},
     {"<svg"sv, "an SVG picture, not a table"}};
 
 }  // namespace

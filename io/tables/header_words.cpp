@@ -24,6 +24,26 @@ bool contains_in_order(const std::vector<std::string>& words,
 
 }  // namespace
 
+std::string lower_case(const std::string& text) {
+  std::string out = text;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (is_upper(out[i])) out[i] = static_cast<char>(out[i] - 'A' + 'a');
+    if (i + 1 == out.size()) break;
+    const auto lead = static_cast<unsigned char>(out[i]);
+    const auto next = static_cast<unsigned char>(out[i + 1]);
+    const auto put = [&](int first, int second) {
+      out[i] = static_cast<char>(first);
+      out[i + 1] = static_cast<char>(second);
+    };
+    if (lead == 0xC3 && next >= 0x80 && next <= 0x9E && next != 0x97) put(lead, next + 0x20);
+    if (lead == 0xCE && next >= 0x91 && next <= 0x9F) put(lead, next + 0x20);
+    if (lead == 0xCE && next >= 0xA0 && next <= 0xA9) put(0xCF, next - 0x20);
+    if (lead == 0xD0 && next >= 0x90 && next <= 0x9F) put(lead, next + 0x20);
+    if (lead == 0xD0 && next >= 0xA0 && next <= 0xAF) put(0xD1, next - 0x20);
+  }
+  return out;
+}
+
 std::vector<std::string> words_of_header(const std::string& header) {
   std::vector<std::string> words;
   bool begins_word = true;
@@ -34,17 +54,25 @@ std::vector<std::string> words_of_header(const std::string& header) {
     } else {
       // A capital after a small letter begins a word: AdjustedForce.
       if (begins_word || (is_upper(c) && last >= 'a' && last <= 'z')) words.emplace_back();
-      words.back() += is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c;
+      words.back() += c;
       begins_word = false;
     }
     last = c;
   }
+  for (std::string& word : words) word = lower_case(word);
   return words;
 }
 
 bool speaks_of(const CsvColumn& column, const ColumnKind& quantity) {
   constexpr std::size_t kShortest = 3;
   const std::vector<std::string> words = words_of_header(column.name);
+  // "log frequency", "strain rate": another quantity of the same name.
+  constexpr const char* kOther[] = {"log", "log10", "lg",    "ln",        "rate",
+                                    "std", "sd",    "error", "deviation", "uncertainty"};
+  const bool is_other = std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    return std::find(std::begin(kOther), std::end(kOther), word) != std::end(kOther);
+  });
+  if (is_other) return false;
   const auto is_named = [&](const std::string& name) {
     return name.size() >= kShortest && contains_in_order(words, words_of_header(name));
   };

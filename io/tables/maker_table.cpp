@@ -55,7 +55,7 @@ MakerTable jpk_table(std::string_view text) {
   TableParts parts;
   JpkHeader header;
   bool is_new = false;
-  MakerTable table{"JPK force curve", "", {}};
+  MakerTable table{"JPK force curve", "", {}, {}};
   for_each_line(text, [&](std::size_t number, std::string_view whole) {
     const std::string_view line = trimmed(whole);
     if (line.empty() || line.front() == '#') {
@@ -85,6 +85,7 @@ MakerTable jpk_table(std::string_view text) {
 // --- TA Instruments TRIOS, "Export to LIMS": one block [Step] for each step ----------------------
 
 MakerTable trios_table(std::string_view text) {
+  const std::string_view all = text;
   TableParts parts;
   std::string step;
   Words names, units;
@@ -107,7 +108,7 @@ MakerTable trios_table(std::string_view text) {
     }
     parts.other_line();
   });
-  return {"TA Instruments TRIOS", parts.text(), {}};
+  return {"TA Instruments TRIOS", parts.text(), {}, kind_of_instrument(all)};
 }
 
 // --- Anton Paar RheoCompass: tests of several intervals ------------------------------------------
@@ -118,7 +119,7 @@ class AntonPaarReader {
  public:
   MakerTable read(std::string_view text) {
     for_each_line(text, [&](std::size_t, std::string_view line) { take(line); });
-    return {"Anton Paar RheoCompass", parts_.text(), {}};
+    return {"Anton Paar RheoCompass", parts_.text(), {}, ModulusKind::kShear};
   }
 
  private:
@@ -218,7 +219,7 @@ double parameter(std::string_view line, std::string_view name) {
 }
 
 MakerTable reptate_table(std::string_view text, const RepTateKind& kind) {
-  MakerTable table{"RepTate", "", {}};
+  MakerTable table{"RepTate", "", {}, ModulusKind::kShear};
   for_each_line(text, [&](std::size_t number, std::string_view line) {
     if (number == 1) {
       const double strain = parameter(line, "gamma"), stress_Pa = parameter(line, "stress");
@@ -278,6 +279,15 @@ std::optional<MakerTable> maker_table(std::string_view text, const std::string& 
         name.compare(name.size() - kind.ending.size(), kind.ending.size(), kind.ending) == 0;
     const std::string_view first = head.substr(0, head.find_first_of("\r\n"));
     if (has_ending && first.find('=') != std::string_view::npos) return reptate_table(text, kind);
+  }
+  return std::nullopt;
+}
+
+std::optional<ModulusKind> kind_of_instrument(std::string_view text) {
+  const std::string_view head = text.substr(0, 20000);
+  for (const char* name : {"heometer", "RHEOMETER", "ARES", "Discovery HR", "DHR", "AR-G2",
+                           "AR2000", "AR 2000", "MCR ", "Kinexus", "HAAKE MARS"}) {
+    if (head.find(name) != std::string_view::npos) return ModulusKind::kShear;
   }
   return std::nullopt;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/quantities/modulus_kind.h"
+
 #include <map>
 #include <optional>
 #include <string>
@@ -15,12 +17,17 @@ struct MakerTable {
   std::string text;   // the plain table; empty if the file is one already
   // Quantities that the maker's headers do not name: as --column writes them.
   std::map<std::string, std::string> columns;
+  // What the maker's machine measures where the headers do not tell.
+  std::optional<ModulusKind> modulus_kind;
 };
 
 // Nothing for an ordinary table. name: the path of the file; the files of RepTate are recognised by
 // their ending. Throws std::runtime_error that begins with "line N" if a part of the file differs
 // from the maker's format.
 std::optional<MakerTable> maker_table(std::string_view text, const std::string& name);
+
+// Shear if the text speaks of a rheometer: its tables are of shear where their headers do not tell.
+std::optional<ModulusKind> kind_of_instrument(std::string_view text);
 
 // The maker of an ordinary table, by the names in its header; empty if the names belong to no
 // maker.

@@ -2,6 +2,7 @@
 
 #include "io/basics/number_text.h"
 #include "io/basics/words.h"
+#include "io/tables/hdf5_file.h"
 #include "io/tables/matlab_elements.h"
 
 #include <matio.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -39,20 +41,47 @@ class MemoryFile {
   int descriptor_;
 };
 
+bool is_level_5(std::string_view bytes) {
+  return bytes.starts_with("MATLAB 5.0 MAT-file");
+}
+
+// Level 4 has no mark: every variable has a head of five numbers, a name and its data, and the last one
+// ends with the file (MathWorks, "MAT-File Format", the chapter on level 4).
+bool is_level_4(std::string_view bytes) {
+  constexpr std::size_t kHead = 20;
+  constexpr std::size_t kSizes[] = {8, 4, 4, 2, 2, 1};  // of a number, by its type
+  constexpr std::uint32_t kMost = 1U << 30, kLongestName = 256;
+  if (bytes.size() <= kHead) return false;
+  for (std::string_view rest = bytes; !rest.empty();) {
+    if (rest.size() < kHead) return false;
+    std::uint32_t head[5];
+    std::memcpy(head, rest.data(), kHead);
+    const bool is_swapped = head[0] > 0xffff;
+    if (is_swapped) {
+      for (std::uint32_t& word : head) word = __builtin_bswap32(word);
+    }
+    const auto [type, rows, columns, is_complex, name_length] = head;
+    const std::uint32_t order = type / 1000, number = type / 10 % 10, matrix = type % 10;
+    const bool is_known = order == (is_swapped ? 1U : 0U) && type / 100 % 10 == 0 && number < 6 &&
+                          matrix < 3 && is_complex < 2;
+    const bool is_sized =
+        rows <= kMost && columns <= kMost && name_length > 1 && name_length <= kLongestName;
+    if (!is_known || !is_sized) return false;
+    const std::size_t count = std::size_t{rows} * columns * (is_complex + 1);
+    if (count > rest.size()) return false;
+    const std::size_t length = kHead + name_length + count * kSizes[number];
+    if (length > rest.size() || rest[kHead + name_length - 1] != '\0') return false;
+    rest.remove_prefix(length);
+  }
+  return true;
+}
+
 struct CloseMatlab {
   void operator()(mat_t* file) const { Mat_Close(file); }
   void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
 };
 using MatlabFile = std::unique_ptr<mat_t, CloseMatlab>;
 using MatlabVariable = std::unique_ptr<matvar_t, CloseMatlab>;
-
-// Columns of one length.
-struct NamedColumn {
-  std::string name;
-  std::vector<double> values;
-};
-// By the name of the struct; of the file's own variables: "".
-using ColumnsOfTables = std::map<std::string, std::vector<NamedColumn>>;
 
 template <typename Number>
 std::vector<double> as_doubles(const void* data, std::size_t count) {
@@ -90,7 +119,7 @@ bool is_numeric(const matvar_t& variable) {
   return variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT32;
 }
 
-// A matrix has its samples along its longer side.
+// The numbers of a matrix, row by row.
 void add_columns(const matvar_t& variable, const std::string& name,
                  std::vector<NamedColumn>& columns) {
   if (!is_numeric(variable) || variable.rank != 2) return;
@@ -98,17 +127,8 @@ void add_columns(const matvar_t& variable, const std::string& name,
   constexpr std::size_t kMost = std::size_t{1} << 31;
   if (rows == 0 || width == 0 || rows > kMost / width) return;
   const std::vector<double> values = numbers_of(variable, rows * width);
-  if (values.empty()) return;
-  const bool lies_along_rows = rows < width;
-  const std::size_t length = std::max(rows, width), n = std::min(rows, width);
-  for (std::size_t c = 0; c < n; ++c) {
-    NamedColumn column{n == 1 ? name : name + "_" + std::to_string(c + 1), {}};
-    column.values.reserve(length);
-    for (std::size_t i = 0; i < length; ++i) {
-      column.values.push_back(values[lies_along_rows ? i * rows + c : c * rows + i]);
-    }
-    columns.push_back(std::move(column));
-  }
+  // The file has them column by column.
+  if (!values.empty()) add_columns(values, width, rows, name, columns);
 }
 
 void add_fields(matvar_t& variable, std::vector<NamedColumn>& columns) {
@@ -149,7 +169,8 @@ bool claims_too_much(mat_t* file, std::size_t n_bytes) {
 ColumnsOfTables columns_of_tables(std::string_view bytes, const std::string& name) {
   // A damaged file is reported once, by the first missing part.
   Mat_LogInitFunc("viscard", [](int, char*) {});
-  const std::string unpacked = unpacked_matlab_file(bytes);
+  if (is_hdf5_file(bytes)) return columns_of_hdf5(bytes, name);
+  const std::string unpacked = is_level_5(bytes) ? unpacked_matlab_file(bytes) : std::string(bytes);
   const MemoryFile memory(unpacked);
   const MatlabFile file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
   if (unpacked.empty() || !file || claims_too_much(file.get(), unpacked.size())) {
@@ -199,7 +220,7 @@ std::string text_of_columns(const std::vector<NamedColumn>& columns) {
 }  // namespace
 
 bool is_matlab_file(std::string_view bytes) {
-  return bytes.starts_with("MATLAB 5.0 MAT-file");
+  return is_level_5(bytes) || is_hdf5_file(bytes) || is_level_4(bytes);
 }
 
 SheetText matlab_table_text(std::string_view bytes, const std::string& name,
@@ -210,8 +231,8 @@ SheetText matlab_table_text(std::string_view bytes, const std::string& name,
   if (tables.empty()) {
     throw std::runtime_error(
         name +
-        ": is a MATLAB file without a vector or matrix of real numbers, of its own or in a "
-        "struct; export the measured columns as CSV");
+        ": has no vector or matrix of real numbers, of its own or in a struct or "
+        "group; export the measured columns as CSV");
   }
   const auto numbers = [](const auto& entry) {
     return entry.second.size() * entry.second.front().values.size();

@@ -7,8 +7,8 @@
 
 namespace viscard {
 
-// MATLAB files of level 5 (save -v6 or -v7; MathWorks, "MAT-File Format"), which SciPy and Octave
-// write, too.
+// MATLAB files of level 4 (save -v4), 5 (save -v6 or -v7) and 7.3 (HDF5), which SciPy and Octave write,
+// too (MathWorks, "MAT-File Format").
 bool is_matlab_file(std::string_view bytes);
 
 // A table in such a file as text: its arrays of real numbers with as many rows as most of them, by

@@ -3,6 +3,7 @@
 #include "io/tables/foreign_file.h"
 #include "io/tables/maker_table.h"
 #include "io/tables/matlab_file.h"
+#include "io/tables/table_choice.h"
 #include "io/tables/text_encoding.h"
 #include "io/tables/workbook.h"
 
@@ -12,7 +13,8 @@
 
 namespace viscard {
 
-CsvTable csv_from_text(std::string_view bytes, const std::string& name, const std::string& sheet) {
+CsvTable csv_from_text(std::string_view bytes, const std::string& name, const TableChoice& choice) {
+  const std::string& sheet = choice.sheet;
   std::string converted, book;
   std::string_view text;
   if (is_workbook(bytes)) {
@@ -24,7 +26,8 @@ CsvTable csv_from_text(std::string_view bytes, const std::string& name, const st
     SheetText found = matlab_table_text(bytes, name, sheet);
     converted = std::move(found.text);
     text = converted;
-    book = "MATLAB file" + (found.sheet.empty() ? "" : ", struct '" + found.sheet + "'");
+    book = std::string(bytes.starts_with("\x89HDF") ? "HDF5" : "MATLAB") + " file" +
+           (found.sheet.empty() ? "" : ", struct '" + found.sheet + "'");
   } else {
     refuse_foreign_file(bytes, name);
     if (!sheet.empty()) throw std::runtime_error(name + ": has no sheets; omit --sheet");
@@ -33,11 +36,13 @@ CsvTable csv_from_text(std::string_view bytes, const std::string& name, const st
   try {
     std::optional<MakerTable> maker = maker_table(text, name);
     if (maker) text = maker->text;
-    CsvTable table = plain_table(text, name);
+    CsvTable table = chosen_table(plain_tables(text, name, choice.skip), choice.table);
     if (maker) {
       table.maker = std::move(maker->maker);
       table.maker_columns = std::move(maker->columns);
+      table.modulus_kind = maker->modulus_kind;
     }
+    if (!table.modulus_kind) table.modulus_kind = kind_of_instrument(text);
     if (!book.empty()) table.maker += (table.maker.empty() ? "" : ", ") + book;
     return table;
   } catch (const std::runtime_error& error) {
@@ -47,8 +52,8 @@ CsvTable csv_from_text(std::string_view bytes, const std::string& name, const st
   }
 }
 
-CsvTable read_csv(const std::filesystem::path& path, const std::string& sheet) {
-  return csv_from_text(read_file(path), path.string(), sheet);
+CsvTable read_csv(const std::filesystem::path& path, const TableChoice& choice) {
+  return csv_from_text(read_file(path), path.string(), choice);
 }
 
 }  // namespace viscard

@@ -74,33 +74,41 @@ void row_cells(const TextLine& line, const Dialect& dialect, std::size_t width,
                            std::to_string(width) + " columns");
 }
 
-std::vector<char> append_rows(std::string_view text, RowPlace from, const Dialect& dialect,
-                              const std::string& name, std::vector<CsvColumn>& columns,
-                              LineNumbers& lines) {
+RowsRead append_rows(
+    std::string_view text, RowPlace from, const Dialect& dialect, const std::string& name,
+    std::vector<CsvColumn>& columns, LineNumbers& lines,
+    const std::function<bool(const TextLine&, const std::vector<std::string_view>&)>& is_end) {
   const std::size_t width = columns.size();
-  std::vector<char> is_text(width, 0);
+  RowsRead read{std::vector<char>(width, 0), from};
   std::vector<double> values(width);
   std::vector<std::string_view> cells;
-  for (; from.at < text.size(); ++from.line) {
-    if (const std::size_t taken = take_quick_row(text.substr(from.at), dialect, values)) {
-      from.at += taken;
-      lines.push_back(static_cast<std::uint32_t>(from.line));
+  RowPlace& at = read.next;
+  for (; at.at < text.size(); ++at.line) {
+    if (const std::size_t taken = take_quick_row(text.substr(at.at), dialect, values)) {
+      at.at += taken;
+      lines.push_back(static_cast<std::uint32_t>(at.line));
       for (std::size_t i = 0; i < width; ++i) columns[i].values.push_back(values[i]);
       continue;
     }
-    const std::string_view whole = first_line(text.substr(from.at));
-    from.at += whole.size();
-    LineReader one(whole);
+    const std::string_view whole = first_line(text.substr(at.at));
+    LineReader one(whole, at.line);
     TextLine line;
-    if (!one.next(line)) continue;  // blank, or a comment
-    line.number = from.line;
-    row_cells(line, dialect, width, name, cells);
-    lines.push_back(static_cast<std::uint32_t>(from.line));
-    for (std::size_t i = 0; i < width; ++i) {
-      if (add_value(cells[i], from.line, dialect, columns[i])) is_text[i] = 1;
+    if (one.next(line)) {  // neither blank nor a comment
+      split_cells(line, dialect.separator, cells);
+      const bool is_blank = std::all_of(cells.begin(), cells.end(),
+                                        [](std::string_view cell) { return cell.empty(); });
+      if (!is_blank && is_end(line, cells)) return read;
+      if (!is_blank) {
+        row_cells(line, dialect, width, name, cells);
+        lines.push_back(static_cast<std::uint32_t>(at.line));
+        for (std::size_t i = 0; i < width; ++i) {
+          if (add_value(cells[i], at.line, dialect, columns[i])) read.is_text[i] = 1;
+        }
+      }
     }
+    at.at += whole.size();
   }
-  return is_text;
+  return read;
 }
 
 }  // namespace viscard

@@ -5,6 +5,7 @@
 #include <pugixml.hpp>
 #include <zip.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
@@ -139,29 +140,43 @@ struct SheetRows {
   std::size_t n_numbers = 0;
 };
 
+// The rows as lines of equally many cells: a sheet leaves out empty ones at the end of a row.
 SheetRows rows_of_sheet(const Archive& archive, const Sheet& sheet,
                         const std::vector<std::string>& strings) {
   const pugi::xml_document document = archive.xml(sheet.part);
   SheetRows rows;
-  std::size_t n_lines = 0;
+  struct Line {
+    std::string text;
+    std::size_t width = 0;
+  };
+  std::vector<Line> lines;
+  std::size_t width = 0;  // of the rows with numbers
   for (const auto row : document.child("worksheet").child("sheetData").children("row")) {
-    const std::size_t number = row.attribute("r").as_uint(static_cast<unsigned>(n_lines + 1));
+    const std::size_t number = row.attribute("r").as_uint(static_cast<unsigned>(lines.size() + 1));
     if (number > kSheetRows) break;
-    for (; n_lines + 1 < number; ++n_lines) rows.text += '\n';
-    std::size_t at = 0, next = 0;
+    while (lines.size() + 1 < number) lines.emplace_back();
+    Line line;
+    std::size_t at = 0, next = 0, n_numbers = 0;
     for (const auto cell : row.children("c")) {
       const char* address = cell.attribute("r").value();
       const std::size_t column = *address != '\0' ? column_of(address) : next;
       if (column >= kSheetColumns || column < at) continue;
-      rows.text.append(column - at, '\t');
+      line.text.append(column - at, '\t');
       at = column;
       next = column + 1;
-      append_cell(rows.text, cell_text(cell, strings));
+      append_cell(line.text, cell_text(cell, strings));
       const std::string_view type = cell.attribute("t").value();
-      if (cell.child("v") && (type.empty() || type == "n")) ++rows.n_numbers;
+      if (cell.child("v") && (type.empty() || type == "n")) ++n_numbers;
     }
+    line.width = next;
+    if (n_numbers > 0) width = std::max(width, next);
+    rows.n_numbers += n_numbers;
+    lines.push_back(std::move(line));
+  }
+  for (const Line& line : lines) {
+    rows.text += line.text;
+    if (line.width > 0 && line.width < width) rows.text.append(width - line.width, '\t');
     rows.text += '\n';
-    ++n_lines;
   }
   return rows;
 }

@@ -17,7 +17,8 @@ namespace {
 void refuse_other_options(const CommandSyntax& syntax) {
   static const std::set<std::string> kKnown{
       "file",  "json",   "out", "force", "model",          "column", "sheet",     "cycle",
-      "weight", "svg", "color", "youngs-modulus", "terms",  "max-terms", "plausible"};
+      "weight", "svg", "color", "youngs-modulus", "terms",  "max-terms", "plausible",
+      "table", "skip", "gauge-length", "area"};
   for (const auto& [name, values] : syntax.given) {
     if (kKnown.count(name) > 0) continue;
     throw UsageError("--" + name + " does not belong to tests at large strain; omit it");
@@ -34,7 +35,7 @@ std::vector<LargeStrainFile> large_strain_given(const FitCommand& command,
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  for (const char* option : {"svg", "weight", "youngs-modulus", "cycle"}) {
+  for (const char* option : {"svg", "weight", "cycle"}) {
     if (!files.empty() || !is_given(syntax, option)) continue;
     throw UsageError(std::string("--") + option +
                      " is for tests at large strain (uniaxial=FILE); omit it");

@@ -48,6 +48,9 @@ void judge_rubber(const std::vector<CsvTable>& tables, const LargeStrainRequest&
                   LargeStrainResult& result) {
   static const std::vector<std::string> kColumns{"nominal_stress_Pa", "stress_Pa", "time_s"};
   for (const CsvTable& table : tables) {
+    for (const std::string& note : table.notes) {
+      result.notes.push_back({"as-read", 0, table.file + ": " + note});
+    }
     if (const auto flag = assumed_units(table, request.columns, kColumns)) {
       result.notes.push_back(*flag);
     }
@@ -214,8 +217,16 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   fitted.files = request.files;
   std::vector<CsvTable> tables;
   for (const LargeStrainFile& file : request.files) {
-    tables.push_back(read_csv(file.path, request.sheet));
+    tables.push_back(read_csv(file.path, request.table));
     tables.back().judged = request.plausible;
+    std::size_t n_gaps = 0;
+    derive_columns(tables.back(), request.columns, size_from_notes(tables.back(), request.size));
+    tables.back() = rows_without_gaps(
+        std::move(tables.back()), {"time_s", "strain", "stretch", "stress_Pa", "nominal_stress_Pa"},
+        request.columns, n_gaps);
+    if (n_gaps > 0) {
+      tables.back().notes.push_back(counted(n_gaps, "row") + " without a number left out");
+    }
     fitted.tests.push_back(test_of_file(file, tables.back(), request));
   }
   number_names(fitted.tests);

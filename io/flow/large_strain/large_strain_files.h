@@ -3,6 +3,7 @@
 #include "fit/large_strain/fit_large_strain.h"
 #include "io/plots/plot.h"
 #include "io/tables/column_map.h"
+#include "io/tables/derived_columns.h"
 
 #include <cstddef>
 #include <iosfwd>
@@ -31,7 +32,8 @@ std::vector<LargeStrainFile> large_strain_from_words(const std::vector<std::stri
 struct LargeStrainRequest {
   std::vector<LargeStrainFile> files;
   ColumnMap columns;
-  std::string sheet;  // of Excel workbooks, or struct of MATLAB files
+  TableChoice table;  // in each file
+  SpecimenSize size;  // for tables of load and extension
   LargeStrainOptions options;
   // Of records with unloading: fit the loading of this cycle, from 1; 0: all rows; none: of the last.
   std::optional<int> cycle;

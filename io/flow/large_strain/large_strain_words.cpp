@@ -91,10 +91,6 @@ void add_large_strain_options(OptionList& list, LargeStrainWords& words) {
   list.add("weight", &words.weight,
            "equal (default; every stress counts alike) or relative (by its own size)")
       .among({"equal", "relative"});
-  list.add("youngs-modulus", &words.youngs_modulus,
-           "the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 MPa +- 0.1 "
-           "MPa\" (95 %); \"E_inf=1.5 MPa\" is that after all relaxation")
-      .of("Pa");
   list.add("cycle", &words.cycle,
            "fit the loading of this cycle of records with unloading (default: the last), or all "
            "rows")
@@ -103,8 +99,10 @@ void add_large_strain_options(OptionList& list, LargeStrainWords& words) {
 
 LargeStrainWords with_shared_options(LargeStrainWords words, const FitWords& fit) {
   words.model = fit.model;
-  words.sheet = fit.sheet;
+  words.table = table_choice(fit);
   words.plausible = fit.plausible;
+  words.youngs_modulus = fit.youngs_modulus;
+  words.size = specimen_size(fit);
   words.column = fit.column;
   words.terms = fit.terms;
   words.max_terms = fit.max_terms;
@@ -120,7 +118,8 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   } catch (const std::invalid_argument& error) {
     throw OptionError(error.what());
   }
-  request.sheet = words.sheet.value_or("");
+  request.table = words.table;
+  request.size = words.size;
   request.options.forms = forms_from(words);
   request.options.weight = weight_from(words);
   try {

@@ -14,7 +14,9 @@ namespace viscard {
 struct LargeStrainWords {
   // Not given: the default.
   using Text = std::optional<std::string>;
-  Text model, weight, youngs_modulus, cycle, sheet, plausible;
+  Text model, weight, youngs_modulus, cycle, plausible;
+  TableChoice table;
+  SpecimenSize size;
   std::vector<std::string> column;
   std::optional<int> terms, max_terms;  // of relaxation
 };

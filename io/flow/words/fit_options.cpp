@@ -56,6 +56,10 @@ void add_table(OptionList& list, FitWords& words) {
   list.add("sheet", &words.sheet,
            "of an Excel workbook (.xlsx), or the struct of a MATLAB file (.mat); default: the one "
            "with most numbers");
+  list.add("table", &words.table,
+           "number of the table in a sheet or file that has several, below each other or side by "
+           "side, from 1; default: the one with most numbers");
+  list.add("skip", &words.skip, "lines at the begin of a text file that are not read");
   list.add("segment", &words.segment, "use only rows of this segment (repeatable)");
   list.add("time-zero", &words.time_zero, "time in the table where t = 0").of("s").by_default("0");
   list.add("from", &words.from, "fit only rows from this time on, such as \"2 s\"").of("s");
@@ -66,6 +70,11 @@ void add_table(OptionList& list, FitWords& words) {
            "auto: fit only up to the end of the longest hold (without a depth: from the largest "
            "value to the lift of the punch)")
       .among({"auto"});
+  list.add("modulus-kind", &words.modulus_kind,
+           "what the moduli, compliances or stresses are of: tension, shear, plane-strain, "
+           "indentation (the reduced modulus) or bulk; by default headers (E, G, shear ...) and "
+           "formats decide. E follows with --poisson-ratio")
+      .among(modulus_kind_words());
   list.add("reference-temperature", &words.reference_temperature,
            "of the master curve of a table with several temperatures (temperature_C), such as "
            "\"20 degC\"; default: the middle one")
@@ -82,6 +91,18 @@ void add_specimen(OptionList& list, FitWords& words) {
   list.add("depth", &words.depth,
            "constant depth of a table of force and time, such as \"0.1 mm\": gives stiffnesses")
       .of("m");
+  list.add("gauge-length", &words.gauge_length,
+           "length at rest of a specimen under load and extension, such as \"25 mm\"; by default "
+           "lines above the table may state it")
+      .of("m");
+  list.add("area", &words.area,
+           "its cross-section at rest, such as \"12 mm2\"; likewise (or width and thickness)")
+      .of("m2");
+  list.add("youngs-modulus", &words.youngs_modulus,
+           "of a relative modulus (g_R(t), E/E0): its first value, such as \"1.5 MPa\". At large "
+           "strain: the modulus at rest that the law must have, such as \"1.8 MPa +- 0.1 MPa\" "
+           "(95 %); \"E_inf=1.5 MPa\" is that after all relaxation")
+      .of("Pa");
   list.add("specimen", &words.specimen, "specimen.toml with the geometry under the punch")
       .read_from_file();
   list.add("punch-diameter", &words.punch_diameter, "of a flat punch, such as \"4.4 mm\"").of("m");

@@ -173,6 +173,7 @@ void print_source(const FittedFile& fitted, std::ostream& out) {
         fitted.maker.starts_with("Excel workbook") || fitted.maker.starts_with("MATLAB file");
     out << (is_book_only ? "  " : "  file of ") << fitted.maker << "\n";
   }
+  for (const std::string& note : fitted.notes) out << "  " << note << "\n";
   if (fit.n_averages < fit.n_samples) {
     out << fmt::format("  fitted as {} in log time (--full-data: every sample)\n",
                        counted(fit.n_averages, "average"));
@@ -195,10 +196,27 @@ void print_source(const FittedFile& fitted, std::ostream& out) {
   }
 }
 
+// The moduli as they were measured, if not as Young's.
+void print_measured(const FittedFile& fitted, const Shown& shown, std::ostream& out) {
+  if (!fitted.modulus || fitted.modulus->kind == ModulusKind::kTension) return;
+  const MeasuredModulus& modulus = *fitted.modulus;
+  const FitResult& fit = fitted.result;
+  const ModulusKindText& text = text_of(modulus.kind);
+  const double factor = shown.factor / modulus.young_factor();
+  out << fmt::format("  moduli of {} ({}):\n", text.word, modulus.from);
+  out << fmt::format("  {}0     {:>10.6g} {}   95 % {}\n", text.letter, fit.E0_Pa * factor,
+                     shown.unit, range(fit.E0_interval_95, factor, 6));
+  out << fmt::format("  {}_inf  {:>10.6g} {}   95 % {}\n", text.letter, fit.E_inf_Pa * factor,
+                     shown.unit, range(fit.E_inf_interval_95, factor, 6));
+  out << fmt::format("  {} with nu = {}{}:\n", text.conversion, modulus.nu,
+                     modulus.is_nu_stated ? "" : " (assumed; --poisson-ratio)");
+}
+
 void print_moduli(const FittedFile& fitted, std::ostream& out) {
   const FitResult& fit = fitted.result;
   const Shown shown = shown_modulus(fitted);
   const char* letter = fitted.has_no_depth ? "F" : fit.is_stiffness ? "K" : "E";
+  print_measured(fitted, shown, out);
   out << fmt::format("  {}0     {:>10.6g} {}   95 % {}\n", letter, fit.E0_Pa * shown.factor,
                      shown.unit, range(fit.E0_interval_95, shown.factor, 6));
   if (fit.first && fit.first->time_s > 0.0) {

@@ -153,8 +153,8 @@ std::optional<Specimen> specimen_from(const FitWords& words) {
       specimen->contact.poisson_ratio = 0.495;
     }
     specimen->contact.punch_radius_m = 0.5 * *diameter_m;
-  } else if (!specimen && (layer_m || nu)) {
-    throw OptionError("--layer-thickness and --poisson-ratio need --punch-diameter or --specimen");
+  } else if (!specimen && layer_m) {
+    throw OptionError("--layer-thickness needs --punch-diameter or --specimen");
   }
   if (!specimen) return specimen;
   if (layer_m) specimen->contact.layer_thickness_m = *layer_m;
@@ -194,6 +194,29 @@ std::vector<std::string> all_model_names() {
   return names;
 }
 
+TableChoice table_choice(const FitWords& words) {
+  TableChoice choice{words.sheet.value_or("")};
+  if (words.table.value_or(1) < 1) throw OptionError("--table counts from 1");
+  if (words.skip.value_or(0) < 0) throw OptionError("--skip is a number of lines, from 0");
+  choice.table = static_cast<std::size_t>(words.table.value_or(0));
+  choice.skip = static_cast<std::size_t>(words.skip.value_or(0));
+  return choice;
+}
+
+SpecimenSize specimen_size(const FitWords& words) {
+  SpecimenSize size;
+  size.gauge_length_m =
+      quantity(words, &FitWords::gauge_length, "gauge-length", quantities::kLength).value_or(0.0);
+  size.area_m2 = quantity(words, &FitWords::area, "area", "m2").value_or(0.0);
+  if (words.gauge_length && !(size.gauge_length_m > 0.0)) {
+    throw OptionError("--gauge-length must be positive, such as \"25 mm\"");
+  }
+  if (words.area && !(size.area_m2 > 0.0)) {
+    throw OptionError("--area must be positive, such as \"12 mm2\"");
+  }
+  return size;
+}
+
 FitRequest fit_request(const FitWords& words) {
   FitRequest request;
   request.plausible = plausible_of(words);
@@ -218,7 +241,11 @@ FitRequest fit_request(const FitWords& words) {
   } catch (const std::invalid_argument& error) {
     throw OptionError(error.what());
   }
-  request.sheet = words.sheet.value_or("");
+  request.table = table_choice(words);
+  request.size = specimen_size(words);
+  request.size.E0_Pa =
+      quantity(words, &FitWords::youngs_modulus, "youngs-modulus", quantities::kModulus)
+          .value_or(0.0);
   request.segments = words.segment;
   if (const auto stiffness_N_m =
           quantity(words, &FitWords::frame_stiffness, "frame-stiffness", quantities::kStiffness)) {
@@ -231,6 +258,14 @@ FitRequest fit_request(const FitWords& words) {
   request.T_ref_C =
       quantity(words, &FitWords::reference_temperature, "reference-temperature", "degC");
   request.specimen = specimen_from(words);
+  request.nu = words.poisson_ratio;
+  if (words.modulus_kind) {
+    try {
+      request.modulus_kind = modulus_kind_from_word(*words.modulus_kind);
+    } catch (const std::invalid_argument& error) {
+      throw OptionError(std::string("--modulus-kind: ") + error.what());
+    }
+  }
   return request;
 }
 

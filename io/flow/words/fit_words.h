@@ -23,8 +23,8 @@ struct FitWords {
   std::vector<std::string> fix, bound;
   // What the data are.
   std::vector<std::string> column, segment;
-  Text sheet, time_zero, from, to, crop, depth;
-  std::optional<int> hold;
+  Text sheet, time_zero, from, to, crop, depth, modulus_kind, gauge_length, area, youngs_modulus;
+  std::optional<int> hold, skip, table;
   Text plausible, specimen, punch_diameter, layer_thickness, frame_stiffness, reference_temperature,
       density;
   std::optional<double> poisson_ratio;
@@ -38,6 +38,12 @@ OptionList options_of(FitWords& words);
 
 // Names of the laws that --model takes: of viscoelasticity and of rubber.
 std::vector<std::string> all_model_names();
+
+// Which table of a file. Throws OptionError.
+TableChoice table_choice(const FitWords& words);
+
+// Gauge length and area. Throws OptionError.
+SpecimenSize specimen_size(const FitWords& words);
 
 // What to fit and how. Throws OptionError for a value that is not allowed, and std::runtime_error
 // for a bad specimen or constraint file.

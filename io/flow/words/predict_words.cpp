@@ -118,6 +118,11 @@ OptionList options_of(PredictWords& words) {
       .read_from_file();
   list.add("column", &words.column,
            "NAME=HEADER or NAME=2: the column of a quantity in these tables, as in viscard fit");
+  list.add(
+          "modulus-kind", &words.modulus_kind,
+          "what their moduli, compliances or stresses are of, as in viscard fit; they are compared "
+          "as Young's, by the Poisson ratio of the material")
+      .among(modulus_kind_words());
   list.add("plausible", &words.plausible,
            "off: accept values that no test or material can have (a wrong unit, most often); the "
            "result says so")
@@ -144,6 +149,7 @@ PredictFileRequest predict_request(const PredictWords& words, const std::string&
     throw OptionError(error.what());
   }
   try {
+    if (words.modulus_kind) request.modulus_kind = modulus_kind_from_word(*words.modulus_kind);
     request.plausible = plausible_from_word(words.plausible.value_or("on"), Plausible::kMeasured);
     request.time_zero_s =
         option_quantity("--time-zero", words.time_zero, "s", request.plausible).value_or(0.0);

@@ -14,7 +14,7 @@ namespace viscard {
 struct PredictWords {
   using Text = std::optional<std::string>;
   Text test, strain, stress, ramp, hold, recovery, period, from, to, history, driven_by, against;
-  Text time_zero, temperature, plausible;
+  Text time_zero, temperature, plausible, modulus_kind;
   std::optional<int> cycles, points;
   std::vector<std::string> column;
 };

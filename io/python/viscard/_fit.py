@@ -96,7 +96,7 @@ def fit(data, *, errors: str = "raise", progress: Progress = None, **options: Un
     return _results(data, found, errors)
 
 
-_RUBBER_ONLY = ("weight", "youngs_modulus", "cycle")
+_RUBBER_ONLY = ("weight", "cycle")
 
 
 def _refuse_rubber_options(keywords) -> None:
@@ -109,7 +109,9 @@ def _fit_rubber(paths, keywords):
     from ._rubber import RubberFit
 
     for name, value in keywords.items():
-        if name not in _RUBBER_ONLY + ("model", "column", "sheet", "terms", "max_terms", "plausible") and value is not False:
+        if name not in _RUBBER_ONLY + (
+                "model", "column", "sheet", "table", "skip", "gauge_length", "area", "youngs_modulus", "terms",
+                "max_terms", "plausible") and value is not False:
             raise Error(f"{name} does not belong to tests at large strain; omit it", "usage")
     if isinstance(keywords.get("cycle"), int):
         keywords["cycle"] = str(keywords["cycle"])

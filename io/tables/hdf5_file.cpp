@@ -1,0 +1,114 @@
+#include "io/tables/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr std::size_t kMostUnpacked = 1032;  // bytes from one (zlib, "Technical Details")
+
+// A handle of the library with the function that closes it.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  hid_t id() const { return id_; }
+  bool is_open() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void read_numbers(hid_t group, const char* name, std::size_t most,
+                  std::vector<NamedColumn>& columns) {
+  const Handle data(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
+  if (!data.is_open()) return;
+  const Handle type(H5Dget_type(data.id()), H5Tclose);
+  const H5T_class_t number = H5Tget_class(type.id());
+  if (number != H5T_FLOAT && number != H5T_INTEGER) return;
+  const Handle space(H5Dget_space(data.id()), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space.id());
+  std::array<hsize_t, 2> size{1, 1};
+  if (rank < 1 || rank > 2) return;
+  H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
+  if (size[0] == 0 || size[1] == 0 || size[0] > most / size[1]) return;
+  std::vector<double> values(size[0] * size[1]);
+  if (H5Dread(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    return;
+  }
+  add_columns(values, size[0], size[1], name, columns);
+}
+
+// The numbers in a group; those of its own groups are tables of their own.
+void read_group(hid_t group, const std::string& name, std::size_t most, int depth,
+                ColumnsOfTables& tables) {
+  constexpr int kDeepest = 4;
+  H5G_info_t info{};
+  if (H5Gget_info(group, &info) < 0) return;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    std::array<char, 256> text{};
+    const ssize_t length = H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i,
+                                              text.data(), text.size(), H5P_DEFAULT);
+    const bool is_plain = length > 0 && static_cast<std::size_t>(length) < text.size();
+    if (!is_plain || text[0] == '#') continue;  // "#refs#" of MATLAB
+    const Handle object(H5Oopen(group, text.data(), H5P_DEFAULT), H5Oclose);
+    if (!object.is_open()) continue;
+    const H5I_type_t kind = H5Iget_type(object.id());
+    if (kind == H5I_DATASET) read_numbers(group, text.data(), most, tables[name]);
+    if (kind == H5I_GROUP && depth < kDeepest) {
+      read_group(object.id(), name.empty() ? text.data() : name + "/" + text.data(), most,
+                 depth + 1, tables);
+    }
+  }
+}
+
+}  // namespace
+
+void add_columns(const std::vector<double>& values, std::size_t rows, std::size_t width,
+                 const std::string& name, std::vector<NamedColumn>& columns) {
+  const bool lies_along_rows = rows < width;
+  const std::size_t length = std::max(rows, width), n = std::min(rows, width);
+  for (std::size_t c = 0; c < n; ++c) {
+    NamedColumn column{n == 1 ? name : name + "_" + std::to_string(c + 1), {}};
+    column.values.reserve(length);
+    for (std::size_t i = 0; i < length; ++i) {
+      column.values.push_back(values[lies_along_rows ? c * width + i : i * width + c]);
+    }
+    columns.push_back(std::move(column));
+  }
+}
+
+bool is_hdf5_file(std::string_view bytes) {
+  return bytes.starts_with("MATLAB 7.3 MAT-file") ||
+         bytes.starts_with(std::string_view("\x89HDF\r\n\x1a\n", 8));
+}
+
+ColumnsOfTables columns_of_hdf5(std::string_view bytes, const std::string& name) {
+  // Debian's library is not built for several threads.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints nothing
+  // The file stays in memory.
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  constexpr std::size_t kGrowth = 1U << 16;
+  H5Pset_fapl_core(access.id(), kGrowth, 0);
+  H5Pset_file_image(access.id(), const_cast<char*>(bytes.data()), bytes.size());
+  const Handle file(H5Fopen("table", H5F_ACC_RDONLY, access.id()), H5Fclose);
+  if (!file.is_open()) throw std::runtime_error(name + ": is a damaged HDF5 file; save it again");
+  ColumnsOfTables tables;
+  read_group(file.id(), "", kMostUnpacked * bytes.size() / sizeof(double), 0, tables);
+  return tables;
+}
+
+}  // namespace viscard
