@@ -55,6 +55,13 @@ std::optional<std::size_t> taken_by_name(const CsvTable& table, std::vector<std:
   return column;
 }
 
+// As stated, or at the end of a name, "separation_m".
+std::string unit_of(const CsvColumn& column) {
+  const std::size_t at = column.name.rfind('_');
+  return is_stated(column.unit) || at == std::string::npos ? column.unit
+                                                           : column.name.substr(at + 1);
+}
+
 // By name, or else the first with a unit of that kind.
 std::optional<std::size_t> taken(const CsvTable& table, std::vector<std::size_t>& columns,
                                  const char* si_unit, const char* quantity = nullptr) {
@@ -62,7 +69,7 @@ std::optional<std::size_t> taken(const CsvTable& table, std::vector<std::size_t>
     if (const auto named = taken_by_name(table, columns, quantity)) return named;
   }
   for (auto i = columns.begin(); i != columns.end(); ++i) {
-    const std::string& unit = table.columns[*i].unit;
+    const std::string unit = unit_of(table.columns[*i]);
     if (!is_stated(unit) || !is_unit_of(unit, si_unit)) continue;
     const std::size_t column = *i;
     columns.erase(i);

@@ -280,6 +280,15 @@ class TableReader {
           line.number > head.header && head.units == 0 && is_mostly_units(line.names);
       if (is_units) head.units = line.number;
     }
+    // In a table with columns of text this may be a row whose number is bad.
+    const bool has_text = std::count(has_numbers_.begin(), has_numbers_.end(), 0) > 0;
+    for (const Line& line : lines) {
+      const bool is_below = line.number > std::max(head.header, head.units);
+      if (is_below && has_text) {
+        head.first_row = line.number;
+        break;
+      }
+    }
     return head;
   }
 
@@ -301,6 +310,10 @@ class TableReader {
         take_units(names_of(line));
       } else if (!are_empty(cells_of(line)) && (head.header == 0 || line.number < head.header)) {
         table_.preamble.emplace_back(line.text);
+      } else if (!are_empty(cells_of(line))) {
+        table_.notes.push_back("line " + std::to_string(line.number) +
+                               " between the header and the rows was left out: '" +
+                               std::string(line.text.substr(0, 60)) + "'");
       }
     }
     first_ = {static_cast<std::size_t>(line.text.data() - text_.data()), line.number};

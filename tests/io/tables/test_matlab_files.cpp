@@ -113,21 +113,21 @@ TEST_CASE("a struct of a MATLAB file is a table of its own", "[io][csv]") {
     CHECK(table.maker == "MATLAB file, struct 'run'");
     CHECK(column_SI(table, "time_s") == Numbers{0.0, 1.0, 2.0, 3.0});
     CHECK(column_SI(table, "force_N")[3] == Approx(4.5e-3).epsilon(1e-15));
-    CHECK(csv_from_text(bytes, "run.mat", "run").columns.size() == 2);
-    CHECK(contains(error_text([&] { csv_from_text(bytes, "run.mat", "rnu"); }),
+    CHECK(csv_from_text(bytes, "run.mat", {"run"}).columns.size() == 2);
+    CHECK(contains(error_text([&] { csv_from_text(bytes, "run.mat", {"rnu"}); }),
                    "run.mat: there is no struct 'rnu'; did you mean 'run'?"));
   }
 }
 
 TEST_CASE("a MATLAB file without measured numbers is refused by what it lacks", "[io][csv]") {
   CHECK(contains(refusal_of(matlab_file(array("k", 1, 1, {3.0}))),
-                 "a.mat: is a MATLAB file without a vector or matrix of real numbers"));
+                 "a.mat: has no vector or matrix of real numbers"));
   const std::string whole = matlab_file(array("t", 1, 3, {0.5, 1.0, 1.5}));
   for (const std::size_t n :
        {std::size_t{40}, std::size_t{140}, whole.size() - 12, whole.size() - 1}) {
     CHECK(contains(refusal_of(whole.substr(0, n)), "a.mat: is a damaged MATLAB file"));
   }
-  CHECK(contains(refusal_of("MATLAB 7.3 MAT-file, HDF5"), "save it with save -v7"));
+  CHECK(contains(refusal_of("MATLAB 7.3 MAT-file, HDF5"), "a.mat: is a damaged HDF5 file"));
 }
 
 // Packed as MATLAB packs its variables.
