@@ -12,6 +12,7 @@ namespace viscard {
 
 // Finds the columns of a table by quantity. Each quantity has one name in viscard, which ends in
 // its SI unit: time_s, force_N, depth_m, modulus_Pa, stress_Pa, strain, nominal_stress_Pa, stretch, compliance_1_Pa,
+// relative_modulus, complex_modulus_Pa, complex_viscosity_Pa_s, phase_rad, tan_delta, true_stress_Pa, true_strain,
 // frequency_Hz, storage_modulus_Pa, loss_modulus_Pa, mass_kg, volts_V, position_m, temperature_C,
 // segment, specimen. The table's own headers are matched by name and unit ("t (s)", "Force [mN]", "E_relax"
 // over "MPa"); a ColumnMap overrides the match.
