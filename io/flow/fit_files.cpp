@@ -4,6 +4,7 @@
 #include "io/flow/input_files.h"
 #include "io/flow/test_words.h"
 #include "io/materials/plausible_numbers.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -34,6 +35,47 @@ FitRequest request_of(const TestFile& test, const FitRequest& request) {
   one.options.keep_rows = true;
   one.options.n_terms.reset();
   return one;
+}
+
+bool is_of(const FittedFile& file, ModulusKind kind) {
+  return file.modulus && file.modulus->kind == kind;
+}
+
+// Tests in shear beside tests in tension tell the Poisson ratio, unless it is stated. Those in shear then
+// have a free factor to the moduli of tension, as a stiffness has.
+bool tell_poisson_ratio(const std::vector<FittedFile>& own, const FitRequest& request) {
+  const auto has = [&](ModulusKind kind) {
+    return std::any_of(own.begin(), own.end(),
+                       [&](const FittedFile& file) { return is_of(file, kind); });
+  };
+  return !request.nu && has(ModulusKind::kShear) && has(ModulusKind::kTension);
+}
+
+// E = 2 (1 + nu) G: values that were converted with nu_0 have the factor s = (1 + nu_0)/(1 + nu) to the
+// material. Of several tests in shear the one that tells it best.
+void take_poisson_ratio(const std::vector<FittedFile>& own, FittedFile& fitted) {
+  std::optional<MeasuredModulus> best;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    if (!is_of(own[k], ModulusKind::kShear)) continue;
+    FittedTest& test = fitted.result.tests[k];
+    test.is_stiffness = false;
+    const auto nu_of = [&](double scale) { return (1.0 + own[k].modulus->nu) / scale - 1.0; };
+    MeasuredModulus found;
+    found.from = "tests in shear and in tension";
+    found.nu = nu_of(test.scale);
+    found.nu_95 = Interval{nu_of(test.scale_95.high), nu_of(test.scale_95.low)};
+    const auto width = [](const MeasuredModulus& one) { return one.nu_95->high - one.nu_95->low; };
+    if (!best || width(found) < width(*best)) best = found;
+  }
+  if (best->nu_95->low > 0.5 || best->nu_95->high < -1.0) {
+    fitted.result.flags.push_back(
+        {"tests-disagree", 0,
+         "the moduli of tension and shear would need a Poisson ratio of " + text_of(best->nu, 3) +
+             ", which no isotropic material has; check units and geometry"});
+    fitted.result.is_trustworthy = false;
+  }
+  best->nu = std::clamp(best->nu, -0.99, 0.5);
+  fitted.modulus = best;
 }
 
 }  // namespace
@@ -93,8 +135,10 @@ FittedFile fit_tests(const std::vector<TestFile>& tests, const FitRequest& reque
   });
   std::vector<MaterialTest> together;
   FittedFile fitted;
+  const bool tells_nu = tell_poisson_ratio(own, request);
   for (std::size_t k = 0; k < tests.size(); ++k) {
     together.push_back({name_of(tests, k), own[k].result});
+    if (tells_nu) together[k].own.is_stiffness |= is_of(own[k], ModulusKind::kShear);
     fitted.path += (k == 0 ? "" : " + ") + tests[k].path;
     if (own[k].specimen.contact.punch_radius_m > 0.0) fitted.specimen = own[k].specimen;
     if (fitted.specimen_id.empty()) fitted.specimen_id = own[k].specimen_id;
@@ -104,6 +148,15 @@ FittedFile fit_tests(const std::vector<TestFile>& tests, const FitRequest& reque
   fitted.result = fit_together(together, request.options);
   for (std::size_t k = 0; k < tests.size(); ++k) {
     fitted.result.tests[k].fitted_unit = own[k].fitted_unit;
+  }
+  if (tells_nu) {
+    take_poisson_ratio(own, fitted);
+  } else {  // what a material of one kind of modulus shall tell
+    for (const FittedFile& file : own) {
+      if (file.modulus && (!fitted.modulus || file.modulus->kind != ModulusKind::kTension)) {
+        fitted.modulus = file.modulus;
+      }
+    }
   }
   const auto has_no_depth = [](const FittedFile& file) { return file.has_no_depth; };
   fitted.has_no_depth = std::all_of(own.begin(), own.end(), has_no_depth);

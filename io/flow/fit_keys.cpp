@@ -39,6 +39,10 @@ void show_measured(ResultVisitor& v, const FittedFile& fitted) {
     v("modulus_kind_from", modulus.assumed_header.empty() ? modulus.from : "assumed",
       "what states it: a header, a format or an option");
     v("nu", modulus.nu, "Poisson ratio of the conversion");
+    v.when(modulus.nu_95.has_value(), [&] {
+      v("nu_interval_95", modulus.nu_95.value_or(Interval{}),
+        "95 % interval, if it was fitted from tests in shear and in tension; [low, high]");
+    });
     v("nu_stated", modulus.is_nu_stated, "whether it was given, and not assumed");
     const FitResult& fit = fitted.result;
     const double share = 1.0 / modulus.young_factor();

@@ -64,6 +64,7 @@ struct MeasuredModulus {
   std::string from;  // what states the kind: "the header 'G(t)'", "--modulus-kind"; "": assumed
   double nu = 0.5;   // of the conversion
   bool is_nu_stated = false;
+  std::optional<Interval> nu_95;  // if it was fitted, from tests in shear and in tension together
   std::string assumed_header;  // of a column that states no kind, taken as of tension
   double young_factor() const { return young_over(kind, nu); }
 };

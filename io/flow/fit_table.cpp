@@ -410,9 +410,9 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
   std::size_t n_gaps = 0;
-  table = rows_without_gaps(std::move(table),
-                            columns_of_kind(kind_of_table(table, request), table, request),
-                            request.columns, n_gaps);
+  std::vector<std::string> used = columns_of_kind(kind_of_table(table, request), table, request);
+  used.emplace_back("temperature_C");
+  table = rows_without_gaps(std::move(table), used, request.columns, n_gaps);
   ChosenPart part = choose_part(table, request);
   const auto doubt = doubtful_size(table, request);
   FittedFile fitted = fit_rows(table, part.rise_s ? with_zero_in(*part.rise_s, request) : request);
@@ -432,6 +432,12 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   fitted.notes = table.notes;
   fitted.chosen = std::move(part.text);
   add_left_out(fitted.result, left_out::kNotANumber, n_gaps);
+  if (n_gaps > 0) {  // the fit knew only the other rows
+    std::erase_if(fitted.result.flags, [](const MaterialFlag& flag) {
+      return flag.name == "rows-left-out" || flag.name == "rows-lost";
+    });
+    flag_left_out(fitted.result);
+  }
   add_left_out(fitted.result, left_out::kNotChosen, n_in_segments - n_gaps - table.lines.size());
   const std::size_t n_other = n_all - n_in_segments;
   if (request.segments.empty()) fitted.n_before_test = n_other;

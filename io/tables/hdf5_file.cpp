@@ -11,7 +11,7 @@
 namespace viscard {
 namespace {
 
-constexpr std::size_t kMostUnpacked = 1032;  // bytes from one (zlib, "Technical Details")
+constexpr std::size_t kMostFromPacked = 1032;  // bytes from one (zlib, "Technical Details")
 
 // A handle of the library with the function that closes it.
 class Handle {
@@ -107,7 +107,7 @@ ColumnsOfTables columns_of_hdf5(std::string_view bytes, const std::string& name)
   const Handle file(H5Fopen("table", H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (!file.is_open()) throw std::runtime_error(name + ": is a damaged HDF5 file; save it again");
   ColumnsOfTables tables;
-  read_group(file.id(), "", kMostUnpacked * bytes.size() / sizeof(double), 0, tables);
+  read_group(file.id(), "", kMostFromPacked * bytes.size() / sizeof(double), 0, tables);
   return tables;
 }
 

@@ -22,7 +22,7 @@ bool is_empty(const CsvColumn& column) {
                                             [](double value) { return std::isnan(value); });
 }
 
-bool is_argument(const CsvColumn& column) {
+bool is_time_or_frequency(const CsvColumn& column) {
   return match_header(column, column_kind("time_s")) ||
          match_header(column, column_kind("frequency_Hz"));
 }
@@ -62,7 +62,7 @@ std::vector<CsvTable> tables_side_by_side(CsvTable table) {
       groups.size() > 1 && std::all_of(groups.begin(), groups.end(), [&](const ColumnRange& group) {
         const auto begin = table.columns.begin() + static_cast<std::ptrdiff_t>(group.first);
         const auto end = table.columns.begin() + static_cast<std::ptrdiff_t>(group.last);
-        return group.last - group.first > 1 && std::any_of(begin, end, is_argument);
+        return group.last - group.first > 1 && std::any_of(begin, end, is_time_or_frequency);
       });
   std::vector<CsvTable> tables;
   if (!are_tables) {

@@ -44,7 +44,7 @@ void show_fits(ResultVisitor& v, const std::vector<FileOutcome>& outcomes) {
 // Moduli, stiffnesses, forces, and a file that could not be fitted.
 std::vector<FileOutcome> examples() {
   FittedFile modulus, stiffness, force;
-  modulus.modulus = MeasuredModulus{.kind = ModulusKind::kShear};
+  modulus.modulus = MeasuredModulus{.kind = ModulusKind::kShear, .nu_95 = Interval{}};
   modulus.notes = {""};
   stiffness.result.is_stiffness = true;
   stiffness.result.tests.push_back({.is_stiffness = true});

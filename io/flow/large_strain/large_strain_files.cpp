@@ -6,6 +6,7 @@
 #include "io/materials/plausible_numbers.h"
 #include "io/tables/column_proposal.h"
 #include "io/tables/csv_table.h"
+#include "io/tables/modulus_of_columns.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -106,6 +107,11 @@ LargeStrainTest test_of_file(const LargeStrainFile& file, const CsvTable& table,
   LargeStrainTest test{file.is_compression ? "compression" : name_of(file.deformation),
                        file.deformation, stretches_of(table, request.columns),
                        stresses_of(table, request.columns)};
+  const TableModulusKind kind = modulus_kind_of(table, request.columns, {"stress_Pa", "strain"});
+  if (kind.kind == ModulusKind::kShear && !kind.from.empty()) {
+    throw std::runtime_error(file.path + ": " + kind.from +
+                             " speaks of shear, but this is a test in " + test.name);
+  }
   if (file.is_compression) turn_compression(test, file.path);
   if (find_column(table, "time_s", request.columns)) {
     test.time_s = column_SI(table, "time_s", request.columns);

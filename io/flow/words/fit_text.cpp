@@ -198,8 +198,13 @@ void print_source(const FittedFile& fitted, std::ostream& out) {
 
 // The moduli as they were measured, if not as Young's.
 void print_measured(const FittedFile& fitted, const Shown& shown, std::ostream& out) {
-  if (!fitted.modulus || fitted.modulus->kind == ModulusKind::kTension) return;
+  if (!fitted.modulus) return;
   const MeasuredModulus& modulus = *fitted.modulus;
+  if (modulus.nu_95) {
+    out << fmt::format("  nu     {:>10.4g}       95 % {}   from tests in shear and in tension\n",
+                       modulus.nu, range(*modulus.nu_95, 1.0, 4));
+  }
+  if (modulus.kind == ModulusKind::kTension) return;
   const FitResult& fit = fitted.result;
   const ModulusKindText& text = text_of(modulus.kind);
   const double factor = shown.factor / modulus.young_factor();

@@ -57,8 +57,8 @@ std::string level_4(const std::string& name, const Numbers& values) {
 
 TEST_CASE("the header is found below notes that separators make as wide as the table",
           "[io][csv]") {
-  for (const char* note : {"Sample;PDMS;;\nThickness (mm);3;;\n;;;\n", "Width (mm);6;;\n",
-                           "3;;;\n", "Operator;A B;Machine;7\n"}) {
+  for (const char* note : {"Sample;PDMS;;\nThickness (mm);3;;\n;;;\n", "Width (mm);6;;\n", "3;;;\n",
+                           "Operator;A B;Machine;7\n"}) {
     CAPTURE(note);
     const CsvTable table = read(std::string(note) +
                                 "Time (s);Force (N);Displacement (mm);Temp (C)\n"
@@ -91,7 +91,8 @@ TEST_CASE("rows of empty cells, a name more than columns and long notes do not h
 TEST_CASE("rows with gaps in a column that is used are left out and counted", "[io][csv]") {
   for (const char* gap : {"", "NaN", "nan", "inf", "n/a", "#N/A", "-", "#DIV/0!", "null"}) {
     CAPTURE(gap);
-    const CsvTable all = read("time_s,modulus_Pa,note\n0,5,a\n1," + std::string(gap) + ",\n2,6,b\n");
+    const CsvTable all =
+        read("time_s,modulus_Pa,note\n0,5,a\n1," + std::string(gap) + ",\n2,6,b\n");
     std::size_t n_left_out = 0;
     const CsvTable table = rows_without_gaps(all, {"time_s", "modulus_Pa"}, {}, n_left_out);
     CHECK(n_left_out == 1);
@@ -142,8 +143,7 @@ TEST_CASE("several tables in a file are told apart and chosen by number", "[io][
   CHECK(most.lines.all() == std::vector<std::uint32_t>{8, 9, 10});
   CHECK(column_SI(read(below, {"", 1, 0}), "modulus_Pa") == Numbers{1e6, 2e6});
   CHECK(contains(error_text([&] { read(below, {"", 3, 0}); }), "no table 3; there are 2"));
-  const std::string side =
-      "A,,,B,\nTime (s),E (MPa),,Time (s),E (MPa)\n0,1,,0,3\n1,2,,,\n";
+  const std::string side = "A,,,B,\nTime (s),E (MPa),,Time (s),E (MPa)\n0,1,,0,3\n1,2,,,\n";
   CHECK(column_SI(read(side, {"", 1, 0}), "modulus_Pa") == Numbers{1e6, 2e6});
   CHECK(column_SI(read(side, {"", 2, 0}), "modulus_Pa") == Numbers{3e6});
   const std::string close = "Time (s),Force (N),Time (s),Force (N)\n0,1,0,3\n1,2,1,4\n";
@@ -164,13 +164,14 @@ TEST_CASE("lines below a table are no rows, and lines of text within it stay err
 TEST_CASE("headers in Italian, Spanish, Russian and Japanese are found", "[io][csv]") {
   CHECK(column_SI(read("Tempo (s);Forza (mN);Spostamento (mm)\n0;1;2\n1;2;3\n"), "force_N")[1] ==
         Approx(2e-3).epsilon(1e-15));
-  CHECK(column_SI(read("Tiempo (s);Fuerza (N);Desplazamiento (mm)\n0;1;2\n1;2;3\n"), "depth_m")[0] ==
-        Approx(2e-3).epsilon(1e-15));
+  CHECK(column_SI(read("Tiempo (s);Fuerza (N);Desplazamiento (mm)\n0;1;2\n1;2;3\n"),
+                  "depth_m")[0] == Approx(2e-3).epsilon(1e-15));
   const CsvTable russian = read("Время, с;Сила, мН;Перемещение, мм\n0;1;2\n1;2;3\n");
   CHECK(column_SI(russian, "time_s") == Numbers{0.0, 1.0});
   CHECK(column_SI(russian, "force_N")[0] == Approx(1e-3).epsilon(1e-15));
   CHECK(column_SI(russian, "depth_m")[1] == Approx(3e-3).epsilon(1e-15));
-  const CsvTable sweep = read("Частота, Гц;МОДУЛЬ НАКОПЛЕНИЯ, МПа;Модуль потерь, МПа\n1;2;3\n2;3;4\n");
+  const CsvTable sweep =
+      read("Частота, Гц;МОДУЛЬ НАКОПЛЕНИЯ, МПа;Модуль потерь, МПа\n1;2;3\n2;3;4\n");
   CHECK(column_SI(sweep, "storage_modulus_Pa") == Numbers{2e6, 3e6});
   const CsvTable japanese = read("周波数 (Hz),貯蔵弾性率 (MPa),損失弾性率 (MPa)\n1,2,3\n2,3,4\n");
   CHECK(column_SI(japanese, "loss_modulus_Pa") == Numbers{3e6, 4e6});
@@ -240,7 +241,8 @@ TEST_CASE("the kind of modulus comes from headers and formats, and is assumed wh
 TEST_CASE("storage and loss modulus follow from what instruments write instead", "[io][csv]") {
   // E' = 3, E'' = 4: |E*| = 5, tan delta = 4/3.
   const double delta = std::atan2(4.0, 3.0);
-  const std::string rad = std::to_string(delta), deg = std::to_string(delta * 180.0 / std::numbers::pi);
+  const std::string rad = std::to_string(delta),
+                    deg = std::to_string(delta * 180.0 / std::numbers::pi);
   const std::string two_pi = std::to_string(2.0 * std::numbers::pi);
   const auto check = [](const std::string& header, const std::string& row, ModulusKind kind) {
     CAPTURE(header);
@@ -256,8 +258,8 @@ TEST_CASE("storage and loss modulus follow from what instruments write instead",
   check("f (Hz),E' (MPa),tan delta", "1,3,1.3333333333", ModulusKind::kTension);
   check("f (Hz),G'' (MPa),Loss factor", "1,4,1.3333333333", ModulusKind::kShear);
   check("w (rad/s),|η*| (Pa·s),phase angle (deg)", "2,2.5e6," + deg, ModulusKind::kShear);
-  check("f (Hz),Complex viscosity (Pa.s),tan delta", "1," + std::to_string(5e6 / 6.283185307179586) +
-                                                        ",1.3333333333", ModulusKind::kShear);
+  check("f (Hz),Complex viscosity (Pa.s),tan delta",
+        "1," + std::to_string(5e6 / 6.283185307179586) + ",1.3333333333", ModulusKind::kShear);
   CHECK(kind_of(derived("f (Hz),Complex modulus (MPa),tan delta\n1,5,1\n2,5,1\n")).is_assumed);
   CHECK(contains(error_text([] { derived("f (Hz),|E*| (MPa),delta\n1,5,53\n2,5,53\n"); }),
                  "--column phase_rad=\"delta [deg]\""));
@@ -275,8 +277,9 @@ TEST_CASE("nominal stress and strain follow from true ones and from load and ext
   CHECK(column_SI(load, "strain")[0] == 1.0);
   CHECK(column_SI(load, "stress_Pa")[0] == Approx(3e6).epsilon(1e-14));
   CHECK_FALSE(find_column(derived("Extension (mm),Load (N)\n25,36\n0,0\n"), "stress_Pa"));
-  CsvTable notes = read("Gauge length (mm);25;\nWidth (mm);6,0;\nThickness;2;mm\n"
-                        "Time (s);Load (N);Extension (mm)\n0,1;36;25\n0,2;18;25\n");
+  CsvTable notes = read(
+      "Gauge length (mm);25;\nWidth (mm);6,0;\nThickness;2;mm\n"
+      "Time (s);Load (N);Extension (mm)\n0,1;36;25\n0,2;18;25\n");
   const SpecimenSize found = size_from_notes(notes, {});
   CHECK(found.gauge_length_m == 0.025);
   CHECK(found.area_m2 == Approx(12e-6).epsilon(1e-14));
@@ -289,8 +292,10 @@ TEST_CASE("a relative modulus needs the modulus that it is relative to", "[io][c
   CHECK(contains(error_text([&] { derived(text); }), "--youngs-modulus"));
 }
 
-TEST_CASE("MATLAB files of level 4 are read, and damaged ones are not taken for them", "[io][csv]") {
-  const std::string bytes = level_4("time_s", {0.0, 1.0, 2.0}) + level_4("force_N", {3.0, 4.0, 5.0});
+TEST_CASE("MATLAB files of level 4 are read, and damaged ones are not taken for them",
+          "[io][csv]") {
+  const std::string bytes =
+      level_4("time_s", {0.0, 1.0, 2.0}) + level_4("force_N", {3.0, 4.0, 5.0});
   CHECK(column_SI(csv_from_text(bytes, "a.mat"), "force_N") == Numbers{3.0, 4.0, 5.0});
   for (const std::size_t length : {bytes.size() - 1, std::size_t{30}}) {
     CHECK_FALSE(error_text([&] { csv_from_text(bytes.substr(0, length), "a.mat"); }).empty());

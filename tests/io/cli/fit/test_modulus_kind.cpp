@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 using namespace viscard;
@@ -98,7 +99,7 @@ TEST_CASE("other kinds of modulus follow their formulas", "[cli]") {
   const CommandOutcome bulk = run_command({"fit", file, "--modulus-kind", "bulk"});
   CHECK(bulk.status == kFailed);
   CHECK_THAT(bulk.err, Contains("--poisson-ratio"));
-  CHECK(run_command({"fit", file, "--modulus-kind", "sheer"}).status == kBadUsage);
+  CHECK(run_command({"fit", file, "--modulus-kind", "sheer"}).status == kBadWords);
 }
 
 TEST_CASE("material, card and prediction of a test in shear have Young's modulus", "[cli]") {
@@ -123,17 +124,28 @@ TEST_CASE("material, card and prediction of a test in shear have Young's modulus
   CHECK(rms({"--modulus-kind", "tension"}) > 1.5);
 }
 
-TEST_CASE("tests in shear and in tension of one material agree", "[cli]") {
+TEST_CASE("tests in shear and in tension of one material tell its Poisson ratio", "[cli]") {
   const TableFolder folder;
+  const double nu = 0.35;
   const std::string shear = folder.write("g.csv", modulus_table("Time (s),G(t) (MPa)"));
   const std::string tension =
-      folder.write("e.csv", modulus_table("Time (s),E(t) (MPa)", 2.0 * (1.0 + kNu)));
-  const CommandOutcome ran =
-      run_command({"fit", "relaxation=" + shear, "relaxation=" + tension, "--json"});
+      folder.write("e.csv", modulus_table("Time (s),E(t) (MPa)", 2.0 * (1.0 + nu)));
+  const std::string material = folder.file("m.json");
+  const CommandOutcome ran = run_command(
+      {"fit", "relaxation=" + shear, "relaxation=" + tension, "--json", "--out", material});
   CAPTURE(ran.err);
   REQUIRE(ran.status == kDone);
-  CHECK(nlohmann::json::parse(ran.out)["E0_Pa"].get<double>() ==
-        Approx(2.0 * (1.0 + kNu) * kG0_Pa).epsilon(1e-3));
+  const auto fit = nlohmann::json::parse(ran.out);
+  CHECK(fit["nu"].get<double>() == Approx(nu).margin(1e-3));
+  CHECK(fit["nu_interval_95"][0].get<double>() < fit["nu_interval_95"][1].get<double>());
+  CHECK(fit["E0_Pa"].get<double>() == Approx(2.0 * (1.0 + nu) * kG0_Pa).epsilon(1e-3));
+  std::ifstream written(material);
+  CHECK(nlohmann::json::parse(written)["nu"].get<double>() == Approx(nu).margin(1e-3));
+  // Three times the shear modulus as tension needs more than an isotropic material has.
+  const std::string wrong = folder.write("w.csv", modulus_table("Time (s),E(t) (MPa)", 4.0));
+  const CommandOutcome other = run_command({"fit", "relaxation=" + shear, "relaxation=" + wrong});
+  CHECK(other.status == kFailed);
+  CHECK_THAT(other.out + other.err, Contains("Poisson ratio of 1"));
 }
 
 TEST_CASE("rows with gaps are counted, and the notes state how a table was read", "[cli]") {
