@@ -115,13 +115,18 @@ void read_column(CsvColumn& column, CsvTable& table) {
   if (has_date || low_s > high_s - low_s) {
     // Whole seconds apart: a date has no more than 1e-7 s left of a double.
     constexpr double kClock_s = 1e-9;
+    double step_s = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < times.size(); ++i) {
       const double since_s =
           (times[i].seconds - times[*first].seconds) + (times[i].fraction - times[*first].fraction);
       column.values[i] = kClock_s * std::round(since_s / kClock_s);
+      if (column.values[i] > 0.0) step_s = std::fmin(step_s, column.values[i]);
+    }
+    if (std::isfinite(step_s)) {
+      for (double& value : column.values) value += 0.5 * step_s;
     }
     table.notes.push_back("the clock times of '" + column.header +
-                          "' begin at t = 0; --time-zero S sets another begin");
+                          "' begin half a step after t = 0; --time-zero S sets another begin");
   }
   const auto bad = std::find_if(column.values.begin(), column.values.end(),
                                 [](double value) { return std::isnan(value); });

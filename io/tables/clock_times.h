@@ -20,7 +20,8 @@ struct ClockTime {
 std::optional<ClockTime> clock_time_from(std::string_view cell);
 
 // Turns columns of clock times into seconds. A column with dates, or that begins later than it is long
-// (the time of day), begins at 0; the table's notes say so. Times of day may pass midnight.
+// (the time of day), begins half a step after 0, because the load came before its first row; the table's notes
+// say so. Times of day may pass midnight.
 void read_clock_times(CsvTable& table);
 
 }  // namespace viscard

