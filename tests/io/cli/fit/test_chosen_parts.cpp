@@ -129,7 +129,7 @@ TEST_CASE("a record of force alone gives forces, or stiffnesses with --depth", "
   // A column of unknown meaning may be the depth, so nothing is assumed.
   const std::string three = folder.write("three.csv", "time_s,force_N,sep\n0,1,5\n1,2,4\n2,3,3\n");
   CHECK_THAT(run_command({"fit", three}).err,
-             Contains("--column time_s=1 --column force_N=2 --column depth_m=-3"));
+             Contains("3 'sep' (5, 4, 3)") && !Contains("depth_m=-3"));
 }
 
 TEST_CASE("fit --crop auto of a force alone puts t = 0 into the rise before its largest value",
@@ -202,19 +202,21 @@ TEST_CASE("a constant stress with a changing strain is a creep test", "[cli]") {
   CHECK(json["E0_Pa"].get<double>() == Approx(1e6).epsilon(0.01));
 }
 
-TEST_CASE("a table that is not understood shows its columns and words that would read it",
-          "[cli]") {
+TEST_CASE(
+    "a table that is not understood shows its columns, and proposes nothing that no header "
+    "supports",
+    "[cli]") {
   const TableFolder folder;
   std::string text = relaxation_table();
   text.replace(0, text.find('\n', text.find('\n') + 1) + 1, "a,b\n");
   const std::string file = folder.write("other.csv", text);
   const CommandOutcome ran = run_command({"fit", file});
   CHECK(ran.status == kFailed);
-  CHECK_THAT(ran.err,
-             Contains("1 'a' (0.01, ") && Contains("--column time_s=1 --column modulus_Pa=2"));
+  CHECK_THAT(ran.err, Contains("1 'a' (0.01, ") && !Contains("modulus_Pa=2"));
   CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
-  CHECK(run_command({"fit", file, "--column", "time_s=1", "--column", "modulus_Pa=2", "--plausible", "off"}).status ==
-        kDone);
+  CHECK(run_command(
+            {"fit", file, "--column", "time_s=1", "--column", "modulus_Pa=2", "--plausible", "off"})
+            .status == kDone);
 }
 
 TEST_CASE("a file that never ends is refused in one line", "[cli]") {

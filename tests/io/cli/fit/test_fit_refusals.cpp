@@ -26,7 +26,7 @@ TEST_CASE("a wrong command line gives one line and exit status 2", "[cli]") {
       {{"fit", file, "--kind", "relaxtion"}, "did you mean 'relaxation'"},
       {{"fit", file, "--noise", "pink"}, "auto or white"},
       {{"fit", file, "--punch-diameter", "4.4 kg"}, "--punch-diameter"},
-      {{"fit", file, "--layer-thickness", "1 mm"}, "need --punch-diameter"},
+      {{"fit", file, "--layer-thickness", "1 mm"}, "needs --punch-diameter"},
       {{"fit", file, "--column", "modulus=2"}, "modulus"},
       {{"fit", file, "--bootstrap", "5"}, "outside 20 to 100000"},
       {{"fit", file, "--liquid", "--terms", "0"}, "at least one term"},
