@@ -121,6 +121,7 @@ TableModulusKind modulus_kind_of(const CsvTable& table, const ColumnMap& map,
     return found;
   }
   found.is_assumed = !has_own_name;
+  if (has_own_name) found.from = "a name of viscard, which means tension";
   return found;
 }
 
