@@ -1,3 +1,5 @@
+#include "io/basics/sha256.h"
+
 #include "io/basics/atomic_file.h"
 
 #include <openssl/evp.h>
@@ -7,8 +9,7 @@
 
 namespace viscard {
 
-std::string sha256_of_file(const std::filesystem::path& path) {
-  const std::string contents = read_file(path);
+std::string sha256_of_text(const std::string& contents) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int size = 0;
   if (EVP_Digest(contents.data(), contents.size(), digest.data(), &size, EVP_sha256(), nullptr) !=
@@ -22,6 +23,10 @@ std::string sha256_of_file(const std::filesystem::path& path) {
     out += kDigits[digest[i] & 15];
   }
   return out;
+}
+
+std::string sha256_of_file(const std::filesystem::path& path) {
+  return sha256_of_text(read_file(path));
 }
 
 }  // namespace viscard

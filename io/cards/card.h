@@ -49,10 +49,10 @@ struct CardOptions {
   std::optional<double> clamped_nu;  // use this Poisson ratio instead of a larger one
   std::string created_at;            // ISO 8601
   std::string command;               // command line
-  std::string material_sha256;
-  std::vector<FidelityItem> done_before;  // changes made to the material (terms reduced ...)
-  std::optional<Material> original;       // the material before those changes
-  std::vector<std::string> notes;         // further header lines
+  std::string material_sha256, material_file;  // its sum, and its name without folder
+  std::vector<FidelityItem> done_before;       // changes made to the material (terms reduced ...)
+  std::optional<Material> original;            // the material before those changes
+  std::vector<std::string> notes;              // further header lines
   // Of a card over a band of frequencies; if not given, that which the material's data support.
   std::optional<FrequencyBand> band = {};
 };

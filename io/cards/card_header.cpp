@@ -1,5 +1,7 @@
 #include "io/cards/card_header.h"
 
+#include "io/cards/card_sum.h"
+
 #include <fmt/format.h>
 
 #include <cctype>
@@ -71,8 +73,11 @@ void add_provenance(std::vector<std::string>& lines, const Material& material,
     lines.push_back("raw data " + file.path + " sha256 " + file.sha256);
   }
   if (!options.material_sha256.empty()) {
-    lines.push_back("material file sha256 " + options.material_sha256);
+    lines.push_back("material file " +
+                    (options.material_file.empty() ? "" : options.material_file + " ") + "sha256 " +
+                    options.material_sha256);
   }
+  lines.push_back(unsealed_sum_line());
   if (!options.is_reproducible) {
     if (!options.created_at.empty()) lines.push_back("created " + options.created_at);
     if (!options.command.empty()) lines.push_back("by " + options.command);

@@ -46,7 +46,8 @@ struct DeckBlock {
 };
 
 // What the deck writer of a target formats. The model is a unit cube from the origin with rollers
-// on its faces x = 0, y = 0 and z = 0, pulled in z at its face z = 1.
+// on its faces x = 0, y = 0 and z = 0, pulled in z at its face z = 1; confined, with rollers on x = 1 and
+// y = 1 too.
 struct DeckInput {
   const Card& card;
   const ElementTest& test;
@@ -54,7 +55,8 @@ struct DeckInput {
   // Of the whole model, for a card with a shift; else the reference temperature of the shift.
   std::optional<double> temperature_C = std::nullopt;
 
-  bool is_creep() const { return test.kind == ElementTestKind::kCreep; }
+  bool is_creep() const { return test.is_creep(); }
+  bool is_confined() const { return test.is_confined(); }
   double time(double time_s) const { return to_card(time_s, units.time_exponent); }
   double ramp() const { return time(test.ramp_s); }
   double end() const { return time(test.end_s()); }

@@ -170,9 +170,9 @@ std::string keyword_cube() {
 }
 
 std::string keyword_rollers_and_ramp(const DeckInput& input) {
-  std::string out =
-      "*BOUNDARY\nBASE, 3, 3\n1, 1, 2\n4, 1, 1\n5, 1, 2\n8, 1, 1\n2, 2, 2\n6, 2, 2\n"
-      "*AMPLITUDE, NAME=RAMP, TIME=TOTAL TIME\n0., 0.\n";
+  std::string out = "*BOUNDARY\nBASE, 3, 3\n1, 1, 2\n4, 1, 1\n5, 1, 2\n8, 1, 1\n2, 2, 2\n6, 2, 2\n";
+  if (input.is_confined()) out += "2, 1, 1\n3, 1, 2\n4, 2, 2\n6, 1, 1\n7, 1, 2\n8, 2, 2\n";
+  out += "*AMPLITUDE, NAME=RAMP, TIME=TOTAL TIME\n0., 0.\n";
   double load = 0.0;
   for (const DeckBlock& block : input.blocks()) {
     if (block.load != load) out += fmt::format("{}, {}.\n", number_of_20(block.end), block.load);

@@ -28,6 +28,18 @@ struct Decay {
   }
 };
 
+// K(t) + 4 G(t)/3, without terms that do not relax.
+PronySeries confined_series(const Material& material) {
+  const DerivedModuli moduli = derived_moduli(material);
+  PronySeries series{moduli.K0_Pa + 4.0 / 3.0 * moduli.G0_Pa, {}};
+  for (const MaterialTerm& term : material.terms) {
+    const double relaxes_Pa = term.k * moduli.K0_Pa + 4.0 / 3.0 * term.g * moduli.G0_Pa;
+    series.equilibrium_modulus_Pa -= relaxes_Pa;
+    if (relaxes_Pa > 0.0) series.terms.push_back({relaxes_Pa, term.tau_s});
+  }
+  return series;
+}
+
 // One length of all increments: a ramp of some of them and a hold. The ramp is longer than half the
 // shortest relaxation time if the increments are.
 void add_equal_increments(const ElementTestOptions& options, int ramp_steps, double end_s,
@@ -68,9 +80,10 @@ ElementTest element_test(const Material& material, const ElementTestOptions& opt
 }
 
 double exact_response(const Material& material, const ElementTest& test, double time_s) {
-  const PronySeries relaxation = young_series(material);
+  const PronySeries relaxation =
+      test.is_confined() ? confined_series(material) : young_series(material);
   Decay decay{relaxation.equilibrium_modulus_Pa, relaxation.terms};
-  if (test.kind == ElementTestKind::kCreep) {
+  if (test.is_creep()) {
     // J(t) = J_g + sum J_j - sum J_j exp(-t/lambda_j)
     const RetardationSpectrum creep = retardation_from_relaxation(relaxation);
     decay = {creep.instantaneous_compliance_1_Pa, {}};
@@ -88,8 +101,7 @@ double exact_response(const Material& material, const ElementTest& test, double 
     from_s = block.end_s;
     load = block.load;
   }
-  return test.kind == ElementTestKind::kCreep ? response * material.E0_Pa
-                                              : response / material.E0_Pa;
+  return test.is_creep() ? response * material.E0_Pa : response / material.E0_Pa;
 }
 
 std::string expected_curve_csv(const Material& material, const ElementTest& test,

@@ -8,10 +8,13 @@
 namespace viscard {
 
 // The test that proves a card: a unit cube in simple tension, its sides free. In relaxation the
-// strain rises linearly during the ramp and is held, in creep the stress. A rising test adds the
+// strain rises linearly during the ramp and is held, in creep the stress. Confined, the strain of
+// relaxation or the stress of creep acts while no side may move: the modulus K + 4 G/3 shows the bulk
+// modulus, which free sides of a nearly incompressible body hardly do. An implicit solver needs the
+// stress, because the strain leaves it no unknown. A rising test adds the
 // same load again in every block, and each block doubles the time: so all decades are loaded, and
 // no branch ever relaxes to zero. All have closed answers.
-enum class ElementTestKind { kRelaxation, kCreep };
+enum class ElementTestKind { kRelaxation, kCreep, kConfined, kConfinedCreep };
 
 // A part of the test with increments of one length.
 struct TimeBlock {
@@ -28,6 +31,12 @@ struct ElementTest {
   std::vector<TimeBlock> blocks;  // the first is the ramp
 
   double end_s() const { return blocks.back().end_s; }
+  bool is_creep() const {
+    return kind == ElementTestKind::kCreep || kind == ElementTestKind::kConfinedCreep;
+  }
+  bool is_confined() const {
+    return kind == ElementTestKind::kConfined || kind == ElementTestKind::kConfinedCreep;
+  }
 };
 
 // From which the test of a material is made.
@@ -49,7 +58,7 @@ struct ElementTestOptions {
 // grow with time. A material without terms is held for 1 s.
 ElementTest element_test(const Material& material, const ElementTestOptions& options);
 
-// Stress over amplitude and E0 (relaxation) or strain over amplitude (creep) at a time: exact, from
+// Stress over amplitude and E0 (relaxation, confined) or strain over amplitude (creep) at a time: exact, from
 // E(t) or the creep compliance J(t), integrated over the blocks (models/README.md, eq. 1, 3, 5).
 double exact_response(const Material& material, const ElementTest& test, double time_s);
 

@@ -4,6 +4,7 @@
 #include "io/cards/card_lines.h"
 #include "models/maths/result_visitor.h"
 
+#include <algorithm>
 #include <cctype>
 #include <stdexcept>
 
@@ -61,6 +62,20 @@ void show_keys(ResultVisitor& v, const CardFinding& finding) {
   v("name", finding.name, "its name");
   v("mistake", finding.is_mistake, "false: a note");
   v("text", finding.text, "in words");
+}
+
+void add_unread_parts(const std::vector<std::string>& parts, std::vector<CardFinding>& findings) {
+  for (const std::string& part : parts)
+    findings.push_back({"not-read", part + " is not read: the solver may use it", false});
+}
+
+bool has_unread_parts(const std::vector<CardFinding>& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const CardFinding& finding) { return finding.name == "not-read"; });
+}
+
+void ReadCard::add_unread(const std::vector<std::string>& parts) {
+  add_unread_parts(parts, findings);
 }
 
 void ReadCard::add_second_material(const CardLine& line) {

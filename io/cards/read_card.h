@@ -21,6 +21,10 @@ struct CardFinding {
   bool is_mistake = true;
 };
 void show_keys(ResultVisitor& v, const CardFinding& finding);
+// The note "not-read" of parts of a material that no reader used.
+void add_unread_parts(const std::vector<std::string>& parts, std::vector<CardFinding>& findings);
+// True if there is one: then nothing may be said of the whole card.
+bool has_unread_parts(const std::vector<CardFinding>& findings);
 
 struct ReadCard {
   CardTarget understood;  // the target's conventions, changed where the card states others
@@ -38,6 +42,8 @@ struct ReadCard {
   void add(const char* finding, const std::string& text, bool is_mistake = true) {
     findings.push_back({finding, text, is_mistake});
   }
+  // Parts of the material that no reader used, each with its line: the note "not-read".
+  void add_unread(const std::vector<std::string>& parts);
   // Solvers take one of two materials of a file, which one depends on the solver.
   void add_second_material(const CardLine& line);
 };

@@ -1,5 +1,6 @@
 #include "io/cards/card.h"
 #include "io/cards/card_header.h"
+#include "io/cards/card_sum.h"
 #include "io/cards/card_values.h"
 #include "io/cards/material_difference.h"
 #include "io/cards/read_card.h"
@@ -84,8 +85,9 @@ void settle_bulk(Material& material, const CardTarget& target, const CardOptions
   if (!is_assumed && !options.may_approximate) {
     throw std::invalid_argument(fmt::format(
         "the bulk relaxation of this material is stated, and in {} the bulk modulus {} ({:.1e} in "
-        "E(t)); pass --approximate to accept that, or choose another target",
-        target.code, rule, difference));
+        "E(t)); pass --approximate to accept that, or choose another target{}",
+        target.code, rule, difference,
+        target.name == "febio" ? ", such as febio-uncoupled, whose bulk modulus is constant" : ""));
   }
   fidelity.push_back(
       {"bulk", Mapping::kApproximated,
@@ -109,8 +111,9 @@ void settle_shift(const Material& material, const CardTarget& target, const Card
   const TemperatureShift& shift = *material.shift;
   const bool is_wlf = shift.law == ShiftLaw::kWlf;
   const std::string law =
-      is_wlf ? fmt::format("WLF, C1 = {}, C2 = {} K at {} C", shift.C1, shift.C2_K, shift.T_ref_C)
-             : fmt::format("Arrhenius, {} J/mol at {} C", shift.activation_J_mol, shift.T_ref_C);
+      is_wlf
+          ? fmt::format("WLF, C1 = {}, C2 = {} K at {} C", shift.C1, shift.C2_K, shift.T_ref_C)
+          : fmt::format("Arrhenius, {:.6g} J/mol at {} C", shift.activation_J_mol, shift.T_ref_C);
   if (takes_shift(target, material)) {
     fidelity.push_back({"temperature", Mapping::kExact,
                         law + fmt::format("; temperatures in the card in {}", target.temperature)});
@@ -258,10 +261,11 @@ Card write_card(const Material& given, const CardTarget& target, const CardOptio
   }
   const std::string comments = as_comments(body.header, target.comment);
   card.name = body.name;
-  card.text = target.comment.empty() ? target.write(body)
-                                     : target.first_line + comments + target.write(body);
+  card.text = sealed(target.comment.empty() ? target.write(body)
+                                            : target.first_line + comments + target.write(body));
   if (target.companions != nullptr) card.companions = target.companions(body);
-  for (CompanionFile& companion : card.companions) companion.text = comments + companion.text;
+  for (CompanionFile& companion : card.companions)
+    companion.text = sealed(comments + companion.text);
   return card;
 }
 

@@ -182,6 +182,7 @@ PreparedMaterial prepare_card_material(const CardMaterialRequest& request) {
     refuse_liquid(prepared.material, request.material);
   }
   prepared.sha256 = sha256_of_file(request.material);
+  prepared.file = std::filesystem::path(request.material).filename().string();
   take_changes(request, prepared);
   return prepared;
 }
@@ -197,6 +198,7 @@ PreparedMaterial prepare_card_material(const Material& material,
 
 void state_changes(const PreparedMaterial& prepared, CardOptions& options) {
   options.material_sha256 = prepared.sha256;
+  options.material_file = prepared.file;
   options.notes = prepared.notes;
   options.original = prepared.original;
   if (!prepared.terms_change) return;

@@ -28,7 +28,7 @@ struct CardMaterialRequest {
 // The resulting material, with notes of the changes that were made.
 struct PreparedMaterial {
   Material material;
-  std::string sha256;
+  std::string sha256, file;                 // of the material file, its name without folder
   std::vector<std::string> notes;           // header lines
   std::optional<std::string> terms_change;  // "approximated" text of the terms, if reduced
   bool are_terms_dropped = false;

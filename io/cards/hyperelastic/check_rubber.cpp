@@ -1,5 +1,6 @@
 #include "io/cards/hyperelastic/check_rubber.h"
 
+#include "io/cards/card_sum.h"
 #include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/hyperelastic/rubber_rows.h"
 #include "io/cards/list_differences.h"
@@ -18,7 +19,8 @@ namespace {
 struct RubberParts {
   HyperelasticLaw law;
   std::vector<RubberTerm> terms;
-  double bulk_Pa = 0.0;  // 0: not compared
+  double bulk_Pa = 0.0;        // 0: not compared
+  double density_kg_m3 = 0.0;  // 0: not compared
 };
 
 // Neo-Hooke and Mooney-Rivlin as the law of Ogden that they equal, for cards that have only that.
@@ -65,6 +67,8 @@ std::vector<RubberPair> pairs_between(const RubberParts& found, const RubberPart
     out.push_back({fmt::format("tau_{}_s", i + 1), a[i].tau_s, b[i].tau_s});
   }
   if (expected.bulk_Pa > 0.0) out.push_back({"bulk modulus", found.bulk_Pa, expected.bulk_Pa});
+  if (expected.density_kg_m3 > 0.0)
+    out.push_back({"density", found.density_kg_m3, expected.density_kg_m3});
   return out;
 }
 
@@ -141,7 +145,19 @@ void add_term_mistakes(const UnitSystem& units, std::vector<RubberMistake>& list
        }});
 }
 
-void add_law_mistakes(HyperelasticForm form, std::vector<RubberMistake>& list) {
+void add_law_mistakes(HyperelasticForm form, const std::string& target,
+                      std::vector<RubberMistake>& list) {
+  if (form == HyperelasticForm::kYeoh && target == "febio") {
+    list.push_back(
+        {"yeoh-of-older-febio",
+         "c_i of 'Yeoh' are C_i0, which FEBio took before 2023; since then (run in 4.11) it "
+         "takes i C_i0, so that the law is too soft at large stretch (27 % at 2 for typical "
+         "constants); write it as 'uncoupled hyperelastic' with W, which is right in both",
+         [](RubberParts& p) {
+           for (Eigen::Index i = 0; i < p.law.moduli_Pa.size(); ++i)
+             p.law.moduli_Pa[i] /= static_cast<double>(i + 1);
+         }});
+  }
   if (is_ogden(form)) {
     const auto by_alpha = [](double power, double factor) {
       return [power, factor](RubberParts& p) {
@@ -199,7 +215,7 @@ void add_volume_and_unit_mistakes(const UnitSystem& units, std::vector<RubberMis
 
 // The mistake whose numbers are the card's.
 std::vector<CardFinding> explained(const RubberParts& found, const RubberParts& expected,
-                                   const UnitSystem& units) {
+                                   const std::string& target, const UnitSystem& units) {
   if (found.law.form != expected.law.form)
     return {
         {"other-law",
@@ -215,7 +231,7 @@ std::vector<CardFinding> explained(const RubberParts& found, const RubberParts& 
     add_basis_mistakes(list);
     add_term_mistakes(units, list);
   }
-  add_law_mistakes(expected.law.form, list);
+  add_law_mistakes(expected.law.form, target, list);
   add_volume_and_unit_mistakes(units, list);
   const RubberMistake* best = nullptr;
   double smallest = std::min(kHandTyped, 0.2 * largest_mismatch(found, expected));
@@ -232,8 +248,11 @@ std::vector<CardFinding> explained(const RubberParts& found, const RubberParts& 
   std::string text;
   for (const RubberPair& pair : pairs_between(found, expected)) {
     if (relative_mismatch(pair.found, pair.expected) <= 1e-6) continue;
-    text += fmt::format("{}{} is {:.9g}, not {:.9g}", text.empty() ? "" : "; ", pair.name,
-                        pair.found, pair.expected);
+    text +=
+        fmt::format("{}{} is {:.9g}, {}", text.empty() ? "" : "; ", pair.name, pair.found,
+                    pair.expected == 0.0 ? std::string("not 0")
+                                         : fmt::format("{:.6g} times the expected {:.9g}",
+                                                       pair.found / pair.expected, pair.expected));
   }
   return {{"numbers-differ", text, true}};
 }
@@ -249,7 +268,7 @@ double rounding_of(const RubberParts& expected, const RubberCheckOptions& option
   writing.may_approximate = true;
   const ReadRubber own = read_rubber_card(rubber_card(expected.law, expected.terms, writing),
                                           options.target, read.units->name);
-  const RubberParts rounded{own.law, own.terms, 0.0};
+  const RubberParts rounded{own.law, own.terms, 0.0, 0.0};
   return std::min(kMost, largest_mismatch(rounded, in_form(expected, own.law.form)));
 }
 
@@ -261,7 +280,8 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
   check.findings = check.read.findings;
   check.tolerance = options.tolerance.value_or(1e-6);
   if (file != nullptr) {
-    RubberParts expected{file->law, file->terms, options.bulk_Pa.value_or(0.0)};
+    RubberParts expected{file->law, file->terms, options.bulk_Pa.value_or(0.0),
+                         options.density_kg_m3.value_or(0.0)};
     if (!options.elastic_only.empty()) {
       expected.law = law_without_terms(file->law, file->terms, options.elastic_only);
       expected.terms.clear();
@@ -271,13 +291,21 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
       check.tolerance =
           std::max(check.tolerance, kMore * rounding_of(expected, options, check.read));
     }
-    const RubberParts found{check.read.law, check.read.terms, check.read.bulk_Pa};
+    const RubberParts found{check.read.law, check.read.terms, check.read.bulk_Pa,
+                            check.read.density_kg_m3};
     expected = in_form(expected, found.law.form);
     check.difference = largest_mismatch(found, expected);
     if (*check.difference > check.tolerance) {
-      const auto why = explained(found, expected, *check.read.units);
+      const auto why = explained(found, expected, options.target, *check.read.units);
       check.findings.insert(check.findings.end(), why.begin(), why.end());
     }
+  }
+  const std::string stated = stated_card_sum(text);
+  if (check.findings.empty() && !stated.empty() && stated != card_sum(text)) {
+    check.findings.push_back({"card-edited",
+                              "the card is not as viscard wrote it (the sum in its header "
+                              "differs), and no number of it differs",
+                              false});
   }
   check.agrees = (!check.difference || *check.difference <= check.tolerance) &&
                  std::none_of(check.findings.begin(), check.findings.end(),

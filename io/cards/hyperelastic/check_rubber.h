@@ -25,7 +25,8 @@ struct RubberCheckOptions {
   std::optional<double> tolerance =
       {};                              // if not given 1e-6, or what the ten columns of lsdyna lose
   std::optional<double> bulk_Pa = {};  // not compared if not given
-  std::string elastic_only = {};       // "", "instantaneous", "long-term"
+  std::optional<double> density_kg_m3 = {};
+  std::string elastic_only = {};  // "", "instantaneous", "long-term"
 };
 
 // Throws what read_rubber_card() throws. Without a file it reports only what the reader found.

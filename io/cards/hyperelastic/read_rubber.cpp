@@ -4,12 +4,31 @@
 #include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/hyperelastic/rubber_readers.h"
 #include "io/cards/unit_system.h"
+#include "io/cards/unread_tokens.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
 namespace viscard {
 namespace {
+
+// Everything that was read, as text.
+std::string reading_of(const RubberText& read) {
+  std::string out = fmt::format("{} {} {} {}", static_cast<int>(read.numbers.form),
+                                read.numbers.bulk, read.numbers.density, read.poisson);
+  const auto add = [&](double value) { out += fmt::format(" {}", value); };
+  for (const double modulus : read.numbers.moduli) add(modulus);
+  for (const double shape : read.numbers.shapes) add(shape);
+  for (const RubberNumbers::Term& term : read.numbers.terms) {
+    add(term.g);
+    add(term.time);
+  }
+  out += (read.is_long_term ? " long" : " once") + read.also_read + read.units;
+  for (const CardFinding& finding : read.findings) out += " " + finding.text;
+  return out;
+}
 
 RubberText text_of_target(const std::string& text, const std::string& target) {
   if (target == "abaqus" || target == "calculix")
@@ -27,6 +46,53 @@ RubberText text_of_target(const std::string& text, const std::string& target) {
                               listed(rubber_card_targets()) + " can");
 }
 
+// Lines of the material whose every word and number should have been used; what a program or a reader of
+// elements accounts for by itself has none here.
+std::vector<CardLine> lines_of_material(const std::string& text, const std::string& target,
+                                        std::vector<std::string>& neutral) {
+  std::vector<CardLine> out;
+  if (target == "abaqus" || target == "calculix" || target == "frontistr") {
+    const bool is_frontistr = target == "frontistr";
+    out = material_lines(card_lines(text, is_frontistr ? "#" : "**"), is_frontistr ? '!' : '*');
+    neutral = {"TYPE", "ISOTROPIC", "MODULI", "INSTANTANEOUS", "LONG", "TERM"};
+    std::erase_if(out, [](const CardLine& line) {
+      return upper(trimmed(line.text)).rfind("*MATERIAL", 0) == 0 ||
+             upper(trimmed(line.text)).rfind("!MATERIAL", 0) == 0;
+    });
+  } else if (target == "ansys") {
+    neutral = {"1", "TBTEM", "TBTEMP", "MPTEMP", "R5"};
+    for (CardLine line : card_lines(text, "!")) {
+      line.text = line.text.substr(0, line.text.find('!'));
+      const std::string command = upper(trimmed(line.text)).substr(0, 2);
+      if (command == "TB" || command == "MP") out.push_back(line);
+    }
+  } else if (target == "lsdyna" || target == "openradioss") {
+    const bool is_dyna = target == "lsdyna";
+    const char mark = is_dyna ? '*' : '/';
+    bool is_inside = false;
+    std::size_t rows = 0;
+    for (const CardLine& line : card_lines(text, is_dyna ? "$" : "#")) {
+      const std::string word = upper(trimmed(line.text));
+      if (!word.empty() && word[0] == mark) {
+        is_inside = word.rfind(is_dyna ? "*MAT_" : "/MAT/", 0) == 0;
+        rows = is_inside && (!is_dyna || word.find("_TITLE") != std::string::npos) ? 1 : 0;
+        const bool is_other_law = is_dyna ? word.rfind("*MAT_ADD", 0) == 0
+                                          : word.rfind("/VISC/", 0) == 0 ||
+                                                word.rfind("/FAIL/", 0) == 0 ||
+                                                word.rfind("/EOS/", 0) == 0;
+        if (is_other_law) out.push_back(line);
+        continue;
+      }
+      if (!is_inside || rows-- == 1) continue;  // the title
+      rows = 0;
+      out.push_back(line);
+    }
+    // The number of the material, in the first ten columns of LS-DYNA.
+    if (is_dyna && !out.empty()) neutral = {std::string(trimmed(out.front().text.substr(0, 10)))};
+  }
+  return out;
+}
+
 Eigen::VectorXd vector_of(const std::vector<double>& numbers) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
                                            static_cast<Eigen::Index>(numbers.size()));
@@ -41,7 +107,7 @@ void take_at_once(const RubberText& read, double stress_Pa, ReadRubber& out) {
   out.is_long_term = read.is_long_term;
   validate(out.law);
   const double shear_Pa = youngs_modulus_Pa(out.law) / 3.0;
-  if (read.poisson > 0.0 && read.poisson < 0.5) {
+  if (read.has_poisson && read.poisson > -1.0 && read.poisson < 0.5) {
     out.bulk_Pa = 2.0 * shear_Pa * (1.0 + read.poisson) / (3.0 * (1.0 - 2.0 * read.poisson));
   }
   for (const RubberNumbers::Term& term : numbers.terms)
@@ -66,11 +132,27 @@ void take_at_once(const RubberText& read, double stress_Pa, ReadRubber& out) {
 }  // namespace
 
 bool looks_like_rubber_card(const std::string& text) {
-  const auto& words = {"*HYPERELASTIC",      "TB,HYPER",          "*MAT_OGDEN_RUBBER",
-                       "*MAT_077",           "*MAT_HYPERELASTIC", "/MAT/LAW62",
-                       "/MAT/LAW82",         "/MAT/LAW92",        "/MAT/LAW94",
-                       "type=\"Ogden\"",     "type=\"Yeoh\"",     "type=\"Arruda-Boyce\"",
-                       "!HYPERELASTIC",      "dw_tl_he_",         "ComputeNeoHookeanStress",
+  const auto& words = {"*HYPERELASTIC",
+                       "TB,HYPER",
+                       "*MAT_OGDEN_RUBBER",
+                       "*MAT_077",
+                       "*MAT_HYPERELASTIC",
+                       "/MAT/LAW62",
+                       "/MAT/LAW82",
+                       "/MAT/LAW92",
+                       "/MAT/LAW94",
+                       "\"Ogden\"",
+                       "\"Yeoh\"",
+                       "\"Arruda-Boyce\"",
+                       "\"Gent\"",
+                       "'Ogden'",
+                       "'Yeoh'",
+                       "'Arruda-Boyce'",
+                       "'Gent'",
+                       "uncoupled hyperelastic",
+                       "!HYPERELASTIC",
+                       "dw_tl_he_",
+                       "ComputeNeoHookeanStress",
                        "DefaultFiniteStrain"};
   if (!stated_rubber_target(text).empty()) return true;
   return std::any_of(words.begin(), words.end(),
@@ -99,13 +181,26 @@ ReadRubber read_rubber_card(const std::string& text, const std::string& target,
     out.units = &unit_system("SI");
     out.units_were_stated = true;
   } else {
-    out.units = &unit_system(!units.empty() ? units : !stated.empty() ? stated : "SI");
+    if (!read.units.empty()) out.units_were_stated = true;
+    out.units = &unit_system(!units.empty()        ? units
+                             : !read.units.empty() ? read.units
+                             : !stated.empty()     ? stated
+                                                   : "SI");
   }
   if (read.numbers.bulk > 0.0)
     out.bulk_Pa = from_card(read.numbers.bulk, out.units->stress_exponent);
   if (read.numbers.density > 0.0)
     out.density_kg_m3 = from_card(read.numbers.density, out.units->density_exponent);
   out.findings = read.findings;
+  std::vector<std::string> neutral;
+  const std::vector<CardLine> lines = lines_of_material(text, target, neutral);
+  if (!lines.empty()) {
+    add_unread_parts(unread_tokens(text, lines, neutral,
+                                   [&](const std::string& changed) {
+                                     return reading_of(text_of_target(changed, target));
+                                   }),
+                     out.findings);
+  }
   take_at_once(read, from_card(1.0, out.units->stress_exponent), out);
   return out;
 }

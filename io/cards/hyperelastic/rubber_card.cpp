@@ -4,12 +4,11 @@
 //             materials; *HYPERELASTIC.
 //   calculix  the same numbers in the same order; D = 0 or below 1e-10 is replaced by 0.1/mu (nu 0.475).
 //             Source: hyperelastics.f, rubber.f of CalculiX 2.2x. Run by the tests in CalculiX 2.20.
-//   febio     Ogden: c_i/m_i^2 instead of 2 mu_i/alpha_i^2; Arruda-Boyce: N = s_m^2; bulk modulus k.
-//             Source: FEOgdenMaterial.cpp, FEMooneyRivlin.cpp, FEYeoh.cpp, FEArrudaBoyce.cpp of FEBio 4.
 //   ansys     Ogden's own mu_i/alpha_i; NEO takes the shear modulus 2 C10; d = 2/K, 0 is incompressible.
 //             Source: Mechanical APDL Structural Analysis Guide, TB,HYPER (OGDEN and NEO with examples);
 //             order of BOYCE, GENT and YEOH: Material Reference 4.6.
-// frontistr, lsdyna and openradioss: rubber_rows.cpp; comsol, moose and sfepy: rubber_models.cpp; mfront: rubber_mfront.cpp;
+// febio: rubber_febio.cpp; frontistr, lsdyna and openradioss: rubber_rows.cpp; comsol, moose and sfepy: rubber_models.cpp;
+// mfront: rubber_mfront.cpp;
 // terms of relaxation: rubber_terms.cpp.
 #include "io/cards/hyperelastic/rubber_card.h"
 
@@ -76,44 +75,9 @@ std::string keyword_card(const RubberNumbers& law, const std::string& target,
   const std::size_t n_terms = is_ogden(law.form) || law.form == Form::kYeoh ? law.moduli.size() : 1;
   for (std::size_t i = 1; i < n_terms; ++i) numbers.push_back(target == "calculix" ? 1e10 : 0.0);
   if (!law.terms.empty()) keyword += ", MODULI=INSTANTANEOUS";
-  return "*MATERIAL, NAME=" + material + "\n*HYPERELASTIC, " + keyword + "\n" +
-         rows_of_eight(numbers) + abaqus_terms(law);
-}
-
-std::string tag(const std::string& name, double value) {
-  return fmt::format("  <{0}>{1}</{0}>\n", name, number_of_20(value));
-}
-
-std::string febio_card(const RubberNumbers& law, const std::string& material) {
-  std::string type, body;
-  const std::size_t n = law.moduli.size();
-  if (is_ogden(law.form)) {
-    type = "Ogden";
-    for (std::size_t i = 0; i < n; ++i) {
-      body += tag(fmt::format("c{}", i + 1), 2.0 * law.moduli[i]) +
-              tag(fmt::format("m{}", i + 1), law.shapes[i]);
-    }
-  } else if (law.form == Form::kArrudaBoyce) {
-    type = "Arruda-Boyce";
-    body = tag("mu", law.moduli[0]) + tag("N", law.shapes[0] * law.shapes[0]);
-  } else if (law.form == Form::kYeoh) {
-    type = "Yeoh";
-    for (std::size_t i = 0; i < n; ++i) body += tag(fmt::format("c{}", i + 1), law.moduli[i]);
-  } else if (law.form == Form::kGent) {
-    refuse_law(law, "febio");
-  } else {  // Neo-Hooke is Mooney-Rivlin without its second constant
-    type = "Mooney-Rivlin";
-    body = tag("c1", law.moduli[0]) + tag("c2", n > 1 ? law.moduli[1] : 0.0);
-  }
-  if (!law.terms.empty()) {
-    // FEBio takes the bulk modulus of an uncoupled material from its top level.
-    return fmt::format(
-        "<material id=\"1\" name=\"{}\" type=\"uncoupled viscoelastic\">\n{}{}"
-        "<elastic type=\"{}\">\n{}</elastic>\n</material>\n",
-        material, febio_terms(law), tag("k", law.bulk), type, body);
-  }
-  return fmt::format("<material id=\"1\" name=\"{}\" type=\"{}\">\n{}{}</material>\n", material,
-                     type, body, tag("k", law.bulk));
+  std::string text = "*MATERIAL, NAME=" + material + "\n";
+  if (law.density > 0.0) text += "*DENSITY\n" + number_of_20(law.density) + ",\n";
+  return text + "*HYPERELASTIC, " + keyword + "\n" + rows_of_eight(numbers) + abaqus_terms(law);
 }
 
 std::string ansys_card(const RubberNumbers& law) {
@@ -140,8 +104,8 @@ std::string ansys_card(const RubberNumbers& law) {
   }
   numbers.push_back(law.d());
   const bool has_number = option == "OGDEN" || option == "MOONEY" || option == "YEOH";
-  std::string text =
-      fmt::format("TB,HYPER,1,1,{},{}\n", has_number ? std::to_string(n_terms) : "", option);
+  std::string text = law.density > 0.0 ? "MP,DENS,1," + number_of_20(law.density) + "\n" : "";
+  text += fmt::format("TB,HYPER,1,1,{},{}\n", has_number ? std::to_string(n_terms) : "", option);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     text += fmt::format("TBDATA,{},{}\n", i + 1, number_of_20(numbers[i]));
   }
@@ -214,7 +178,7 @@ std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm
   if (options.target == "abaqus" || options.target == "calculix") {
     return keyword_card(numbers, options.target, options.material_name);
   }
-  if (options.target == "febio") return febio_card(numbers, options.material_name);
+  if (options.target == "febio") return febio_rubber(numbers, options.material_name);
   if (options.target == "ansys") return ansys_card(numbers);
   if (options.target == "frontistr") return frontistr_rubber(numbers, options.material_name);
   if (options.target == "lsdyna") return lsdyna_rubber(numbers, options.material_name);

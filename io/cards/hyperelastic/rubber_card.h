@@ -27,6 +27,8 @@ struct RubberCardOptions {
   bool may_approximate = false;              // terms that the solver takes at small strain only
   std::string elastic_only = {};  // "", "instantaneous", "long-term": the law without its terms
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any bulk modulus
+  // For the header: sum and name of the file of the law, date and command line; empty: left out.
+  std::string file_sha256 = {}, file_name = {}, created_at = {}, command = {};
 };
 
 // The card of a law. Each solver's convention, with its source, stands in rubber_card.cpp and in the

@@ -80,11 +80,41 @@ void read_law62(const Lines& lines, RubberText& out) {
                      ? static_cast<std::size_t>(cell_integer(head, 3, lines[3], "M"))
                      : 0;
   out.poisson = cell_number_or_zero(columns(lines[3].text, kTwenty), 0, lines[3], "nu");
+  out.has_poisson = true;  // 0 is compressible: K = 2 G/3 (hm_read_mat62.F)
   std::size_t at = 4;
   const auto mu = list_at(lines, at, n), alpha = list_at(lines, at, n);
   take_ogden(mu, alpha, out.numbers);
   const auto gamma = list_at(lines, at, m), tau = list_at(lines, at, m);
   for (std::size_t i = 0; i < m; ++i) out.numbers.terms.push_back({gamma[i], tau[i]});
+  // A row of nu_i, one for each term: a foam, if one is not 0.
+  if (at >= lines.size() || trimmed(lines[at].text).empty() || lines[at].text[0] == '/') return;
+  const auto nu = list_at(lines, at, n);
+  for (std::size_t i = 0; i < nu.size(); ++i) {
+    if (nu[i] == 0.0) continue;
+    out.findings.push_back(
+        {"other-law",
+         at_line(lines[at - 1],
+                 "nu_i is not 0: a foam (Ogden-Storakers), whose nu_i hold instead of nu"),
+         true});
+    return;
+  }
+}
+
+// The unit system of the block /UNIT, or "". Throws for units of no known system.
+std::string declared_units(const Lines& lines) {
+  for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
+    if (upper(trimmed(lines[i].text)).rfind("/UNIT/", 0) != 0) continue;
+    const CardLine& line = lines[i + 2];
+    const auto row = columns(line.text, kTwenty);
+    for (const UnitSystem& system : unit_systems()) {
+      const bool is_tonne = row[0] == "t" && std::string(system.mass) == "Mg";
+      if (row.size() >= 3 && (row[0] == system.mass || is_tonne) && row[1] == system.length &&
+          row[2] == system.time)
+        return system.name;
+    }
+    throw std::runtime_error(at_line(line, "the units of /UNIT are of no known unit system"));
+  }
+  return "";
 }
 
 double bulk_from(double d) {
@@ -105,6 +135,7 @@ RubberText read_lsdyna_rubber(const std::string& text) {
   const auto head = row_at(lines, at++, kTen);
   law.density = at_or_zero(head, 1);
   out.poisson = at_or_zero(head, 2);
+  out.has_poisson = true;
   if (at_or_zero(head, 3) != 0.0)
     throw std::runtime_error("N is not 0: LS-DYNA fits the constants, and the card has none");
   const auto first = row_at(lines, at++, kTen);
@@ -132,11 +163,13 @@ RubberText read_lsdyna_rubber(const std::string& text) {
 }
 
 RubberText read_openradioss_rubber(const std::string& text) {
+  const std::string units = declared_units(card_lines(text, "#"));
   const Lines lines =
       lines_from(card_lines(text, "#"), {"/MAT/LAW62", "/MAT/LAW82", "/MAT/LAW92", "/MAT/LAW94"},
                  "/MAT/LAW62, 82, 92 or 94");
   if (lines.size() < 4) throw std::runtime_error("the card ends before its last row");
   RubberText out;
+  out.units = units;
   RubberNumbers& law = out.numbers;
   law.density = at_or_zero(row_at(lines, 2, kTwenty), 0);
   const std::string number = lines[0].text.substr(8, 2);

@@ -1,5 +1,7 @@
 #include "io/cards/hyperelastic/rubber_file_card.h"
 
+#include "io/cards/card_header.h"
+#include "io/cards/card_sum.h"
 #include "io/cards/hyperelastic/check_rubber.h"
 #include "io/cards/hyperelastic/rubber_terms.h"
 #include "io/cards/unit_system.h"
@@ -43,6 +45,10 @@ std::vector<std::string> header_lines(const HyperelasticFile& file,
   if (!file.terms.empty() && options.elastic_only.empty()) {
     lines.push_back("terms: " + rubber_terms_rule(options.target));
   }
+  lines.push_back("evidence: " + rubber_evidence(options.target));
+  if (options.density_kg_m3) {
+    lines.push_back("density " + text_of(*options.density_kg_m3, 6) + " kg/m3");
+  }
   if (file.accepts_implausible || options.plausible == Plausible::kOff) {
     lines.push_back(kPlausibleOffText);
   }
@@ -67,29 +73,24 @@ std::vector<std::string> header_lines(const HyperelasticFile& file,
                     text_of(stable.low, 3),
                     text_of(stable.high, 3) + (stable.high_is_open ? " and more" : "")));
   }
-  for (const auto& raw : file.raw_files) lines.push_back(raw.file + " sha256 " + raw.sha256);
+  for (const auto& raw : file.raw_files)
+    lines.push_back("raw data " + raw.file + " sha256 " + raw.sha256);
+  if (!options.file_sha256.empty())
+    lines.push_back("material file " + options.file_name + " sha256 " + options.file_sha256);
+  lines.push_back(unsealed_sum_line());
+  if (!options.created_at.empty()) lines.push_back("created " + options.created_at);
+  if (!options.command.empty()) lines.push_back("by " + options.command);
+  lines.push_back("viscard " VISCARD_VERSION);
   return lines;
 }
 
 std::string comment_mark(const std::string& target) {
-  if (target == "ansys") return "! ";
-  if (target == "lsdyna") return "$ ";
-  if (target == "comsol") return "% ";
-  if (target == "mfront") return "// ";
-  return target == "abaqus" || target == "calculix" ? "** " : "# ";
-}
-
-std::string with_header(const std::vector<std::string>& lines, const std::string& target,
-                        const std::string& card) {
-  std::string text;
-  for (const std::string& line : lines) {
-    if (target == "febio") {
-      text += "<!-- " + line + " -->\n";
-    } else {
-      text += comment_mark(target) + line + "\n";
-    }
-  }
-  return text + card;
+  if (target == "febio") return "<!--";
+  if (target == "ansys") return "!";
+  if (target == "lsdyna") return "$";
+  if (target == "comsol") return "%";
+  if (target == "mfront") return "//";
+  return target == "abaqus" || target == "calculix" ? "**" : "#";
 }
 
 // Throws if the text does not say what the file does.
@@ -149,7 +150,8 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
   }
   refuse_bulk_modulus(file, options);
   const std::string card = rubber_card(file.law, file.terms, options);
-  std::string text = with_header(header_lines(file, options), options.target, card);
+  const std::string text =
+      sealed(as_comments(header_lines(file, options), comment_mark(options.target)) + card);
   read_back(text, file, name, options);
   return text;
 }

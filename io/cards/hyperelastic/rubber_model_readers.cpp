@@ -54,9 +54,19 @@ RubberText read_comsol_rubber(const std::string& text) {
   const char* row = "^\\s*(\\w+)\\s+([-+.\\deE]+)\\[([^\\]]*)\\](?:\\s.*)?$";
   for (const CardLine& line : card_lines(text, "%")) {
     const auto match = first_match(line.text, row);
-    if (!match) continue;
+    if (!match && trimmed(line.text).empty()) continue;
+    const auto not_read = [&] {
+      add_unread_parts({at_line(line, "'" + std::string(trimmed(line.text)) + "'")}, out.findings);
+    };
+    if (!match) {
+      not_read();
+      continue;
+    }
     const auto role = first_match(match->group[1], "^(?:.*_)?(mu|C10|C01|kappa|rho)$");
-    if (!role) continue;
+    if (!role) {
+      not_read();
+      continue;
+    }
     const std::string& kind = role->group[1];
     if (!found.emplace(kind, comsol_number_SI(*match, kind == "rho", line)).second)
       throw std::runtime_error(at_line(line, kind + " stands in the card twice; keep one"));

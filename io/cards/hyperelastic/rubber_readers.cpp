@@ -6,6 +6,8 @@
 #include "io/cards/keyword_lines.h"
 #include "io/cards/named_values.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -45,7 +47,9 @@ void take_keyword_law(const KeywordBlock& block, RubberText& out) {
   std::size_t n = 1;
   if (block.has("OGDEN")) {
     for (const std::string& parameter : block.parameters) {
-      if (parameter.rfind("N=", 0) == 0) n = static_cast<std::size_t>(parameter[2] - '0');
+      if (parameter.rfind("N=", 0) == 0)
+        n = static_cast<std::size_t>(
+            cell_integer({parameter.substr(2)}, 0, block.line, "N of OGDEN"));
     }
     require_count(numbers, 2 * n, "*HYPERELASTIC, OGDEN");
     std::vector<double> moduli, shapes;
@@ -61,16 +65,44 @@ void take_keyword_law(const KeywordBlock& block, RubberText& out) {
     law.moduli = {numbers[0]};
     law.shapes = {numbers[1]};
   } else {
-    n = block.has("YEOH") ? 3 : block.has("MOONEY-RIVLIN") ? 2 : 1;
-    if (n == 1 && !block.has("NEOHOOKE"))
-      throw std::runtime_error(at_line(block.line,
-                                       "only OGDEN, NEO HOOKE, MOONEY-RIVLIN, YEOH and "
-                                       "ARRUDA-BOYCE are read"));
+    // REDUCED POLYNOMIAL, N=3 is Yeoh, N=1 Neo-Hooke; POLYNOMIAL, N=1 is Mooney-Rivlin.
+    const bool is_reduced = block.has("REDUCEDPOLYNOMIAL"), is_polynomial = block.has("POLYNOMIAL");
+    const bool has_three = block.has("N=3"), is_simple = !block.has("N=2") && !has_three;
+    n = block.has("YEOH") || (is_reduced && has_three)               ? 3
+        : block.has("MOONEY-RIVLIN") || (is_polynomial && is_simple) ? 2
+                                                                     : 1;
+    if (n == 1 && !block.has("NEOHOOKE") && !(is_reduced && is_simple))
+      throw std::runtime_error(
+          at_line(block.line,
+                  "only OGDEN, NEO HOOKE, MOONEY-RIVLIN, YEOH, ARRUDA-BOYCE, "
+                  "REDUCED POLYNOMIAL of N = 1 or 3 and POLYNOMIAL of N = 1 are read"));
     require_count(numbers, n, "*HYPERELASTIC");
     law.form = n == 3 ? ReadForm::kYeoh : n == 2 ? ReadForm::kMooneyRivlin : ReadForm::kNeoHooke;
     law.moduli.assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(n));
   }
   law.bulk = numbers.size() > n ? bulk_of(numbers[n]) : 0.0;
+  // D_2 ... of OGDEN and YEOH are beyond the law; with D_1^i they count for nothing, or are 0.
+  const std::size_t n_D = block.has("OGDEN")                      ? n / 2
+                          : block.has("YEOH") || block.has("N=3") ? 3
+                                                                  : 1;
+  if (numbers.size() > n + n_D) {
+    out.findings.push_back(
+        {"other-count",
+         at_line(block.line,
+                 fmt::format("{} numbers stand below {}, which takes {} constants and {} D",
+                             numbers.size(), block.keyword, n, n_D)),
+         true});
+  }
+  for (std::size_t i = n + 1; i < numbers.size(); ++i) {
+    constexpr double kNothing = 1e9;
+    out.also_read += fmt::format(" {}", numbers[i]);
+    if (numbers[i] == 0.0 || numbers[i] >= kNothing) continue;
+    out.findings.push_back(
+        {"higher-volume-terms",
+         at_line(block.line, fmt::format("D_{} = {:g} is not read: viscard's laws have D_1 alone",
+                                         i - n + 1, numbers[i])),
+         true});
+  }
 }
 
 // Constants of MAPDL's tables by their locations.
@@ -78,7 +110,13 @@ struct TableOfMapdl {
   std::string option;
   int n_points = 0;
   std::vector<double> constants;
+  CardLine line;
 };
+
+// Constants of the volume that a law may state.
+std::size_t n_volume_of(const std::string& option) {
+  return option == "YEOH" ? 3 : 1;
+}
 
 std::map<std::string, TableOfMapdl> mapdl_tables(const std::string& text) {
   std::map<std::string, TableOfMapdl> tables;
@@ -89,9 +127,10 @@ std::map<std::string, TableOfMapdl> mapdl_tables(const std::string& text) {
     if (command == "TB" && row.size() > 1) {
       table = &tables[upper(row[1]).substr(0, 4)];
       table->option = row.size() > 5 ? upper(row[5]) : "";
+      table->line = line;
       const bool has_count = row.size() > 4 && !row[4].empty();
       table->n_points = has_count ? cell_integer(row, 4, line, "NPTS") : 0;
-    } else if (command == "TBDATA" && table != nullptr && row.size() > 2) {
+    } else if (command.rfind("TBDAT", 0) == 0 && table != nullptr && row.size() > 2) {
       auto at = row[1].empty() ? table->constants.size() + 1
                                : static_cast<std::size_t>(cell_integer(row, 1, line, "location"));
       for (std::size_t i = 2; i < row.size(); ++i, ++at) {
@@ -102,51 +141,6 @@ std::map<std::string, TableOfMapdl> mapdl_tables(const std::string& text) {
     }
   }
   return tables;
-}
-
-std::optional<double> value_of_tag(const std::string& text, const std::string& tag) {
-  const auto match = first_match(text, "<" + tag + "(\\s[^>]*)?>([^<]*)</" + tag + ">");
-  if (!match) return std::nullopt;
-  return card_number(std::string(trimmed(match->group[2])), line_of(text, match->at[2]), tag);
-}
-
-// Numbers of the tags c1, c2 ... or m1, m2 ...
-std::vector<double> numbered_tags(const std::string& text, const std::string& name) {
-  std::vector<double> out;
-  for (int i = 1; i <= 6; ++i) {
-    const auto value = value_of_tag(text, name + std::to_string(i));
-    if (!value) break;
-    out.push_back(*value);
-  }
-  return out;
-}
-
-void take_febio_law(const std::string& text, RubberNumbers& law) {
-  const auto type =
-      first_match(text, "type\\s*=\\s*[\"'](Ogden|Arruda-Boyce|Yeoh|Mooney-Rivlin)[\"']");
-  if (!type) throw std::runtime_error("the card has no Ogden, Arruda-Boyce, Yeoh or Mooney-Rivlin");
-  const std::string child = text.substr(type->at[0]);
-  std::vector<double> c = numbered_tags(child, "c");
-  if (type->group[1] == "Ogden") {
-    const std::vector<double> m = numbered_tags(child, "m");
-    require_count(m, c.size(), "Ogden");
-    for (double& value : c) value /= 2.0;  // c/m^2 is 2 mu/alpha^2
-    take_ogden(c, m, law);
-  } else if (type->group[1] == "Arruda-Boyce") {
-    law.form = ReadForm::kArrudaBoyce;
-    law.moduli = {value_of_tag(child, "mu").value_or(0.0)};
-    law.shapes = {std::sqrt(value_of_tag(child, "N").value_or(0.0))};
-  } else if (type->group[1] == "Yeoh") {
-    law.form = ReadForm::kYeoh;
-    c.resize(3, 0.0);
-    law.moduli = c;
-  } else {
-    require_count(c, 1, "Mooney-Rivlin");
-    const bool has_second = c.size() > 1 && c[1] != 0.0;
-    law.form = has_second ? ReadForm::kMooneyRivlin : ReadForm::kNeoHooke;
-    law.moduli = {c[0]};
-    if (has_second) law.moduli.push_back(c[1]);
-  }
 }
 
 }  // namespace
@@ -179,6 +173,8 @@ RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
                               at_line(block.line, "ccx ignores *VISCOELASTIC: the law is elastic"),
                               true});
     } else if (block.keyword == "*VISCOELASTIC") {
+      if (!block.has("TIME=PRONY"))
+        throw std::runtime_error(at_line(block.line, "only *VISCOELASTIC, TIME=PRONY can be read"));
       for (const CardLine& line : block.data) {
         const auto row = cells(line.text, ',');
         out.numbers.terms.push_back(
@@ -191,6 +187,23 @@ RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
     }
   }
   require_in_card(has_law, "*HYPERELASTIC");
+  bool has_material = false;
+  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
+    if (block.keyword == "*MATERIAL" && has_material) {
+      out.findings.push_back(
+          {"several-materials",
+           at_line(block.line, "a second material begins; check a file with one of them"), true});
+    }
+    has_material = has_material || block.keyword == "*MATERIAL";
+    for (const char* other : {"*ELASTIC", "*PLASTIC", "*CREEP", "*HYPERFOAM", "*MULLINS EFFECT",
+                              "*HYSTERESIS", "*DAMPING", "*USER MATERIAL", "*VISCOUS",
+                              "*DAMAGE INITIATION", "*CONCRETE", "*RATE DEPENDENT"}) {
+      if (block.keyword != other) continue;
+      out.findings.push_back(
+          {"other-law", at_line(block.line, block.keyword + " changes the stress and is not read"),
+           true});
+    }
+  }
   out.is_long_term = !is_at_once && !out.numbers.terms.empty();
   if (is_calculix && out.numbers.bulk == 0.0) {
     out.findings.push_back(
@@ -224,6 +237,15 @@ RubberText read_ansys_rubber(const std::string& text) {
   } else if (table.option == "MOONEY" || table.option == "YEOH") {
     n = table.option == "YEOH" ? 3 : 2;
     require_count(numbers, n, "TB,HYPER");
+    out.also_read += fmt::format(" {}", table.n_points);
+    if (table.n_points != 0 && table.n_points != static_cast<int>(n)) {
+      out.findings.push_back(
+          {"other-count",
+           at_line(table.line,
+                   fmt::format("TB,HYPER announces {} constants of {}, of which {} are read",
+                               table.n_points, table.option, n)),
+           true});
+    }
     law.form = n == 3 ? ReadForm::kYeoh : ReadForm::kMooneyRivlin;
     law.moduli.assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(n));
   } else if (table.option == "BOYCE" || table.option == "GENT") {
@@ -236,27 +258,46 @@ RubberText read_ansys_rubber(const std::string& text) {
                              "'; OGDEN, NEO, MOONEY, YEOH, BOYCE and GENT are read");
   }
   law.bulk = numbers.size() > n ? bulk_of(numbers[n]) : 0.0;
-  const auto& prony = tables["PRON"].constants;
+  for (const CardLine& line : card_lines(text, "!")) {
+    const auto row = cells(line.text.substr(0, line.text.find('!')), ',');
+    const std::string command = upper(row[0]), property = row.size() > 1 ? upper(row[1]) : "";
+    if (command == "MP" && property == "DENS") law.density = cell_number(row, 3, line, "DENS");
+    if (command == "MPDATA" && row.size() > 6 && upper(row[3]) == "DENS")
+      law.density = cell_number(row, 6, line, "DENS");
+    const bool is_known = property.rfind("HYPE", 0) == 0 || property.rfind("PRON", 0) == 0;
+    if (command == "TB" && !is_known) {
+      out.findings.push_back(
+          {"other-law", at_line(line, "TB," + property + " changes the stress and is not read"),
+           true});
+    }
+    const std::string kind = row.size() > 5 ? upper(row[5]).substr(0, 4) : "";
+    if (command == "TB" && property.rfind("PRON", 0) == 0 && !kind.empty() && kind != "BULK" &&
+        kind != "SHEA")
+      throw std::runtime_error(at_line(line, "'" + row[5] + "' is neither SHEAR nor BULK"));
+    if (command == "TB" && property.rfind("PRON", 0) == 0 && kind == "BULK") {
+      out.findings.push_back(
+          {"bulk-relaxes", at_line(line, "a table of BULK: the bulk modulus would relax"), true});
+    }
+  }
+  if (numbers.size() >
+      n + std::max<std::size_t>(1, table.option == "OGDEN" ? n / 2 : n_volume_of(table.option))) {
+    out.findings.push_back(
+        {"other-count",
+         at_line(table.line, fmt::format("{} constants are given and {} of {} are read",
+                                         numbers.size(), n + 1, table.option)),
+         true});
+  }
+  const TableOfMapdl& shares = tables["PRON"];
+  const auto& prony = shares.constants;
+  if (!prony.empty() && static_cast<int>((prony.size() + 1) / 2) != shares.n_points) {
+    out.findings.push_back(
+        {"npts-mismatch",
+         at_line(shares.line, fmt::format("TB,PRONY announces {} pairs and {} are given",
+                                          shares.n_points, (prony.size() + 1) / 2)),
+         true});
+  }
   for (std::size_t i = 0; i + 1 < prony.size(); i += 2)
     law.terms.push_back({prony[i], prony[i + 1]});
-  return out;
-}
-
-RubberText read_febio_rubber(const std::string& card) {
-  const std::string text = without_matches(card, "<!--[^>]*-->");
-  RubberText out;
-  RubberNumbers& law = out.numbers;
-  take_febio_law(text, law);
-  law.bulk = value_of_tag(text, "k").value_or(0.0);
-  law.density = value_of_tag(text, "density").value_or(0.0);
-  const std::vector<double> g = numbered_tags(text, "g"), t = numbered_tags(text, "t");
-  if (g.empty()) return out;
-  require_count(t, g.size(), "t1, t2 ...");
-  // At once the child counts g0 + sum g times; g0 is 1 if it is not given.
-  double whole = value_of_tag(text, "g0").value_or(1.0);
-  for (const double share : g) whole += share;
-  for (double& modulus : law.moduli) modulus *= whole;
-  for (std::size_t i = 0; i < g.size(); ++i) law.terms.push_back({g[i] / whole, t[i]});
   return out;
 }
 

@@ -16,9 +16,12 @@ struct RubberText {
   bool has_absolute_terms = false;
   // Poisson's ratio in the place of the bulk modulus; 0 otherwise.
   double poisson = 0.0;
+  bool has_poisson = false;
   // Every number states its unit, so that numbers are in SI (COMSOL).
   bool has_own_units = false;
   std::vector<CardFinding> findings;
+  std::string units;      // the unit system that the card itself declares (OpenRadioss); ""
+  std::string also_read;  // numbers that were compared, but belong to no law
 };
 
 // Parameters of a law: a reader fills numbers by its form. Throws std::runtime_error if `found` has fewer numbers.

@@ -48,12 +48,14 @@ std::string radioss_unit_block(const RubberNumbers& law);
 // Cards of solvers that take nothing else than rows of numbers. Conventions and sources stand in
 // rubber_rows.cpp. They throw std::invalid_argument for laws that the solver has not, for a density that
 // it needs, and for numbers that it would misread.
+std::string febio_rubber(const RubberNumbers& law, const std::string& material);
 std::string frontistr_rubber(const RubberNumbers& law, const std::string& material);
 std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& material);
 std::string openradioss_rubber(const RubberNumbers& law, const std::string& material);
 
 // Cards that are a part of a model's text: a Python module, blocks of an input file, parameters.
-// Conventions and sources stand in rubber_models.cpp and rubber_mfront.cpp. They throw std::invalid_argument for laws that the
+// Conventions and sources stand in rubber_models.cpp and rubber_mfront.cpp. They throw std::invalid_argument
+// for laws that the
 // solver has not, or for which no public text gives its convention.
 std::string sfepy_rubber(const RubberNumbers& law);
 std::string moose_rubber(const RubberNumbers& law, const std::string& material);

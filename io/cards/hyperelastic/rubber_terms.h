@@ -10,6 +10,9 @@ namespace viscard {
 // its numbers are (at once, or after all relaxation), which shares and times, its rule at large strain.
 std::string rubber_terms_rule(const std::string& target);
 
+// Which solver ran cards of rubber for the target, and where none did "not run"; for the header.
+std::string rubber_evidence(const std::string& target);
+
 // Throws std::invalid_argument if the target cannot take the terms of the law: no memory beside a law,
 // too many terms, shares that sum to 1, or a rule that holds at small strain only (unless it may
 // approximate).

@@ -38,6 +38,16 @@ struct TermProof {
 };
 void show_keys(ResultVisitor& v, const TermProof& term);
 
+// Any other constant of a card, and whether a tenth of it would have been noticed.
+struct ConstantProof {
+  std::string name;
+  double value = 0.0;         // moduli in Pa
+  double change = 0.0;        // largest relative change of an answer if it were a tenth larger
+  bool is_exercised = false;  // that change is at least twice what the test resolves
+  std::string seen_by;        // the test of that change; of the density "read back"
+};
+void show_keys(ResultVisitor& v, const ConstantProof& constant);
+
 // Relaxation at another temperature than the reference of the card's shift.
 struct TemperatureProof {
   double at_C = 0.0;
@@ -45,7 +55,7 @@ struct TemperatureProof {
 };
 
 struct SolverDivergence {
-  std::string test;  // "relaxation", "creep" or "temperature"
+  std::string test;  // "relaxation", "creep", "confined" or "temperature"
   double reached_s = 0.0;
   // True if the same test runs to the end with the card that viscard writes for this material: then
   // the numbers of the given card are wrong. Otherwise the cause may be a limit of the solver.
@@ -54,9 +64,11 @@ struct SolverDivergence {
 
 struct CardProof {
   StepError relaxation, creep;
+  std::optional<StepError> confined;  // with held sides; absent at nu = 0.5
   // Absent if the material has no shift, or the solver does not read it from the card.
   std::optional<TemperatureProof> temperature;
   std::vector<TermProof> terms;
+  std::vector<ConstantProof> constants;        // moduli, shares and density; times stand in `terms`
   std::optional<SolverDivergence> divergence;  // if set, the errors above are not filled
   double end_s = 0.0;                          // end of the tests
   int increments = 0;                          // of each test at the coarsest step
@@ -64,17 +76,25 @@ struct CardProof {
 
   bool agrees() const {
     return !divergence && relaxation.vanishes_with_step() && creep.vanishes_with_step() &&
+           (!confined || confined->vanishes_with_step()) &&
            (!temperature || temperature->error.vanishes_with_step());
   }
-  bool exercises_all_terms() const;
-  bool holds() const { return agrees() && exercises_all_terms(); }
+  bool exercises_all() const;
+  std::string not_exercised() const;  // "nu, tau of term 2"; empty if all were
+  // Of a solver that reads the card: the card is proven. Of another one: its numbers are.
+  bool holds() const { return agrees() && exercises_all(); }
 };
 
 // The error of backward Euler in simple tension at constant Poisson ratio: the largest one relative
 // to the exact answer after the first ramp.
 double backward_euler_error(const Material& material, const ElementTest& test);
 
-// Runs both tests at three steps: steps_per_tau in the shortest relaxation time (0: as many as the
+// Whether the solver reads the text of cards for this target; others run the numbers that were read.
+bool runs_text_of(const Solver& solver, const std::string& target);
+// The first line about a run of another solver than the card's: "" if it is that.
+std::string statement_of(const Solver& solver, const std::string& target);
+
+// Runs all tests at three steps: steps_per_tau in the shortest relaxation time (0: as many as the
 // solver's test has), twice and four times as many; a card with a shift also 10 K warmer. `material` is what the card should be, under
 // the bulk rule of the card. Throws what run_solver() throws.
 CardProof prove_card(const std::string& card_text, const ReadCard& read, const Material& material,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/basics/timestamp.h"
+#include "io/cards/proof/card_chain.h"
 #include "io/cards/proof/card_proof.h"
 
 #include <string>
@@ -15,28 +16,13 @@ struct CertificateRequest {
   std::string target;
   std::string created_at = now_iso8601();
 };
-
-// A file that the header of a card states, and whether it is still the same.
-struct ChainLink {
-  std::string path;    // where it was found; else as stated
-  std::string stated;  // SHA-256 in the header
-  std::string now;     // of the file; empty if it is not there
-  bool matches() const { return !now.empty() && now == stated; }
-};
-
-struct CardChain {
-  std::string card_sha256;
-  ChainLink material;  // empty if the header states none
-  std::vector<ChainLink> raw_files;
-  bool is_complete() const;  // material and at least one raw file, all unchanged
-  // Missing parts of the chain, and what to do about them, one sentence each; empty if it is
-  // complete.
-  std::vector<std::string> missing() const;
-};
-
-// Follows the SHA-256 sums in the header of the card. Files are looked for as stated, then beside
-// the material and the card.
+// Of the card, which lies at its path.
 CardChain chain_of(const CertificateRequest& request);
+
+// A certificate ends with the SHA-256 of its own text in which 64 zeros stand for that sum; puts it in.
+std::string sealed_certificate(const std::string& text);
+// Whether the sum of a certificate is that of its text.
+bool is_certificate_unchanged(const std::string& text);
 
 // Card, solver and its version, deviations, terms, the models as run, the chain; and the same as JSON.
 void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,

@@ -204,6 +204,7 @@ std::vector<DeckFile> openradioss_model(const std::vector<SolverTask>& tasks) {
                            .edge = real(kEdge, 20),
                            .curve = load_rows(task.input),
                            .is_creep = task.input.is_creep(),
+                           .is_confined = task.input.is_confined(),
                            .damping = 2.0 * turns_of_ramp(test) / kRampLength};
   const double step = output_step(test), end = in_model(test.end_s(), test) + 4.0 * step;
   // Without /TH/TITLE th_to_csv reads memory that it never set (isImpulse in csvFileWrite).

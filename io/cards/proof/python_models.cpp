@@ -48,14 +48,15 @@ of_bulk, of_shear = stiffness(1.0, 0.0), stiffness(-2.0 / 3.0, 1.0)
 corners = domain.get_mesh_coors()
 fixed = [3 * n + axis for n in range(8) for axis in range(3) if corners[n, axis] < 1e-6]
 pulled = [3 * n + 2 for n in range(8) if corners[n, 2] > 1.0 - 1e-6]
+sides = [3 * n + axis for n in range(8) for axis in range(2) if corners[n, axis] > 1.0 - 1e-6]
 
 shear, bulk = E0 / (2.0 * (1.0 + nu)), E0 / (3.0 * (1.0 - 2.0 * nu))
 branches = [g[i] * shear * of_shear + k[i] * bulk * of_bulk for i in range(len(tau))]
 lasting = ((1.0 - sum(g)) * shear * of_shear + (1.0 - sum(k)) * bulk * of_bulk)
 
 
-def run(blocks, creep, result):
-    held = fixed if creep else fixed + pulled
+def run(blocks, creep, confined, result):
+    held = fixed + ([] if creep else pulled) + (sides if confined else [])
     free = [dof for dof in range(24) if dof not in held]
     elastic = [np.zeros(24) for _ in tau]  # part of the displacements of each branch
     x = np.zeros(24)
@@ -83,9 +84,9 @@ def run(blocks, creep, result):
             print(repr(float(time)), repr(float(value)), file=result)
 
 
-for number, (blocks, creep) in enumerate(tests):
+for number, (blocks, creep, confined) in enumerate(tests):
     with open(f"result_{number}.txt", "w") as result:
-        run(blocks, creep, result)
+        run(blocks, creep, confined, result)
 )py";
 
 constexpr const char* kDolfinx = R"py(import dolfinx
@@ -127,11 +128,16 @@ top = ufl.Measure("ds", domain=mesh, subdomain_data=tags)(1)
 dx = ufl.Measure("dx", domain=mesh, metadata={"quadrature_degree": 2})
 bilinear = ufl.inner(stress_of(eps(u), shear_now, bulk_now), eps(v)) * dx
 linear = traction * v[2] * top - ufl.inner(history, eps(v)) * dx
-rollers = []
-for axis in range(3):
-    face = locate_entities_boundary(mesh, 2, lambda x, axis=axis: np.isclose(x[axis], 0.0))
+
+
+def roller(axis, end):
+    face = locate_entities_boundary(mesh, 2, lambda x: np.isclose(x[axis], end))
     dofs = fem.locate_dofs_topological(V.sub(axis), 2, face)
-    rollers.append(fem.dirichletbc(ScalarType(0.0), dofs, V.sub(axis)))
+    return fem.dirichletbc(ScalarType(0.0), dofs, V.sub(axis))
+
+
+rollers = [roller(axis, 0.0) for axis in range(3)]
+sides = [roller(axis, 1.0) for axis in range(2)]
 pull = fem.dirichletbc(pulled, fem.locate_dofs_topological(V.sub(2), 2, faces), V.sub(2))
 strain_of = fem.Expression(eps(found), T.element.interpolation_points())
 strain_now = fem.Function(T)
@@ -147,8 +153,9 @@ shear, bulk = E0 / (2.0 * (1.0 + nu)), E0 / (3.0 * (1.0 - 2.0 * nu))
 cells = mesh.topology.index_map(3).size_local
 
 
-def run(blocks, creep, result):
-    problem = LinearProblem(bilinear, linear, bcs=rollers if creep else rollers + [pull], u=found,
+def run(blocks, creep, confined, result):
+    held = rollers + ([] if creep else [pull]) + (sides if confined else [])
+    problem = LinearProblem(bilinear, linear, bcs=held, u=found,
                             petsc_options={"ksp_type": "preonly", "pc_type": "lu"})
     old = np.zeros((cells, 3, 3))
     elastic = [np.zeros((cells, 3, 3)) for _ in tau]  # strain of the springs
@@ -179,9 +186,9 @@ def run(blocks, creep, result):
             print(repr(float(time)), repr(float(np.real(value))), file=result)
 
 
-for number, (blocks, creep) in enumerate(tests):
+for number, (blocks, creep, confined) in enumerate(tests):
     with open(f"result_{number}.txt", "w") as result:
-        run(blocks, creep, result)
+        run(blocks, creep, confined, result)
 )py";
 
 std::string python_list(const std::vector<MaterialTerm>& terms, double MaterialTerm::*member) {
@@ -190,7 +197,7 @@ std::string python_list(const std::vector<MaterialTerm>& terms, double MaterialT
   return "[" + out + "]";
 }
 
-// (length, increments, load at the end) of each block, and whether it is creep.
+// (length, increments, load at the end) of each block, whether it is creep, and whether sides are held.
 std::string python_test(const ElementTest& test) {
   std::string blocks;
   double from_s = 0.0;
@@ -198,8 +205,8 @@ std::string python_test(const ElementTest& test) {
     blocks += fmt::format("({}, {}, {}), ", block.end_s - from_s, block.increments, block.load);
     from_s = block.end_s;
   }
-  return fmt::format("    ([{}], {}),\n", blocks,
-                     test.kind == ElementTestKind::kCreep ? "True" : "False");
+  return fmt::format("    ([{}], {}, {}),\n", blocks, test.is_creep() ? "True" : "False",
+                     test.is_confined() ? "True" : "False");
 }
 
 // The numbers, in SI, above the program, which runs all tests.

@@ -49,6 +49,9 @@ struct Solver {
   bool is_scaled = true;        // samples are forces or stresses and strains; false: in SI
   const char* divergence = "";  // in the log of an increment that does not converge
   const char* error = "";       // in the log of a run that failed, with any exit status
+  ElementTestKind confined = ElementTestKind::kConfinedCreep;  // its test with held sides
+  // Strains are finite: the error that they leave is at most twice the largest strain of a test.
+  bool has_finite_strain = false;
   std::vector<std::string> version_words;  // arguments that print the version
   const char* version_pattern = "";        // regular expression; its group is the version
   // For a program that answers with these words and no version: the one beside it that states it.

@@ -41,6 +41,7 @@ Solver febio_solver() {
           },
           .samples = febio_samples,
           .error = "E R R O R   T E R M I N A T I O N",
+          .has_finite_strain = true,
           .version_words = {"-info"},
           .version_pattern = "FEBio version\\s*=\\s*(\\S+)"};
 }
@@ -151,6 +152,8 @@ Solver openradioss_solver() {
           .samples = openradioss_samples,
           .divergence = "ENERGY ERROR LIMIT REACHED",
           .error = "ERROR TERMINATION",
+          // Of strain: six decimals of a displacement would show little of a stiff answer.
+          .confined = ElementTestKind::kConfined,
           .version_words = {"-version"},
           // execargcheck.F of the starter states no version but this.
           .version_pattern = "OpenRadioss Starter[\\s\\S]*Date of build : *(\\S[^\\n]*\\S)",
@@ -226,7 +229,9 @@ const Solver& solver_for(const std::string& name, const std::string& target) {
   std::vector<std::string> names;
   for (const Solver& solver : solvers()) {
     const auto& targets = solver.targets;
-    const bool reads = std::find(targets.begin(), targets.end(), target) != targets.end();
+    // A module for Python is run by its package, without a name.
+    const bool reads =
+        solver.name == target || std::find(targets.begin(), targets.end(), target) != targets.end();
     const bool is_named = solver.name == name;
     if (is_named && !targets.empty() && !reads) {
       throw std::invalid_argument(solver.code + " does not read cards for " + target +

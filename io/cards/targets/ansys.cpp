@@ -168,20 +168,32 @@ void read_ansys(const std::string& text, ReadCard& card) {
     if (command == "MP" || command == "TB") check_material_number(row, line, number, card);
     if (command == "MP") {
       read_property(row, line, card, has_young);
+    } else if (command == "MPDATA") {
+      // MPDATA,R5.0, 1,EX  , 1, 1, 2.2, as MAPDL's CDWRITE exports; typed by hand MPDATA,EX,1,1,2.2.
+      const bool is_export = row.size() > 6 && upper(row[1]).rfind('R', 0) == 0;
+      const std::vector<std::string> property =
+          is_export ? std::vector{row[0], row[3], row[4], row[6]}
+                    : std::vector{row[0], row.size() > 1 ? row[1] : "",
+                                  row.size() > 2 ? row[2] : "", row.size() > 4 ? row[4] : ""};
+      check_material_number(property, line, number, card);
+      read_property(property, line, card, has_young);
+      const std::size_t next = is_export ? 7 : 5;
+      if (row.size() > next && !row[next].empty())
+        card.add("more-temperatures", at_line(line, "values at further temperatures are not read"));
     } else if (command == "TB") {
       const std::string kind = upper(row.size() > 1 ? row[1] : "").substr(0, 4);
       in_elastic = kind == "ELAS";
       in_shift = kind == "SHIF" && upper(row.size() > 5 ? row[5] : "") == "WLF";
       if (kind == "PRON") tables.push_back(table_of(row, line));
-    } else if (command == "TBDATA" && in_elastic) {
+    } else if (command.rfind("TBDAT", 0) == 0 && in_elastic) {
       card.numbers.young = cell_number(row, 2, line, "E");
       card.numbers.poisson = cell_number(row, 3, line, "nu");
       has_young = true;
-    } else if (command == "TBDATA" && in_shift) {
+    } else if (command.rfind("TBDAT", 0) == 0 && in_shift) {
       card.numbers.shift = TemperatureShift{.T_ref_C = cell_number(row, 2, line, "Tref"),
                                             .C1 = cell_number(row, 3, line, "C1"),
                                             .C2_K = cell_number(row, 4, line, "C2")};
-    } else if (command == "TBDATA" && !tables.empty()) {
+    } else if (command.rfind("TBDAT", 0) == 0 && !tables.empty()) {
       add_constants(row, line, tables.back(), card);
     }
   }

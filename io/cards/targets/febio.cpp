@@ -1,10 +1,9 @@
 // FEBio viscoelastic, uncoupled viscoelastic. Sources: FEViscoElasticMaterial.cpp, FEBio 4 format.
-#include "io/basics/patterns.h"
 #include "io/cards/deck.h"
 #include "io/cards/known_mistakes.h"
-#include "io/cards/named_values.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/xml_card.h"
 
 #include <fmt/format.h>
 
@@ -46,87 +45,20 @@ std::string write_febio(const CardBody& body) {
   return out + "\n  </elastic>\n</material>\n";
 }
 
-// XML without its comments; the newlines stay, so that line numbers are right.
-std::string without_xml_comments(std::string text) {
-  for (std::size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--", at)) {
-    const std::size_t end = text.find("-->", at);
-    const std::size_t stop = end == std::string::npos ? text.size() : end + 3;
-    for (std::size_t i = at; i < stop; ++i) {
-      if (text[i] != '\n') text[i] = ' ';
-    }
-  }
-  return text;
-}
-
-// The number in <tag ...>number</tag>.
-std::optional<double> tag_value(const std::string& text, const std::string& tag) {
-  const auto match = first_match(text, "<" + tag + "(\\s[^>]*)?>([^<]*)</" + tag + ">");
-  if (!match) return std::nullopt;
-  return card_number(std::string(trimmed(match->group[2])), line_of(text, match->at[2]), tag);
-}
-
-double required_tag(const std::string& text, const std::string& tag) {
-  const std::optional<double> value = tag_value(text, tag);
-  if (!value) throw std::runtime_error("the card has no <" + tag + ">");
-  return *value;
-}
-
-// The first viscoelastic material as a separate text, with the newlines before it. If there is
-// none, the whole text: the reader then reports the type that it finds.
-std::string viscoelastic_material(const std::string& text) {
-  const auto match =
-      first_match(text, "<material\\s[^>]*type\\s*=\\s*[\"'](uncoupled )?viscoelastic[\"']");
-  if (!match) return text;
-  const std::size_t begin = match->at[0];
-  const std::size_t end = text.find("</material>", begin);
-  const std::string before(static_cast<std::size_t>(line_of(text, begin).number - 1), '\n');
-  return before + text.substr(begin, end == std::string::npos ? end : end - begin);
-}
-
-// Throws unless every opened element of the text is closed in order.
-void check_nesting(const std::string& text) {
-  std::vector<std::string> open;
-  for (const Match& match : all_matches(text, "<(/?)([A-Za-z_][\\w.-]*)([^<>]*)>")) {
-    const bool is_single = !match.group[3].empty() && match.group[3].back() == '/';
-    if (is_single) continue;
-    if (match.group[1].empty()) {
-      open.push_back(match.group[2]);
-    } else if (open.empty() || open.back() != match.group[2]) {
-      throw std::runtime_error(
-          at_line(line_of(text, match.at[0]), "</" + match.group[2] + "> closes no open element"));
-    } else {
-      open.pop_back();
-    }
-  }
-  if (!open.empty()) throw std::runtime_error("<" + open.back() + "> is not closed");
-}
-
-// The material without its elastic child, and the child.
-struct FebioParts {
-  std::string outside, child;
-};
-
-FebioParts parts_of(const std::string& text) {
-  const std::size_t begin = text.find("<elastic"), end = text.find("</elastic>");
-  if (begin == std::string::npos || end == std::string::npos || end < begin) return {text, ""};
-  return {text.substr(0, begin) + text.substr(end), text.substr(begin, end - begin)};
-}
-
 // The elastic child decides what its numbers mean.
-void check_child(const std::string& text, const char* wanted, ReadCard& card) {
-  const auto child = first_match(text, "<elastic\\s[^>]*type\\s*=\\s*[\"']([^\"']*)[\"']");
-  if (child && child->group[1] == wanted) return;
-  card.add("elastic-type", "the elastic child is '" + (child ? child->group[1] : std::string()) +
+void check_child(const std::string& type, const char* wanted, ReadCard& card) {
+  if (type == wanted) return;
+  card.add("elastic-type", "the elastic child is '" + type +
                                "'; its numbers are read as those of '" + wanted + "'");
 }
 
-void read_child(const FebioParts& parts, const std::string& type, ReadCard& card) {
-  const std::string& text = parts.child;
+void read_child(const XmlElement& material, const XmlElement& child, ReadCard& card) {
+  const std::string type = material.attribute("type"), law = child.attribute("type");
   if (type == "uncoupled viscoelastic") {
     card.understood = febio_uncoupled_target();
-    check_child(text, "Mooney-Rivlin", card);
-    card.numbers.shear = 2.0 * (required_tag(text, "c1") + tag_value(text, "c2").value_or(0.0));
-    const auto outer = tag_value(parts.outside, "k"), inner = tag_value(text, "k");
+    check_child(law, "Mooney-Rivlin", card);
+    card.numbers.shear = 2.0 * (child.required("c1") + child.number("c2").value_or(0.0));
+    const auto outer = material.number("k"), inner = child.number("k");
     if (!outer && !inner) throw std::runtime_error("the card has no <k>");
     card.numbers.bulk = outer.value_or(inner.value_or(0.0));
     if (inner) {
@@ -134,44 +66,56 @@ void read_child(const FebioParts& parts, const std::string& type, ReadCard& card
                "<k> stands in the elastic child; FEBio 4 takes that of the top level and warns",
                outer.has_value());
     }
-  } else if (type == "viscoelastic") {
-    card.understood = febio_target();
-    check_child(text, "isotropic elastic", card);
-    card.numbers.young = required_tag(text, "E");
-    card.numbers.poisson = required_tag(text, "v");
   } else {
-    throw std::runtime_error("the material is of type '" + type +
-                             "'; only 'viscoelastic' and 'uncoupled viscoelastic' can be read");
+    card.understood = febio_target();
+    check_child(law, "isotropic elastic", card);
+    card.numbers.young = child.required("E");
+    card.numbers.poisson = child.required("v");
   }
 }
 
-void read_febio(const std::string& commented, ReadCard& card) {
-  (void)card_lines(commented, "\n");  // refuses lines that are too long to match
-  const std::string whole = without_xml_comments(commented);
-  check_nesting(whole);
-  check_single_element(whole, "<material\\s[^>]*type\\s*=\\s*[\"'](uncoupled )?viscoelastic[\"']",
-                       "<material> of a viscoelastic type", card);
-  std::string text = viscoelastic_material(whole);
-  const auto type = first_match(text, "<material\\s[^>]*type\\s*=\\s*[\"']([^\"']*)[\"']");
-  if (!type) throw std::runtime_error("the card has no <material type=\"...\">");
-  const FebioParts parts = parts_of(text);
-  read_child(parts, type->group[1], card);
-  const auto name = first_match(text, "<material\\s[^>]*name\\s*=\\s*[\"']([^\"']*)[\"']");
-  if (name) card.name = name->group[1];
+const XmlElement& viscoelastic_in(const std::vector<const XmlElement*>& all, ReadCard& card) {
+  const XmlElement* found = nullptr;
+  for (const XmlElement* one : all) {
+    const std::string type = one->attribute("type");
+    if (type != "viscoelastic" && type != "uncoupled viscoelastic") continue;
+    if (found == nullptr) {
+      found = one;
+    } else {
+      card.add("second-element",
+               at_line(one->place(), "a second viscoelastic <material>; keep one"));
+    }
+  }
+  if (found != nullptr) return *found;
+  if (all.empty()) throw std::runtime_error("the card has no <material type=\"...\">");
+  throw std::runtime_error("the material is of type '" + all.front()->attribute("type") +
+                           "'; only 'viscoelastic' and 'uncoupled viscoelastic' can be read");
+}
+
+void read_febio(const std::string& text, ReadCard& card) {
+  const XmlElement root = xml_of(text);
+  const XmlElement& material = viscoelastic_in(elements_of(root, "material"), card);
+  material.is_read = true;
+  material.attribute("id");
+  card.name = material.attribute("name");
+  const XmlElement* child = material.child("elastic");
+  if (child == nullptr) throw std::runtime_error("the card has no <elastic>");
+  read_child(material, *child, card);
   card.numbers.density =
-      tag_value(parts.child, "density").value_or(tag_value(text, "density").value_or(0.0));
-  text = parts.outside;
+      child->number("density").value_or(material.number("density").value_or(0.0));
   double sum = 0.0;
   for (int i = 1; i <= 6; ++i) {
-    const double g = tag_value(text, "g" + std::to_string(i)).value_or(0.0);
+    const double g = material.number("g" + std::to_string(i)).value_or(0.0),
+                 tau = material.number("t" + std::to_string(i)).value_or(1.0);
     if (g == 0.0) continue;
-    card.numbers.branches.push_back(
-        {g, 0.0, tag_value(text, "t" + std::to_string(i)).value_or(1.0)});
+    card.numbers.branches.push_back({g, 0.0, tau});
     sum += g;
   }
-  if (tag_value(text, "g7")) card.add("too-many-terms", "FEBio reads g1 to g6 only; g7 is ignored");
-  const std::optional<double> g0 = tag_value(text, "g0");
+  if (material.child("g7") != nullptr)
+    card.add("too-many-terms", "FEBio reads g1 to g6 only; g7 is ignored");
+  const std::optional<double> g0 = material.number("g0");
   card.numbers.equilibrium = g0.value_or(1.0);
+  card.add_unread(unread_parts(material));
   if (g0 || !(sum > 0.0)) return;
   card.add(
       "g0-default",
@@ -181,7 +125,7 @@ void read_febio(const std::string& commented, ReadCard& card) {
 }
 
 // The unit cube and its rollers.
-std::string febio_mesh(const std::string& material) {
+std::string febio_mesh(const std::string& material, bool is_confined) {
   std::string out = "<Mesh>\n<Nodes name=\"nodes\">\n";
   int id = 0;
   for (const auto& [x, y, z] : kCubeCorners) {
@@ -191,14 +135,17 @@ std::string febio_mesh(const std::string& material) {
       "</Nodes>\n<Elements type=\"hex8\" name=\"cube\"><elem id=\"1\">1,2,3,4,5,6,7,8</elem>"
       "</Elements>\n<NodeSet name=\"x0\">1,4,5,8</NodeSet>\n<NodeSet "
       "name=\"y0\">1,2,5,6</NodeSet>\n"
-      "<NodeSet name=\"z0\">1,2,3,4</NodeSet>\n<NodeSet name=\"z1\">5,6,7,8</NodeSet>\n</Mesh>\n"
+      "<NodeSet name=\"z0\">1,2,3,4</NodeSet>\n<NodeSet name=\"z1\">5,6,7,8</NodeSet>\n"
+      "<NodeSet name=\"x1\">2,3,6,7</NodeSet>\n<NodeSet name=\"y1\">3,4,7,8</NodeSet>\n</Mesh>\n"
       "<MeshDomains><SolidDomain name=\"cube\" mat=\"" +
       material + "\"/></MeshDomains>\n<Boundary>\n";
-  for (const char axis : {'x', 'y', 'z'}) {
+  std::vector<std::string> faces{"x0", "y0", "z0"};
+  if (is_confined) faces.insert(faces.end(), {"x1", "y1"});
+  for (const std::string& face : faces) {
     out += fmt::format(
-        "<bc name=\"fix {0}\" node_set=\"{0}0\" type=\"zero displacement\">"
+        "<bc name=\"fix {0}\" node_set=\"{0}\" type=\"zero displacement\">"
         "<x_dof>{1}</x_dof><y_dof>{2}</y_dof><z_dof>{3}</z_dof></bc>\n",
-        axis, axis == 'x' ? 1 : 0, axis == 'y' ? 1 : 0, axis == 'z' ? 1 : 0);
+        face, face[0] == 'x' ? 1 : 0, face[0] == 'y' ? 1 : 0, face[0] == 'z' ? 1 : 0);
   }
   return out;
 }
@@ -244,8 +191,9 @@ std::vector<DeckFile> febio_deck(const DeckInput& input, const std::string& name
   return {{name + ".feb",
            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<febio_spec version=\"4.0\">\n"
            "<Module type=\"solid\"/>\n<Material>\n" +
-               input.card.text + "</Material>\n" + febio_mesh(input.card.name) + pull(input) +
-               steps(input) + "<Output><logfile>" +
+               input.card.text + "</Material>\n" +
+               febio_mesh(input.card.name, input.is_confined()) + pull(input) + steps(input) +
+               "<Output><logfile>" +
                (input.is_creep() ? "<node_data data=\"uz\" file=\"uz.txt\">7</node_data>"
                                  : "<element_data data=\"sz\" file=\"sz.txt\">1</element_data>") +
                "</logfile></Output>\n</febio_spec>\n"}};

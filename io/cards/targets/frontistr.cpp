@@ -87,6 +87,7 @@ std::string frontistr_mesh(const DeckInput& input) {
          "!ELEMENT, TYPE=361, EGRP=E\n 1, 1, 2, 3, 4, 5, 6, 7, 8\n"
          "!SECTION, TYPE=SOLID, EGRP=E, MATERIAL=M\n!MATERIAL, NAME=M, ITEM=1\n!ITEM=1, SUBITEM=2\n"
          " 1.0, 0.3\n!NGROUP, NGRP=X0\n 1, 4, 5, 8\n!NGROUP, NGRP=Y0\n 1, 2, 5, 6\n"
+         "!NGROUP, NGRP=X1\n 2, 3, 6, 7\n!NGROUP, NGRP=Y1\n 3, 4, 7, 8\n"
          "!NGROUP, NGRP=Z0\n 1, 2, 3, 4\n!NGROUP, NGRP=Z1\n 5, 6, 7, 8\n" +
          temperature + "!END\n";
 }
@@ -118,9 +119,10 @@ std::string frontistr_control(const DeckInput& input) {
   // The mesh calls the material of its section M.
   const std::size_t at = card.find("!MATERIAL, NAME=");
   card.replace(at, card.find('\n', at) - at, "!MATERIAL, NAME=M");
-  const auto boundary = [](int group, const std::string& pulled) {
-    return fmt::format("!BOUNDARY, GRPID={}\n X0, 1, 1, 0.0\n Y0, 2, 2, 0.0\n Z0, 3, 3, 0.0\n{}",
-                       group, pulled);
+  const char* sides = input.is_confined() ? " X1, 1, 1, 0.0\n Y1, 2, 2, 0.0\n" : "";
+  const auto boundary = [sides](int group, const std::string& pulled) {
+    return fmt::format("!BOUNDARY, GRPID={}\n X0, 1, 1, 0.0\n Y0, 2, 2, 0.0\n Z0, 3, 3, 0.0\n{}{}",
+                       group, sides, pulled);
   };
   std::string out = "!VERSION\n 3\n!SOLUTION, TYPE=NLSTATIC\n!WRITE, RESULT\n" + card;
   if (input.is_creep()) {

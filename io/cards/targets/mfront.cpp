@@ -199,6 +199,8 @@ std::vector<DeckFile> mfront_deck(const DeckInput& input, const std::string& nam
       input.card.name, input.is_creep() ? "Stress<evolution> 'SZZ'" : "Strain<evolution> 'EZZ'",
       input.ramp(), top, 2.0 * input.end(), top, 1e-11 * input.test.amplitude,
       1e-11 * input.stress());
+  if (input.is_confined())
+    out.insert(out.find("@StrainEpsilon"), "@ImposedStrain 'EXX' 0.;\n@ImposedStrain 'EYY' 0.;\n");
   for (const DeckBlock& block : input.blocks()) {
     out += fmt::format(", {} in {}", block.end, block.increments);
   }

@@ -31,6 +31,11 @@ std::string radioss_boundaries(const RadiossModel& model) {
     out +=
         fmt::format("/BCS/{0}\nroller {0}\n   {1} 000         0{0:10d}\n", face + 1, codes[face]);
   }
+  if (model.is_confined) {
+    out += "/GRNOD/NODE/6\nsides\n";
+    for (int node = 1; node <= 8; ++node) out += fmt::format("{:10d}", node);
+    out += fmt::format("\n/BCS/4\nsides\n   110 000         0{:10d}\n", 6);
+  }
   out += "/FUNCT/1\nramp and hold\n" + model.curve;
   return out + (model.is_creep
                     ? "/CLOAD/1\npull\n"

@@ -13,7 +13,8 @@ struct RadiossModel {
   std::string edge = "1.0";    // of the brick
   std::string curve;           // rows of /FUNCT: time, and displacement or force on each node
   bool is_creep = false;
-  double damping = 0.0;  // alpha of /DAMP: a force alpha times mass times velocity; 0: none
+  bool is_confined = false;  // no node may move sideways
+  double damping = 0.0;      // alpha of /DAMP: a force alpha times mass times velocity; 0: none
 };
 
 std::string radioss_starter(const RadiossModel& model);

@@ -41,7 +41,8 @@ void show_keys(ResultVisitor& v, const CardTarget& target) {
 void show_targets(ResultVisitor& v) {
   std::vector<const CardTarget*> targets;  // a target has no default for the list to describe
   for (const CardTarget& target : card_targets()) targets.push_back(&target);
-  v.list("targets", "all targets", targets, [&](const CardTarget* target) { show_keys(v, *target); });
+  v.list("targets", "all targets", targets,
+         [&](const CardTarget* target) { show_keys(v, *target); });
   v.list("units", "all unit systems", unit_systems(), [&](const UnitSystem& system) {
     v("name", system.name, "as in --units");
     v("description", system.description, "its units");
@@ -171,6 +172,11 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
     out << "the card is wrong\n";
   } else if (!check.agrees) {
     out << fmt::format("the card differs by more than the {:.1e} allowed\n", check.tolerance);
+  } else if (has_unread_parts(check.findings)) {
+    out << (check.E_difference
+                ? "what was read of the card agrees with the material; nothing is said of the "
+                  "rest\n"
+                : "not all of the card was read; nothing is said of it as a whole\n");
   } else if (check.E_difference) {
     out << fmt::format("the card agrees with the material (within {:.1e})\n", check.tolerance);
   } else {
@@ -243,8 +249,9 @@ int check_card_file(const CardWords& words, Streams& streams) {
   if (words.json) {
     Words inputs{words.check};
     if (!words.material.empty()) inputs.push_back(words.material);
-    print_result({"viscard-card-check/1", inputs},
-                 [&](ResultVisitor& v) { show_check(v, check, words.check); }, streams);
+    print_result(
+        {"viscard-card-check/1", inputs},
+        [&](ResultVisitor& v) { show_check(v, check, words.check); }, streams);
   } else {
     print(check, words, FittedText(streams));
   }

@@ -49,26 +49,25 @@ std::string terms_of(const CardProof& proof) {
   return out;
 }
 
-std::string verdict_of(const CardProof& proof) {
-  if (!proof.agrees()) return "the card does not hold: the error stays at smaller steps\n";
-  if (!proof.exercises_all_terms()) {
-    return "the answers agree, but nothing is proven of the terms that were not exercised: an "
-           "error in them would be smaller than what the tests resolve\n";
-  }
-  return "the card holds: the error vanishes with the step, and "
-         "every term was exercised\n";
+std::string constants_of(const CardProof& proof) {
+  std::string out;
+  for (const ConstantProof& constant : proof.constants) out += row_of_constant(constant);
+  return out;
 }
 
-std::string text_of(const CardChain& chain) {
-  if (chain.is_complete()) {
-    return fmt::format(
-        "  chain: card, material file and {} of raw data have the sums that the "
-        "header states\n",
-        counted(chain.raw_files.size(), "file"));
+std::string verdict_of(const CardProof& proof, bool ran_card, const std::string& target) {
+  if (!proof.agrees()) return "the card does not hold: the error stays at smaller steps\n";
+  if (!proof.exercises_all()) {
+    return "the answers agree, but nothing is proven of " + proof.not_exercised() +
+           ", not exercised: an error there would be smaller than what the tests resolve\n";
   }
-  std::string missing;
-  for (const std::string& one : chain.missing()) missing += (missing.empty() ? "" : "; ") + one;
-  return "  chain: not complete: " + missing + "\n";
+  if (!ran_card) {
+    return "the numbers hold: the error vanishes with the step, and every constant was exercised; "
+           "how " +
+           target + " computes them is not proven\n";
+  }
+  return "the card holds: the error vanishes with the step, and "
+         "every constant was exercised\n";
 }
 
 // The temperatures of the tests, for a material whose times change with temperature.
@@ -85,6 +84,8 @@ std::string temperature_of(const Material& material, const FoundSolver& found,
 
 void print_proof(const CardWords& words, const FoundSolver& found, const Material& material,
                  const CardProof& proof, const CardChain& chain, std::ostream& out) {
+  const std::string statement = statement_of(found.solver, words.target);
+  if (!statement.empty()) out << words.prove << ": " << statement << "\n";
   out << fmt::format(
       "{}: {} {} on one element, {} {} to {:g} s, against the exact answer "
       "of {}\n",
@@ -94,15 +95,12 @@ void print_proof(const CardWords& words, const FoundSolver& found, const Materia
     out << text_of(*proof.divergence, found.solver.code);
   } else {
     out << row_of("relaxation", proof.relaxation) << row_of("creep", proof.creep)
-        << temperature_of(material, found, proof) << terms_of(proof) << verdict_of(proof);
-  }
-  if (found.solver.targets.empty()) {
-    out << "  " << found.solver.code
-        << " ran the numbers that were read from the card, not its text; --check compares the "
-           "text\n";
+        << (proof.confined ? row_of("confined", *proof.confined) : "")
+        << temperature_of(material, found, proof) << terms_of(proof) << constants_of(proof)
+        << verdict_of(proof, statement.empty(), words.target);
   }
   if (*found.solver.caution != '\0') out << "  " << found.solver.caution << "\n";
-  out << text_of(chain);
+  out << chain_in_words(chain);
 }
 
 // Which solver runs the card; what is not there to choose from is a wrong use.
@@ -123,11 +121,11 @@ void show_deck(ResultVisitor& v, const std::vector<std::string>& files, const st
 
 std::vector<DescribedResult> results_of_proof() {
   const auto show_proof = [](ResultVisitor& v) {
-    show_certificate(v, CertificateRequest{}, CardChain{}, {solvers().front(), "", ""}, CardProof{});
+    show_certificate(v, CertificateRequest{}, CardChain{}, {solvers().front(), "", ""},
+                     CardProof{});
   };
-  return {
-      {"card-deck", "viscard card --deck", {[](ResultVisitor& v) { show_deck(v, {}, ""); }}},
-      {"card-prove", "viscard card --prove; the certificate has the same keys", {show_proof}}};
+  return {{"card-deck", "viscard card --deck", {[](ResultVisitor& v) { show_deck(v, {}, ""); }}},
+          {"card-prove", "viscard card --prove; the certificate has the same keys", {show_proof}}};
 }
 
 int prove_card_file(const CardWords& words, Streams& streams) {
@@ -157,9 +155,7 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   if (words.json) {
     Words inputs{words.prove};
     if (!words.material.empty()) inputs.push_back(words.material);
-    const auto show = [&](ResultVisitor& v) {
-      show_certificate(v, request, chain, found, proof);
-    };
+    const auto show = [&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); };
     print_result({"viscard-card-prove/1", inputs}, show, streams);
   }
   if (!words.json) streams.out << "wrote " << path << "\n";
@@ -186,8 +182,9 @@ int write_deck_files(const CardWords& words, Streams& streams) {
     files.push_back((folder / file.name).string());
   }
   if (words.json) {
-    print_result({"viscard-card-deck/1", {words.material}},
-                 [&](ResultVisitor& v) { show_deck(v, files, deck.how_to_run); }, streams);
+    print_result(
+        {"viscard-card-deck/1", {words.material}},
+        [&](ResultVisitor& v) { show_deck(v, files, deck.how_to_run); }, streams);
     return kDone;
   }
   for (const std::string& file : files) streams.out << "wrote " << file << "\n";

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/timestamp.h"
 #include "io/basics/words.h"
 #include "io/cards/hyperelastic/rubber_file_card.h"
 #include "io/cli/card/card_words.h"
@@ -6,8 +7,8 @@
 #include "io/materials/hyperelastic_file.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 
-
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
 
 namespace viscard {
@@ -20,6 +21,21 @@ void require_rubber_target(const CardWords& words) {
                    " has no card of rubber; use " + listed(known));
 }
 
+// Options of a linear series; a law of rubber must not drop them silently.
+void refuse_linear_options(const CardWords& words) {
+  const auto refuse = [&](bool is_given, const char* option) {
+    if (!is_given) return;
+    throw UsageError(std::string(option) + " is for linear materials, and " + words.material +
+                     " is a law of rubber; omit it");
+  };
+  refuse(!words.bound.empty(), "--bound");
+  refuse(words.terms.has_value(), "--terms");
+  refuse(words.clamped_nu.has_value(), "--clamp-nu");
+  refuse(words.ratio.has_value(), "--ratio");
+  refuse(words.temperature_C.has_value(), "--at-temperature");
+  refuse(words.band_text.has_value(), "--band");
+}
+
 void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const CardWords& words,
                       const std::string& doubt, const std::string& text) {
   v("target", words.target, "solver of the card");
@@ -27,8 +43,7 @@ void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const Card
   v("out", words.out, "the card; empty: stdout");
   v("law", name_of(file.law.form), "name of the law");
   v("E0_Pa", file.E0_Pa, "Young's modulus at rest, at once");
-  v("E_inf_Pa", file.E_inf_Pa,
-    "Young's modulus at rest after all relaxation; E0_Pa without terms");
+  v("E_inf_Pa", file.E_inf_Pa, "Young's modulus at rest after all relaxation; E0_Pa without terms");
   v("terms", words.elastic_only.empty() ? file.terms.size() : 0,
     "number of terms of relaxation in the card; 0 for an elastic law and with --elastic-only");
   v("warnings", doubt.empty() ? Words{} : Words{doubt}, "what is doubtful about the card");
@@ -38,8 +53,9 @@ void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const Card
 }  // namespace
 
 DescribedResult result_of_rubber_card() {
-  return {"card-rubber", "viscard card of a law of rubber",
-          {[](ResultVisitor& v) { show_rubber_card(v, {}, {}, "", ""); }}};
+  return {"card-rubber", "viscard card of a law of rubber", {[](ResultVisitor& v) {
+            show_rubber_card(v, {}, {}, "", "");
+          }}};
 }
 
 bool is_rubber(const CardWords& words) {
@@ -50,7 +66,18 @@ bool is_rubber(const CardWords& words) {
 int write_rubber_card(const CardWords& words, Streams& streams) {
   require_rubber_target(words);
   const HyperelasticFile file = read_hyperelastic(words.material, words.plausible);
+  refuse_linear_options(words);
+  if (words.target == "mfront" && words.density_kg_m3) {
+    throw UsageError(
+        "a behaviour of MFront has no density, the solver that calls it has; omit --density");
+  }
   RubberCardOptions options;
+  options.file_sha256 = sha256_of_file(words.material);
+  options.file_name = std::filesystem::path(words.material).filename().string();
+  if (!words.is_reproducible) {
+    options.created_at = now_iso8601();
+    options.command = words.command_line;
+  }
   options.target = words.target;
   options.units = words.units.empty() ? "SI" : words.units;
   options.bulk_Pa = words.bulk_Pa;
@@ -68,8 +95,9 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   const std::string text = rubber_file_card(file, words.material, options);
   if (!words.out.empty()) write_file(words.out, text, words.force);
   if (words.json) {
-    print_result({"viscard-card-rubber/1", {words.material}},
-                 [&](ResultVisitor& v) { show_rubber_card(v, file, words, doubt, text); }, streams);
+    print_result(
+        {"viscard-card-rubber/1", {words.material}},
+        [&](ResultVisitor& v) { show_rubber_card(v, file, words, doubt, text); }, streams);
   } else if (words.out.empty()) {
     streams.out << text;
   } else {

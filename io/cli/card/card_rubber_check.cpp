@@ -33,8 +33,8 @@ void show_check(ResultVisitor& v, const RubberCheck& check, const CardWords& wor
   v("units", read.units == nullptr ? "" : read.units->name, "its unit system");
   v("agrees", check.agrees, "whether card and material agree");
   v("law", name_of(read.law.form), "name of the law");
-  v.word("basis", read.is_long_term ? "long-term" : "instantaneous",
-         {"instantaneous", "long-term"}, "which law stands in the card");
+  v.word("basis", read.is_long_term ? "long-term" : "instantaneous", {"instantaneous", "long-term"},
+         "which law stands in the card");
   v.list("parameters", "the law at once", parameters_of(read.law), [&](const CardValue& value) {
     v("name", value.name, "its name; moduli in Pa");
     v("value", value.value, "its value");
@@ -43,7 +43,8 @@ void show_check(ResultVisitor& v, const RubberCheck& check, const CardWords& wor
     v("g", term.g, "share of the law at once");
     v("tau_s", term.tau_s, "its time");
   });
-  v("bulk_modulus_Pa", number_or_null(read.bulk_Pa > 0.0 ? std::optional(read.bulk_Pa) : std::nullopt),
+  v("bulk_modulus_Pa",
+    number_or_null(read.bulk_Pa > 0.0 ? std::optional(read.bulk_Pa) : std::nullopt),
     "null: incompressible");
   v("tolerance", check.tolerance, "largest relative difference allowed");
   v("difference", number_or_null(check.difference),
@@ -71,8 +72,13 @@ void print_rubber_check(const RubberCheck& check, const CardWords& words, std::o
     out << (finding.is_mistake ? "mistake " : "note ") << finding.name << ": " << finding.text
         << "\n";
   }
+  const bool is_partial = has_unread_parts(check.findings);
   if (!check.agrees) {
     out << "the card is wrong\n";
+  } else if (is_partial) {
+    out << (check.difference
+                ? "what was read of the card agrees with the law; nothing is said of the rest\n"
+                : "not all of the card was read; nothing is said of it as a whole\n");
   } else if (check.difference) {
     out << fmt::format("the card agrees with the law (within {:.1e})\n", check.tolerance);
   } else {
@@ -105,7 +111,8 @@ DescribedResult result_of_rubber_check() {
   RubberCheck check;
   check.read.law.moduli_Pa = Eigen::VectorXd::Zero(n_moduli(check.read.law.form));
   check.read.law.shapes = Eigen::VectorXd::Zero(n_shapes(check.read.law.form));
-  return {"card-rubber-check", "viscard card --check of a card of rubber",
+  return {"card-rubber-check",
+          "viscard card --check of a card of rubber",
           {[check](ResultVisitor& v) { show_check(v, check, CardWords{}); }}};
 }
 
@@ -119,6 +126,7 @@ int check_rubber_file(const CardWords& words, Streams& streams) {
                                 .units = words.units,
                                 .tolerance = words.tolerance,
                                 .bulk_Pa = words.bulk_Pa,
+                                .density_kg_m3 = words.density_kg_m3,
                                 .elastic_only = words.elastic_only});
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(words.check + ": " + error.what());
@@ -127,8 +135,9 @@ int check_rubber_file(const CardWords& words, Streams& streams) {
   if (words.json) {
     Words inputs{words.check};
     if (!words.material.empty()) inputs.push_back(words.material);
-    print_result({"viscard-card-rubber-check/1", inputs},
-                 [&](ResultVisitor& v) { show_check(v, check, words); }, streams);
+    print_result(
+        {"viscard-card-rubber-check/1", inputs},
+        [&](ResultVisitor& v) { show_check(v, check, words); }, streams);
   } else {
     print_rubber_check(check, words, FittedText(streams));
   }

@@ -44,11 +44,7 @@ const Solver& rubber_solver(const CardWords& words) {
 }
 
 void print_constants(const RubberProof& proof, std::ostream& out) {
-  for (const ConstantProof& constant : proof.constants) {
-    out << fmt::format("  {} = {:.6g}: {}; a value 10 % off changes a stress by {:.1e}\n",
-                       constant.name, constant.value,
-                       constant.is_exercised ? "exercised" : "NOT exercised", constant.change);
-  }
+  for (const ConstantProof& constant : proof.constants) out << row_of_constant(constant);
   if (!proof.hold) return;
   for (std::size_t i = 0; i < proof.hold->terms.size(); ++i) {
     const TermProof& term = proof.hold->terms[i];
@@ -58,20 +54,27 @@ void print_constants(const RubberProof& proof, std::ostream& out) {
   }
 }
 
-std::string verdict_of(const RubberProof& proof) {
+std::string verdict_of(const RubberProof& proof, bool ran_card, const std::string& target) {
   if (!proof.diverged.empty()) {
     return "nothing is proven: the " + proof.diverged + " cube did not converge\n";
   }
   if (!proof.agrees()) return "the card does not hold: its stress is not that of the law\n";
   if (!proof.exercises_all()) {
-    return "the stresses agree, but nothing is proven of the constants that were not exercised: an "
-           "error in them would be smaller than what the run resolves\n";
+    return "the stresses agree, but nothing is proven of " + proof.not_exercised() +
+           ", not exercised: an error there would be smaller than what the run resolves\n";
+  }
+  if (!ran_card) {
+    return "the numbers hold: every stress is that of the law, and every constant was exercised; "
+           "how " +
+           target + " computes them is not proven\n";
   }
   return "the card holds: every stress is that of the law, and every constant was exercised\n";
 }
 
 void print_rubber_proof(const CardWords& words, const FoundSolver& found, const RubberProof& proof,
-                        std::ostream& out) {
+                        const CardChain& chain, std::ostream& out) {
+  const std::string statement = statement_of_rubber(found.solver, words.target);
+  if (!statement.empty()) out << words.prove << ": " << statement << "\n";
   out << fmt::format(
       "{}: {} {} on one cube, bulk modulus {:.6g} Pa, against the closed form of {}\n", words.prove,
       found.solver.code, found.version, proof.bulk_Pa,
@@ -89,19 +92,14 @@ void print_rubber_proof(const CardWords& words, const FoundSolver& found, const 
                        proof.hold->resolved);
   }
   print_constants(proof, out);
-  out << verdict_of(proof);
-  if (!runs_text_of(found.solver.name, words.target)) {
-    out << "  " << found.solver.code
-        << " ran the numbers that were read from the card, not its text; --check compares the "
-           "text\n";
-  }
+  out << verdict_of(proof, statement.empty(), words.target) << chain_in_words(chain);
 }
 
 }  // namespace
 
 DescribedResult result_of_rubber_proof() {
   const auto show = [](ResultVisitor& v) {
-    show_certificate(v, RubberCertificateRequest{}, nullptr, {solvers().front(), "", ""},
+    show_certificate(v, RubberCertificateRequest{}, CardChain{}, {solvers().front(), "", ""},
                      RubberProof{});
   };
   return {"card-rubber-prove",
@@ -130,13 +128,13 @@ int prove_rubber_file(const CardWords& words, Streams& streams) {
     }
   }();
   const RubberCertificateRequest request{words.prove, words.material, words.target};
-  const HyperelasticFile* law = file ? &*file : nullptr;
-  if (!words.json) print_rubber_proof(words, found, proof, FittedText(streams));
-  write_file(path, rubber_certificate_text(request, law, found, proof), words.force);
+  const CardChain chain = chain_of(words.prove, text, words.material);
+  if (!words.json) print_rubber_proof(words, found, proof, chain, FittedText(streams));
+  write_file(path, rubber_certificate_text(request, chain, found, proof), words.force);
   if (words.json) {
     Words inputs{words.prove};
     if (!words.material.empty()) inputs.push_back(words.material);
-    const auto show = [&](ResultVisitor& v) { show_certificate(v, request, law, found, proof); };
+    const auto show = [&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); };
     print_result({"viscard-card-rubber-prove/1", inputs}, show, streams);
   } else {
     streams.out << "wrote " << path << "\n";

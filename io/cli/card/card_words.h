@@ -13,6 +13,9 @@
 
 namespace viscard {
 
+struct CardChain;
+struct ConstantProof;
+
 // viscard card: writes a material card for a solver, lists targets, checks cards, proves them.
 int run_card(const Words& words, Streams& streams);
 
@@ -22,7 +25,7 @@ struct CardWords {
   std::string target;
   std::string units;  // empty: not named
   std::string out;
-  std::string check, prove, deck;
+  std::string check, prove, deck, verify;
   std::string solver, solver_path;  // of --prove; empty: the one that reads the card, from PATH
   std::string bound;                // "", "lower", "upper"
   std::string elastic_only;         // "", "instantaneous", "long-term"
@@ -50,6 +53,14 @@ PreparedMaterial prepared_material(const CardWords& words);
 PreparedMaterial stated_material(const std::string& card, const CardWords& words,
                                  std::vector<CardFinding>& notes);
 CardOptions card_options(const CardWords& words, const PreparedMaterial& prepared);
+
+// "  chain: ..." of --prove and --verify, one line.
+std::string chain_in_words(const CardChain& chain);
+// One line of a constant that a proof exercised or not.
+std::string row_of_constant(const ConstantProof& constant);
+int verify_file(const CardWords& words, Streams& streams);
+// What it prints with --json.
+DescribedResult result_of_verify();
 
 int list_card_targets(const CardWords& words, Streams& streams);
 // True if the words ask for the card of a law of rubber (io/cards/hyperelastic).

@@ -7,6 +7,7 @@
 #include "io/cards/unit_system.h"
 #include "io/cli/card/card_words.h"
 #include "io/cli/words/command_line.h"
+#include "io/materials/hyperelastic_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -66,6 +67,11 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "run a card on one element in a solver against the exact answer, and write a certificate "
       "beside it (CARD.SOLVER.proof.json, or --out); of a law of rubber calculix and sfepy run")
       .shown_as("CARD");
+  add("verify", &words.verify,
+      "compare every SHA-256 that a card or a certificate states: of itself, of the card, of the "
+      "material "
+      "file and of the raw data")
+      .shown_as("CARD_OR_CERTIFICATE");
   add("solver", &words.solver,
       "with --prove: calculix, febio, mtest, frontistr, openradioss, or sfepy and dolfinx, which "
       "run the numbers of any card; if not given the one that reads the card")
@@ -170,10 +176,12 @@ void check_rubber_words(const CardWords& words) {
 
 void check_words(CardWords& words) {
   const int modes = (words.list ? 1 : 0) + (words.check.empty() ? 0 : 1) +
-                    (words.prove.empty() ? 0 : 1) + (words.deck.empty() ? 0 : 1);
-  if (modes > 1) throw UsageError("--list, --check, --prove and --deck exclude each other");
+                    (words.prove.empty() ? 0 : 1) + (words.deck.empty() ? 0 : 1) +
+                    (words.verify.empty() ? 0 : 1);
+  if (modes > 1)
+    throw UsageError("--list, --check, --prove, --verify and --deck exclude each other");
   if (words.is_long && !words.list) throw UsageError("--long belongs to --list");
-  if (words.list) return;
+  if (words.list || !words.verify.empty()) return;
   if (words.prove.empty() && (!words.solver.empty() || !words.solver_path.empty())) {
     throw UsageError("--solver and --solver-path belong to --prove CARD");
   }
@@ -229,15 +237,15 @@ int run_card(const Words& words, Streams& streams) {
   CommandSyntax syntax{
       "viscard card MATERIAL.json --for TARGET [--units SYSTEM] [--out FILE] [OPTIONS]",
       "Writes a material card for a solver, right by that solver's conventions and read back "
-      "before it is saved. With --list, --check, --prove or --deck: shows the targets, checks a "
-      "card, runs it, or writes a one-element model to run it in.",
+      "before it is saved. With --list, --check, --prove, --verify or --deck: shows the targets, "
+      "checks a card, runs it, follows its sums, or writes a one-element model to run it in.",
       "viscard card data/materials/pdms_1to10_seed.json --for abaqus --units mm-t-s"};
   std::optional<std::string> material;
   syntax.positional.add("material", &material, "material file");
   add_options(syntax, card);
   if (std::find(words.begin(), words.end(), "--deck") != words.end()) syntax.may_exist = {"out"};
   syntax.results = {result_of_card(), result_of_rubber_card(), result_of_rubber_check(),
-                    result_of_rubber_proof()};
+                    result_of_rubber_proof(), result_of_verify()};
   for (const auto& some : {results_of_targets(), results_of_proof()}) {
     syntax.results.insert(syntax.results.end(), some.begin(), some.end());
   }
@@ -249,10 +257,15 @@ int run_card(const Words& words, Streams& streams) {
   card.command_line = quoted_command_line("card", words);
   check_words(card);
   if (card.list) return list_card_targets(card, streams);
+  if (!card.verify.empty()) return verify_file(card, streams);
   if (is_rubber_check(card)) return check_rubber_file(card, streams);
   if (!card.check.empty()) return check_card_file(card, streams);
   if (is_rubber_proof(card)) return prove_rubber_file(card, streams);
   if (!card.prove.empty()) return prove_card_file(card, streams);
+  if (!card.deck.empty() && looks_like_hyperelastic_file(card.material)) {
+    throw UsageError("--deck writes models of linear materials, and " + card.material +
+                     " is a law of rubber; write its card with --out and run it with --prove");
+  }
   if (!card.deck.empty()) return write_deck_files(card, streams);
   if (is_rubber(card)) return write_rubber_card(card, streams);
   if (card.bulk_Pa || card.density_kg_m3) {

@@ -261,6 +261,24 @@ Written ansys_card(const Rubber& rubber) {
   return out;
 }
 
+// The factors in <W>0.2*(I1-3)+0.03*(I1-3)^2+0.005*(I1-3)^3</W>.
+std::vector<double> factors_of_energy(const std::string& card) {
+  REQUIRE_THAT(card, Contains("<elastic type=\"uncoupled hyperelastic\">"));
+  std::vector<double> out;
+  std::size_t at = card.find("<W>") + 3;
+  for (int power = 1; power <= 3; ++power) {
+    const std::size_t end = card.find("*(I1-3)", at);
+    REQUIRE(end != std::string::npos);
+    out.push_back(std::strtod(card.substr(at, end - at).c_str(), nullptr));
+    at = end + 7;
+    if (power == 1) continue;
+    REQUIRE(card.substr(at, 2) == "^" + std::to_string(power));
+    at += 2;
+  }
+  CHECK(card.substr(at, 4) == "</W>");
+  return out;
+}
+
 std::pair<Written, double> febio_card(const Rubber& rubber) {
   const std::string card = card_of(rubber, "febio");
   REQUIRE_THAT(card, Contains("type=\"uncoupled viscoelastic\"") && Contains("<elastic type="));
@@ -272,7 +290,7 @@ std::pair<Written, double> febio_card(const Rubber& rubber) {
   if (rubber.law.form == HyperelasticForm::kNeoHooke)
     out.energy = invariant_energy({tag_of(card, "c1")});
   if (rubber.law.form == HyperelasticForm::kYeoh)
-    out.energy = invariant_energy({tag_of(card, "c1"), tag_of(card, "c2"), tag_of(card, "c3")});
+    out.energy = invariant_energy(factors_of_energy(card));
   if (rubber.law.form == HyperelasticForm::kOgden2) {
     out.energy = ogden_energy({tag_of(card, "c1"), tag_of(card, "c2")},
                               {tag_of(card, "m1"), tag_of(card, "m2")},

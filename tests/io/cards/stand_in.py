@@ -26,13 +26,18 @@ class Bar:
             known += math.exp(-dt / tau) * q[which] - share * phi * old
         return gain, known
 
-    def step(self, dt, strain=None, stress=None):
+    def step(self, dt, strain=None, stress=None, confined=False):
         gd, hd = self._part(0, self.g, dt, self.d)
         gv, hv = self._part(1, self.k, dt, self.v)
         if stress is None:  # sides free: bulk (gv v + hv) = shear (gd d + hd)
             lateral = (self.shear * (2 / 3 * gd * strain + hd) - self.bulk * (gv * strain + hv)) / (
                 2 * self.bulk * gv + 2 / 3 * self.shear * gd)
+            lateral = 0.0 if confined else lateral
             d, v = 2 / 3 * (strain - lateral), strain + 2 * lateral
+        elif confined:  # stress = bulk (gv e + hv) + 2 shear (2/3 gd e + hd)
+            v = (stress - self.bulk * hv - 2 * self.shear * hd) / (
+                self.bulk * gv + 4 / 3 * self.shear * gd)
+            d = 2 / 3 * v
         else:
             d = (stress / 3 / self.shear - hd) / gd
             v = (stress / 3 / self.bulk - hv) / gv
@@ -41,7 +46,9 @@ class Bar:
             self.q[i] = [decay * self.q[i][0] + self.g[i] * phi * (d - self.d),
                          decay * self.q[i][1] + self.k[i] * phi * (v - self.v)]
         self.d, self.v = d, v
-        return v / 3 + d, 3 * self.shear * (gd * d + hd)  # strain, stress
+        # strain, stress
+        axial = self.bulk * (gv * v + hv) + 2 * self.shear * (gd * d + hd)
+        return v / 3 + d, axial if confined else 3 * self.shear * (gd * d + hd)
 
 
 def numbers(pattern, text):
@@ -67,7 +74,7 @@ def febio():
     else:
         bar = Bar(numbers(r"<E>([^<]*)", text)[0], numbers(r"<v>([^<]*)", text)[0], g, g, tau)
     points = [tuple(map(float, p.split(","))) for p in re.findall(r"<pt>([^<]*)", text)]
-    creep = "nodal_load" in text
+    creep, confined = "nodal_load" in text, 'node_set="x1"' in text
     top = numbers(r'lc="1">([^<]*)', text)[0] * (4 if creep else 1)
     with open("uz.txt" if creep else "sz.txt", "w") as out:
         time, n = 0.0, 0
@@ -76,7 +83,8 @@ def febio():
             for _ in range(int(count)):
                 time, n = time + float(size), n + 1
                 load = top * ramp(points, time)
-                strain, stress = bar.step(float(size), **{"stress" if creep else "strain": load})
+                strain, stress = bar.step(float(size), confined=confined,
+                                          **{"stress" if creep else "strain": load})
                 print(f"*Step  = {n}\n*Time  = {time:.9g}\n*Data  = x\n"
                       f"7 {strain if creep else stress:.12g}", file=out)
 
@@ -94,7 +102,7 @@ def mtest():
              re.findall(r"@Parameter real (\w+)(?:\[Nt\])? = ([^;]*);", card)}
     bar = Bar(value["E0"][0], value["nu0"][0], value["g"], value["k"], value["tau"])
     text = open(sys.argv[1]).read()
-    creep = "@ImposedStress" in text
+    creep, confined = "@ImposedStress" in text, "'EXX'" in text
     points = [tuple(map(float, p.split(":"))) for p in
               re.search(r"@Imposed\w+<evolution> '\w+' {([^}]*)}", text).group(1).split(",")]
     time = 0.0
@@ -105,7 +113,8 @@ def mtest():
             for i in range(1, int(count) + 1):
                 now = start + (float(end) - start) * i / int(count)
                 load = ramp(points, now)
-                strain, stress = bar.step(now - time, **{"stress" if creep else "strain": load})
+                strain, stress = bar.step(now - time, confined=confined,
+                                          **{"stress" if creep else "strain": load})
                 time = now
                 print(repr(time), 0, 0, repr(strain), 0, 0, 0, 0, 0, repr(stress), 0, 0, 0, file=out)
 
@@ -152,6 +161,7 @@ def fistr1():
             a * (1 / (now - b) - 1 / (t_ref - b)))
     bar = Bar(young, nu, [g for g, _ in prony], [0.0] * len(prony), [slower * t for _, t in prony])
     creep = ("!CLOAD", "1") in rows
+    confined = any(r[0] == "X1" for r in rows["!BOUNDARY", "1"])
     pulled = {grp: float(r[3]) for (key, grp), rs in rows.items() if key == "!BOUNDARY"
               for r in rs if r[0] == "Z1"}
     time, n, strain, was_loaded = 0.0, 0, 0.0, False
@@ -161,11 +171,11 @@ def fistr1():
             time, n = time + step["dt"], n + 1
             if creep:
                 force = 4 * float(rows["!CLOAD", "1"][0][2]) * (1 if was_loaded else i / count)
-                strain, stress = bar.step(step["dt"], stress=force)
+                strain, stress = bar.step(step["dt"], stress=force, confined=confined)
             else:
                 boundary = [grp for kind, grp in step["loads"] if kind == "BOUNDARY"][0]
                 strain += pulled[boundary] if i == 1 else 0.0
-                _, stress = bar.step(step["dt"], strain=strain)
+                _, stress = bar.step(step["dt"], strain=strain, confined=confined)
             write_frontistr(n, time, strain, stress)
             if n == int(os.environ.get("STAND_IN_STOPS_AFTER", "-1")):
                 return print(os.environ.get("STAND_IN_SAYS", ""))

@@ -93,6 +93,7 @@ def engine(path):
     edge = float(deck.block("/NODE")[6][50:70])
     creep, alpha = deck.block("/CLOAD") is not None, float(fields(deck.block("/DAMP")[1])[0])
     load = curve(deck.block("/FUNCT"))
+    confined = deck.block("/BCS/4") is not None
     end, output = float(run.block("/RUN")[0]), float(run.block("/TFILE")[0])
     dt = float(fields(run.block("/DT")[0])[0]) * edge / law.sound
     weights, lasting, bulk = law.weights(dt), 2 * law.lasting, law.bulk
@@ -111,7 +112,7 @@ def engine(path):
         if t >= end:
             print("     NORMAL TERMINATION")
             break
-        vx = keep * vx + gain * (-sx / inertia)
+        vx = 0.0 if confined else keep * vx + gain * (-sx / inertia)
         if creep:  # a quarter of the load on each of four nodes
             vz = keep * vz + gain * ((4 * load(t) / area - sz) / inertia)
             ez += vz * dt

@@ -116,7 +116,7 @@ TEST_CASE("right numbers in a card that does something else are named", "[cards]
   CHECK(findings_of(edited(right_card("febio"), "isotropic elastic", "neo-Hookean"), "febio") ==
         "elastic-type");
   CHECK(findings_of(edited(right_card("febio"), "  </elastic>\n", ""), "febio")
-            .find("closes no open element") != std::string::npos);
+            .find("an element is closed that is not open") != std::string::npos);
   // Three moduli, two times: the third branch has no partner.
   const Card mfront = write_card(reference_material(), card_target("mfront"), {.units = "mm-t-s"});
   const std::string third = "@MaterialProperty<constant> 'ViscoelasticShearModulus[2]' 0.1;\n";

@@ -168,11 +168,33 @@ TEST_CASE("SfePy refuses a card with one wrong number, and one in the wrong unit
   const CardProof proof =
       prove_card(card.text, read_card(card.text, target, ""), material, *solver, 10);
   CHECK_FALSE(proof.agrees());
-  CHECK(proof.exercises_all_terms());
+  CHECK(proof.exercises_all());
   const Card right = write_card(material, target, {.units = "mm-t-s", .is_reproducible = true});
   CHECK_FALSE(
       prove_card(right.text, read_card(right.text, target, "mm-kg-ms"), material, *solver, 10)
           .agrees());
+}
+
+TEST_CASE("a wrong Poisson's ratio of a nearly incompressible card is found with held sides",
+          "[cards]") {
+  const auto solver = found("sfepy");
+  if (!solver) return;
+  Material material = with_bulk_rule(material_of_terms(2, 0.4), BulkRule::kConstantPoisson);
+  material.nu = 0.4995;
+  const CardTarget& target = card_target("febio");
+  const std::string right = write_card(material, target, {.units = "mm-t-s"}).text;
+  const CardProof proof = prove_card(right, read_card(right, target, ""), material, *solver, 10);
+  CAPTURE(proof.not_exercised());
+  CHECK(proof.holds());
+  REQUIRE(proof.confined);
+  CHECK(proof.constants.at(1).name == "nu");
+  CHECK(proof.constants.at(1).seen_by == "confined");
+  std::string wrong = right;
+  wrong.replace(wrong.find("<v>0.4995"), 9, "<v>0.3");
+  const CardProof refused = prove_card(wrong, read_card(wrong, target, ""), material, *solver, 10);
+  CHECK(refused.relaxation.vanishes_with_step());
+  CHECK_FALSE(refused.agrees());
+  CHECK(statement_of(solver->solver, "febio") != "");
 }
 
 TEST_CASE("models for FEBio, MTest and FrontISTR run and are read in the solvers' formats",

@@ -190,7 +190,7 @@ TEST_CASE("rubber cards: CalculiX gives the nominal stress of the law in every d
 
 TEST_CASE("rubber cards: each solver's convention", "[io]") {
   CHECK(card_for(kOgden, "abaqus") ==
-        "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, OGDEN, N=3\n"
+        "*MATERIAL, NAME=RUBBER\n*DENSITY\n1.1e-09,\n*HYPERELASTIC, OGDEN, N=3\n"
         "0.345, 1.9, 0.0062, -2.2, 4.2e-06, 8.5, 0, 0\n0\n");
   CHECK_THAT(card_for(kOgden, "febio", 2e9, "SI"),
              Contains("type=\"Ogden\"") && Contains("<c1>690000</c1>") &&
@@ -202,14 +202,18 @@ TEST_CASE("rubber cards: each solver's convention", "[io]") {
                "TBDATA,5,0\n"));
   CHECK_THAT(card_for(law_of(HyperelasticForm::kNeoHooke, {2e5}, {}), "ansys"),
              Contains("TB,HYPER,1,1,,NEO\nTBDATA,1,0.4\nTBDATA,2,0\n"));
-  CHECK_THAT(card_for(law_of(HyperelasticForm::kArrudaBoyce, {2e5}, {3.0}), "febio"),
-             Contains("<N>9</N>"));
+  // 2e5/2, 2e5/20/9 and 2e5 11/1050/81 Pa: FEBio's own Arruda-Boyce has the factor i twice.
+  CHECK_THAT(card_for(law_of(HyperelasticForm::kArrudaBoyce, {2e5}, {3.0}), "febio", 2e9, "SI"),
+             Contains("type=\"uncoupled hyperelastic\"") &&
+                 Contains("<W>100000*(I1-3)+1111.111111111111*(I1^2-9)+25.86713698") &&
+                 Contains("*(I1^3-27)+") && Contains("*(I1^4-81)+") && Contains("*(I1^5-243)</W>"));
+  CHECK_THAT(card_for(law_of(HyperelasticForm::kGent, {2.7e5}, {80.0}), "febio"),
+             Contains("type=\"Gent\"") && Contains("<G>0.27</G>") && Contains("<Jm>80</Jm>"));
 }
 
 TEST_CASE("rubber cards: what a solver cannot take is refused", "[io]") {
   const HyperelasticLaw gent = law_of(HyperelasticForm::kGent, {2.7e5}, {80.0});
   CHECK_THROWS_WITH(card_for(gent, "abaqus"), Contains("abaqus has no gent law"));
-  CHECK_THROWS_WITH(card_for(gent, "febio"), Contains("febio has no gent law"));
   CHECK_NOTHROW(card_for(gent, "ansys"));
   CHECK_THROWS_WITH(card_for(kOgden, "calculix", 1e12, "SI"), Contains("below 1e-10"));
   CHECK_THROWS_WITH(card_for(kOgden, "sofa"), Contains("no card of rubber for 'sofa'"));

@@ -112,7 +112,7 @@ TEST_CASE("rubber proofs: CalculiX proves cards of three materials, and finds a 
       CAPTURE(name_of(rubber.law.form), when);
       const RubberProof proof =
           proof_of(card_of(rubber, "calculix", false, when), rubber, "calculix", "calculix", when);
-      REQUIRE(proof.cubes.size() == 3);
+      REQUIRE(proof.cubes.size() == 4);
       for (const CubeProof& cube : proof.cubes) {
         CAPTURE(cube.test.name, cube.error, cube.at_stretch);
         CHECK(cube.error < 3e-6);
@@ -140,7 +140,7 @@ TEST_CASE("rubber proofs: SfePy proves laws and memory of three materials, and f
   for (const Rubber& rubber : rubbers()) {
     CAPTURE(name_of(rubber.law.form));
     const RubberProof proof = proof_of(card_of(rubber, "sfepy"), rubber, "sfepy", "sfepy");
-    REQUIRE(proof.cubes.size() == 3);
+    REQUIRE(proof.cubes.size() == 4);
     for (const CubeProof& cube : proof.cubes) {
       CAPTURE(cube.test.name, cube.error, cube.at_stretch);
       CHECK(cube.error < 1e-8);
@@ -187,6 +187,46 @@ TEST_CASE("rubber proofs: a constant that no stress shows is reported as not exe
   CHECK_FALSE(proof.constants[1].is_exercised);
   CHECK(proof.constants[2].name == "bulk modulus");
   CHECK(proof.constants[2].is_exercised);
+  CHECK(proof.constants[2].seen_by == "confined");
+  CHECK(proof.not_exercised() == "C01_Pa");
+}
+
+TEST_CASE("rubber proofs: CalculiX's volume law of Arruda and Boyce is its own", "[io]") {
+  for (const double limit : {1.3, 1.8}) {
+    CAPTURE(limit);
+    const Rubber chains = rubber_of(HyperelasticForm::kArrudaBoyce, {3.5e5}, {limit}, {});
+    const RubberProof proof = proof_of(card_of(chains, "calculix"), chains, "calculix", "calculix");
+    for (const CubeProof& cube : proof.cubes) {
+      CAPTURE(cube.test.name, cube.error, cube.at_stretch);
+      CHECK(cube.agrees());
+    }
+    CHECK(proof.holds());
+  }
+}
+
+TEST_CASE("rubber proofs: a run of another solver than the card's says so", "[io]") {
+  CHECK(statement_of_rubber(solver_for("calculix", "calculix"), "calculix") == "");
+  CHECK(statement_of_rubber(solver_for("sfepy", ""), "sfepy") == "");
+  CHECK_THAT(statement_of_rubber(solver_for("sfepy", ""), "febio"),
+             Contains("by its own law") && Contains("not run in febio"));
+}
+
+TEST_CASE("rubber proofs: a confined cube shows the bulk modulus, with the slope of its energy",
+          "[io]") {
+  // W of Neo-Hooke at unit volume: C10 (J^(-2/3) (s^2 + 2) - 3) + K/2 (J - 1)^2 with J = s.
+  const Rubber neo_hooke = rubber_of(HyperelasticForm::kNeoHooke, {2e5}, {}, {});
+  const double K = 3e8, s = 1.04, h = 1e-6;
+  const auto energy = [&](double t) {
+    return 2e5 * (std::pow(t, -2.0 / 3.0) * (t * t + 2.0) - 3.0) + 0.5 * K * (t - 1.0) * (t - 1.0);
+  };
+  CHECK(confined_stress_Pa(neo_hooke.law, K, s, VolumeRule::kUnitVolume) ==
+        Approx((energy(s + h) - energy(s - h)) / (2.0 * h)).epsilon(1e-7));
+  const auto logarithmic = [&](double t) {
+    return energy(t) - 0.5 * K * (t - 1.0) * (t - 1.0) +
+           0.5 * K * (0.5 * (t * t - 1.0) - std::log(t));
+  };
+  CHECK(confined_stress_Pa(neo_hooke.law, K, s, VolumeRule::kLogarithmic) ==
+        Approx((logarithmic(s + h) - logarithmic(s - h)) / (2.0 * h)).epsilon(1e-7));
 }
 
 TEST_CASE("rubber proofs: cubes go as far as the tests of the law did, and stay where it is stable",
@@ -194,7 +234,8 @@ TEST_CASE("rubber proofs: cubes go as far as the tests of the law did, and stay 
   HyperelasticFile file = law_file(rubbers()[0]);
   file.measured[0] = HyperelasticFile::Range{0.6, 3.0};
   const auto tests = cube_tests(file.law, &file, 0.04);
-  REQUIRE(tests.size() == 4);
+  REQUIRE(tests.size() == 5);
+  CHECK(tests.back().is_confined);
   CHECK(tests[0].top == 3.0);
   CHECK(tests[0].steps == 50);
   CHECK(tests[1].name == "compression");

@@ -28,7 +28,19 @@ Eigen::Vector3d with_sides(Deformation deformation, double measured, double side
   return {measured, side, side};
 }
 
+// Kirchhoff stress of the volume: J dU/dJ.
+double volume_stress_Pa(double bulk_Pa, double J, VolumeRule rule) {
+  if (rule == VolumeRule::kLogarithmic) return 0.5 * bulk_Pa * (J * J - 1.0);
+  return bulk_Pa * J * (J - 1.0);
+}
+
 }  // namespace
+
+double confined_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, double stretch,
+                          VolumeRule rule) {
+  const Eigen::Vector3d strain{std::log(stretch), 0.0, 0.0};
+  return (deviator_Pa(law, strain, rule)[0] + volume_stress_Pa(bulk_Pa, stretch, rule)) / stretch;
+}
 
 double cube_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, Deformation deformation,
                       double stretch, VolumeRule rule) {
@@ -38,7 +50,7 @@ double cube_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, Deformation de
   const auto side_Pa = [&](double side) {
     const Eigen::Vector3d strain = with_sides(deformation, measured, side);
     const double J = std::exp(strain.sum());
-    return deviator_Pa(law, strain, rule)[2] + bulk_Pa * J * (J - 1.0);
+    return deviator_Pa(law, strain, rule)[2] + volume_stress_Pa(bulk_Pa, J, rule);
   };
   const double isochoric = strain_direction(deformation)[2] * measured;
   double low = isochoric - 0.5, high = isochoric + 0.5;

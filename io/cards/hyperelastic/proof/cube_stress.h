@@ -9,6 +9,9 @@ enum class VolumeRule {
   kUnitVolume,      // W at the stretches s_i J^(-1/3)
   kWholeOgden,      // SfePy 2021.4: Ogden's principal Kirchhoff stresses, times J^((alpha - 2)/3)
   kIncompressible,  // J = 1
+  // CalculiX, FrontISTR and OpenRadioss for Arruda and Boyce: (1/D) ((J^2 - 1)/2 - ln J), D = 2/K, instead of
+  // (1/D) (J - 1)^2. Run by the tests in CalculiX 2.20.
+  kLogarithmic,
 };
 
 // Nominal stress of a cube along its measured stretch, Pa, with the energy W + (K/2) (J - 1)^2 per volume at
@@ -17,5 +20,8 @@ enum class VolumeRule {
 // Solid Mechanics (2000), 6.4. nan where no sides are free of stress (beyond the law's limit).
 double cube_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, Deformation deformation,
                       double stretch, VolumeRule rule);
+// The same of a cube whose sides are held, so that its volume changes with the stretch.
+double confined_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, double stretch,
+                          VolumeRule rule);
 
 }  // namespace viscard

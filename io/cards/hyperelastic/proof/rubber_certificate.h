@@ -2,6 +2,7 @@
 
 #include "io/basics/timestamp.h"
 #include "io/cards/hyperelastic/proof/rubber_proof.h"
+#include "io/cards/proof/card_chain.h"
 
 #include <string>
 
@@ -14,14 +15,12 @@ struct RubberCertificateRequest {
   std::string created_at = now_iso8601();
 };
 
-// The certificate beside a card: solver, errors, and SHA-256 of the card, of the file of its law and of the
-// tables that the law was fitted to.
+// The certificate beside a card: solver, errors, and the chain of the card, of the file of its law and of
+// the tables that the law was fitted to.
 void show_certificate(ResultVisitor& v, const RubberCertificateRequest& request,
-                      const HyperelasticFile* file, const FoundSolver& found,
-                      const RubberProof& proof);
+                      const CardChain& chain, const FoundSolver& found, const RubberProof& proof);
 // The same as JSON.
-std::string rubber_certificate_text(const RubberCertificateRequest& request,
-                                    const HyperelasticFile* file, const FoundSolver& found,
-                                    const RubberProof& proof);
+std::string rubber_certificate_text(const RubberCertificateRequest& request, const CardChain& chain,
+                                    const FoundSolver& found, const RubberProof& proof);
 
 }  // namespace viscard

@@ -44,7 +44,8 @@ output.set_output(quiet=True)
 def stresses(mode, ramp, factor):
     """Nominal stresses of one element with a bulk modulus of `factor` times that of the card, and the
     forces that the iteration left on free sides, relative to that of the stretch."""
-    domain = FEDomain("cube", gen_block_mesh((1, 1, 1), (2, 2, 2), (0.5, 0.5, 0.5), verbose=False))
+    shape = (2, 2, 3 if mode == "confined" else 2)
+    domain = FEDomain("cube", gen_block_mesh((1, 1, 1), shape, (0.5, 0.5, 0.5), verbose=False))
     omega = domain.create_region("Omega", "all")
     face = {
         axis + end: domain.create_region(axis + end, f"vertices in ({axis} {rule})", "facet")
@@ -67,7 +68,8 @@ def stresses(mode, ramp, factor):
     state, out, left = None, [], []
     for stretch in ramp:
         held = [("x0", "u.0", 0.0), ("y0", "u.1", 0.0), ("z0", "u.2", 0.0), ("z1", "u.2", stretch - 1)]
-        held += [("y1", "u.1", 0.0)] if mode == "planar" else []
+        held += [("y1", "u.1", 0.0)] if mode in ("planar", "confined") else []
+        held += [("x1", "u.0", 0.0)] if mode == "confined" else []
         held += [("x1", "u.0", stretch - 1)] if mode == "equibiaxial" else []
         bcs = [EssentialBC(region, face[region], {dof: value}) for region, dof, value in held]
         problem.set_bcs(ebcs=Conditions(bcs))
@@ -114,14 +116,19 @@ if hold:
 }  // namespace
 
 std::vector<DeckFile> calculix_cube(const std::string& card, const CubeTest& test) {
+  const bool is_confined = test.is_confined;
   std::string text =
-      "*NODE,NSET=ALL\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+      "*NODE,NSET=ALL\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n";
+  if (is_confined) text += "9,0,0,0.5\n10,1,0,0.5\n11,1,1,0.5\n12,0,1,0.5\n";
+  text +=
       "*NSET,NSET=TOP\n5,6,7,8\n*NSET,NSET=BASE\n1,2,3,4\n*NSET,NSET=LEFT\n1,4,5,8\n"
       "*NSET,NSET=RIGHT\n2,3,6,7\n*NSET,NSET=FRONT\n1,2,5,6\n*NSET,NSET=BACK\n3,4,7,8\n"
-      "*ELEMENT,TYPE=C3D8,ELSET=CUBE\n1,1,2,3,4,5,6,7,8\n" +
-      card + "\n*SOLID SECTION,ELSET=CUBE,MATERIAL=" + material_name(card) +
-      "\n*BOUNDARY\nBASE,3,3\nLEFT,1,1\nFRONT,2,2\n";
-  if (test.deformation == Deformation::kPlanar) text += "BACK,2,2\n";
+      "*ELEMENT,TYPE=C3D8,ELSET=CUBE\n";
+  text += is_confined ? "1,1,2,3,4,9,10,11,12\n2,9,10,11,12,5,6,7,8\n" : "1,1,2,3,4,5,6,7,8\n";
+  text += card + "\n*SOLID SECTION,ELSET=CUBE,MATERIAL=" + material_name(card) +
+          "\n*BOUNDARY\nBASE,3,3\nLEFT,1,1\nFRONT,2,2\n";
+  if (test.deformation == Deformation::kPlanar || is_confined) text += "BACK,2,2\n";
+  if (is_confined) text += "RIGHT,1,1\n9,1,2\n10,1,2\n11,1,2\n12,1,2\n";
   text += fmt::format("*STEP,NLGEOM,INC=100000\n*STATIC,DIRECT\n{},1\n*BOUNDARY\nTOP,3,3,{}\n",
                       1.0 / test.steps, test.top - 1.0);
   if (test.deformation == Deformation::kEquibiaxial)
@@ -134,8 +141,8 @@ std::vector<DeckFile> calculix_cube(const std::string& card, const CubeTest& tes
 std::vector<CubeRow> calculix_rows(const std::filesystem::path& folder, const CubeTest& test) {
   std::vector<CubeRow> rows;
   if (!std::filesystem::exists(folder / "deck.dat")) return rows;
-  const bool x_is_free = test.deformation != Deformation::kEquibiaxial,
-             y_is_free = test.deformation != Deformation::kPlanar;
+  const bool x_is_free = test.deformation != Deformation::kEquibiaxial && !test.is_confined,
+             y_is_free = test.deformation != Deformation::kPlanar && !test.is_confined;
   std::istringstream lines(read_file(folder / "deck.dat"));
   for (std::string line; std::getline(lines, line);) {
     if (line.find("and time") != std::string::npos) {
@@ -162,7 +169,9 @@ std::vector<DeckFile> sfepy_cubes(const std::string& card, const std::vector<Cub
                                   const CubeHold* hold) {
   std::string text = "tests = [\n";
   for (const CubeTest& test : tests)
-    text += fmt::format("    (\"{}\", {}, {}),\n", name_of(test.deformation), test.top, test.steps);
+    text += fmt::format("    (\"{}\", {}, {}),\n",
+                        test.is_confined ? "confined" : name_of(test.deformation), test.top,
+                        test.steps);
   text += "]\nhold = ";
   if (hold == nullptr) {
     text += "None\n";

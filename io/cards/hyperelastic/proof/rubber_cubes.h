@@ -11,10 +11,13 @@ namespace viscard {
 
 // A cube of edge 1 that is stretched from rest to `top` in equal steps.
 struct CubeTest {
-  std::string name;  // "uniaxial", "compression", "planar", "equibiaxial"
+  std::string name;  // "uniaxial", "compression", "planar", "equibiaxial", "confined"
   Deformation deformation = Deformation::kUniaxial;
   double top = 1.0;
   int steps = 0;
+  // Sides are held: shows the bulk modulus, which free sides of rubber hardly do. Of two elements, because
+  // one would have no unknown.
+  bool is_confined = false;
 };
 
 // Uniaxial loading in equal steps of the stretch and of the time, then holds to the given times.

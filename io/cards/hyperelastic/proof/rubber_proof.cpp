@@ -23,7 +23,8 @@ struct WantedRubber {
   VolumeRule rule = VolumeRule::kUnitVolume;
 
   double stress_Pa(const CubeTest& test, double stretch) const {
-    return cube_stress_Pa(law, bulk_Pa, test.deformation, stretch, rule);
+    return test.is_confined ? confined_stress_Pa(law, bulk_Pa, stretch, rule)
+                            : cube_stress_Pa(law, bulk_Pa, test.deformation, stretch, rule);
   }
 };
 
@@ -54,26 +55,32 @@ CubeProof compared(const CubeTest& test, const std::vector<CubeRow>& rows,
   return out;
 }
 
-double largest_change(const WantedRubber& wanted, const WantedRubber& changed,
-                      const std::vector<CubeProof>& cubes) {
-  double largest = 0.0;
+// The cube that shows a change best, relative to what it resolves.
+ConstantProof change_of(const std::string& name, double value, const WantedRubber& wanted,
+                        const WantedRubber& changed, const std::vector<CubeProof>& cubes) {
+  constexpr double kTwice = 2.0;
+  ConstantProof out{.name = name, .value = value, .change = 0.0};
+  double best = 0.0;
   for (const CubeProof& cube : cubes) {
     for (int i = 1; i <= cube.test.steps; ++i) {
       const double s = 1.0 + (cube.test.top - 1.0) * i / cube.test.steps;
-      const double ratio = changed.stress_Pa(cube.test, s) / wanted.stress_Pa(cube.test, s);
-      if (std::isfinite(ratio)) largest = std::max(largest, std::abs(ratio - 1.0) / cube.resolved);
+      const double off =
+          std::abs(changed.stress_Pa(cube.test, s) / wanted.stress_Pa(cube.test, s) - 1.0);
+      if (!std::isfinite(off) || off / cube.resolved <= best) continue;
+      best = off / cube.resolved;
+      out.change = off;
+      out.is_exercised = best >= kTwice;
+      out.seen_by = out.is_exercised ? cube.test.name : "";
     }
   }
-  return largest;
+  return out;
 }
 
 // Each modulus, shape, and the bulk modulus a tenth larger.
 void note_constants(const WantedRubber& wanted, RubberProof& proof) {
-  constexpr double kMore = 1.1, kTwice = 2.0;
-  const double resolved = proof.cubes.front().resolved;
+  constexpr double kMore = 1.1;
   const auto note = [&](const std::string& name, double value, const WantedRubber& changed) {
-    const double in_resolved = largest_change(wanted, changed, proof.cubes);
-    proof.constants.push_back({name, value, in_resolved * resolved, in_resolved >= kTwice});
+    proof.constants.push_back(change_of(name, value, wanted, changed, proof.cubes));
   };
   const auto moduli = modulus_names(wanted.law.form), shapes = shape_names(wanted.law.form);
   for (std::size_t i = 0; i < moduli.size() + shapes.size(); ++i) {
@@ -137,16 +144,27 @@ HoldProof compared_hold(const CubeHold& hold, const std::vector<CubeRow>& rows,
     out.error = error;
     out.at_s = history.time_s[i + 1];
   }
-  constexpr double kLonger = 1.1, kTwice = 2.0;
-  for (std::size_t k = 0; k < wanted.terms.size(); ++k) {
-    std::vector<RubberTerm> terms = wanted.terms;
-    terms[k].tau_s *= kLonger;
+  const auto change_with = [&](const std::vector<RubberTerm>& terms) {
     const auto changed_Pa = stresses_of(terms);
     double change = 0.0;
     for (std::size_t i = 1; i < changed_Pa.size(); ++i)
       change = std::max(change, std::abs(changed_Pa[i] / exact_Pa[i] - 1.0));
+    return change;
+  };
+  constexpr double kMore = 1.1, kTwice = 2.0;
+  for (std::size_t k = 0; k < wanted.terms.size(); ++k) {
+    std::vector<RubberTerm> longer = wanted.terms, less = wanted.terms;
+    longer[k].tau_s *= kMore;
+    less[k].g /= kMore;
+    const double change = change_with(longer), of_share = change_with(less);
     out.terms.push_back(
         {wanted.terms[k].g, wanted.terms[k].tau_s, change, change >= kTwice * out.resolved});
+    const bool is_seen = of_share >= kTwice * out.resolved;
+    out.shares.push_back({.name = "g_" + std::to_string(k + 1),
+                          .value = wanted.terms[k].g,
+                          .change = of_share,
+                          .is_exercised = is_seen,
+                          .seen_by = is_seen ? "relaxation" : ""});
   }
   return out;
 }
@@ -224,10 +242,16 @@ bool RubberProof::agrees() const {
                      [](const CubeProof& cube) { return cube.agrees(); });
 }
 
-bool RubberProof::exercises_all() const {
-  const auto is_seen = [](const auto& one) { return one.is_exercised; };
-  return std::all_of(constants.begin(), constants.end(), is_seen) &&
-         (!hold || std::all_of(hold->terms.begin(), hold->terms.end(), is_seen));
+std::string RubberProof::not_exercised() const {
+  std::string out;
+  const auto add = [&](const std::string& name) { out += (out.empty() ? "" : ", ") + name; };
+  for (const ConstantProof& constant : constants) {
+    if (!constant.is_exercised) add(constant.name);
+  }
+  for (std::size_t i = 0; hold && i < hold->terms.size(); ++i) {
+    if (!hold->terms[i].is_exercised) add("tau_" + std::to_string(i + 1));
+  }
+  return out;
 }
 
 std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticFile* file,
@@ -249,6 +273,13 @@ std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticF
     if (d == 0 && measured.low < 1.0 - kLeast)
       add("compression", Deformation::kUniaxial, measured.low);
   }
+  constexpr double kConfinedTop = 1.05;
+  if (!out.empty()) {
+    out.push_back({.name = "confined",
+                   .top = kConfinedTop,
+                   .steps = steps_to(kConfinedTop, step),
+                   .is_confined = true});
+  }
   return out;
 }
 
@@ -259,6 +290,10 @@ const std::vector<std::string>& rubber_solvers() {
 
 bool runs_text_of(const std::string& solver, const std::string& target) {
   return solver == target;
+}
+
+std::string statement_of_rubber(const Solver& solver, const std::string& target) {
+  return runs_text_of(solver.name, target) ? "" : statement_of(solver, target);
 }
 
 RubberProof prove_rubber_card(const std::string& card, const std::string& target,
@@ -272,6 +307,8 @@ RubberProof prove_rubber_card(const std::string& card, const std::string& target
         "; --elastic-only instantaneous or long-term says which law without them it should be");
   const bool is_sfepy = found.solver.name == "sfepy";
   if (is_sfepy) wanted.rule = VolumeRule::kWholeOgden;
+  if (!is_sfepy && wanted.law.form == HyperelasticForm::kArrudaBoyce)
+    wanted.rule = VolumeRule::kLogarithmic;
   RubberProof proof{.bulk_Pa = wanted.bulk_Pa};
   const std::vector<CubeTest> tests =
       cube_tests(wanted.law, file, is_sfepy ? kSfepyStep : kCalculixStep);
@@ -282,7 +319,12 @@ RubberProof prove_rubber_card(const std::string& card, const std::string& target
   } else {
     run_calculix(card, tests, wanted, read, found, proof);
   }
-  if (proof.diverged.empty()) note_constants(wanted, proof);
+  if (proof.diverged.empty()) {
+    note_constants(wanted, proof);
+    if (proof.hold)
+      proof.constants.insert(proof.constants.end(), proof.hold->shares.begin(),
+                             proof.hold->shares.end());
+  }
   return proof;
 }
 

@@ -25,16 +25,10 @@ struct CubeProof {
 struct HoldProof {
   double end_s = 0.0;
   double error = 0.0, at_s = 0.0, resolved = 0.0;
-  std::vector<TermProof> terms;
+  std::vector<TermProof> terms;       // their times
+  std::vector<ConstantProof> shares;  // their g
 
   bool agrees() const { return error <= resolved; }
-};
-
-// A constant of the law, and the largest change of an answer if it were a tenth larger.
-struct ConstantProof {
-  std::string name;
-  double value = 0.0, change = 0.0;
-  bool is_exercised = false;  // at least twice what the test resolves
 };
 
 // What a run showed.
@@ -47,11 +41,13 @@ struct RubberProof {
   std::vector<DeckFile> models;
 
   bool agrees() const;
-  bool exercises_all() const;
+  bool exercises_all() const { return not_exercised().empty(); }
+  std::string not_exercised() const;  // "bulk modulus, tau_2"; empty if all were
   bool holds() const { return agrees() && exercises_all(); }
 };
 
-// Stretches that are run: those that `file` has measured, else up to 1.8, but not beyond 0.95 of the stable
+// Stretches that are run, and a confined cube to 1.05:
+// those that `file` has measured, else up to 1.8, but not beyond 0.95 of the stable
 // range of the law; in steps of `step`, but at least 10 and at most 80.
 std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticFile* file,
                                  double step);
@@ -60,6 +56,8 @@ std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticF
 const std::vector<std::string>& rubber_solvers();
 // True if the solver runs the text of cards for this target; SfePy runs the numbers of others.
 bool runs_text_of(const std::string& solver, const std::string& target);
+// The first line about a run of another solver than the card's: "" if it is that.
+std::string statement_of_rubber(const Solver& solver, const std::string& target);
 
 // Runs a card. calculix reads cards of calculix; sfepy imports those of sfepy, and a module with the numbers
 // that were read from any other. `file` is what the card should be; without it the card is compared with

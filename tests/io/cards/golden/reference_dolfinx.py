@@ -11,6 +11,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
+# card sha256 cec2d09ad7ed4ded0eec8308a5b34d6de2acc173afe7b4036ec64ec83d21046e
 # Import it; see ufl_stress for the form of a step, and the one-element model (--deck) for the loop.
 import numpy as np
 

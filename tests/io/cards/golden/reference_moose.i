@@ -10,6 +10,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
+# card sha256 091a6c30004e6b6b9d197bbbfab8278028021456cc5f0050653d256ad4531ca2
 # creep_viscosity is the relaxation time. Keep the UserObject, or nothing relaxes. zienkiewicz is exact for steps of one size; where the size changes, MOOSE uses the old one once.
 [Materials]
   [PDMS]

@@ -11,6 +11,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
+# card sha256 0a130a9cdfa131ebe3cfefef0359418ce4bdcdece08ae48a4ccb0428cac669e4
 # Import it; step after step: stiffness(dt) for dw_lin_elastic, prestress(memory.known_stress(dt)) for dw_lin_prestress, then memory.advance.
 import numpy as np
 

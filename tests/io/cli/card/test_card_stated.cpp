@@ -148,10 +148,20 @@ TEST_CASE("card --prove leaves a certificate beside the card that leads to the r
   CHECK(chain.at("material").at("sha256_now") == sha256_of_file(file));
   CHECK(chain.at("raw_files")[0].at("sha256_in_card") == sha256_of_file(raw));
   CHECK(chain.at("complete") == true);
-  // Without the material file the chain says what is missing and what to do.
+  // Without a material file named, that of the header is found beside the card.
   CHECK(command.run({"--prove", card, "--force"}) == kDone);
-  CHECK_THAT(command.out, Contains("no material file was named; repeat with viscard card"));
-  CHECK(nlohmann::json::parse(read_file(path)).at("chain").at("missing").size() == 1);
+  CHECK_THAT(command.out, Contains("1 file of raw data have the sums"));
+  CHECK(command.run({"--verify", path}) == kDone);
+  CHECK_THAT(command.out, Contains("every sum matches"));
+  const std::string written = read_file(card);
+  write_file(card, written + "** a line more\n", true);
+  CHECK(command.run({"--verify", path}) == kFailed);
+  CHECK_THAT(command.out, Contains("has been edited since viscard wrote it") &&
+                              Contains("is not the card that the certificate is of"));
+  write_file(card, written, true);
+  write_file(path, read_file(path) + " ", true);
+  CHECK(command.run({"--verify", path}) == kFailed);
+  CHECK_THAT(command.out, Contains("the certificate has been edited"));
   // Never replaced unasked, before any solver runs; a changed file breaks the chain.
   CHECK(command.run({file, "--prove", card}) == kFailed);
   CHECK_THAT(command.err, Contains("exists already; pass --force"));

@@ -51,11 +51,34 @@ TEST_CASE("card --prove runs a card of rubber in CalculiX, and its certificate s
   const auto proof = nlohmann::json::parse(text_in(card + ".calculix.proof.json"));
   CHECK(proof["holds"] == true);
   CHECK(proof["ran_text"] == true);
-  CHECK(proof["cubes"].size() == 3);
+  CHECK(proof["cubes"].size() == 4);
+  CHECK(proof["numbers_hold"] == true);
+  CHECK(proof["chain"]["complete"] == true);
   CHECK(proof["cubes"][0]["error"].get<double>() < 3e-6);
   CHECK(proof["chain"]["raw_files"][0]["file"].get<std::string>().find("pull.csv") !=
         std::string::npos);
   CHECK_THAT(proof["models"][0]["text"].get<std::string>(), Contains("*HYPERELASTIC"));
+  // Every step of the chain is noticed: the table, the law, the card, the certificate.
+  const std::string certificate = card + ".calculix.proof.json";
+  CHECK(run_command({"card", "--verify", card}).status == 0);
+  CHECK(run_command({"card", "--verify", certificate}).status == 0);
+  for (const auto& [path, words] : std::vector<std::pair<std::string, std::string>>{
+           {folder.file("pull.csv"), "pull.csv has changed"},
+           {law, "rubber.json has changed"},
+           {card, "the card has been edited"},
+           {certificate, "the certificate has been edited"}}) {
+    CAPTURE(path);
+    const std::string right = text_in(path);
+    std::string edited = right;
+    const std::size_t digit = edited.find_last_of("123456789");
+    edited[digit] = edited[digit] == '9' ? '8' : static_cast<char>(edited[digit] + 1);
+    std::ofstream(path) << edited;
+    const auto broken = run_command({"card", "--verify", certificate});
+    CHECK(broken.status == 1);
+    CHECK_THAT(broken.out, Contains(words));
+    CHECK(run_command({"card", "--verify", card}).status == (path == certificate ? 0 : 1));
+    std::ofstream(path) << right;
+  }
   // The same certificate is not replaced, and a wrong card does not hold.
   CHECK_THAT(run_command({"card", law, "--prove", card}).err, Contains("exists"));
   std::string text = text_in(card);

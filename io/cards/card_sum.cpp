@@ -1,0 +1,47 @@
+#include "io/cards/card_sum.h"
+
+#include "io/basics/sha256.h"
+
+#include <algorithm>
+
+namespace viscard {
+namespace {
+
+constexpr const char* kMark = "card sha256 ";
+constexpr std::size_t kMarkLength = 12, kDigits = 64;
+
+// Where the digits of the sum begin; npos if the card states none.
+std::size_t digits_at(const std::string& card) {
+  const std::size_t at = card.find(kMark);
+  return at == std::string::npos ? at : at + kMarkLength;
+}
+
+}  // namespace
+
+std::string unsealed_sum_line() {
+  return kMark + std::string(kDigits, '0');
+}
+
+std::string stated_card_sum(const std::string& card) {
+  const std::size_t at = digits_at(card);
+  return at == std::string::npos ? "" : card.substr(at, kDigits);
+}
+
+std::string card_sum(const std::string& card) {
+  std::string rest = card;
+  if (const std::size_t at = digits_at(card); at != std::string::npos) {
+    const std::size_t begin = at < 1 ? 0 : rest.rfind('\n', at) + 1;  // npos + 1 is 0
+    const std::size_t end = rest.find('\n', at);
+    rest.erase(begin, end == std::string::npos ? end : end + 1 - begin);
+  }
+  std::erase(rest, '\r');
+  return sha256_of_text(rest);
+}
+
+std::string sealed(const std::string& card) {
+  const std::size_t at = digits_at(card);
+  if (at == std::string::npos) return card;
+  return std::string(card).replace(at, kDigits, card_sum(card));
+}
+
+}  // namespace viscard
