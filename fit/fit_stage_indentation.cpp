@@ -219,7 +219,13 @@ Preparation prepared(const IndentationData& data, const AveragedRun& run,
   path_options.max_terms = 4;
   for (int pass = 0; pass < 2; ++pass) {
     const StageModel model(run, data, now.start, now.noise, options);
-    const SpectralState state = order_path(model, path_options).back();
+    const std::vector<SpectralState> path = order_path(model, path_options);
+    if (path.empty()) {
+      throw std::runtime_error(
+          "no model fits these readings: every fitted modulus is zero or not finite. Check the sign "
+          "of the force, the calibration and the moves of the capture");
+    }
+    const SpectralState& state = path.back();
     now.start = state.nuisance;
     StageResidual left{run.rows.time_s, model.is_moving(), model.is_out_of_contact(), {}, {}};
     left.fitted_N = model.fitted(state).cwiseProduct(model.row_sigma());

@@ -1,5 +1,6 @@
 #include "io/basics/named_file.h"
 #include "io/config/config_fields.h"
+#include "io/config/toml_text.h"
 
 #include <toml++/toml.h>
 
@@ -11,8 +12,8 @@ namespace viscard {
 int line_of_key(const std::string& toml, const std::string& dotted_key) {
   toml::table table;
   try {
-    table = toml::parse(toml);
-  } catch (const toml::parse_error&) {
+    table = parsed_toml(toml);
+  } catch (const std::runtime_error&) {  // toml::parse_error is one
     return 0;
   }
   const toml::table* around = &table;

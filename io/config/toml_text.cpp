@@ -87,9 +87,93 @@ std::string reason(const std::string& line, const std::string& description) {
 
 }  // namespace
 
+namespace {
+
+// Goes over TOML and measures its keys. Only the shape matters: a run of sections joined by dots is a key, a
+// number or a date.
+class KeyMeasure {
+ public:
+  explicit KeyMeasure(const std::string& text) : text_(text) {}
+
+  // The first line with a key beyond the limits, and which; 0: none.
+  std::size_t line_beyond(std::string& limit) {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '#') {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (c == '"' || c == '\'') {
+        take_string(c);
+      } else {
+        take_plain(c);
+      }
+      if (n_dots_ >= kDeepestKey) limit = std::to_string(kDeepestKey) + " sections";
+      if (length_ > kLongestKey) limit = std::to_string(kLongestKey) + " characters";
+      if (!limit.empty()) return line_;
+    }
+    return 0;
+  }
+
+ private:
+  void take_plain(char c) {
+    ++at_;
+    if (c == '\n') ++line_;
+    if (c == ' ' || c == '\t') return;  // may stand around a dot
+    const bool is_key = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+    if (c == '.') ++n_dots_;
+    if (!is_key && c != '.') n_dots_ = 0;
+    length_ = is_key ? length_ + 1 : 0;
+  }
+  // A text, or a section in quotation marks if a dot, '=' or ']' follows.
+  void take_string(char quote) {
+    const std::size_t begin = at_;
+    const std::string three(3, quote);
+    const bool is_long = text_.compare(at_, 3, three) == 0;
+    at_ += is_long ? 3 : 1;
+    while (at_ < text_.size()) {
+      if (text_[at_] == '\\' && quote == '"') {
+        at_ += 2;
+        continue;
+      }
+      if (is_long ? text_.compare(at_, 3, three) == 0 : text_[at_] == quote) break;
+      if (text_[at_] == '\n') {
+        ++line_;
+        if (!is_long) return;  // not closed, which the library reports
+      }
+      ++at_;
+    }
+    at_ = std::min(text_.size(), at_ + (is_long ? 3 : 1));
+    const std::size_t next = text_.find_first_not_of(" \t", at_);
+    const bool is_section = next != std::string::npos && (text_[next] == '.' || text_[next] == '=');
+    length_ = is_section ? at_ - begin : 0;
+  }
+
+  const std::string& text_;
+  std::size_t at_ = 0, line_ = 1, n_dots_ = 0, length_ = 0;
+};
+
+}  // namespace
+
+void refuse_endless_toml(const std::string& text, const std::string& name) {
+  if (text.size() > kMostTomlBytes) {
+    throw std::runtime_error(name + ": has " + std::to_string(text.size() >> 20) +
+                             " MiB; at most " + std::to_string(kMostTomlBytes >> 20) +
+                             " MiB of TOML are read. Is it the file that was meant?");
+  }
+  std::string limit;
+  const std::size_t line = KeyMeasure(text).line_beyond(limit);
+  if (line == 0) return;
+  throw std::runtime_error(name + ":" + std::to_string(line) + ": a key is longer than " + limit +
+                           ", the limit; shorten it");
+}
+
+toml::table parsed_toml(const std::string& text, const std::string& name) {
+  refuse_endless_toml(text, name);
+  return toml::parse(text, name);
+}
+
 toml::table table_from_toml(const std::string& text, const std::string& name) {
   try {
-    return toml::parse(text, name);
+    return parsed_toml(text, name);
   } catch (const toml::parse_error& error) {
     const std::size_t line = error.source().begin.line;
     throw std::runtime_error(name + ":" + std::to_string(line) + ": not TOML: " +

@@ -1,5 +1,6 @@
 #include "io/flow/command_error.h"
 
+#include "io/basics/failure_text.h"
 #include "models/maths/result_visitor.h"
 #include "models/quantities/plausible.h"
 #include "rig/lines/rig_error.h"
@@ -116,7 +117,7 @@ CommandError command_error(const std::exception& error) {
   if (of_file != nullptr) {
     return {"file", of_file->code().message(), of_file->path1().string(), "choose another place"};
   }
-  return command_error(code_of(error), error.what());
+  return command_error(code_of(error), failure_text(error, "this command"));
 }
 
 void show_keys(ResultVisitor& v, const CommandError& error) {

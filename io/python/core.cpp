@@ -1,5 +1,6 @@
 // The compiled module viscard._core.
 #include "io/basics/words.h"
+#include "io/basics/failure_text.h"
 #include "io/flow/command_error.h"
 #include "io/options/option.h"
 #include "io/python/job.h"
@@ -37,7 +38,7 @@ void translate(
   } catch (const OptionError& error) {
     raise(command_error("usage", error.what()), error.what());
   } catch (const std::exception& error) {
-    raise(command_error(error), error.what());
+    raise(command_error(error), failure_text(error, "this call"));
   }
 }
 

@@ -1,4 +1,5 @@
 #include "io/flow/command_error.h"
+#include "io/basics/failure_text.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/test_words.h"
 #include "io/flow/words/fit_text.h"
@@ -36,7 +37,7 @@ void add_material(const FitWords& words, const MaterialRequest& about, FitOutcom
     outcome.material = material_from_fitted(*outcome.fitted, about);
     if (!words.ratio.empty()) outcome.material->mixing_ratio = words.ratio.front();
   } catch (const std::exception& error) {
-    outcome.no_material = error.what();
+    outcome.no_material = failure_text(error, "this material");
   }
 }
 

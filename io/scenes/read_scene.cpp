@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/config_fields.h"
+#include "io/config/toml_text.h"
 #include "io/materials/hyperelastic_file.h"
 #include "io/materials/material_file.h"
 #include "io/scenes/scene_file.h"
@@ -45,7 +46,7 @@ SceneReader reader_for(const std::string& text, const std::filesystem::path& pat
   std::string kind;
   bool is_space = false;
   try {
-    const toml::table table = toml::parse(text, path.string());
+    const toml::table table = parsed_toml(text, path.string());
     const toml::node_view<const toml::node> geometry = table["geometry"];
     const bool has_count = geometry["count"] || geometry["spacing"];
     kind = geometry["kind"].value_or(std::string(has_count ? "" : PillarScene::kKind));
@@ -74,7 +75,7 @@ void refuse_uncertain(const std::string& key) {
 // Why the material of the pillars is not known exactly. A joint fit states more than its material.
 MaterialCauses material_causes(const std::string& text, const std::filesystem::path& path,
                                const Scene& scene) {
-  const toml::table table = toml::parse(text, path.string());
+  const toml::table table = parsed_toml(text, path.string());
   const char* const key = std::holds_alternative<LayerScene>(scene) ? "layer" : "pillar";
   const toml::node_view<const toml::node> material = table["materials"][key];
   const auto ratio = material["ratio"].value<double>();

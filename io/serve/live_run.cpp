@@ -1,5 +1,6 @@
 #include "io/serve/live_run.h"
 
+#include "io/basics/failure_text.h"
 #include "io/flow/command_error.h"
 
 #include <algorithm>
@@ -88,7 +89,7 @@ void LiveRun::work(const CaptureRequest& request, const std::function<void()>& o
   try {
     outcome = capture_to_file(request, watch());
   } catch (const std::exception& error) {
-    trouble = error.what();
+    trouble = failure_text(error, "this run");
     code = command_error(error).code;
   }
   on_end();

@@ -1,5 +1,6 @@
 #include "io/serve/rig_api.h"
 
+#include "io/basics/failure_text.h"
 #include "io/basics/atomic_file.h"
 #include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
@@ -43,7 +44,7 @@ Json or_trouble(Make&& make) {
   try {
     return make();
   } catch (const std::exception& error) {
-    return {{"trouble", error.what()}};
+    return {{"trouble", failure_text(error, "this answer")}};
   }
 }
 
@@ -289,7 +290,7 @@ Json RigApi::fit(const Json& request) {
   try {  // a folder that cannot be written to does not hide the fit
     json["material_file"] = save_material(fitted, specimen);
   } catch (const std::exception& error) {
-    json["material_trouble"] = error.what();
+    json["material_trouble"] = failure_text(error, "this material");
   }
   return json;
 }

@@ -1,5 +1,6 @@
 #include "io/serve/series_folder.h"
 
+#include "io/basics/failure_text.h"
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
@@ -75,7 +76,7 @@ std::vector<SeriesSpecimen::Capture> captures_of(const fs::path& first) {
       capture.status = state.status;
       capture.started_at = state.started_at;
     } catch (const std::exception& error) {
-      capture.trouble = error.what();
+      capture.trouble = failure_text(error, "this capture");
     }
     captures.push_back(capture);
   }
@@ -176,7 +177,7 @@ std::vector<SeriesSpecimen> SeriesFolder::specimens() const {
     try {
       specimen.specimen = read_specimen(entry.path());
     } catch (const std::exception& error) {
-      specimen.trouble = error.what();
+      specimen.trouble = failure_text(error, "this specimen");
     }
     specimen.captures = captures_of(first_capture(specimen.name));
     const fs::path material = folder_ / (specimen.name + ".json");

@@ -1,5 +1,6 @@
 #include "io/serve/series_json.h"
 
+#include "io/basics/failure_text.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
 #include "io/serve/api_error.h"
@@ -91,7 +92,7 @@ Json json_of_material(const std::filesystem::path& file) {
     if (material.uncertainty) json["E0_interval_95"] = json_from(material.uncertainty->E0_Pa_95);
     return json;
   } catch (const std::exception& error) {
-    return {{"file", file.filename().string()}, {"trouble", error.what()}};
+    return {{"file", file.filename().string()}, {"trouble", failure_text(error, "this file")}};
   }
 }
 

@@ -14,6 +14,10 @@
 namespace viscard {
 namespace {
 
+constexpr std::size_t kLongestText = 32767;  // characters of a cell, by the standard
+// A shared text may stand in a million cells, and a cell in the last column needs 16384 separators.
+constexpr std::size_t kMostBytesOfSheet = std::size_t{256} << 20;
+constexpr std::size_t kMostSheets = 1000;
 constexpr std::size_t kSheetColumns = 16384, kSheetRows = 1048576;  // of a sheet, by the standard
 constexpr std::size_t kLongestPart = std::size_t{1} << 30;          // bytes, unpacked
 
@@ -91,6 +95,12 @@ std::vector<Sheet> sheets_of(const Archive& archive) {
 std::string runs_of(const pugi::xml_node& node) {
   std::string text = node.child("t").text().get();
   for (const auto run : node.children("r")) text += run.child("t").text().get();
+  // Of 4 bytes at most.
+  if (text.size() > 4 * kLongestText) {
+    throw std::runtime_error("a cell has a text of " + std::to_string(text.size()) +
+                             " bytes; a sheet can have " + std::to_string(kLongestText) +
+                             " characters in a cell");
+  }
   return text;
 }
 
@@ -151,6 +161,7 @@ SheetRows rows_of_sheet(const Archive& archive, const Sheet& sheet,
   };
   std::vector<Line> lines;
   std::size_t width = 0;  // of the rows with numbers
+  std::size_t n_bytes = 0;
   for (const auto row : document.child("worksheet").child("sheetData").children("row")) {
     const std::size_t number = row.attribute("r").as_uint(static_cast<unsigned>(lines.size() + 1));
     if (number > kSheetRows) break;
@@ -171,6 +182,12 @@ SheetRows rows_of_sheet(const Archive& archive, const Sheet& sheet,
     line.width = next;
     if (n_numbers > 0) width = std::max(width, next);
     rows.n_numbers += n_numbers;
+    n_bytes += line.text.size();
+    if (n_bytes > kMostBytesOfSheet) {
+      throw std::runtime_error("the sheet '" + sheet.name + "' has more than " +
+                               std::to_string(kMostBytesOfSheet >> 20) +
+                               " MiB of text, the limit; remove the columns that are no data");
+    }
     lines.push_back(std::move(line));
   }
   for (const Line& line : lines) {
@@ -188,10 +205,16 @@ bool is_workbook(std::string_view bytes) {
          bytes.find("xl/workbook.xml") != std::string_view::npos;
 }
 
-SheetText sheet_text(std::string_view bytes, const std::string& name, const std::string& sheet) {
+namespace {
+
+SheetText text_of_sheet(std::string_view bytes, const std::string& name, const std::string& sheet) {
   const Archive archive(bytes, name);
   const std::vector<std::string> strings = shared_strings(archive);
   const std::vector<Sheet> sheets = sheets_of(archive);
+  if (sheets.size() > kMostSheets) {
+    throw std::runtime_error("has " + std::to_string(sheets.size()) + " sheets; at most " +
+                             std::to_string(kMostSheets) + " are read");
+  }
   SheetText best;
   std::size_t most = 0;
   std::vector<std::string> names;
@@ -211,6 +234,18 @@ SheetText sheet_text(std::string_view bytes, const std::string& name, const std:
   }
   best.n_sheets = sheets.size();
   return best;
+}
+
+}  // namespace
+
+SheetText sheet_text(std::string_view bytes, const std::string& name, const std::string& sheet) {
+  try {
+    return text_of_sheet(bytes, name, sheet);
+  } catch (const std::runtime_error& error) {
+    const std::string text = error.what();
+    if (text.starts_with(name)) throw;
+    throw std::runtime_error(name + ": " + text);
+  }
 }
 
 }  // namespace viscard

@@ -1,4 +1,5 @@
 #include "fit/intervals/flags.h"
+#include "io/basics/failure_text.h"
 #include "io/basics/atomic_file.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
@@ -145,7 +146,7 @@ int report_defects(const std::vector<FileOutcome>& outcomes, std::ostream& err) 
       try {
         std::rethrow_exception(outcome.error);
       } catch (const std::exception& error) {
-        err << "viscard: " << error.what() << "\n";
+        err << "viscard: " << failure_text(error, outcome.path) << "\n";
       }
       continue;
     }

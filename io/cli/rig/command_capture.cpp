@@ -1,4 +1,5 @@
 #include "io/cli/rig/capture_summary.h"
+#include "io/basics/failure_text.h"
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
@@ -198,7 +199,7 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
     } catch (const std::exception& error) {
       if (previous == nullptr) throw;  // nothing was captured that the result has to report
       const CommandError why = command_error(error);
-      result.trouble = touch_text(step) + error.what();
+      result.trouble = touch_text(step) + failure_text(error, "this run");
       result.code = why.code;
       result.runs.push_back({.file = step.out_file, .status = "not begun", .error = why});
       return result;

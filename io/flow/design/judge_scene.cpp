@@ -1,5 +1,6 @@
 #include "io/flow/design/judge_scene.h"
 
+#include "io/basics/failure_text.h"
 #include "io/basics/parallel.h"
 #include "io/flow/scenes/answer_scene.h"
 #include "io/flow/sweep/study.h"
@@ -64,7 +65,7 @@ class LineRemedies {
       common(scene).tolerance = tolerance_;
       return computed(kind, scene, requirements_);
     } catch (const std::exception& error) {
-      return {.how = error.what()};
+      return {.how = failure_text(error, "this scene")};
     }
   }
 
@@ -102,7 +103,7 @@ RequiredValue computed(const RequirementKind& kind, const Scene& scene,
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& error) {
-    return {.how = error.what()};
+    return {.how = failure_text(error, "this scene")};
   }
 }
 

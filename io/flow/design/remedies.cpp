@@ -1,6 +1,7 @@
 #include "io/flow/design/remedies.h"
 
 #include "io/config/quantity_text.h"
+#include "io/config/toml_text.h"
 #include "io/flow/design/verdict.h"
 
 #include <toml++/toml.h>
@@ -95,7 +96,7 @@ class RemedySearch {
 
 std::vector<SceneDimension> dimensions_of(const std::string& text,
                                           const std::filesystem::path& path) {
-  const toml::table table = toml::parse(text, path.string());
+  const toml::table table = parsed_toml(text, path.string());
   std::vector<SceneDimension> found;
   for (const char* const key : kDimensions) {
     const auto node = table.at_path(key);

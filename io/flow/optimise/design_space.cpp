@@ -1,5 +1,6 @@
 #include "io/flow/optimise/design_space.h"
 
+#include "io/config/toml_text.h"
 #include "io/scenes/scene_file.h"
 #include "models/maths/text_of_number.h"
 
@@ -27,7 +28,7 @@ std::pair<double, std::string> number_and_unit(const std::string& text) {
 }  // namespace
 
 DesignSpace::DesignSpace(const DesignSpec& spec) : spec_(&spec) {
-  const toml::table scene = toml::parse(spec.scene_text, spec.scene_path.string());
+  const toml::table scene = parsed_toml(spec.scene_text, spec.scene_path.string());
   for (const DesignRange& range : spec.ranges) {
     const auto [from, unit] = number_and_unit(range.from);
     const auto [to, unit_of_to] = number_and_unit(range.to);

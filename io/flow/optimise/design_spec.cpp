@@ -3,6 +3,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/words.h"
 #include "io/config/config_fields.h"
+#include "io/config/toml_text.h"
 #include "io/flow/design/requirement_kinds.h"
 
 #include <toml++/toml.h>
@@ -120,9 +121,9 @@ std::size_t count_combinations(const DesignSpec& spec) {
 
 bool is_design_spec(const std::string& text) {
   try {
-    const toml::table table = toml::parse(text);
+    const toml::table table = parsed_toml(text);
     return !table.contains("geometry") && (table.contains("scene") || table.contains("range"));
-  } catch (const toml::parse_error&) {
+  } catch (const std::runtime_error&) {  // toml::parse_error is one
     return false;
   }
 }

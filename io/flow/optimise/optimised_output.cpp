@@ -1,5 +1,6 @@
 #include "io/flow/optimise/optimised_output.h"
 
+#include "io/config/toml_text.h"
 #include "io/flow/design/judgement_output.h"
 
 #include <fmt/format.h>
@@ -130,7 +131,7 @@ std::string csv_from_front(const DesignSpec& spec, const DesignFront& front) {
 
 std::string scene_for_folder(const DesignSpec& spec, const OptimisedDesign& design,
                              const std::filesystem::path& folder) {
-  toml::table scene = toml::parse(design.scene_text);
+  toml::table scene = parsed_toml(design.scene_text);
   point_from(scene, spec.scene_path.parent_path(), folder);
   std::ostringstream text;
   text << "# A design of viscard, from " << spec.path.filename().string() << "\n" << scene << "\n";

@@ -1,5 +1,6 @@
 #include "io/flow/optimise/solved_values.h"
 
+#include "io/basics/failure_text.h"
 #include "io/basics/parallel.h"
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/optimise/nearby_answers.h"
@@ -60,7 +61,7 @@ std::vector<SolvedPoint> SolvedValues::at(const std::vector<DesignPoint>& points
     } catch (const Interrupted&) {
       throw;
     } catch (const std::exception& error) {
-      found[i].why_not = error.what();
+      found[i].why_not = failure_text(error, "this design");
     }
   });
   for (std::size_t i = 0; i < fresh.size(); ++i) known_[fresh[i]] = found[i];

@@ -1,5 +1,6 @@
 #include "io/flow/scenes/answers_on_mesh.h"
 
+#include "io/basics/failure_text.h"
 #include "io/basics/parallel.h"
 #include "models/scene/simulate.h"
 
@@ -46,7 +47,7 @@ Eigen::VectorXd AnswersOnMesh::answer_at(const Eigen::VectorXd& deviates) const 
       }
     }
   } catch (const std::exception& error) {
-    count_.keep_reason(error.what());
+    count_.keep_reason(failure_text(error, "this sample"));
   }
   return row;
 }

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
+#include "io/config/toml_text.h"
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
@@ -299,6 +300,28 @@ TEST_CASE("a file that says plausible = off is read, written and read again as i
       error_of([&] { specimen_from_toml("plausible = \"no\"\n" + text.substr(18), "s.toml"); }),
       Contains("s.toml:1: plausible: expected \"on\""));
   CHECK_FALSE(specimen_from_toml(text.substr(18), "s.toml").accepts_implausible);
+}
+
+TEST_CASE("keys without end are refused before the library reads them", "[io][config]") {
+  const std::string dots = [] {
+    std::string text = "a";
+    for (int i = 0; i < 40000; ++i) text += ".a";
+    return text;
+  }();
+  CHECK_THAT(rig_error("x = 1\n[" + dots + "]\n"),
+             Contains("rig.toml:2: a key is longer than 32 sections"));
+  CHECK_THAT(rig_error(dots + " = 1\n"), Contains("rig.toml:1: a key is longer than 32 sections"));
+  CHECK_THAT(rig_error("x = { " + dots + " = 1 }\n"), Contains("32 sections"));
+  CHECK_THAT(rig_error("[\"a\" . 'b' . " + dots + "]\n"), Contains("32 sections"));
+  CHECK_THAT(rig_error(std::string(5000, 'k') + " = 1\n"), Contains("1000 characters"));
+  CHECK_THAT(rig_error("\"" + std::string(5000, 'k') + "\" = 1\n"), Contains("1000 characters"));
+  // Texts, comments and lists of numbers are no keys.
+  std::string numbers = "x = [";
+  for (int i = 0; i < 1000; ++i) numbers += "1.5, 2.5e-3,\n";
+  for (const std::string& text : {numbers + "]", "x = \"" + dots + "\"", "x = '''\n" + dots + "'''",
+                                  "# " + dots, "x = \"" + std::string(5000, 'k') + "\""}) {
+    CHECK_NOTHROW(refuse_endless_toml(text, "rig.toml"));
+  }
 }
 
 }  // namespace

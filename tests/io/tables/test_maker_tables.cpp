@@ -289,5 +289,24 @@ TEST_CASE("a file of another kind is refused by what it is", "[io][csv]") {
   CHECK(read("[s],[N]\n1,2\n").columns.size() == 2);
 }
 
+TEST_CASE("a workbook without end is refused with the limit", "[io][csv]") {
+  const auto with_text = [](const std::string& text) {
+    return zipped(
+        {{"[Content_Types].xml", "<Types/>"},
+         {"xl/workbook.xml",
+          "<workbook xmlns:r=\"r\"><sheets><sheet name=\"Data\" r:id=\"a\"/></sheets></workbook>"},
+         {"xl/_rels/workbook.xml.rels",
+          "<Relationships><Relationship Id=\"a\" Target=\"worksheets/sheet1.xml\"/>"
+          "</Relationships>"},
+         {"xl/sharedStrings.xml", "<sst><si><t>" + text + "</t></si></sst>"},
+         {"xl/worksheets/sheet1.xml",
+          "<worksheet><sheetData><row r=\"1\"><c r=\"A1\" t=\"s\"><v>0</v></c></row><row "
+          "r=\"2\"><c r=\"A2\"><v>1</v></c></row></sheetData></worksheet>"}});
+  };
+  CHECK(contains(error_text([&] { csv_from_text(with_text(std::string(1 << 20, 'x')), "t.xlsx"); }),
+                 "t.xlsx: a cell has a text of 1048576 bytes; a sheet can have 32767"));
+  CHECK(csv_from_text(with_text("time_s"), "t.xlsx").columns.size() == 1);
+}
+
 }  // namespace
 }  // namespace viscard
