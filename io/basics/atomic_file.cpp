@@ -1,10 +1,12 @@
 #include "io/basics/atomic_file.h"
 
+#include "io/basics/inputs.h"
 #include "io/basics/missing_file.h"
 
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -122,6 +124,36 @@ void remove_leftovers(const fs::path& folder, const fs::path& path) {
   place->second.erase(begin, end);
 }
 
+// The rights of the file that is replaced, if there is one: what was private stays private.
+std::optional<mode_t> mode_of(const fs::path& path) {
+  struct stat old {};
+  if (::stat(path.c_str(), &old) != 0) return {};
+  return old.st_mode & 0777;
+}
+
+// Creates a new file: never writes into one that lies there already, nor through a link that somebody
+// has put in its place.
+int create_temporary(const fs::path& temporary, const fs::path& path, std::optional<mode_t> mode) {
+  const auto create = [&] {
+    return ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                  mode.value_or(0666));
+  };
+  int fd = create();
+  if (fd < 0 && errno == EEXIST) {
+    // A process with the same number may have left it, on an earlier day or in another container.
+    const Descriptor old(::open(temporary.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    if (old.get() >= 0 && ::flock(old.get(), LOCK_EX | LOCK_NB) != 0) {
+      throw std::runtime_error(path.string() +
+                               " is being written by another thread or process; wait for it, or "
+                               "choose another name");
+    }
+    ::unlink(temporary.c_str());
+    fd = create();
+  }
+  if (fd < 0) fail(path, "cannot create", errno);
+  return fd;
+}
+
 // Gives the complete temporary file its name.
 void put_in_place(const fs::path& temporary, const fs::path& path, bool overwrite) {
   if (overwrite) {
@@ -165,10 +197,13 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
       path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   remove_leftovers(folder, path);
   const std::filesystem::path temporary = temporary_for(folder, path);
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.get() < 0) fail(path, "cannot create", errno);
+  const std::optional<mode_t> old_mode = mode_of(path);
+  Descriptor file(create_temporary(temporary, path, old_mode));
   ::flock(file.get(), LOCK_EX | LOCK_NB);  // marks a live writer; without locks the pid decides
   try {
+    // The umask may have taken rights away that the old file had.
+    if (old_mode && ::fchmod(file.get(), *old_mode) != 0)
+      fail(path, "cannot keep the rights", errno);
     write_all(file.get(), contents, path);
     if (::fsync(file.get()) != 0) fail(path, "cannot sync", errno);
     if (::close(file.release()) != 0) fail(path, "cannot close", errno);
@@ -183,6 +218,12 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
 constexpr std::size_t kLongestPipe = std::size_t{512} << 20, kLongestDevice = std::size_t{64} << 20;
 
 std::string read_file(const std::filesystem::path& path) {
+  std::string contents = read_own_file(path);
+  record_input(path, contents);
+  return contents;
+}
+
+std::string read_own_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     throw std::runtime_error(path.string() + ": cannot read: Is a directory; name a file in it");

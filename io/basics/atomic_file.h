@@ -19,11 +19,16 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
 // network shares) are accepted.
 void sync_folder(const std::filesystem::path& folder);
 
-// Returns the contents of a file. Throws std::runtime_error naming the file and the reason.
+// Returns the contents of a file, which inputs.h records. Throws std::runtime_error naming the file and
+// the reason.
 std::string read_file(const std::filesystem::path& path);
+// The same for a file that this program wrote itself for its own use; it is no input.
+std::string read_own_file(const std::filesystem::path& path);
 
 // SHA-256 (FIPS 180-4) of a file as 64 lower-case hexadecimal digits. Throws std::runtime_error
 // naming the file if it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
+// The same of a text.
+std::string sha256_of_text(const std::string& contents);
 
 }  // namespace viscard

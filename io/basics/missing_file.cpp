@@ -2,6 +2,7 @@
 
 #include "io/basics/words.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -62,6 +63,19 @@ std::string why_not_opened(const fs::path& path, int error) {
     return what + "give yourself the right to read it (chmod u+r), or copy it where you have it";
   }
   return what + "check the name and the disk it lies on";
+}
+
+std::string why_file_is_gone(int fd, const fs::path& path) {
+  struct stat open_file {
+  }, named{};
+  if (::fstat(fd, &open_file) != 0) return {};
+  const bool is_named = ::stat(path.c_str(), &named) == 0;
+  if (is_named && named.st_dev == open_file.st_dev && named.st_ino == open_file.st_ino) return {};
+  if (open_file.st_nlink == 0) return is_named ? "was replaced by another file" : "was deleted";
+  // Linux knows the present name of an open file: proc(5), /proc/PID/fd.
+  std::error_code error;
+  const fs::path now = fs::read_symlink("/proc/self/fd/" + std::to_string(fd), error);
+  return error ? "was moved" : "was moved to " + now.string();
 }
 
 bool is_readable(const fs::path& path) {

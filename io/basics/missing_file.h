@@ -13,6 +13,10 @@ std::string why_not_opened(const std::filesystem::path& path, int error);
 // The file of the same folder whose name is nearest to that of `path`, or "" if none is near.
 std::string near_file(const std::filesystem::path& path);
 
+// For a file that this process has open as fd: why it is no longer found under its name. "was deleted",
+// "was moved to B" or "was replaced by another file"; "" if it is still there.
+std::string why_file_is_gone(int fd, const std::filesystem::path& path);
+
 // True if a file of this name can be opened for reading.
 bool is_readable(const std::filesystem::path& path);
 

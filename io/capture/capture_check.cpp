@@ -9,6 +9,8 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <string_view>
@@ -42,60 +44,119 @@ bool is_record_table(const std::string& name) {
          std::end(kRecordTables);
 }
 
-void check_run(Database& database, const StoredChecksum& stored, CaptureCheck& check) {
+void check_run(Database& database, const StoredChecksum& stored, CheckedRecords& records) {
   const RunPart part = stored.table == kRunStart ? RunPart::kStart : RunPart::kEnd;
   if (is_equal(checksum_of_run(database, part), stored)) return;
-  check.faults.push_back(
+  records.is_description_damaged = true;
+  records.check.faults.push_back(
       part == RunPart::kStart
           ? "the description of the run (rig, test, specimen, start) is not what "
             "was written"
           : "the end of the run (status, times) is not what was written");
 }
 
-void check_batch(Database& database, const StoredChecksum& stored, CaptureCheck& check) {
+void add_batch(const StoredChecksum& stored, const RowChecksum& now, CheckedRecords& records) {
+  CaptureCheck& check = records.check;
   ++check.n_batches;
-  const RowChecksum now =
-      checksum_of_rows(database, stored.table, stored.first_seq, stored.last_seq);
   check.n_records += now.n_rows();
-  if (is_equal(now, stored)) return;
+  if (is_equal(now, stored)) {
+    records.sound[stored.table].push_back({stored.first_seq, stored.last_seq});
+    return;
+  }
+  records.damaged_tables.push_back(stored.table);
   check.faults.push_back("table " + stored.table + ", records " + std::to_string(stored.first_seq) +
                          " to " + std::to_string(stored.last_seq) + ": not what was written (" +
                          std::to_string(now.n_rows()) + " of " + std::to_string(stored.n_rows) +
                          " rows are there)");
 }
 
-void check_all(Database& database, CaptureCheck& check) {
-  std::map<std::string, std::int64_t> n_covered;
+// Compares the rows of one table with its checksums in one pass. Rows between the batches belong to
+// none, so that their checksum is missing.
+void check_table(Database& database, const std::string& table,
+                 const std::vector<StoredChecksum>& batches, CheckedRecords& records) {
+  const std::string sql = "SELECT * FROM " + table + " ORDER BY seq";
+  Statement row = database.prepare(sql.c_str());
+  bool has_row = row.step();
+  std::size_t n_uncovered = 0;
+  std::int64_t last_seq = std::numeric_limits<std::int64_t>::min();
+  const auto skip_to = [&](std::int64_t seq) {
+    for (; has_row && row.integer(0) < seq; has_row = row.step()) ++n_uncovered;
+  };
+  for (const StoredChecksum& batch : batches) {
+    if (batch.first_seq <= last_seq || batch.last_seq < batch.first_seq) {
+      records.damaged_tables.push_back(table);
+      records.check.faults.push_back("the table of checksums is damaged: records of " + table +
+                                     " are in two of them, or in none");
+      continue;
+    }
+    last_seq = batch.last_seq;
+    skip_to(batch.first_seq);
+    RowChecksum now;
+    for (; has_row && row.integer(0) <= batch.last_seq; has_row = row.step()) now.add_row(row);
+    add_batch(batch, now, records);
+  }
+  skip_to(std::numeric_limits<std::int64_t>::max());
+  if (n_uncovered == 0) return;
+  records.damaged_tables.push_back(table);
+  records.check.faults.push_back("table " + table + " holds " + std::to_string(n_uncovered) +
+                                 " rows without a checksum");
+}
+
+void check_all(Database& database, CheckedRecords& records) {
+  std::map<std::string, std::vector<StoredChecksum>> batches;
   bool has_start = false, has_end = false;
   for (const StoredChecksum& stored : stored_checksums(database)) {
     has_start = has_start || stored.table == kRunStart;
     has_end = has_end || stored.table == kRunEnd;
     if (stored.table == kRunStart || stored.table == kRunEnd) {
-      check_run(database, stored, check);
+      check_run(database, stored, records);
     } else if (is_record_table(stored.table)) {
-      n_covered[stored.table] += stored.n_rows;
-      check_batch(database, stored, check);
+      batches[stored.table].push_back(stored);
     } else {
-      check.faults.push_back("the table of checksums is damaged: it names " + stored.table);
+      records.check.faults.push_back("the table of checksums is damaged: it names " + stored.table);
     }
   }
-  const bool has_temperatures =
-      std::stoul("0" + database.text_of("PRAGMA user_version")) >= kFirstSchemaWithTemperatures;
+  const bool has_temperatures = schema_of(database) >= kFirstSchemaWithTemperatures;
   for (const char* table : kRecordTables) {
     if (!has_temperatures && std::string_view(table) == "temperatures") continue;
-    const std::string count = "SELECT count(*) FROM " + std::string(table);
-    if (database.text_of(count.c_str()) == std::to_string(n_covered[table])) continue;
-    check.faults.push_back("table " + std::string(table) + " holds " +
-                           database.text_of(count.c_str()) + " rows, but checksums of " +
-                           std::to_string(n_covered[table]));
+    check_table(database, table, batches[table], records);
   }
   const bool is_open = database.text_of("SELECT value FROM run WHERE key = 'status'") == "open";
   if (!has_start || has_end == is_open) {
-    check.faults.push_back("the checksum of the start or of the end of the run is missing");
+    records.is_description_damaged = true;
+    records.check.faults.push_back("the checksum of the start or of the end of the run is missing");
   }
 }
 
 }  // namespace
+
+bool CheckedRecords::is_damaged(const std::string& table) const {
+  return std::find(damaged_tables.begin(), damaged_tables.end(), table) != damaged_tables.end();
+}
+
+bool CheckedRecords::is_sound(const std::string& table, std::int64_t seq) const {
+  if (!check.is_checked || !is_damaged(table)) return true;
+  const auto ranges = sound.find(table);
+  if (ranges == sound.end()) return false;
+  const auto after = std::upper_bound(
+      ranges->second.begin(), ranges->second.end(), seq,
+      [](std::int64_t one, const RecordRange& range) { return one < range.first_seq; });
+  return after != ranges->second.begin() && seq <= std::prev(after)->last_seq;
+}
+
+CheckedRecords check_records(Database& database) {
+  CheckedRecords records;
+  const bool has_table =
+      !database.text_of("SELECT name FROM sqlite_schema WHERE name = 'checksums'").empty();
+  const bool is_recent = schema_of(database) >= kFirstSchemaWithChecksums;
+  records.check.is_checked = has_table || is_recent;
+  if (has_table != is_recent) {
+    records.is_description_damaged = true;
+    records.check.faults.push_back("the number of its schema does not fit its tables");
+  }
+  if (has_table) check_all(database, records);
+  return records;
+}
 
 CaptureCheck check_capture(const std::filesystem::path& path) {
   OpenCapture capture(path);
@@ -106,22 +167,14 @@ CaptureCheck check_capture(const std::filesystem::path& path) {
     if (database.text_of("PRAGMA integrity_check(1)") != "ok") {
       throw SqliteError(path.string(), SQLITE_CORRUPT);
     }
-    const bool has_table =
-        !database.text_of("SELECT name FROM sqlite_schema WHERE name = 'checksums'").empty();
-    const bool is_recent =
-        std::stoul("0" + database.text_of("PRAGMA user_version")) >= kFirstSchemaWithChecksums;
-    check.is_checked = has_table || is_recent;
-    if (has_table != is_recent) {
-      check.faults.push_back("the number of its schema does not fit its tables");
-    }
-    if (has_table) check_all(database, check);
+    check = check_records(database).check;
     database.execute("COMMIT");
   } catch (const SqliteError& error) {
     capture.explain(error);
   }
   // The checksums cover the records and not the names of tables and columns.
   try {
-    read_capture(path);
+    read_capture(path, {.accepts_damage = true});
   } catch (const std::runtime_error& error) {
     check.faults.emplace_back(error.what());
   }

@@ -20,14 +20,27 @@ double clock_s(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+std::string first_line_of(const char* path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
 std::string boot_id() {
-  std::ifstream file("/proc/sys/kernel/random/boot_id");
-  std::string id;
-  std::getline(file, id);
-  return id;
+  return first_line_of("/proc/sys/kernel/random/boot_id");
+}
+
+// Different for every run, also for two that begin within one second.
+std::string new_run_id() {
+  return first_line_of("/proc/sys/kernel/random/uuid");
 }
 
 }  // namespace
+
+unsigned long schema_of(Database& database) {
+  return std::stoul("0" + database.text_of("PRAGMA user_version"));
+}
 
 CaptureDatabase::CaptureDatabase(const std::filesystem::path& path, const CapturedRun& about)
     : database_(path, Database::Access::kReadWrite) {
@@ -40,6 +53,7 @@ CaptureDatabase::CaptureDatabase(const std::filesystem::path& path, const Captur
   temperature_.emplace(database_.prepare("INSERT INTO temperatures VALUES(?,?,?)"));
   run_.emplace(database_.prepare("INSERT OR REPLACE INTO run VALUES(?,?)"));
   checksum_.emplace(database_.prepare("INSERT INTO checksums VALUES(?,?,?,?,?)"));
+  identity_.emplace(database_.prepare("UPDATE identity SET n_transactions = n_transactions + 1"));
 }
 
 void CaptureDatabase::write(const std::vector<RunRecord>& batch, bool is_synced) {
@@ -53,6 +67,7 @@ void CaptureDatabase::write(const std::vector<RunRecord>& batch, bool is_synced)
   if (seq_ >= first_seq) store_checksums_from(first_seq);
   // With an empty batch this makes the transaction that is synced.
   if (is_synced) set("n_records_synced", std::to_string(seq_));
+  identity_->run_with();
   database_.execute("COMMIT");
   if (is_synced) database_.execute("PRAGMA synchronous=NORMAL");
 }
@@ -67,6 +82,7 @@ void CaptureDatabase::finish(const std::string& status) {
   set("finish_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
   set("finish_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
   store_checksum(kRunEnd, seq_ + 1, checksum_of_run(database_, RunPart::kEnd));
+  identity_->run_with();
   database_.execute("COMMIT");
   // From here on the run is safe. If a reader has the file open, only the side files stay.
   try {
@@ -94,6 +110,7 @@ void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRu
   set("start_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
   set("start_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
   set("boot_id", boot_id());
+  database_.prepare("INSERT INTO identity VALUES(?, 0)").run_with(std::string_view(new_run_id()));
   set("rig_toml", toml_from_rig(about.rig));
   set("test_toml", toml_from_test(about.plan));
   set("specimen_toml", toml_from_specimen(about.specimen));

@@ -16,10 +16,14 @@ namespace viscard {
 // Tables of a capture file; io/capture/README.md explains the columns. seq counts the records of
 // all tables in the order of append().
 inline constexpr std::uint32_t kCaptureApplicationId = 0x56434150;  // "VCAP"
-inline constexpr std::uint32_t kCaptureSchemaVersion = 4;
-// 2: load_samples.force_N, 3: checksums, 4: temperatures
+inline constexpr std::uint32_t kCaptureSchemaVersion = 5;
+// 2: load_samples.force_N, 3: checksums, 4: temperatures, 5: identity
 inline constexpr std::uint32_t kFirstSchemaWithChecksums = 3;
 inline constexpr std::uint32_t kFirstSchemaWithTemperatures = 4;
+inline constexpr std::uint32_t kFirstSchemaWithIdentity = 5;
+
+// The schema that a capture states.
+unsigned long schema_of(Database& database);
 
 inline constexpr const char* kCaptureTables = R"sql(
 CREATE TABLE run(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -35,6 +39,7 @@ CREATE TABLE events(seq INTEGER PRIMARY KEY, host_time_s REAL, name TEXT, value 
 CREATE TABLE temperatures(seq INTEGER PRIMARY KEY, host_time_s REAL, temperature_C REAL);
 CREATE TABLE checksums(table_name TEXT, first_seq INTEGER, last_seq INTEGER, n_rows INTEGER,
                        crc32 INTEGER);
+CREATE TABLE identity(run_id TEXT, n_transactions INTEGER);
 )sql";
 
 // The tables of a capture that is being written: one connection and its prepared statements, for
@@ -64,7 +69,8 @@ class CaptureDatabase {
   void insert(const TemperatureSample& sample);
 
   Database database_;  // declared first, so that the statements are destroyed before it
-  std::optional<Statement> raw_, sample_, report_, move_, event_, temperature_, run_, checksum_;
+  std::optional<Statement> raw_, sample_, report_, move_, event_, temperature_, run_, checksum_,
+      identity_;
   std::int64_t seq_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/integrity_notes.h"
 #include "models/experiment/calibration.h"
 #include "models/experiment/motion_profile.h"
 #include "models/experiment/sample_force.h"
@@ -50,6 +51,9 @@ void append_head(Buffer& out, const CapturedRun& run, const RunTiming& timing, d
        "(volts - " + text_from_number(run.rig.calibration.zero_volts) + " V)/(" +
        text_from_number(run.rig.calibration.volts_per_newton) + " V/N) - tare " +
        text_from_number(tare_N) + " N");
+  for (const IntegrityNote& note : integrity_notes(run)) {
+    if (run.integrity.has_checksums) line("damage: " + note.text);
+  }
   if (!timing.description.empty()) line(timing.description);
   for (const RunEvent& event : run.events) {
     line(fmt::format("event at {:.3f} s: {} {} {}", event.host_time_s, event.name, event.value,

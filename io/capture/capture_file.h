@@ -69,11 +69,24 @@ class CaptureWriter {
   std::unique_ptr<Impl> impl_;
 };
 
+// How a capture is read.
+struct CaptureReading {
+  // Read a capture whose description, events or moves are not what was written (--unverified).
+  bool accepts_damage = false;
+};
+
+// Of the option --unverified, for the help of all commands that read captures.
+inline constexpr const char* kUnverifiedHelp =
+    "read a capture although its checksums show that description, events or moves are damaged; the "
+    "result says so";
+
 // Reads everything but the raw bytes; never changes the file. The status is "running" while a live
-// writer holds the file and "interrupted" if it was left unfinished. Throws std::runtime_error (one
-// line: file, reason, what to do) if the file is missing, empty, not a capture, truncated, damaged,
-// or of a newer schema.
-CapturedRun read_capture(const std::filesystem::path& path);
+// writer holds the file and "interrupted" if it was left unfinished. The record is compared with its
+// checksums: damaged samples, reports of the stage and temperatures are left out and counted in
+// `integrity`. Throws std::runtime_error (one line: file, reason, what to do) if the file is missing,
+// empty, not a capture, truncated, damaged, or of a newer schema, if its side file belongs to another
+// run, and if it holds values that no instrument gives.
+CapturedRun read_capture(const std::filesystem::path& path, const CaptureReading& reading = {});
 
 // Description of a capture for lists; read without its records.
 struct CaptureState {

@@ -96,6 +96,12 @@ bool has_journal(const fs::path& path) {
   return !ignored && size > 0;
 }
 
+bool is_log_expected(const fs::path& path) {
+  constexpr unsigned char kWithLog = 2;  // the version of the format for reading, byte 19
+  Header header{};
+  return read_header(path, header) == header.size() && header[19] == kWithLog;
+}
+
 bool looks_like_capture(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;

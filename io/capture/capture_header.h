@@ -11,6 +11,10 @@ void check_capture_header(const std::filesystem::path& capture);
 // True if the capture has a write-ahead log beside it.
 bool has_journal(const std::filesystem::path& capture);
 
+// False if the file itself states that it needs no log, as that of a finished run does. Throws
+// std::runtime_error if it cannot be read.
+bool is_log_expected(const std::filesystem::path& capture);
+
 // True if the file is named *.viscap or begins like an SQLite database, so that a command can
 // distinguish a capture, even a damaged one, from a table.
 bool looks_like_capture(const std::filesystem::path& path);

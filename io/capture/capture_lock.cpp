@@ -1,6 +1,7 @@
 #include "io/capture/capture_lock.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/missing_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -68,7 +69,8 @@ void remove_old(const std::filesystem::path& path, bool overwrite) {
 
 }  // namespace
 
-CaptureLock::CaptureLock(const std::filesystem::path& path, bool overwrite) : key_(key_of(path)) {
+CaptureLock::CaptureLock(const std::filesystem::path& path, bool overwrite)
+    : path_(path), key_(key_of(path)) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder)) {
     throw std::runtime_error(path.string() + ": there is no folder " + folder.string() +
@@ -109,6 +111,10 @@ void CaptureLock::release() {
   fd_ = -1;
   const std::lock_guard<std::mutex> lock(list_mutex());
   written_here().erase(key_);
+}
+
+std::string CaptureLock::why_gone() const {
+  return fd_ < 0 ? std::string() : why_file_is_gone(fd_, path_);
 }
 
 bool is_being_captured(const std::filesystem::path& path) {

@@ -25,7 +25,12 @@ class CaptureLock {
   // Precondition: SQLite's connection is closed.
   void release();
 
+  // Why nothing more can be read from the file under its name: it was deleted, moved (to where) or
+  // replaced. Empty: it is where it was created.
+  std::string why_gone() const;
+
  private:
+  std::filesystem::path path_;
   std::string key_;
   int fd_ = -1;
 };

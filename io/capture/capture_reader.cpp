@@ -1,7 +1,10 @@
+#include "io/basics/inputs.h"
+#include "io/capture/capture_check.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/open_capture.h"
+#include "io/capture/possible_values.h"
 #include "io/config/config_file.h"
 
 #include <sqlite3.h>
@@ -21,27 +24,31 @@ std::string run_value(Database& database, const char* key) {
   return statement.step() ? statement.text(0) : std::string();
 }
 
-unsigned long schema_of(Database& database) {
-  return std::stoul("0" + database.text_of("PRAGMA user_version"));
-}
-
-void read_samples(Database& database, CapturedRun& run) {
+void read_samples(Database& database, const CheckedRecords& records, CapturedRun& run) {
   const bool has_force = schema_of(database) > 1;
   const std::string columns =
       "SELECT sample_index, host_time_s, device_time_s, counts, volts, is_saturated, is_glitch, ";
-  const std::string from = " FROM load_samples ORDER BY seq";
+  const std::string from = ", seq FROM load_samples ORDER BY seq";
   Statement row = database.prepare((columns + (has_force ? "force_N" : "NULL") + from).c_str());
   while (row.step()) {
+    if (!records.is_sound("load_samples", row.integer(8))) {
+      ++run.integrity.n_left_out_samples;
+      continue;
+    }
     run.load_samples.push_back({row.integer(0), row.number(1), row.maybe_number(2),
                                 row.maybe_number(3), row.maybe_number(4), row.integer(5) != 0,
                                 row.integer(6) != 0, row.maybe_number(7)});
   }
 }
 
-void read_stage(Database& database, CapturedRun& run) {
-  Statement report =
-      database.prepare("SELECT host_time_s, position_m, state FROM stage_reports ORDER BY seq");
+void read_stage(Database& database, const CheckedRecords& records, CapturedRun& run) {
+  Statement report = database.prepare(
+      "SELECT host_time_s, position_m, state, seq FROM stage_reports ORDER BY seq");
   while (report.step()) {
+    if (!records.is_sound("stage_reports", report.integer(3))) {
+      ++run.integrity.n_left_out_reports;
+      continue;
+    }
     run.stage_reports.push_back({report.number(0), report.number(1), report.text(2)});
   }
   Statement move = database.prepare(
@@ -63,11 +70,17 @@ void read_events(Database& database, CapturedRun& run) {
   }
 }
 
-void read_temperatures(Database& database, CapturedRun& run) {
+void read_temperatures(Database& database, const CheckedRecords& records, CapturedRun& run) {
   if (schema_of(database) < kFirstSchemaWithTemperatures) return;
   Statement row =
-      database.prepare("SELECT host_time_s, temperature_C FROM temperatures ORDER BY seq");
-  while (row.step()) run.temperatures.push_back({row.number(0), row.number(1)});
+      database.prepare("SELECT host_time_s, temperature_C, seq FROM temperatures ORDER BY seq");
+  while (row.step()) {
+    if (records.is_sound("temperatures", row.integer(2))) {
+      run.temperatures.push_back({row.number(0), row.number(1)});
+    } else {
+      ++run.integrity.n_left_out_temperatures;
+    }
+  }
 }
 
 Device device_of(const std::string& word) {
@@ -92,6 +105,7 @@ void read_status(OpenCapture& capture, const fs::path& path, CapturedRun& run) {
   if (run.status != "open") return;
   run.status = capture.is_running() ? "running" : "interrupted";
   if (capture.is_running() || has_journal(path)) return;
+  run.integrity.has_lost_log = true;
   run.events.push_back({run.events.empty() ? 0.0 : run.events.back().host_time_s, "gap", "",
                         "the run was interrupted and its side file " + path.string() +
                             "-wal is missing; if only the main file was copied, the last "
@@ -111,9 +125,25 @@ void mark_implausible(CapturedRun& run) {
   }
 }
 
+// Description, end, events and moves decide what the readings mean, so damage to them is refused.
+void judge_damage(const CheckedRecords& records, const fs::path& path,
+                  const CaptureReading& reading, CapturedRun& run) {
+  run.integrity.has_checksums = records.check.is_checked;
+  run.integrity.faults = records.check.faults;
+  const bool is_meaning_damaged =
+      records.is_description_damaged || records.is_damaged("events") || records.is_damaged("moves");
+  if (!is_meaning_damaged) return;
+  run.integrity.is_damage_accepted = true;
+  if (reading.accepts_damage) return;
+  throw std::runtime_error(path.string() + " is damaged: " + records.check.faults.front() +
+                           ". Use another copy of it (viscard export --verify lists all damage); "
+                           "to read it as it is, add --unverified, which the result will state");
+}
+
 }  // namespace
 
-CapturedRun read_capture(const std::filesystem::path& path) {
+CapturedRun read_capture(const std::filesystem::path& path, const CaptureReading& reading) {
+  record_input_file(path);
   OpenCapture capture(path);
   Database& database = capture.database();
   CapturedRun run;
@@ -122,11 +152,14 @@ CapturedRun read_capture(const std::filesystem::path& path) {
     if (database.text_of("PRAGMA quick_check(1)") != "ok") {
       throw SqliteError(path.string(), SQLITE_CORRUPT);
     }
+    const CheckedRecords records = check_records(database);
+    judge_damage(records, path, reading, run);
     read_metadata(database, path, run);
-    read_samples(database, run);
-    read_stage(database, run);
+    read_samples(database, records, run);
+    read_stage(database, records, run);
     read_events(database, run);
-    read_temperatures(database, run);
+    read_temperatures(database, records, run);
+    refuse_impossible_values(run, path.string());
     mark_implausible(run);
     run.n_raw_bytes = static_cast<std::size_t>(
         std::stoull("0" + database.text_of("SELECT sum(length(bytes)) FROM raw_bytes")));

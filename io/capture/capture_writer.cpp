@@ -1,3 +1,4 @@
+#include "io/basics/failure_text.h"
 #include "io/basics/number_text.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
@@ -20,6 +21,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxQueuedBytes = 64u << 20;  // of raw bytes that wait for the disk
+
+constexpr double kLookInterval_s = 0.3;  // a deleted file is noticed within a second
+
+// The file is no longer under its name.
+class FileIsGone : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 double now_s() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
@@ -144,17 +153,34 @@ class CaptureWriter::Impl {
     try {
       while (write_once()) {
       }
+      refuse_lost_file();
       database_->finish(final_status_);
+    } catch (const FileIsGone& gone) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      error_ = gone.what();
     } catch (const std::exception& error) {
       const std::lock_guard<std::mutex> lock(mutex_);
-      error_ = std::string(error.what()) + "; the capture stops here, and the " +
-               std::to_string(counts_.committed) + " records committed before are in the file";
+      error_ = failure_text(error, "writing " + path_.string()) +
+               "; the capture stops here, and the " + std::to_string(counts_.committed) +
+               " records committed before are in the file";
     }
     database_.reset();
     lock_->release();
     const std::lock_guard<std::mutex> lock(mutex_);
     is_ended_ = true;
     synced_.notify_all();
+  }
+
+  // Records in a file without a name are lost when this process ends, so the run must not go on.
+  void refuse_lost_file() {
+    const std::string why = lock_->why_gone();
+    if (why.empty()) return;
+    const std::string name = path_.string();
+    const bool is_moved = why.rfind("was moved", 0) == 0;
+    throw FileIsGone(name + " " + why + " while the run was writing it; the capture stops here. " +
+                     (is_moved ? "What was recorded is in that file together with " + name +
+                                     "-wal: give both the same name again before reading it"
+                               : "What was recorded is lost; repeat the run"));
   }
 
   // Commits the queued records; false after the last batch of a run that has ended.
@@ -179,6 +205,10 @@ class CaptureWriter::Impl {
     }
     if (!batch_.empty() || is_synced) database_->write(batch_, is_synced);
     if (is_synced) schedule_.synced(begun_s, now_s());
+    if (now_s() - looked_s_ > kLookInterval_s) {
+      looked_s_ = now_s();
+      refuse_lost_file();
+    }
     const std::lock_guard<std::mutex> lock(mutex_);
     counts_.committed = appended;
     if (is_synced) counts_.synced = appended;
@@ -202,6 +232,7 @@ class CaptureWriter::Impl {
   std::optional<CaptureDatabase> database_;
   std::vector<RunRecord> batch_;
   SyncSchedule schedule_;
+  double looked_s_ = 0.0;  // when the file was last looked for under its name
 
   mutable std::mutex mutex_;  // guards everything below
   std::condition_variable wake_, synced_;

@@ -24,6 +24,8 @@ class OpenCapture {
 
  private:
   void open_copy();
+  void refuse_foreign_log();
+  std::string foreign_object();
 
   std::filesystem::path path_, copy_;
   std::optional<Database> database_;

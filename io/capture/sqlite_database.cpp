@@ -25,6 +25,21 @@ namespace {
   throw SqliteError(file + ": " + reason, code & 0xff);
 }
 
+// A URI by which SQLite reads the file alone: https://www.sqlite.org/uri.html
+std::string immutable_uri(const std::filesystem::path& path) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string uri = "file:";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    if (c != '%' && c != '?' && c != '#') {
+      uri += c;
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(c);
+    uri += std::string{'%', kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return uri + "?immutable=1";
+}
+
 }  // namespace
 
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
@@ -126,8 +141,11 @@ void Database::Close::operator()(sqlite3* database) const {
 
 Database::Database(const std::filesystem::path& path, Access access) : file_(path.string()) {
   sqlite3* database = nullptr;
-  const int flags = access == Access::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
-  const int code = sqlite3_open_v2(path.c_str(), &database, flags | SQLITE_OPEN_FULLMUTEX, nullptr);
+  const bool is_alone = access == Access::kMainFileOnly;
+  const int flags = (access == Access::kReadWrite ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY) |
+                    (is_alone ? SQLITE_OPEN_URI : 0) | SQLITE_OPEN_FULLMUTEX;
+  const std::string name = is_alone ? immutable_uri(path) : path.string();
+  const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (code != SQLITE_OK) fail(database, file_, code);
   sqlite3_busy_timeout(database, 2000);
@@ -143,6 +161,12 @@ void Database::execute(const char* sql) {
 
 Statement Database::prepare(const char* sql) {
   return {database_.get(), sql, file_};
+}
+
+std::string Database::first_foreign_object() {
+  return text_of(
+      "SELECT type || ' ' || name FROM sqlite_schema WHERE type NOT IN ('table', 'index') OR "
+      "sql LIKE 'CREATE VIRTUAL%' LIMIT 1");
 }
 
 std::string Database::text_of(const char* sql) {

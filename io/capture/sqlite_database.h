@@ -68,7 +68,8 @@ class Statement {
 
 class Database {
  public:
-  enum class Access { kReadOnly, kReadWrite };
+  // kMainFileOnly reads without a write-ahead log that lies beside the file.
+  enum class Access { kReadOnly, kReadWrite, kMainFileOnly };
   // The file must exist. The text of an error begins with its name.
   Database(const std::filesystem::path& path, Access access);
 
@@ -76,6 +77,9 @@ class Database {
   Statement prepare(const char* sql);
   // First column of the first row; "" without a row.
   std::string text_of(const char* sql);
+  // The first view, trigger or virtual table. Files of viscard have none, and one may never end or run code of
+  // others. "" without one.
+  std::string first_foreign_object();
 
  private:
   struct Close {

@@ -1,5 +1,7 @@
 #include "io/cli/command.h"
 
+#include "io/basics/failure_text.h"
+#include "io/basics/inputs.h"
 #include "io/basics/words.h"
 #include "io/cli/card/card_words.h"
 #include "io/cli/fit/fit_command.h"
@@ -131,15 +133,16 @@ int run_viscard(const Words& words, Streams& streams) {
 
 int with_exit_status(const char* program, const Words& words, Streams& streams,
                      const std::function<int()>& work) {
+  const InputRecorder recorder;
   const std::string who = bold_red(program + std::string(":"), streams.is_err_coloured) + " ";
   try {
     return with_json_errors(words, streams, [&] {
       try {
         return work();
-      } catch (const std::bad_alloc&) {
-        throw std::runtime_error(
-            "the memory of this machine does not suffice; check sizes and their units, or ask for "
-            "less accuracy or fewer points");
+      } catch (const std::bad_alloc& error) {
+        throw std::runtime_error(failure_text(error, "this command"));
+      } catch (const std::length_error& error) {
+        throw std::runtime_error(failure_text(error, "this command"));
       }
     });
   } catch (const UsageError& error) {

@@ -1,10 +1,12 @@
 #include "io/flow/fit_file.h"
 
+#include "io/basics/failure_text.h"
 #include "fit/fit_indentation.h"
 #include "fit/indentation_from_capture.h"
 #include "fit/laws/law_fit.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
+#include "io/capture/integrity_notes.h"
 #include "io/flow/fit_table.h"
 #include "io/flow/plausible_record.h"
 #include "io/flow/table_from_capture.h"
@@ -55,7 +57,7 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
         ": --column, --segment, --time-zero, --from, --to, --hold, --crop, "
         "--depth and --modulus-kind apply only to tables; omit them for a capture");
   }
-  CapturedRun run = read_capture(path);
+  CapturedRun run = read_capture(path, {.accepts_damage = request.accepts_unverified});
   // The geometry may be replaced, this value may not.
   const std::string specimen_id = run.specimen.id;
   if (request.specimen) run.specimen = *request.specimen;
@@ -69,6 +71,10 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   fitted.specimen = run.specimen;
   fitted.specimen_id = specimen_id;
   fitted.fitted_unit = "N";
+  for (const IntegrityNote& note : integrity_notes(run)) {
+    fitted.result.flags.push_back({note.name, 0, note.text});
+    if (is_defect(note.name)) fitted.result.is_trustworthy = false;
+  }
   if (run.status != "finished") {
     fitted.result.flags.push_back(
         {"run-" + run.status, 0,
@@ -119,7 +125,7 @@ FittedFile fit_named(const std::string& path, const FitRequest& request, bool is
     take_laws(request, is_capture, fitted);
     return fitted;
   } catch (const std::exception& error) {
-    const std::string text = error.what();
+    const std::string text = failure_text(error, "fitting this file");
     if (text.find(path) != std::string::npos) throw;
     throw std::runtime_error(path + ": " + text);
   }

@@ -56,6 +56,8 @@ struct FitRequest {
   double young_factor = 1.0;  // Young's modulus over the moduli of this table; set by fit_table()
   std::optional<double> T_ref_C;               // reference temperature of a master curve
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the result
+  // Fit a capture whose description, events or moves are damaged; the result is flagged "unverified".
+  bool accepts_unverified = false;
 };
 
 // What a table of moduli was measured in, and how it became Young's modulus.

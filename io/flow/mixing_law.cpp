@@ -94,7 +94,9 @@ std::optional<MixingLaw> mixing_law_of(const std::vector<std::string>& files,
 }
 
 SpecimenReport specimen_of_tests(const ReportRequest& request, const FlowProgress& progress) {
-  const FittedFile fitted = fit_tests(request.tests, {}, progress);
+  FitRequest wanted;
+  wanted.accepts_unverified = request.accepts_unverified;
+  const FittedFile fitted = fit_tests(request.tests, wanted, progress);
   SpecimenReport report;
   report.fit = fitted.result;
   report.specimen = fitted.specimen;

@@ -76,10 +76,11 @@ void put_on_one_clock(CapturedRun& run) {
 
 // Adds profile likelihoods, as `viscard fit FILE --profiles` does, if there are few terms. For many
 // terms they take long and the figure would be too crowded to read.
-FittedFile fit_for_page(const std::string& path, Plausible plausible) {
+FittedFile fit_for_page(const std::string& path, const ReportRequest& wanted) {
   constexpr std::size_t kFewTerms = 6;
   FitRequest request;
-  request.plausible = plausible;
+  request.plausible = wanted.plausible;
+  request.accepts_unverified = wanted.accepts_unverified;
   FittedFile fitted = fit_file(path, request);
   if (fitted.result.terms.size() > kFewTerms) return fitted;
   request.options.with_profiles = true;
@@ -121,7 +122,7 @@ ShiftReport shift_report(const MasterCurve& curve) {
 // Fits a capture or a table as `viscard fit FILE` does.
 SpecimenReport specimen_from_fit(const ReportRequest& request, const std::string& path) {
   SpecimenReport report;
-  const FittedFile fitted = fit_for_page(path, request.plausible);
+  const FittedFile fitted = fit_for_page(path, request);
   if (fitted.has_no_depth) {
     throw std::runtime_error(path +
                              ": has force but no depth, and the page shows moduli or "
@@ -132,7 +133,7 @@ SpecimenReport specimen_from_fit(const ReportRequest& request, const std::string
   report.specimen = fitted.specimen;
   if (report.specimen.id.empty()) report.specimen.id = fs::path(path).stem().string();
   if (looks_like_capture(path)) {
-    report.run = read_capture(path);
+    report.run = read_capture(path, {.accepts_damage = request.accepts_unverified});
     put_on_one_clock(*report.run);
   }
   report.files = {{path, sha256_of_file(path)}};

@@ -1,4 +1,5 @@
 #include "io/capture/capture_file.h"
+#include "io/capture/integrity_notes.h"
 #include "io/flow/table_from_capture.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
@@ -97,12 +98,12 @@ py::dict moves_of(const CapturedRun& run) {
   return out;
 }
 
-py::dict capture_dict(const std::string& path) {
+py::dict capture_dict(const std::string& path, bool accepts_damage) {
   auto* run = new CapturedRun;
   const py::capsule owner(run, [](void* it) { delete static_cast<CapturedRun*>(it); });
   {
     const py::gil_scoped_release others_may_run;
-    *run = read_capture(path);
+    *run = read_capture(path, {.accepts_damage = accepts_damage});
   }
   py::dict out;
   out["file"] = path;
@@ -125,6 +126,10 @@ py::dict capture_dict(const std::string& path) {
     events.append(py::make_tuple(event.host_time_s, event.name, event.value, event.text));
   }
   out["events"] = events;
+  py::list notes;
+  for (const IntegrityNote& note : integrity_notes(*run)) notes.append(note.text);
+  out["notes"] = notes;
+  out["unverified"] = accepts_damage;
   return out;
 }
 
@@ -168,11 +173,12 @@ void add_tables(py::module_& module) {
     return table_dict(std::move(*table), map);
   });
   module.def("read_capture", &capture_dict);
-  module.def("table_of_capture", [](const std::string& path) {
+  module.def("table_of_capture", [](const std::string& path, bool accepts_damage) {
     std::optional<CsvTable> table;
     {
       const py::gil_scoped_release others_may_run;
-      table = csv_from_text(table_from_capture(read_capture(path)), path);
+      table = csv_from_text(
+          table_from_capture(read_capture(path, {.accepts_damage = accepts_damage})), path);
     }
     return table_dict(std::move(*table), {});
   });

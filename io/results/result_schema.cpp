@@ -257,6 +257,15 @@ Json schema_of(const DescribedResult& result) {
         {"const", "off"},
         {"description", "the ranges of plausible values were switched off; missing otherwise"}};
   }
+  Json file = closed_object();
+  file["properties"]["path"] = {{"type", "string"}, {"description", "its name"}};
+  file["properties"]["sha256"] = {{"type", "string"},
+                                  {"description", "the SHA-256 of what was read"}};
+  file["required"] = {"path", "sha256"};
+  head["properties"]["input_files"] = {
+      {"type", "array"},
+      {"items", file},
+      {"description", "every file that was read, also those that the inputs name"}};
   Json keys = schema_of_keys(result);
   for (const auto& [key, below] : keys["properties"].items()) head["properties"][key] = below;
   for (const Json& key : keys["required"]) head["required"].push_back(key);

@@ -11,6 +11,18 @@
 
 namespace viscard {
 
+// What is known of a record by the checksums of its capture file.
+struct RecordIntegrity {
+  bool has_checksums = true;  // false: written before captures carried them
+  // The description, the events or the moves are not what was written, and the reader accepted that.
+  bool is_damage_accepted = false;
+  // Rows that are not what was written; they are not in the record.
+  std::size_t n_left_out_samples = 0, n_left_out_reports = 0, n_left_out_temperatures = 0;
+  // The run was interrupted, and the side file that held its newest records is missing.
+  bool has_lost_log = false;
+  std::vector<std::string> faults;  // one line each: what is damaged, and where
+};
+
 // One test run as read from its capture file: what was asked for and what was received, each list
 // in the order of reception. Host times are in s since the run began (run_record.h).
 struct CapturedRun {
@@ -27,6 +39,7 @@ struct CapturedRun {
   std::string program;                          // "viscard 0.1.0"
   std::string command;                          // command line
   std::size_t n_raw_bytes = 0;
+  RecordIntegrity integrity;
 };
 
 }  // namespace viscard

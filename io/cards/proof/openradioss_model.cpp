@@ -222,7 +222,7 @@ std::vector<SolverSample> openradioss_samples(const std::filesystem::path& folde
   if (!std::filesystem::exists(path)) return {};
   const ElementTest& test = input.test;
   std::vector<SolverSample> rows =
-      history_of(read_file(path), input.is_creep() ? "length" : "stress");
+      history_of(read_own_file(path), input.is_creep() ? "length" : "stress");
   rows.erase(rows.begin(), first_after(0.0, rows));  // before the first load
   const double load = input.is_creep() ? test.amplitude * kEdge : kStress;
   const double unit = input.is_creep() ? test.amplitude : input.stress();

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& path) {
-  return fs::exists(path) ? read_file(path) : "";
+  return fs::exists(path) ? read_own_file(path) : "";
 }
 
 std::vector<double> numbers_in(const std::string& line) {
@@ -157,7 +157,7 @@ std::vector<SolverSample> frontistr_samples(const fs::path& folder, const DeckIn
     const fs::path path = folder / fmt::format("deck.res.0.{}", step);
     if (!fs::exists(path)) return samples;
     SolverSample sample;
-    if (read_frontistr_step(read_file(path), input.is_creep(), sample)) samples.push_back(sample);
+    if (read_frontistr_step(read_own_file(path), input.is_creep(), sample)) samples.push_back(sample);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/timestamp.h"
+#include "io/capture/capture_file.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/report/report_commands.h"
@@ -31,7 +32,7 @@ struct ReportWords {
   std::vector<std::string> files, truth, cards;
   std::optional<std::string> out, pictures;
   std::string title = "Soft polymer, from load cell to material", units = "mm-t-s";
-  bool is_reproducible = false, overwrite = false;
+  bool is_reproducible = false, overwrite = false, unverified = false;
   Plausible plausible = Plausible::kMeasured;
 };
 
@@ -62,6 +63,7 @@ CommandSyntax report_syntax(ReportWords& words) {
   options.add("pictures", &words.pictures, "folder to write every picture into, as SVG");
   options.add("reproducible", &words.is_reproducible,
               "omit the date, so that the same input gives the same bytes");
+  options.add("unverified", &words.unverified, kUnverifiedHelp);
   options.add("force", &words.overwrite, "overwrite existing files");
   return syntax;
 }
@@ -143,6 +145,7 @@ ReportRequest checked_words(const ReportWords& asked, const Words& words,
                                  counted(measured_count(report.files), "capture")));
   }
   report.plausible = asked.plausible;
+  report.accepts_unverified = asked.unverified;
   if (!asked.is_reproducible) report.created_at = now_iso8601();
   return report;
 }

@@ -3,6 +3,7 @@
 #include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
+#include "io/capture/integrity_notes.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/stop_on_signal.h"
@@ -154,7 +155,10 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
     return largest == points.force_N.end() ? 0.0 : gain_relative_u(rig.calibration, *largest);
   };
   if (words.data_file && looks_like_capture(*words.data_file)) {
-    const CapturedRun run = read_capture(*words.data_file);
+    const CapturedRun run = read_capture(*words.data_file, {.accepts_damage = words.accepts_unverified});
+    for (const IntegrityNote& note : integrity_notes(run)) {
+      streams.err << "viscard: " << *words.data_file << ": " << note.text << "\n";
+    }
     points = block_points_from_capture(run);
     gain_u = gain_u_of(run.rig);
   } else if (words.data_file) {

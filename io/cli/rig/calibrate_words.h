@@ -22,6 +22,7 @@ struct CalibrateWords {
   bool is_emulated = false;
   bool asks_nobody = false;
   bool overwrite = false;
+  bool accepts_unverified = false;
   bool as_json = false;
   std::string weights;  // "20 g, 50 g"
   std::vector<double> masses_kg;

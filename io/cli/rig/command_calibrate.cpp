@@ -55,6 +55,7 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
   add("truth", &words.truth_file, "truth.toml: what the emulated cell is like");
   add("speed", &words.speed, "largest speed of the emulated clock over the wall clock");
   add("yes", &words.asks_nobody, "do not wait for Enter before the block is pressed");
+  add("unverified", &words.accepts_unverified, kUnverifiedHelp);
   add("force", &words.overwrite, "replace an existing record");
   syntax.results = {result_of_load_cell(), result_of_frame()};
   return syntax;

@@ -2,6 +2,7 @@
 #include "io/capture/capture_check.h"
 #include "io/capture/capture_export.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/integrity_notes.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
@@ -11,6 +12,7 @@
 
 #include <optional>
 #include <ostream>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -31,6 +33,9 @@ void show_summary(ResultVisitor& v, const CapturedRun& run, const std::string& c
   v("n_events", run.events.size(), "events");
   v("n_gaps", n_gaps, "gaps in the readings");
   v("n_raw_bytes", run.n_raw_bytes, "bytes received and sent");
+  std::vector<std::string> notes;
+  for (const IntegrityNote& note : integrity_notes(run)) notes.push_back(note.text);
+  v("notes", notes, "what the checksums say against the record");
   v("out", out, "the table that was written");
 }
 
@@ -75,6 +80,7 @@ int run_export(const Words& words, Streams& streams) {
   std::string capture;
   std::optional<std::string> out;
   bool is_raw = false, verifies = false, overwrite = false;
+  CaptureReading reading;
   CommandSyntax syntax;
   syntax.usage = "viscard export RUN.viscap [--out FILE.csv] [OPTIONS]";
   syntax.description =
@@ -89,6 +95,7 @@ int run_export(const Words& words, Streams& streams) {
   syntax.options.add("raw", &is_raw, "the bytes as received and sent instead of the samples");
   syntax.options.add("verify", &verifies,
                      "compare the capture with its checksums; writes no table");
+  syntax.options.add("unverified", &reading.accepts_damage, kUnverifiedHelp);
   syntax.options.add("force", &overwrite, "replace an existing file");
   syntax.results = {
       {"export", "viscard export",
@@ -101,7 +108,7 @@ int run_export(const Words& words, Streams& streams) {
     if (is_raw || out) throw UsageError("--verify writes no table; omit --out and --raw");
     return verify(capture, is_json, streams);
   }
-  const CapturedRun run = read_capture(capture);
+  const CapturedRun run = read_capture(capture, reading);
   const std::string table = is_raw ? csv_from_raw_bytes(capture) : table_from_capture(run);
   if (out) {
     write_file(*out, table, overwrite);
@@ -116,7 +123,10 @@ int run_export(const Words& words, Streams& streams) {
     print_result({"viscard-export/1", {capture}},
                  [&](ResultVisitor& v) { show_summary(v, run, capture, out); }, streams);
   }
-  if (run.status != "finished") {
+  for (const IntegrityNote& note : integrity_notes(run)) {
+    streams.err << "viscard: " << capture << ": " << note.text << "\n";
+  }
+  if (run.status != "finished" && !run.integrity.has_lost_log) {
     streams.err << "viscard: " << capture << " is "
                 << (run.status == "running" ? "still being written" : "of an interrupted run")
                 << "; all that was committed is exported\n";

@@ -1,5 +1,6 @@
 #include "io/cli/words/json_output.h"
 
+#include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
 #include "io/flow/command_error.h"
 
@@ -41,9 +42,26 @@ void show_origin(ResultVisitor& v, const std::string& command) {
   });
 }
 
+namespace {
+
+// Of this command. Schemas describe the key with the head (io/results/result_schema.cpp).
+void show_input_files(ResultVisitor& v) {
+  const std::vector<InputFile> files = provenance_of_inputs();
+  v.when(!files.empty(), [&] {
+    v.list("input_files", "every file that was read, also those that the inputs name", files,
+           [&](const InputFile& file) {
+             v("path", file.path, "its name");
+             v("sha256", file.sha256, "the SHA-256 of what was read");
+           });
+  });
+}
+
+}  // namespace
+
 nlohmann::ordered_json with_head(const JsonHead& head, const ShowKeys& show) {
   return json_from_keys([&](ResultVisitor& v) {
     show_head(v, head);
+    show_input_files(v);
     show(v);
   });
 }

@@ -71,7 +71,7 @@ SweepStore::SweepStore(const std::filesystem::path& folder, const std::string& k
 }
 
 void SweepStore::read(const std::string& key) {
-  std::istringstream in(read_file(path_));
+  std::istringstream in(read_own_file(path_));
   std::string line;
   if (!std::getline(in, line) || line != "# " + key) {
     throw std::runtime_error(

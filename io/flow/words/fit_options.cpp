@@ -1,4 +1,5 @@
 // The options of `viscard fit`, also those of tests at large strain that both share.
+#include "io/capture/capture_file.h"
 #include "io/flow/words/fit_words.h"
 
 namespace viscard {
@@ -144,6 +145,8 @@ OptionList options_of(FitWords& words) {
   add_model(list, words);
   add_noise(list, words);
   add_several(list, words);
+  list.group("Damage");
+  list.add("unverified", &words.unverified, kUnverifiedHelp);
   list.group("Units");
   list.add("plausible", &words.plausible,
            "off: accept values that no test or material can have (a wrong unit, most often); the "

@@ -266,6 +266,7 @@ FitRequest fit_request(const FitWords& words) {
       throw OptionError(std::string("--modulus-kind: ") + error.what());
     }
   }
+  request.accepts_unverified = words.unverified;
   return request;
 }
 

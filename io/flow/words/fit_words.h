@@ -32,6 +32,7 @@ struct FitWords {
   std::vector<double> ratio;
   std::vector<std::string> specimen_id, share;
   bool joint = false, own_terms = false;
+  bool unverified = false;
 };
 // Its options.
 OptionList options_of(FitWords& words);

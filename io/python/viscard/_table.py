@@ -100,6 +100,10 @@ class Capture:
     temperature : dict of arrays
         time_s, temperature_C.
     events : list of (time_s, name, value, text)
+    notes : list of str
+        What the checksums of the file say against the record; empty if it is what was written.
+    unverified : bool
+        Whether damage to description, events or moves was accepted.
 
     Examples
     --------
@@ -116,19 +120,21 @@ class Capture:
 
     def table(self) -> Table:
         """Force and depth on the clock that the fit uses, as ``viscard export`` writes them."""
-        return Table(_core.table_of_capture(self.file))
+        return Table(_core.table_of_capture(self.file, self.unverified))
 
     def __repr__(self) -> str:
         return f"<viscard.Capture {self.file}: {self.status}, {len(self.load['time_s'])} readings>"
 
 
 @_check.arguments
-def read_capture(path: Path) -> Capture:
+def read_capture(path: Path, *, unverified: bool = False) -> Capture:
     """Read a captured run, also an unfinished one. The file is never changed.
 
     Parameters
     ----------
     path : str or path
+    unverified : bool
+        Read a capture although its checksums show that description, events or moves are damaged; its notes say so.
 
     Examples
     --------
@@ -136,4 +142,4 @@ def read_capture(path: Path) -> Capture:
     >>> viscard.read_capture("run.viscap").status
     'finished'
     """
-    return Capture(_core.read_capture(os.fspath(path)))
+    return Capture(_core.read_capture(os.fspath(path), unverified))

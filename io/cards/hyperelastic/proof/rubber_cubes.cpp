@@ -143,7 +143,7 @@ std::vector<CubeRow> calculix_rows(const std::filesystem::path& folder, const Cu
   if (!std::filesystem::exists(folder / "deck.dat")) return rows;
   const bool x_is_free = test.deformation != Deformation::kEquibiaxial && !test.is_confined,
              y_is_free = test.deformation != Deformation::kPlanar && !test.is_confined;
-  std::istringstream lines(read_file(folder / "deck.dat"));
+  std::istringstream lines(read_own_file(folder / "deck.dat"));
   for (std::string line; std::getline(lines, line);) {
     if (line.find("and time") != std::string::npos) {
       const double share = static_cast<double>(rows.size() + 1) / test.steps;
@@ -187,7 +187,7 @@ std::vector<CubeRow> sfepy_rows(const std::filesystem::path& folder, std::size_t
   std::vector<CubeRow> rows;
   const auto path = folder / fmt::format("result_{}.txt", number);
   if (!std::filesystem::exists(path)) return rows;
-  std::istringstream lines(read_file(path));
+  std::istringstream lines(read_own_file(path));
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     CubeRow row;

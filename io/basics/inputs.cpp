@@ -1,0 +1,97 @@
+#include "io/basics/inputs.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <mutex>
+#include <tuple>
+
+namespace viscard {
+namespace {
+
+std::mutex& list_mutex() {
+  static std::mutex the_mutex;
+  return the_mutex;
+}
+
+std::vector<InputRecorder*>& recorders() {
+  static std::vector<InputRecorder*> all;
+  return all;
+}
+
+// A different address in every thread.
+void* this_thread() {
+  thread_local char mark = 0;
+  return &mark;
+}
+
+}  // namespace
+
+InputRecorder::InputRecorder(Of of) : thread_(of == Of::kThread ? this_thread() : nullptr) {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  recorders().push_back(this);
+}
+
+InputRecorder::~InputRecorder() {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  std::erase(recorders(), this);
+}
+
+std::vector<InputFile> InputRecorder::files() const {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  std::vector<InputFile> sorted = files_;
+  std::sort(sorted.begin(), sorted.end(), [](const InputFile& a, const InputFile& b) {
+    return std::tie(a.path, a.sha256) < std::tie(b.path, b.sha256);
+  });
+  return sorted;
+}
+
+std::vector<InputFile> provenance_of_inputs() {
+  const InputRecorder* innermost = nullptr;
+  {
+    const std::lock_guard<std::mutex> lock(list_mutex());
+    for (const InputRecorder* one : recorders()) {
+      if (one->is_of_process()) innermost = one;
+    }
+  }
+  return innermost == nullptr ? std::vector<InputFile>{} : innermost->files();
+}
+
+void record_input(const std::filesystem::path& path, const std::string& contents) {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  std::string sum;
+  for (InputRecorder* one : recorders()) {
+    if (one->thread_ != nullptr && one->thread_ != this_thread()) continue;
+    if (sum.empty()) sum = sha256_of_text(contents);
+    const InputFile file{path.string(), sum};
+    const bool is_known =
+        std::any_of(one->files_.begin(), one->files_.end(), [&](const InputFile& other) {
+          return other.path == file.path && other.sha256 == file.sha256;
+        });
+    if (!is_known) one->files_.push_back(file);
+  }
+}
+
+void record_input_file(const std::filesystem::path& path) {
+  {
+    const std::lock_guard<std::mutex> lock(list_mutex());
+    if (recorders().empty()) return;
+  }
+  read_file(path);
+}
+
+std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded) {
+  nlohmann::ordered_json json = {{"schema", "viscard-inputs/1"},
+                                 {"created_by", "viscard " VISCARD_VERSION},
+                                 {"is_recorded", is_recorded},
+                                 {"files", nlohmann::ordered_json::array()}};
+  for (const InputFile& file : files) {
+    json["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});
+  }
+  return printable_text_from_json(json, 2) + "\n";
+}
+
+}  // namespace viscard

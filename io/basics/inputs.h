@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A file that was read, and the SHA-256 of what was read from it.
+struct InputFile {
+  std::string path;  // as it was named
+  std::string sha256;
+};
+
+// Records every file that read_file() reads while it lives, in all threads or in its own thread only. A
+// file whose contents change meanwhile is there once for each.
+class InputRecorder {
+ public:
+  enum class Of { kProcess, kThread };
+  explicit InputRecorder(Of of = Of::kProcess);
+  ~InputRecorder();
+  InputRecorder(const InputRecorder&) = delete;
+  InputRecorder& operator=(const InputRecorder&) = delete;
+
+  // In the order of their names.
+  std::vector<InputFile> files() const;
+  bool is_of_process() const { return thread_ == nullptr; }
+
+ private:
+  friend void record_input(const std::filesystem::path& path, const std::string& contents);
+  void* thread_ = nullptr;  // whose files count; null: all
+  std::vector<InputFile> files_;
+};
+
+// The files that the innermost recorder of the process has seen; none without one. What a command writes
+// or prints about its inputs comes from here.
+std::vector<InputFile> provenance_of_inputs();
+
+// Called by what reads files.
+void record_input(const std::filesystem::path& path, const std::string& contents);
+// The same for a file that is not read as a whole, such as a capture. Reads it only if it is recorded.
+void record_input_file(const std::filesystem::path& path);
+
+// The object {"schema": "viscard-inputs/1", "created_by", "is_recorded", "files": [{"path", "sha256"}]}
+// that lies beside a table. is_recorded false: of some rows the inputs are not known.
+std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded);
+
+}  // namespace viscard

@@ -1,0 +1,36 @@
+#include "io/capture/integrity_notes.h"
+
+#include "models/maths/text_of_number.h"
+
+namespace viscard {
+
+std::vector<IntegrityNote> integrity_notes(const CapturedRun& run) {
+  const RecordIntegrity& integrity = run.integrity;
+  std::vector<IntegrityNote> notes;
+  if (!integrity.has_checksums) {
+    notes.push_back({"unchecked",
+                     "the capture was written before captures carried checksums, so damage to it "
+                     "cannot be noticed"});
+  }
+  if (integrity.is_damage_accepted) {
+    notes.push_back({"unverified", "the capture is damaged and was read with --unverified: " +
+                                       integrity.faults.front()});
+  }
+  const auto left_out = [&notes](const char* name, std::size_t count, const char* what) {
+    if (count == 0) return;
+    notes.push_back({name, counted(count, what) +
+                               " of the capture were left out: their checksums show that they are "
+                               "not what was written"});
+  };
+  left_out("samples-damaged", integrity.n_left_out_samples, "reading");
+  left_out("reports-damaged", integrity.n_left_out_reports, "report of the stage");
+  left_out("temperatures-damaged", integrity.n_left_out_temperatures, "temperature");
+  if (integrity.has_lost_log) {
+    notes.push_back({"side-file-missing",
+                     "the run was interrupted, and the side file *-wal that may hold its last "
+                     "seconds, or all of it, is missing: copy it with the capture"});
+  }
+  return notes;
+}
+
+}  // namespace viscard

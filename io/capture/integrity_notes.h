@@ -1,0 +1,19 @@
+#pragma once
+
+#include "models/experiment/captured_run.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What the checksums of a capture say against its record.
+struct IntegrityNote {
+  std::string name;  // of the flag in a result: "unverified", "samples-damaged", ...
+  std::string text;  // for a person
+};
+
+// Empty for a record that is what was written.
+std::vector<IntegrityNote> integrity_notes(const CapturedRun& run);
+
+}  // namespace viscard
