@@ -70,7 +70,8 @@ py::dict results_by_name(const std::vector<StudyPoint>& points) {
 // The points of a study; those that the file does not hold yet are answered, or taken over from `merge`.
 py::dict sweep(const std::string& path, const std::string& file,
                const std::optional<std::string>& shard_text, const std::vector<std::string>& merge,
-               const std::string& plausible, const py::object& progress) {
+               const std::string& plausible, bool accept_unrecorded, bool retry_failed,
+               const py::object& progress) {
   const Plausible judged = judged_by(plausible, Plausible::kScene);
   const StudyShard shard = shard_of(shard_text);
   if (!merge.empty() && shard_text) {
@@ -82,9 +83,12 @@ py::dict sweep(const std::string& path, const std::string& file,
     const Study& study = swept.study;
     // A mistake in the study or its scene is reported here, not once for each point.
     check_values(study, judged);
-    StudyStore store(file, study);
+    const StoreOptions how{.accepts_unrecorded = accept_unrecorded,
+                           .retries_failed = retry_failed,
+                           .is_answering = merge.empty()};
+    StudyStore store(file, study, how);
     swept.outcome.n_points = count_points(study);
-    for (const std::string& part : merge) swept.n_merged += store.merge(part, study);
+    for (const std::string& part : merge) swept.n_merged += store.merge(part, study, how);
     if (merge.empty()) {
       swept.outcome = run_study(
           study, shard, store, [&](double done) { job.report(done, "sweep"); }, judged);
@@ -111,6 +115,9 @@ py::dict sweep(const std::string& path, const std::string& file,
   out["n_points"] = found.outcome.n_points;
   out["n_answered"] = found.outcome.n_answered;
   out["n_merged"] = found.n_merged;
+  out["n_refused"] = found.outcome.n_refused;
+  out["n_failed"] = found.outcome.n_failed;
+  out["first_failure"] = found.outcome.first_failure;
   return out;
 }
 

@@ -32,7 +32,7 @@ class MpiDispatch {
 
   StudyOutcome run() {
     const WorkerStart start{std::filesystem::absolute(job_.study.path).string(),
-                            fingerprint(job_.study), lost_after_s_};
+                            fingerprint_with_inputs(job_.study), lost_after_s_};
     ranks_.send_to_all_others(RankTag::kStart, text_from(start));
     if (ranks_.size() <= kFewRanks) give(0, dispatcher_.ask(0, now_s()));
     while (!dispatcher_.is_done()) {
@@ -124,11 +124,11 @@ class MpiDispatch {
     if (answers_.empty()) return;
     job_.store.add(answers_);
     for (const StudyPoint& point : answers_) {
-      ++outcome_.n_answered;
-      if (!point.failure.empty()) ++outcome_.n_failed;
+      count_point(point, outcome_);
+      ++n_tried_;
     }
     answers_.clear();
-    job_.progress(static_cast<double>(outcome_.n_answered) / static_cast<double>(open_.size()));
+    job_.progress(static_cast<double>(n_tried_) / static_cast<double>(open_.size()));
   }
 
   void look_for_lost() {
@@ -160,6 +160,7 @@ class MpiDispatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double next_look_s_ = 0.0;
   int n_refused_ = 0;
+  std::size_t n_tried_ = 0;
 };
 
 }  // namespace

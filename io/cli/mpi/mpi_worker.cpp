@@ -1,5 +1,6 @@
 #include "io/cli/mpi/mpi_worker.h"
 
+#include "io/basics/failure_text.h"
 #include "io/flow/sweep/run_study.h"
 #include "models/maths/leading_number.h"
 
@@ -63,9 +64,9 @@ class Dispatcher0 {
 // The study as this machine sees it.
 Study study_of(const WorkerStart& start) {
   Study study = read_study(start.study_path);
-  if (fingerprint(study) != start.fingerprint) {
+  if (fingerprint_with_inputs(study) != start.fingerprint) {
     throw std::runtime_error(start.study_path +
-                             ": this machine sees another study, scene or version of viscard than "
+                             ": this machine sees another study, scene, material or version of viscard than "
                              "rank 0; use a folder that all machines share");
   }
   return study;
@@ -112,7 +113,7 @@ int run_worker(MpiRanks& ranks) {
         study = study_of(start);
         rank_0.send(RankTag::kAsk);
       } catch (const std::exception& error) {
-        rank_0.send(RankTag::kRefuse, ranks.machine() + ": " + error.what());
+        rank_0.send(RankTag::kRefuse, ranks.machine() + ": " + failure_text(error, "this study"));
       }
     } else if (message.tag == RankTag::kPoint && study) {
       rank_0.send(RankTag::kAnswer, answer_of(*study, std::stoll(message.text), rank_0));

@@ -8,6 +8,7 @@
 #include "io/cli/words/progress.h"
 #include "io/flow/sweep/run_study.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 
@@ -21,10 +22,12 @@ void show_sweep(ResultVisitor& v, const StudyOutcome& outcome, const std::string
                 std::int64_t merged, std::int64_t n_done) {
   v("answered", outcome.n_answered, "points of this run");
   v("done", n_done, "points in the file");
-  v("failed", outcome.n_failed, "of these, points without an answer");
+  v("failed", outcome.n_failed,
+    "points that failed for memory, disk or an error of the program; they have no answer");
   v("file", file, "the SQLite file of the points");
   v("merged", merged, "points taken over from other files");
   v("points", outcome.n_points, "of the whole study");
+  v("refused", outcome.n_refused, "of those answered, points outside the model");
 }
 
 // The options of a command that sweeps.
@@ -32,7 +35,7 @@ struct SweepWords {
   std::string study;
   std::optional<std::string> out, csv, shard;
   std::vector<std::string> merge;
-  bool overwrite = false;
+  bool overwrite = false, accepts_unrecorded = false, retries_failed = false;
 };
 
 CommandSyntax sweep_syntax(const SweepProgram& program, SweepWords& words) {
@@ -46,11 +49,18 @@ CommandSyntax sweep_syntax(const SweepProgram& program, SweepWords& words) {
   options.add("merge", &words.merge,
               "take over the points of another part (repeat it for several); nothing is answered "
               "then");
+  options.add("retry-failed", &words.retries_failed,
+              "answer points again that failed by an error of the program");
+  options.add(
+      "accept-unrecorded", &words.accepts_unrecorded,
+      "go on with a file of an earlier version, which does not state the materials that its "
+      "points were answered with");
   options.add("force", &words.overwrite, "overwrite an existing table");
   if (program.add_options) program.add_options(options);
   syntax.may_exist = {"out"};
-  syntax.results = {{"sweep", "viscard sweep",
-                     {[](ResultVisitor& v) { show_sweep(v, StudyOutcome{}, "", 0, 0); }}}};
+  syntax.results = {{"sweep", "viscard sweep", {[](ResultVisitor& v) {
+                       show_sweep(v, StudyOutcome{}, "", 0, 0);
+                     }}}};
   return syntax;
 }
 
@@ -64,8 +74,7 @@ const SweepProgram& on_all_cores() {
       "machines (--shard) and be merged; viscard-mpi answers one on many machines at once.",
       "viscard sweep data/studies/pillar.toml --out study.sqlite --csv study.csv", nullptr,
       [](const SweepJob& job) {
-        return run_study(job.study, job.shard, job.store, job.progress,
-                         job.judged);
+        return run_study(job.study, job.shard, job.store, job.progress, job.judged);
       }};
   return kProgram;
 }
@@ -75,10 +84,39 @@ std::string words_of(const StudyOutcome& outcome, const std::string& file, std::
   std::string text = fmt::format("{}: {} of {} points are done", file, n_done, outcome.n_points);
   if (merged > 0) text += fmt::format(", {} taken over now", merged);
   if (outcome.n_answered > 0) text += fmt::format(", {} answered now", outcome.n_answered);
-  if (outcome.n_failed > 0) {
-    text += fmt::format("; {} of these have no answer (column failure says why)", outcome.n_failed);
-  }
   return text + "\n";
+}
+
+// What a user must know beside the count of points.
+void print_doubts(const StudyOutcome& outcome, StudyStore& store, const std::string& file,
+                  Streams& streams) {
+  const auto say = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; };
+  if (!store.has_recorded_inputs()) {
+    say(file + ": inputs not recorded: some points may have been answered with other files");
+  }
+  if (store.n_damaged() > 0) {
+    say(
+        fmt::format("{}: {} damaged; their points were removed or left out, and are answered again "
+                    "by the same command",
+                    file, counted(store.n_damaged(), "row")));
+  }
+  if (outcome.n_refused > 0) {
+    say(fmt::format(
+        "{} of the {} points answered now {} refused: they lie outside the model (column "
+        "failure says why)",
+        outcome.n_refused, outcome.n_answered, outcome.n_refused == 1 ? "is" : "are"));
+  }
+  if (outcome.n_failed > 0) {
+    say(
+        fmt::format("{} points failed and have no answer: {}. The same command tries those again "
+                    "that failed for memory or disk; add --retry-failed for the others",
+                    outcome.n_failed, outcome.first_failure));
+  } else if (const std::int64_t before = store.count(PointKind::kError); before > 0) {
+    say(
+        fmt::format("{} points have no answer because the program failed on them; --retry-failed "
+                    "answers them again",
+                    before));
+  }
 }
 
 }  // namespace
@@ -104,28 +142,42 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
     throw UsageError("--merge takes over points and answers none; leave --shard out");
   }
   if (asked.out) refuse_folder_as_file("out", *asked.out);
-  if (asked.csv) refuse_existing(*asked.csv, asked.overwrite);
+  if (asked.csv) {
+    refuse_existing(*asked.csv, asked.overwrite);
+    refuse_existing(*asked.csv + ".inputs.json", asked.overwrite);
+  }
   const Plausible judged = given_plausible(syntax, Plausible::kScene);
   const Study study = read_study(path);
   // A mistake in the study or its scene is reported here, not once for each point.
   check_values(study, judged);
   const std::string file =
       asked.out.value_or(std::filesystem::path(path).stem().string() + ".sqlite");
-  StudyStore store(file, study);
+  const bool answers = asked.merge.empty();
+  StoreOptions how{.accepts_unrecorded = asked.accepts_unrecorded,
+                   .retries_failed = asked.retries_failed,
+                   .is_answering = answers};
+  how.on_gone = [&streams](const std::string& why) { streams.err << "viscard: " + why + "\n"; };
+  StudyStore store(file, study, how);
   StudyOutcome outcome{.n_points = count_points(study)};
   std::int64_t merged = 0;
   if (!asked.merge.empty()) {
-    for (const std::string& part : asked.merge) merged += store.merge(part, study);
+    for (const std::string& part : asked.merge) merged += store.merge(part, study, how);
   } else {
     Progress progress(streams, "sweep");
-    outcome = program.run({study, shard, store, [&](double done) { progress.show(done, ""); }, judged});
+    outcome =
+        program.run({study, shard, store, [&](double done) { progress.show(done, ""); }, judged});
   }
-  if (asked.csv) write_file(*asked.csv, csv_from_study(store, study), asked.overwrite);
+  if (asked.csv) {
+    write_file(*asked.csv, csv_from_study(store, study), asked.overwrite);
+    write_file(*asked.csv + ".inputs.json",
+               json_from_inputs(study.inputs, store.has_recorded_inputs()), asked.overwrite);
+  }
   const auto n_done = static_cast<std::int64_t>(store.done().size());
   const JsonHead head{"viscard-sweep/1", {path}};
   const auto show = [&](ResultVisitor& v) { show_sweep(v, outcome, file, merged, n_done); };
-  const int status =
-      outcome.n_answered > 0 && outcome.n_failed == outcome.n_answered ? kFailed : kDone;
+  const bool is_all_refused = outcome.n_answered > 0 && outcome.n_refused == outcome.n_answered;
+  const int status = outcome.n_failed > 0 || is_all_refused ? kFailed : kDone;
+  print_doubts(outcome, store, file, streams);
   if (print_result(syntax, head, show, streams)) return status;
   FittedText text(streams);
   static_cast<std::ostream&>(text) << words_of(outcome, file, merged, n_done);

@@ -1,12 +1,17 @@
 #include "io/flow/sweep/run_study.h"
 
+#include "io/basics/failure_text.h"
+#include "io/basics/missing_file.h"
 #include "io/basics/parallel.h"
 #include "io/flow/scenes/answer_scene.h"
 #include "io/scenes/scene_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <mutex>
+#include <new>
 #include <stdexcept>
+#include <system_error>
 
 namespace viscard {
 
@@ -31,24 +36,69 @@ void check_values(const Study& study, Plausible judged) {
       try {
         scene_from_toml(scene_text_with(study, values), study.scene_path, {}, judged);
       } catch (const BadNumber& error) {
-        throw BadNumber(study.path.string() + ": parameter '" + values[k].first +
-                                 "' cannot be \"" + text + "\" (" + error.what() + ")");
+        throw BadNumber(study.path.string() + ": parameter '" + values[k].first + "' cannot be \"" +
+                        text + "\" (" + error.what() + ")");
       } catch (const std::exception&) {  // perhaps right beside other values
       }
     }
   }
 }
 
+namespace {
+
+// Throws if a file is not what it was when the study was read.
+void refuse_changed_inputs(const Study& study, const std::vector<InputFile>& files) {
+  for (const InputFile& file : files) {
+    const std::string name = input_name(study, file.path);
+    for (const InputFile& known : study.inputs) {
+      if (known.path != name || known.sha256 == file.sha256) continue;
+      throw std::system_error(std::make_error_code(std::errc::operation_canceled),
+                              name + " has changed while the sweep ran");
+    }
+  }
+}
+
+bool has_all_inputs(const Study& study) {
+  const std::filesystem::path folder = std::filesystem::absolute(study.path).parent_path();
+  return std::all_of(study.inputs.begin(), study.inputs.end(),
+                     [&](const InputFile& file) { return is_readable(folder / file.path); });
+}
+
+// What a program cannot answer for lack of memory or disk may be answered tomorrow. What the models refuse
+// in words would be refused again: those errors are std::runtime_error and std::invalid_argument.
+PointKind kind_of_failure(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return PointKind::kPassing;
+  if (dynamic_cast<const std::length_error*>(&error) != nullptr) return PointKind::kPassing;
+  if (dynamic_cast<const std::system_error*>(&error) != nullptr) return PointKind::kPassing;
+  if (dynamic_cast<const std::runtime_error*>(&error) != nullptr) return PointKind::kRefused;
+  if (dynamic_cast<const std::invalid_argument*>(&error) != nullptr) return PointKind::kRefused;
+  if (dynamic_cast<const std::domain_error*>(&error) != nullptr) return PointKind::kRefused;
+  return PointKind::kError;
+}
+
+}  // namespace
+
 StudyPoint answer_point(const Study& study, std::int64_t number, Plausible judged) {
   StudyPoint point{.point = number, .values = values_at(study, number)};
+  const InputRecorder recorder(InputRecorder::Of::kThread);
   try {
     const SceneFile file =
         scene_from_toml(scene_text_with(study, point.values), study.scene_path, {}, judged);
+    refuse_changed_inputs(study, recorder.files());
     point.results = named_values(answer_scene(file, study.scene_path.string(), {}));
   } catch (const std::exception& error) {
-    point.failure = error.what();
+    point.kind = has_all_inputs(study) ? kind_of_failure(error) : PointKind::kPassing;
+    point.failure = failure_text(error, "this point");
   }
   return point;
+}
+
+void count_point(const StudyPoint& point, StudyOutcome& outcome) {
+  const bool is_failure = point.kind == PointKind::kError || point.kind == PointKind::kPassing;
+  if (point.kind == PointKind::kRefused) ++outcome.n_refused;
+  if (is_failure) ++outcome.n_failed;
+  if (is_failure && outcome.first_failure.empty()) outcome.first_failure = point.failure;
+  if (point.kind != PointKind::kPassing) ++outcome.n_answered;
 }
 
 StudyShard shard_from(const std::string& text) {
@@ -86,14 +136,13 @@ StudyOutcome run_study(const Study& study, const StudyShard& shard, StudyStore& 
   StudyOutcome outcome;
   const std::vector<std::int64_t> open = open_points(study, shard, store, outcome);
   std::mutex mutex;
+  std::size_t n_tried = 0;
   for_each_in_parallel(open.size(), [&](std::size_t i) {
     const StudyPoint point = answer_point(study, open[i], judged);
     const std::lock_guard<std::mutex> lock(mutex);
     store.add(point);
-    ++outcome.n_answered;
-    if (!point.failure.empty()) ++outcome.n_failed;
-    if (progress)
-      progress(static_cast<double>(outcome.n_answered) / static_cast<double>(open.size()));
+    count_point(point, outcome);
+    if (progress) progress(static_cast<double>(++n_tried) / static_cast<double>(open.size()));
   });
   return outcome;
 }

@@ -23,7 +23,9 @@ struct StudyOutcome {
   std::int64_t n_points = 0;    // of the study
   std::int64_t n_answered = 0;  // now
   std::int64_t n_before = 0;    // of this shard, done before
-  std::int64_t n_failed = 0;    // of those answered now
+  std::int64_t n_refused = 0;   // of those answered now: outside the model
+  std::int64_t n_failed = 0;    // of those tried now: by memory, disk or an error of the program
+  std::string first_failure;    // of these
 };
 
 // Reads the scene at every value of every parameter. Throws std::runtime_error naming the parameter and
@@ -31,7 +33,11 @@ struct StudyOutcome {
 // combinations contradict stays with their points.
 void check_values(const Study& study, Plausible judged = Plausible::kScene);
 
-// The scene's answer at one point, or the reason why there is none.
+// Counts a point that was tried.
+void count_point(const StudyPoint& point, StudyOutcome& outcome);
+
+// The scene's answer at one point, or the reason why there is none. A file that is not what it was when
+// the study was read counts as a passing failure.
 StudyPoint answer_point(const Study& study, std::int64_t number,
                         Plausible judged = Plausible::kScene);
 

@@ -4,6 +4,7 @@
 #include "io/basics/number_text.h"
 #include "io/config/config_fields.h"
 #include "io/config/toml_text.h"
+#include "io/scenes/scene_file.h"
 #include "models/maths/text_of_number.h"
 #include "models/uncertainty/sobol_points.h"
 
@@ -127,9 +128,37 @@ void set_key(toml::table& root, const std::string& key, const std::string& value
   }
 }
 
+// A value that is no number may name a file.
+bool may_name_file(const std::string& value) {
+  const auto number = split(value);
+  return !number || number->unit.find_first_of("./") != std::string::npos;  // "1to10.json"
+}
+
+// Reads the scene at the first point, and at every value that may name a file. What is wrong with the
+// scene is reported by check_values().
+void record_scene_files(const Study& study) {
+  const auto read = [&](const StudyValues& values) {
+    try {
+      scene_from_toml(scene_text_with(study, values), study.scene_path, {}, Plausible::kOff);
+    } catch (const std::exception&) {
+    }
+  };
+  const StudyValues first = values_at(study, 0);
+  read(first);
+  for (std::size_t k = 0; k < study.parameters.size(); ++k) {
+    for (const std::string& value : study.parameters[k].values) {
+      if (!may_name_file(value)) continue;
+      StudyValues values = first;
+      values[k].second = value;
+      read(values);
+    }
+  }
+}
+
 }  // namespace
 
 Study read_study(const std::filesystem::path& path) {
+  const InputRecorder recorder(InputRecorder::Of::kThread);
   Study study{.path = path};
   std::string scene;
   const std::string text = read_file(path);
@@ -159,6 +188,10 @@ Study read_study(const std::filesystem::path& path) {
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       study.sobol.emplace_back(points.row(i).begin(), points.row(i).end());
     }
+  }
+  record_scene_files(study);
+  for (const InputFile& file : recorder.files()) {
+    study.inputs.push_back({input_name(study, file.path), file.sha256});
   }
   return study;
 }
@@ -204,9 +237,32 @@ std::string scene_text_with(const std::string& scene, const std::filesystem::pat
   return text.str();
 }
 
+std::string input_name(const Study& study, const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(study.path, error).parent_path();
+  const fs::path full = fs::weakly_canonical(file, error);
+  const fs::path name = full.lexically_relative(folder);
+  return name.empty() ? file.string() : name.string();
+}
+
+std::string fingerprint_with_inputs(const Study& study) {
+  std::string text;
+  for (const InputFile& file : study.inputs) text += file.sha256 + "\n";
+  return fingerprint(study) + " inputs " + sha256_of_text(text);
+}
+
 std::string fingerprint(const Study& study) {
-  return "viscard " VISCARD_VERSION " study " + sha256_of_file(study.path) + " scene " +
-         sha256_of_file(study.scene_path);
+  const auto sum_of = [&](const std::filesystem::path& file) {
+    const std::string name = input_name(study, file);
+    for (const InputFile& one : study.inputs) {
+      if (one.path == name)
+        return one.sha256;  // of what was read, even if the file has changed since
+    }
+    return sha256_of_file(file);
+  };
+  return "viscard " VISCARD_VERSION " study " + sum_of(study.path) + " scene " +
+         sum_of(study.scene_path);
 }
 
 }  // namespace viscard

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "io/basics/inputs.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -27,6 +29,9 @@ struct Study {
   std::vector<StudyParameter> parameters;
   std::int64_t n_points = 0;               // of a Sobol' sequence; 0: a grid
   std::vector<std::vector<double>> sobol;  // shares of the ranges, 0 to 1, by point
+  // The study, its scene and every file that the scene names at any value of a parameter. Names are
+  // relative to the folder of the study, so that they are the same on another machine.
+  std::vector<InputFile> inputs;
 };
 
 // Studies are TOML:
@@ -51,7 +56,12 @@ std::string scene_text_with(const std::string& scene, const std::filesystem::pat
 // The same of the study's scene.
 std::string scene_text_with(const Study& study, const StudyValues& values);
 
-// Changes with everything that answers depend on: study, scene, version of viscard.
+// Changes with study, scene and version of viscard.
 std::string fingerprint(const Study& study);
+// One line that changes with everything that answers depend on: also with the files that the scene names.
+std::string fingerprint_with_inputs(const Study& study);
+
+// The name of a file in Study::inputs.
+std::string input_name(const Study& study, const std::filesystem::path& file);
 
 }  // namespace viscard

@@ -1,14 +1,25 @@
 #include "io/flow/sweep/study_store.h"
 
 #include "io/basics/json_string.h"
+#include "io/basics/missing_file.h"
+#include "io/capture/capture_header.h"
+#include "io/capture/row_checksum.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sqlite3.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <fstream>
+#include <iterator>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 
@@ -17,11 +28,38 @@ namespace {
 
 const char* const kTables =
     "CREATE TABLE IF NOT EXISTS study (fingerprint TEXT NOT NULL);"
+    "CREATE TABLE IF NOT EXISTS inputs (path TEXT NOT NULL, sha256 TEXT NOT NULL);"
     "CREATE TABLE IF NOT EXISTS points (point INTEGER PRIMARY KEY, parameters TEXT NOT NULL, "
-    "results TEXT NOT NULL, failure TEXT NOT NULL);";
+    "results TEXT NOT NULL, failure TEXT NOT NULL, kind TEXT, crc32 INTEGER);";
 
 const char* const kInsert =
-    "INSERT OR IGNORE INTO points (point, parameters, results, failure) VALUES (?, ?, ?, ?)";
+    "INSERT OR IGNORE INTO points (point, parameters, results, failure, kind, crc32) "
+    "VALUES (?, ?, ?, ?, ?, ?)";
+
+constexpr const char* kKindWords[] = {"answered", "refused", "failed", "passing"};
+
+const char* word_of(PointKind kind) {
+  return kKindWords[static_cast<std::size_t>(kind)];
+}
+
+// Rows of before there were kinds have none.
+PointKind kind_from(const std::string& word, const std::string& failure) {
+  for (std::size_t i = 0; i < std::size(kKindWords); ++i) {
+    if (word == kKindWords[i]) return static_cast<PointKind>(i);
+  }
+  return failure.empty() ? PointKind::kAnswered : PointKind::kError;
+}
+
+// Of the columns of a row, from the first to `kind`.
+std::int64_t checksum_of(std::int64_t point, const std::string& parameters,
+                         const std::string& results, const std::string& failure,
+                         const std::string& kind) {
+  RowChecksum sum;
+  for (const std::string& text : {std::to_string(point), parameters, results, failure, kind}) {
+    sum.add(std::to_string(text.size()) + ":" + text);
+  }
+  return sum.crc32();
+}
 
 // SQLite does not wait when a journal becomes a WAL while another program opens the file as well.
 void write_ahead(Database& database) {
@@ -37,27 +75,134 @@ void write_ahead(Database& database) {
   }
 }
 
-Database opened(const std::filesystem::path& path, const Study& study) {
+// What an SQLite file without the tables of a store is.
+[[noreturn]] void refuse_other_file(const std::filesystem::path& path) {
+  const bool is_capture = looks_like_capture(path) && path.extension() == ".viscap";
+  throw std::runtime_error(
+      path.string() +
+      (is_capture ? " is a capture" : " is an SQLite database, but not the points of a study") +
+      "; it was not changed. Name another file with --out");
+}
+
+// Looks into an existing file without changing it.
+void refuse_other_kind(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) {
     throw std::runtime_error(path.string() + ": is a folder; name a file in it, such as " +
                              (path / "points.sqlite").string());
   }
+  std::error_code ignored;
+  if (!std::filesystem::exists(path) || std::filesystem::file_size(path, ignored) == 0) return;
+  Database database(path, Database::Access::kReadOnly);
+  if (database.text_of("PRAGMA application_id") != "0") refuse_other_file(path);
+  const std::string n_tables = database.text_of("SELECT count(*) FROM sqlite_schema");
+  const std::string n_own = database.text_of(
+      "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('study', 'points')");
+  if (!database.first_foreign_object().empty()) refuse_other_file(path);
+  // A file without any table is a store that is just being made.
+  if (n_tables != "0" && n_own != "2") refuse_other_file(path);
+}
+
+void refuse_damage(Database& database, const std::filesystem::path& path) {
+  const std::string found = database.text_of("PRAGMA quick_check(1)");
+  if (found == "ok") return;
+  throw std::runtime_error(path.string() + " is damaged (" + found +
+                           "); use a copy of it, or remove it and answer the points again");
+}
+
+bool has_table(Database& database, const char* name) {
+  Statement found = database.prepare("SELECT 1 FROM sqlite_schema WHERE name = ?");
+  found.bind(1, std::string_view(name));
+  return found.step();
+}
+
+bool has_column(Database& database, const char* name) {
+  Statement found = database.prepare("SELECT 1 FROM pragma_table_info('points') WHERE name = ?");
+  found.bind(1, std::string_view(name));
+  return found.step();
+}
+
+// The first file that is not what it was, for a message; empty: all are.
+std::string changed_input(Database& database, const Study& study) {
+  std::map<std::string, std::string> kept, now;
+  Statement row = database.prepare("SELECT path, sha256 FROM inputs");
+  while (row.step()) kept[row.text(0)] = row.text(1);
+  for (const InputFile& file : study.inputs) now[file.path] = file.sha256;
+  for (const auto& [name, sum] : now) {
+    const auto old = kept.find(name);
+    if (old == kept.end()) return name + " was not read then";
+    if (old->second != sum) {
+      return name + " has changed since (SHA-256 " + old->second.substr(0, 8) + "... then, " +
+             sum.substr(0, 8) + "... now)";
+    }
+  }
+  for (const auto& [name, sum] : kept) {
+    if (now.count(name) == 0) return name + " is not read any more";
+  }
+  return {};
+}
+
+// Throws if the points are of another study or other files. Returns whether the inputs are recorded.
+bool check_study(Database& database, const std::filesystem::path& path, const Study& study,
+                 const StoreOptions& options) {
+  if (database.text_of("SELECT fingerprint FROM study LIMIT 1") != fingerprint(study)) {
+    throw std::runtime_error(path.string() +
+                             ": holds points of another study, scene or version of viscard; name "
+                             "another file with --out, or remove this one");
+  }
+  const bool is_recorded =
+      has_table(database, "inputs") && database.text_of("SELECT count(*) FROM inputs") != "0";
+  if (!is_recorded) {
+    if (options.accepts_unrecorded) return false;
+    throw std::runtime_error(
+        path.string() +
+        ": inputs not recorded: it was written before stores stated the files that their points "
+        "were answered with, such as materials. Name another file with --out, or, if none of them "
+        "has changed, go on with --accept-unrecorded");
+  }
+  const std::string changed = changed_input(database, study);
+  if (changed.empty()) return true;
+  throw std::runtime_error(path.string() + ": its points were answered with other files: " +
+                           changed + ". Name another file with --out, or remove this one");
+}
+
+void create_tables(Database& database, const Study& study) {
+  database.execute(kTables);
+  Statement keep = database.prepare("INSERT INTO study (fingerprint) VALUES (?)");
+  keep.run_with(std::string_view(fingerprint(study)));
+  Statement input = database.prepare("INSERT INTO inputs VALUES (?, ?)");
+  for (const InputFile& file : study.inputs) {
+    input.run_with(std::string_view(file.path), std::string_view(file.sha256));
+  }
+}
+
+Database opened(const std::filesystem::path& path, const Study& study, const StoreOptions& options,
+                bool& is_recorded) {
+  refuse_other_kind(path);
   if (!std::filesystem::exists(path)) std::ofstream(path).flush();
   Database database(path, Database::Access::kReadWrite);
   database.execute("PRAGMA busy_timeout = 10000;");
   write_ahead(database);
   database.execute("PRAGMA synchronous = NORMAL;");
-  database.execute(kTables);
-  const std::string own = fingerprint(study);
-  const std::string found = database.text_of("SELECT fingerprint FROM study LIMIT 1");
-  if (found.empty()) {
-    Statement keep = database.prepare("INSERT INTO study (fingerprint) VALUES (?)");
-    keep.run_with(std::string_view(own));
-  } else if (found != own) {
-    throw std::runtime_error(path.string() +
-                             ": holds points of another study, scene or version of viscard; name "
-                             "another file with --out, or remove this one");
+  refuse_damage(database, path);
+  database.execute("BEGIN IMMEDIATE");  // of two programs that create the file one comes first
+  if (!has_table(database, "study")) create_tables(database, study);
+  is_recorded = check_study(database, path, study, options);
+  for (const auto& [name, type] : {std::pair{"kind", "TEXT"}, std::pair{"crc32", "INTEGER"}}) {
+    const std::string add = std::string("ALTER TABLE points ADD COLUMN ") + name + " " + type;
+    if (!has_column(database, name)) database.execute(add.c_str());
   }
+  database.execute("COMMIT");
+  return database;
+}
+
+Database opened_to_read(const std::filesystem::path& path, const Study& study,
+                        const StoreOptions& options) {
+  if (!std::filesystem::exists(path)) throw std::runtime_error(path.string() + ": no such file");
+  refuse_other_kind(path);
+  Database database(path, Database::Access::kReadOnly);
+  refuse_damage(database, path);
+  if (!has_table(database, "study")) refuse_other_file(path);
+  check_study(database, path, study, options);
   return database;
 }
 
@@ -93,9 +238,34 @@ StudyPoint point_from(std::int64_t number, const nlohmann::ordered_json& values,
   return point;
 }
 
+constexpr const char* kColumns = "point, parameters, results, failure, kind, crc32";
+
+// Of a row with these columns. Rows of before there were checksums have none.
+bool is_sound(const Statement& row) {
+  if (!row.maybe_number(5)) return row.text(4).empty();
+  return checksum_of(row.integer(0), row.text(1), row.text(2), row.text(3), row.text(4)) ==
+         row.integer(5);
+}
+
 StudyPoint point_in(const Statement& row) {
-  return point_from(row.integer(0), ordered_json_from_text(row.text(1)),
-                    ordered_json_from_text(row.text(2)), row.text(3));
+  StudyPoint point = point_from(row.integer(0), ordered_json_from_text(row.text(1)),
+                                ordered_json_from_text(row.text(2)), row.text(3));
+  point.kind = kind_from(row.text(4), point.failure);
+  return point;
+}
+
+std::string columns_of(Database& database) {
+  return has_column(database, "crc32") ? kColumns
+                                       : "point, parameters, results, failure, NULL, NULL";
+}
+
+std::vector<std::int64_t> damaged_rows(Database& database) {
+  std::vector<std::int64_t> damaged;
+  Statement row = database.prepare(("SELECT " + columns_of(database) + " FROM points").c_str());
+  while (row.step()) {
+    if (!is_sound(row)) damaged.push_back(row.integer(0));
+  }
+  return damaged;
 }
 
 std::string quoted(std::string text) {
@@ -108,23 +278,41 @@ std::string quoted(std::string text) {
 }  // namespace
 
 std::string bytes_from_point(const StudyPoint& point) {
-  const auto bytes = nlohmann::ordered_json::to_cbor(
-      {point.point, json_from(point.values), json_from(point.results), point.failure});
+  const auto bytes = nlohmann::ordered_json::to_cbor({point.point, json_from(point.values),
+                                                      json_from(point.results), point.failure,
+                                                      static_cast<int>(point.kind)});
   return {bytes.begin(), bytes.end()};
 }
 
 StudyPoint point_from_bytes(const std::string& bytes) {
   try {
     const auto parts = nlohmann::ordered_json::from_cbor(bytes);
-    return point_from(parts.at(0).get<std::int64_t>(), parts.at(1), parts.at(2),
-                      parts.at(3).get<std::string>());
+    StudyPoint point = point_from(parts.at(0).get<std::int64_t>(), parts.at(1), parts.at(2),
+                                  parts.at(3).get<std::string>());
+    point.kind = kind_from(kKindWords[parts.at(4).get<std::size_t>() % std::size(kKindWords)], "");
+    return point;
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error("an answer of a point arrived damaged: " + std::string(error.what()));
   }
 }
 
-StudyStore::StudyStore(const std::filesystem::path& path, const Study& study)
-    : database_(opened(path, study)), insert_(database_.prepare(kInsert)) {}
+StudyStore::StudyStore(const std::filesystem::path& path, const Study& study,
+                       const StoreOptions& options)
+    : lock_(options.is_answering ? std::optional<StudyLock>(std::in_place, path, options.on_gone)
+                                 : std::nullopt),
+      database_(opened(path, study, options, has_recorded_inputs_)),
+      insert_(database_.prepare(kInsert)) {
+  Statement forget = database_.prepare("DELETE FROM points WHERE point = ?");
+  for (const std::int64_t point : damaged_rows(database_)) {
+    forget.run_with(point);
+    ++n_damaged_;
+  }
+  // Rows of before there were kinds have failed if they state a reason.
+  if (options.retries_failed) {
+    database_.execute(
+        "DELETE FROM points WHERE kind = 'failed' OR (kind IS NULL AND failure <> '')");
+  }
+}
 
 std::set<std::int64_t> StudyStore::done() {
   std::set<std::int64_t> points;
@@ -133,11 +321,20 @@ std::set<std::int64_t> StudyStore::done() {
   return points;
 }
 
+std::int64_t StudyStore::count(PointKind kind) {
+  std::int64_t n = 0;
+  for_each([&](const StudyPoint& point) { n += point.kind == kind ? 1 : 0; });
+  return n;
+}
+
 void StudyStore::add(const StudyPoint& point) {
+  if (lock_) lock_->check_file();
+  if (point.kind == PointKind::kPassing) return;
   const std::string values = text_from_json(json_from(point.values)),
-                    results = text_from_json(json_from(point.results));
+                    results = text_from_json(json_from(point.results)), kind = word_of(point.kind);
   insert_.run_with(point.point, std::string_view(values), std::string_view(results),
-                   std::string_view(point.failure));
+                   std::string_view(point.failure), std::string_view(kind),
+                   checksum_of(point.point, values, results, point.failure, kind));
 }
 
 void StudyStore::add(const std::vector<StudyPoint>& points) {
@@ -146,25 +343,84 @@ void StudyStore::add(const std::vector<StudyPoint>& points) {
   database_.execute("COMMIT");
 }
 
-std::int64_t StudyStore::merge(const std::filesystem::path& other, const Study& study) {
-  if (!std::filesystem::exists(other)) throw std::runtime_error(other.string() + ": no such file");
-  StudyStore from(other, study);
+std::int64_t StudyStore::merge(const std::filesystem::path& other, const Study& study,
+                               const StoreOptions& options) {
+  Database from = opened_to_read(other, study, options);
   const std::set<std::int64_t> here = done();
   std::int64_t taken = 0;
+  std::size_t n_damaged = 0;
   database_.execute("BEGIN");
-  from.for_each([&](const StudyPoint& point) {
-    if (here.count(point.point) > 0) return;
-    add(point);
+  Statement row =
+      from.prepare(("SELECT " + columns_of(from) + " FROM points ORDER BY point").c_str());
+  while (row.step()) {
+    if (!is_sound(row)) {
+      ++n_damaged;
+      continue;
+    }
+    if (here.count(row.integer(0)) > 0) continue;
+    add(point_in(row));
     ++taken;
-  });
+  }
   database_.execute("COMMIT");
+  n_damaged_ += n_damaged;
   return taken;
 }
 
 void StudyStore::for_each(const std::function<void(const StudyPoint&)>& take) {
-  Statement rows =
-      database_.prepare("SELECT point, parameters, results, failure FROM points ORDER BY point");
-  while (rows.step()) take(point_in(rows));
+  const std::string sql = "SELECT " + std::string(kColumns) + " FROM points ORDER BY point";
+  Statement rows = database_.prepare(sql.c_str());
+  while (rows.step()) {
+    if (is_sound(rows)) take(point_in(rows));
+  }
+}
+
+StudyLock::StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone)
+    : path_(std::move(path)), on_gone_(std::move(on_gone)) {
+  refuse_other_kind(path_);
+  fd_ = ::open(path_.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (fd_ < 0) return;  // the store reports why
+  if (::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(fd_);
+    throw std::runtime_error(
+        path_.string() +
+        ": another sweep is answering its points; wait for it to end, then the same command goes "
+        "on. "
+        "To share the work, give each a file of its own with --shard, and --merge them");
+  }
+  watch_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+}
+
+StudyLock::~StudyLock() {
+  watch_ = {};
+  if (fd_ >= 0) ::close(fd_);
+}
+
+std::string StudyLock::why_gone() const {
+  const std::string why = fd_ < 0 ? std::string() : why_file_is_gone(fd_, path_);
+  if (why.empty()) return {};
+  return path_.string() + " " + why + " while its points were answered; the sweep stops here" +
+         (why.rfind("was moved", 0) == 0
+              ? ". The points are in that file together with " + path_.string() +
+                    "-wal: give both the same name again, then go on"
+              : ", and the points in it are lost");
+}
+
+void StudyLock::watch(const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::unique_lock<std::mutex> lock(mutex);
+  while (!wake.wait_for(lock, stop, std::chrono::milliseconds(300), [] { return false; })) {
+    if (stop.stop_requested()) return;
+    const std::string why = why_gone();
+    if (why.empty()) continue;
+    if (on_gone_) on_gone_(why);
+    return;
+  }
+}
+
+void StudyLock::check_file() const {
+  const std::string why = why_gone();
+  if (!why.empty()) throw std::runtime_error(why);
 }
 
 std::string csv_from_study(StudyStore& store, const Study& study) {

@@ -6,11 +6,22 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace viscard {
+
+// What became of a point.
+enum class PointKind {
+  kAnswered,
+  kRefused,  // outside the model: an answer as well, which would be the same again
+  kError,    // an error of the program; --retry-failed answers it again
+  kPassing,  // memory, disk or a file that changed: not kept, so that it is answered next time
+};
 
 // The answer of one point.
 struct StudyPoint {
@@ -18,6 +29,7 @@ struct StudyPoint {
   StudyValues values;
   std::vector<NamedValue> results;
   std::string failure;  // why there is no answer; empty: there is
+  PointKind kind = PointKind::kAnswered;
 };
 
 // A point as bytes, for another process; the numbers are the same bit for bit.
@@ -25,25 +37,74 @@ std::string bytes_from_point(const StudyPoint& point);
 // Throws std::runtime_error if these are not the bytes of a point.
 StudyPoint point_from_bytes(const std::string& bytes);
 
+// How a store is opened.
+struct StoreOptions {
+  // Go on with a store of before 2026-12, which does not state the files that its points were answered
+  // with.
+  bool accepts_unrecorded = false;
+  bool retries_failed = false;  // forget points of kind kError, so that they are answered again
+  // Points will be answered: no other program may do that meanwhile (StudyLock). on_gone may be empty.
+  bool is_answering = false;
+  std::function<void(const std::string&)> on_gone = nullptr;
+};
+
+// Held while the points of a store are answered.
+class StudyLock {
+ public:
+  // Creates the file if there is none. Throws std::runtime_error if another program answers its points
+  // already, because both would do the same work, or if it is a file of another kind. on_gone: called once,
+  // within a second, when the file was deleted, moved or replaced; from a thread of its own.
+  StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone);
+  ~StudyLock();
+  StudyLock(const StudyLock&) = delete;
+  StudyLock& operator=(const StudyLock&) = delete;
+
+  // Throws std::runtime_error once the file is gone: answers in it would be lost.
+  void check_file() const;
+
+ private:
+  std::string why_gone() const;
+  void watch(const std::stop_token& stop);
+
+  std::filesystem::path path_;
+  std::function<void(const std::string&)> on_gone_;
+  int fd_ = -1;
+  std::jthread watch_;  // last, so that it ends first
+};
+
 // The points that are done, in an SQLite file: table `points`, one row for each, with the values of the
-// parameters and the results as JSON. A row is there as soon as add() returns, and survives kill -9; no
-// point is there twice.
+// parameters and the results as JSON, and a checksum; table `inputs`, the files that the answers depend
+// on. A row is there as soon as add() returns, and survives kill -9; no point is there twice.
 class StudyStore {
  public:
-  // Opens or creates the file. Throws std::runtime_error if it belongs to another study.
-  StudyStore(const std::filesystem::path& path, const Study& study);
+  // Opens or creates the file. Damaged rows are removed, so that their points are answered again. Throws
+  // std::runtime_error if it belongs to another study or to other inputs, or if it is a file of another
+  // kind, which is not changed.
+  StudyStore(const std::filesystem::path& path, const Study& study,
+             const StoreOptions& options = {});
+
+  // False for a store whose points may have been answered with other files.
+  bool has_recorded_inputs() const { return has_recorded_inputs_; }
+  std::size_t n_damaged() const { return n_damaged_; }  // rows that were removed
 
   std::set<std::int64_t> done();
+  // Numbers of points of one kind.
+  std::int64_t count(PointKind kind);
   void add(const StudyPoint& point);
   // The same for several points at once, which costs little more than for one: all or none are there.
   void add(const std::vector<StudyPoint>& points);
-  // Takes over the points of another file of the same study that are not here yet; returns their number.
-  std::int64_t merge(const std::filesystem::path& other, const Study& study);
+  // Takes over the points of another file of the same study and inputs that are not here yet; returns
+  // their number. The other file is not changed.
+  std::int64_t merge(const std::filesystem::path& other, const Study& study,
+                     const StoreOptions& options = {});
   // All points in their order.
   void for_each(const std::function<void(const StudyPoint&)>& take);
 
  private:
+  std::optional<StudyLock> lock_;  // first: SQLite's connection must be closed before it ends
+  bool has_recorded_inputs_ = true;
   Database database_;
+  std::size_t n_damaged_ = 0;
   Statement insert_;
 };
 

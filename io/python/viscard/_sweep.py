@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+import warnings
 from typing import Any, Dict, List, Optional, Sequence, Union
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from . import _check, _core
 from ._arrays import path_of
 from ._check import OptionalPath, Path, Progress
-from ._error import Error
+from ._error import DoubtWarning, Error
 
 
 class Sweep:
@@ -29,6 +30,9 @@ class Sweep:
         Why a point has no answer; empty: it has one.
     n_points, n_answered, n_merged : int
         Of the study; of these answered, or taken over, by this call.
+    n_refused, n_failed : int
+        Of this call: points outside the model, and points that failed for memory, disk or an error of the program. Those that
+        failed for memory or disk are not kept; the same call answers them again.
 
     Examples
     --------
@@ -47,6 +51,10 @@ class Sweep:
         self.n_points: int = found["n_points"]
         self.n_answered: int = found["n_answered"]
         self.n_merged: int = found["n_merged"]
+        self.n_refused: int = found["n_refused"]
+        self.n_failed: int = found["n_failed"]
+        if self.n_failed > 0:
+            warnings.warn(f"{self.n_failed} points failed and have no answer: {found['first_failure']}", DoubtWarning, stacklevel=4)
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self.results:
@@ -64,7 +72,8 @@ class Sweep:
 
 @_check.arguments
 def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None, merge: Union[Path, Sequence[Path], None] = None,
-          plausible: str = "on", progress: Progress = None) -> Sweep:
+          plausible: str = "on", accept_unrecorded: bool = False, retry_failed: bool = False,
+          progress: Progress = None) -> Sweep:
     """Answer a scene at many values of its parameters, on all cores, as ``viscard sweep`` does.
 
     The GIL is released. Ctrl-C, or an exception of `progress`, ends it; the points that are being answered end in the background.
@@ -82,6 +91,10 @@ def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None,
         Take over the points of other parts; nothing is answered then.
     plausible : "on" or "off"
         "off" accepts values that no scene can have. All values are checked before the first point is answered.
+    accept_unrecorded : bool
+        Go on with a file of an earlier version, which does not state the materials that its points were answered with.
+    retry_failed : bool
+        Answer points again that failed by an error of the program.
     progress : function of (fraction, step)
 
     Examples
@@ -100,6 +113,7 @@ def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None,
     if file is None and parts:
         raise Error("merge needs out, the file that takes the points over", "usage")
     if file is not None:
-        return Sweep(_core.sweep(path, file, shard, parts, plausible, progress))
+        return Sweep(_core.sweep(path, file, shard, parts, plausible, accept_unrecorded, retry_failed, progress))
     with tempfile.TemporaryDirectory(prefix="viscard-", ignore_cleanup_errors=True) as own:
-        return Sweep(_core.sweep(path, os.path.join(own, "points.sqlite"), shard, parts, plausible, progress))
+        return Sweep(_core.sweep(path, os.path.join(own, "points.sqlite"), shard, parts, plausible, accept_unrecorded,
+                                 retry_failed, progress))

@@ -8,8 +8,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <future>
+#include <map>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -152,4 +155,215 @@ TEST_CASE("answers of a study cannot be kept in a folder, in no folder or in ano
   const std::string table = files.scene.beside("table.csv");
   write_file(table, "time_s,force_N\n0,1\n", false);
   CHECK(error_with(table).find("is not an SQLite database") != std::string::npos);
+}
+
+namespace {
+
+const char* const kFilmScene = R"(tolerance = 1e-2
+[geometry]
+diameter = "40 um"
+length = "120 um"
+[materials]
+pillar = { file = "rubber.json" }
+[analysis]
+kind = "static"
+load = { pressure = "1 kPa", on = "top" }
+[want]
+quantities = ["top_displacement"]
+)";
+
+const char* const kFilmStudy = R"(scene = "scene.toml"
+[[parameter]]
+key = "geometry.diameter"
+values = ["36 um", "40 um"]
+[[parameter]]
+key = "materials.pillar.file"
+values = ["rubber.json", "other.json"]
+)";
+
+std::string rubber(double E0_Pa) {
+  return "{\"schema\": \"viscard-material/1\", \"E0_Pa\": " + std::to_string(E0_Pa) +
+         ", \"nu\": 0.4, \"terms\": []}\n";
+}
+
+// A study whose scene names materials.
+struct FilmStudy {
+  SceneText scene{kFilmScene};
+  std::string study = scene.beside("study.toml"), store = scene.beside("a.sqlite"),
+              first = scene.beside("rubber.json"), second = scene.beside("other.json");
+  FilmStudy() {
+    write_file(study, kFilmStudy, false);
+    write_file(first, rubber(1.8e6), false);
+    write_file(second, rubber(2.5e6), false);
+  }
+  CommandOutcome sweep(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"sweep", study});
+    return run_command(words);
+  }
+};
+
+void change_store(const std::string& file, const char* sql) {
+  Database(file, Database::Access::kReadWrite).execute(sql);
+}
+
+bool says(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a sweep does not go on with points that were answered with another material",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  REQUIRE(files.sweep({"--out", files.store}).status == 0);
+  CHECK(files.sweep({"--out", files.store}).status == 0);
+  write_file(GENERATE(0, 1) == 0 ? files.first : files.second, rubber(0.9e6), true);
+  const CommandOutcome outcome = files.sweep({"--out", files.store});
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == 1);
+  CHECK(says(outcome.err, "answered with other files"));
+  CHECK(says(outcome.err, ".json has changed since"));
+}
+
+TEST_CASE("parts of a sweep that were answered with different materials are not merged",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string one = files.scene.beside("1.sqlite"), two = files.scene.beside("2.sqlite");
+  REQUIRE(files.sweep({"--out", one, "--shard", "1/2"}).status == 0);
+  write_file(files.first, rubber(0.9e6), true);
+  REQUIRE(files.sweep({"--out", two, "--shard", "2/2"}).status == 0);
+  const CommandOutcome outcome =
+      files.sweep({"--out", files.scene.beside("all.sqlite"), "--merge", one, "--merge", two});
+  CHECK(outcome.status == 1);
+  CHECK(says(outcome.err, "1.sqlite: its points were answered with other files"));
+}
+
+TEST_CASE("the table of a sweep has the sums of its inputs beside it", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string table = files.scene.beside("a.csv");
+  REQUIRE(files.sweep({"--out", files.store, "--csv", table}).status == 0);
+  const auto json = nlohmann::json::parse(read_file(table + ".inputs.json"));
+  CHECK(json["schema"] == "viscard-inputs/1");
+  CHECK(json["is_recorded"] == true);
+  std::map<std::string, std::string> sums;
+  for (const auto& file : json["files"]) sums[file["path"]] = file["sha256"];
+  CHECK(sums.size() == 4);
+  CHECK(sums["rubber.json"] == sha256_of_file(files.first));
+  CHECK(sums["other.json"] == sha256_of_file(files.second));
+  CHECK(sums.count("study.toml") == 1);
+}
+
+TEST_CASE("a store without recorded inputs goes on only if that is accepted",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  REQUIRE(files.sweep({"--out", files.store}).status == 0);
+  change_store(files.store, "DROP TABLE inputs; DELETE FROM points WHERE point > 1");
+  const CommandOutcome refused = files.sweep({"--out", files.store});
+  CHECK(refused.status == 1);
+  CHECK(says(refused.err, "inputs not recorded"));
+  const CommandOutcome outcome = files.sweep({"--out", files.store, "--accept-unrecorded"});
+  CHECK(outcome.status == 0);
+  CHECK(says(outcome.err, "inputs not recorded"));
+  CHECK(says(outcome.out, "4 of 4 points are done"));
+}
+
+TEST_CASE("refused points are counted apart from failed ones, which are tried again if asked",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  write_file(files.study, R"(scene = "scene.toml"
+[[parameter]]
+key = "materials.pillar.nu"
+values = ["0.3", "-1"]
+)",
+             true);
+  write_file(files.scene.path(),
+             replaced(kFilmScene, "{ file = \"rubber.json\" }", "{ E = \"2 MPa\", nu = 0.3 }"),
+             true);
+  const CommandOutcome outcome = files.sweep({"--out", files.store, "--json"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == 0);
+  CHECK(says(outcome.err, "1 of the 2 points answered now is refused"));
+  const auto json = nlohmann::json::parse(outcome.out);
+  CHECK(json["refused"] == 1);
+  CHECK(json["failed"] == 0);
+  CHECK(json["answered"] == 2);
+  // As if the program had failed on the first point, which --retry-failed answers again.
+  const Study study = read_study(files.study);
+  {
+    StudyStore store(files.store, study);
+    change_store(files.store, "DELETE FROM points WHERE point = 0");
+    StudyPoint failed{.point = 0, .values = values_at(study, 0)};
+    failed.failure = "an error of the program";
+    failed.kind = PointKind::kPassing;
+    store.add(failed);
+    CHECK(store.done().size() == 1);  // what may pass is not kept
+    failed.kind = PointKind::kError;
+    store.add(failed);
+  }
+  CHECK(says(files.sweep({"--out", files.store}).err, "--retry-failed"));
+  const CommandOutcome again = files.sweep({"--out", files.store, "--retry-failed"});
+  CHECK(again.status == 0);
+  CHECK(says(again.out, "1 answered now"));
+  CHECK(StudyStore(files.store, study).count(PointKind::kAnswered) == 1);
+}
+
+TEST_CASE("a damaged row of a store is not an answer", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  REQUIRE(files.sweep({"--out", files.store}).status == 0);
+  const Study study = read_study(files.study);
+  const std::string whole = [&] {
+    StudyStore store(files.store, study);
+    return csv_from_study(store, study);
+  }();
+  change_store(files.store,
+               GENERATE("UPDATE points SET results = replace(results, '1', '2') WHERE point = 1",
+                        "UPDATE points SET failure = 'x' WHERE point = 1",
+                        "UPDATE points SET kind = 'refused' WHERE point = 1",
+                        "UPDATE points SET crc32 = NULL WHERE point = 1",
+                        "UPDATE points SET point = 7 WHERE point = 1"));
+  const CommandOutcome outcome = files.sweep({"--out", files.store});
+  CHECK(outcome.status == 0);
+  CHECK(says(outcome.err, "1 row damaged"));
+  StudyStore store(files.store, study);
+  CHECK(csv_from_study(store, study) == whole);
+}
+
+TEST_CASE("a database that is not the store of a study is not changed", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string other = files.scene.beside("other.sqlite");
+  write_file(other, "", false);
+  change_store(other, GENERATE("CREATE TABLE mine(a)",
+                               "PRAGMA application_id = 0x56434150; CREATE TABLE run(a)",
+                               "CREATE TABLE study(a)"));
+  const std::string before = read_file(other);
+  const CommandOutcome outcome = files.sweep({"--out", other});
+  CHECK(outcome.status == 1);
+  CHECK(says(outcome.err, "not the points of a study; it was not changed"));
+  CHECK(read_file(other) == before);
+  CHECK(files.sweep({"--out", files.store, "--merge", other}).status == 1);
+  CHECK(read_file(other) == before);
+  CHECK_FALSE(std::filesystem::exists(other + "-wal"));
+}
+
+TEST_CASE("a second sweep into the same file is told to wait", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const StudyLock first(files.store, nullptr);
+  const CommandOutcome outcome = files.sweep({"--out", files.store});
+  CHECK(outcome.status == 1);
+  CHECK(says(outcome.err, "another sweep is answering its points; wait for it to end"));
+}
+
+TEST_CASE("a store that is deleted or moved while points are answered is noticed",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const Study study = read_study(files.study);
+  std::promise<std::string> said;
+  StudyStore store(
+      files.store, study,
+      {.is_answering = true, .on_gone = [&](const std::string& why) { said.set_value(why); }});
+  std::filesystem::rename(files.store, files.store + ".away");
+  std::future<std::string> why = said.get_future();
+  REQUIRE(why.wait_for(std::chrono::seconds(20)) == std::future_status::ready);
+  CHECK(says(why.get(), "was moved to "));
+  CHECK_THROWS_WITH(store.add(StudyPoint{}), Catch::Contains("while its points were answered"));
 }
