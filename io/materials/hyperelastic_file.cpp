@@ -123,7 +123,8 @@ HyperelasticFile hyperelastic_from_json(const std::string& text, const std::stri
                                         Plausible judged) {
   return read_as(FileKind::kRubberLaw, text, name, [&] {
     try {
-      const RubberJson json = RubberJson(parse_json(text, name));
+      const Json ordered = parse_json(text, name);
+      const RubberJson json = RubberJson(ordered);
       const RubberJson& law = chosen_law(json);
       HyperelasticFile file;
       file.law = law_from(law);
@@ -131,6 +132,7 @@ HyperelasticFile hyperelastic_from_json(const std::string& text, const std::stri
       add_moduli(law, file);
       file.is_trustworthy = law.at("trustworthy");
       for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
+      file.is_edited = is_edited(ordered);
       add_tests(json, file);
       file.accepts_implausible = judged == Plausible::kOff || says_plausible_off(json);
       if (!file.accepts_implausible) {

@@ -24,6 +24,7 @@ struct HyperelasticFile {
   double t_min_s = 0.0, t_max_s = 0.0;  // shortest step and longest test; 0: without times
   bool is_trustworthy = true;
   std::vector<std::string> defects;  // texts of its flags
+  bool is_edited = false;            // since viscard wrote it (material_json.h)
   bool accepts_implausible = false;  // the file, or who read it, says plausible = off
   // Measured stretches, in the order of Deformation; nothing where no test measured.
   struct Range {

@@ -1,3 +1,4 @@
+#include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
 #include "io/materials/material_json.h"
 
@@ -16,7 +17,7 @@ const std::set<std::string>& known_keys(const std::string& section) {
   static const std::map<std::string, std::set<std::string>> kKnown{
       {"",
        {"schema", "name", "E0_Pa", "nu", "rho_kg_m3", "terms", "T_ref_C", "valid", "uncertainty",
-        "flags", "provenance", "mixing_ratio", "specimen_id", "shift"}},
+        "flags", "provenance", "mixing_ratio", "specimen_id", "shift", "body_sha256"}},
       {"shift",
        {"law", "C1", "C2_K", "activation_J_mol", "T_ref_C", "T_min_C", "T_max_C", "C1_interval_95",
         "C2_K_interval_95", "activation_J_mol_interval_95"}},
@@ -106,11 +107,16 @@ std::string reason_of(const Json::exception& error) {
 Json parse_json(const std::string& text, const std::string& name) {
   std::vector<std::set<std::string>> keys;  // of the objects not yet closed
   std::string repeated;
+  constexpr std::size_t kLongestJsonKey = 1000;
+  bool has_long_key = false;
   bool is_deep = false;  // deeper nesting could overflow the stack when the text is written again
   const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
     is_deep = is_deep || depth > 64;
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key) {
+      has_long_key = has_long_key || parsed.get_ref<const std::string&>().size() > kLongestJsonKey;
+    }
     if (event == Json::parse_event_t::key &&
         !keys.back().insert(parsed.get<std::string>()).second) {
       repeated = parsed.get<std::string>();
@@ -126,8 +132,33 @@ Json parse_json(const std::string& text, const std::string& name) {
     throw std::runtime_error(name + ": is not JSON: " + reason_of(error));
   }
   if (is_deep) throw std::runtime_error(name + ": is nested deeper than 64 levels, the limit");
+  if (has_long_key) {
+    throw std::runtime_error(name + ": a key has more than " + std::to_string(kLongestJsonKey) +
+                             " characters, the limit");
+  }
   if (!repeated.empty()) throw std::runtime_error(name + ": key '" + repeated + "' is given twice");
   return json;
+}
+
+namespace {
+
+constexpr const char* kBodySum = "body_sha256";
+
+std::string sum_of_body(Json json) {
+  json.erase(kBodySum);
+  return sha256_of_text(text_from_json(json));
+}
+
+}  // namespace
+
+void add_body_sum(Json& json) {
+  json.erase(kBodySum);
+  json[kBodySum] = sum_of_body(json);
+}
+
+bool is_edited(const Json& json) {
+  if (!json.is_object() || !json.contains(kBodySum)) return false;
+  return json[kBodySum] != sum_of_body(json);
 }
 
 void carry_unknown_keys(const Json& original, Json& fresh) {

@@ -11,7 +11,10 @@ namespace viscard {
 MaterialFile material_from_json(const std::string& text, const std::string& name,
                                 Plausible judged) {
   MaterialFile file = read_as(FileKind::kMaterial, text, name, [&] {
-    return MaterialFile{material_from(parse_json(text, name), name), text};
+    const Json json = parse_json(text, name);
+    MaterialFile read{material_from(json, name), text};
+    if (is_edited(json)) read.material.flags.push_back({kEdited, 0, kEditedText});
+    return read;
   });
   try {
     validate(file.material);
@@ -34,6 +37,7 @@ std::string json_from_material(const MaterialFile& file) {
     carry_unknown_keys(parse_json(file.original_json, "the material it was read from"), out);
   }
   try {
+    add_body_sum(out);
     return text_from_json(out, 2) + "\n";
   } catch (const Json::exception&) {
     throw std::invalid_argument("material '" + file.material.name +

@@ -27,6 +27,16 @@ Json json_from(const Interval& interval);
 // Throws std::runtime_error unless it is a whole number that an int can hold.
 int whole_number(const Json& json);
 
+// Adds the key body_sha256: the SHA-256 of all other keys and values, so that a change by hand or by a
+// worn disk is noticed. Spaces and line breaks do not count.
+void add_body_sum(Json& json);
+// Name and text of the flag of what was changed since. A file without the key was written by hand, or by
+// an earlier version, and is not known to be changed.
+inline constexpr const char* kEdited = "edited";
+inline constexpr const char* kEditedText =
+    "the file was edited since it was written by viscard fit";
+bool is_edited(const Json& json);
+
 // Copies to `fresh` the values in `original` whose keys viscard does not know.
 void carry_unknown_keys(const Json& original, Json& fresh);
 

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/failure_text.h"
 #include "io/basics/file_kind.h"
 #include "io/basics/json_string.h"
 #include "io/materials/material_file.h"
@@ -64,8 +65,8 @@ void show_model(ResultVisitor& v, const char* key, const char* what, const Ratio
     show_form(v, model.form);
     v("n_terms", model.n_terms, "number of terms");
     v("ratios", model.ratios, "that were measured");
-    v("coefficients",
-      std::vector<double>(model.coefficients.begin(), model.coefficients.end()), "of the law");
+    v("coefficients", std::vector<double>(model.coefficients.begin(), model.coefficients.end()),
+      "of the law");
     v("covariance", model.covariance, "of the coefficients");
     show_spreads(v, "between_specimens", "standard deviations about the law",
                  spread(model.spread_ln_E0, 0), spread(model.spread_ln_g, 1),
@@ -231,6 +232,7 @@ void show_keys(ResultVisitor& v, const RatioFit& fit) {
 std::string json_from_ratio_fit(const RatioFit& fit) {
   Json out{{"schema", kSchema}};
   out.update(json_from_result(fit));
+  add_body_sum(out);
   return text_from_json(out, 2) + "\n";
 }
 
@@ -254,7 +256,7 @@ RatioFit ratio_fit_from(const std::string& text, const std::string& name) {
   } catch (const Json::exception& error) {
     throw std::runtime_error(name + ": is not a complete joint fit: " + reason_of(error));
   } catch (const std::exception& error) {
-    throw std::runtime_error(name + ": is not a valid joint fit: " + error.what());
+    throw std::runtime_error(name + ": is not a valid joint fit: " + failure_text(error, "reading it"));
   }
   if (!json.contains("common"))
     throw std::runtime_error(name +
@@ -263,6 +265,10 @@ RatioFit ratio_fit_from(const std::string& text, const std::string& name) {
   if (!fit.common.terms.empty()) {
     throw std::runtime_error(name +
                              ": common.terms: must be empty; the terms are those of the law");
+  }
+  if (is_edited(json)) {
+    fit.flags.push_back({kEdited, 0, kEditedText});
+    fit.common.flags.push_back({kEdited, 0, kEditedText});
   }
   return fit;
 }

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace viscard {
 namespace {
@@ -64,6 +66,11 @@ void validate(const Material& material) {
             "the reference temperature of the temperature shift is " +
                 text_of(material.shift->T_ref_C) + " C; T_ref_C must be given and be the same");
   }
+  constexpr std::size_t kMostTerms = 1000;  // a series of 100 decades with ten terms in each
+  if (material.terms.size() > kMostTerms) {
+    throw std::invalid_argument("the material has " + std::to_string(material.terms.size()) +
+                                " terms; at most " + std::to_string(kMostTerms) + " are taken");
+  }
   for (std::size_t i = 0; i < material.terms.size(); ++i) validate_term(material.terms[i], i + 1);
   const double sum_g = sum_of(material.terms, &MaterialTerm::g);
   validate_sum("g", sum_g, /*may_be_one=*/true);
@@ -75,7 +82,7 @@ bool is_defect(const std::string& flag_name) {
                                 "contact-lost",     "E0-unknown",     "contradicts-data",
                                 "misfit",           "modulus-rises",  "rows-lost",
                                 "law-not-a-series", "tests-disagree", "history-missing",
-                                "time-zero-doubtful"};
+                                "time-zero-doubtful", "unverified"};
   return std::find(kDefects.begin(), kDefects.end(), flag_name) != kDefects.end();
 }
 

@@ -5,6 +5,7 @@
 #include "io/cards/hyperelastic/check_rubber.h"
 #include "io/cards/hyperelastic/rubber_terms.h"
 #include "io/cards/unit_system.h"
+#include "io/materials/material_json.h"
 #include "models/hyperelastic/law_stability.h"
 #include "models/maths/text_of_number.h"
 
@@ -52,6 +53,7 @@ std::vector<std::string> header_lines(const HyperelasticFile& file,
   if (file.accepts_implausible || options.plausible == Plausible::kOff) {
     lines.push_back(kPlausibleOffText);
   }
+  if (file.is_edited) lines.push_back(std::string("note: ") + kEditedText);
   if (options.bulk_Pa) {
     lines.push_back("bulk modulus " + text_of(*options.bulk_Pa, 5) + " Pa");
     const std::string doubt = doubtful_bulk_modulus(file, options);

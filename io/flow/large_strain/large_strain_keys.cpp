@@ -4,6 +4,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
 #include "io/flow/large_strain/large_strain_files.h"
+#include "io/materials/material_json.h"
 #include "io/results/result_json.h"
 #include "models/hyperelastic/law_stability.h"
 
@@ -32,7 +33,8 @@ void show_series(ResultVisitor& v, const FittedRubber& fitted) {
          [&](const RubberOrder& order) {
            v("n_terms", order.n_terms, "number of terms");
            v("bic", order.bic, "criterion");
-           v("eligible", order.is_eligible, "it converged, and no time ended at the end of its range");
+           v("eligible", order.is_eligible,
+             "it converged, and no time ended at the end of its range");
            v("chosen", order.is_chosen, "the one that is used");
          });
 }
@@ -111,8 +113,8 @@ void show_keys(ResultVisitor& v, const FittedLargeStrain& fitted) {
   std::vector<ShownTest> tests;
   for (std::size_t i = 0; i < result.tests.size(); ++i) {
     const std::string& path = fitted.files[i].path;
-    tests.push_back({result.tests[i], path, sha256_of_file(path), times_of(fitted.tests[i]),
-                     fitted.cycles[i]});
+    tests.push_back(
+        {result.tests[i], path, sha256_of_file(path), times_of(fitted.tests[i]), fitted.cycles[i]});
   }
   v("law", name_of(best.law.form), "the chosen law");
   v("trustworthy", best.is_trustworthy, "it may be used");
@@ -125,6 +127,7 @@ void show_keys(ResultVisitor& v, const FittedLargeStrain& fitted) {
 std::string file_of_large_strain(const FittedLargeStrain& fitted) {
   nlohmann::ordered_json json{{"schema", "viscard-hyperelastic/1"}};
   json.update(json_from_result(fitted));
+  add_body_sum(json);
   return text_from_json(json, 2) + "\n";
 }
 

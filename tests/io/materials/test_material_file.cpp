@@ -1,11 +1,14 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/materials/material_file.h"
 #include "models/contact/punch_contact.h"
 #include "tests/support/error_text.h"
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -201,6 +204,77 @@ TEST_CASE("SHA-256 agrees with the examples of FIPS 180-4", "[io][sha256]") {
         "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
   CHECK(contains(error_text([&] { sha256_of_file(folder / "none"); }), "cannot open"));
   CHECK(contains(error_text([&] { sha256_of_file(folder.path()); }), "cannot read"));
+}
+
+TEST_CASE("a material file that was edited since it was written has a flag, and keeps it",
+          "[io][material]") {
+  const auto is_flagged = [](const std::string& json) {
+    const Material material = material_from_json(json, "m.json").material;
+    return std::any_of(material.flags.begin(), material.flags.end(),
+                       [](const MaterialFlag& flag) { return flag.name == "edited"; });
+  };
+  const std::string json = json_from_material(full_material());
+  CHECK(contains(json, "\"body_sha256\": \""));
+  CHECK_FALSE(is_flagged(json));
+  CHECK_FALSE(is_flagged("\n  " + json));  // spaces do not count
+  for (const auto& [from, to] : {std::pair{"0.1945", "0.1946"}, std::pair{"965.0", "966.0"},
+                                 std::pair{"too fast", "too slow"}}) {
+    std::string edited = json;
+    const std::size_t at = edited.find(from);
+    REQUIRE(at != std::string::npos);
+    edited.replace(at, std::string(from).size(), to);
+    CHECK(is_flagged(edited));
+    const std::string again = json_from_material(material_from_json(edited, "m.json"));
+    CHECK(is_flagged(again));  // also after it was written again
+  }
+}
+
+TEST_CASE("a series beyond any use is refused with the limit", "[io][material]") {
+  std::string terms;
+  for (int i = 0; i < 1001; ++i) {
+    terms += (i == 0 ? "" : ",") + ("{\"g\": 1e-4, \"tau_s\": " + std::to_string(i + 1) + "}");
+  }
+  CHECK(contains(error_of("{\"E0_Pa\": 2e6, \"nu\": 0.4, \"terms\": [" + terms + "]}"),
+                 "has 1001 terms; at most 1000"));
+  CHECK(contains(error_of("{\"" + std::string(100000, 'k') + "\": 1}"), "1000 characters"));
+}
+
+TEST_CASE("a file that is replaced keeps its rights, and links in its folder are not followed",
+          "[io][file]") {
+  namespace fs = std::filesystem;
+  const test::ScratchFolder folder;
+  const auto path = folder / "private.json";
+  write_file(path, "old", false);
+  fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
+  write_file(path, "new", true);
+  CHECK(read_file(path) == "new");
+  CHECK(fs::status(path).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+  fs::permissions(path, static_cast<fs::perms>(0666));
+  write_file(path, "newer", true);
+  CHECK(fs::status(path).permissions() == static_cast<fs::perms>(0666));
+  // Somebody has guessed the name of the temporary file.
+  const auto victim = folder / "victim";
+  write_file(victim, "untouched", false);
+  fs::create_symlink(victim, folder / (".out.json." + std::to_string(::getpid()) + ".tmp"));
+  write_file(folder / "out.json", "text", false);
+  CHECK(read_file(folder / "out.json") == "text");
+  CHECK(read_file(victim) == "untouched");
+  CHECK_FALSE(fs::is_symlink(folder / "out.json"));
+}
+
+TEST_CASE("recorded inputs have the sums of what was read", "[io][file]") {
+  const test::ScratchFolder folder;
+  write_file(folder / "a", "abc", false);
+  CHECK(provenance_of_inputs().empty());
+  const InputRecorder recorder;
+  read_file(folder / "a");
+  read_file(folder / "a");
+  read_own_file(folder / "a");
+  REQUIRE(recorder.files().size() == 1);
+  CHECK(recorder.files()[0].sha256 == sha256_of_text("abc"));
+  write_file(folder / "a", "abd", true);
+  read_file(folder / "a");
+  CHECK(provenance_of_inputs().size() == 2);  // it has changed meanwhile
 }
 
 }  // namespace
