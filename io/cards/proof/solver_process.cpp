@@ -4,17 +4,24 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -29,13 +36,122 @@ struct RunLimits {
 };
 constexpr RunLimits kRunLimits{600, std::chrono::hours(2)};
 constexpr RunLimits kVersionLimits{30, std::chrono::minutes(2)};
+// A model of one element writes a few MB. A solver that repeats a warning for ever fills the disk.
+constexpr std::uintmax_t kMostBytesOfFile = std::uintmax_t{64} << 20;
+constexpr std::uintmax_t kMostBytesOfFolder = std::uintmax_t{256} << 20;
+
+// What a solver may need from the environment. A name that ends in '*' stands for all that begin so.
+constexpr const char* kPassedOn[] = {"PATH",
+                                     "HOME",
+                                     "USER",
+                                     "LOGNAME",
+                                     "LANG",
+                                     "LC_*",
+                                     "TZ",
+                                     "PYTHON*",
+                                     "VIRTUAL_ENV",
+                                     "CONDA_PREFIX",
+                                     "LD_LIBRARY_PATH",
+                                     "OMPI_*",
+                                     "OPAL_*",
+                                     "RAD_*",
+                                     "OPENRADIOSS*",
+                                     "LM_LICENSE_FILE"};
+
+// "NAME=value" of what is passed on.
+std::vector<std::string> passed_environment(const std::filesystem::path& folder) {
+  std::vector<std::string> passed{"OMP_NUM_THREADS=1", "TMPDIR=" + folder.string()};
+  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    const std::string_view name = text.substr(0, text.find('='));
+    const bool is_passed =
+        std::any_of(std::begin(kPassedOn), std::end(kPassedOn), [&](std::string_view wanted) {
+          return wanted.ends_with('*') ? name.starts_with(wanted.substr(0, wanted.size() - 1))
+                                       : name == wanted;
+        });
+    if (is_passed) passed.emplace_back(text);
+  }
+  return passed;
+}
+
+std::atomic<int> caught_signal{0};
+
+void keep_signal(int signal) {
+  caught_signal = signal;
+}
+
+// While it lives, SIGINT, SIGTERM and SIGHUP do not end this process at once, so that solver and folder can
+// be removed; its destructor lets them end it. Signals that the program handles itself are left alone.
+class EndAfterCleaning {
+ public:
+  EndAfterCleaning() {
+    caught_signal = 0;
+    for (const int signal : kSignals) {
+      struct sigaction old {
+      }, ours{};
+      if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler != SIG_DFL) continue;
+      ours.sa_handler = keep_signal;
+      ::sigaction(signal, &ours, nullptr);
+      changed_.push_back(signal);
+    }
+  }
+  ~EndAfterCleaning() {
+    for (const int signal : changed_) ::signal(signal, SIG_DFL);
+    const int signal = caught_signal.exchange(0);
+    if (signal != 0) ::raise(signal);
+  }
+  EndAfterCleaning(const EndAfterCleaning&) = delete;
+  EndAfterCleaning& operator=(const EndAfterCleaning&) = delete;
+
+ private:
+  static constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+  std::vector<int> changed_;
+};
+
+std::uintmax_t size_of_folder(const std::filesystem::path& folder) {
+  std::uintmax_t size = 0;
+  std::error_code error;
+  for (std::filesystem::recursive_directory_iterator entry(folder, error), end;
+       !error && entry != end; entry.increment(error)) {
+    std::error_code ignored;
+    const std::uintmax_t of_file = entry->file_size(ignored);
+    if (!ignored) size += of_file;
+  }
+  return size;
+}
+
+// Folders of proofs that were ended by kill -9: "viscard-proof-PID-abcdef" of a process that is gone.
+void remove_abandoned_folders() {
+  const std::string begin = "viscard-proof-";
+  std::error_code error;
+  for (std::filesystem::directory_iterator
+           entry(std::filesystem::temp_directory_path(error), error),
+       end;
+       !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const std::size_t dash = name.find('-', begin.size());
+    if (!name.starts_with(begin) || dash == std::string::npos) continue;
+    const std::string pid = name.substr(begin.size(), dash - begin.size());
+    if (pid.empty() || pid.size() > 9 || pid.find_first_not_of("0123456789") != std::string::npos) {
+      continue;
+    }
+    struct stat folder {};
+    const bool is_own = ::lstat(entry->path().c_str(), &folder) == 0 && S_ISDIR(folder.st_mode) &&
+                        folder.st_uid == ::geteuid();
+    std::error_code ignored;
+    if (is_own && ::kill(static_cast<pid_t>(std::stol(pid)), 0) != 0 && errno == ESRCH) {
+      std::filesystem::remove_all(entry->path(), ignored);
+    }
+  }
+}
 
 // Removed with its files by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "viscard-proof-XXXXXX").string();
+    remove_abandoned_folders();
+    const std::string name = "viscard-proof-" + std::to_string(::getpid()) + "-XXXXXX";
+    std::string pattern = (std::filesystem::temp_directory_path() / name).string();
     if (::mkdtemp(pattern.data()) == nullptr) {
       throw std::runtime_error("cannot make a folder in " +
                                std::filesystem::temp_directory_path().string());
@@ -54,18 +170,32 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Runs in the child process and never returns. Everything printed is added to the file "log".
+// Runs in the child process and never returns. Everything printed is added to the file "log". The child
+// leads a process group of its own, with what it starts, and ends when the parent does.
 [[noreturn]] void become(const std::vector<std::string>& command,
-                         const std::filesystem::path& folder, const RunLimits& limits) {
+                         const std::filesystem::path& folder, const RunLimits& limits,
+                         pid_t parent) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(126);  // it has ended already
+  for (const int signal : {SIGXFSZ, SIGPIPE, SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
   if (::chdir(folder.c_str()) != 0) ::_exit(126);
   const int log = ::open("log", O_WRONLY | O_CREAT | O_APPEND, 0644);
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(log, STDOUT_FILENO);
   ::dup2(log, STDERR_FILENO);
-  ::setenv("OMP_NUM_THREADS", "1", 1);
+  ::close_range(3, ~0U, 0);
   const rlimit processor{limits.processor_s, limits.processor_s + 1};
   ::setrlimit(RLIMIT_CPU, &processor);
+  const rlimit file{kMostBytesOfFile, kMostBytesOfFile}, core{0, 0};
+  ::setrlimit(RLIMIT_FSIZE, &file);
+  ::setrlimit(RLIMIT_CORE, &core);
+  std::vector<std::string> environment = passed_environment(folder);
+  std::vector<char*> entries;
+  for (std::string& entry : environment) entries.push_back(entry.data());
+  entries.push_back(nullptr);
+  environ = entries.data();
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
@@ -73,22 +203,44 @@ class TemporaryFolder {
   ::_exit(127);
 }
 
-// The status of waitpid, or nothing if it took too long and was stopped.
+[[noreturn]] void fail_of_size(const std::string& program) {
+  throw std::runtime_error(
+      program + " wrote more than " + std::to_string(kMostBytesOfFile >> 20) +
+      " MiB into a file, or " + std::to_string(kMostBytesOfFolder >> 20) +
+      " MiB in all, and was stopped; run the deck by hand to see its messages");
+}
+
+// The status of waitpid, or nothing if it took too long and was stopped. Nothing that it has started
+// outlives it.
 std::optional<int> status_of(const std::vector<std::string>& command,
                              const std::filesystem::path& folder, const RunLimits& limits) {
-  const pid_t child = ::fork();
+  const pid_t self = ::getpid(), child = ::fork();
   if (child < 0) throw std::runtime_error("cannot start " + command[0] + ": no process left");
-  if (child == 0) become(command, folder, limits);
+  if (child == 0) become(command, folder, limits, self);
+  ::setpgid(child, child);  // whoever comes first
   int status = 0;
+  const auto end_all = [&] {
+    ::kill(-child, SIGKILL);
+    ::kill(child, SIGKILL);
+  };
   const auto started = std::chrono::steady_clock::now();
+  auto looked = started;
   while (::waitpid(child, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() - started > limits.clock) {
-      ::kill(child, SIGKILL);
+    const auto now = std::chrono::steady_clock::now();
+    const bool looks = now - looked > std::chrono::milliseconds(200);
+    if (looks) looked = now;
+    const bool is_large = looks && size_of_folder(folder) > kMostBytesOfFolder;
+    if (now - started > limits.clock || caught_signal != 0 || is_large) {
+      end_all();
       ::waitpid(child, &status, 0);
+      if (is_large) fail_of_size(command[0]);
+      if (caught_signal != 0) throw std::runtime_error(command[0] + " was stopped by a signal");
       return std::nullopt;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
+  ::kill(-child, SIGKILL);  // what it has left behind
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ) fail_of_size(command[0]);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return std::nullopt;
   return status;
 }
@@ -114,7 +266,7 @@ bool run_commands(const FoundSolver& found, const std::filesystem::path& folder)
     if (WIFEXITED(*status) && WEXITSTATUS(*status) == 127) {
       throw std::runtime_error("cannot run " + command[0] + "; " + solver.install);
     }
-    const std::string log = read_file(folder / "log");
+    const std::string log = read_own_file(folder / "log");
     const auto has = [&](const char* mark) {
       return *mark != '\0' && log.find(mark) != std::string::npos;
     };
@@ -161,6 +313,7 @@ std::vector<SolverRun> run_in_folder(const FoundSolver& found,
 
 bool run_files(const FoundSolver& found, const std::vector<DeckFile>& files,
                const std::function<void(const std::filesystem::path&)>& read) {
+  const EndAfterCleaning signals;
   const TemporaryFolder folder;
   for (const DeckFile& file : files) std::ofstream(folder.path() / file.name) << file.text;
   const bool has_finished = run_commands(found, folder.path());
@@ -169,12 +322,13 @@ bool run_files(const FoundSolver& found, const std::vector<DeckFile>& files,
 }
 
 std::string printed_by(const std::string& program, const std::vector<std::string>& words) {
+  const EndAfterCleaning signals;
   const TemporaryFolder folder;
   std::vector<std::string> command{program};
   command.insert(command.end(), words.begin(), words.end());
   const std::optional<int> status = status_of(command, folder.path(), kVersionLimits);
   const bool has_run = status && WIFEXITED(*status) && WEXITSTATUS(*status) != 127;
-  return has_run ? read_file(folder.path() / "log") : "";
+  return has_run ? read_own_file(folder.path() / "log") : "";
 }
 
 std::vector<SolverRun> run_solver(const FoundSolver& found, const std::vector<SolverTask>& tasks) {
