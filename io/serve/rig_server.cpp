@@ -4,6 +4,7 @@
 #include "io/flow/command_error.h"
 #include "io/results/result_json.h"
 #include "io/serve/api_error.h"
+#include "io/serve/deadline_server.h"
 #include "io/serve/page_files.h"
 #include "io/serve/request_guard.h"
 #include "io/serve/series_json.h"
@@ -22,12 +23,11 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t kLargestRequest = 64 * 1024;
-// A connection that a browser opens in advance holds a thread for a second; a request to stop must
-// never wait for one.
-constexpr std::size_t kThreads = 32;
-// An open connection would hold a thread, a request to stop could meet the moment at which it is
-// closed, and the body of a refused request would be read as the next request.
-constexpr std::size_t kRequestsPerConnection = 1;
+// A request to stop never waits for others.
+constexpr const char* kStopPath = "/api/run/stop";
+bool asks_to_stop(const std::string& first_line) {
+  return first_line.starts_with("POST " + std::string(kStopPath) + " ");
+}
 constexpr std::chrono::milliseconds kPoll{20};
 
 // Nothing but what this program serves: no foreign script, no frame around the page.
@@ -86,7 +86,10 @@ std::size_t number_of(const httplib::Request& request, const char* name) {
 class RigServer::Impl {
  public:
   explicit Impl(ServeOptions options)
-      : wanted_port_(options.port), token_(random_token()), api_(std::move(options)) {
+      : wanted_port_(options.port),
+        token_(random_token()),
+        api_(std::move(options)),
+        server_({.largest_body = kLargestRequest}, asks_to_stop) {
     configure();
     add_page();
     add_questions();
@@ -119,9 +122,6 @@ class RigServer::Impl {
   void configure() {
     server_.set_default_headers(headers_of_all());
     server_.set_payload_max_length(kLargestRequest);
-    server_.set_keep_alive_timeout(1);
-    server_.set_keep_alive_max_count(kRequestsPerConnection);
-    server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     server_.set_tcp_nodelay(true);
     // The library would let a second program listen on the same port.
     server_.set_socket_options([](socket_t socket) {
@@ -210,7 +210,7 @@ class RigServer::Impl {
     add_order("/api/specimens/remove",
               [this](const ordered_json& r) { return api_.remove_specimen(r); });
     add_order("/api/run", [this](const ordered_json& r) { return api_.start_run(r); });
-    add_order("/api/run/stop", [this](const ordered_json& r) { return api_.stop_run(r); });
+    add_order(kStopPath, [this](const ordered_json& r) { return api_.stop_run(r); });
     add_order("/api/fit", [this](const ordered_json& r) { return api_.fit(r); });
   }
 
@@ -232,7 +232,7 @@ class RigServer::Impl {
   int port_ = -1;
   std::string token_;
   RigApi api_;
-  httplib::Server server_;
+  DeadlineServer server_;
   std::thread thread_;
 };
 

@@ -8,9 +8,12 @@
 #include "tests/support/error_text.h"
 
 #include <catch2/catch.hpp>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -63,6 +66,43 @@ TEST_CASE("what follows a refused request on its connection is not read", "[serv
   CHECK(contains(answer, "HTTP/1.1 403"));
   CHECK_FALSE(contains(answer, "HTTP/1.1 200"));
   CHECK(contains(answer, "Connection: close"));
+}
+
+TEST_CASE("connections that send nothing more do not keep a request to stop waiting", "[serve]") {
+  ServedRig rig;
+  const std::string begun = GENERATE(
+      "", "POST /api/run HTTP/1.1\r\nHost: 127", "GET /api/state HTTP/1.1\r\nHost: x\r\n",
+      "POST /api/run HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 100\r\n\r\n{",
+      "POST /api/run HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\n5\r\n{");
+  std::vector<int> slow;
+  for (int i = 0; i < 40; ++i) slow.push_back(test::connection_with(rig.server().port(), begun));
+  const test::ApiAnswer answer = rig.order("/api/run/stop", {{"how", "gently"}});
+  CHECK(answer.status >= 400);  // in words: no run is going on
+  CHECK(code_of(answer) == "no-run");
+  CHECK(rig.ask("/api/state").status == 200);
+  for (const int one : slow) ::close(one);
+}
+
+TEST_CASE("of too many connections that send nothing the oldest are ended", "[serve]") {
+  ServedRig rig;
+  std::vector<int> slow;
+  for (int i = 0; i < 200; ++i) slow.push_back(test::connection_with(rig.server().port(), "G"));
+  CHECK(rig.ask("/api/state").status == 200);
+  char byte = 0;
+  CHECK(::recv(slow.front(), &byte, 1, 0) == 1);  // "HTTP/1.1 503"
+  for (const int one : slow) ::close(one);
+}
+
+TEST_CASE("a chunked body has the limit of the others", "[serve]") {
+  ServedRig rig;
+  std::string body;
+  for (int i = 0; i < 20; ++i) body += "1000\r\n" + std::string(0x1000, ' ') + "\r\n";
+  const std::string answer =
+      test::answer_to_bytes(rig.server().port(),
+                            "POST /api/run HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: "
+                            "chunked\r\n\r\n" +
+                                body + "0\r\n\r\n");
+  CHECK(contains(answer, "413"));
 }
 
 TEST_CASE("each start of the program has another token", "[serve]") {
