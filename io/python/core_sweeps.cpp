@@ -85,7 +85,9 @@ py::dict sweep(const std::string& path, const std::string& file,
     check_values(study, judged);
     const StoreOptions how{.accepts_unrecorded = accept_unrecorded,
                            .retries_failed = retry_failed,
-                           .is_answering = merge.empty()};
+                           .is_answering = merge.empty(),
+                           // A sweep that was interrupted ends its points in the background.
+                           .waits_s = 60.0};
     StudyStore store(file, study, how);
     swept.outcome.n_points = count_points(study);
     for (const std::string& part : merge) swept.n_merged += store.merge(part, study, how);

@@ -12,6 +12,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -298,8 +299,9 @@ StudyPoint point_from_bytes(const std::string& bytes) {
 
 StudyStore::StudyStore(const std::filesystem::path& path, const Study& study,
                        const StoreOptions& options)
-    : lock_(options.is_answering ? std::optional<StudyLock>(std::in_place, path, options.on_gone)
-                                 : std::nullopt),
+    : lock_(options.is_answering
+                ? std::optional<StudyLock>(std::in_place, path, options.on_gone, options.waits_s)
+                : std::nullopt),
       database_(opened(path, study, options, has_recorded_inputs_)),
       insert_(database_.prepare(kInsert)) {
   Statement forget = database_.prepare("DELETE FROM points WHERE point = ?");
@@ -374,12 +376,23 @@ void StudyStore::for_each(const std::function<void(const StudyPoint&)>& take) {
   }
 }
 
-StudyLock::StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone)
+StudyLock::StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone,
+                     double waits_s)
     : path_(std::move(path)), on_gone_(std::move(on_gone)) {
   refuse_other_kind(path_);
   fd_ = ::open(path_.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0666);
   if (fd_ < 0) return;  // the store reports why
-  if (::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+  const auto is_held = [this] {
+    return ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  };
+  const auto until =
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(std::max(0.0, waits_s));
+  bool is_busy = is_held();
+  while (is_busy && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    is_busy = is_held();
+  }
+  if (is_busy) {
     ::close(fd_);
     throw std::runtime_error(
         path_.string() +

@@ -46,6 +46,7 @@ struct StoreOptions {
   // Points will be answered: no other program may do that meanwhile (StudyLock). on_gone may be empty.
   bool is_answering = false;
   std::function<void(const std::string&)> on_gone = nullptr;
+  double waits_s = 0.0;
 };
 
 // Held while the points of a store are answered.
@@ -54,7 +55,9 @@ class StudyLock {
   // Creates the file if there is none. Throws std::runtime_error if another program answers its points
   // already, because both would do the same work, or if it is a file of another kind. on_gone: called once,
   // within a second, when the file was deleted, moved or replaced; from a thread of its own.
-  StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone);
+  // waits_s: how long to wait for the other program.
+  StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone,
+            double waits_s = 0.0);
   ~StudyLock();
   StudyLock(const StudyLock&) = delete;
   StudyLock& operator=(const StudyLock&) = delete;
