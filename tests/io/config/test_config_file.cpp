@@ -1,6 +1,5 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
-#include "io/config/toml_text.h"
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
@@ -320,7 +319,7 @@ TEST_CASE("keys without end are refused before the library reads them", "[io][co
   for (int i = 0; i < 1000; ++i) numbers += "1.5, 2.5e-3,\n";
   for (const std::string& text : {numbers + "]", "x = \"" + dots + "\"", "x = '''\n" + dots + "'''",
                                   "# " + dots, "x = \"" + std::string(5000, 'k') + "\""}) {
-    CHECK_NOTHROW(refuse_endless_toml(text, "rig.toml"));
+    CHECK_THAT(rig_error(text), !Contains("the limit"));
   }
 }
 
