@@ -172,18 +172,78 @@ void add_curves(const DmaModel& model, const SpectralState& state, FitResult& re
   result.curves.unit = "Pa";
 }
 
+// The floor of one modulus by the likelihood of its residuals, normal with variances in proportion to
+// value^2 + floor^2; 0 if a floor does not raise the logarithm of the likelihood by six (strong evidence,
+// Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773).
+double likely_floor_Pa(const Eigen::VectorXd& value_Pa, const Eigen::VectorXd& residual_Pa) {
+  constexpr Index kFewest = 12;
+  constexpr double kEnough = 6.0, kLeast = 1e-6, kMost = 10.0, kPerDecade = 8.0;
+  const auto n = static_cast<double>(value_Pa.size());
+  if (value_Pa.size() < kFewest) return 0.0;
+  const auto log_likelihood = [&](double floor_Pa) {
+    const Eigen::ArrayXd variance = value_Pa.array().square() + floor_Pa * floor_Pa;
+    const double mean = (residual_Pa.array().square() / variance).mean();
+    return -0.5 * (n * std::log(mean) + variance.log().sum());
+  };
+  const double largest_Pa = value_Pa.cwiseAbs().maxCoeff();
+  const double without = log_likelihood(kLeast * largest_Pa);
+  double best = without + kEnough, floor_Pa = 0.0;
+  for (double share = kLeast; share < kMost; share *= std::pow(10.0, 1.0 / kPerDecade)) {
+    const double one = log_likelihood(share * largest_Pa);
+    if (!(one > best)) continue;
+    best = one;
+    floor_Pa = share * largest_Pa;
+  }
+  return floor_Pa;
+}
+
+ModulusFloors likely_floors(const DmaModel& model, const SpectralState& state) {
+  const Eigen::VectorXd fitted = model.fitted(state);
+  const Eigen::VectorXd value_Pa = fitted.cwiseProduct(model.row_sigma());
+  const Eigen::VectorXd residual_Pa = (model.data() - fitted).cwiseProduct(model.row_sigma());
+  const Index count = model.n_frequencies();
+  return {likely_floor_Pa(value_Pa.head(count), residual_Pa.head(count)),
+          likely_floor_Pa(value_Pa.tail(count), residual_Pa.tail(count))};
+}
+
+void note_floors(const ModulusFloors& floors, double relative, FitResult& result) {
+  if (floors.storage_Pa == 0.0 && floors.loss_Pa == 0.0) return;
+  const auto part = [&](double floor_Pa) {
+    return floor_Pa > 0.0 ? text_of(relative * floor_Pa, 2) + " Pa" : std::string("none");
+  };
+  result.flags.push_back({"noise-floor", 0,
+                          "beside noise in proportion to the value (" +
+                              text_of(100.0 * relative, 2) +
+                              " %) the moduli have noise that does not depend on it (storage: " +
+                              part(floors.storage_Pa) + ", loss: " + part(floors.loss_Pa) +
+                              "). Each row weighs by both"});
+}
+
 FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
                      std::span<const double> loss_Pa, const FitOptions& options) {
   // A block is a run of neighbouring frequencies; E' and E'' of one frequency share a block.
   std::vector<int> blocks = log_time_blocks(frequency_Hz, 0.0, 1);
   blocks.insert(blocks.end(), blocks.begin(), blocks.end());
+  ModulusFloors floors;
   const ModelWith model_with = [&](bool with_dashpot, SlowTimes slow) {
     return std::make_unique<DmaModel>(frequency_Hz, storage_Pa, loss_Pa, options, with_dashpot,
-                                      slow);
+                                      slow, floors);
   };
   FittedModel fitted{model_with(/*with_dashpot=*/false, SlowTimes::kNearRange), {}};
   const double usual_ln_tau = fitted.model->ln_tau_max();
   fitted.fit = fit_spectrum(*fitted.model, blocks, options);
+  // Weights that are far off leave their mark on the residual, so that a second estimate follows.
+  constexpr int kRounds = 2;
+  constexpr double kRoundingOfData = 1e-6;  // relative
+  for (int round = 0; round < kRounds; ++round) {
+    if (fitted.fit.variance < kRoundingOfData * kRoundingOfData) break;
+    const ModulusFloors found = likely_floors(*fitted.model, fitted.fit.state);
+    const bool is_any = found.storage_Pa > 0.0 || found.loss_Pa > 0.0;
+    if (!is_any && round == 0) break;
+    floors = found;
+    fitted.model = model_with(/*with_dashpot=*/false, SlowTimes::kNearRange);
+    fitted.fit = fit_spectrum(*fitted.model, blocks, options);
+  }
   try_dashpot(options, blocks, model_with, SlowTimes::kNearRange, fitted);
   try_slow_dashpot(options, blocks, model_with, fitted);
   const DmaModel& model = *fitted.model;
@@ -200,6 +260,7 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
   carry_slow_doubt(model, fit, 2.0 * std::numbers::pi * frequency_Hz.front(), result);
   report_highest_storage(frequency_Hz.back(), result);
   report_dashpot(fitted, result);
+  note_floors(floors, result.noise.sigma, result);
   if (model.ln_tau_max() > usual_ln_tau) report_slow_dashpot(result);
   examine_moduli(model, fit, result);
   flag_contradiction(model, fit.state, result);
@@ -210,7 +271,11 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
     kept.value.assign(storage_Pa.begin(), storage_Pa.end());
     kept.loss.assign(loss_Pa.begin(), loss_Pa.end());
     kept.with_dashpot = model.dashpot() >= 0;
-    keep(std::move(kept), fit, result);
+    SpectralFit by_value = fit;
+    if (floors.storage_Pa > 0.0 || floors.loss_Pa > 0.0) {
+      by_value.row_scale = model.scale_of_floors();
+    }
+    keep(std::move(kept), by_value, result);
   }
   return result;
 }

@@ -13,8 +13,10 @@
 #include "fit/laws/law_fit.h"
 #include "fit/samples/check_record.h"
 #include "fit/samples/clean_data.h"
+#include "fit/samples/cycle.h"
 #include "fit/samples/decay.h"
 #include "fit/samples/end_rows.h"
+#include "fit/samples/reading_noise.h"
 #include "fit/samples/rounded_times.h"
 #include "fit/samples/spikes.h"
 #include "models/maths/text_of_number.h"
@@ -95,8 +97,9 @@ FitResult fit_strain_history(const CleanViews& clean, TableDrift drift, const Fi
 }
 
 FitResult fit_step_once(std::span<const double> time_s, std::span<const double> value,
-                        const FitOptions& options) {
-  const StepModel model(time_s, value, StepShape::kRelaxation, options);
+                        const std::optional<Cycle>& cycle, const FitOptions& options) {
+  const ReadingNoise noise = reading_noise(value);
+  const StepModel model(time_s, value, StepShape::kRelaxation, options, noise, cycle);
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
   FitResult result;
   result.kind = FitKind::kRelaxation;
@@ -112,18 +115,26 @@ FitResult fit_step_once(std::span<const double> time_s, std::span<const double> 
   if (options.keep_rows) {
     KeptRows kept{.at = copy_of(time_s), .value = copy_of(value), .window = window};
     kept.with_drift = options.drift == TableDrift::kFitted;
-    keep(std::move(kept), fit, result);
+    keep(std::move(kept), fit_of_equal_weights(model, fit), result);
   }
+  note_weights(model, noise, "Pa", result);
   return result;
 }
 
-FitResult fit_step(const CleanViews& clean, const std::string& unit, const FitOptions& options) {
+FitResult fit_step(const CleanViews& clean, const std::string& unit, const FitOptions& options,
+                   const std::optional<Cycle>& cycle = {}) {
   const TableExtent table = extent_of(clean, unit);
+  std::vector<double> rest;  // without the cycle
+  if (cycle) {
+    rest = copy_of(clean.column(1));
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= cycle->at(clean.column(0)[i]);
+  }
+  const std::span<const double> value = cycle ? rest : clean.column(1);
   FitResult result = fit_with_or_without_drift(options, table, [&](TableDrift drift) {
     FitOptions one = options;
     one.drift = drift;
     return fit_solid_or_liquid(one, [&](const FitOptions& as) {
-      return fit_step_once(clean.column(0), clean.column(1), as);
+      return fit_step_once(clean.column(0), value, cycle, as);
     });
   });
   flag_rise(table.largest, result);
@@ -145,6 +156,27 @@ std::vector<double> residual_of(const FitResult& fit, std::span<const double> ti
   return residual;
 }
 
+// The fit with a cycle in the record, if its noise has a memory and its residual one clear line.
+void try_cycle(const CleanViews& clean, const std::string& unit, const FitOptions& options,
+               FitResult& result) {
+  constexpr double kMemory = 3.0, kLess = 0.9;
+  if (!options.constraints.empty() || options.white_noise || result.noise.inflation < kMemory) {
+    return;
+  }
+  const std::optional<Cycle> cycle = find_cycle(clean.column(0), clean.column(1));
+  if (!cycle) return;
+  FitResult with = fit_step(clean, unit, options, cycle);
+  if (!(with.rss < kLess * result.rss)) return;
+  result = std::move(with);
+  result.flags.push_back(
+      {"cycle-fitted", 0,
+       "a cycle of " + text_of(1.0 / cycle->frequency_Hz, 3) + " s with an amplitude of " +
+           text_of(cycle->amplitude(), 3) + " " + unit + " (" +
+           text_of(100.0 * cycle->amplitude() / result.E0_Pa, 2) +
+           " % of E0) was fitted beside the relaxation, as a room's temperature or a pump makes "
+           "it; the curves are without it"});
+}
+
 // Fits, then fits again without the spikes that show in the residual. The second fit is made if the
 // comparison with neighbours found spikes or could not be applied.
 FitResult fit_robustly(CleanViews& clean, const std::string& unit, const FitOptions& options) {
@@ -163,6 +195,7 @@ FitResult fit_robustly(CleanViews& clean, const std::string& unit, const FitOpti
       result = fit_step(clean, unit, options);
     }
   }
+  try_cycle(clean, unit, options, result);
   add_spikes(result, n_spikes);
   add_end_rows(result, ends, unit);
   return result;

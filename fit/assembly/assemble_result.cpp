@@ -252,11 +252,29 @@ void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std:
   const Eigen::VectorXd fitted = model.fitted(fit.state);
   for (std::size_t i = 0; i < model.bins().size(); ++i) {
     const LogBin& bin = model.bins()[i];
-    const double root = std::sqrt(bin.count);
+    const double root = std::sqrt(bin.count) / bin.sigma;
     result.curves.add(bin.time_s, bin.value, fitted[static_cast<Eigen::Index>(i)] / root,
                       result.noise.sigma / root);
   }
   result.curves.unit = unit;
+}
+
+SpectralFit fit_of_equal_weights(const StepModel& model, const SpectralFit& fit) {
+  SpectralFit plain = fit;
+  if (model.is_weighed()) plain.row_scale = model.relative_sigma();
+  return plain;
+}
+
+void note_weights(const StepModel& model, const ReadingNoise& noise, const std::string& unit,
+                  FitResult& result) {
+  if (!model.is_weighed()) return;
+  const Eigen::VectorXd sigma = model.relative_sigma();
+  result.flags.push_back(
+      {"noise-grows", 0,
+       "the noise grows with the value, from " + text_of(sigma.minCoeff(), 2) + " to " +
+           text_of(sigma.maxCoeff(), 2) + " times its root mean square (between neighbours: " +
+           text_of(100.0 * noise.share, 2) + " % of the value, at least " +
+           text_of(noise.floor, 2) + " " + unit + "). Each sample weighs by its own noise"});
 }
 
 SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid) {

@@ -36,6 +36,14 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
 void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std::string& unit,
                       FitResult& result);
 
+// The fit with the noise of each row as a scale beside equal weights, as other tests of the material need
+// it (KeptRows).
+SpectralFit fit_of_equal_weights(const StepModel& model, const SpectralFit& fit);
+
+// Adds the flag noise-grows if the rows of the model are weighed by a noise that grows with the value.
+void note_weights(const StepModel& model, const ReadingNoise& noise, const std::string& unit,
+                  FitResult& result);
+
 // The series of a model whose parameters are the material's own: E_inf first (none for a liquid),
 // then the moduli. The model must outlive the returned function.
 SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid);

@@ -42,7 +42,7 @@ BinArrays::BinArrays(const std::vector<LogBin>& bins) {
   for (Index i = 0; i < count; ++i) {
     const LogBin& bin = bins[static_cast<std::size_t>(i)];
     time_s[i] = bin.time_s;
-    weight[i] = std::sqrt(bin.count);
+    weight[i] = std::sqrt(bin.count) / bin.sigma;
     half_m2[i] = bin.m2 / 2.0;
     sixth_m3[i] = bin.m3 / 6.0;
     part_m4[i] = bin.m4 / 24.0;
@@ -71,7 +71,7 @@ BinShapes::BinShapes(const std::vector<LogBin>& bins) {
     if (!(bin.m2 > 0.0)) continue;
     const BinBends bends = bends_of(bin);
     time_s_[i] = bin.time_s;
-    weight_[i] = std::sqrt(bin.count);
+    weight_[i] = std::sqrt(bin.count) / bin.sigma;
     n1_[i] = std::sqrt(bin.m2);
     a_[i] = 0.5 * bin.m3 / bin.m2;
     b_[i] = bin.m4 / (6.0 * bin.m2);
@@ -118,7 +118,8 @@ double variance_within(const std::vector<LogBin>& bins) {
   for (const LogBin& bin : bins) {
     if (bin.count < 6.0 || !(bin.m2 > 0.0)) continue;
     const double bend = bends_of(bin).data2;
-    square += bin.count * (bin.value_m2 - bin.c1 * bin.c1 / bin.m2 - bend * bend);
+    square += bin.count * (bin.value_m2 - bin.c1 * bin.c1 / bin.m2 - bend * bend) /
+              (bin.sigma * bin.sigma);
     freedom += bin.count - 3.0;
   }
   return freedom > 0.0 ? std::max(0.0, square / freedom) : 0.0;

@@ -17,11 +17,17 @@ namespace viscard {
 // slow end: such a term is a plateau E' = E with a loss E'' = E/(w tau), a dashpot in series.
 enum class SlowTimes { kNearRange, kFarBeyond };
 
+// Absolute part of the noise of each modulus over its relative part, Pa: rows then weigh by 1 over the root
+// of value^2 + floor^2. 0: relative noise only.
+struct ModulusFloors {
+  double storage_Pa = 0.0, loss_Pa = 0.0;
+};
+
 class DmaModel final : public SpectralModel {
  public:
   DmaModel(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
            std::span<const double> loss_Pa, const FitOptions& options, bool with_dashpot = false,
-           SlowTimes slow = SlowTimes::kNearRange);
+           SlowTimes slow = SlowTimes::kNearRange, const ModulusFloors& floors = {});
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;
@@ -29,12 +35,14 @@ class DmaModel final : public SpectralModel {
 
   Eigen::Index n_frequencies() const { return n_rows() / 2; }
   double frequency_Hz(Eigen::Index i) const;
+  // Standard deviation of each row over that without floors.
+  const Eigen::VectorXd& scale_of_floors() const { return scale_of_floors_; }
   // Index of the dashpot among the common columns; -1 if there is none.
   Eigen::Index dashpot() const { return with_dashpot_ ? n_common() - 1 : -1; }
 
  private:
   std::vector<double> angular_1_s_;
-  Eigen::VectorXd sigma_Pa_;
+  Eigen::VectorXd sigma_Pa_, scale_of_floors_;
   bool with_equilibrium_ = true;
   bool with_dashpot_ = false;
 };

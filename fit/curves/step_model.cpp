@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace viscard {
 namespace {
@@ -20,6 +21,19 @@ std::vector<LogBin> bins_for(std::span<const double> time_s, std::span<const dou
                              const FitOptions& options) {
   const bool is_alone = time_s.size() <= kSmallRecord || options.full_data;
   return log_bins(time_s, value, is_alone ? 0.0 : kBinsPerDecade);
+}
+
+// The bins with the noise of their values.
+std::vector<LogBin> weighed(std::vector<LogBin> bins, const ReadingNoise& noise) {
+  if (!noise.grows) return bins;
+  std::vector<double> values, counts;
+  for (const LogBin& bin : bins) {
+    values.push_back(bin.value);
+    counts.push_back(bin.count);
+  }
+  const std::vector<double> sigmas = relative_sigmas(noise, values, counts);
+  for (std::size_t i = 0; i < bins.size(); ++i) bins[i].sigma = sigmas[i];
+  return bins;
 }
 
 }  // namespace
@@ -36,15 +50,18 @@ struct StepModel::SampleChunk {
 };
 
 StepModel::StepModel(std::span<const double> time_s, std::span<const double> value, StepShape shape,
-                     const FitOptions& options)
+                     const FitOptions& options, const ReadingNoise& noise,
+                     const std::optional<Cycle>& cycle)
     : time_s_(time_s),
       value_(value),
       shape_(shape),
-      bins_(bins_for(time_s, value, options)),
+      bins_(weighed(bins_for(time_s, value, options), noise)),
       arrays_(bins_),
       shapes_(bins_),
       sample_variance_(variance_within(bins_)),
-      is_liquid_(options.is_liquid) {
+      is_weighed_(noise.grows),
+      is_liquid_(options.is_liquid),
+      cycle_(cycle) {
   set_rows();
   with_constant_ = shape == StepShape::kCreep || !is_liquid_;
   if (with_constant_) common_.push_back({shape == StepShape::kCreep ? "J_g" : "E_inf", false});
@@ -53,6 +70,12 @@ StepModel::StepModel(std::span<const double> time_s, std::span<const double> val
   if (has_fluidity) common_.push_back({"fluidity", false});
   if (has_drift) common_.push_back({kDriftName, true});
   if (has_fluidity || has_drift) line_ = n_common() - 1;
+  if (cycle_) {
+    first_cycle_ = n_common();
+    for (const char* name : {"cycle_cos", "cycle_sin", "cycle_frequency"}) {
+      common_.push_back({name, true});
+    }
+  }
   may_be_negative_ = options.allow_negative;
 
   // Times may lie outside sampling and record by a factor of three. The lower end keeps exp(-3) of
@@ -73,8 +96,11 @@ StepModel::StepModel(const StepModel& fine, double bins_per_decade)
       arrays_(bins_),
       shapes_({}),
       sample_variance_(fine.sample_variance_),
+      is_weighed_(fine.is_weighed_),
       is_liquid_(fine.is_liquid_),
       with_constant_(fine.with_constant_),
+      cycle_(fine.cycle_),
+      first_cycle_(fine.first_cycle_),
       line_(fine.line_) {
   set_rows();
 }
@@ -85,6 +111,19 @@ void StepModel::set_rows() {
     data_[i] = arrays_.weight[i] * bins_[static_cast<std::size_t>(i)].value;
   }
   has_averages_ = bins_.size() < time_s_.size();
+  if (!cycle_) return;
+  const double w = 2.0 * std::numbers::pi * cycle_->frequency_Hz;
+  const double amplitude = cycle_->amplitude(), last_s = time_s_.back();
+  cycle_rows_ = Eigen::MatrixXd::Zero(data_.size(), 3);
+  for (Index row = 0; row < data_.size(); ++row) {
+    const LogBin& bin = bins_[static_cast<std::size_t>(row)];
+    for (std::size_t i = bin.begin; i < bin.end; ++i) {
+      const double t = time_s_[i], c = std::cos(w * t), s = std::sin(w * t);
+      const double turned = (cycle_->sine * c - cycle_->cosine * s) / amplitude;
+      cycle_rows_.row(row) += Eigen::RowVector3d(c, s, t / last_s * turned);
+    }
+    cycle_rows_.row(row) *= arrays_.weight[row] / bin.count;
+  }
 }
 
 ModelColumns StepModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& /*nuisance*/,
@@ -96,6 +135,7 @@ ModelColumns StepModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vect
   if (with_slopes) out.term_slopes.resize(n_rows(), n_terms);
   if (with_constant_) out.values.col(0) = arrays_.weight.matrix();
   if (line_ >= 0) out.values.col(line_) = (arrays_.weight * arrays_.time_s).matrix();
+  if (first_cycle_ >= 0) out.values.middleCols(first_cycle_, 3) = cycle_rows_;
   const DecayPlaces places = arrays_.places(has_averages_);
   for (Index i = 0; i < n_terms; ++i) {
     auto value = out.values.col(n_common() + i);
@@ -114,9 +154,34 @@ std::vector<std::size_t> StepModel::row_begins() const {
   return begins;
 }
 
+Eigen::VectorXd StepModel::relative_sigma() const {
+  Eigen::VectorXd sigma(n_rows());
+  for (Index i = 0; i < sigma.size(); ++i) sigma[i] = bins_[static_cast<std::size_t>(i)].sigma;
+  return sigma;
+}
+
+Eigen::VectorXd StepModel::row_sigma() const {
+  if (!is_weighed_) return {};
+  return arrays_.weight.inverse().matrix();
+}
+
+Eigen::VectorXd StepModel::in_unit_of_samples(const Eigen::VectorXd& rows) const {
+  return rows.cwiseProduct(relative_sigma());
+}
+
 double StepModel::hidden_rss(const SpectralState& state) const {
+  return squares_within(state, /*in_unit=*/false);
+}
+
+double StepModel::hidden_rss_in_unit(const SpectralState& state) const {
+  return squares_within(state, /*in_unit=*/true);
+}
+
+double StepModel::squares_within(const SpectralState& state, bool in_unit) const {
   double within = 0.0;
-  for (const LogBin& bin : bins_) within += bin.count * bin.value_m2;
+  for (const LogBin& bin : bins_) {
+    within += bin.count * bin.value_m2 / (in_unit ? 1.0 : bin.sigma * bin.sigma);
+  }
   const Index n = shapes_.n_rows();
   if (n == 0) return within;
   // The known shapes contribute their residual; the rest of the variation within bins is unchanged.
@@ -127,7 +192,19 @@ double StepModel::hidden_rss(const SpectralState& state) const {
     shapes_.decay(std::exp(-state.ln_tau[i]), column, nullptr);
     residual -= (is_creep ? -1.0 : 1.0) * state.coefficients[n_common() + i] * column;
   }
-  return within - shapes_.data().squaredNorm() + residual.squaredNorm();
+  if (!in_unit || !is_weighed_) {
+    return within - shapes_.data().squaredNorm() + residual.squaredNorm();
+  }
+  // The rows of shapes are those of the bins with more than one sample, three times.
+  std::vector<double> sigma;
+  for (const LogBin& bin : bins_) {
+    if (bin.m2 > 0.0) sigma.push_back(bin.sigma);
+  }
+  for (Index i = 0; i < n; ++i) {
+    const double one = sigma[static_cast<std::size_t>(i) % sigma.size()];
+    within += one * one * (residual[i] * residual[i] - std::pow(shapes_.data()[i], 2));
+  }
+  return within;
 }
 
 SpectralModel::HiddenRows StepModel::hidden_rows(const Eigen::VectorXd& ln_tau) const {
@@ -151,7 +228,7 @@ SpectralModel::HiddenRows StepModel::hidden_rows(const Eigen::VectorXd& ln_tau) 
 }
 
 std::optional<SpectralModel::SampleSums> StepModel::sample_sums(const SpectralState& state) const {
-  if (!has_averages_) return std::nullopt;
+  if (!has_averages_ || is_weighed_ || cycle_) return std::nullopt;
   SampleSums sums{0.0, Eigen::VectorXd::Zero(state.coefficients.size() + state.n_terms())};
   SampleChunk chunk(state.n_terms());
   for (std::size_t begin = 0; begin < time_s_.size(); begin += SampleChunk::kMost) {
@@ -219,6 +296,12 @@ Eigen::VectorXd StepModel::residual_series(const SpectralState& state) const {
     const double modulus = state.coefficients[n_common() + i];
     subtract_decay(time_s, count, std::exp(-state.ln_tau[i]), is_creep ? -modulus : modulus,
                    series.data());
+  }
+  if (!is_weighed_) return series;
+  for (const LogBin& bin : bins_) {
+    for (std::size_t i = std::max(bin.begin, first); i < bin.end; ++i) {
+      series[static_cast<Index>(i - first)] /= bin.sigma;
+    }
   }
   return series;
 }

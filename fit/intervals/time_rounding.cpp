@@ -1,5 +1,6 @@
 #include "fit/intervals/time_rounding.h"
 
+#include "models/material/prony_series.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -17,13 +18,29 @@ std::string percent_of_E0(double change_Pa, const FitResult& result) {
 }  // namespace
 
 double widen_for_zero(double half_s, FitResult& result) {
-  double early_Pa = result.E_inf_Pa, late_Pa = result.E_inf_Pa;
-  for (const FittedTerm& term : result.terms) {
-    early_Pa += term.modulus_Pa * std::exp(-half_s / term.tau_s);
-    late_Pa += term.modulus_Pa * std::exp(half_s / term.tau_s);
+  // The same curve with its time counted from half_s earlier or later.
+  const auto moved = [&](double by_s) {
+    PronySeries series{result.E_inf_Pa, {}};
+    for (const FittedTerm& term : result.terms) {
+      series.terms.push_back({term.modulus_Pa * std::exp(by_s / term.tau_s), term.tau_s});
+    }
+    return series;
+  };
+  const PronySeries early = moved(-half_s), late = moved(half_s);
+  const double early_Pa = instantaneous_modulus_Pa(early), late_Pa = instantaneous_modulus_Pa(late);
+  const auto widen = [](Interval& interval, double value, double one, double other) {
+    interval.low += std::min({0.0, one - value, other - value});
+    interval.high += std::max({0.0, one - value, other - value});
+  };
+  for (std::size_t i = 0; i < result.terms.size(); ++i) {
+    FittedTerm& term = result.terms[i];
+    const double at_early = early.terms[i].modulus_Pa, at_late = late.terms[i].modulus_Pa;
+    widen(term.modulus_Pa_95, term.modulus_Pa, at_early, at_late);
+    widen(term.g_95, term.g, at_early / early_Pa, at_late / late_Pa);
   }
-  result.E0_interval_95.low += early_Pa - result.E0_Pa;
-  result.E0_interval_95.high += late_Pa - result.E0_Pa;
+  widen(result.sum_g_95, result.sum_g, 1.0 - result.E_inf_Pa / early_Pa,
+        1.0 - result.E_inf_Pa / late_Pa);
+  widen(result.E0_interval_95, result.E0_Pa, early_Pa, late_Pa);
   return late_Pa - early_Pa;
 }
 
@@ -41,7 +58,7 @@ void report_time_rounding(double step_s, bool is_spread, FitResult& result) {
        "the times are rounded to " + step + " s" + how +
            ". If the instrument cuts times off, all rows are " + half + " s late (--time-zero -" +
            half + " corrects that); half a step changes E0 by " + percent_of_E0(change_Pa, result) +
-           ", which its interval includes. Export more digits of the time"});
+           ", which its interval and those of the terms include. Export more digits of the time"});
 }
 
 void report_rise(double begin_s, double end_s, FitResult& result) {

@@ -4,8 +4,8 @@
 
 namespace viscard {
 
-// Widens the interval of E0 by what half a step of rounded times changes, and names it in the flag
-// times-rounded. All times may be late or early by half a step together (an instrument that cuts
+// Widens the intervals of E0 and of the terms by what half a step of rounded times changes, and names it
+// in the flag times-rounded. All times may be late or early by half a step together (an instrument that cuts
 // them off), so the zero of time is as uncertain, and E0 = sum E_i exp(t/tau_i) with it.
 //   is_spread: rows that share a time were spread evenly. Otherwise the times stand as they are, and
 //   the flag is left out if the change is below a quarter of the interval.
@@ -16,8 +16,8 @@ void report_time_rounding(double step_s, bool is_spread, FitResult& result);
 // flag time-zero-chosen.
 void report_rise(double begin_s, double end_s, FitResult& result);
 
-// Widens the interval of E0 for a zero of time that is uncertain by half_s. Returns the change of E0
-// between both ends.
+// Widens the intervals of E0, of the moduli and shares of the terms for a zero of time that is uncertain
+// by half_s: each modulus changes by exp(half_s/tau). Returns the change of E0 between both ends.
 double widen_for_zero(double half_s, FitResult& result);
 
 }  // namespace viscard

@@ -12,9 +12,12 @@
 #include "models/maths/dense.h"
 #include "models/maths/distributions.h"
 #include "models/maths/interval.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 namespace viscard {
 namespace {
@@ -58,6 +61,41 @@ std::vector<Index> free_parameters(HyperelasticForm form, const LargeStrainRows&
     if (point.terms[static_cast<std::size_t>(i)].g > kTouch) free.push_back(first + n_terms + i);
   }
   return free;
+}
+
+// Names of the parameters that are held, and what holds them: "mu_3 at 0".
+std::string held_parameters(HyperelasticForm form, const HyperelasticPoint& point,
+                            const std::vector<Index>& free) {
+  const std::vector<std::string> moduli = modulus_names(form), shapes = shape_names(form);
+  const Index n = n_moduli(form);
+  std::string text;
+  for (Index j = 0; j < n + n_shapes(form); ++j) {
+    if (std::find(free.begin(), free.end(), j) != free.end()) continue;
+    const bool is_shape = j >= n;
+    // The shape of a term without modulus means nothing.
+    if (is_shape && point.moduli[std::min(j - n, n - 1)] == 0.0) continue;
+    text += (text.empty() ? "" : ", ") + (is_shape ? shapes[static_cast<std::size_t>(j - n)] +
+                                                         " at " + text_of(point.shapes[j - n], 4)
+                                                   : moduli[static_cast<std::size_t>(j)] + " at 0");
+  }
+  return text;
+}
+
+// What binds, and by how much the sum of squares would fall with moduli of either sign.
+std::string bound_text(HyperelasticForm form, const LargeStrainRows& rows,
+                       const HyperelasticPoint& point, const std::vector<Index>& free) {
+  std::string text = held_parameters(form, point, free);
+  const bool is_held = !is_sign_free(form) && (point.moduli.array() == 0.0).any();
+  if (!is_held || !point.terms.empty()) return text;
+  const HyperelasticPoint any = best_point(form, rows, ModulusSigns::kAny);
+  const double lower = 1.0 - any.rss / point.rss;
+  constexpr double kVisible = 0.01;
+  text += " (moduli are kept from negative values, which make a law unstable";
+  if (lower > kVisible) {
+    text +=
+        "; with either sign the sum of squares would be " + text_of(100.0 * lower, 2) + " % lower";
+  }
+  return text + ")";
 }
 
 // Inverse of J^T J over the free parameters, zero elsewhere.
@@ -200,16 +238,19 @@ FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
   for (std::size_t d = 0; d < fitted.stable.size(); ++d) {
     fitted.stable[d] = stable_range(fitted.law, static_cast<Deformation>(d));
   }
-  add_rubber_flags(tests, options, point.is_converged,
-                   static_cast<int>(free.size()) < fitted.n_parameters, fitted);
+  const bool is_on_bound = static_cast<int>(free.size()) < fitted.n_parameters;
+  rows.set_terms({});
+  add_rubber_flags(tests, options, point.is_converged, is_on_bound,
+                   is_on_bound ? bound_text(form, rows, point, free) : "", fitted);
   add_term_flags(tests, options, fitted);
   return fitted;
 }
 
 // The criteria count readings that are independent of each other: the least inflation is that of the
 // law that leaves the least structure in its residuals.
-void add_criteria(const std::vector<LargeStrainTest>& tests, std::vector<FittedRubber>& laws) {
-  double n_readings = 0.0, inflation = laws.front().inflation;
+void add_criteria(const std::vector<LargeStrainTest>& tests, double least_inflation,
+                  std::vector<FittedRubber>& laws) {
+  double n_readings = 0.0, inflation = std::min(least_inflation, laws.front().inflation);
   for (const LargeStrainTest& test : tests) n_readings += static_cast<double>(test.stretch.size());
   for (const FittedRubber& law : laws) inflation = std::min(inflation, law.inflation);
   const double n = n_readings / inflation;
@@ -223,6 +264,23 @@ void add_criteria(const std::vector<LargeStrainTest>& tests, std::vector<FittedR
     law.bic = fit + p * std::log(n);
     law.aicc = fit + 2.0 * p * (n > p + 1.0 ? n / (n - p - 1.0) : 1e6);
   }
+}
+
+// The same of the laws that were not asked for, so that the criteria of a law do not depend on which
+// others were. With terms of relaxation that would take too long.
+double inflation_of_others(const LargeStrainRows& rows, const std::vector<LargeStrainTest>& tests,
+                           const LargeStrainOptions& options) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const HyperelasticForm form : hyperelastic_forms()) {
+    const bool is_asked =
+        std::find(options.forms.begin(), options.forms.end(), form) != options.forms.end();
+    if (is_asked) continue;
+    LargeStrainRows own = rows;
+    const HyperelasticPoint point = point_of_form(form, own, tests, options);
+    if (!std::isfinite(point.rss)) continue;
+    least = std::min(least, inflation_of(tests, residuals_of(form, own, point)));
+  }
+  return least;
 }
 
 std::size_t choice(const std::vector<FittedRubber>& laws) {
@@ -254,7 +312,9 @@ LargeStrainResult fit_large_strain(const std::vector<LargeStrainTest>& tests,
   for (const HyperelasticForm form : options.forms) {
     result.laws.push_back(fit_form(form, rows, tests, options, most_terms));
   }
-  add_criteria(tests, result.laws);
+  const double least_inflation = most_terms > 0 ? std::numeric_limits<double>::infinity()
+                                                : inflation_of_others(rows, tests, options);
+  add_criteria(tests, least_inflation, result.laws);
   result.chosen = choice(result.laws);
   result.tests = summaries_of(tests, result.best());
   result.notes = notes_of(tests);

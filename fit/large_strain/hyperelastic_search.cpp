@@ -57,14 +57,15 @@ class RubberCost : public ceres::CostFunction {
 
 // The best moduli for these columns; an infinite rss if they are not finite.
 void solve_moduli(HyperelasticForm form, const LargeStrainRows& rows,
-                  const Eigen::MatrixXd& columns, HyperelasticPoint& point) {
+                  const Eigen::MatrixXd& columns, ModulusSigns signs, HyperelasticPoint& point) {
   if (!columns.allFinite()) return;
-  const std::vector<bool> is_free(static_cast<std::size_t>(n_moduli(form)), is_sign_free(form));
+  const bool any = signs == ModulusSigns::kAny || is_sign_free(form);
+  const std::vector<bool> is_free(static_cast<std::size_t>(n_moduli(form)), any);
   point.moduli = least_squares_with_signs(columns, rows.data(), is_free);
   point.rss = (columns * point.moduli - rows.data()).squaredNorm();
 }
 
-HyperelasticPoint refined(HyperelasticForm form, const LargeStrainRows& rows,
+HyperelasticPoint refined(HyperelasticForm form, const LargeStrainRows& rows, ModulusSigns signs,
                           const HyperelasticPoint& start) {
   VectorXd theta = theta_of(start);
   const Index n = n_moduli(form);
@@ -76,7 +77,7 @@ HyperelasticPoint refined(HyperelasticForm form, const LargeStrainRows& rows,
     if (i >= n) {
       problem.SetParameterLowerBound(theta.data(), at, bounds.low);
       problem.SetParameterUpperBound(theta.data(), at, bounds.high);
-    } else if (!is_sign_free(form)) {
+    } else if (signs == ModulusSigns::kOfForm && !is_sign_free(form)) {
       problem.SetParameterLowerBound(theta.data(), at, 0.0);
     }
   }
@@ -84,7 +85,7 @@ HyperelasticPoint refined(HyperelasticForm form, const LargeStrainRows& rows,
   const SearchSummary summary =
       solve_dense(problem, {.max_iterations = 300, .function_tolerance = 1e-14});
   // The moduli are solved exactly at the shapes that were found.
-  HyperelasticPoint point = at_shapes(form, rows, theta.tail(theta.size() - n));
+  HyperelasticPoint point = at_shapes(form, rows, theta.tail(theta.size() - n), signs);
   point.is_converged = summary.is_usable;
   return point;
 }
@@ -136,7 +137,8 @@ bool is_close(const VectorXd& a, const VectorXd& b) {
 }
 
 // The best grid points, far enough from each other to lead to different minima.
-std::vector<HyperelasticPoint> starts_of(HyperelasticForm form, const LargeStrainRows& rows) {
+std::vector<HyperelasticPoint> starts_of(HyperelasticForm form, const LargeStrainRows& rows,
+                                         ModulusSigns signs) {
   constexpr std::size_t kFew = 200, kMost = 6;
   const LargeStrainRows few = rows.thinned(kFew);
   const std::vector<double> grid = shape_grid(form, rows);
@@ -154,7 +156,7 @@ std::vector<HyperelasticPoint> starts_of(HyperelasticForm form, const LargeStrai
       point.shapes[static_cast<Index>(k)] = grid[chosen[k]];
       used.col(static_cast<Index>(k)) = columns[chosen[k]];
     }
-    solve_moduli(form, few, used, point);
+    solve_moduli(form, few, used, signs, point);
     if (std::isfinite(point.rss)) points.push_back(std::move(point));
   }
   std::sort(points.begin(), points.end(),
@@ -186,22 +188,23 @@ ShapeBounds shape_bounds(HyperelasticForm form, const LargeStrainRows& rows) {
 }
 
 HyperelasticPoint at_shapes(HyperelasticForm form, const LargeStrainRows& rows,
-                            const VectorXd& shapes) {
+                            const VectorXd& shapes, ModulusSigns signs) {
   HyperelasticPoint point;
   point.shapes = shapes;
-  solve_moduli(form, rows, rows.columns(form, shapes, false).values, point);
+  solve_moduli(form, rows, rows.columns(form, shapes, false).values, signs, point);
   return point;
 }
 
-HyperelasticPoint best_point(HyperelasticForm form, const LargeStrainRows& rows) {
+HyperelasticPoint best_point(HyperelasticForm form, const LargeStrainRows& rows,
+                             ModulusSigns signs) {
   if (n_shapes(form) == 0) {
-    HyperelasticPoint point = at_shapes(form, rows, VectorXd(0));
+    HyperelasticPoint point = at_shapes(form, rows, VectorXd(0), signs);
     point.is_converged = true;
     return point;
   }
   HyperelasticPoint best;
-  for (const HyperelasticPoint& start : starts_of(form, rows)) {
-    HyperelasticPoint point = refined(form, rows, start);
+  for (const HyperelasticPoint& start : starts_of(form, rows, signs)) {
+    HyperelasticPoint point = refined(form, rows, signs, start);
     if (point.rss < best.rss) best = std::move(point);
   }
   return best;

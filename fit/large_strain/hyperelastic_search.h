@@ -24,13 +24,18 @@ struct ShapeBounds {
 };
 ShapeBounds shape_bounds(HyperelasticForm form, const LargeStrainRows& rows);
 
+// kOfForm: as is_sign_free() says; kAny: to see what that costs.
+enum class ModulusSigns { kOfForm, kAny };
+
 // Best moduli at given shapes, by least squares with signs.
 HyperelasticPoint at_shapes(HyperelasticForm form, const LargeStrainRows& rows,
-                            const Eigen::VectorXd& shapes);
+                            const Eigen::VectorXd& shapes,
+                            ModulusSigns signs = ModulusSigns::kOfForm);
 
 // The best least squares found: the moduli are solved on a grid of shapes, and the best few points
 // are refined in all parameters within their bounds (trust region of Ceres).
-HyperelasticPoint best_point(HyperelasticForm form, const LargeStrainRows& rows);
+HyperelasticPoint best_point(HyperelasticForm form, const LargeStrainRows& rows,
+                             ModulusSigns signs = ModulusSigns::kOfForm);
 
 // Derivative of the rows' model by moduli and shapes.
 Eigen::MatrixXd jacobian(HyperelasticForm form, const LargeStrainRows& rows,

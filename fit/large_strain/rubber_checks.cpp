@@ -104,7 +104,8 @@ void check_large_strain(const std::vector<LargeStrainTest>& tests,
 }
 
 void add_rubber_flags(const std::vector<LargeStrainTest>& tests, const LargeStrainOptions& options,
-                      bool is_converged, bool is_on_bound, FittedRubber& fitted) {
+                      bool is_converged, bool is_on_bound, const std::string& bounds,
+                      FittedRubber& fitted) {
   const std::string ends = text_of_ends(fitted);
   if (!is_converged) {
     add_flag(fitted, "not-converged", "the least squares did not converge; omit this law", true);
@@ -125,8 +126,8 @@ void add_rubber_flags(const std::vector<LargeStrainTest>& tests, const LargeStra
   }
   if (is_on_bound) {
     add_flag(fitted, "on-bound",
-             "a parameter ended at the end of its range, so that the data do not determine it; use "
-             "a law with fewer parameters",
+             "a parameter ended at the end of its range" + (bounds.empty() ? "" : ", " + bounds) +
+                 ", so that the data do not determine it; use a law with fewer parameters",
              true);
   }
   if (fitted.unseen.columns.size() > 0) {

@@ -9,9 +9,11 @@ namespace viscard {
 void check_large_strain(const std::vector<LargeStrainTest>& tests,
                         const LargeStrainOptions& options);
 
-// Judges a fitted law; adds its flags and is_trustworthy.
+// Judges a fitted law; adds its flags and is_trustworthy. bounds: the parameters at the end of their range,
+// and what holds them.
 void add_rubber_flags(const std::vector<LargeStrainTest>& tests, const LargeStrainOptions& options,
-                      bool is_converged, bool is_on_bound, FittedRubber& fitted);
+                      bool is_converged, bool is_on_bound, const std::string& bounds,
+                      FittedRubber& fitted);
 
 std::vector<RubberTestSummary> summaries_of(const std::vector<LargeStrainTest>& tests,
                                             const FittedRubber& fitted);

@@ -51,11 +51,13 @@ LogBin put_together(std::span<const LogBin> parts) {
   for (const LogBin& part : parts) sum.count += part.count;
   sum.time_s = parts.front().time_s;
   sum.value = parts.front().value;
-  double time = 0.0, value = 0.0;
+  double time = 0.0, value = 0.0, precision = 0.0;
   for (const LogBin& part : parts) {
+    precision += part.count / sum.count / (part.sigma * part.sigma);
     time += part.count / sum.count * (part.time_s - parts.front().time_s);
     value += part.count / sum.count * (part.value - parts.front().value);
   }
+  sum.sigma = 1.0 / std::sqrt(precision);
   sum.time_s += time;
   sum.value += value;
   for (const LogBin& part : parts) {

@@ -16,6 +16,7 @@ struct LogBin {
   double value = 0.0;                                       // mean
   double c1 = 0.0, c2 = 0.0, c3 = 0.0;                      // mean of (value - mean)(t - mean)^k
   double value_m2 = 0.0;                                    // mean of (value - mean)^2
+  double sigma = 1.0;  // standard deviation of one sample, relative to that of all
 };
 
 // At this many bins per decade the neglected orders are below 3e-10 of an exponential's initial

@@ -51,11 +51,24 @@ std::vector<LevelClass> level_classes(const SizesByLevel& scatter, double of_med
   return classes;
 }
 
+// True if the variance of the largest values exceeds that of the smallest by more than chance.
+bool is_grown(const std::vector<LevelClass>& classes, double a, double b) {
+  // A standard deviation from the median of n correlated third differences is known to about
+  // 2/sqrt(n), its squared logarithm to 4/sqrt(n).
+  constexpr double kScatter = 4.0, kDeviations = 4.0, kVisible = 1.5;
+  const LevelClass &large = classes.front(), &small = classes.back();
+  if (!(small.variance > 0.0)) return false;
+  const double apart = std::log(large.variance / small.variance);
+  const double chance = kScatter * std::sqrt(1.0 / large.count + 1.0 / small.count);
+  const double fitted = (a + b * large.square) / (a + b * small.square);
+  return apart > kDeviations * chance && fitted > kVisible * kVisible;
+}
+
 ReadingNoise noise_of_scatter(const SizesByLevel& scatter, double of_median) {
   const std::vector<LevelClass> classes = level_classes(scatter, of_median);
   if (classes.size() < 2) {
     const double sigma = of_median * median(scatter.size);
-    return {sigma, 0.0};
+    return {sigma, 0.0, false};
   }
   // a + b x with weights count/variance^2 (the variance of a variance), found in a few rounds.
   double a = 0.0, b = 0.0, mean = 0.0, total = 0.0, mean_square = 0.0;
@@ -96,7 +109,7 @@ ReadingNoise noise_of_scatter(const SizesByLevel& scatter, double of_median) {
   double smallest = classes.front().variance;
   for (const LevelClass& one : classes) smallest = std::min(smallest, one.variance);
   a = std::max(a, kLeastFloor * smallest);
-  return {std::sqrt(a), std::sqrt(b)};
+  return {std::sqrt(a), std::sqrt(b), is_grown(classes, a, b)};
 }
 
 }  // namespace
@@ -138,6 +151,31 @@ ReadingNoise noise_of_deviations(std::span<const double> values,
     scatter.size.push_back(std::abs(deviations[i]));
   }
   return noise_of_scatter(scatter, 1.0 / kMedianOfNormal);
+}
+
+std::vector<double> relative_sigmas(const ReadingNoise& noise, std::span<const double> values,
+                                    std::span<const double> weights) {
+  constexpr std::size_t kBeside = 4;
+  const std::size_t n = values.size();
+  std::vector<double> sigmas(n, 1.0);
+  double square = 0.0, total = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 0.0, count = 0.0;
+    const std::size_t last = std::min(n, i + kBeside + 1);
+    for (std::size_t k = i > kBeside ? i - kBeside : 0; k < last; ++k) {
+      if (k == i) continue;
+      sum += values[k];
+      count += 1.0;
+    }
+    sigmas[i] = noise.sigma(count > 0.0 ? sum / count : values[i]);
+    const double weight = weights.empty() ? 1.0 : weights[i];
+    square += weight * sigmas[i] * sigmas[i];
+    total += weight;
+  }
+  const double rms = std::sqrt(square / total);
+  if (!(rms > 0.0)) return std::vector<double>(n, 1.0);
+  for (double& sigma : sigmas) sigma /= rms;
+  return sigmas;
 }
 
 double noise_beside(std::span<const double> values, std::size_t begin, std::size_t end) {

@@ -11,6 +11,9 @@ struct ReadingNoise {
   double floor = 0.0;  // in the unit of the values
   double share = 0.0;  // of the value, a pure number
 
+  // The smallest and the largest values that are many differ by more than chance and half.
+  bool grows = false;
+
   double sigma(double value) const;
   double variance(double value) const { return floor * floor + share * share * value * value; }
 };
@@ -24,6 +27,12 @@ ReadingNoise reading_noise(std::span<const double> values);
 // The same from deviations from known values (residuals of a fit). Equal lengths.
 ReadingNoise noise_of_deviations(std::span<const double> values,
                                  std::span<const double> deviations);
+
+// Standard deviation of each value over the root mean square of all (weights: how many readings each
+// value is the mean of; empty: one). The level of a value is the mean of its neighbours, so that the noise
+// of a value does not change its own weight.
+std::vector<double> relative_sigmas(const ReadingNoise& noise, std::span<const double> values,
+                                    std::span<const double> weights = {});
 
 // The standard deviation of the noise about row `at`, from the third differences of up to 30 rows on
 // either side of [begin, end), which are not used.

@@ -189,3 +189,40 @@ TEST_CASE("a sweep whose residual has structure is not trusted", "[fit]") {
     CHECK_FALSE(has_flag(good, "slow-dashpot"));
   }
 }
+
+TEST_CASE("an absolute floor of the noise of an oscillation is found, and intervals hold",
+          "[fit]") {
+  const bool is_liquid = GENERATE(false, true);
+  const PronySeries truth{is_liquid ? 0.0 : 1e5, {{6e5, 0.01}, {3e5, 0.3}, {1e5, 10.0}}};
+  int of_times = 0, of_E0 = 0, flagged = 0, same = 0;
+  constexpr int kRuns = 40;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    DmaData data = sweep(truth, -3.0, 3.0, 8, 0.01, seed);
+    std::mt19937_64 dice(1000 + seed);
+    std::normal_distribution<double> normal(0.0, 2e-3 * 1.1e6);
+    for (double& value : data.storage_Pa) value += normal(dice);
+    for (double& value : data.loss_Pa) value += normal(dice);
+    FitOptions options;
+    options.is_liquid = is_liquid;
+    const FitResult fit = fit_dma(data, options);
+    flagged += has_flag(fit, "noise-floor") ? 1 : 0;
+    of_E0 += holds(fit.E0_interval_95, instantaneous_modulus_Pa(truth)) ? 1 : 0;
+    if (fit.terms.size() != 3) continue;
+    ++same;
+    of_times += holds(fit.terms[2].tau_s_95, 10.0) ? 1 : 0;
+  }
+  CAPTURE(is_liquid, flagged, same, of_times, of_E0);
+  CHECK(flagged >= 36);
+  CHECK(same >= 32);
+  CHECK(of_times >= same - 5);
+  CHECK(of_E0 >= 34);
+}
+
+TEST_CASE("relative noise of an oscillation has no floor", "[fit]") {
+  const PronySeries truth{1e5, {{6e5, 0.01}, {3e5, 0.3}, {1e5, 10.0}}};
+  int flagged = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    flagged += has_flag(fit_dma(sweep(truth, -3.0, 3.0, 8, 0.01, seed)), "noise-floor") ? 1 : 0;
+  }
+  CHECK(flagged <= 2);
+}
