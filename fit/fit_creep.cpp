@@ -8,6 +8,7 @@
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/positive_intervals.h"
 #include "fit/intervals/time_rounding.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/check_record.h"
@@ -124,6 +125,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   if (rounded_s) report_time_rounding(*rounded_s, /*is_spread=*/false, result);
   flag_left_out(result);
   flag_lack_of_fit({.unit = "1/Pa"}, result);
+  keep_intervals_positive(options, result);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/positive_intervals.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "models/maths/text_of_number.h"
@@ -304,6 +305,7 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   drop_liquid_claim(result);
   add_left_out(result, left_out::kNotANumber, clean.n_left_out());
   flag_left_out(result);
+  keep_intervals_positive(options, result);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "fit/intervals/flags.h"
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/positive_intervals.h"
 #include "fit/intervals/time_rounding.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/chosen_rows.h"
@@ -272,6 +273,7 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
         result, "saturated",
         counted(data.n_saturated, "reading") + " at the end of the converter's range left out");
   }
+  keep_intervals_positive(options, result);
   return result;
 }
 

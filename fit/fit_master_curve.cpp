@@ -4,6 +4,7 @@
 #include "fit/curves/master_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/positive_intervals.h"
 #include "fit/master_segments.h"
 #include "fit/master_shifts.h"
 #include "fit/master_start.h"
@@ -226,6 +227,7 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
   flag_vertical(curve);
   if (options.with_curves) fill_curves(all.segments, shifts, curve.factors, result);
   result.noise.sigma *= shifts.noise;  // rows with priors are divided by their noise
+  keep_intervals_positive(options, result);
   return curve;
 }
 

@@ -9,6 +9,7 @@
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/positive_intervals.h"
 #include "fit/intervals/time_rounding.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/check_record.h"
@@ -258,6 +259,7 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
   add_left_out(result, left_out::kBeforeZero, n_early);
   if (step_s) report_time_rounding(*step_s, rounded.has_value(), result);
   flag_left_out(result);
+  keep_intervals_positive(options, result);
   return result;
 }
 

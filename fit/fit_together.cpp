@@ -8,6 +8,7 @@
 #include "fit/intervals/flags.h"
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/positive_intervals.h"
 #include "fit/joint_tests.h"
 #include "models/maths/distributions.h"
 
@@ -266,6 +267,7 @@ FitResult fit_together(const std::vector<MaterialTest>& tests, const FitOptions&
       fit_solid_or_liquid(options, [&](const FitOptions& as) { return fit_as(tests, as); });
   for (const MaterialTest& test : tests) carry_flags(test, result);
   for (const MaterialFlag& flag : result.flags) result.is_trustworthy &= !is_defect(flag.name);
+  keep_intervals_positive(options, result);
   return result;
 }
 

@@ -468,3 +468,12 @@ TEST_CASE("times that were cut off widen the intervals of the terms", "[fit]") {
   }
   CHECK(of_first >= kRuns - 1);
 }
+
+TEST_CASE("intervals of moduli do not reach below zero", "[fit]") {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const FitResult fit = fit_relaxation(relaxation_of(s2(), 12, 1.0, 0.5, seed));
+    CHECK(fit.E0_interval_95.low >= 0.0);
+    CHECK(fit.E_inf_interval_95.low >= 0.0);
+    for (const FittedTerm& term : fit.terms) CHECK(term.modulus_Pa_95.low >= 0.0);
+  }
+}
