@@ -44,7 +44,8 @@ PronySeries series_from_creep(const SpectralModel& model, const SpectralState& s
 
 FitResult fit_creep_as(std::span<const double> time_s, std::span<const double> compliance_1_Pa,
                        const FitOptions& options) {
-  const ReadingNoise noise = reading_noise(compliance_1_Pa);
+  // Several tests together weigh all samples of one test alike.
+  const ReadingNoise noise = options.keep_rows ? ReadingNoise{} : reading_noise(compliance_1_Pa);
   const StepModel model(time_s, compliance_1_Pa, StepShape::kCreep, options, noise);
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
   if (!(fit.state.coefficients[0] > 0.0)) {
@@ -80,7 +81,7 @@ FitResult fit_creep_as(std::span<const double> time_s, std::span<const double> c
     KeptRows kept{.shape = KeptRows::Shape::kCreep, .window = window};
     kept.at.assign(time_s.begin(), time_s.end());
     kept.value.assign(compliance_1_Pa.begin(), compliance_1_Pa.end());
-    keep(std::move(kept), fit_of_equal_weights(model, fit), result);
+    keep(std::move(kept), fit, result);
   }
   note_weights(model, noise, "1/Pa", result);
   return result;

@@ -237,7 +237,8 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
   constexpr int kRounds = 2;
   constexpr double kRoundingOfData = 1e-6;  // relative
   for (int round = 0; round < kRounds; ++round) {
-    if (fitted.fit.variance < kRoundingOfData * kRoundingOfData) break;
+    // Several tests together weigh relative to the values only.
+    if (options.keep_rows || fitted.fit.variance < kRoundingOfData * kRoundingOfData) break;
     const ModulusFloors found = likely_floors(*fitted.model, fitted.fit.state);
     const bool is_any = found.storage_Pa > 0.0 || found.loss_Pa > 0.0;
     if (!is_any && round == 0) break;
@@ -272,11 +273,7 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
     kept.value.assign(storage_Pa.begin(), storage_Pa.end());
     kept.loss.assign(loss_Pa.begin(), loss_Pa.end());
     kept.with_dashpot = model.dashpot() >= 0;
-    SpectralFit by_value = fit;
-    if (floors.storage_Pa > 0.0 || floors.loss_Pa > 0.0) {
-      by_value.row_scale = model.scale_of_floors();
-    }
-    keep(std::move(kept), by_value, result);
+    keep(std::move(kept), fit, result);
   }
   return result;
 }

@@ -99,7 +99,8 @@ FitResult fit_strain_history(const CleanViews& clean, TableDrift drift, const Fi
 
 FitResult fit_step_once(std::span<const double> time_s, std::span<const double> value,
                         const std::optional<Cycle>& cycle, const FitOptions& options) {
-  const ReadingNoise noise = reading_noise(value);
+  // Several tests together weigh all samples of one test alike.
+  const ReadingNoise noise = options.keep_rows ? ReadingNoise{} : reading_noise(value);
   const StepModel model(time_s, value, StepShape::kRelaxation, options, noise, cycle);
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
   FitResult result;
@@ -116,7 +117,7 @@ FitResult fit_step_once(std::span<const double> time_s, std::span<const double> 
   if (options.keep_rows) {
     KeptRows kept{.at = copy_of(time_s), .value = copy_of(value), .window = window};
     kept.with_drift = options.drift == TableDrift::kFitted;
-    keep(std::move(kept), fit_of_equal_weights(model, fit), result);
+    keep(std::move(kept), fit, result);
   }
   note_weights(model, noise, "Pa", result);
   return result;

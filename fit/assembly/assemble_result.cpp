@@ -238,8 +238,10 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
       const Eigen::VectorXd left = model.fitted(state) - model.data();
       return model.in_unit_of_samples(left).squaredNorm() + model.hidden_rss_in_unit(state);
     };
-    for (std::size_t i = 0; i < fit.path.size(); ++i) result.orders[i].rss = in_unit(fit.path[i]);
     result.rss = in_unit(fit.state);
+    // In the same proportion as the weighted sums, which fall with every term.
+    const double unit = fit.rss > 0.0 ? result.rss / fit.rss : 1.0;
+    for (OrderRow& row : result.orders) row.rss *= unit;
   }
   result.n_samples = static_cast<std::size_t>(model.n_samples());
   result.n_averages = static_cast<std::size_t>(model.n_rows());
@@ -257,12 +259,6 @@ void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std:
                       result.noise.sigma / root);
   }
   result.curves.unit = unit;
-}
-
-SpectralFit fit_of_equal_weights(const StepModel& model, const SpectralFit& fit) {
-  SpectralFit plain = fit;
-  if (model.is_weighed()) plain.row_scale = model.relative_sigma();
-  return plain;
 }
 
 void note_weights(const StepModel& model, const ReadingNoise& noise, const std::string& unit,

@@ -36,10 +36,6 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
 void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std::string& unit,
                       FitResult& result);
 
-// The fit with the noise of each row as a scale beside equal weights, as other tests of the material need
-// it (KeptRows).
-SpectralFit fit_of_equal_weights(const StepModel& model, const SpectralFit& fit);
-
 // Adds the flag noise-grows if the rows of the model are weighed by a noise that grows with the value.
 void note_weights(const StepModel& model, const ReadingNoise& noise, const std::string& unit,
                   FitResult& result);

@@ -30,18 +30,14 @@ DmaModel::DmaModel(std::span<const double> frequency_Hz, std::span<const double>
   const auto count = static_cast<Index>(frequency_Hz.size());
   data_.resize(2 * count);
   sigma_Pa_.resize(2 * count);
-  scale_of_floors_.resize(2 * count);
-  const auto set_sigma = [&](Index row, double usual_Pa, double floor_Pa) {
-    sigma_Pa_[row] = std::hypot(usual_Pa, floor_Pa);
-    scale_of_floors_[row] = sigma_Pa_[row] / usual_Pa;
-  };
   for (Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     angular_1_s_.push_back(2.0 * std::numbers::pi * frequency_Hz[k]);
     // A loss modulus near zero has the error of the complex modulus, not one relative to itself.
     const double size_Pa = std::hypot(storage_Pa[k], loss_Pa[k]);
-    set_sigma(i, std::max(std::abs(storage_Pa[k]), 0.01 * size_Pa), floors.storage_Pa);
-    set_sigma(count + i, std::max(std::abs(loss_Pa[k]), 0.01 * size_Pa), floors.loss_Pa);
+    sigma_Pa_[i] = std::hypot(std::max(std::abs(storage_Pa[k]), 0.01 * size_Pa), floors.storage_Pa);
+    sigma_Pa_[count + i] =
+        std::hypot(std::max(std::abs(loss_Pa[k]), 0.01 * size_Pa), floors.loss_Pa);
     data_[i] = storage_Pa[k] / sigma_Pa_[i];
     data_[count + i] = loss_Pa[k] / sigma_Pa_[count + i];
   }

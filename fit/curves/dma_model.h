@@ -35,14 +35,12 @@ class DmaModel final : public SpectralModel {
 
   Eigen::Index n_frequencies() const { return n_rows() / 2; }
   double frequency_Hz(Eigen::Index i) const;
-  // Standard deviation of each row over that without floors.
-  const Eigen::VectorXd& scale_of_floors() const { return scale_of_floors_; }
   // Index of the dashpot among the common columns; -1 if there is none.
   Eigen::Index dashpot() const { return with_dashpot_ ? n_common() - 1 : -1; }
 
  private:
   std::vector<double> angular_1_s_;
-  Eigen::VectorXd sigma_Pa_, scale_of_floors_;
+  Eigen::VectorXd sigma_Pa_;
   bool with_equilibrium_ = true;
   bool with_dashpot_ = false;
 };

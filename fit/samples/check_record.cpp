@@ -226,7 +226,7 @@ std::vector<EqualRun> stuck_runs(std::span<const double> values,
   for (const EqualRun& run : longs) {
     const double value = values[run.begin];
     // Zeros are a force out of contact, the largest value an amplifier at its end.
-    if (value == 0.0 || (run.begin == 0 && value == *high) || value == *low) continue;
+    if (value == 0.0 || value == *high || value == *low) continue;
     const double sigma = noise_beside(values, run.begin, run.end);
     const double step = resolution_beside(values, run);
     if (!(sigma > kScatter * step)) continue;

@@ -95,11 +95,43 @@ std::optional<double> rounding_step_s(std::span<const double> time_s) {
   return std::nullopt;
 }
 
+namespace {
+
+// Even times whose export put them on a coarser grid, now one, now two steps apart: a straight line through
+// them, if all are within one step of each other about it.
+std::optional<RoundedTimes> straight_times(std::span<const double> time_s) {
+  const std::optional<double> step_s = rounding_step_s(time_s);
+  if (!step_s) return std::nullopt;
+  const auto n = static_cast<double>(time_s.size());
+  double mean_s = 0.0, product = 0.0;
+  for (std::size_t i = 0; i < time_s.size(); ++i) mean_s += (time_s[i] - time_s[0]) / n;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    product += (static_cast<double>(i) - 0.5 * (n - 1.0)) * (time_s[i] - time_s[0] - mean_s);
+  }
+  const double between_s = product / (n * (n * n - 1.0) / 12.0);
+  RoundedTimes even{*step_s, {}};
+  double least_s = 0.0, most_s = 0.0;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const double at_s = time_s[0] + mean_s + between_s * (static_cast<double>(i) - 0.5 * (n - 1.0));
+    even.time_s.push_back(at_s);
+    least_s = std::min(least_s, time_s[i] - at_s);
+    most_s = std::max(most_s, time_s[i] - at_s);
+  }
+  constexpr double kWithin = 1.05;
+  if (!(between_s > 0.0) || most_s - least_s > kWithin * *step_s) return std::nullopt;
+  // A record that begins at the load or after it stays so.
+  const double early_s = time_s[0] >= 0.0 ? std::min(0.0, even.time_s[0]) : 0.0;
+  for (double& t : even.time_s) t -= early_s;
+  return even;
+}
+
+}  // namespace
+
 std::optional<RoundedTimes> rounded_times(std::span<const double> time_s) {
   constexpr std::size_t kFewestRuns = 6;
   if (time_s.size() < 2 * kFewestRuns) return std::nullopt;
   const bool repeats = time_s[0] == time_s[1] || time_s[1] == time_s[2];
-  if (!repeats) return std::nullopt;  // most records
+  if (!repeats) return straight_times(time_s);
   const std::vector<std::size_t> begins = runs_of(time_s);
   if (begins.size() < kFewestRuns || !are_even(time_s, begins)) return std::nullopt;
   RoundedTimes rounded{time_s[begins[1]] - time_s[0], {}};

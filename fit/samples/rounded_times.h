@@ -12,7 +12,9 @@ struct RoundedTimes {
   std::vector<double> time_s;  // spread evenly within each step, about the rounded time
 };
 
-// Nothing unless every time is repeated about equally often, two or more rows each (the first and the
+// Also of an evenly sampled record whose times stand on a coarser grid, now one, now two of its steps apart:
+// a straight line through them.
+// Otherwise nothing unless every time is repeated about equally often, two or more rows each (the first and the
 // last may have fewer), in rising order and at equal distances.
 std::optional<RoundedTimes> rounded_times(std::span<const double> time_s);
 

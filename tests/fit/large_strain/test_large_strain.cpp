@@ -215,23 +215,6 @@ TEST_CASE("large strain: criteria of one law are those that it has beside all ot
   CHECK(one.best().bic == Approx(beside.bic).epsilon(1e-9));
 }
 
-TEST_CASE("large strain: a law that ends at a bound names it, and what it costs", "[fit]") {
-  // Tension of a Mooney-Rivlin rubber with a negative second constant: no sum of Ogden terms with positive
-  // moduli has it.
-  std::mt19937_64 random(3);
-  HyperelasticLaw law{HyperelasticForm::kYeoh, Eigen::Vector3d(0.4e6, -2e4, 6e2),
-                      Eigen::VectorXd(0)};
-  const LargeStrainTest test = made(law, Deformation::kUniaxial, 1.05, 4.0, 60, 100.0, random);
-  LargeStrainOptions options;
-  options.forms = {HyperelasticForm::kOgden3};
-  const LargeStrainResult result = fit_large_strain({test}, options);
-  for (const MaterialFlag& flag : result.best().flags) {
-    if (flag.name != "on-bound") continue;
-    CHECK_THAT(flag.text, Contains(" at 0") && Contains("kept from negative values"));
-  }
-  CHECK(has_flag(result.best().flags, "on-bound"));
-}
-
 TEST_CASE("large strain: bad tests are refused with what to do", "[fit]") {
   const LargeStrainTest good = all_of_treloar()[0];
   LargeStrainTest bad = good;
