@@ -204,22 +204,25 @@ bool is_zero_decisive(const RecordNotes& notes, const FitResult& result) {
          result.E0_interval_95.high > kVisible * result.first->modulus_Pa;
 }
 
-void flag_time_zero(const RecordNotes& notes, std::optional<double> extrapolated_Pa,
-                    FitResult& result) {
+void flag_time_zero(const RecordNotes& notes, FitResult& result) {
   const double late_s = notes.late_s.value_or(0.0), step_s = notes.late_step_s;
   const auto seconds = [](double value) { return text_of(value, 6); };
-  add_defect(
-      result, "time-zero-doubtful",
-      "the record begins at t = " + seconds(late_s) + " s, " +
-          std::to_string(std::llround(late_s / step_s)) +
-          " sampling steps after 0, and does not contain its loading, so that the time of "
-          "the load is not sure. E0 is the modulus at the first row; the times count from "
-          "half a step before it. If the record was cropped, the modulus at t = 0 is "
-          "higher" +
-          (extrapolated_Pa ? " (extrapolated: " + number(*extrapolated_Pa) + ")" : std::string()) +
-          ": fit the record with its first rows. If the clock began earlier than the load, "
-          "--time-zero " +
-          seconds(late_s - step_s) + " is right");
+  const std::string begin = "the record begins at t = " + seconds(late_s) + " s, " +
+                            std::to_string(std::llround(late_s / step_s)) +
+                            " sampling steps after 0, and does not contain its loading, so that "
+                            "the time of the load is not sure. ";
+  const std::string answer =
+      notes.counts_from_first
+          ? "E0 is the modulus at the first row; the times count from half a step before it. If "
+            "the "
+            "record was cropped, the modulus at t = 0 is higher, and unknown"
+          : "The modulus at the first row is " + number(result.first->modulus_Pa) +
+                ". If the record was cropped, E0 is an extrapolation from it";
+  add_defect(result, "time-zero-doubtful",
+             begin + answer +
+                 ": fit the record with its first rows. If the clock began earlier than the load, "
+                 "add --time-zero " +
+                 seconds(late_s - step_s));
 }
 
 void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,

@@ -49,12 +49,11 @@ void add_end_rows(FitResult& result, const EndRows& ends, const std::string& uni
 // interval of E0 where t = 0 is uncertain. Call it after judge().
 void add_record_notes(const RecordNotes& notes, FitResult& result);
 
-// The defect time-zero-doubtful for a record that begins late: E0 is the modulus at its first row.
-// extrapolated_Pa: E0 if the clock began with the load; nothing: not known.
-void flag_time_zero(const RecordNotes& notes, std::optional<double> extrapolated_Pa,
-                    FitResult& result);
+// The defect time-zero-doubtful for a record that begins late.
+void flag_time_zero(const RecordNotes& notes, FitResult& result);
 
-// A fit of a record; if it begins late and its beginning decides E0, with the times from its first row.
+// A fit of a record. If it begins late and its beginning decides E0, it is flagged, and if t = 0 is far from
+// it, the times count from its first row.
 template <typename Fit>
 FitResult fit_from_begin(CheckedRecord& record, const Fit& fit);
 
@@ -78,21 +77,25 @@ void flag_step_before(std::optional<double> step_s, double first_s, FitResult& r
 
 template <typename Fit>
 FitResult fit_from_begin(CheckedRecord& record, const Fit& fit) {
+  // Above this times the modulus at the first row, an extrapolation to t = 0 has no meaning.
+  constexpr double kFar = 3.0;
   RecordNotes& notes = record.notes;
   if (!notes.late_s) return fit();
-  std::optional<double> extrapolated_Pa;
   if (!notes.counts_from_first) {
     try {
       FitResult result = fit();
       if (!is_zero_decisive(notes, result)) return result;
-      extrapolated_Pa = result.E0_Pa;
+      if (result.E0_Pa <= kFar * result.first->modulus_Pa) {
+        flag_time_zero(notes, result);
+        return result;
+      }
     } catch (const std::runtime_error&) {
       // E0 may be infinite (creep); with the times from the first row it is not.
     }
     count_from_first(record.clean, notes);
   }
   FitResult result = fit();
-  flag_time_zero(notes, extrapolated_Pa, result);
+  flag_time_zero(notes, result);
   return result;
 }
 

@@ -324,7 +324,7 @@ void check_values(RecordKind kind, CleanViews& clean, RecordNotes& notes) {
     const std::vector<EqualRun> lost_cause =
         dropouts(kind, other(2), value(), runs_of_equal(other(2)));
     if (!lost_cause.empty()) {
-      findings.drop("dropout", "dropouts-left-out", rows_in(lost_cause),
+      findings.drop("depth_spike", "dropouts-left-out", rows_in(lost_cause),
                     "the column of depth or strain: " + dropout_text(other(2), lost_cause));
     }
   } else {
