@@ -1,7 +1,7 @@
 #include "io/tables/clock_times.h"
 
 #include "io/tables/csv_dialect.h"
-#include "io/tables/header_words.h"
+#include "io/tables/csv_header.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -161,7 +161,7 @@ std::optional<ClockTime> clock_time_from(std::string_view cell) {
     std::string decimals = "0.";
     for (; !text.empty() && is_digit(text.front()); text.remove_prefix(1)) decimals += text.front();
     if (decimals.size() == 2) return std::nullopt;
-    fraction = std::stod(decimals);
+    fraction = number_from_cell(decimals, {}).value_or(0.0);
   }
   text = trimmed(text);
   const bool is_late = text == "PM" || text == "pm", is_early = text == "AM" || text == "am";

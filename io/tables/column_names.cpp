@@ -1,6 +1,6 @@
 #include "io/tables/column_names.h"
 
-#include "io/tables/header_words.h"
+#include "io/tables/csv_header.h"
 
 #include <algorithm>
 #include <iterator>

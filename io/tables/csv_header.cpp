@@ -17,6 +17,26 @@ bool is_argument(std::string_view header, std::size_t open, std::string_view ins
 
 }  // namespace
 
+std::string lower_case(const std::string& text) {
+  std::string out = text;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (out[i] >= 'A' && out[i] <= 'Z') out[i] = static_cast<char>(out[i] - 'A' + 'a');
+    if (i + 1 == out.size()) break;
+    const auto lead = static_cast<unsigned char>(out[i]);
+    const auto next = static_cast<unsigned char>(out[i + 1]);
+    const auto put = [&](int first, int second) {
+      out[i] = static_cast<char>(first);
+      out[i + 1] = static_cast<char>(second);
+    };
+    if (lead == 0xC3 && next >= 0x80 && next <= 0x9E && next != 0x97) put(lead, next + 0x20);
+    if (lead == 0xCE && next >= 0x91 && next <= 0x9F) put(lead, next + 0x20);
+    if (lead == 0xCE && next >= 0xA0 && next <= 0xA9) put(0xCF, next - 0x20);
+    if (lead == 0xD0 && next >= 0x90 && next <= 0x9F) put(lead, next + 0x20);
+    if (lead == 0xD0 && next >= 0xA0 && next <= 0xAF) put(0xD1, next - 0x20);
+  }
+  return out;
+}
+
 std::string_view without_brackets(std::string_view cell) {
   const bool is_bracketed = cell.size() >= 2 && ((cell.front() == '(' && cell.back() == ')') ||
                                                  (cell.front() == '[' && cell.back() == ']'));

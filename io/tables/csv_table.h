@@ -50,7 +50,4 @@ CsvTable read_csv(const std::filesystem::path& path, const TableChoice& choice =
 CsvTable csv_from_text(std::string_view bytes, const std::string& name,
                        const TableChoice& choice = {});
 
-// The first table of a UTF-8 text. An error about one line begins with "line N".
-CsvTable plain_table(std::string_view text, const std::string& name);
-
 }  // namespace viscard

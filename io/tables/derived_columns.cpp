@@ -5,7 +5,6 @@
 #include "io/tables/column_names.h"
 #include "io/tables/csv_dialect.h"
 #include "io/tables/csv_header.h"
-#include "io/tables/header_words.h"
 #include "io/tables/modulus_of_columns.h"
 #include "io/tables/table_parts.h"
 #include "models/maths/text_of_number.h"

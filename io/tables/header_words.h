@@ -7,9 +7,6 @@
 
 namespace viscard {
 
-// Latin, Greek and Cyrillic letters in lower case; text: UTF-8.
-std::string lower_case(const std::string& text);
-
 // The words of a header in lower case: "AdjustedForce (N)" has adjusted, force and n. Letters beyond
 // ASCII stay as they are.
 std::vector<std::string> words_of_header(const std::string& header);

@@ -3,6 +3,7 @@
 #include "io/tables/foreign_file.h"
 #include "io/tables/maker_table.h"
 #include "io/tables/matlab_file.h"
+#include "io/tables/plain_tables.h"
 #include "io/tables/table_choice.h"
 #include "io/tables/text_encoding.h"
 #include "io/tables/workbook.h"

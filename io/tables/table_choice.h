@@ -3,16 +3,9 @@
 #include "io/tables/csv_table.h"
 
 #include <cstddef>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace viscard {
-
-// All tables of a text: below each other, each with its own header. skip: lines at its begin that are
-// not read. Throws what plain_table() throws.
-std::vector<CsvTable> plain_tables(std::string_view text, const std::string& name,
-                                   std::size_t skip = 0);
 
 // The tables that stand side by side in one, divided by empty columns or by headers that repeat; the
 // table itself if it is one.

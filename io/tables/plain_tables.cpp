@@ -1,4 +1,4 @@
-#include "io/tables/csv_table.h"
+#include "io/tables/plain_tables.h"
 
 #include "io/basics/units.h"
 #include "io/tables/clock_times.h"
@@ -6,7 +6,6 @@
 #include "io/tables/csv_dialect.h"
 #include "io/tables/csv_header.h"
 #include "io/tables/maker_table.h"
-#include "io/tables/table_choice.h"
 #include "io/tables/table_rows.h"
 #include "models/maths/text_of_number.h"
 
@@ -490,10 +489,6 @@ std::vector<CsvTable> plain_tables(std::string_view text, const std::string& nam
     place = reader.next();
   }
   return tables;
-}
-
-CsvTable plain_table(std::string_view text, const std::string& name) {
-  return std::move(plain_tables(text, name).front());
 }
 
 }  // namespace viscard
