@@ -54,7 +54,7 @@ std::vector<CardLine> lines_of_material(const std::string& text, const std::stri
   if (target == "abaqus" || target == "calculix" || target == "frontistr") {
     const bool is_frontistr = target == "frontistr";
     out = material_lines(card_lines(text, is_frontistr ? "#" : "**"), is_frontistr ? '!' : '*');
-    neutral = {"TYPE", "ISOTROPIC", "MODULI", "INSTANTANEOUS", "LONG", "TERM"};
+    neutral = {"N", "TYPE", "ISOTROPIC", "MODULI", "INSTANTANEOUS", "LONG", "TERM"};
     std::erase_if(out, [](const CardLine& line) {
       return upper(trimmed(line.text)).rfind("*MATERIAL", 0) == 0 ||
              upper(trimmed(line.text)).rfind("!MATERIAL", 0) == 0;
