@@ -223,6 +223,14 @@ std::string read_file(const std::filesystem::path& path) {
   return contents;
 }
 
+std::string sha256_of_file(const std::filesystem::path& path) {
+  return sha256_of_text(read_file(path));
+}
+
+void record_input_file(const std::filesystem::path& path) {
+  if (is_recording_inputs()) read_file(path);
+}
+
 std::string read_own_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {

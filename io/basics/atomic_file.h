@@ -1,5 +1,7 @@
 #pragma once
 
+#include "io/basics/sha256.h"
+
 #include <filesystem>
 #include <string>
 
@@ -28,7 +30,8 @@ std::string read_own_file(const std::filesystem::path& path);
 // SHA-256 (FIPS 180-4) of a file as 64 lower-case hexadecimal digits. Throws std::runtime_error
 // naming the file if it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
-// The same of a text.
-std::string sha256_of_text(const std::string& contents);
+
+// Records a file that is not read as a whole, such as a capture (inputs.h). Reads it only if somebody records.
+void record_input_file(const std::filesystem::path& path);
 
 }  // namespace viscard

@@ -1,7 +1,7 @@
 #include "io/basics/inputs.h"
 
-#include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
+#include "io/basics/sha256.h"
 
 #include <nlohmann/json.hpp>
 
@@ -75,12 +75,9 @@ void record_input(const std::filesystem::path& path, const std::string& contents
   }
 }
 
-void record_input_file(const std::filesystem::path& path) {
-  {
-    const std::lock_guard<std::mutex> lock(list_mutex());
-    if (recorders().empty()) return;
-  }
-  read_file(path);
+bool is_recording_inputs() {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  return !recorders().empty();
 }
 
 std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded) {

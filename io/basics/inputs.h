@@ -38,8 +38,8 @@ std::vector<InputFile> provenance_of_inputs();
 
 // Called by what reads files.
 void record_input(const std::filesystem::path& path, const std::string& contents);
-// The same for a file that is not read as a whole, such as a capture. Reads it only if it is recorded.
-void record_input_file(const std::filesystem::path& path);
+// Whether there is any recorder.
+bool is_recording_inputs();
 
 // The object {"schema": "viscard-inputs/1", "created_by", "is_recorded", "files": [{"path", "sha256"}]}
 // that lies beside a table. is_recorded false: of some rows the inputs are not known.

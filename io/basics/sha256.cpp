@@ -1,7 +1,5 @@
 #include "io/basics/sha256.h"
 
-#include "io/basics/atomic_file.h"
-
 #include <openssl/evp.h>
 
 #include <array>
@@ -23,10 +21,6 @@ std::string sha256_of_text(const std::string& contents) {
     out += kDigits[digest[i] & 15];
   }
   return out;
-}
-
-std::string sha256_of_file(const std::filesystem::path& path) {
-  return sha256_of_text(read_file(path));
 }
 
 }  // namespace viscard

@@ -4,7 +4,7 @@
 
 namespace viscard {
 
-// SHA-256 (FIPS 180-4) of a text as 64 lower-case hexadecimal digits; of a file: atomic_file.h.
-std::string sha256_of_text(const std::string& text);
+// SHA-256 (FIPS 180-4) of a text as 64 lower-case hexadecimal digits.
+std::string sha256_of_text(const std::string& contents);
 
 }  // namespace viscard

@@ -75,11 +75,6 @@ struct CaptureReading {
   bool accepts_damage = false;
 };
 
-// Of the option --unverified, for the help of all commands that read captures.
-inline constexpr const char* kUnverifiedHelp =
-    "read a capture although its checksums show that description, events or moves are damaged; the "
-    "result says so";
-
 // Reads everything but the raw bytes; never changes the file. The status is "running" while a live
 // writer holds the file and "interrupted" if it was left unfinished. The record is compared with its
 // checksums: damaged samples, reports of the stage and temperatures are left out and counted in

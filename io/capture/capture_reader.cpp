@@ -1,4 +1,4 @@
-#include "io/basics/inputs.h"
+#include "io/basics/atomic_file.h"
 #include "io/capture/capture_check.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"

@@ -21,6 +21,11 @@ namespace viscard {
 // Poisson ratio where none is given: typical of rubber.
 inline constexpr double kUsualNu = 0.495;
 
+// Of the option --unverified, for the help of all commands that read captures.
+inline constexpr const char* kUnverifiedHelp =
+    "read a capture although its checksums show that description, events or moves are damaged; the "
+    "result says so";
+
 // One of several tests of a material.
 struct TestFile {
   FitKind kind = FitKind::kRelaxation;

@@ -1,6 +1,5 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/timestamp.h"
-#include "io/capture/capture_file.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/report/report_commands.h"

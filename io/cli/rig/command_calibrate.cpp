@@ -5,6 +5,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
+#include "io/flow/fit_request.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>

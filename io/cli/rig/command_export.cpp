@@ -7,6 +7,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
 #include "io/flow/command_error.h"
+#include "io/flow/fit_request.h"
 #include "io/flow/table_from_capture.h"
 #include "models/maths/text_of_number.h"
 

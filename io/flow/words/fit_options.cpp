@@ -1,5 +1,4 @@
 // The options of `viscard fit`, also those of tests at large strain that both share.
-#include "io/capture/capture_file.h"
 #include "io/flow/words/fit_words.h"
 
 namespace viscard {
