@@ -21,8 +21,10 @@ struct AveragedRun {
   // Of each row: mean of (t - mean t)^2, of (F - mean F)^2 and of their product.
   Eigen::VectorXd time_square, force_square, product;
 
+  // True if any row has more than one reading.
   bool has_averages() const { return begins.size() < n_readings() + 1; }
   std::size_t n_readings() const { return begins.empty() ? 0 : begins.back(); }
+  // Number of readings of a row.
   double count(Eigen::Index row) const {
     const auto at = static_cast<std::size_t>(row);
     return static_cast<double>(begins[at + 1] - begins[at]);

@@ -21,6 +21,7 @@ struct RecordFault {
   std::string text;
 };
 
+// What the checks found, left out and changed. Times in s.
 struct RecordNotes {
   std::vector<RecordFault> faults;
   // Rows left out by reason (fit/intervals/left_out.h).

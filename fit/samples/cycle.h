@@ -9,8 +9,8 @@ namespace viscard {
 struct Cycle {
   double frequency_Hz = 0.0;
   double cosine = 0.0, sine = 0.0;  // amplitudes at t = 0, in the unit of the values
-  double amplitude() const;
-  double at(double time_s) const;
+  double amplitude() const;         // of both together, in that unit
+  double at(double time_s) const;   // its value at a time, in that unit
 };
 
 // The cycle of a record whose even sampling shows at least two and a half periods, beside any smooth

@@ -14,6 +14,7 @@ struct ReadingNoise {
   // The smallest and the largest values that are many differ by more than chance and half.
   bool grows = false;
 
+  // Standard deviation and variance of a reading of this value, in the unit of the values and its square.
   double sigma(double value) const;
   double variance(double value) const { return floor * floor + share * share * value * value; }
 };
