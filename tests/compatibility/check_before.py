@@ -4,7 +4,8 @@
 check_before.py VISCARD SOURCE_FOLDER [--record NAME]
 
 before/commands.json lists the command lines; before/printed/NAME.json is what --json printed then. All keys of
-then must still be there with the same numbers; new keys are welcome. --record writes the object of one new
+then must still be there with the same numbers; new keys are welcome. "changed" of a command line names keys whose
+numbers have changed for a reason that CHANGELOG.md gives under Numbers. --record writes the object of one new
 command line, which must stand in commands.json.
 """
 import gzip
@@ -24,25 +25,25 @@ VOLATILE = {"version", "viscard", "wall_s", "cpu_s", "memory_B", "created_at", "
             "inputs", "file", "files", "out", "duration_s", "elapsed_s"}
 
 
-def differences(then, now, where, relative):
+def differences(then, now, where, relative, skipped=VOLATILE):
     """The places at which an object of then is not found again."""
     if isinstance(then, dict):
         if not isinstance(now, dict):
             yield f"{where}: was an object, is {now!r:.80}"
             return
         for key, value in then.items():
-            if key in VOLATILE:
+            if key in skipped:
                 continue
             if key not in now:
                 yield f"{where}/{key}: is gone"
             else:
-                yield from differences(value, now[key], f"{where}/{key}", relative)
+                yield from differences(value, now[key], f"{where}/{key}", relative, skipped)
     elif isinstance(then, list):
         if not isinstance(now, list) or len(then) != len(now):
             yield f"{where}: had {len(then)} entries, is {now!r:.80}"
             return
         for index, (one, other) in enumerate(zip(then, now)):
-            yield from differences(one, other, f"{where}/{index}", relative)
+            yield from differences(one, other, f"{where}/{index}", relative, skipped)
     elif isinstance(then, bool) or then is None:
         if then != now:
             yield f"{where}: was {then}, is {now!r:.80}"
@@ -80,7 +81,8 @@ def main():
             then = json.loads(printed.read_text())
             if "keys" in entry:  # the others depend on the time of the run
                 then = {key: then[key] for key in entry["keys"]}
-            found = list(differences(then, json.loads(done.stdout), entry["name"], entry.get("relative", 1e-6)))
+            found = list(differences(then, json.loads(done.stdout), entry["name"], entry.get("relative", 1e-6),
+                                     VOLATILE | set(entry.get("changed", []))))
             mistakes += found[:5]
             compared += 1
     if recorded:

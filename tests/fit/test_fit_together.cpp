@@ -232,14 +232,14 @@ TEST_CASE("a stiffness among moduli gets its scale from them", "[fit][together]"
 TEST_CASE("a test with slow noise counts with its own memory", "[fit][together]") {
   Coverage coverage;
   int n_flagged = 0;
-  for (unsigned seed = 0; seed < 20; ++seed) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
     Laboratory laboratory(kSolid, 5000 + seed);
     const MaterialTest relaxation = laboratory.relaxation(1000.0, 0.8);
     const FitResult fit = fit_together({relaxation, laboratory.oscillation()}, {});
     n_flagged += has_flag(fit, "tests-disagree") ? 1 : 0;
     coverage.add(fit, kSolid);
   }
-  CHECK(n_flagged <= 1);
+  CHECK(n_flagged <= 6);  // at a level of 5 %, 7 of 60 come up in 3 % of all tries
   CHECK(coverage.pooled() > 0.88);
 }
 

@@ -150,7 +150,10 @@ TEST_CASE("constraints come from the command line or a file", "[cli]") {
   const CommandOutcome words = run_command(
       {"fit", table, "--terms", "2", "--fix", "tau_1=0.82", "--bound", "g_2=0:0.05", "--plausible", "off",
        "--json"});
-  CHECK(words.out == ran.out);
+  auto of_words = nlohmann::json::parse(words.out), of_file = json;
+  of_words.erase("input_files");  // the file of constraints is one of them
+  of_file.erase("input_files");
+  CHECK(of_words == of_file);
   CHECK(run_command({"fit", table, "--fix", "tau_1=0.9"}).status == kBadWords);
   CHECK(run_command({"fit", table, "--terms", "2", "--fix", "tau_1"}).status == kBadWords);
   const CommandOutcome below = run_command({"fit", table, "--terms", "2", "--fix", "E0=0.9", "--plausible", "off"});
