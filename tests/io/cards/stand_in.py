@@ -177,8 +177,8 @@ def fistr1():
                 strain += pulled[boundary] if i == 1 else 0.0
                 _, stress = bar.step(step["dt"], strain=strain, confined=confined)
             write_frontistr(n, time, strain, stress)
-            if n == int(os.environ.get("STAND_IN_STOPS_AFTER", "-1")):
-                return print(os.environ.get("STAND_IN_SAYS", ""))
+            if n == int(os.environ.get("PYTHON_STAND_IN_STOPS_AFTER", "-1")):
+                return print(os.environ.get("PYTHON_STAND_IN_SAYS", ""))
         was_loaded = True
 
 

@@ -101,13 +101,13 @@ def engine(path):
     inertia, area = law.rho * edge * edge / 2, edge * edge  # of a face, over its area and edge
     keep, gain = (1 - alpha * dt / 2) / (1 + alpha * dt / 2), dt / (1 + alpha * dt / 2)
     t = ez = ex = vz = vx = sz = sx = dev = 0.0
-    rows, due, most = [], 0.0, int(os.environ.get("STAND_IN_STOPS_AFTER", "-1"))
+    rows, due, most = [], 0.0, int(os.environ.get("PYTHON_STAND_IN_STOPS_AFTER", "-1"))
     while True:
         if t >= due:
             rows.append([single(x) for x in (t, dt, ez * edge, sz)])
             due = max(t, due + output)
             if len(rows) == most:
-                print(os.environ.get("STAND_IN_SAYS", ""))
+                print(os.environ.get("PYTHON_STAND_IN_SAYS", ""))
                 break
         if t >= end:
             print("     NORMAL TERMINATION")

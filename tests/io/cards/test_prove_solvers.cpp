@@ -270,14 +270,14 @@ TEST_CASE("a solver that stops early with status 0 proves nothing", "[cards]") {
       find_solver(solver_for("", "frontistr"), stand_in(folder.path(), "fistr1"));
   const Material material = material_of_terms(2, 0.45);
   const CardTarget& target = card_target("frontistr");
-  ::setenv("STAND_IN_STOPS_AFTER", "30", 1);
+  ::setenv("PYTHON_STAND_IN_STOPS_AFTER", "30", 1);
   CHECK_THROWS_WITH(proof_of_card(material, target, "SI", solver),
                     Contains("FrontISTR stopped at") && Contains("--deck"));
   // It says why: an increment that does not converge, also with the card of viscard.
-  ::setenv("STAND_IN_SAYS", "     ### Fail to Converge  : at total_step=    1", 1);
+  ::setenv("PYTHON_STAND_IN_SAYS", "     ### Fail to Converge  : at total_step=    1", 1);
   const CardProof proof = proof_of_card(material, target, "SI", solver);
-  ::unsetenv("STAND_IN_STOPS_AFTER");
-  ::unsetenv("STAND_IN_SAYS");
+  ::unsetenv("PYTHON_STAND_IN_STOPS_AFTER");
+  ::unsetenv("PYTHON_STAND_IN_SAYS");
   REQUIRE(proof.divergence);
   CHECK_FALSE(proof.divergence->is_card_blamed);
   CHECK_FALSE(proof.holds());
