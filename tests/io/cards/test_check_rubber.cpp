@@ -249,7 +249,7 @@ TEST_CASE("rubber cards: what FEBio stops at, and what of a card is not read, is
   };
   CHECK(unread(right) == "");
   CHECK(unread(changed(right, "<c1>", "<pressure_model>2</pressure_model><c1 lc=\"1\">")) ==
-        "line 6: <pressure_model>|line 6: <c1 lc=\"1\">|");
+        "line 7: <pressure_model>|line 7: <c1 lc=\"1\">|");
 }
 
 TEST_CASE("rubber cards: what of a card was not read is listed", "[io]") {

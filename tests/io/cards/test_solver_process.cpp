@@ -60,6 +60,9 @@ bool has_folder_of(pid_t process) {
 pid_t proving_process(const std::filesystem::path& file) {
   const pid_t child = fork();
   if (child != 0) return child;
+  // Those of the test program would be left alone.
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
   try {
     run_script("echo $$ > " + file.string() + "; exec sleep 600");
   } catch (const std::exception&) {
