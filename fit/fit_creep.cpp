@@ -101,7 +101,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     throw std::runtime_error("the first time is " + text_of(clean.column(0).front()) +
                              " s; t = 0 must be the step of stress (set it with --time-zero)");
   }
-  check_clock(clean, record.notes);
+  if (!data.is_zero_known) check_clock(clean, record.notes);
   const std::optional<double> rounded_s = rounding_step_s(clean.column(0));
   const EndRows ends = drop_end_rows(clean, StepRecord::kCreep);
   const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));

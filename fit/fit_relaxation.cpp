@@ -237,7 +237,7 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
     n_early = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), 0.0) -
                                        time_s.begin());
     clean.drop_first(n_early);
-    check_clock(clean, record.notes);
+    if (!data.is_zero_known) check_clock(clean, record.notes);
   }
   check_step_values(clean.column(0), clean.column(1), is_step, data.unit);
   FitResult result;

@@ -222,7 +222,8 @@ Preparation prepared(const IndentationData& data, const AveragedRun& run,
     const std::vector<SpectralState> path = order_path(model, path_options);
     if (path.empty()) {
       throw std::runtime_error(
-          "no model fits these readings: every fitted modulus is zero or not finite. Check the sign "
+          "no model fits these readings: every fitted modulus is zero or not finite. Check the "
+          "sign "
           "of the force, the calibration and the moves of the capture");
     }
     const SpectralState& state = path.back();

@@ -59,8 +59,7 @@ void show_keys(ResultVisitor& v, const MasterCurve& curve) {
   v.word("form", curve.form.empty() ? "free" : curve.form, {"arrhenius", "wlf", "smooth", "free"},
          "what the factors taken follow");
   v("residual_relative", curve.residual, "root mean square of the residuals with these factors");
-  show_factors(v, "free_factors", "one free value for each temperature", curve,
-               curve.free_factors);
+  show_factors(v, "free_factors", "one free value for each temperature", curve, curve.free_factors);
   v("free_residual_relative", curve.free_residual, "the same with free factors");
   v("left_out", curve.left_out, "isotherms that are not part of it, and why");
   show_laws(v, curve.laws);

@@ -222,7 +222,7 @@ void flag_time_zero(const RecordNotes& notes, FitResult& result) {
              begin + answer +
                  ": fit the record with its first rows. If the clock began earlier than the load, "
                  "add --time-zero " +
-                 seconds(late_s - step_s));
+                 seconds(late_s - step_s) + "; if the load was at t = 0, add --time-zero 0");
 }
 
 void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,

@@ -26,6 +26,7 @@ struct RelaxationData {
   std::vector<double> value;   // Pa, or any other unit; the moduli have the same unit
   std::vector<double> strain;  // empty: ideal step
   std::string unit = "Pa";     // of value, for the words of flags
+  bool is_zero_known = false;  // the load was at t = 0 for certain: the times are not questioned
 };
 
 // Flat-punch indentation, F(t) = c int E(t-s) d(depth)/ds ds + offset + drift t (fit/README.md, eq.
@@ -60,6 +61,7 @@ struct IndentationData {
 struct CreepData {
   std::vector<double> time_s;
   std::vector<double> compliance_1_Pa;
+  bool is_zero_known = false;  // as in RelaxationData
 };
 
 // Storage and loss modulus, fitted together with relative weights.

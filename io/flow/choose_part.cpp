@@ -36,7 +36,7 @@ Course course_of(const CsvTable& table, const FitRequest& request) {
     return out;
   };
   course.time_s = sorted(time_s);
-  for (double& time : course.time_s) time -= request.time_zero_s;
+  for (double& time : course.time_s) time -= request.time_zero_s.value_or(0.0);
   for (const char* name : {"depth_m", "strain"}) {
     if (const auto values = column(name); course.input.empty() && !values.empty()) {
       course.input = sorted(values);
@@ -82,7 +82,7 @@ RowRange cropped(const Course& course) {
 // When the load rose, if --crop auto begins at its largest value and no time of the step was given.
 std::optional<Interval> rise_of(const Course& course, const FitRequest& request) {
   if (!request.crop || !course.input.empty() || course.value.empty()) return std::nullopt;
-  if (request.time_zero_s != 0.0 || request.from_s) return std::nullopt;
+  if (request.time_zero_s || request.from_s) return std::nullopt;
   const std::size_t peak = from_largest(course.value).begin;
   const std::optional<std::size_t> begin = begin_of_rise(course.value, peak);
   if (!begin || !(course.time_s[peak] > course.time_s[*begin])) return std::nullopt;

@@ -122,10 +122,10 @@ CommandError command_error(const std::exception& error) {
 
 void show_keys(ResultVisitor& v, const CommandError& error) {
   v.word("code", error.code,
-         {"usage",        "input",        "exists",           "file",        "preflight",
-          "calibration",  "port",         "device",           "device-lost", "device-restarted",
-          "stage-alarm",  "readings-old", "computer-late",    "force-limit", "pressing",
-          "interrupted",  "records-lost", "unfit",            "damaged",     "failed"},
+         {"usage",       "input",        "exists",        "file",        "preflight",
+          "calibration", "port",         "device",        "device-lost", "device-restarted",
+          "stage-alarm", "readings-old", "computer-late", "force-limit", "pressing",
+          "interrupted", "records-lost", "unfit",         "damaged",     "failed"},
          "kind of failure; the words stay the same");
   v("message", error.message, "what happened, with the value and its limit");
   v("where", error.where,

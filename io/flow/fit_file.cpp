@@ -1,9 +1,9 @@
 #include "io/flow/fit_file.h"
 
-#include "io/basics/failure_text.h"
 #include "fit/fit_indentation.h"
 #include "fit/indentation_from_capture.h"
 #include "fit/laws/law_fit.h"
+#include "io/basics/failure_text.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/integrity_notes.h"
@@ -49,7 +49,7 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   if (request.kind && *request.kind != FitKind::kIndentation) {
     throw std::runtime_error(path + ": a capture is an indentation; omit --kind");
   }
-  if (!request.columns.empty() || !request.segments.empty() || request.time_zero_s != 0.0 ||
+  if (!request.columns.empty() || !request.segments.empty() || request.time_zero_s ||
       request.from_s || request.to_s || request.hold > 0 || request.crop || request.depth_m ||
       request.modulus_kind) {
     throw std::runtime_error(

@@ -40,7 +40,7 @@ struct FitRequest {
   TableChoice table;
   SpecimenSize size;                   // for tables of load and extension, and of relative moduli
   std::vector<std::string> segments;   // use only rows of these; empty: all
-  double time_zero_s = 0.0;            // time in the table where t = 0
+  std::optional<double> time_zero_s;   // where t = 0 is in the table; none: at its 0, which is judged
   std::optional<double> from_s, to_s;  // only rows of these times, after time_zero_s
   int hold = 0;                        // only this hold with its ramp, from 1; 0: all
   bool crop = false;                   // only the part that a fit of one ramp describes

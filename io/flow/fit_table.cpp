@@ -76,7 +76,7 @@ std::string specimen_id_of(const CsvTable& table, const FitRequest& request) {
 
 Column time_of(const CsvTable& table, const FitRequest& request) {
   Column time_s = column_SI(table, "time_s", request.columns);
-  for (double& time : time_s) time -= request.time_zero_s;
+  for (double& time : time_s) time -= request.time_zero_s.value_or(0.0);
   return time_s;
 }
 
@@ -147,6 +147,7 @@ FitResult fit_force_table(const CsvTable& table, const FitRequest& request) {
   const double per = request.depth_m ? law.factor * std::pow(*request.depth_m, law.power) : 1.0;
   RelaxationData data{time_of(table, request), column_SI(table, "force_N", request.columns)};
   if (!has_geometry) data.unit = request.depth_m ? "N/m" : "N";
+  data.is_zero_known = request.time_zero_s.has_value();
   for (double& value : data.value) value /= per;
   FitResult result = fit_relaxation(data, request.options);
   result.is_stiffness = !has_geometry;
@@ -156,6 +157,7 @@ FitResult fit_force_table(const CsvTable& table, const FitRequest& request) {
 FitResult fit_relaxation_table(const CsvTable& table, const FitRequest& request) {
   RelaxationData data;
   data.time_s = time_of(table, request);
+  data.is_zero_known = request.time_zero_s.has_value();
   const bool has_modulus = find_column(table, "modulus_Pa", request.columns).has_value();
   data.value = moduli_of(table, has_modulus ? "modulus_Pa" : "stress_Pa", request);
   if (!has_modulus && find_column(table, "strain", request.columns)) {
@@ -355,8 +357,9 @@ FittedFile fit_rows(const CsvTable& table, const FitRequest& asked) {
       fitted.fitted_unit = "Pa";
       break;
     case FitKind::kCreep:
-      fitted.result =
-          fit_creep({time_of(table, request), compliance_of(table, request)}, request.options);
+      fitted.result = fit_creep(
+          {time_of(table, request), compliance_of(table, request), request.time_zero_s.has_value()},
+          request.options);
       fitted.fitted_unit = "1/Pa";
       break;
     case FitKind::kDma:

@@ -56,8 +56,7 @@ void show_keys(ResultVisitor& v, const PredictedFile& predicted) {
         v("t_max_s", prediction.t_max_s, "end");
       },
       !prediction.is_window_known);
-  v("n_outside_window",
-    std::count(prediction.is_inside.begin(), prediction.is_inside.end(), false),
+  v("n_outside_window", std::count(prediction.is_inside.begin(), prediction.is_inside.end(), false),
     "points outside it");
   v("has_band", predicted.has_band, "whether the material carries a covariance");
   v("trustworthy", predicted.is_trustworthy, "whether the fit of the material may be used");
@@ -66,16 +65,17 @@ void show_keys(ResultVisitor& v, const PredictedFile& predicted) {
     "relative standard uncertainty of E0 that further tests on the same bench would not narrow");
   std::vector<NamedColumn> columns = columns_of(prediction);
   columns.push_back({"inside_window", nullptr});
-  v.map("curve",
-        "columns of the curve, all of one length: time_s or frequency_Hz, the quantity, its _low_95 "
-        "and _high_95, inside_window",
-        columns, [&](const NamedColumn& column) {
-          if (column.values == nullptr) {
-            v(column.name, prediction.is_inside, "whether the point is inside the window");
-          } else {
-            v(column.name, *column.values, "values");
-          }
-        });
+  v.map(
+      "curve",
+      "columns of the curve, all of one length: time_s or frequency_Hz, the quantity, its _low_95 "
+      "and _high_95, inside_window",
+      columns, [&](const NamedColumn& column) {
+        if (column.values == nullptr) {
+          v(column.name, prediction.is_inside, "whether the point is inside the window");
+        } else {
+          v(column.name, *column.values, "values");
+        }
+      });
   v.when(!predicted.against.empty(), [&] {
     v.object("against", "the comparison with measured values", [&] {
       v("file", predicted.against, "the measured table");

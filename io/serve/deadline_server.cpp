@@ -17,9 +17,18 @@
 #include <vector>
 
 namespace viscard {
-namespace {
 
 using SteadyClock = std::chrono::steady_clock;
+
+// A request as far as it has arrived.
+struct Arriving {
+  socket_t socket = -1;
+  SteadyClock::time_point deadline;
+  std::string bytes;
+  bool has_continued = false;  // the client was told to send the body
+};
+
+namespace {
 
 // Answers at once, in the thread that accepts connections: there a connection is only noted down.
 class NoQueue : public httplib::TaskQueue {
@@ -43,14 +52,6 @@ std::string field_of(const std::string& head, const std::string& name) {
   const std::size_t begin = head.find_first_not_of(" \t", at + name.size() + 3);
   return head.substr(begin, head.find("\r\n", begin) - begin);
 }
-
-// A request as far as it has arrived.
-struct Arriving {
-  socket_t socket = -1;
-  SteadyClock::time_point deadline;
-  std::string bytes;
-  bool has_continued = false;  // the client was told to send the body
-};
 
 enum class State { kIncomplete, kComplete, kTooLarge };
 

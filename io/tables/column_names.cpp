@@ -383,6 +383,20 @@ std::vector<ColumnKind> rig_kinds() {
           {"specimen", "specimen", "1", {"specimen id", "specimen name"}, true}};
 }
 
+// force_mN, depth_um: the quantity's own name followed by a unit; storage_kPa, load_mN: another name of it.
+std::optional<HeaderMatch> match_unit_in_name(const std::string& name, const ColumnKind& quantity) {
+  const std::string base = std::string(quantity.base) + "_";
+  const bool is_own = name.rfind(base, 0) == 0;
+  const std::size_t at = is_own ? base.size() - 1 : name.rfind('_');
+  if (at == std::string::npos) return std::nullopt;
+  const std::string head = name.substr(0, at), unit = unit_in_name(name.substr(at + 1));
+  if (!is_stated(unit) || !(is_own || has_alias(quantity, head))) return std::nullopt;
+  const auto scale = scale_if_fits(is_own ? quantity.base : head, unit, quantity);
+  if (!scale) return std::nullopt;
+  const bool is_weight = std::string(quantity.unit.si) == "N" && is_weight_unit(unit);
+  return HeaderMatch{is_own ? 2 : 1, *scale, false, is_weight};
+}
+
 }  // namespace
 
 const std::vector<ColumnKind>& column_kinds() {
@@ -417,31 +431,19 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const ColumnKin
   // tau is a relaxation time, too.
   const bool is_tau = column.name == "tau" || column.name == "τ";
   if (is_tau && !is_stated(column.unit)) return std::nullopt;
+  if (!quantity.is_text && !is_stated(column.unit)) {
+    // Before symbols in a name are looked for: the g of mass_g is its unit.
+    if (const auto found = match_unit_in_name(column.name, quantity)) return found;
+  }
   const bool is_own_name = plain(column.name) == plain(quantity.base);
   const std::string rest = quantity.is_text ? "" : without_kind_and_symbol(column.name);
   const bool is_named_inside =
       rest.size() > 1 && (rest == plain(quantity.base) || has_alias(quantity, rest));
-  if (is_own_name || is_named_inside || has_alias(quantity, column.name)) {
-    const auto scale = scale_if_fits(column.name, column.unit, quantity);
-    if (!scale) return std::nullopt;
-    const bool is_weight = std::string(quantity.unit.si) == "N" && is_weight_unit(column.unit);
-    return HeaderMatch{is_own_name ? 2 : 1, *scale, is_unit_assumed(column, quantity), is_weight};
-  }
-  if (quantity.is_text || is_stated(column.unit)) return std::nullopt;
-  // force_mN, depth_um: the quantity's own name followed by another unit.
-  const std::string base = std::string(quantity.base) + "_";
-  if (column.name.rfind(base, 0) == 0) {
-    const auto scale =
-        scale_if_fits(quantity.base, unit_in_name(column.name.substr(base.size())), quantity);
-    return scale ? std::optional(HeaderMatch{2, *scale}) : std::nullopt;
-  }
-  // storage_kPa, load_mN: another name of it.
-  const std::size_t at = column.name.rfind('_');
-  if (at == std::string::npos) return std::nullopt;
-  const std::string head = column.name.substr(0, at), unit = column.name.substr(at + 1);
-  if (!has_alias(quantity, head) || !is_stated(unit)) return std::nullopt;
-  const auto scale = scale_if_fits(head, unit, quantity);
-  return scale ? std::optional(HeaderMatch{1, *scale}) : std::nullopt;
+  if (!is_own_name && !is_named_inside && !has_alias(quantity, column.name)) return std::nullopt;
+  const auto scale = scale_if_fits(column.name, column.unit, quantity);
+  if (!scale) return std::nullopt;
+  const bool is_weight = std::string(quantity.unit.si) == "N" && is_weight_unit(column.unit);
+  return HeaderMatch{is_own_name ? 2 : 1, *scale, is_unit_assumed(column, quantity), is_weight};
 }
 
 bool is_stated(const std::string& unit) {

@@ -51,10 +51,12 @@ char leading_letter(const std::string& name) {
 }
 
 bool is_own_name(const CsvColumn& column, const ColumnKind& quantity) {
-  // "strain" is the word of everybody.
+  // "strain" is the word of everybody, modulus_Pa and modulus_MPa are not.
   const bool has_unit = std::string(quantity.name) != quantity.base;
-  return has_unit && column.derived_from.empty() &&
-         (column.header == quantity.name || column.name == quantity.name);
+  if (!has_unit || !column.derived_from.empty()) return false;
+  const auto match = match_header(column, quantity);
+  const bool has_unit_in_name = column.header.rfind(std::string(quantity.base) + "_", 0) == 0;
+  return match && (match->rank == 3 || (match->rank == 2 && has_unit_in_name));
 }
 
 bool tells_kind(const std::string& name) {

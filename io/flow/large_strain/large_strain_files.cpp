@@ -68,8 +68,9 @@ Column stretches_of(const CsvTable& table, const ColumnMap& columns) {
         table.file + ": has no column of the stretch or the nominal strain. The columns are " +
         columns_with_values(table) +
         (find_column(table, "force_N", columns)
-             ? ". State --gauge-length and --area of the specimen for load and extension"
-             : ". Name one with --column stretch=\"HEADER\" or --column strain=\"HEADER\""));
+             ? ". State --gauge-length and --area of the specimen for load and extension, or name"
+             : ". Name") +
+        " one with --column stretch=\"HEADER\" or --column strain=\"HEADER\"");
   }
   Column stretch = column_SI(table, "strain", columns);
   for (double& value : stretch) value += 1.0;

@@ -235,7 +235,7 @@ FitRequest fit_request(const FitWords& words) {
       throw OptionError("--terms does not belong to --model, because a law has no terms; omit it");
     }
   }
-  request.time_zero_s = quantity(words, &FitWords::time_zero, "time-zero", "s").value_or(0.0);
+  request.time_zero_s = quantity(words, &FitWords::time_zero, "time-zero", "s");
   try {
     request.columns = column_map_from_words(words.column);
   } catch (const std::invalid_argument& error) {

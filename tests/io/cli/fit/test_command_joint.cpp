@@ -18,7 +18,7 @@ using Catch::Contains;
 
 namespace {
 
-// The file reads back to the same law; what --json prints is the file, the version and the inputs.
+// The file reads back to the same law; what --json prints is the file without its sum, the version and the inputs.
 void check_read_back(const std::string& joint, const std::string& printed) {
   std::ifstream file(joint);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -26,8 +26,9 @@ void check_read_back(const std::string& joint, const std::string& printed) {
   nlohmann::json object = nlohmann::json::parse(printed);
   CHECK(object.erase("version") == 1);
   CHECK(object.erase("inputs") == 1);
-  object.erase("input_files");
-  CHECK(object == nlohmann::json::parse(text));
+  nlohmann::json written = nlohmann::json::parse(text);
+  CHECK(written.erase("body_sha256") == 1);  // the sum of the file; what is printed has other keys
+  CHECK(object == written);
 }
 
 // Relaxation tables of a material with E0 = 20 MPa/ratio, g = .2, tau = 3 s, and a second term at one

@@ -118,7 +118,7 @@ TEST_CASE("material, card and prediction of a test in shear have Young's modulus
     const CommandOutcome ran = run_command(words);
     CAPTURE(ran.err);
     REQUIRE(ran.status == kDone);
-    return nlohmann::json::parse(ran.out)["agreement"][0]["rms_relative"].get<double>();
+    return nlohmann::json::parse(ran.out)["against"]["quantities"][0]["rms_relative"].get<double>();
   };
   CHECK(rms({}) < 1e-3);
   CHECK(rms({"--modulus-kind", "tension"}) > 1.5);
