@@ -53,7 +53,7 @@ bool CardChain::is_complete() const {
                      [](const ChainLink& link) { return link.matches(); });
 }
 
-std::vector<std::string> CardChain::missing() const {
+std::vector<std::string> CardChain::broken() const {
   if (material.stated.empty()) {
     return {
         "the card's header states no sums; write the card with viscard card MATERIAL.json --for "
@@ -80,7 +80,12 @@ std::vector<std::string> CardChain::missing() const {
                                    ? " is not here; put it beside the material file"
                                    : " has changed since the card was written; fit it again"));
   }
-  if (raw_files.empty()) {
+  return out;
+}
+
+std::vector<std::string> CardChain::missing() const {
+  std::vector<std::string> out = broken();
+  if (!material.stated.empty() && raw_files.empty()) {
     out.emplace_back(
         "the material names no raw data: it was typed in or fitted without them; viscard fit "
         "writes a material file that names them");

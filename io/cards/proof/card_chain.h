@@ -27,6 +27,8 @@ struct CardChain {
   // Missing parts of the chain, and what to do about them, one sentence each; empty if it is
   // complete.
   std::vector<std::string> missing() const;
+  // Those of them that the stated sums contradict or leave open: a material that names no raw data is none.
+  std::vector<std::string> broken() const;
 };
 void show_keys(ResultVisitor& v, const ChainLink& link);
 void show_keys(ResultVisitor& v, const CardChain& chain);

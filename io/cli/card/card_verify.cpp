@@ -22,13 +22,13 @@ struct Verified {
   CardChain chain;
   std::optional<bool> is_certificate_unchanged, is_card_of_certificate;
 
-  std::vector<std::string> missing() const {
+  std::vector<std::string> broken() const {
     std::vector<std::string> out;
     if (is_certificate_unchanged && !*is_certificate_unchanged)
       out.emplace_back("the certificate has been edited; prove the card again");
     if (is_card_of_certificate && !*is_card_of_certificate)
       out.push_back(card + " is not the card that the certificate is of; prove it again");
-    const auto more = chain.missing();
+    const auto more = chain.broken();
     out.insert(out.end(), more.begin(), more.end());
     return out;
   }
@@ -41,14 +41,14 @@ void show_verified(ResultVisitor& v, const Verified& verified) {
   v.or_null("certificate_of_card", verified.is_card_of_certificate,
             "whether the card is the one that was proven; null: a card was named");
   show_keys(v, verified.chain);
-  v("holds", verified.missing().empty(),
-    "whether every sum from the certificate to the raw data matches");
-  v("broken", verified.missing(), "what has changed or is missing, and what to do");
+  v("holds", verified.broken().empty(),
+    "whether every stated sum from the certificate to the raw data matches");
+  v("broken", verified.broken(), "what has changed or is not here, and what to do");
 }
 
 void print_verified(const Verified& verified, const CardWords& words, std::ostream& out) {
-  const bool holds = verified.missing().empty();
-  out << words.verify << ": " << (holds ? "every sum matches" : "the chain is broken") << "\n";
+  const bool holds = verified.broken().empty();
+  out << words.verify << ": " << (holds ? "every stated sum matches" : "not verified") << "\n";
   if (verified.is_certificate_unchanged)
     out << (*verified.is_certificate_unchanged ? "  certificate: as it was written\n"
                                                : "  certificate: EDITED\n");
@@ -66,7 +66,9 @@ void print_verified(const Verified& verified, const CardWords& words, std::ostre
       << "\n";
   if (!verified.chain.material.stated.empty()) row(verified.chain.material, "material");
   for (const ChainLink& link : verified.chain.raw_files) row(link, "raw data");
-  for (const std::string& one : verified.missing()) out << "  " << one << "\n";
+  for (const std::string& one : holds ? verified.chain.missing() : verified.broken()) {
+    out << "  " << one << "\n";
+  }
 }
 
 // The file as stated, or that of its name beside the certificate.
@@ -137,7 +139,7 @@ DescribedResult result_of_verify() {
 
 int verify_file(const CardWords& words, Streams& streams) {
   const Verified verified = verified_by(words);
-  const bool holds = verified.missing().empty();
+  const bool holds = verified.broken().empty();
   if (words.json) {
     print_result(
         {"viscard-card-verify/1", {words.verify}},

@@ -136,7 +136,7 @@ def check_card():
     write = ["card", material, "--for", "calculix", "--units", "mm-t-s"]
     run(write, "card-write")
     run([*write, "--out", "card.inp"], "card-write")
-    run(["card", "--verify", "card.inp"], "card-verify")
+    run(["card", material, "--verify", "card.inp"], "card-verify")
     run(["card", "rubber.json", "--for", "calculix"], "card-rubber")
     run(["card", "rubber.json", "--for", "abaqus", "--out", "rubber.inp"], "card-rubber")
     run(["card", "rubber.json", "--check", "rubber.inp"], "card-rubber-check")

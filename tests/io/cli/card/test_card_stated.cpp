@@ -152,7 +152,7 @@ TEST_CASE("card --prove leaves a certificate beside the card that leads to the r
   CHECK(command.run({"--prove", card, "--force"}) == kDone);
   CHECK_THAT(command.out, Contains("1 file of raw data have the sums"));
   CHECK(command.run({"--verify", path}) == kDone);
-  CHECK_THAT(command.out, Contains("every sum matches"));
+  CHECK_THAT(command.out, Contains("every stated sum matches"));
   const std::string written = read_file(card);
   write_file(card, written + "** a line more\n", true);
   CHECK(command.run({"--verify", path}) == kFailed);
