@@ -76,6 +76,18 @@ void check_words(const RigConfig& rig) {
       rig.load_cell.driver + "' is polled. Give the thermometer a port of its own");
 }
 
+// The port of a device; a port that cannot be opened is named with its key.
+template <class Config, class... Framing>
+std::unique_ptr<SerialLine> line_of(const char* section, const Config& device,
+                                    const RigClock& clock, const Framing&... framing) {
+  try {
+    return std::make_unique<SerialLine>(device.port, device.baud, clock, framing...);
+  } catch (const PortUnavailable& error) {
+    throw PortUnavailable(std::string("port under [") + section +
+                          "] of the rig file: " + error.what());
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& config,
@@ -108,9 +120,8 @@ std::unique_ptr<Thermometer> make_thermometer(const RigConfig& rig, const RigClo
 RigDevices open_ports(const RigConfig& rig, const RigClock& clock) {
   check_words(rig);
   RigDevices devices;
-  devices.stage_line = std::make_unique<SerialLine>(rig.stage.port, rig.stage.baud, clock);
-  devices.cell_line = std::make_unique<SerialLine>(rig.load_cell.port, rig.load_cell.baud, clock,
-                                                   rig.load_cell.framing);
+  devices.stage_line = line_of("stage", rig.stage, clock);
+  devices.cell_line = line_of("load_cell", rig.load_cell, clock, rig.load_cell.framing);
   return devices;
 }
 

@@ -34,6 +34,11 @@ void check_signs(const LargeStrainTest& test) {
     work += test.nominal_stress_Pa[i] * (test.stretch[i] - 1.0);
   }
   if (work > 0.0) return;
+  const auto is_zero = [](double stress_Pa) { return stress_Pa == 0.0; };
+  if (std::all_of(test.nominal_stress_Pa.begin(), test.nominal_stress_Pa.end(), is_zero)) {
+    throw std::runtime_error("every stress of the " + test.name +
+                             " test is 0, so it shows no law; check that its column is the stress");
+  }
   throw std::runtime_error(
       "the " + test.name +
       " test has stresses against its strains: compression has stretches below 1 and negative "

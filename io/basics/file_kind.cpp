@@ -47,7 +47,7 @@ constexpr std::array kKinds{
             "TOML such as data/scenes/pillar_sensor.toml"},
     KindRow{FileKind::kStudy, "a study", "viscard sweep takes it",
             "TOML such as data/studies/pillar.toml"},
-    KindRow{FileKind::kDesignTask, "a design task", "viscard design takes it",
+    KindRow{FileKind::kDesignTask, "a design task", "viscard design takes it, without --require",
             "TOML such as data/designs/pillar_sensor.toml"},
     KindRow{FileKind::kRequirements, "a list of requirements",
             "pass it to viscard design SCENE.toml --require",

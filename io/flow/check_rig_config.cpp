@@ -1,27 +1,15 @@
 #include "io/flow/check_rig_config.h"
 
 #include "io/basics/timestamp.h"
-#include "rig/emulator/demo_rig.h"
-#include "rig/emulator/emulated_rig.h"
-#include "rig/open_devices.h"
-
-#include <memory>
+#include "io/flow/open_rig.h"
 
 namespace viscard {
 
 RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds) {
-  std::unique_ptr<EmulatedRig> emulated;
-  if (is_emulated) {
-    emulated = std::make_unique<EmulatedRig>(
-        EmulatedRigOptions{.truth = demo_truth(10.0, 1), .config = rig});
-    rig = emulated->config();
-  }
-  const RigClock clock = emulated ? emulated->clock() : RigClock(rig.clock_speed);
-  const RecordSink nowhere = [](const RunRecord&) {};
   rig.stage.home = false;  // a check moves nothing
-  RigDevices devices = open_ports(rig, clock);
-  add_drivers(devices, rig, clock, nowhere);
-  return check_rig(*devices.stage, *devices.load_cell, rig, clock, seconds,
+  OpenRig open(rig, is_emulated);
+  RigDevices& devices = open.devices();
+  return check_rig(*devices.stage, *devices.load_cell, open.config(), open.clock(), seconds,
                    devices.thermometer.get());
 }
 

@@ -38,9 +38,10 @@ struct FitRequest {
   FitOptions options;
   ColumnMap columns;
   TableChoice table;
-  SpecimenSize size;                   // for tables of load and extension, and of relative moduli
-  std::vector<std::string> segments;   // use only rows of these; empty: all
-  std::optional<double> time_zero_s;   // where t = 0 is in the table; none: at its 0, which is judged
+  SpecimenSize size;                  // for tables of load and extension, and of relative moduli
+  std::vector<std::string> segments;  // use only rows of these; empty: all
+  std::optional<double>
+      time_zero_s;  // where t = 0 is in the table; none: at its 0, which is judged
   std::optional<double> from_s, to_s;  // only rows of these times, after time_zero_s
   int hold = 0;                        // only this hold with its ramp, from 1; 0: all
   bool crop = false;                   // only the part that a fit of one ramp describes
@@ -72,7 +73,7 @@ struct MeasuredModulus {
   double nu = 0.5;   // of the conversion
   bool is_nu_stated = false;
   std::optional<Interval> nu_95;  // if it was fitted, from tests in shear and in tension together
-  std::string assumed_header;  // of a column that states no kind, taken as of tension
+  std::string assumed_header;     // of a column that states no kind, taken as of tension
   double young_factor() const { return young_over(kind, nu); }
 };
 

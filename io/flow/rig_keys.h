@@ -17,7 +17,7 @@ void show_keys(ResultVisitor& v, const RigCheck& found);
 // A capture of `viscard capture`: a run, or why there was none.
 struct CaptureOfSeries {
   std::string file;
-  std::string status;  // of a run that was not made: "not begun", "finished before"
+  std::string status;                 // of a run that was not made: "not begun", "finished before"
   std::optional<CommandError> error;  // of one that could not begin
   std::optional<RunOutcome> run;
   std::string specimen;  // of a repeated one

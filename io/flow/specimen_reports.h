@@ -22,7 +22,7 @@ struct ReportRequest {
   std::string created_at;  // ISO 8601
   std::string command;
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value
-  bool accepts_unverified = false;  // read damaged captures (FitRequest)
+  bool accepts_unverified = false;             // read damaged captures (FitRequest)
 };
 
 // Reads and fits captures and tables, reads material files, runs the pillar and writes the cards in

@@ -38,6 +38,21 @@ namespace {
                      : ". By their headers these may be: " + words));
 }
 
+// A stress over a stretch or strain without times is a test at large strain, whose kind no column states.
+void refuse_curve(const CsvTable& table, const FitRequest& request) {
+  const auto has = [&](const char* name) {
+    return find_column(table, name, request.columns).has_value();
+  };
+  const bool has_stress = has("stress_Pa") || has("nominal_stress_Pa");
+  if (!has_stress || !(has("stretch") || has("strain")) || has("time_s")) return;
+  throw std::runtime_error(
+      table.file +
+      ": holds stresses over stretches or strains without times, which show the elasticity of a "
+      "rubber and no relaxation. Name the kind of test, as in uniaxial=" +
+      table.file + " (or compression=, planar=, equibiaxial=). The columns are " +
+      columns_with_values(table));
+}
+
 // A constant stress with a strain that changes is a creep test.
 bool is_creep(const CsvTable& table, const FitRequest& request) {
   const auto range = [&](const char* name) {
@@ -108,6 +123,7 @@ FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
   if (is_dma && has("frequency_Hz")) return FitKind::kDma;
   if (has("modulus_Pa")) return FitKind::kRelaxation;
   if (has("compliance_1_Pa")) return FitKind::kCreep;
+  refuse_curve(table, request);
   if (has("stress_Pa") && has("strain") && is_creep(table, request)) return FitKind::kCreep;
   if (has("stress_Pa")) return FitKind::kRelaxation;
   if (is_dma) return FitKind::kDma;

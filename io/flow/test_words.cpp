@@ -29,10 +29,10 @@ FitKind kind_of_test(const std::string& kind, const std::string& word) {
     if (name == kind) return known;
     names.push_back(name);
   }
+  for (const LargeStrainKind& large : large_strain_kinds()) names.emplace_back(large.word);
   throw std::invalid_argument(word + ": no such file, and '" + kind + "' is no kind of test" +
-                              did_you_mean(kind, names) +
-                              " Name a test as relaxation=FILE, creep=FILE, dma=FILE (or "
-                              "oscillation=FILE) or indentation=FILE");
+                              did_you_mean(kind, names) + " Name a test as KIND=FILE with " +
+                              listed(names));
 }
 
 // Nothing for a plain file.
@@ -47,6 +47,15 @@ std::optional<TestFile> test_from_word(const std::string& word) {
 }
 
 }  // namespace
+
+std::span<const LargeStrainKind> large_strain_kinds() {
+  static constexpr LargeStrainKind kKinds[] = {
+      {"uniaxial", Deformation::kUniaxial},          {"tension", Deformation::kUniaxial},
+      {"compression", Deformation::kUniaxial, true}, {"planar", Deformation::kPlanar},
+      {"pure-shear", Deformation::kPlanar},          {"equibiaxial", Deformation::kEquibiaxial},
+      {"biaxial", Deformation::kEquibiaxial}};
+  return kKinds;
+}
 
 std::vector<TestFile> tests_from_words(const std::vector<std::string>& words) {
   std::vector<TestFile> tests;

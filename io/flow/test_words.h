@@ -1,11 +1,21 @@
 #pragma once
 
 #include "io/flow/fit_request.h"
+#include "models/hyperelastic/deformation.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace viscard {
+
+// The words of tests at large strain: "uniaxial" (or "tension"), "compression", "planar" ...
+struct LargeStrainKind {
+  const char* word;
+  Deformation deformation;
+  bool is_compression = false;
+};
+std::span<const LargeStrainKind> large_strain_kinds();
 
 // The words of a command that may name tests of one material: "creep=b.csv". Kinds: relaxation,
 // creep, dma or oscillation, indentation. Returns an empty list if no word names a kind: then all

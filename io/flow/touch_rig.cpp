@@ -1,37 +1,26 @@
 #include "io/flow/touch_rig.h"
 
 #include "io/basics/atomic_file.h"
-#include "rig/emulator/demo_rig.h"
-#include "rig/emulator/emulated_rig.h"
-#include "rig/open_devices.h"
+#include "io/flow/open_rig.h"
 #include "rig/touch_cell.h"
 
-#include <memory>
 #include <sstream>
 #include <stdexcept>
 
 namespace viscard {
 
-double touch_rig(RigConfig rig, bool is_emulated, double wait_s, const std::function<void()>& ready,
-                 const std::atomic<bool>* stop) {
-  std::unique_ptr<EmulatedRig> emulated;
-  if (is_emulated) {
-    emulated = std::make_unique<EmulatedRig>(
-        EmulatedRigOptions{.truth = demo_truth(10.0, 1), .config = rig});
-    rig = emulated->config();
-  }
-  const RigClock clock = emulated ? emulated->clock() : RigClock(rig.clock_speed);
-  const RecordSink nowhere = [](const RunRecord&) {};
-  RigDevices devices = open_ports(rig, clock);
-  add_drivers(devices, rig, clock, nowhere);
+double touch_rig(const RigConfig& rig, bool is_emulated, double wait_s,
+                 const std::function<void()>& ready, const std::atomic<bool>* stop) {
+  OpenRig open(rig, is_emulated);
   TouchOptions options;
   options.wait_s = wait_s;
   options.stop = stop;
   options.ready = [&] {
     if (ready) ready();
-    if (emulated) emulated->hang_weight(0.1 * rig.calibration.capacity_N);
+    if (open.emulated() != nullptr)
+      open.emulated()->hang_weight(0.1 * open.config().calibration.capacity_N);
   };
-  return await_touch(*devices.load_cell, rig, clock, options);
+  return await_touch(*open.devices().load_cell, open.config(), open.clock(), options);
 }
 
 void write_answer(const std::filesystem::path& rig_file, const std::string& day) {

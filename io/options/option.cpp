@@ -115,6 +115,11 @@ Option& Option::only_typed() {
   return *this;
 }
 
+Option& Option::only_with(std::vector<std::string> names) {
+  only_beside = std::move(names);
+  return *this;
+}
+
 bool is_switch(const Option& option) {
   return std::holds_alternative<bool*>(option.target);
 }
@@ -161,7 +166,8 @@ void set_option(const Option& option, const std::vector<std::string>& values, Pl
   }
   if (auto* const* numbers = std::get_if<std::vector<double>*>(&option.target)) {
     (*numbers)->clear();
-    for (const std::string& value : values) (*numbers)->push_back(number_from(option, value, judged));
+    for (const std::string& value : values)
+      (*numbers)->push_back(number_from(option, value, judged));
     return;
   }
   const std::string& text = values.back();
@@ -195,6 +201,20 @@ const Option* OptionList::find(const std::string& name) const {
   const auto found = std::find_if(options_.begin(), options_.end(),
                                   [&](const Option& one) { return one.name == name; });
   return found == options_.end() ? nullptr : &*found;
+}
+
+void refuse_without_effect(const OptionList& options,
+                           const std::function<bool(const std::string&)>& given) {
+  for (const Option& option : options.all()) {
+    if (option.only_beside.empty() || !given(option.name)) continue;
+    if (std::any_of(option.only_beside.begin(), option.only_beside.end(), given)) continue;
+    std::string others;
+    for (const std::string& name : option.only_beside)
+      others += (others.empty() ? "--" : " or --") + name;
+    throw OptionError("--" + option.name + " has no effect without " + others + "; add " +
+                      (option.only_beside.size() > 1 ? "one of them" : "it") + ", or omit --" +
+                      option.name);
+  }
 }
 
 }  // namespace viscard

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -36,12 +37,14 @@ struct Option {
   // Of a quantity, which may be written with another unit ("0.1 mm"): its SI unit; empty: no quantity.
   std::string unit;
   const Quantity* quantity = nullptr;  // its plausible range; null: any number
-  std::string initial;  // the default as text; empty: none
-  std::vector<std::string> choices;  // the values that are allowed; empty: any
-  bool is_file = false;              // the value names a file to read
-  bool has_other_choices = false;    // the choices are examples
-  std::string group;                 // heading above it in the help
-  bool is_keyword = true;            // of Python as well, and not of the command line alone
+  std::string initial;                 // the default as text; empty: none
+  std::vector<std::string> choices;    // the values that are allowed; empty: any
+  bool is_file = false;                // the value names a file to read
+  bool has_other_choices = false;      // the choices are examples
+  std::string group;                   // heading above it in the help
+  bool is_keyword = true;              // of Python as well, and not of the command line alone
+  // It has an effect only beside one of these, "rig"; empty: always.
+  std::vector<std::string> only_beside;
 
   // Each returns the option itself, so that they can be chained.
   // "FILE" in the place of "arg".
@@ -56,6 +59,8 @@ struct Option {
   // The value names a file to read.
   Option& read_from_file();
   Option& only_typed();  // no keyword
+  // Refused without one of these options.
+  Option& only_with(std::vector<std::string> names);
 };
 
 // True if it takes no value.
@@ -93,5 +98,9 @@ class OptionList {
   std::string heading_;
   std::deque<Option> options_;
 };
+
+// An option that has no effect is refused: given(name) is true for an option with a value. Throws OptionError.
+void refuse_without_effect(const OptionList& options,
+                           const std::function<bool(const std::string&)>& given);
 
 }  // namespace viscard

@@ -104,8 +104,10 @@ class TableReader {
       width_ = cells.size();  // the last line wins a tie, because notes come first
     }
     if (counts.empty()) {
-      throw std::runtime_error(name_ + ": has no line with a number in its first " +
-                               counted(sample_.size(), "line") + "; expected a table of numbers");
+      throw std::runtime_error(name_ + ": has no line with a number in its " +
+                               (sample_.size() > 1 ? "first " + counted(sample_.size(), "line")
+                                                   : std::string("only line")) +
+                               "; expected a table of numbers");
     }
     for (const auto& [width, count] : counts) {
       if (count > counts[width_]) width_ = width;

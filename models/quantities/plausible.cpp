@@ -36,6 +36,7 @@ bool has_prefixes(const std::string& unit) {
 }
 
 bool is_in(const PlausibleRange& range, double value) {
+  if (!std::isfinite(value)) return false;
   const double compared = range.lowest < 0.0 ? value : std::abs(value);
   // A limit that was computed or converted may be off by its last digit.
   const double slack = 1e-12 * std::abs(compared);

@@ -39,14 +39,18 @@ void check_force(const RigConfig& rig, const std::vector<TestPhase>& phases, Pre
       is_by_force ? text_from_number(std::floor(result.limit_N * 1e3) * 1e-3, 3) + " N or less"
                   : text_from_number(std::floor(result.deepest_safe_depth_m * 1e6) * 1e-3, 3) +
                         " mm or less";
+  // A force a hundred times too large is no deep test but a wrong number.
+  const bool is_guess_wrong = !is_by_force && result.peak_force_N > 100.0 * result.limit_N;
   const bool is_above_rating = result.peak_force_N > rig.calibration.capacity_N;
-  result.problems.push_back("expected peak force " + in_N(result.peak_force_N) +
-                            (is_by_force ? std::string() : " at depth " + in_mm(highest.depth_m)) +
-                            " is above " + in_N(result.limit_N) + ", " +
-                            text_from_number(100.0 * rig.safety.soft_fraction, 0) +
-                            " % of the cell's " + in_N(rig.calibration.capacity_N) +
-                            (is_above_rating ? ", and above the cell's rating itself" : "") +
-                            ". Lower " + highest.load_key + " of the test file to " + remedy);
+  result.problems.push_back(
+      "expected peak force " + in_N(result.peak_force_N) +
+      (is_by_force ? std::string() : " at depth " + in_mm(highest.depth_m)) + " is above " +
+      in_N(result.limit_N) + ", " + text_from_number(100.0 * rig.safety.soft_fraction, 0) +
+      " % of the cell's " + in_N(rig.calibration.capacity_N) +
+      (is_above_rating ? ", and above the cell's rating itself" : "") + ". " +
+      (is_guess_wrong ? "Is the unit of modulus_guess of the specimen wrong, or that of " +
+                            highest.load_key + " of the test file?"
+                      : "Lower " + highest.load_key + " of the test file to " + remedy));
 }
 
 // A force that no approach would notice shows a mistake in the modulus or in the depth.

@@ -136,9 +136,8 @@ void write_files(const ShownAnswer& shown, const std::string& folder, bool overw
   const auto write = [&](const std::string& name, const std::string& text) {
     write_file(std::filesystem::path(folder) / name, text, overwrite);
   };
-  const auto object =
-      with_head({"viscard-simulate/1", {shown.scene}, shown.accepts_implausible},
-                [&](ResultVisitor& v) { show_keys(v, shown); });
+  const auto object = with_head({"viscard-simulate/1", {shown.scene}, shown.accepts_implausible},
+                                [&](ResultVisitor& v) { show_keys(v, shown); });
   write("results.json", text_from_json(object, 2) + "\n");
   if (!answer.results.empty()) write("results.csv", csv_of_results(answer.results, command));
   if (!answer.modes.empty()) write("modes.csv", csv_of_modes(answer.modes, command));

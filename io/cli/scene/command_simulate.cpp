@@ -141,7 +141,8 @@ int run_simulate(const Words& words, Streams& streams) {
     write_files(shown, folder, output.overwrite);
     shown.command.clear();
     if (!is_sweep) write_looks(file.scene, answer, output, streams);
-    if (shown.uncertainty) write_uncertainty(*shown.uncertainty, folder, output.command, output.overwrite);
+    if (shown.uncertainty)
+      write_uncertainty(*shown.uncertainty, folder, output.command, output.overwrite);
   }
   const auto show = [&](ResultVisitor& v) { show_keys(v, shown); };
   if (print_result(syntax, {"viscard-simulate/1", {path}}, show, streams)) return kDone;

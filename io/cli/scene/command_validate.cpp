@@ -91,8 +91,9 @@ int run_validate(const Words& words, Streams& streams) {
   syntax.options.add("max-error", &options.tolerance, "largest relative error allowed")
       .by_default("1e-6");
   syntax.options.add("force", &overwrite, "overwrite existing files");
-  syntax.results = {{"validate", "viscard validate",
-                     {[](ResultVisitor& v) { show_result(v, ValidationResult{}, ""); }}}};
+  syntax.results = {{"validate", "viscard validate", {[](ResultVisitor& v) {
+                       show_result(v, ValidationResult{}, "");
+                     }}}};
   if (!parse_words(syntax, words, streams)) return kDone;
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
     throw UsageError("--max-error must lie between 0 and 1");

@@ -17,17 +17,25 @@ void add_test_options(OptionList& options, CostOfTestsWords& words) {
   options.add("rig", &words.rig,
               "rig.toml: instead of a scene, compare tests at this rig; its section [performance] "
               "must have the noise");
-  options.add("specimen", &words.specimen, "specimen.toml");
-  options.add("want", &words.want,
-              "a quantity and the relative half-width of its 95 % interval, such as E0=1% or "
-              "g_2=5%; also E_inf, sum_g, E_i, tau_i; with a scene one of its results, or voltage "
-              "(repeatable)");
-  options.add("guess", &words.guess,
-              "material file of a similar material; its covariance is the uncertainty of the "
-              "guess. Default: modulus_guess and relaxation_guess of the specimen");
-  options.add("test", &words.test,
-              "test.toml to compare with; its approach and retraction are kept");
-  options.add("at-most", &words.longest_s, "longest time at the rig").of("s").by_default("60min");
+  options.add("specimen", &words.specimen, "specimen.toml").only_with({"rig"});
+  options
+      .add("want", &words.want,
+           "a quantity and the relative half-width of its 95 % interval, such as E0=1% or "
+           "g_2=5%; also E_inf, sum_g, E_i, tau_i; with a scene one of its results, or voltage "
+           "(repeatable)")
+      .only_with({"rig"});
+  options
+      .add("guess", &words.guess,
+           "material file of a similar material; its covariance is the uncertainty of the "
+           "guess. Default: modulus_guess and relaxation_guess of the specimen")
+      .only_with({"rig"});
+  options
+      .add("test", &words.test, "test.toml to compare with; its approach and retraction are kept")
+      .only_with({"rig"});
+  options.add("at-most", &words.longest_s, "longest time at the rig")
+      .of("s")
+      .by_default("60min")
+      .only_with({"rig"});
 }
 
 DescribedResult result_of_test_study() {

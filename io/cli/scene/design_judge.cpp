@@ -11,7 +11,6 @@
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/design/judgement_output.h"
 
-
 #include <filesystem>
 #include <ostream>
 

@@ -17,8 +17,9 @@ namespace viscard {
 namespace {
 
 // One scene for each design, and the picture of a front.
-void write_designs(const DesignSpec& spec, const DesignFront& front, const nlohmann::ordered_json& object,
-                   const std::filesystem::path& folder, bool overwrite) {
+void write_designs(const DesignSpec& spec, const DesignFront& front,
+                   const nlohmann::ordered_json& object, const std::filesystem::path& folder,
+                   bool overwrite) {
   std::filesystem::create_directories(folder);
   write_file(folder / "design.json", text_from_json(object, 2) + "\n", overwrite);
   write_file(folder / "designs.csv", csv_from_front(spec, front), overwrite);
@@ -39,7 +40,8 @@ DescribedResult result_of_front() {
     show_front(v, DesignSpec{}, DesignFront{});
     show_origin(v, "");
   };
-  return {"design-front", "viscard design SPEC; design.json has command and created_by besides",
+  return {"design-front",
+          "viscard design SPEC; design.json has command and created_by besides",
           {show}};
 }
 

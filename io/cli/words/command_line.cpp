@@ -182,6 +182,8 @@ bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
   with_usage_errors([&] {
     set_all(syntax.options, syntax);
     set_all(syntax.positional, syntax);
+    refuse_without_effect(syntax.options,
+                          [&](const std::string& name) { return is_given(syntax, name); });
   });
   check_positional(syntax);
   return true;

@@ -3,6 +3,7 @@
 #include "fit/large_strain/load_cycles.h"
 #include "fit/large_strain/rubber_term_checks.h"
 #include "io/flow/plausible_record.h"
+#include "io/flow/test_words.h"
 #include "io/materials/plausible_numbers.h"
 #include "io/tables/column_proposal.h"
 #include "io/tables/csv_table.h"
@@ -20,23 +21,12 @@ namespace {
 
 using Column = std::vector<double>;
 
-struct KindWord {
-  const char* word;
-  Deformation deformation;
-  bool is_compression = false;
-};
-constexpr KindWord kKindWords[] = {
-    {"uniaxial", Deformation::kUniaxial},          {"tension", Deformation::kUniaxial},
-    {"compression", Deformation::kUniaxial, true}, {"planar", Deformation::kPlanar},
-    {"pure-shear", Deformation::kPlanar},          {"equibiaxial", Deformation::kEquibiaxial},
-    {"biaxial", Deformation::kEquibiaxial}};
-
 std::optional<LargeStrainFile> large_strain_file(const std::string& word) {
   const std::size_t sign = word.find('=');
   std::error_code error;
   if (sign == std::string::npos || std::filesystem::exists(word, error)) return std::nullopt;
   const std::string kind = word.substr(0, sign), path = word.substr(sign + 1);
-  for (const KindWord& known : kKindWords) {
+  for (const LargeStrainKind& known : large_strain_kinds()) {
     if (kind != known.word) continue;
     if (path.empty()) throw std::invalid_argument(word + " names no file; write " + kind + "=FILE");
     return LargeStrainFile{known.deformation, known.is_compression, path};

@@ -108,6 +108,13 @@ def _no_such_keyword(function: str, name: str, known: "List[str]") -> str:
                                                       f"; help(viscard.{function}) lists them")
 
 
+def _too_many(function: str, n_most: int, surplus: "Sequence[Any]") -> str:
+    text = f"{function}() takes {n_most} {'value' if n_most == 1 else 'values'} without a name"
+    if any(isinstance(one, np.ndarray) or hasattr(one, "__array__") for one in surplus):
+        return text + ', and arrays go into one dict by header: {"time_s": t, "modulus_Pa": E}'
+    return text + "; write the others as NAME=VALUE"
+
+
 def _options_of(function: Callable[..., Any]) -> Any:
     """The TypedDict of `**options: Unpack[FitOptions]`; None of other functions."""
     written = function.__annotations__.get("options", "")
@@ -130,6 +137,7 @@ def arguments(function: _Function) -> _Function:
     """
     parameters = inspect.signature(function).parameters.values()
     positional = [one.name for one in parameters if one.kind is not inspect.Parameter.VAR_KEYWORD]
+    n_most = sum(one.kind is inspect.Parameter.POSITIONAL_OR_KEYWORD for one in parameters)
     others = next((one.name for one in parameters if one.kind is inspect.Parameter.VAR_KEYWORD), None)
     options = _options_of(function) if others else None
     if options:
@@ -143,6 +151,8 @@ def arguments(function: _Function) -> _Function:
 
     @functools.wraps(function)
     def checked(*given: Any, **keywords: Any) -> Any:
+        if len(given) > n_most:
+            raise TypeError(_too_many(function.__qualname__, n_most - (positional[:1] == ["self"]), given[n_most:]))
         unknown = [] if others else [name for name in keywords if name not in positional]
         if unknown:
             raise TypeError(_no_such_keyword(function.__qualname__, unknown[0], positional))

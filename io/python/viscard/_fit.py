@@ -22,7 +22,7 @@ def _paths(data, name: str = "data") -> "list[str]":
         return [data.file]
     if isinstance(data, (str, os.PathLike)):
         return [_arrays.path_of(data, name)]
-    if isinstance(data, np.ndarray) or not hasattr(data, "__iter__"):
+    if isinstance(data, (np.ndarray, bytes, bytearray)) or not hasattr(data, "__iter__"):
         raise TypeError(f"{name} must be a path, a dict of arrays by header, a Capture or a list of paths, "
                         f"not {_check.shown(data)}")
     return [one.file if isinstance(one, Capture) else _arrays.path_of(one, name) for one in data]

@@ -65,6 +65,11 @@ void StiffnessFactor::factor(const SymmetricSparse& matrix) {
     is_analysed_ = true;
   }
   if (!ldlt_.factor(matrix)) {
+    if (!Eigen::Map<const Eigen::ArrayXd>(matrix.valuePtr(), matrix.nonZeros()).allFinite()) {
+      throw std::runtime_error(
+          "a modulus or a length is so large or so small that the stiffness is beyond the numbers "
+          "of the computer");
+    }
     throw std::runtime_error(
         "the stiffness matrix is singular: a part of the body is not held, or a modulus is zero");
   }

@@ -227,6 +227,8 @@ TEST_CASE("large strain: bad tests are refused with what to do", "[fit]") {
   bad = good;
   for (double& stress : bad.nominal_stress_Pa) stress = -stress;
   CHECK_THROWS_WITH(fit_large_strain({bad}), Contains("stresses against its strains"));
+  for (double& stress : bad.nominal_stress_Pa) stress = 0.0;
+  CHECK_THROWS_WITH(fit_large_strain({bad}), Contains("every stress of the uniaxial test is 0"));
   bad.stretch = {1.0, 1.1};
   bad.nominal_stress_Pa = {0.0, 1e5};
   CHECK_THROWS_WITH(fit_large_strain({bad}), Contains("2 readings"));

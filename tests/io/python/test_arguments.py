@@ -199,3 +199,13 @@ def test_every_argument_is_checked():
                 continue
             keys = set(inspect.signature(call).parameters) - {"self", "cls"} - own
             assert not keys or hasattr(call, "__wrapped__") or name in ("Answer", "Plan", "Table"), (name, call.__name__, keys)
+
+
+def test_arrays_without_a_name_are_shown_the_dict():
+    time_s, modulus_Pa = np.array([0.1, 1.0]), np.array([2e6, 1e6])
+    with pytest.raises(TypeError, match=r'fit\(\) takes 1 value without a name, and arrays go into one dict'):
+        viscard.fit(time_s, modulus_Pa)
+    with pytest.raises(TypeError, match=r"takes 1 value without a name; write the others as NAME=VALUE"):
+        viscard.fit(EXAMPLE, "return")
+    with pytest.raises(TypeError, match=r"a Capture or a list of paths, not b'run.csv'"):
+        viscard.fit(b"run.csv")

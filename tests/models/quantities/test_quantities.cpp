@@ -64,6 +64,8 @@ TEST_CASE("a number that is not plausible is named with its range and what was m
   const auto light = doubt_about(quantities::kDensity, 1.1, Plausible::kMeasured);
   REQUIRE(light);
   CHECK(light->meant == "1.1 g/cm3");
+  // A unit that would make a number larger than any is not what was meant.
+  CHECK(doubt_about(quantities::kModulus, 1e308, Plausible::kMeasured)->meant.empty());
   // Of several units, the one that is nearest to the example.
   CHECK(doubt_about(quantities::kBulkModulus, 2.0, Plausible::kMeasured)->meant == "2 GPa");
   CHECK(doubt_about(quantities::kStress, 0.02, Plausible::kMeasured)->meant == "0.02 MPa");

@@ -37,6 +37,15 @@ TEST_CASE("a speed below the smallest of the stage is a warning with the speed u
   CHECK(slow.approach_overshoot_N > 1.5 * free.approach_overshoot_N);
 }
 
+TEST_CASE("a guess a thousand times off is asked for, instead of a depth of nothing", "[rig]") {
+  Specimen stiff = demo_specimen(10.0);
+  stiff.modulus_guess_Pa *= 1e3;
+  const Preflight result = preflight(demo_rig(), TestPlan{}, stiff);
+  REQUIRE(!result.problems.empty());
+  CHECK_THAT(result.problems[0],
+             Catch::Contains("unit of modulus_guess") && !Catch::Contains("0.000 mm"));
+}
+
 TEST_CASE("a depth of 0.25 mm is refused for all three mixing ratios, and a safe one is named",
           "[rig]") {
   const double ratio = GENERATE(10.0, 13.0, 20.0);

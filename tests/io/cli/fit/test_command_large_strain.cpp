@@ -244,6 +244,15 @@ TEST_CASE("a table without stretch or stress is refused with its columns", "[cli
   CHECK(run.status == 1);
   CHECK_THAT(run.err, Contains("no column of the stretch or the nominal strain") &&
                           Contains("'force_N'") && Contains("--column stretch="));
+  // Without its kind it is no relaxation: nothing is proposed that would fit it as one.
+  for (const char* header :
+       {"stretch,stress_MPa", "strain,stress_MPa", "Streckung,Spannung [MPa]"}) {
+    const auto curve = folder.write(
+        "c.csv", std::string(header) + "\n1,0\n1.1,0.1\n1.2,0.19\n1.4,0.33\n1.7,0.5\n");
+    const auto bare = run_command({"fit", curve});
+    CHECK(bare.status == 1);
+    CHECK_THAT(bare.err, Contains("uniaxial=" + curve) && !Contains("--column"));
+  }
   const auto mixed = folder.write("b.csv", "strain,stress_Pa\n-0.2,1\n0.1,2\n0.3,3\n3,5\n");
   CHECK_THAT(run_command({"fit", "compression=" + mixed}).err, Contains("stretches below 1"));
 }

@@ -232,8 +232,7 @@ TEST_CASE("a strain may be a percentage, and a large one gives a warning", "[cli
   };
   CHECK(stress_of("1 %") == stress_of("0.01"));
   CHECK(stress_of("1%") == stress_of("0.01"));
-  CHECK_THAT(run_command({"predict", material, "--strain", "500 %"}).out,
-             Contains("500 %, but"));
+  CHECK_THAT(run_command({"predict", material, "--strain", "500 %"}).out, Contains("500 %, but"));
   CHECK_THAT(run_command({"predict", material, "--strain", "0.5"}).out, !Contains("small strains"));
   const CommandOutcome wrong = run_command({"predict", material, "--strain", "1 kPa"});
   CHECK(wrong.status == kBadWords);

@@ -150,6 +150,10 @@ TEST_CASE("words of tests: refusals, and plain files with an equals sign", "[cli
              Contains("was given as an oscillation") && Contains("those of a relaxation"));
   CHECK_THAT(refused({"fit", "relaxing=" + tables.relaxation_, "creep=" + tables.creep_}),
              Contains("'relaxing' is no kind of test") && Contains("relaxation"));
+  for (const char* word : {"uniaxal=", "biaxail="}) {
+    CHECK_THAT(refused({"fit", word + tables.relaxation_}),
+               Contains("did you mean") && Contains("uniaxial") && Contains("biaxial"));
+  }
   CHECK_THAT(refused({"fit", tables.relaxation_, "creep=" + tables.creep_}),
              Contains("states no kind of test"));
   CHECK_THAT(refused({"fit", "creep=" + tables.creep_, "creep=" + tables.creep_}),

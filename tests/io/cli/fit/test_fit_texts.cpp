@@ -26,7 +26,7 @@ TEST_CASE("a table without numbers or with zeros alone is refused with the reaso
   const TableFolder folder;
   const CommandOutcome bare = run_command({"fit", folder.write("a.csv", "time_s,modulus_Pa\n")});
   CHECK(bare.status == kFailed);
-  CHECK_THAT(bare.err, Contains("has no line with a number in its first 1 line; expected"));
+  CHECK_THAT(bare.err, Contains("has no line with a number in its only line; expected"));
   std::ostringstream zeros;
   zeros << "time_s,modulus_Pa\n";
   for (int i = 1; i <= 60; ++i) zeros << 0.1 * i << ",0\n";
@@ -58,7 +58,8 @@ TEST_CASE("columns without a unit are read in SI, and a flag says so", "[cli]") 
       const double modulus_MPa = 1.68 + 0.12 / (1.0 + t);
       rows << t << "," << (is_creep ? 1e-6 / modulus_MPa : modulus_MPa * unit) << "\n";
     }
-    std::vector<std::string> words{"fit", folder.write("t.csv", header + "\n" + rows.str()), "--json"};
+    std::vector<std::string> words{"fit", folder.write("t.csv", header + "\n" + rows.str()),
+                                   "--json"};
     words.insert(words.end(), more.begin(), more.end());
     const auto json = nlohmann::json::parse(run_command(words).out);
     for (const auto& flag : json.at("flags")) {

@@ -180,7 +180,8 @@ TEST_CASE("capture names a port that does not exist", "[cli][capture]") {
       run_command({"capture", "--rig", demo("01_rig.toml"), "--test", demo("02_test.toml"),
                    "--specimen", demo("03_pdms_1to10.toml"), "--out", folder / "run.viscap"});
   CHECK(outcome.status == kFailed);
-  CHECK(contains(outcome.err, "there is no port '/dev/serial/by-id/stage'"));
+  CHECK(contains(outcome.err,
+                 "port under [stage] of the rig file: there is no port '/dev/serial/by-id/stage'"));
   CHECK_FALSE(std::filesystem::exists(folder / "run.viscap"));
 }
 

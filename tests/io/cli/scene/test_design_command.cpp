@@ -35,8 +35,8 @@ TEST_CASE("a design that cannot be is refused in one line", "[cli][design]") {
   const auto c = GENERATE(
       Case{{"--end-factor", "3"}, "end"}, Case{{"--end-factor", "0"}, "end"},
       Case{{"--diameter", "-1 um"}, "diameter"}, Case{{"--diameter", "40 kg"}, "--diameter"},
-      Case{{"--poisson", "0.6"}, "--poisson is 0.6"}, Case{{"--lattice", "sqare"}, "did you mean 'square'"},
-      Case{{"--modulus", "0"}, "modulus"},
+      Case{{"--poisson", "0.6"}, "--poisson is 0.6"},
+      Case{{"--lattice", "sqare"}, "did you mean 'square'"}, Case{{"--modulus", "0"}, "modulus"},
       Case{{"--diameter", "40"}, "--diameter is 40 m; plausible are 0 to 1 m"},
       Case{{"--diameter", "40 m"}, "write --diameter \"40 um\""},
       Case{{"--nonsense", "1"}, "nonsense"});
