@@ -69,6 +69,11 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
   }
   material.valid = window_of(fitted.result);
   narrow_to_law(fitted, material.valid);
+  if (request.nu || (fitted.modulus && fitted.modulus->is_nu_stated)) {
+    material.provenance.nu_origin = "stated";
+  } else if (fitted.modulus && fitted.modulus->nu_95) {
+    material.provenance.nu_origin = "measured";
+  }
   material.provenance.created_by = "viscard " VISCARD_VERSION;
   material.provenance.created_at = request.created_at;
   material.provenance.command = request.command;

@@ -3,6 +3,7 @@
 #include "io/tables/csv_header.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numbers>
 #include <sstream>
@@ -383,6 +384,14 @@ std::vector<ColumnKind> rig_kinds() {
           {"specimen", "specimen", "1", {"specimen id", "specimen name"}, true}};
 }
 
+// Of a column of words: segment, specimen, phase.
+bool names_a_part(const std::string& name) {
+  const std::vector<ColumnKind> kinds = rig_kinds();
+  return std::any_of(kinds.begin(), kinds.end(), [&](const ColumnKind& kind) {
+    return kind.is_text && (plain(name) == plain(kind.base) || has_alias(kind, name));
+  });
+}
+
 // force_mN, depth_um: the quantity's own name followed by a unit; storage_kPa, load_mN: another name of it.
 std::optional<HeaderMatch> match_unit_in_name(const std::string& name, const ColumnKind& quantity) {
   const std::string base = std::string(quantity.base) + "_";
@@ -428,6 +437,11 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const ColumnKin
     if (!scale || (names_unit && !is_si)) return std::nullopt;
     return HeaderMatch{3, *scale};
   }
+  // The column phase of a capture holds words, an angle does not.
+  const bool is_text = !column.text.empty() &&
+                       std::all_of(column.values.begin(), column.values.end(),
+                                   [](double value) { return std::isnan(value); });
+  if (is_text && !quantity.is_text && names_a_part(column.name)) return std::nullopt;
   // tau is a relaxation time, too.
   const bool is_tau = column.name == "tau" || column.name == "τ";
   if (is_tau && !is_stated(column.unit)) return std::nullopt;

@@ -83,7 +83,7 @@ struct Provenance {
   std::string command;     // command line
   std::vector<RawFile> raw_files;
   double fit_from_s = 0.0, fit_to_s = 0.0;  // fit window
-  std::string nu_origin = "assumed";        // assumed | measured
+  std::string nu_origin = "assumed";        // assumed | stated | measured
   std::string bulk_origin = "assumed";
 };
 

@@ -21,7 +21,9 @@ def test_it_is_what_the_command_prints(program):
     rubber = viscard.fit(WORDS, weight="relative", youngs_modulus="1.2 MPa +- 0.1 MPa")
     options = ["--weight", "relative", "--youngs-modulus", "1.2 MPa +- 0.1 MPa"]
     printed = json.loads(subprocess.run([program, "fit", *WORDS, *options, "--json"], capture_output=True).stdout)
-    assert rubber.json == printed
+    # The file has a sum of its own, the command names the files that it has read.
+    assert rubber.json.keys() - printed.keys() == {"body_sha256"} and printed.pop("input_files")
+    assert {key: rubber.json[key] for key in printed} == printed
     text = subprocess.run([program, "fit", *WORDS, *options], capture_output=True, text=True,
                           env={"COLUMNS": ""}).stdout
     assert rubber.summary() == text
@@ -52,6 +54,12 @@ def test_stresses_are_those_of_closed_forms():
         rubber.stress([1.0, 0.0])
 
 
+def body(card):
+    """A card without the lines of its header that tell when, from which file and by which command it was written."""
+    of_origin = ("card sha256", "material file", "created ", "by viscard")
+    return [line for line in card.splitlines() if not any(word in line for word in of_origin)]
+
+
 def test_file_and_cards_are_those_of_the_command(rubber, program, tmp_path):
     rubber.save(tmp_path / "rubber.json")
     with pytest.raises(viscard.Error, match="exists") as caught:
@@ -62,7 +70,7 @@ def test_file_and_cards_are_those_of_the_command(rubber, program, tmp_path):
     for target in ("abaqus", "ansys", "febio"):
         card = subprocess.run([program, "card", "rubber.json", "--for", target, "--units", "mm-t-s",
                                "--bulk-modulus", "1 GPa"], capture_output=True, text=True, cwd=tmp_path).stdout
-        assert again.card(target, "mm-t-s", bulk_modulus_Pa=1e9).text == card
+        assert body(again.card(target, "mm-t-s", bulk_modulus_Pa=1e9).text) == body(card)
     with pytest.raises(viscard.Error, match="no card of rubber for 'sofa'"):
         rubber.card("sofa")
     with pytest.raises(viscard.Error, match="bulk"):
