@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <map>
+#include <string_view>
 
 namespace viscard {
 namespace {
@@ -22,7 +23,13 @@ namespace {
   const char* reason = known != kReasons.end() ? known->second
                        : database != nullptr   ? sqlite3_errmsg(database)
                                                : sqlite3_errstr(code);
-  throw SqliteError(file + ": " + reason, code & 0xff);
+  std::string text = reason;
+  constexpr std::string_view kNoTable = "no such ";  // "no such table: moves"
+  if (text.starts_with(kNoTable)) {
+    text = "has no " + text.substr(kNoTable.size()) +
+           ", which viscard writes: the file was altered. Use another copy of it";
+  }
+  throw SqliteError(file + ": " + text, code & 0xff);
 }
 
 // A URI by which SQLite reads the file alone: https://www.sqlite.org/uri.html

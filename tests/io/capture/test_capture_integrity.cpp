@@ -77,6 +77,18 @@ TEST_CASE(
   CHECK(contains(csv_from_capture(run), "read with --unverified"));
 }
 
+TEST_CASE("a capture without one of its tables is refused with its name", "[io][capture]") {
+  const ScratchFolder folder;
+  const auto path = capture_of(folder, "run.viscap", 100);
+  const std::string table = GENERATE("run", "load_samples", "moves", "events", "checksums");
+  change(path, ("DROP TABLE " + table).c_str());
+  const std::string error = error_text([&] { read_capture(path); });
+  CAPTURE(error);
+  CHECK(contains(error, "run.viscap: "));
+  CHECK(contains(error, table));
+  CHECK(contains(error, "altered"));
+}
+
 TEST_CASE("damaged readings are left out and counted, the others are read", "[io][capture]") {
   const ScratchFolder folder;
   const auto path = capture_of(folder, "run.viscap", 100);
