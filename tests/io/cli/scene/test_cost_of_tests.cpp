@@ -111,7 +111,7 @@ TEST_CASE("viscard cost --rig refuses what it cannot use, and reports why", "[cl
   CHECK(run_command(cost_words({"--want", "E0"})).status == 2);
   const CommandOutcome idle = run_command({"cost", "no.toml", "--want", "E0=1%"});
   CHECK(idle.status == 2);
-  CHECK_THAT(idle.err, Contains("--want has no effect without --rig"));
+  CHECK_THAT(idle.err, Catch::Contains("--want has no effect without --rig"));
   CHECK(run_command({"cost", "--rig", demo_file("01_rig.toml"), "--want", "E0=1%"}).status == 2);
   const CommandOutcome unknown = run_command(cost_words({"--want", "Young=1%"}));
   CHECK(unknown.status != 0);
