@@ -151,10 +151,11 @@ TEST_CASE("two ranks give the same rows as one process, bit for bit", "[cli][swe
   CAPTURE(run.printed());
   CHECK(status == 0);
   CHECK(study.rows(study.store) == study.whole());
-  // Both streams are in one file: the object, then a line about the points outside the model.
+  // Both streams are in one file: the object, and a line about the points outside the model.
   const std::string printed = run.printed();
   CHECK(printed.find("10 of the 30 points answered now are refused") != std::string::npos);
-  const auto object = nlohmann::json::parse(printed.substr(0, printed.rfind('}') + 1));
+  const std::size_t begin = printed.find('{');
+  const auto object = nlohmann::json::parse(printed.substr(begin, printed.rfind('}') + 1 - begin));
   CHECK(object["schema"] == "viscard-sweep/1");
   CHECK(object["answered"] == 30);
   CHECK(object["failed"] == 0);
