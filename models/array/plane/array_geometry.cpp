@@ -127,20 +127,35 @@ FilmBeside film_beside(const ArrayGeometry& g, const ArrayElectrodes& e) {
 // The lines of a mesh along x or z between marks.
 class Lines {
  public:
-  Lines(const ArrayGeometry& g, const Discretisation& d)
-      : d_(d), reach_m_(std::min(0.5 * g.diameter_m, g.film_thickness_m)) {}
+  static Lines across_film(const ArrayGeometry& g, const Discretisation& d) {
+    return {d, std::min(0.5 * g.diameter_m, g.film_thickness_m), d.layers};
+  }
+  // In a thin film only what leaves a rim varies over its thickness; farther away the field varies with the
+  // pillar, as in lubrication. Elements therefore grow from the rim up to the pillar's radius.
+  static Lines along_film(const ArrayGeometry& g, const Discretisation& d) {
+    constexpr double kThin = 0.1;  // of the radius
+    const double radius_m = 0.5 * g.diameter_m;
+    const double thin = g.film_thickness_m / radius_m;
+    if (thin >= kThin || !(d.ratio > 0.0 && d.ratio < 1.0)) return across_film(g, d);
+    const int more = static_cast<int>(std::ceil(std::log(thin) / std::log(d.ratio)));
+    return {d, radius_m, d.layers + more};
+  }
 
   std::vector<double> between(std::vector<MeshMark> along) const {
     if (!(d_.uniform_m > 0.0)) {
-      return breaks_between(along, reach_m_, 2.0 * reach_m_, d_.layers, d_.ratio);
+      return breaks_between(along, reach_m_, 2.0 * reach_m_, layers_, d_.ratio);
     }
     for (MeshMark& mark : along) mark.is_singular = false;
     return breaks_between(along, 0.0, d_.uniform_m, 1, d_.ratio);
   }
 
  private:
+  Lines(const Discretisation& d, double reach_m, int layers)
+      : d_(d), reach_m_(reach_m), layers_(layers) {}
+
   const Discretisation& d_;
   double reach_m_;
+  int layers_;
 };
 
 // Ends of a cell: how far they lie beyond pillar and electrode, and whether the film ends there.
@@ -190,7 +205,7 @@ ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Dis
   validate(g, e);
   const double R = 0.5 * g.diameter_m;
   const double t = g.film_thickness_m;
-  const Lines lines(g, d);
+  const Lines lines = Lines::along_film(g, d), heights = Lines::across_film(g, d);
   const FilmBeside beside = film_beside(g, e);
   const double half_load = std::max(R, electrode_half_width_m(g, e));
   const bool is_cut = g.ends == FilmEnds::kFree;
@@ -221,9 +236,9 @@ ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Dis
   const MeshMark bottom = bottom_electrode ? MeshMark{-t, true}
                           : is_cut         ? film_end(-t, beyond_load_m, t)
                                            : MeshMark{-t};
-  mesh.film_z = lines.between({bottom, {0.0, true}});
+  mesh.film_z = heights.between({bottom, {0.0, true}});
   const std::vector<MeshMark> shaft = {{0.0, true}, {g.length_m, false}};
-  mesh.pillar_z = d.uniform_m > 0.0 ? lines.between(shaft)
+  mesh.pillar_z = d.uniform_m > 0.0 ? heights.between(shaft)
                                     : breaks_between(shaft, 2.0 * R, 4.0 * R / d.shaft_elements,
                                                      d.layers, d.ratio);
   return mesh;
