@@ -94,7 +94,7 @@ void print_result(const ResultUncertainty& result, const SceneUncertainty& all, 
 void print_uncertainty(const SceneUncertainty& uncertainty, std::ostream& out) {
   out << fmt::format("\nuncertainty: 95 % intervals from {} ({}), {}\n",
                      counted(uncertainty.inputs.size(), "input"),
-                     uncertainty.is_sampled ? "Sobol' sequence" : "linear",
+                     uncertainty.is_sampled ? "Sobol' sequence" : uncertainty.method(),
                      counted(uncertainty.n_answers, "answer"));
   for (const ResultUncertainty& result : uncertainty.results) {
     print_result(result, uncertainty, out);

@@ -5,6 +5,7 @@
 #include "io/flow/scenes/named_values.h"
 #include "models/maths/dense.h"
 #include "models/scene/simulate.h"
+#include "models/uncertainty/curved_propagation.h"
 #include "models/uncertainty/sampled_propagation.h"
 
 #include <fmt/format.h>
@@ -128,6 +129,50 @@ void take_linear(const LinearAnswer& linear, SceneUncertainty& out) {
   }
 }
 
+// The plan, second part: samples are not needed if the curved answer differs from the scene's own by less than the
+// tolerance, or by less than samples would leave of the width of the interval.
+bool takes_curved(const CurvedAnswer& curved, const LinearAnswer& linear, double tolerance,
+                  SceneUncertainty& out) {
+  constexpr double kOfWidth = 0.02;
+  double worst = 0.0;
+  std::string name;
+  for (std::size_t r = 0; r < out.results.size(); ++r) {
+    const auto row = static_cast<Index>(r);
+    const Interval& interval = curved.intervals_95[r];
+    const double allowed = std::max(tolerance * std::abs(linear.value[row]),
+                                    kOfWidth * (interval.high - interval.low));
+    if (curved.disagreement[row] == 0.0) continue;
+    const double excess = curved.disagreement[row] / allowed;
+    if (!(excess <= worst)) {
+      worst = excess;
+      name = out.results[r].name;
+    }
+  }
+  out.n_answers += curved.n_answers;
+  const bool is_enough = worst <= 1.0;
+  const std::string which = name.empty() ? "" : " (" + name + ")";
+  out.reason += fmt::format(
+      "; a quadratic answer, or one of the logarithm, {} the scene's own at other points, too, "
+      "by {:.2g} of what is allowed{}: the tolerance, or {:g} % of the width of the interval",
+      is_enough ? "meets" : "misses", worst, which, 100.0 * kOfWidth);
+  if (!is_enough) return false;
+  out.is_curved = true;
+  for (std::size_t r = 0; r < out.results.size(); ++r) {
+    ResultUncertainty& result = out.results[r];
+    const auto row = static_cast<Index>(r);
+    const double offset = result.value - linear.value[row];
+    const Interval& interval = curved.intervals_95[r];
+    result.standard_uncertainty = curved.deviation[row];
+    result.interval_95 = {interval.low + offset, interval.high + offset};
+    result.end_error = curved.disagreement[row];
+    result.causes.clear();
+    for (Index g = 0; g < curved.shares.cols(); ++g) {
+      result.causes.push_back({curved.shares(row, g), curved.shares(row, g), 0.0});
+    }
+  }
+  return true;
+}
+
 void take_samples(const SampledAnswer& sampled, const VectorXd& value_on_mesh,
                   SceneUncertainty& out) {
   for (std::size_t r = 0; r < out.results.size(); ++r) {
@@ -215,6 +260,12 @@ SceneUncertainty uncertainty_of(const UncertainScene& scene, const SceneAnswer& 
   const double tolerance = common(scene.file().scene).tolerance;
   const bool is_enough = is_linear_enough(linear, values, tolerance, out.reason);
   if (is_enough && !options.n_samples) return out;
+  if (!is_enough && !options.n_samples && linear.at_ends.allFinite()) {
+    const AnswersOnMesh function(scene, values, answer.discretisation, count);
+    if (takes_curved(curved_answer(function, out.inputs, linear), linear, tolerance, out)) {
+      return out;
+    }
+  }
   out.is_sampled = true;
   if (is_enough) out.reason += "; it was sampled because samples were requested";
   sample(scene, values, linear, options, count, out);

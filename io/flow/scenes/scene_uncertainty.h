@@ -29,7 +29,9 @@ struct ResultUncertainty {
   double standard_uncertainty = 0.0;
   Interval interval_95;     // infinite if there is none
   std::string no_interval;  // why there is none; empty: there is one
-  double end_error = 0.0;   // standard error of the ends of a sampled interval
+  double end_error =
+      0.0;  // of the ends of an interval that is not linear: standard error of samples, or largest
+            // difference of a curved answer to the scene's own
   double linear_disagreement =
       0.0;                         // of the linear answer at the ends of the interval, in the unit
   std::vector<CauseShare> causes;  // one for each input
@@ -40,6 +42,9 @@ struct SceneUncertainty {
   std::vector<std::string> descriptions;  // of the inputs
   std::vector<ResultUncertainty> results;
   bool is_sampled = false;
+  bool is_curved = false;  // quadratic in the inputs, or in the logarithm
+  // linear, quadratic or sobol
+  const char* method() const { return is_sampled ? "sobol" : is_curved ? "quadratic" : "linear"; }
   std::string reason;  // why the result is sampled, or why it is not
   // Of each input: its derivatives come from the solver, which reuses one solution; otherwise they are
   // differences of answers.
@@ -63,7 +68,8 @@ struct UncertaintyOptions {
 };
 
 // Intervals of the results of an answer and their causes. Linear in the inputs where that differs from
-// the scene's own answers by less than the tolerance, sampled on a Sobol' sequence otherwise. `answer` is
+// the scene's own answers by less than the tolerance; else quadratic, or quadratic in the logarithm, where that differs
+// by less than samples would leave of the interval's width; sampled on a Sobol' sequence otherwise. `answer` is
 // that of the scene. Throws std::runtime_error naming the file.
 SceneUncertainty scene_uncertainty(const UncertainScene& scene, const SceneAnswer& answer,
                                    const UncertaintyOptions& options);

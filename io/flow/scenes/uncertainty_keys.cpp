@@ -61,12 +61,11 @@ void show_keys(ResultVisitor& v, const SceneUncertainty& uncertainty) {
   });
   v.object("mesh", "that was sampled on", [&] {
     v("degree", uncertainty.mesh.degree, "of the elements");
-    v("error", uncertainty.mesh_error,
-      "of deviations on it, relative to the standard uncertainty");
+    v("error", uncertainty.mesh_error, "of deviations on it, relative to the standard uncertainty");
     v("layers", uncertainty.mesh.layers, "at the rim");
   });
-  v.word("method", uncertainty.is_sampled ? "sobol" : "linear", {"linear", "sobol"},
-         "linear in the inputs, or sampled on a Sobol' sequence");
+  v.word("method", uncertainty.method(), {"linear", "quadratic", "sobol"},
+         "linear in the inputs, quadratic (or the logarithm is), or sampled on a Sobol' sequence");
   v("notes", uncertainty.notes, "what to keep in mind");
   v("reason", uncertainty.reason, "why");
   v.list("results", "results and frequencies of modes", uncertainty.results,

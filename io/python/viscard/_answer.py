@@ -69,7 +69,7 @@ class Answer:
     effects : list of dict
         What the plan left out, and why.
     uncertainty : dict or None
-        With ``simulate(..., uncertainty=True)``: "method" ("linear" or "sobol") and its "reason", "inputs"
+        With ``simulate(..., uncertainty=True)``: "method" ("linear", "quadratic" or "sobol") and its "reason", "inputs"
         {name: text}, "derivatives" {name: "solver" (one solution, reused) or "differences" (of whole answers)},
         "results" {name: {"value", "unit", "interval_95", "standard_uncertainty", "numerical_error",
         "shares" {input: share of the variance}, "share_errors"}}, "answers", "first_order_answers", "failed",

@@ -1,3 +1,4 @@
+#include "models/uncertainty/curved_propagation.h"
 #include "models/uncertainty/linear_propagation.h"
 #include "models/uncertainty/sampled_propagation.h"
 #include "models/uncertainty/sobol_points.h"
@@ -193,4 +194,26 @@ TEST_CASE("points without an answer are counted, and moments leave them out",
   };
   CHECK_THROWS_WITH(sampled_answer(batch_of({none}), {{"a"}, {"b"}}, {.n_answers = 400}),
                     Catch::Contains("half"));
+}
+
+// F = a^-1 b^2 with lognormal a and b is lognormal: ln F is normal with s^2 = 0.3^2 + (2 0.1)^2.
+TEST_CASE("a product of powers of lognormal inputs has the interval of a lognormal number",
+          "[models][uncertainty]") {
+  const std::vector<UncertainInput> inputs{{"a"}, {"b"}};
+  const BatchFunction function = batch_of(
+      {[](const VectorXd& z) { return -5.0 * std::exp(-0.3 * z[0] + 2.0 * 0.1 * z[1]); },
+       [](const VectorXd& z) { return 1.0 + z[0] + 0.05 * z[0] * z[0] - 0.02 * z[1] * z[1]; }});
+  const CurvedAnswer curved = curved_answer(function, inputs, linear_answer(function, inputs));
+  CHECK(curved.is_logarithm == std::vector<bool>{true, false});
+  const double s = std::hypot(0.3, 0.2);
+  CHECK(curved.intervals_95[0].low == Approx(-5.0 * std::exp(1.959964 * s)).epsilon(4e-3));
+  CHECK(curved.intervals_95[0].high == Approx(-5.0 * std::exp(-1.959964 * s)).epsilon(4e-3));
+  CHECK(curved.deviation[0] ==
+        Approx(5.0 * std::sqrt(std::expm1(s * s) * std::exp(s * s))).epsilon(5e-3));
+  CHECK(curved.shares(0, 0) == Approx(0.09 / 0.13).epsilon(1e-6));
+  CHECK(curved.disagreement[0] < 1e-6);
+  CHECK(curved.disagreement[1] < 1e-6);
+  // Inputs that act only together are in neither form, and are found out.
+  const BatchFunction mixed = batch_of({[](const VectorXd& z) { return 1.0 + z[0] * z[1]; }});
+  CHECK(curved_answer(mixed, inputs, linear_answer(mixed, inputs)).disagreement[0] > 0.3);
 }
