@@ -37,11 +37,16 @@ struct ShownAnswer {
   double wall_s = 0.0;
   std::vector<PrintedComparison> printed;
   std::optional<SceneUncertainty> uncertainty;
+  double tolerance = 0.0;            // of the scene
   std::string command;               // of results.json
   bool accepts_implausible = false;  // of values
 };
 void show_keys(ResultVisitor& v, const ShownAnswer& shown);
 
+// Whether no effect that is not computed may change the results by more than the tolerance.
+bool effects_within_tolerance(const ShownAnswer& shown);
+// Names the largest effect that is not computed if it exceeds the tolerance, to end a line; otherwise empty.
+std::string missing_effects(const ShownAnswer& shown);
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
 
 // Writes pictures, name and SVG each.

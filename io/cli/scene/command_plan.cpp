@@ -122,7 +122,10 @@ int run_plan(const Words& words, Streams& streams) {
   try {
     savings = effect_savings(scene);
   } catch (const std::runtime_error& e) {  // the plan itself solves nothing and stands
-    streams.err << "viscard plan: what leaving out saves could not be timed: " << e.what() << "\n";
+    streams.err << "viscard plan: no savings are shown, because the scene has no answer on a "
+                   "coarse mesh, and "
+                   "viscard simulate may refuse it, too: "
+                << e.what() << "\n";
   }
   const ShownPlan shown{plan.effects, savings, plan.left_out, common(scene).tolerance,
                         common(plan.reduced).tolerance};

@@ -14,6 +14,7 @@
 #include "io/pictures/row_picture.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
+#include "models/scene/common/effect_estimate.h"
 #include "models/scene/simulate.h"
 
 #include <chrono>
@@ -127,7 +128,7 @@ int run_simulate(const Words& words, Streams& streams) {
   const std::string folder = asked.out.value_or("");
   const SweepOutput output{folder, quoted_command_line("simulate", words), asked.overwrite};
   const auto start = std::chrono::steady_clock::now();
-  ShownAnswer shown{.scene = path};
+  ShownAnswer shown{.scene = path, .tolerance = common(file.scene).tolerance};
   SceneAnswer& answer = shown.answer;
   answer = is_sweep ? run_sweep(file, path, output, streams) : answer_of(file.scene, path, streams);
   shown.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -145,12 +146,16 @@ int run_simulate(const Words& words, Streams& streams) {
       write_uncertainty(*shown.uncertainty, folder, output.command, output.overwrite);
   }
   const auto show = [&](ResultVisitor& v) { show_keys(v, shown); };
-  if (print_result(syntax, {"viscard-simulate/1", {path}}, show, streams)) return kDone;
-  streams.out << path << "\n";
+  const SceneEffect* missing = largest_not_computed(answer);
+  // An effect larger than the answer leaves nothing of it.
+  const int code =
+      missing != nullptr && is_missing(*missing) && missing->estimate > 1.0 ? kFailed : kDone;
+  if (print_result(syntax, {"viscard-simulate/1", {path}}, show, streams)) return code;
+  streams.out << path << missing_effects(shown) << "\n";
   print_answer(answer, shown.wall_s, FittedText(streams));
   print_comparison(shown.printed, FittedText(streams));
   if (shown.uncertainty) print_uncertainty(*shown.uncertainty, FittedText(streams));
-  return kDone;
+  return code;
 }
 
 }  // namespace viscard

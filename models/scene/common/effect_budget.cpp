@@ -9,6 +9,9 @@
 namespace viscard {
 namespace {
 
+// Ends the reason of an effect that is forced on.
+constexpr const char* kChangesNothing = "; switching it on changes nothing";
+
 EffectChoice choice_of(const EffectChoices& choices, const std::string& name) {
   const auto found = choices.find(name);
   return found == choices.end() ? EffectChoice::kAuto : found->second;
@@ -39,7 +42,9 @@ SceneEffect decided_by_role(const std::string& name, const EffectEstimate& estim
   decision.is_outside = estimate.role == EffectRole::kOutside;
   switch (estimate.role) {
     case EffectRole::kAbsent:
-      if (choice == EffectChoice::kOn) decision.reason += "; switching it on changes nothing";
+      if (choice == EffectChoice::kOn) {
+        decision.reason += kChangesNothing;
+      }
       decision.is_forced = false;
       break;
     case EffectRole::kOutside:
@@ -109,7 +114,9 @@ void add_left_out(double left_out, SceneAnswer& answer) {
 
 void add_notes(const EffectDecisions& plan, double tolerance, SceneAnswer& answer) {
   for (const SceneEffect& effect : plan.effects) {
-    if (effect.on || effect.is_counted || effect.estimate <= tolerance) continue;
+    if (effect.reason.ends_with(kChangesNothing))
+      answer.notes.push_back(effect.name + " is forced on: " + effect.reason);
+    if (!is_missing(effect) || effect.estimate <= tolerance) continue;
     answer.notes.push_back(effect.name + ": up to " + percent(effect.estimate) +
                            " that the error estimates do not contain (" + effect.number + " = " +
                            percent(effect.value) + "); " + effect.reason);
@@ -121,6 +128,19 @@ void add_notes(const EffectDecisions& plan, double tolerance, SceneAnswer& answe
 }
 
 }  // namespace
+
+bool is_missing(const SceneEffect& effect) {
+  return !effect.on && !effect.is_counted && effect.estimate > 0.0;
+}
+
+const SceneEffect* largest_not_computed(const SceneAnswer& answer) {
+  const SceneEffect* largest = nullptr;
+  for (const SceneEffect& effect : answer.effects) {
+    if (!is_missing(effect) && !(effect.is_counted && effect.is_forced)) continue;
+    if (largest == nullptr || effect.estimate > largest->estimate) largest = &effect;
+  }
+  return largest;
+}
 
 EffectDecisions decide_effects(const std::vector<NamedEstimate>& estimates,
                                const EffectChoices& choices, double tolerance) {

@@ -55,6 +55,11 @@ EffectDecisions decide_effects(const std::vector<NamedEstimate>& estimates,
 // that the error estimates cannot contain.
 void report_left_out(const EffectDecisions& decisions, double tolerance, SceneAnswer& answer);
 
+// Whether an effect may change the results although it is neither computed nor part of their errors.
+bool is_missing(const SceneEffect& effect);
+// The largest effect that is not computed, missing or forced off by the scene; null: there is none.
+const SceneEffect* largest_not_computed(const SceneAnswer& answer);
+
 // Decides for every answer, whichever analysis made it, if all its error estimates are within the
 // tolerance, and says so in `within_tolerance`. Throws std::runtime_error with the worst number
 // unless effects that the scene itself forces off are the reason; that gets a note.
