@@ -195,7 +195,8 @@ EffectEstimate stiffness_under_shape(const ArrayScene& scene) {
             "pillars buckle; the answer is that of pillars that stay straight"};
   }
   const double u = 0.5 * pi * std::sqrt(std::min(share, 0.99));
-  return {EffectRole::kOutside, std::tan(u) / u - 1.0, "p/p_cr", share,
+  // Forces and voltages of pillars that bend change less than their moments.
+  return {EffectRole::kOutside, std::min(std::tan(u) / u - 1.0, 1.0), "p/p_cr", share,
           "the pressure bends pillars further whose tops the shape turns; not in the error"};
 }
 

@@ -142,8 +142,9 @@ EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene) {
   }
   const double u = 0.5 * std::numbers::pi * std::sqrt(std::min(share, 0.99));
   const double more = std::tan(u) / u - 1.0;
-  if (scene.press) {
-    return {EffectRole::kOutside, foundation_press(scene).turn * more, "p/p_cr", share,
+  if (scene.press) {  // forces and voltages of pillars that bend change less than their moments
+    const double estimate = std::min(foundation_press(scene).turn * more, 1.0);
+    return {EffectRole::kOutside, estimate, "p/p_cr", share,
             "the pressure bends pillars further whose tops the shape turns; not in the error"};
   }
   return {EffectRole::kOutside, more, "p/p_cr", share,

@@ -77,6 +77,37 @@ TEST_CASE("a scene is drawn with its sizes", "[cli][scene]") {
   CHECK(run_command({"scene", "check", scene.path(), "--svg", svg, "--force"}).status == 0);
 }
 
+TEST_CASE("an effect that is not computed and exceeds the tolerance stands in the first line",
+          "[cli][scene]") {
+  // Sideways, for small strains the top moves by 0.28 and by 5.5 lengths at 10 and 200 kPa.
+  struct Case {
+    const char* shear;
+    bool is_within;
+    int status;
+  };
+  const Case c =
+      GENERATE(Case{"1 Pa", true, 0}, Case{"10 kPa", false, 0}, Case{"200 kPa", false, 1});
+  CAPTURE(c.shear);
+  const SceneText scene(std::string(R"(tolerance = 1e-2
+[geometry]
+diameter = "40 um"
+length = "120 um"
+[materials]
+pillar = { E = "1.8 MPa", nu = 0.33, rho = "965 kg/m3" }
+[analysis]
+kind = "static"
+load = { shear = ")") + c.shear +
+                        "\", on = \"top\", direction = \"lateral\" }\n");
+  const CommandOutcome json = run_command({"simulate", scene.path(), "--json"});
+  CHECK(json.status == c.status);
+  CHECK(nlohmann::json::parse(json.out)["effects_within_tolerance"] == c.is_within);
+  CHECK(nlohmann::json::parse(json.out)["within_tolerance"] == true);
+  const CommandOutcome text = run_command({"simulate", scene.path()});
+  CHECK(text.status == c.status);
+  const std::string first = text.out.substr(0, text.out.find('\n'));
+  CHECK((first.find("finite_strain is not computed") != std::string::npos) == !c.is_within);
+}
+
 TEST_CASE("the plan is one object with every effect, estimate and reason", "[cli][scene]") {
   const SceneText scene(kSensor);
   const CommandOutcome outcome = run_command({"plan", scene.path(), "--json"});
