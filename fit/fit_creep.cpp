@@ -95,14 +95,16 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     throw std::runtime_error(
         "moduli and times of creep follow from its retardation spectrum and cannot be constrained");
   }
-  CheckedRecord record({data.time_s, data.compliance_1_Pa}, kLeastRows, RecordKind::kCreep);
+  const std::optional<TimeRounding> rounding = time_rounding(data.time_s);
+  const bool is_spread = rounding && !rounding->time_s.empty();
+  CheckedRecord record({is_spread ? rounding->time_s : data.time_s, data.compliance_1_Pa},
+                       kLeastRows, RecordKind::kCreep);
   CleanViews& clean = record.clean;
   if (clean.column(0).front() < 0.0) {
     throw std::runtime_error("the first time is " + text_of(clean.column(0).front()) +
                              " s; t = 0 must be the step of stress (set it with --time-zero)");
   }
   if (!data.is_zero_known) check_clock(clean, record.notes);
-  const std::optional<double> rounded_s = rounding_step_s(clean.column(0));
   const EndRows ends = drop_end_rows(clean, StepRecord::kCreep);
   const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));
   clean.drop(spikes);
@@ -123,7 +125,8 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   add_record_notes(record.notes, result);
   add_spikes(result, spikes.size());
   add_end_rows(result, ends, "1/Pa");
-  if (rounded_s) report_time_rounding(*rounded_s, /*is_spread=*/false, result);
+  if (rounding) report_time_rounding(*rounding, result);
+  if (data.zero_unsure_s > 0.0) widen_for_zero(data.zero_unsure_s, result);
   flag_left_out(result);
   flag_lack_of_fit({.unit = "1/Pa"}, result);
   keep_intervals_positive(options, result);

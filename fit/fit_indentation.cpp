@@ -217,17 +217,15 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
 
 // A table whose export may have rounded the times.
 FitResult fit_depth_table(const IndentationData& data, const FitOptions& options) {
-  std::optional<RoundedTimes> rounded = rounded_times(data.time_s);
-  if (rounded) {
+  const std::optional<TimeRounding> rounding = time_rounding(data.time_s);
+  const auto fit_with = [&](const std::vector<double>& time_s) {
+    if (time_s.empty()) return fit_measured_depth(data, options);
     IndentationData spread = data;
-    spread.time_s = std::move(rounded->time_s);
-    FitResult result = fit_measured_depth(spread, options);
-    report_time_rounding(rounded->step_s, /*is_spread=*/true, result);
-    return result;
-  }
-  FitResult result = fit_measured_depth(data, options);
-  const std::optional<double> step_s = rounding_step_s(data.time_s);
-  if (step_s) report_time_rounding(*step_s, /*is_spread=*/false, result);
+    spread.time_s = time_s;
+    return fit_measured_depth(spread, options);
+  };
+  FitResult result = fit_with(rounding ? rounding->time_s : std::vector<double>{});
+  if (rounding) report_time_rounding(*rounding, result);
   return result;
 }
 

@@ -223,10 +223,10 @@ void check_step_values(std::span<const double> time_s, std::span<const double> v
 
 FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) {
   const bool is_step = data.strain.empty();
-  const std::optional<RoundedTimes> rounded = rounded_times(data.time_s);
-  const std::optional<double> step_s =
-      rounded ? std::optional(rounded->step_s) : rounding_step_s(data.time_s);
-  std::vector<std::span<const double>> columns{rounded ? rounded->time_s : data.time_s, data.value};
+  const std::optional<TimeRounding> rounding = time_rounding(data.time_s);
+  const bool is_spread = rounding && !rounding->time_s.empty();
+  std::vector<std::span<const double>> columns{is_spread ? rounding->time_s : data.time_s,
+                                               data.value};
   if (!is_step) columns.emplace_back(data.strain);
   CheckedRecord record(columns, kLeastStepRows,
                        is_step ? RecordKind::kRelaxation : RecordKind::kHistory);
@@ -258,7 +258,8 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
         {"samples-before-zero", 0, counted(n_early, "sample") + " before t = 0 left out"});
   }
   add_left_out(result, left_out::kBeforeZero, n_early);
-  if (step_s) report_time_rounding(*step_s, rounded.has_value(), result);
+  if (rounding) report_time_rounding(*rounding, result);
+  if (is_step && data.zero_unsure_s > 0.0) widen_for_zero(data.zero_unsure_s, result);
   flag_left_out(result);
   keep_intervals_positive(options, result);
   return result;

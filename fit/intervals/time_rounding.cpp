@@ -44,21 +44,32 @@ double widen_for_zero(double half_s, FitResult& result) {
   return late_Pa - early_Pa;
 }
 
-void report_time_rounding(double step_s, bool is_spread, FitResult& result) {
+void report_time_rounding(const TimeRounding& rounding, FitResult& result) {
   constexpr double kVisible = 0.25;
   const double before = result.E0_interval_95.high - result.E0_interval_95.low;
-  const double change_Pa = widen_for_zero(0.5 * step_s, result);
+  const double change_Pa = widen_for_zero(rounding.unsure_s, result);
+  const bool is_spread = !rounding.time_s.empty();
   if (!is_spread && !(change_Pa > kVisible * before)) return;
-  const std::string step = text_of(step_s, 3), half = text_of(0.5 * step_s, 3);
-  const std::string how =
-      is_spread ? ", so that several rows share each: they were spread evenly about it"
-                : ", which is coarse for this record";
+  const std::string step = text_of(rounding.step_s, 3), half = text_of(0.5 * rounding.step_s, 3);
+  const std::string unsure = text_of(rounding.unsure_s, 3) + " s";
+  const std::string included = " changes E0 by " + percent_of_E0(change_Pa, result) +
+                               ", which its interval and those of the terms include. Export more "
+                               "digits of the time";
+  if (!is_spread && rounding.unsure_s > 0.75 * rounding.step_s) {
+    result.flags.push_back(
+        {"times-rounded", 0,
+         "the times lack a row at equal distances: rows are missing, or the times were cut off to " +
+             step + " s at a rate a little below. As the latter they are wrong by up to " + unsure +
+             ", which" + included});
+    return;
+  }
+  const std::string how = is_spread ? ": they were spread evenly again"
+                                    : ", which is coarse for this record";
   result.flags.push_back(
       {"times-rounded", 0,
        "the times are rounded to " + step + " s" + how +
            ". If the instrument cuts times off, all rows are " + half + " s late (--time-zero -" +
-           half + " corrects that); half a step changes E0 by " + percent_of_E0(change_Pa, result) +
-           ", which its interval and those of the terms include. Export more digits of the time"});
+           half + " corrects that). A zero that is wrong by " + unsure + included});
 }
 
 void report_rise(double begin_s, double end_s, FitResult& result) {

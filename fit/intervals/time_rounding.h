@@ -1,15 +1,15 @@
 #pragma once
 
 #include "fit/intervals/fit_result.h"
+#include "fit/samples/rounded_times.h"
 
 namespace viscard {
 
-// Widens the intervals of E0 and of the terms by what half a step of rounded times changes, and names it
-// in the flag times-rounded. All times may be late or early by half a step together (an instrument that cuts
-// them off), so the zero of time is as uncertain, and E0 = sum E_i exp(t/tau_i) with it.
-//   is_spread: rows that share a time were spread evenly. Otherwise the times stand as they are, and
-//   the flag is left out if the change is below a quarter of the interval.
-void report_time_rounding(double step_s, bool is_spread, FitResult& result);
+// Widens the intervals of E0 and of the terms by what the unsure zero of rounded times changes, and names it
+// in the flag times-rounded. All times may be late or early together (an instrument that cuts them off), so
+// the zero of time is as uncertain, and E0 = sum E_i exp(t/tau_i) with it. If the times stand as they are,
+// the flag is left out if the change is below a quarter of the interval.
+void report_time_rounding(const TimeRounding& rounding, FitResult& result);
 
 // The same for a load that rose from begin_s to end_s and counts as a step in the middle, which is t = 0
 // of the fit (Zapas & Craft, J. Res. Natl. Bur. Stand. 69A (1965) 541, for times far above the rise):

@@ -27,6 +27,7 @@ struct RelaxationData {
   std::vector<double> strain;  // empty: ideal step
   std::string unit = "Pa";     // of value, for the words of flags
   bool is_zero_known = false;  // the load was at t = 0 for certain: the times are not questioned
+  double zero_unsure_s = 0.0;  // t = 0 was assumed, and may be wrong by this
 };
 
 // Flat-punch indentation, F(t) = c int E(t-s) d(depth)/ds ds + offset + drift t (fit/README.md, eq.
@@ -62,6 +63,7 @@ struct CreepData {
   std::vector<double> time_s;
   std::vector<double> compliance_1_Pa;
   bool is_zero_known = false;  // as in RelaxationData
+  double zero_unsure_s = 0.0;
 };
 
 // Storage and loss modulus, fitted together with relative weights.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -97,11 +98,23 @@ std::optional<double> rounding_step_s(std::span<const double> time_s) {
 
 namespace {
 
-// Even times whose export put them on a coarser grid, now one, now two steps apart: a straight line through
-// them, if all are within one step of each other about it.
-std::optional<RoundedTimes> straight_times(std::span<const double> time_s) {
-  const std::optional<double> step_s = rounding_step_s(time_s);
-  if (!step_s) return std::nullopt;
+// Evenly spread times at_s of rounded or cut times. Those of a record that begins at the load or after it do so
+// again. True times differ from the rounded ones by half a step at most, and are up to one step after those that
+// were cut off; that all rows keep this bounds how far they can be moved together.
+TimeRounding spread_times(std::span<const double> time_s, std::vector<double> at_s, double step_s) {
+  const double early_s = time_s[0] >= 0.0 ? std::min(0.0, at_s[0]) : 0.0;
+  double least_s = time_s[0] - at_s[0] + early_s, most_s = least_s;
+  for (std::size_t i = 0; i < at_s.size(); ++i) {
+    at_s[i] -= early_s;
+    least_s = std::min(least_s, time_s[i] - at_s[i]);
+    most_s = std::max(most_s, time_s[i] - at_s[i]);
+  }
+  const double earliest_s = most_s - 0.5 * step_s, latest_s = least_s + step_s;
+  return {step_s, std::max(std::abs(earliest_s), std::abs(latest_s)), std::move(at_s)};
+}
+
+// A straight line through the times, if all are within one step of each other about it.
+std::optional<std::vector<double>> straight_line(std::span<const double> time_s, double step_s) {
   const auto n = static_cast<double>(time_s.size());
   double mean_s = 0.0, product = 0.0;
   for (std::size_t i = 0; i < time_s.size(); ++i) mean_s += (time_s[i] - time_s[0]) / n;
@@ -109,42 +122,70 @@ std::optional<RoundedTimes> straight_times(std::span<const double> time_s) {
     product += (static_cast<double>(i) - 0.5 * (n - 1.0)) * (time_s[i] - time_s[0] - mean_s);
   }
   const double between_s = product / (n * (n * n - 1.0) / 12.0);
-  RoundedTimes even{*step_s, {}};
+  std::vector<double> even_s;
   double least_s = 0.0, most_s = 0.0;
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     const double at_s = time_s[0] + mean_s + between_s * (static_cast<double>(i) - 0.5 * (n - 1.0));
-    even.time_s.push_back(at_s);
+    even_s.push_back(at_s);
     least_s = std::min(least_s, time_s[i] - at_s);
     most_s = std::max(most_s, time_s[i] - at_s);
   }
   constexpr double kWithin = 1.05;
-  if (!(between_s > 0.0) || most_s - least_s > kWithin * *step_s) return std::nullopt;
-  // A record that begins at the load or after it stays so.
-  const double early_s = time_s[0] >= 0.0 ? std::min(0.0, even.time_s[0]) : 0.0;
-  for (double& t : even.time_s) t -= early_s;
-  return even;
+  if (!(between_s > 0.0) || most_s - least_s > kWithin * step_s) return std::nullopt;
+  return even_s;
+}
+
+// Rows that share each time, spread about it. The whole runs, without the first and the last, determine the
+// distance between rows.
+std::optional<TimeRounding> shared_times(std::span<const double> time_s) {
+  constexpr std::size_t kFewestRuns = 6;
+  const std::vector<std::size_t> begins = runs_of(time_s);
+  if (begins.size() < kFewestRuns || !are_even(time_s, begins)) return std::nullopt;
+  const double step_s = time_s[begins[1]] - time_s[0];
+  const std::size_t n_whole = begins.size() - 3;
+  const auto n_rows = static_cast<double>(begins[n_whole + 1] - begins[1]);
+  const double between_s = step_s * static_cast<double>(n_whole) / n_rows;
+  const double middle_s = 0.5 * (time_s[begins[1]] + time_s[begins[n_whole]]);
+  const double middle = static_cast<double>(begins[1]) + 0.5 * (n_rows - 1.0);
+  std::vector<double> at_s;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    at_s.push_back(middle_s + between_s * (static_cast<double>(i) - middle));
+  }
+  return spread_times(time_s, std::move(at_s), step_s);
+}
+
+// The step of even times in which rows are missing at equal distances, one at a time.
+std::optional<double> step_of_regular_gaps(std::span<const double> time_s) {
+  constexpr std::size_t kFewestGaps = 8;  // as regular by chance once in four hundred records
+  const double step_s = shortest_if_uneven(time_s);
+  if (!(step_s > 0.0)) return std::nullopt;
+  const std::vector<double> steps = steps_between(time_s, step_s);
+  if (steps.empty()) return std::nullopt;
+  std::size_t n_gaps = 0;
+  for (const double step : steps) {
+    if (step < 1.0 || step > 2.0) return std::nullopt;
+    n_gaps += step > 1.0 ? 1 : 0;
+  }
+  if (n_gaps < kFewestGaps || !straight_line(time_s, step_s)) return std::nullopt;
+  return step_s;
 }
 
 }  // namespace
 
-std::optional<RoundedTimes> rounded_times(std::span<const double> time_s) {
-  constexpr std::size_t kFewestRuns = 6;
-  if (time_s.size() < 2 * kFewestRuns) return std::nullopt;
-  const bool repeats = time_s[0] == time_s[1] || time_s[1] == time_s[2];
-  if (!repeats) return straight_times(time_s);
-  const std::vector<std::size_t> begins = runs_of(time_s);
-  if (begins.size() < kFewestRuns || !are_even(time_s, begins)) return std::nullopt;
-  RoundedTimes rounded{time_s[begins[1]] - time_s[0], {}};
-  // The whole runs, without the first and the last, determine the distance between rows.
-  const std::size_t n_whole = begins.size() - 3;
-  const auto n_rows = static_cast<double>(begins[n_whole + 1] - begins[1]);
-  const double between_s = rounded.step_s * static_cast<double>(n_whole) / n_rows;
-  const double middle_s = 0.5 * (time_s[begins[1]] + time_s[begins[n_whole]]);
-  const double middle = static_cast<double>(begins[1]) + 0.5 * (n_rows - 1.0);
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    rounded.time_s.push_back(middle_s + between_s * (static_cast<double>(i) - middle));
+std::optional<TimeRounding> time_rounding(std::span<const double> time_s) {
+  constexpr std::size_t kFewestRows = 12;
+  if (time_s.size() < kFewestRows) return std::nullopt;
+  if (time_s[0] == time_s[1] || time_s[1] == time_s[2]) {
+    if (auto shared = shared_times(time_s)) return shared;
   }
-  return rounded;
+  if (const std::optional<double> step_s = rounding_step_s(time_s)) {
+    if (auto even_s = straight_line(time_s, *step_s)) {
+      return spread_times(time_s, std::move(*even_s), *step_s);
+    }
+    return TimeRounding{*step_s, 0.5 * *step_s, {}};
+  }
+  const std::optional<double> gaps_s = step_of_regular_gaps(time_s);
+  return gaps_s ? std::optional(TimeRounding{*gaps_s, *gaps_s, {}}) : std::nullopt;
 }
 
 }  // namespace viscard

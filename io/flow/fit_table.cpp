@@ -80,6 +80,13 @@ Column time_of(const CsvTable& table, const FitRequest& request) {
   return time_s;
 }
 
+// By how much t = 0 is unsure: the begin of clock times was assumed.
+double zero_unsure_s(const CsvTable& table, const FitRequest& request) {
+  if (request.time_zero_s) return 0.0;
+  const auto use = find_column(table, "time_s", request.columns);
+  return use ? table.columns[use->index].zero_unsure_s : 0.0;
+}
+
 // Moduli or stresses as those of tension.
 Column moduli_of(const CsvTable& table, const char* name, const FitRequest& request) {
   Column values = column_SI(table, name, request.columns);
@@ -148,6 +155,7 @@ FitResult fit_force_table(const CsvTable& table, const FitRequest& request) {
   RelaxationData data{time_of(table, request), column_SI(table, "force_N", request.columns)};
   if (!has_geometry) data.unit = request.depth_m ? "N/m" : "N";
   data.is_zero_known = request.time_zero_s.has_value();
+  data.zero_unsure_s = zero_unsure_s(table, request);
   for (double& value : data.value) value /= per;
   FitResult result = fit_relaxation(data, request.options);
   result.is_stiffness = !has_geometry;
@@ -158,6 +166,7 @@ FitResult fit_relaxation_table(const CsvTable& table, const FitRequest& request)
   RelaxationData data;
   data.time_s = time_of(table, request);
   data.is_zero_known = request.time_zero_s.has_value();
+  data.zero_unsure_s = zero_unsure_s(table, request);
   const bool has_modulus = find_column(table, "modulus_Pa", request.columns).has_value();
   data.value = moduli_of(table, has_modulus ? "modulus_Pa" : "stress_Pa", request);
   if (!has_modulus && find_column(table, "strain", request.columns)) {
@@ -358,7 +367,8 @@ FittedFile fit_rows(const CsvTable& table, const FitRequest& asked) {
       break;
     case FitKind::kCreep:
       fitted.result = fit_creep(
-          {time_of(table, request), compliance_of(table, request), request.time_zero_s.has_value()},
+          {time_of(table, request), compliance_of(table, request), request.time_zero_s.has_value(),
+           zero_unsure_s(table, request)},
           request.options);
       fitted.fitted_unit = "1/Pa";
       break;

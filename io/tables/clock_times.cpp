@@ -124,6 +124,7 @@ void read_column(CsvColumn& column, CsvTable& table) {
     }
     if (std::isfinite(step_s)) {
       for (double& value : column.values) value += 0.5 * step_s;
+      column.zero_unsure_s = 0.5 * step_s;
     }
     table.notes.push_back("the clock times of '" + column.header +
                           "' begin half a step after t = 0; --time-zero S sets another begin");

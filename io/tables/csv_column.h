@@ -22,6 +22,7 @@ struct CsvColumn {
   // Of a computed column: the header that it follows from, and the kind of modulus that this one states.
   std::string derived_from;
   std::optional<ModulusKind> modulus_kind;
+  double zero_unsure_s = 0.0;  // of clock times: by how much their begin was assumed
 };
 
 }  // namespace viscard
