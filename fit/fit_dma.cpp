@@ -79,6 +79,7 @@ using ModelWith = std::function<std::unique_ptr<DmaModel>(bool with_dashpot, Slo
 void try_dashpot(const FitOptions& options, const std::vector<int>& blocks,
                  const ModelWith& model_with, SlowTimes slow, FittedModel& fitted) {
   // The profile of E_inf needs it as the first common column; constraints know no dashpot.
+  if (!fitted.model->has_loss()) return;  // no storage modulus shows a dashpot
   if (!options.constraints.empty() || options.allow_negative) return;
   if (options.is_liquid && options.with_profiles) return;
   FittedModel other{model_with(/*with_dashpot=*/true, slow), {}};
@@ -92,7 +93,7 @@ void try_dashpot(const FitOptions& options, const std::vector<int>& blocks,
 void try_slow_dashpot(const FitOptions& options, const std::vector<int>& blocks,
                       const ModelWith& model_with, FittedModel& fitted) {
   // Laws of few parameters are compared with the series as it is within the usual range.
-  if (!options.is_liquid || options.with_laws) return;
+  if (!options.is_liquid || options.with_laws || !fitted.model->has_loss()) return;
   const Eigen::VectorXd& usual = fitted.fit.state.ln_tau;
   const bool is_at_end = usual.size() > 0 && fitted.model->is_longest(usual.maxCoeff());
   if (!fitted.fit.scores.wants_slower && !is_at_end) return;
@@ -148,7 +149,7 @@ void drop_liquid_claim(FitResult& result) {
 // Structure in the residuals of both moduli over frequency.
 void examine_moduli(const DmaModel& model, const SpectralFit& fit, FitResult& result) {
   std::vector<double> at_Hz;
-  for (Index i = 0; i < 2 * model.n_frequencies(); ++i) {
+  for (Index i = 0; i < model.n_rows(); ++i) {
     at_Hz.push_back(model.frequency_Hz(i % model.n_frequencies()));
   }
   result.lack_of_fit = lack_of_fit(model, fit.state, at_Hz, fit.rss);
@@ -168,6 +169,7 @@ void add_curves(const DmaModel& model, const SpectralState& state, FitResult& re
   for (Index i = 0; i < count; ++i) {
     const Index k = count + i;
     result.curves.add(model.frequency_Hz(i), measured[i], fitted[i], sigma[i]);
+    if (!model.has_loss()) continue;
     result.curves.add_loss(measured[k], fitted[k], sigma[k]);
   }
   result.curves.unit = "Pa";
@@ -204,7 +206,7 @@ ModulusFloors likely_floors(const DmaModel& model, const SpectralState& state) {
   const Eigen::VectorXd residual_Pa = (model.data() - fitted).cwiseProduct(model.row_sigma());
   const Index count = model.n_frequencies();
   return {likely_floor_Pa(value_Pa.head(count), residual_Pa.head(count)),
-          likely_floor_Pa(value_Pa.tail(count), residual_Pa.tail(count))};
+          model.has_loss() ? likely_floor_Pa(value_Pa.tail(count), residual_Pa.tail(count)) : 0.0};
 }
 
 void note_floors(const ModulusFloors& floors, double relative, FitResult& result) {
@@ -220,11 +222,28 @@ void note_floors(const ModulusFloors& floors, double relative, FitResult& result
                               "). Each row weighs by both"});
 }
 
+// What a storage modulus without the loss modulus leaves open. Relaxation slower than its frequencies adds a
+// constant, as E_inf does.
+void report_storage_alone(FitResult& result) {
+  std::erase_if(result.flags, [](const MaterialFlag& flag) {
+    return flag.name == "slow-term-hidden" || flag.name == "slower-relaxation";
+  });
+  result.flags.push_back(
+      {"storage-alone", 0,
+       "only the storage modulus was given. It cannot show relaxation slower than the lowest "
+       "frequency, "
+       "which adds a constant as E_inf does (the interval of E_inf includes that), nor relaxation "
+       "faster than the highest, which E0 lacks, nor a dashpot; and it cannot be checked against "
+       "the "
+       "loss modulus (Kramers-Kronig). Losses that follow from this result are those of its terms "
+       "alone. Export the loss modulus or the phase as well"});
+}
+
 FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
                      std::span<const double> loss_Pa, const FitOptions& options) {
   // A block is a run of neighbouring frequencies; E' and E'' of one frequency share a block.
   std::vector<int> blocks = log_time_blocks(frequency_Hz, 0.0, 1);
-  blocks.insert(blocks.end(), blocks.begin(), blocks.end());
+  if (!loss_Pa.empty()) blocks.insert(blocks.end(), blocks.begin(), blocks.end());
   ModulusFloors floors;
   const ModelWith model_with = [&](bool with_dashpot, SlowTimes slow) {
     return std::make_unique<DmaModel>(frequency_Hz, storage_Pa, loss_Pa, options, with_dashpot,
@@ -265,8 +284,12 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
   note_floors(floors, result.noise.sigma, result);
   if (model.ln_tau_max() > usual_ln_tau) report_slow_dashpot(result);
   examine_moduli(model, fit, result);
-  flag_contradiction(model, fit.state, result);
   if (options.with_curves) add_curves(model, fit.state, result);
+  if (!model.has_loss()) {
+    report_storage_alone(result);
+    return result;
+  }
+  flag_contradiction(model, fit.state, result);
   if (options.keep_rows) {
     KeptRows kept{.shape = KeptRows::Shape::kOscillation, .window = window};
     kept.at.assign(frequency_Hz.begin(), frequency_Hz.end());
@@ -282,14 +305,21 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
 
 FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   constexpr std::size_t kLeastRows = 3;
-  const CleanViews clean({data.frequency_Hz, data.storage_Pa, data.loss_Pa}, kLeastRows);
-  const auto frequency_Hz = clean.column(0), storage_Pa = clean.column(1),
-             loss_Pa = clean.column(2);
+  std::vector<std::span<const double>> columns{data.frequency_Hz, data.storage_Pa};
+  const bool has_loss = !data.loss_Pa.empty();
+  if (has_loss) columns.emplace_back(data.loss_Pa);
+  const CleanViews clean(columns, kLeastRows);
+  const auto frequency_Hz = clean.column(0), storage_Pa = clean.column(1);
+  const auto loss_Pa = has_loss ? clean.column(2) : std::span<const double>{};
   if (!(frequency_Hz.front() > 0.0)) {
     throw std::runtime_error("a frequency of " + text_of(frequency_Hz.front()) +
                              " Hz cannot be fitted; frequencies must be positive");
   }
   for (std::size_t i = 0; i < frequency_Hz.size(); ++i) {
+    if (!has_loss && storage_Pa[i] == 0.0) {
+      throw std::runtime_error("the storage modulus is zero at " + text_of(frequency_Hz[i]) +
+                               " Hz: this is not a measurement. Remove the row");
+    }
     if (storage_Pa[i] != 0.0 || loss_Pa[i] != 0.0) continue;
     throw std::runtime_error("storage and loss modulus are both zero at " +
                              text_of(frequency_Hz[i]) +

@@ -73,23 +73,6 @@ void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, Fit
   }
 }
 
-void fill_curves(const HistoryModel& model, const HistoryInput& input, const SpectralState& state,
-                 double sigma, FitResult& result) {
-  const Eigen::VectorXd fitted = model.fitted_samples(state);
-  const std::vector<std::size_t> begins = model.row_begins();
-  for (std::size_t r = 0; r + 1 < begins.size(); ++r) {
-    const auto count = static_cast<double>(begins[r + 1] - begins[r]);
-    double measured = 0.0;
-    double model_value = 0.0;
-    for (std::size_t i = begins[r]; i < begins[r + 1]; ++i) {
-      measured += input.output[i] / count;
-      model_value += fitted[static_cast<Index>(i)] / count;
-    }
-    result.curves.add(model.row_time_s()[r], measured, model_value, sigma / std::sqrt(count));
-  }
-  result.curves.unit = "N";
-}
-
 void flag_table_misfit(const HistoryInput& input, const TableContact& contact, FitResult& result) {
   if (!contact.is_fitted) return;
   const auto first = static_cast<std::ptrdiff_t>(contact.first);
@@ -186,7 +169,7 @@ FitResult fit_contact_table(const IndentationData& data, const ContactTable& tab
   const auto& step_s = fitted.input.step_s;
   report_first_modulus(step_s ? time_s.front() - *step_s : shortest_step_s(time_s), result);
   if (options.with_curves) {
-    fill_curves(model, fitted.input, fitted.fit.state, result.noise.sigma, result);
+    fill_history_curves(model, fitted.fit, "N", {}, result);
   }
   if (options.keep_rows) {
     KeptRows kept{.shape = KeptRows::Shape::kHistory, .zero_s = fitted.zero_s()};

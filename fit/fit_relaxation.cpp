@@ -69,6 +69,7 @@ FitResult fit_history_once(const HistoryInput& input, const FitOptions& options)
                        result);
   result.fit_from_s = input.time_s.front();
   result.fit_to_s = input.time_s.back();
+  if (options.with_curves) fill_history_curves(model, fit, "Pa", {zero_s}, result);
   if (options.keep_rows) {
     KeptRows kept{.shape = KeptRows::Shape::kHistory, .history = input, .zero_s = zero_s};
     kept.window = window;

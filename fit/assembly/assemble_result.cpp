@@ -261,6 +261,26 @@ void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std:
   result.curves.unit = unit;
 }
 
+void fill_history_curves(const HistoryModel& model, const SpectralFit& fit, const std::string& unit,
+                         std::vector<double> motion_start_s, FitResult& result) {
+  const Eigen::VectorXd fitted = model.fitted_samples(fit.state);
+  const std::vector<std::size_t> begins = model.row_begins();
+  const std::vector<double>& output = model.input().output;
+  for (std::size_t r = 0; r + 1 < begins.size(); ++r) {
+    const double at_s = model.row_time_s()[r];
+    if (!motion_start_s.empty() && !(at_s > motion_start_s.front())) continue;
+    const auto count = static_cast<double>(begins[r + 1] - begins[r]);
+    double measured = 0.0, of_fit = 0.0;
+    for (std::size_t i = begins[r]; i < begins[r + 1]; ++i) {
+      measured += output[i] / count;
+      of_fit += fitted[static_cast<Eigen::Index>(i)] / count;
+    }
+    result.curves.add(at_s, measured, of_fit, result.noise.sigma / std::sqrt(count));
+  }
+  result.curves.unit = unit;
+  result.curves.motion_start_s = std::move(motion_start_s);
+}
+
 void note_weights(const StepModel& model, const ReadingNoise& noise, const std::string& unit,
                   FitResult& result) {
   if (!model.is_weighed()) return;

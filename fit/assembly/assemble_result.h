@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fit/assembly/spectral_fit.h"
+#include "fit/curves/history_model.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/fit_result.h"
 #include "fit/intervals/kept_rows.h"
@@ -35,6 +36,11 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
 // Fills FitResult::curves with the bin averages of a step fit.
 void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std::string& unit,
                       FitResult& result);
+
+// The same with the averages of a history. motion_start_s: when the input moved; rows before the first of these
+// times are left out. Empty: all rows.
+void fill_history_curves(const HistoryModel& model, const SpectralFit& fit, const std::string& unit,
+                         std::vector<double> motion_start_s, FitResult& result);
 
 // Adds the flag noise-grows if the rows of the model are weighed by a noise that grows with the value.
 void note_weights(const StepModel& model, const ReadingNoise& noise, const std::string& unit,

@@ -28,17 +28,19 @@ DmaModel::DmaModel(std::span<const double> frequency_Hz, std::span<const double>
                    SlowTimes slow_times, const ModulusFloors& floors)
     : with_dashpot_(with_dashpot) {
   const auto count = static_cast<Index>(frequency_Hz.size());
-  data_.resize(2 * count);
-  sigma_Pa_.resize(2 * count);
+  const bool has_loss = !loss_Pa.empty();
+  data_.resize(has_loss ? 2 * count : count);
+  sigma_Pa_.resize(data_.size());
   for (Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     angular_1_s_.push_back(2.0 * std::numbers::pi * frequency_Hz[k]);
     // A loss modulus near zero has the error of the complex modulus, not one relative to itself.
-    const double size_Pa = std::hypot(storage_Pa[k], loss_Pa[k]);
+    const double size_Pa = has_loss ? std::hypot(storage_Pa[k], loss_Pa[k]) : storage_Pa[k];
     sigma_Pa_[i] = std::hypot(std::max(std::abs(storage_Pa[k]), 0.01 * size_Pa), floors.storage_Pa);
+    data_[i] = storage_Pa[k] / sigma_Pa_[i];
+    if (!has_loss) continue;
     sigma_Pa_[count + i] =
         std::hypot(std::max(std::abs(loss_Pa[k]), 0.01 * size_Pa), floors.loss_Pa);
-    data_[i] = storage_Pa[k] / sigma_Pa_[i];
     data_[count + i] = loss_Pa[k] / sigma_Pa_[count + i];
   }
   with_equilibrium_ = !options.is_liquid;
@@ -60,8 +62,8 @@ ModelColumns DmaModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vecto
   const auto count = static_cast<Index>(angular_1_s_.size());
   const Index n_terms = ln_tau.size();
   ModelColumns out;
-  out.values = Eigen::MatrixXd::Zero(2 * count, n_common() + n_terms);
-  if (with_slopes) out.term_slopes.resize(2 * count, n_terms);
+  out.values = Eigen::MatrixXd::Zero(n_rows(), n_common() + n_terms);
+  if (with_slopes) out.term_slopes.resize(n_rows(), n_terms);
   if (with_equilibrium_) out.values.col(0).head(count) = sigma_Pa_.head(count).cwiseInverse();
   if (with_dashpot_) {
     out.values.col(dashpot()).tail(count) =
@@ -73,10 +75,10 @@ ModelColumns DmaModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vecto
     for (Index k = 0; k < count; ++k) {
       const Debye d = debye(angular_1_s_[static_cast<std::size_t>(k)] * tau_s);
       out.values(k, n_common() + i) = d.storage / sigma_Pa_[k];
+      if (with_slopes) out.term_slopes(k, i) = d.storage_slope / sigma_Pa_[k];
+      if (!has_loss()) continue;
       out.values(count + k, n_common() + i) = d.loss / sigma_Pa_[count + k];
-      if (!with_slopes) continue;
-      out.term_slopes(k, i) = d.storage_slope / sigma_Pa_[k];
-      out.term_slopes(count + k, i) = d.loss_slope / sigma_Pa_[count + k];
+      if (with_slopes) out.term_slopes(count + k, i) = d.loss_slope / sigma_Pa_[count + k];
     }
   }
   return out;

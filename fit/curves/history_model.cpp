@@ -53,7 +53,8 @@ std::size_t end_of_loading(const std::vector<double>& input) {
 
 HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(std::move(input)) {
   const std::size_t count = in_.time_s.size();
-  with_equilibrium_ = !options.is_liquid;
+  with_equilibrium_ = in_.is_creep || !options.is_liquid;
+  with_flow_ = in_.is_creep && options.is_liquid;
   may_be_negative_ = options.allow_negative;
   const bool is_small = count <= kSmallRecord || options.full_data;
   const double ratio = std::pow(10.0, 1.0 / kBinsPerDecade);
@@ -87,7 +88,8 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
     row_time_s_.push_back(time);
     data_[static_cast<Index>(r)] = std::sqrt(n) * mean;
   }
-  if (with_equilibrium_) common_.push_back({"E_inf", false});
+  if (with_equilibrium_) common_.push_back({in_.is_creep ? "J_g" : "E_inf", false});
+  if (with_flow_) common_.push_back({"fluidity", false});
   if (in_.with_offset) common_.push_back({"offset", true});
   if (in_.with_drift) common_.push_back({kDriftName, true});
   if (in_.contact_input) {
@@ -155,6 +157,18 @@ void HistoryModel::fill_equilibrium(const Onset& onset, Column into) const {
   }
 }
 
+// The integral of the input over time.
+void HistoryModel::fill_flow(const Onset& onset, double* value) const {
+  double previous_s = onset.time_s, sum = 0.0;
+  double previous = in_.step_s ? in_.input[onset.first] : 0.0;
+  for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
+    sum += 0.5 * (previous + in_.input[k]) * (in_.time_s[k] - previous_s);
+    previous_s = in_.time_s[k];
+    previous = in_.input[k];
+    value[k] = sum;
+  }
+}
+
 // Recursion over the samples, optionally with the derivatives with respect to ln tau and contact
 // position.
 void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) const {
@@ -210,6 +224,7 @@ ModelColumns HistoryModel::sample_columns(const Eigen::VectorXd& ln_tau,
     fill_equilibrium(onset, {out.values.col(column).data(), nullptr, by_contact(column)});
     ++column;
   }
+  if (with_flow_) fill_flow(onset, out.values.col(column++).data());
   if (in_.with_offset) out.values.col(column++).setOnes();
   if (in_.with_drift) {
     for (Index k = 0; k < count; ++k) {
@@ -221,7 +236,9 @@ ModelColumns HistoryModel::sample_columns(const Eigen::VectorXd& ln_tau,
     fill_term(onset, std::exp(ln_tau[i]),
               {out.values.col(of_term).data(),
                with_slopes ? out.term_slopes.col(i).data() : nullptr, by_contact(of_term)});
+    if (in_.is_creep) out.values.col(of_term) = out.values.col(0) - out.values.col(of_term);
   }
+  if (in_.is_creep && with_slopes) out.term_slopes *= -1.0;
   return out;
 }
 

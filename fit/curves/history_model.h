@@ -14,7 +14,9 @@ namespace viscard {
 //   y(t) = c int E(t - s) d(input^power) + offset [+ drift t]
 // The recursion of models/material/hereditary.h is exact and takes one pass over all samples for
 // each relaxation time. Every sample up to the end of loading is a row. Later samples are averaged
-// in log time, the data and the basis alike.
+// in log time, the data and the basis alike. With the stress as the input and the strain as the output it is
+//   strain(t) = int J(t - s) d(stress),  J = J_g + sum J_j (1 - exp(-t/lambda_j)) [+ t/eta for a liquid],
+// creep, recovery and any sequence of stresses (Boltzmann's superposition; fit/README.md, eq. 5).
 struct HistoryInput {
   std::vector<double> time_s;  // sorted
   std::vector<double> input;   // depth in m, or strain
@@ -40,6 +42,7 @@ struct HistoryInput {
   // Samples at which the input has moved on: no average extends over them, and the log time of the
   // averages restarts there. Empty: none.
   std::vector<char> has_moved;
+  bool is_creep = false;  // the input is the stress
 };
 
 // First sample with at least 98 % of the largest input: the end of loading, despite later drift.
@@ -69,6 +72,7 @@ class HistoryModel final : public SpectralModel {
   Eigen::VectorXd fitted_samples(const SpectralState& state) const;
 
   const std::vector<double>& row_time_s() const { return row_time_s_; }
+  const HistoryInput& input() const { return in_; }
 
  private:
   // Sample columns at one choice of parameters, before averaging.
@@ -89,12 +93,14 @@ class HistoryModel final : public SpectralModel {
   };
   bool is_free(std::size_t sample) const { return !in_.is_free.empty() && in_.is_free[sample]; }
   void fill_equilibrium(const Onset& onset, Column into) const;
+  void fill_flow(const Onset& onset, double* value) const;
   void fill_term(const Onset& onset, double tau_s, Column into) const;
 
   HistoryInput in_;
   std::vector<std::size_t> row_begin_;  // first sample of each row, and one past the last
   std::vector<double> row_time_s_;
-  bool with_equilibrium_ = true;
+  bool with_equilibrium_ = true;  // or an instantaneous compliance
+  bool with_flow_ = false;
 };
 
 }  // namespace viscard

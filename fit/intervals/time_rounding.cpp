@@ -58,18 +58,19 @@ void report_time_rounding(const TimeRounding& rounding, FitResult& result) {
   if (!is_spread && rounding.unsure_s > 0.75 * rounding.step_s) {
     result.flags.push_back(
         {"times-rounded", 0,
-         "the times lack a row at equal distances: rows are missing, or the times were cut off to " +
+         "the times lack a row at equal distances: rows are missing, or the times were cut off "
+         "to " +
              step + " s at a rate a little below. As the latter they are wrong by up to " + unsure +
              ", which" + included});
     return;
   }
-  const std::string how = is_spread ? ": they were spread evenly again"
-                                    : ", which is coarse for this record";
-  result.flags.push_back(
-      {"times-rounded", 0,
-       "the times are rounded to " + step + " s" + how +
-           ". If the instrument cuts times off, all rows are " + half + " s late (--time-zero -" +
-           half + " corrects that). A zero that is wrong by " + unsure + included});
+  const std::string how =
+      is_spread ? ": they were spread evenly again" : ", which is coarse for this record";
+  result.flags.push_back({"times-rounded", 0,
+                          "the times are rounded to " + step + " s" + how +
+                              ". If the instrument cuts times off, all rows are " + half +
+                              " s late (--time-zero -" + half +
+                              " corrects that). A zero that is wrong by " + unsure + included});
 }
 
 void report_rise(double begin_s, double end_s, FitResult& result) {
@@ -82,6 +83,18 @@ void report_rise(double begin_s, double end_s, FitResult& result) {
            "by " +
            percent_of_E0(change_Pa, result) +
            ", which its interval includes. With a column of depth the rise itself is fitted"});
+}
+
+void report_jump(double jump_s, FitResult& result) {
+  constexpr double kHalf =
+      0.55;  // and a little more: the ramp between the rows is not quite the step
+  const double change_Pa = widen_for_zero(kHalf * jump_s, result);
+  result.flags.push_back(
+      {"time-zero-chosen", 0,
+       "the stress changes at once between two rows, " + text_of(jump_s, 3) +
+           " s apart, and counts as a ramp between them; half of that time changes E0 by " +
+           percent_of_E0(change_Pa, result) +
+           ", which its interval includes. More rows at the changes would tell"});
 }
 
 }  // namespace viscard

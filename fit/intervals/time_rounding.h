@@ -16,6 +16,9 @@ void report_time_rounding(const TimeRounding& rounding, FitResult& result);
 // flag time-zero-chosen.
 void report_rise(double begin_s, double end_s, FitResult& result);
 
+// The same for a stress that changes at once between two rows, jump_s apart.
+void report_jump(double jump_s, FitResult& result);
+
 // Widens the intervals of E0, of the moduli and shares of the terms for a zero of time that is uncertain
 // by half_s: each modulus changes by exp(half_s/tau). Returns the change of E0 between both ends.
 double widen_for_zero(double half_s, FitResult& result);

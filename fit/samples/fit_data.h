@@ -58,15 +58,17 @@ struct IndentationData {
   std::size_t n_glitch = 0;
 };
 
-// Creep compliance J(t) in 1/Pa after a stress step at t = 0.
+// Creep compliance J(t) in 1/Pa after a stress step at t = 0. With `stress_Pa` the strain follows the measured
+// stress instead: creep with recovery, pulses, any sequence of stresses.
 struct CreepData {
   std::vector<double> time_s;
-  std::vector<double> compliance_1_Pa;
-  bool is_zero_known = false;  // as in RelaxationData
+  std::vector<double> compliance_1_Pa;  // or the strain
+  bool is_zero_known = false;           // as in RelaxationData
   double zero_unsure_s = 0.0;
+  std::vector<double> stress_Pa = {};  // empty: ideal step
 };
 
-// Storage and loss modulus, fitted together with relative weights.
+// Storage and loss modulus, fitted together with relative weights; loss_Pa empty: the storage modulus alone.
 struct DmaData {
   std::vector<double> frequency_Hz;
   std::vector<double> storage_Pa;

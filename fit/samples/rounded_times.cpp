@@ -110,7 +110,9 @@ TimeRounding spread_times(std::span<const double> time_s, std::vector<double> at
     most_s = std::max(most_s, time_s[i] - at_s[i]);
   }
   const double earliest_s = most_s - 0.5 * step_s, latest_s = least_s + step_s;
-  return {step_s, std::max(std::abs(earliest_s), std::abs(latest_s)), std::move(at_s)};
+  constexpr double kTilt = 0.05;  // of the step: the line through saw teeth is a little inclined
+  const double unsure_s = std::max(std::abs(earliest_s), std::abs(latest_s)) + kTilt * step_s;
+  return {step_s, unsure_s, std::move(at_s)};
 }
 
 // A straight line through the times, if all are within one step of each other about it.

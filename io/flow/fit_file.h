@@ -37,6 +37,14 @@ struct FileOutcome {
 void show_keys(ResultVisitor& v, const FittedFile& fitted);
 void show_keys(ResultVisitor& v, const FileOutcome& outcome);
 
+// A fit as a table: for each row (averages of neighbours where samples are dense) the measured and the fitted value,
+// their difference, the standard deviation of the value and its weight in the fit. Storage and loss modulus
+// have these columns each.
+std::string csv_from_fit(const FittedFile& fitted, const std::string& command);
+
+// One row for each file: moduli with their intervals, number of terms, samples, trust and flags, or the error.
+std::string csv_from_fits(const std::vector<FileOutcome>& outcomes, const std::string& command);
+
 // Fits all files on all cores. If one file fails, the others are fitted nevertheless.
 std::vector<FileOutcome> fit_each_file(const std::vector<std::string>& files,
                                        const FitRequest& request, const FlowProgress& progress);

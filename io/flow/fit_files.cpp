@@ -133,6 +133,9 @@ FittedFile fit_tests(const std::vector<TestFile>& tests, const FitRequest& reque
     const auto n_steps = static_cast<double>(tests.size() + 1);
     if (progress) progress(static_cast<double>(n_done) / n_steps, tests[k].path);
   });
+  std::vector<const FittedFile*> all;
+  for (const FittedFile& one : own) all.push_back(&one);
+  refuse_copies(all);
   std::vector<MaterialTest> together;
   FittedFile fitted;
   const bool tells_nu = tell_poisson_ratio(own, request);

@@ -21,6 +21,8 @@ namespace {
 
 using Column = std::vector<double>;
 
+constexpr const char* kStrainUnit = "strain";
+
 // Segments of the exported table of a capture from its first baseline on; empty for any other
 // table. Before that the rig searches the surface, and its touch is an indentation of its own.
 std::vector<std::string> segments_of_test(const CsvTable& table, const FitRequest& request) {
@@ -106,6 +108,26 @@ Column measured_compliance(const CsvTable& table, const FitRequest& request) {
   const Column stress_Pa = column_SI(table, "stress_Pa", request.columns);
   for (std::size_t i = 0; i < compliance.size(); ++i) compliance[i] /= stress_Pa[i];
   return compliance;
+}
+
+// True for a strain under a stress that changes: creep with recovery, pulses, a ramp to the stress.
+bool has_stress_history(const CsvTable& table, const FitRequest& request) {
+  constexpr double kConstant = 0.01;
+  if (find_column(table, "compliance_1_Pa", request.columns) ||
+      !find_column(table, "stress_Pa", request.columns) ||
+      !find_column(table, "strain", request.columns)) {
+    return false;
+  }
+  const Column stress_Pa = column_SI(table, "stress_Pa", request.columns);
+  const auto [low, high] = std::minmax_element(stress_Pa.begin(), stress_Pa.end());
+  return !stress_Pa.empty() && *high - *low > kConstant * std::max(std::abs(*low), std::abs(*high));
+}
+
+FitResult fit_stress_history(const CsvTable& table, const FitRequest& request) {
+  CreepData data{.time_s = time_of(table, request),
+                 .compliance_1_Pa = column_SI(table, "strain", request.columns)};
+  data.stress_Pa = moduli_of(table, "stress_Pa", request);
+  return fit_creep(data, request.options);
 }
 
 // As that of tension.
@@ -366,17 +388,23 @@ FittedFile fit_rows(const CsvTable& table, const FitRequest& asked) {
       fitted.fitted_unit = "Pa";
       break;
     case FitKind::kCreep:
-      fitted.result = fit_creep(
-          {time_of(table, request), compliance_of(table, request), request.time_zero_s.has_value(),
-           zero_unsure_s(table, request)},
-          request.options);
+      if (has_stress_history(table, request)) {
+        fitted.result = fit_stress_history(table, request);
+        fitted.fitted_unit = kStrainUnit;
+        break;
+      }
+      fitted.result = fit_creep({time_of(table, request), compliance_of(table, request),
+                                 request.time_zero_s.has_value(), zero_unsure_s(table, request)},
+                                request.options);
       fitted.fitted_unit = "1/Pa";
       break;
     case FitKind::kDma:
-      fitted.result = fit_dma({column_SI(table, "frequency_Hz", request.columns),
-                               moduli_of(table, "storage_modulus_Pa", request),
-                               moduli_of(table, "loss_modulus_Pa", request)},
-                              request.options);
+      fitted.result =
+          fit_dma({column_SI(table, "frequency_Hz", request.columns),
+                   moduli_of(table, "storage_modulus_Pa", request),
+                   is_storage_alone(table, request) ? Column{}
+                                                    : moduli_of(table, "loss_modulus_Pa", request)},
+                  request.options);
       fitted.fitted_unit = "Pa";
       break;
     case FitKind::kSeveral:
@@ -434,7 +462,11 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
     flag_kind(*fitted.modulus, fitted.result);
     const double factor = fitted.modulus->young_factor();
     if (!request.options.keep_rows) {
-      show_in_column(fitted.result.kind == FitKind::kCreep ? 1.0 / factor : factor, fitted.result);
+      const bool is_strain = fitted.fitted_unit == kStrainUnit;
+      show_in_column(is_strain                               ? 1.0
+                     : fitted.result.kind == FitKind::kCreep ? 1.0 / factor
+                                                             : factor,
+                     fitted.result);
     }
   }
   if (doubt) fitted.result.flags.push_back(*doubt);

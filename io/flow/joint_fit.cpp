@@ -136,6 +136,11 @@ void refuse_repeated_records(const std::vector<JointRecord>& records) {
 RatioFit fit_jointly(const JointRequest& request) {
   refuse_repeated_files(request.files);
   std::vector<JointRecord> records = read_records(request);
+  std::vector<const FittedFile*> measured;
+  for (const JointRecord& one : records) {
+    if (one.fitted) measured.push_back(&*one.fitted);
+  }
+  refuse_copies(measured);
   check_specimens(records);
   std::map<double, std::vector<JointRecord*>> with_one_order;
   for (JointRecord& one : records) {

@@ -21,10 +21,10 @@ namespace {
       has("complex_viscosity_Pa_s")) {
     throw std::runtime_error(
         table.file +
-        ": an oscillation needs two of storage modulus, loss modulus, tan delta and phase (or "
-        "|E*|, "
-        "|G*| or the complex viscosity with one of the last two), because one of them does not "
-        "determine the other" +
+        ": an oscillation needs frequencies and the storage modulus, better two of storage "
+        "modulus, loss "
+        "modulus, tan delta and phase (or |E*|, |G*| or the complex viscosity with one of the last "
+        "two), because one of them does not determine the other" +
         columns);
   }
   const std::string words = proposed_words(table);
@@ -53,17 +53,35 @@ void refuse_curve(const CsvTable& table, const FitRequest& request) {
       columns_with_values(table));
 }
 
-// A constant stress with a strain that changes is a creep test.
-bool is_creep(const CsvTable& table, const FitRequest& request) {
-  const auto range = [&](const char* name) {
-    std::vector<double> values = column_with_gaps_SI(table, name, request.columns);
-    std::erase_if(values, [](double value) { return std::isnan(value); });
-    if (values.empty()) return 0.0;
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return (*high - *low) / std::max(std::abs(*low), std::abs(*high));
+// For how many rows one column rests while the other moves on: within one per cent of its largest value, over a
+// twentieth of the rows.
+std::size_t rows_driven_by(const std::vector<double>& cause, const std::vector<double>& effect) {
+  constexpr double kRest = 0.01;
+  const auto limit_of = [](const std::vector<double>& values) {
+    double largest = 0.0;
+    for (const double value : values) {
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    }
+    return kRest * largest;
   };
-  constexpr double kConstant = 0.01;
-  return range("stress_Pa") < kConstant && range("strain") > 2.0 * kConstant;
+  const double still = limit_of(cause), moved = limit_of(effect);
+  const std::size_t stride = std::max<std::size_t>(1, cause.size() / 20);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + stride < cause.size(); ++i) {
+    const bool rests = std::abs(cause[i + stride] - cause[i]) <= still;
+    if (rests && std::abs(effect[i + stride] - effect[i]) > moved) ++count;
+  }
+  return count;
+}
+
+// In creep the strain moves on while the stress rests; in relaxation it is the other way round.
+bool is_creep(const CsvTable& table, const FitRequest& request) {
+  constexpr double kTimes = 4.0, kShare = 0.05;
+  const std::vector<double> stress = column_with_gaps_SI(table, "stress_Pa", request.columns);
+  const std::vector<double> strain = column_with_gaps_SI(table, "strain", request.columns);
+  const auto by_stress = static_cast<double>(rows_driven_by(stress, strain));
+  return by_stress > kTimes * static_cast<double>(rows_driven_by(strain, stress)) &&
+         by_stress >= std::max(1.0, kShare * static_cast<double>(stress.size()));
 }
 
 // True if a column of varying numbers is none of the known quantities.
@@ -126,9 +144,16 @@ FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
   refuse_curve(table, request);
   if (has("stress_Pa") && has("strain") && is_creep(table, request)) return FitKind::kCreep;
   if (has("stress_Pa")) return FitKind::kRelaxation;
-  if (is_dma) return FitKind::kDma;
+  if (is_dma || is_storage_alone(table, request)) return FitKind::kDma;
   if (has("time_s") && is_force_alone(table, request)) return FitKind::kRelaxation;
   refuse_unknown_columns(table, request);
+}
+
+bool is_storage_alone(const CsvTable& table, const FitRequest& request) {
+  const auto has = [&](const char* name) {
+    return find_column(table, name, request.columns).has_value();
+  };
+  return has("frequency_Hz") && has("storage_modulus_Pa") && !has("loss_modulus_Pa");
 }
 
 void require_kind(const CsvTable& table, FitKind kind, const FitRequest& request) {
@@ -159,7 +184,7 @@ void require_kind(const CsvTable& table, FitKind kind, const FitRequest& request
   constexpr const char* kNames[] = {"an indentation", "a relaxation", "creep", "an oscillation"};
   constexpr const char* kColumns[] = {"force_N and depth_m",
                                       "modulus_Pa, stress_Pa or force_N alone",
-                                      "compliance_1_Pa, or strain under a constant stress_Pa",
+                                      "compliance_1_Pa, or strain under a known stress_Pa",
                                       "frequency_Hz, storage_modulus_Pa and loss_modulus_Pa"};
   FitRequest open = request;
   open.kind.reset();

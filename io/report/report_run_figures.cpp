@@ -77,6 +77,8 @@ const char* motion_name(std::size_t index, std::size_t n_motions) {
 }
 
 const char* value_name(const FitResult& fit) {
+  // Creep under a stress that changes has no compliance in each row.
+  if (fit.kind == FitKind::kCreep && fit.curves.unit.empty()) return "strain";
   constexpr const char* kNames[] = {"force", "relaxation modulus", "creep compliance",
                                     "storage modulus", "value"};
   return kNames[static_cast<std::size_t>(fit.kind)];
@@ -186,7 +188,8 @@ std::optional<Plot> fit_plot(const FitResult& fit, bool is_master) {
                      : is_master ? "reduced time t/aT (s)"
                      : k == 0    ? "time (s)"
                                  : "time since unloading (s)";
-    values.y.label = fmt::format("{} ({})", value_name(fit), unit.text);
+    values.y.label =
+        unit.text.empty() ? value_name(fit) : fmt::format("{} ({})", value_name(fit), unit.text);
     values.height_share = 2.0;
     values.shares_x_with_below = true;
     if (fit.kind == FitKind::kIndentation) show_the_hold(values.y, columns.fitted);

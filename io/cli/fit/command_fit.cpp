@@ -1,6 +1,6 @@
 #include "fit/intervals/flags.h"
-#include "io/basics/failure_text.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/failure_text.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
@@ -12,6 +12,8 @@
 #include "io/flow/test_words.h"
 #include "io/flow/words/fit_text.h"
 #include "io/materials/material_file.h"
+#include "io/plots/plot.h"
+#include "io/report/report_figures.h"
 
 #include <exception>
 #include <functional>
@@ -66,13 +68,13 @@ std::vector<DescribedResult> results_of_fit() {
     one.forms.push_back({.form = one.best.form});
     joint.examples.emplace_back([one](ResultVisitor& v) { show_keys(v, one); });
   }
-  return {fit,
-          {"fits", "viscard fit FILE FILE ...",
-           {[](ResultVisitor& v) { show_fits(v, examples()); }}},
-          joint,
-          described<FittedLargeStrain>("hyperelastic",
-                                       "viscard fit of tests at large strain; --out writes the same "
-                                       "without version and inputs")};
+  return {
+      fit,
+      {"fits", "viscard fit FILE FILE ...", {[](ResultVisitor& v) { show_fits(v, examples()); }}},
+      joint,
+      described<FittedLargeStrain>("hyperelastic",
+                                   "viscard fit of tests at large strain; --out writes the same "
+                                   "without version and inputs")};
 }
 
 CommandSyntax fit_syntax(FitCommand& command) {
@@ -90,8 +92,17 @@ CommandSyntax fit_syntax(FitCommand& command) {
   OptionList& options = syntax.options;
   options = options_of(command.fit);
   add_large_strain_options(options, command.large);
-  options.add("svg", &command.svg, "draw stress against stretch here").only_typed();
   options.group("Output");
+  options
+      .add("csv", &command.csv,
+           "write a table here: of one file its data, fit, residuals and weights; of several files "
+           "one "
+           "row each with moduli, intervals and flags")
+      .only_typed();
+  options
+      .add("svg", &command.svg,
+           "draw data, fit and residuals here (one file), or stress against stretch")
+      .only_typed();
   options
       .add("want", &command.want,
            "of one capture: a quantity and the relative half-width of its 95 % interval, such as "
@@ -119,11 +130,12 @@ void print_as_text(const std::vector<FileOutcome>& outcomes, std::ostream& out) 
 void print_as_json(const std::vector<FileOutcome>& outcomes, const Words& files,
                    const NextMeasurements& next, Streams& streams) {
   if (outcomes.size() == 1) {
-    print_result({"viscard-fit/1", files},
-                 [&](ResultVisitor& v) { show_fit(v, outcomes.front(), next); }, streams);
+    print_result(
+        {"viscard-fit/1", files}, [&](ResultVisitor& v) { show_fit(v, outcomes.front(), next); },
+        streams);
   } else {
-    print_result({"viscard-fits/1", files}, [&](ResultVisitor& v) { show_fits(v, outcomes); },
-                 streams);
+    print_result(
+        {"viscard-fits/1", files}, [&](ResultVisitor& v) { show_fits(v, outcomes); }, streams);
   }
 }
 
@@ -167,6 +179,40 @@ std::vector<TestFile> tests_given(const Words& words) {
   }
 }
 
+// The data of several tests together have different meanings, and a joint fit has only a law.
+void check_curves(const FitCommand& asked, std::size_t n_results) {
+  if (asked.fit.joint && (asked.csv || asked.svg)) {
+    throw UsageError(
+        "--csv and --svg show fits of files, not a joint fit; omit them, or omit --joint");
+  }
+  if (asked.svg && n_results > 1) {
+    throw UsageError("--svg draws one fit, but " + std::to_string(n_results) +
+                     " files are given; name one file");
+  }
+}
+
+void write_curves(const FitCommand& asked, const std::vector<FileOutcome>& outcomes,
+                  const std::string& command) {
+  if (!asked.csv && !asked.svg) return;
+  const bool is_one = outcomes.size() == 1;
+  if (is_one && outcomes.front().fitted->result.curves.time_s.empty()) {
+    throw std::runtime_error(outcomes.front().path +
+                             ": this fit has no single curve for --csv or --svg (several tests "
+                             "together); fit the files apart");
+  }
+  if (asked.csv) {
+    write_file(
+        *asked.csv,
+        is_one ? csv_from_fit(*outcomes.front().fitted, command) : csv_from_fits(outcomes, command),
+        asked.overwrite);
+  }
+  if (!asked.svg) return;
+  const FittedFile& fitted = *outcomes.front().fitted;
+  const auto plot = fit_plot(fitted.result, fitted.master.has_value());
+  if (!plot) throw std::runtime_error(fitted.path + ": has too few rows to draw");
+  write_file(*asked.svg, svg_from_plot(*plot, "fit"), asked.overwrite);
+}
+
 }  // namespace
 
 int run_fit(const Words& words, Streams& streams) {
@@ -191,7 +237,10 @@ int run_fit(const Words& words, Streams& streams) {
     refuse_contradictions(options, tests, files.size(), out.has_value());
   });
   const bool overwrite = asked.overwrite;
-  if (out) refuse_existing(*out, overwrite);
+  for (const auto& output : {out, asked.csv, asked.svg}) {
+    if (output) refuse_existing(*output, overwrite);
+  }
+  check_curves(asked, tests.empty() ? files.size() : 1);
   if (options.joint) {
     JointRequest joint = with_usage_errors([&] { return joint_request(options, files, command); });
     return run_joint_fit(std::move(joint), {out.value_or(""), overwrite, as_json}, streams);
@@ -223,6 +272,7 @@ int run_fit(const Words& words, Streams& streams) {
     if (!options.ratio.empty()) material.mixing_ratio = options.ratio.front();
     write_file(*out, json_from_material(material), overwrite);
   }
+  write_curves(asked, outcomes, command);
   if (as_json) print_as_json(outcomes, files, next, streams);
   return report_defects(outcomes, streams.err);
 }

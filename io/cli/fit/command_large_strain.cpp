@@ -35,7 +35,7 @@ std::vector<LargeStrainFile> large_strain_given(const FitCommand& command,
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  for (const char* option : {"svg", "weight", "cycle"}) {
+  for (const char* option : {"weight", "cycle"}) {
     if (!files.empty() || !is_given(syntax, option)) continue;
     throw UsageError(std::string("--") + option +
                      " is for tests at large strain (uniaxial=FILE); omit it");

@@ -28,7 +28,7 @@ struct FitCommand {
   FitWords fit;
   LargeStrainWords large;
   std::vector<std::string> want;
-  std::optional<std::string> out, svg;
+  std::optional<std::string> out, svg, csv;
   bool overwrite = false;
 };
 

@@ -11,6 +11,7 @@
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -191,6 +192,33 @@ void number_names(std::vector<LargeStrainTest>& tests) {
   }
 }
 
+// A copy in another unit or with other line ends has another content, but the same readings.
+bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double kReading = 1e-5;  // of the largest
+  if (a.size() != b.size() || a.empty()) return false;
+  double largest = 0.0, apart = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i]));
+    apart = std::max(apart, std::abs(a[i] - b[i]));
+  }
+  return apart <= kReading * largest;
+}
+
+void refuse_copies(const std::vector<LargeStrainTest>& tests,
+                   const std::vector<LargeStrainFile>& files) {
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (tests[k].deformation != tests[i].deformation ||
+          !are_same(tests[k].stretch, tests[i].stretch) ||
+          !are_same(tests[k].nominal_stress_Pa, tests[i].nominal_stress_Pa)) {
+        continue;
+      }
+      throw std::runtime_error(files[i].path + " holds the same readings as " + files[k].path +
+                               "; each record counts once. Remove one of the two");
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<LargeStrainFile> large_strain_from_words(const std::vector<std::string>& words) {
@@ -227,6 +255,7 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
     }
     fitted.tests.push_back(test_of_file(file, tables.back(), request));
   }
+  refuse_copies(fitted.tests, request.files);
   number_names(fitted.tests);
   std::vector<MaterialFlag> notes;  // those of the fitted rows are made by the fit
   const bool relaxes = most_terms_of(fitted.tests, request.options, notes) > 0;

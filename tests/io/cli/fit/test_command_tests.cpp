@@ -212,3 +212,105 @@ TEST_CASE("one file that fails does not lose the others", "[cli]") {
   CHECK(none.status == kFailed);
   CHECK(none.out.find("\"fits\"") == std::string::npos);
 }
+
+TEST_CASE("a record that was written in another way counts once among several tests", "[cli]") {
+  const Tables tables;
+  std::ifstream in(tables.relaxation_);
+  std::string line, crlf, kilo = "Time (ms),Modulus (kPa)\n\n";
+  std::getline(in, line);
+  crlf = line + "\r\n";
+  while (std::getline(in, line)) {
+    crlf += line + "\r\n";
+    const std::size_t comma = line.find(',');
+    std::ostringstream row;
+    row.precision(12);
+    row << 1e3 * std::stod(line.substr(0, comma)) << ","
+        << 1e-3 * std::stod(line.substr(comma + 1));
+    kilo += row.str() + "\n";
+  }
+  for (const std::string& text : {crlf, kilo}) {
+    const std::string copy = tables.folder.write("copy.csv", text);
+    const auto both =
+        run_command({"fit", "relaxation=" + tables.relaxation_, "relaxation=" + copy});
+    CHECK(both.status == 1);
+    CHECK_THAT(both.err, Contains("copy.csv holds the same record as") && Contains("counts once"));
+    const auto joint = run_command({"fit", "--joint", tables.relaxation_, copy, tables.relaxation_,
+                                    "--ratio", "10", "--ratio", "11", "--ratio", "12"});
+    CHECK(joint.status == 1);
+  }
+}
+
+TEST_CASE("fit writes its rows as a table and a picture, and several fits as one table", "[cli]") {
+  const Tables tables;
+  const std::string csv = tables.folder.file("rows.csv"), svg = tables.folder.file("fit.svg");
+  const auto one = run_command({"fit", tables.dma_, "--csv", csv, "--svg", svg});
+  CHECK(one.status == 0);
+  std::ifstream in(csv);
+  std::string line;
+  std::getline(in, line);
+  CHECK_THAT(line, Catch::StartsWith("# viscard fit"));
+  std::getline(in, line);
+  CHECK(line ==
+        "frequency_Hz,storage_modulus_Pa,fitted_storage_modulus_Pa,residual_storage_modulus_Pa,"
+        "sigma_storage_modulus_Pa,weight_storage_modulus_Pa,loss_modulus_Pa,fitted_loss_modulus_Pa,"
+        "residual_loss_modulus_Pa,sigma_loss_modulus_Pa,weight_loss_modulus_Pa");
+  int n_rows = 0;
+  while (std::getline(in, line)) {
+    double cell[5];
+    std::istringstream row(line);
+    for (double& value : cell) {
+      std::string text;
+      std::getline(row, text, ',');
+      value = std::stod(text);
+    }
+    CHECK(cell[3] == Approx(cell[1] - cell[2]).margin(1e-6));
+    CHECK(std::abs(cell[3]) < 5.0 * cell[4]);
+    ++n_rows;
+  }
+  CHECK(n_rows == 80);
+  std::stringstream picture;
+  picture << std::ifstream(svg).rdbuf();
+  CHECK_THAT(picture.str(), Contains("<svg") && Contains("frequency (Hz)"));
+  CHECK(run_command({"fit", tables.dma_, "--csv", csv}).status == 1);  // exists
+  const std::string wrong = tables.folder.write("wrong.csv", "a,b\n1,2\n3,4\n"),
+                    summary = tables.folder.file("summary.csv");
+  CHECK(run_command({"fit", tables.relaxation_, tables.creep_, wrong, "--csv", summary}).status ==
+        1);
+  std::ifstream rows(summary);
+  std::getline(rows, line);
+  std::getline(rows, line);
+  CHECK_THAT(line, Catch::StartsWith("file,kind,unit,E0,E0_low,E0_high"));
+  std::getline(rows, line);
+  CHECK_THAT(line, Contains("relaxation.csv") && Contains(",relaxation,Pa,"));
+  std::getline(rows, line);
+  CHECK_THAT(line, Contains("creep.csv") && Contains(",creep,Pa,"));
+  std::getline(rows, line);
+  CHECK_THAT(line, Contains("wrong.csv") && Contains("no known column"));
+  const auto two = run_command({"fit", tables.relaxation_, tables.creep_, "--svg", svg, "--force"});
+  CHECK(two.status == 2);
+  CHECK_THAT(two.err, Contains("--svg draws one fit"));
+}
+
+TEST_CASE("a table of stress and strain is creep if the strain moves while the stress rests",
+          "[cli]") {
+  const TableFolder folder;
+  const RetardationSpectrum material{1e-6, {{0.5e-6, 5.0}}, 0.0};
+  std::ostringstream recovery;
+  recovery.precision(12);
+  recovery << "Zeit [s];Spannung [kPa];Dehnung [%]\n";
+  for (int i = 0; i <= 400; ++i) {
+    const double t_s = 0.25 * i, back_s = t_s - 40.0;
+    const bool is_loaded = i > 0 && back_s <= 0.0;
+    double compliance_1_Pa = i > 0 ? creep_compliance_1_Pa(material, t_s) : 0.0;
+    if (back_s > 0.0) compliance_1_Pa -= creep_compliance_1_Pa(material, back_s);
+    recovery << t_s << ";" << (is_loaded ? 2.0 : 0.0) << ";" << 1e2 * 2e3 * compliance_1_Pa << "\n";
+  }
+  const auto fit = run_command({"fit", folder.write("recovery.csv", recovery.str()), "--json"});
+  CHECK(fit.status == 0);
+  const auto json = nlohmann::json::parse(fit.out);
+  CHECK(json["kind"] == "creep");
+  CHECK(json["n_samples"] == 401);
+  CHECK(json["E0_interval_95"][0].get<double>() <= 1e6);
+  CHECK(json["E0_interval_95"][1].get<double>() >= 1e6);
+  CHECK(json["E_inf_Pa"].get<double>() == Approx(1.0 / 1.5e-6).epsilon(1e-3));
+}

@@ -1,0 +1,116 @@
+#include "io/basics/failure_text.h"
+#include "io/basics/number_text.h"
+#include "io/flow/fit_file.h"
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+// Of one column: the measured values, those of the fit, and their standard deviations.
+struct FittedColumn {
+  std::string name;
+  const std::vector<double>&measured, &fitted, &sigma;
+};
+
+std::string first_of(const std::string& name) {
+  return "# " + name + " (viscard " VISCARD_VERSION ")\n";
+}
+
+std::string name_of_column(const FittedFile& fitted) {
+  const bool is_force = fitted.result.kind == FitKind::kIndentation || fitted.has_no_depth;
+  if (is_force) return "force_N";
+  if (fitted.result.kind == FitKind::kDma) return "storage_modulus_Pa";
+  if (fitted.result.kind == FitKind::kCreep) {
+    return fitted.fitted_unit == "strain" ? "strain" : "compliance_1_Pa";
+  }
+  if (fitted.fitted_unit == "N/m") return "stiffness_N_m";
+  return fitted.master && !fitted.result.curves.loss_measured.empty() ? "storage_modulus_Pa"
+                                                                      : "modulus_Pa";
+}
+
+std::string text_of_failure(const FileOutcome& outcome) {
+  try {
+    std::rethrow_exception(outcome.error);
+  } catch (const std::exception& error) {
+    return failure_text(error, outcome.path);
+  }
+}
+
+// A text in a cell of its own.
+std::string cell_of(const std::string& text) {
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return cell + "\"";
+}
+
+}  // namespace
+
+std::string csv_from_fit(const FittedFile& fitted, const std::string& command) {
+  const FitCurves& curves = fitted.result.curves;
+  std::vector<FittedColumn> columns{
+      {name_of_column(fitted), curves.measured, curves.fitted, curves.sigma}};
+  const bool has_loss = !curves.loss_measured.empty();
+  if (has_loss) {
+    columns.push_back(
+        {"loss_modulus_Pa", curves.loss_measured, curves.loss_fitted, curves.loss_sigma});
+  }
+  const bool is_sweep = has_loss || fitted.result.kind == FitKind::kDma;
+  std::string text = first_of(command) + (is_sweep ? "frequency_Hz" : "time_s");
+  for (const FittedColumn& column : columns) {
+    text += "," + column.name;
+    for (const char* part : {"fitted_", "residual_", "sigma_"}) text += "," + (part + column.name);
+    text += ",weight_" + column.name;
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < curves.time_s.size(); ++i) {
+    text += text_from_number(curves.time_s[i]);
+    for (const FittedColumn& column : columns) {
+      const double sigma = i < column.sigma.size() ? column.sigma[i] : 0.0;
+      for (const double value :
+           {column.measured[i], column.fitted[i], column.measured[i] - column.fitted[i], sigma}) {
+        text += "," + text_from_number(value);
+      }
+      text += ",";
+      if (sigma > 0.0) text += text_from_number(1.0 / (sigma * sigma));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string csv_from_fits(const std::vector<FileOutcome>& outcomes, const std::string& command) {
+  std::string text =
+      first_of(command) +
+      "file,kind,unit,E0,E0_low,E0_high,E_inf,E_inf_low,E_inf_high,n_terms,n_samples,"
+      "trustworthy,flags,error\n";
+  for (const FileOutcome& outcome : outcomes) {
+    text += cell_of(outcome.path);
+    if (!outcome.fitted) {
+      text += ",,,,,,,,,,,0,," + cell_of(text_of_failure(outcome)) + "\n";
+      continue;
+    }
+    const FitResult& fit = outcome.fitted->result;
+    text += std::string(",") + name_of_kind(fit.kind) + "," +
+            (outcome.fitted->has_no_depth ? "N"
+             : fit.is_stiffness           ? "N/m"
+                                          : "Pa");
+    for (const double value :
+         {fit.E0_Pa, fit.E0_interval_95.low, fit.E0_interval_95.high, fit.E_inf_Pa,
+          fit.E_inf_interval_95.low, fit.E_inf_interval_95.high}) {
+      text += "," + text_from_number(value);
+    }
+    std::string flags;
+    for (const MaterialFlag& flag : fit.flags) {
+      if (flags.find(flag.name) == std::string::npos)
+        flags += (flags.empty() ? "" : " ") + flag.name;
+    }
+    text += "," + std::to_string(fit.terms.size()) + "," + std::to_string(fit.n_samples) + "," +
+            (fit.is_trustworthy ? "1" : "0") + "," + cell_of(flags) + ",\n";
+  }
+  return text;
+}
+
+}  // namespace viscard
