@@ -261,7 +261,8 @@ std::optional<CardFinding> form_difference(const std::string& text, const CardTa
 }
 
 std::optional<CardFinding> form_difference(const std::string& text, const CardBody& right) {
-  if (!is_by_viscard(text)) return std::nullopt;
+  // A whole file with its own first line is by viscard even without its header.
+  if (!is_by_viscard(text) && right.target.first_line.empty()) return std::nullopt;
   auto finding = first_difference(text, right.target.write(right), right.target);
   if (finding) finding->text += "; the numbers are right, but will the solver take this line?";
   return finding;

@@ -149,7 +149,7 @@ std::string as_comments(const std::vector<std::string>& lines, const std::string
   for (std::string line : lines) {
     if (is_xml) {
       for (std::size_t at = line.find("--"); at != std::string::npos; at = line.find("--")) {
-        line.replace(at, 2, "- ");
+        line.replace(at, 2, "-\\-");  // the same word for a shell, so that a command can be copied
       }
       if (!line.empty() && line.back() == '-') line += ' ';
     }

@@ -6,7 +6,6 @@
 #include "io/cards/card_sum.h"
 #include "io/cards/list_differences.h"
 #include "io/cards/material_difference.h"
-#include "io/cards/unread_tokens.h"
 #include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
@@ -243,53 +242,13 @@ CardCheck check_table(const std::string& text, const CardTarget& target,
   return check;
 }
 
-// Everything that was read, as text.
-std::string reading_of(const ReadCard& read) {
-  const CardNumbers& n = read.numbers;
-  std::string out = fmt::format("{} {} {} {} {} {} {} {}", read.name, n.young, n.poisson, n.bulk,
-                                n.shear, n.equilibrium, n.density, read.missing_keyword);
-  for (const CardBranch& branch : n.branches)
-    out += fmt::format(" {} {} {}", branch.shear, branch.bulk, branch.time);
-  if (n.shift) out += " " + in_words(*n.shift);
-  for (const CardFinding& finding : read.findings) out += " " + finding.text;
-  return out;
-}
-
-// Lines of a keyword file by hand that nothing was read from. Those of viscard are compared line by line.
-void note_unread_lines(const std::string& text, const CardTarget& target, const std::string& units,
-                       CardCheck& check) {
-  const bool is_frontistr = target.name == "frontistr", is_ansys = target.name == "ansys";
-  const bool is_keyword_file = target.name == "abaqus" || target.name == "calculix" || is_frontistr;
-  if ((!is_keyword_file && !is_ansys) || text.find("conventions: ") != std::string::npos) return;
-  std::vector<CardLine> lines = card_lines(text, is_frontistr ? "#" : target.comment);
-  if (is_ansys) {
-    std::erase_if(lines, [](const CardLine& line) {
-      const std::string command = upper(trimmed(line.text));
-      return (command.rfind("TB", 0) != 0 && command.rfind("MP", 0) != 0) ||
-             command.rfind("TBTE", 0) == 0 || command.rfind("MPTE", 0) == 0;
-    });
-  } else {
-    lines = material_lines(lines, is_frontistr ? '!' : '*');
-  }
-  const auto parts = unread_tokens(text, lines, {"DENSITY"}, [&](const std::string& changed) {
-    return reading_of(read_card(changed, target, units));
-  });
-  for (const std::string& part : parts) {
-    // A whole line stands in quotes from the mark on; single words are those of known keywords.
-    const std::size_t at = part.find(is_ansys ? ": 'TB," : is_frontistr ? ": '!" : ": '*");
-    if (at == std::string::npos) continue;
-    check.findings.push_back(
-        {"not-read", part + " and what stands below it is not read: the solver may use it", false});
-  }
-}
-
 CardCheck check_plain_card(const std::string& text, const CardTarget& target,
                            const CheckOptions& options, const Material* reference) {
   if (target.table_difference != nullptr) return check_table(text, target, options, reference);
   if (target.values != nullptr) return check_card_values(text, target, options, reference);
   CardCheck check{.read = read_card(text, target, options.units)};
   check.findings = check.read.findings;
-  note_unread_lines(text, target, options.units, check);
+  note_unread_tokens(text, target, options.units, check.findings);
   check.units = check.read.units.name;
   // The reader converts numbers that carry their unit to SI; the header states what they are in.
   if (check.read.understood.numbers_carry_units) {

@@ -175,6 +175,7 @@ CardCheck check_card_values(const std::string& text, const CardTarget& target,
   } else {
     check.findings = check.read.findings;
   }
+  note_unread_tokens(text, target, options.units, check.findings);
   if (!check.read.units_were_stated && options.units.empty()) {
     check.findings.push_back(
         {"units-not-stated",

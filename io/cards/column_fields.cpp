@@ -1,10 +1,13 @@
 #include "io/cards/column_fields.h"
 
 #include "io/basics/number_text.h"
-#include "io/cards/card_lines.h"
+#include "io/cards/unit_system.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace viscard {
@@ -15,6 +18,55 @@ std::vector<std::string> columns(const std::string& line, std::size_t width) {
   for (std::size_t begin = 0; begin < line.size(); begin += width) {
     out.emplace_back(trimmed(std::string_view(line).substr(begin, width)));
   }
+  return out;
+}
+
+std::string radioss_units(const std::vector<CardLine>& lines) {
+  for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
+    if (upper(trimmed(lines[i].text)).rfind("/UNIT/", 0) != 0) continue;
+    const CardLine& line = lines[i + 2];
+    auto row = columns(line.text, 20);
+    row.resize(std::max<std::size_t>(row.size(), 3));
+    for (const UnitSystem& system : unit_systems()) {
+      const bool is_tonne =
+          row[0] == "t" && system.name[0] == 'm' && std::string(system.mass) == "Mg";
+      if ((row[0] == system.mass || is_tonne) && row[1] == system.length && row[2] == system.time)
+        return system.name;
+    }
+    throw std::runtime_error(at_line(line, "the units " + row[0] + ", " + row[1] + ", " + row[2] +
+                                               " of /UNIT are of no known unit system"));
+  }
+  return "";
+}
+
+std::vector<CardFinding> material_number_findings(const std::string& field, const CardLine& line) {
+  const auto number = number_from_text(field);
+  if (!number && !field.empty()) return {};  // a label of LS-DYNA
+  if (number && *number >= 1.0 && *number == std::floor(*number)) return {};
+  return {{"material-number",
+           at_line(line, "'" + field + "' is no number of a material: a whole one above 0"), true}};
+}
+
+std::vector<CardFinding> radioss_keyword_findings(const CardLine& law,
+                                                  const std::vector<CardLine>& lines) {
+  const std::vector<std::string> parts = cells(trimmed(law.text), '/');  // "", MAT, LAW40, 1, 2
+  auto out = material_number_findings(parts.size() > 3 ? parts[3] : "", law);
+  const std::string wanted = parts.size() > 4 ? parts[4] : "";
+  bool has_block = false, has_any = false;
+  for (const CardLine& line : lines) {
+    const std::string word = upper(trimmed(line.text));
+    if (word.rfind("/UNIT/", 0) != 0) continue;
+    has_any = true;
+    has_block = has_block || word == "/UNIT/" + wanted;
+  }
+  if (has_block || (!has_any && wanted.empty())) return out;
+  out.push_back(
+      {"unit-block",
+       at_line(law, wanted.empty()
+                        ? std::string("the law names no unit block, so those of /BEGIN hold "
+                                      "and not /UNIT")
+                        : "the law takes the unit block " + wanted + ", which the card has not"),
+       has_any});
   return out;
 }
 

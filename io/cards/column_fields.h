@@ -1,6 +1,8 @@
 #pragma once
 
+#include "io/cards/card_lines.h"
 #include "io/cards/deck.h"
+#include "io/cards/read_card.h"
 
 #include <cstddef>
 #include <string>
@@ -12,6 +14,15 @@ namespace viscard {
 
 // The fields of a line, blanks trimmed; the cells between commas if the line has any.
 std::vector<std::string> columns(const std::string& line, std::size_t width);
+
+// The unit system of the block /UNIT of OpenRadioss, or "". Throws std::runtime_error for units of no known system.
+std::string radioss_units(const std::vector<CardLine>& lines);
+// Mistakes of the keyword "/MAT/LAW40/1/2" of a law: no whole number of the material, or a unit block (the last number)
+// that is not in the card; none of them is the note that the units of /BEGIN hold.
+std::vector<CardFinding> radioss_keyword_findings(const CardLine& law,
+                                                  const std::vector<CardLine>& lines);
+// A mistake if the first field of LS-DYNA's first card is no number of a material.
+std::vector<CardFinding> material_number_findings(const std::string& field, const CardLine& line);
 
 // Right-aligned text.
 std::string right(const std::string& text, int width);

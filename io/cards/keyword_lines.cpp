@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
 namespace viscard {
@@ -16,6 +17,8 @@ void add_words(const std::string& text, KeywordBlock& block) {
     if (block.keyword.empty()) {
       block.keyword = word;
     } else if (std::erase(word, ' '); !word.empty()) {
+      if (word[0] == '=')
+        throw std::runtime_error(at_line(block.line, "'" + word + "' lacks the name before '='"));
       block.parameters.push_back(word);
     }
   }
@@ -70,25 +73,69 @@ void check_width(const CardLine& line, std::size_t most, ReadCard& card) {
   std::vector<std::string> row = cells(line.text, ',');
   while (!row.empty() && row.back().empty()) row.pop_back();
   if (row.size() <= most) return;
-  card.add("decimal-comma",
-           at_line(line, fmt::format("{} numbers stand where at most {} belong: a decimal comma "
-                                     "(write a point), or a column that is not read",
-                                     row.size(), most)));
+  // "1,88" leaves whole numbers on both sides of the comma.
+  const auto is_whole = [](const std::string& cell) {
+    return !cell.empty() && std::all_of(cell.begin(), cell.end(),
+                                        [](unsigned char c) { return std::isdigit(c) != 0; });
+  };
+  for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+    if (!is_whole(row[i]) || !is_whole(row[i + 1].substr(0, row[i + 1].find_first_of("eE"))))
+      continue;
+    card.add(
+        "decimal-comma",
+        at_line(line, fmt::format("{} numbers stand where at most {} belong: a decimal comma in "
+                                  "'{},{}' (write a point), or a column that is not read",
+                                  row.size(), most, row[i], row[i + 1])));
+    return;
+  }
+  card.add(
+      "column-not-read",
+      at_line(line, fmt::format("column {}, '{}', is not read (a temperature?); {} belong there",
+                                most + 1, row[most], most)),
+      false);
 }
 
 void check_single_material(const std::vector<KeywordBlock>& blocks, ReadCard& card) {
-  const KeywordBlock* first = nullptr;
+  const auto all = material_findings(blocks, false);
+  card.findings.insert(card.findings.end(), all.begin(), all.end());
+}
+
+std::vector<CardFinding> material_findings(const std::vector<KeywordBlock>& blocks,
+                                           bool may_have_several) {
+  std::vector<CardFinding> out;
+  const auto add = [&](const char* name, const std::string& text) {
+    out.push_back({name, text, true});
+  };
+  bool has_material = false;
+  std::vector<std::string> keywords;  // of the material
   for (const KeywordBlock& block : blocks) {
-    if (block.keyword.substr(1) != "MATERIAL") continue;
-    if (first != nullptr) {
-      card.add_second_material(block.line);
-      return;
+    const std::string word = block.keyword.substr(1);
+    if (word == "MATERIAL") {
+      if (has_material && !may_have_several) {
+        add("several-materials",
+            at_line(block.line, "a second material begins; check a file with one of them"));
+        return out;
+      }
+      has_material = true;
+      keywords.clear();
+      if (block.name().empty())
+        add("missing-name", at_line(block.line, "the material has no NAME=, which solvers need"));
+      if (!block.data.empty()) {
+        add("data-without-keyword",
+            at_line(block.data.front(), "'" + std::string(trimmed(block.data.front().text)) +
+                                            "' stands below MATERIAL, which takes no data"));
+      }
     }
-    first = &block;
+    for (const char* law : {"ELASTIC", "HYPERELASTIC", "VISCOELASTIC", "DENSITY", "CREEP", "TRS"}) {
+      if (word != law) continue;
+      if (std::find(keywords.begin(), keywords.end(), word) != keywords.end())
+        add("doubled-keyword",
+            at_line(block.line, block.keyword + " stands in the material twice; delete one"));
+      keywords.push_back(word);
+    }
   }
-  if (first == nullptr) {
-    card.add("missing-material", "no keyword MATERIAL begins the material");
-  }
+  if (!has_material) add("missing-material", "no keyword MATERIAL begins the material");
+  return out;
 }
 
 double density_in(const KeywordBlock& block) {
@@ -104,6 +151,7 @@ void read_elastic(const KeywordBlock& block, ReadCard& card, CardNumbers& number
   // A third column is a temperature, if the second is a Poisson ratio.
   const bool is_ratio = numbers.poisson > -1.0 && numbers.poisson <= 0.5;
   check_width(line, is_ratio ? 3 : 2, card);
+  for (std::size_t i = 2; i < row.size(); ++i) card.also_read += " " + row[i];
   if (block.data.size() < 2) return;
   card.add("more-elastic-rows",
            at_line(block.data[1], "only the first row of " + block.keyword +

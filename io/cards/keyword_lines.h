@@ -35,7 +35,11 @@ double density_in(const KeywordBlock& block);
 // A mistake if the row has more cells than the keyword takes: a decimal comma, or a column that is
 // not read.
 void check_width(const CardLine& line, std::size_t most, ReadCard& card);
-// A mistake if the file has more than one material: their numbers would be mixed.
+// Mistakes of the keywords themselves: no MATERIAL or one without NAME, data below it, a law that stands twice in a
+// material, and, unless there may be several, a second material, whose numbers would be mixed.
+std::vector<CardFinding> material_findings(const std::vector<KeywordBlock>& blocks,
+                                           bool may_have_several);
+// The same, of a card of one material.
 void check_single_material(const std::vector<KeywordBlock>& blocks, ReadCard& card);
 // Young's modulus and Poisson ratio of the first row; other rows are noted as a finding.
 void read_elastic(const KeywordBlock& block, ReadCard& card, CardNumbers& numbers);

@@ -2,9 +2,13 @@
 
 #include "io/basics/patterns.h"
 #include "io/cards/card_lines.h"
+#include "io/cards/unread_tokens.h"
 #include "models/maths/result_visitor.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <stdexcept>
 
@@ -56,6 +60,23 @@ void note_fortran_number(const std::string& text, ReadCard& card) {
   }
 }
 
+// Everything that was read, as text.
+std::string reading_of(const ReadCard& read) {
+  const CardNumbers& n = read.numbers;
+  std::string out =
+      fmt::format("{} {} {} {} {} {} {} {} {} {}", read.name, read.units.name, n.young, n.poisson,
+                  n.bulk, n.shear, n.equilibrium, n.density, read.missing_keyword, read.also_read);
+  for (const CardBranch& branch : n.branches)
+    out += fmt::format(" {} {} {}", branch.shear, branch.bulk, branch.time);
+  if (n.shift)
+    out += fmt::format(" {} {} {} {} {}", static_cast<int>(n.shift->law), n.shift->T_ref_C,
+                       n.shift->C1, n.shift->C2_K, n.shift->activation_J_mol);
+  for (const double frequency_Hz : read.frequencies_Hz) out += fmt::format(" {}", frequency_Hz);
+  for (const CardValue& value : read.values) out += fmt::format(" {}", value.value);
+  for (const CardFinding& finding : read.findings) out += " " + finding.text;
+  return out;
+}
+
 }  // namespace
 
 void show_keys(ResultVisitor& v, const CardFinding& finding) {
@@ -70,8 +91,21 @@ void add_unread_parts(const std::vector<std::string>& parts, std::vector<CardFin
 }
 
 bool has_unread_parts(const std::vector<CardFinding>& findings) {
-  return std::any_of(findings.begin(), findings.end(),
-                     [](const CardFinding& finding) { return finding.name == "not-read"; });
+  static const std::array<const char*, 8> kUnread{
+      "column-not-read",     "not-read",  "line-not-read", "more-elastic-rows",
+      "parameter-not-known", "bulk-rows", "creep-ratio",   "more-temperatures"};
+  return std::any_of(findings.begin(), findings.end(), [](const CardFinding& finding) {
+    return std::find(kUnread.begin(), kUnread.end(), finding.name) != kUnread.end();
+  });
+}
+
+void note_unread_tokens(const std::string& text, const CardTarget& target, const std::string& units,
+                        std::vector<CardFinding>& findings) {
+  add_unread_parts(unread_tokens(text, target.name,
+                                 [&](const std::string& changed) {
+                                   return reading_of(read_card(changed, target, units));
+                                 }),
+                   findings);
 }
 
 void ReadCard::add_unread(const std::vector<std::string>& parts) {

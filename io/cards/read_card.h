@@ -38,6 +38,7 @@ struct ReadCard {
   std::vector<double> frequencies_Hz = {};  // of its table, or the ends of its band
   // A keyword whose absence makes the elastic modulus the long-term one; "" if it is there.
   std::string missing_keyword;
+  std::string also_read = {};  // numbers that say nothing alone: the temperature of an only row
 
   void add(const char* finding, const std::string& text, bool is_mistake = true) {
     findings.push_back({finding, text, is_mistake});
@@ -47,6 +48,11 @@ struct ReadCard {
   // Solvers take one of two materials of a file, which one depends on the solver.
   void add_second_material(const CardLine& line);
 };
+
+// Adds the note "not-read" of each word and number of the material that leaves all that is read the same when it is
+// changed (io/cards/unread_tokens.h).
+void note_unread_tokens(const std::string& text, const CardTarget& target, const std::string& units,
+                        std::vector<CardFinding>& findings);
 
 // The unit system in "units: mm-t-s (...)" of a header, or "".
 std::string stated_unit_system(const std::string& text);

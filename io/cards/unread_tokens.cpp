@@ -39,15 +39,104 @@ std::vector<std::size_t> line_starts(const std::string& text) {
   return out;
 }
 
+using Words = std::vector<std::string>;
+
+// Whether the words of a keyword begin with those of the model, not of the material: "STATIC" of "STATIC, DIRECT".
+bool is_one_of(const std::string& keyword, const Words& model) {
+  const std::string first = keyword.substr(0, keyword.find_first_of(" ,_/+\t"));
+  return std::find(model.begin(), model.end(), first) != model.end();
+}
+
 bool is_model_keyword(const std::string& keyword) {
-  static const std::array<const char*, 34> kWords{
+  static const Words kWords{
       "NODE",     "ELEMENT",     "NSET",        "ELSET",   "SOLID",    "SHELL",    "SECTION",
       "BOUNDARY", "STEP",        "AMPLITUDE",   "PART",    "ASSEMBLY", "INSTANCE", "END",
       "HEADING",  "PREPRINT",    "SURFACE",     "INITIAL", "PHYSICAL", "STATIC",   "VISCO",
       "CLOAD",    "DLOAD",       "OUTPUT",      "NGROUP",  "EGROUP",   "SOLUTION", "WRITE",
-      "SOLVER",   "TEMPERATURE", "ORIENTATION", "CONTACT", "RESTART",  "VERSION"};
-  return std::any_of(kWords.begin(), kWords.end(),
-                     [&](const char* word) { return keyword.rfind(word, 0) == 0; });
+      "SOLVER",   "TEMPERATURE", "ORIENTATION", "CONTACT", "RESTART",  "VERSION",  "EL",
+      "FILE",     "SGROUP",      "EQUATION",    "RIGID",   "COUPLING", "DYNAMIC",  "CONTROLS"};
+  return is_one_of(keyword, kWords);
+}
+
+// Keywords of a model of LS-DYNA and of OpenRadioss: the rest may change the stress.
+const Words kDynaModel{"KEYWORD",     "NODE",      "ELEMENT",   "PART",      "SECTION",   "SET",
+                       "BOUNDARY",    "LOAD",      "DEFINE",    "CONTROL",   "DATABASE",  "END",
+                       "TITLE",       "CASE",      "INITIAL",   "HOURGLASS", "PARAMETER", "CONTACT",
+                       "CONSTRAINED", "RIGIDWALL", "INTERFACE", "COMMENT"};
+const Words kRadiossModel{"BEGIN",  "NODE",   "BRICK",   "SHELL",   "PART",   "PROP",  "GRNOD",
+                          "GRBRIC", "BCS",    "FUNCT",   "IMPDISP", "IMPVEL", "CLOAD", "TH",
+                          "END",    "TITLE",  "SUBSET",  "SURF",    "SKEW",   "FRAME", "ANALY",
+                          "DEF",    "IOFLAG", "SPMD",    "INTER",   "RWALL",  "GRAV",  "INIVEL",
+                          "SENSOR", "TETRA4", "TETRA10", "RBODY"};
+
+// Of a file in columns: the rows of its material, and the lines of keywords that no reader knows.
+std::vector<CardLine> column_lines(const std::vector<CardLine>& lines, bool is_dyna) {
+  std::vector<CardLine> out;
+  bool is_inside = false, is_title = false;
+  for (const CardLine& line : lines) {
+    const std::string word = upper(trimmed(line.text));
+    if (!word.empty() && word[0] == (is_dyna ? '*' : '/')) {
+      const std::string keyword = word.substr(1);
+      const bool is_added = is_dyna && keyword.rfind("MAT_ADD", 0) == 0;
+      is_inside = !is_added && (keyword.rfind(is_dyna ? "MAT_" : "MAT/", 0) == 0 ||
+                                (!is_dyna && keyword.rfind("UNIT/", 0) == 0));
+      is_title = is_inside && (!is_dyna || word.find("_TITLE") != std::string::npos);
+      if (!is_inside && !is_one_of(keyword, is_dyna ? kDynaModel : kRadiossModel))
+        out.push_back(line);
+      continue;
+    }
+    if (is_inside && !is_title) out.push_back(line);
+    is_title = false;
+  }
+  return out;
+}
+
+struct AccountedLines {
+  std::vector<CardLine> lines;
+  Words neutral;  // in upper case: words that say what is so anyway
+};
+
+AccountedLines accounted_lines(const std::string& text, const std::string& target) {
+  AccountedLines out;
+  const bool is_frontistr = target == "frontistr", is_dyna = target.rfind("lsdyna", 0) == 0;
+  if (target == "ansys") {
+    out.neutral = {"1", "R5"};
+    for (CardLine line : card_lines(text, "!")) {
+      line.text = line.text.substr(0, line.text.find('!'));
+      const std::string command = upper(trimmed(line.text)).substr(0, 4);
+      const bool is_table = command.rfind("TB", 0) == 0 || command.rfind("MP", 0) == 0;
+      // A temperature that no second one stands beside says nothing.
+      if (is_table && command != "TBTE" && command != "MPTE") out.lines.push_back(line);
+    }
+  } else if (is_dyna || target == "openradioss") {
+    out.lines = column_lines(card_lines(text, is_dyna ? "$" : "#"), is_dyna);
+    // The number of the material, in the first ten columns of LS-DYNA.
+    const bool has_row = !out.lines.empty() && out.lines.front().text[0] != '*';
+    if (is_dyna && has_row)
+      out.neutral = {std::string(trimmed(out.lines.front().text.substr(0, 10)))};
+  } else if (is_frontistr || target == "calculix" || target.rfind("abaqus", 0) == 0) {
+    out.neutral = {"N",    "TYPE", "ISOTROPIC",     "ISO",     "MODULI", "INSTANTANEOUS",
+                   "LONG", "TERM", "INFINITESIMAL", "INFINITE"};
+    // Densities of overlaid materials that add nothing to that of the first.
+    if (target == "calculix") out.neutral.insert(out.neutral.end(), {"DENSITY", "1E-30", "1.E-30"});
+    out.lines =
+        material_lines(card_lines(text, is_frontistr ? "#" : "**"), is_frontistr ? '!' : '*');
+    std::erase_if(out.lines, [](const CardLine& line) {
+      const std::string word = upper(trimmed(line.text));
+      return word.rfind("*MATERIAL", 0) == 0 || word.rfind("!MATERIAL", 0) == 0 ||
+             word.rfind("!!", 0) == 0;
+    });
+    if (target != "abaqus-table") return out;
+    // The rows of a table over frequency are read to their last number.
+    bool is_row = false;
+    std::erase_if(out.lines, [&](const CardLine& line) {
+      const std::string word = upper(trimmed(line.text));
+      const bool is_keyword = word.rfind('*', 0) == 0;
+      if (is_keyword) is_row = word.rfind("*VISCOELASTIC", 0) == 0;
+      return is_row && !is_keyword;
+    });
+  }
+  return out;
 }
 
 }  // namespace
@@ -72,9 +161,10 @@ std::vector<CardLine> material_lines(const std::vector<CardLine>& lines, char ma
 }
 
 std::vector<std::string> unread_tokens(
-    const std::string& text, const std::vector<CardLine>& lines,
-    const std::vector<std::string>& neutral,
+    const std::string& text, const std::string& target,
     const std::function<std::string(const std::string&)>& reading) {
+  const auto [lines, neutral] = accounted_lines(text, target);
+  if (lines.empty()) return {};
   constexpr std::size_t kMostLines = 200;  // a material has fewer; a model would take minutes
   const std::vector<std::size_t> starts = line_starts(text);
   const std::string right = reading(text);

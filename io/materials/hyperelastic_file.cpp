@@ -110,6 +110,33 @@ bool says_plausible_off(const RubberJson& json) {
 
 }  // namespace
 
+std::string json_from_card_of_rubber(const HyperelasticFile& file) {
+  Json parameters = Json::array(), terms = Json::array();
+  const auto add = [&](const std::string& name, double value) {
+    parameters.push_back({{"name", name}, {"value", value}});
+  };
+  const auto moduli = modulus_names(file.law.form), shapes = shape_names(file.law.form);
+  for (std::size_t i = 0; i < moduli.size(); ++i)
+    add(moduli[i], file.law.moduli_Pa[static_cast<Eigen::Index>(i)]);
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    add(shapes[i], file.law.shapes[static_cast<Eigen::Index>(i)]);
+  for (const RubberTerm& term : file.terms) terms.push_back({{"g", term.g}, {"tau_s", term.tau_s}});
+  Json law{{"name", name_of(file.law.form)}, {"parameters", parameters}};
+  if (!terms.empty()) law["terms"] = terms;
+  law["trustworthy"] = true;
+  law["flags"] = Json::array();
+  Json json{{"schema", kHyperelasticSchema}, {"law", name_of(file.law.form)}};
+  json["trustworthy"] = true;
+  json["laws"] = Json::array({law});
+  json["tests"] = Json::array();
+  if (file.bulk_Pa) json["bulk_modulus_Pa"] = *file.bulk_Pa;
+  if (file.density_kg_m3) json["density_kg_m3"] = *file.density_kg_m3;
+  for (const HyperelasticFile::RawFile& raw : file.raw_files)
+    json["imported_from"] = {{"file", raw.file}, {"sha256", raw.sha256}};
+  add_body_sum(json);
+  return json.dump(1) + "\n";
+}
+
 bool looks_like_hyperelastic_file(const std::filesystem::path& path) {
   const RubberJson json = json_or_discarded(read_file(path));
   return json.is_object() && json.contains("schema") && json["schema"] == kHyperelasticSchema;
@@ -134,9 +161,21 @@ HyperelasticFile hyperelastic_from_json(const std::string& text, const std::stri
       for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
       file.is_edited = is_edited(ordered);
       add_tests(json, file);
+      if (json.contains("bulk_modulus_Pa")) file.bulk_Pa = json["bulk_modulus_Pa"].get<double>();
+      if (json.contains("density_kg_m3")) file.density_kg_m3 = json["density_kg_m3"].get<double>();
+      if (json.contains("imported_from")) {
+        const RubberJson& card = json["imported_from"];
+        file.raw_files.push_back({card.at("file"), card.at("sha256")});
+      }
       file.accepts_implausible = judged == Plausible::kOff || says_plausible_off(json);
       if (!file.accepts_implausible) {
         refuse_implausible(name, "E0_Pa", quantities::kModulus, file.E0_Pa, judged);
+        if (file.bulk_Pa)
+          refuse_implausible(name, "bulk_modulus_Pa", quantities::kBulkModulus, *file.bulk_Pa,
+                             judged);
+        if (file.density_kg_m3)
+          refuse_implausible(name, "density_kg_m3", quantities::kDensity, *file.density_kg_m3,
+                             judged);
       }
       return file;
     } catch (const nlohmann::json::exception& error) {

@@ -36,7 +36,12 @@ struct HyperelasticFile {
     std::string file, sha256;
   };
   std::vector<RawFile> raw_files;
+  // Of a law that was read from a card.
+  std::optional<double> bulk_Pa = {}, density_kg_m3 = {};
 };
+
+// A file of the law of a card that somebody sent, without tests; raw_files names the card.
+std::string json_from_card_of_rubber(const HyperelasticFile& file);
 
 // True if the file says that it is one.
 bool looks_like_hyperelastic_file(const std::filesystem::path& path);

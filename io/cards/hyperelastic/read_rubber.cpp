@@ -46,53 +46,6 @@ RubberText text_of_target(const std::string& text, const std::string& target) {
                               listed(rubber_card_targets()) + " can");
 }
 
-// Lines of the material whose every word and number should have been used; what a program or a reader of
-// elements accounts for by itself has none here.
-std::vector<CardLine> lines_of_material(const std::string& text, const std::string& target,
-                                        std::vector<std::string>& neutral) {
-  std::vector<CardLine> out;
-  if (target == "abaqus" || target == "calculix" || target == "frontistr") {
-    const bool is_frontistr = target == "frontistr";
-    out = material_lines(card_lines(text, is_frontistr ? "#" : "**"), is_frontistr ? '!' : '*');
-    neutral = {"N", "TYPE", "ISOTROPIC", "MODULI", "INSTANTANEOUS", "LONG", "TERM"};
-    std::erase_if(out, [](const CardLine& line) {
-      return upper(trimmed(line.text)).rfind("*MATERIAL", 0) == 0 ||
-             upper(trimmed(line.text)).rfind("!MATERIAL", 0) == 0;
-    });
-  } else if (target == "ansys") {
-    neutral = {"1", "TBTEM", "TBTEMP", "MPTEMP", "R5"};
-    for (CardLine line : card_lines(text, "!")) {
-      line.text = line.text.substr(0, line.text.find('!'));
-      const std::string command = upper(trimmed(line.text)).substr(0, 2);
-      if (command == "TB" || command == "MP") out.push_back(line);
-    }
-  } else if (target == "lsdyna" || target == "openradioss") {
-    const bool is_dyna = target == "lsdyna";
-    const char mark = is_dyna ? '*' : '/';
-    bool is_inside = false;
-    std::size_t rows = 0;
-    for (const CardLine& line : card_lines(text, is_dyna ? "$" : "#")) {
-      const std::string word = upper(trimmed(line.text));
-      if (!word.empty() && word[0] == mark) {
-        is_inside = word.rfind(is_dyna ? "*MAT_" : "/MAT/", 0) == 0;
-        rows = is_inside && (!is_dyna || word.find("_TITLE") != std::string::npos) ? 1 : 0;
-        const bool is_other_law = is_dyna ? word.rfind("*MAT_ADD", 0) == 0
-                                          : word.rfind("/VISC/", 0) == 0 ||
-                                                word.rfind("/FAIL/", 0) == 0 ||
-                                                word.rfind("/EOS/", 0) == 0;
-        if (is_other_law) out.push_back(line);
-        continue;
-      }
-      if (!is_inside || rows-- == 1) continue;  // the title
-      rows = 0;
-      out.push_back(line);
-    }
-    // The number of the material, in the first ten columns of LS-DYNA.
-    if (is_dyna && !out.empty()) neutral = {std::string(trimmed(out.front().text.substr(0, 10)))};
-  }
-  return out;
-}
-
 Eigen::VectorXd vector_of(const std::vector<double>& numbers) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
                                            static_cast<Eigen::Index>(numbers.size()));
@@ -192,15 +145,11 @@ ReadRubber read_rubber_card(const std::string& text, const std::string& target,
   if (read.numbers.density > 0.0)
     out.density_kg_m3 = from_card(read.numbers.density, out.units->density_exponent);
   out.findings = read.findings;
-  std::vector<std::string> neutral;
-  const std::vector<CardLine> lines = lines_of_material(text, target, neutral);
-  if (!lines.empty()) {
-    add_unread_parts(unread_tokens(text, lines, neutral,
-                                   [&](const std::string& changed) {
-                                     return reading_of(text_of_target(changed, target));
-                                   }),
-                     out.findings);
-  }
+  add_unread_parts(unread_tokens(text, target,
+                                 [&](const std::string& changed) {
+                                   return reading_of(text_of_target(changed, target));
+                                 }),
+                   out.findings);
   take_at_once(read, from_card(1.0, out.units->stress_exponent), out);
   return out;
 }

@@ -100,23 +100,6 @@ void read_law62(const Lines& lines, RubberText& out) {
   }
 }
 
-// The unit system of the block /UNIT, or "". Throws for units of no known system.
-std::string declared_units(const Lines& lines) {
-  for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
-    if (upper(trimmed(lines[i].text)).rfind("/UNIT/", 0) != 0) continue;
-    const CardLine& line = lines[i + 2];
-    const auto row = columns(line.text, kTwenty);
-    for (const UnitSystem& system : unit_systems()) {
-      const bool is_tonne = row[0] == "t" && std::string(system.mass) == "Mg";
-      if (row.size() >= 3 && (row[0] == system.mass || is_tonne) && row[1] == system.length &&
-          row[2] == system.time)
-        return system.name;
-    }
-    throw std::runtime_error(at_line(line, "the units of /UNIT are of no known unit system"));
-  }
-  return "";
-}
-
 double bulk_from(double d) {
   return d > 0.0 ? 2.0 / d : 0.0;
 }
@@ -132,6 +115,10 @@ RubberText read_lsdyna_rubber(const std::string& text) {
   std::size_t at = keyword.find("_TITLE") != std::string::npos ? 2 : 1;
   RubberText out;
   RubberNumbers& law = out.numbers;
+  if (at < lines.size()) {
+    const auto fields = columns(lines[at].text, kTen);
+    out.findings = material_number_findings(fields.empty() ? "" : fields[0], lines[at]);
+  }
   const auto head = row_at(lines, at++, kTen);
   law.density = at_or_zero(head, 1);
   out.poisson = at_or_zero(head, 2);
@@ -163,13 +150,13 @@ RubberText read_lsdyna_rubber(const std::string& text) {
 }
 
 RubberText read_openradioss_rubber(const std::string& text) {
-  const std::string units = declared_units(card_lines(text, "#"));
-  const Lines lines =
-      lines_from(card_lines(text, "#"), {"/MAT/LAW62", "/MAT/LAW82", "/MAT/LAW92", "/MAT/LAW94"},
-                 "/MAT/LAW62, 82, 92 or 94");
+  const Lines all = card_lines(text, "#");
+  const Lines lines = lines_from(all, {"/MAT/LAW62", "/MAT/LAW82", "/MAT/LAW92", "/MAT/LAW94"},
+                                 "/MAT/LAW62, 82, 92 or 94");
   if (lines.size() < 4) throw std::runtime_error("the card ends before its last row");
   RubberText out;
-  out.units = units;
+  out.units = radioss_units(all);
+  out.findings = radioss_keyword_findings(lines[0], all);
   RubberNumbers& law = out.numbers;
   law.density = at_or_zero(row_at(lines, 2, kTwenty), 0);
   const std::string number = lines[0].text.substr(8, 2);

@@ -285,7 +285,9 @@ RubberText read_febio_rubber(const std::string& text) {
                             "<k> stands in the elastic child; FEBio 4 takes that of the top level",
                             true});
   }
-  numbers.density = law->number("density").value_or(material->number("density").value_or(0.0));
+  auto density = law->number("density");
+  if (!density && material != law) density = material->number("density");
+  numbers.density = density.value_or(0.0);
   if (material != law) {
     const std::vector<double> g = numbered(*material, "g"), t = numbered(*material, "t");
     if (t.size() < g.size())

@@ -104,6 +104,7 @@ void read_back(const std::string& text, const HyperelasticFile& file, const std:
                         {.target = options.target,
                          .units = options.units,
                          .bulk_Pa = has_poisson ? std::nullopt : options.bulk_Pa,
+                         .density_kg_m3 = options.density_kg_m3,
                          .elastic_only = options.elastic_only});
   if (check.agrees) return;
   throw std::runtime_error(name + ": the card for " + options.target +

@@ -4,6 +4,7 @@
 #include "io/cards/card_lines.h"
 #include "io/cards/hyperelastic/rubber_readers.h"
 #include "io/cards/keyword_lines.h"
+#include "io/cards/moose_blocks.h"
 #include "io/cards/named_values.h"
 
 #include <map>
@@ -30,9 +31,10 @@ RubberText read_moose_rubber(const std::string& commented) {
   const std::string text = without_line_comments(commented, "#");
   require_in_card(first_match(text, "type\\s*=\\s*ComputeNeoHookeanStress").has_value(),
                   "ComputeNeoHookeanStress");
+  RubberText out;
+  out.findings = moose_block_findings(text);
   const NamedNumbers named =
       named_lists(text, "\\b(lambda|mu|prop_values)\\s*=\\s*('[^'\\n]*'|\"[^\"\\n]*\"|[^\\s\\[]+)");
-  RubberText out;
   const double mu = one_of(named, "mu");
   out.numbers.bulk = one_of(named, "lambda") + 2.0 * mu / 3.0;
   take_invariant_law(mu / 2.0, 0.0, out.numbers);
@@ -84,7 +86,9 @@ RubberText read_frontistr_rubber(const std::string& text) {
   RubberText out;
   RubberNumbers& law = out.numbers;
   bool has_law = false;
-  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "#"), '!')) {
+  const std::vector<KeywordBlock> blocks = keyword_blocks(card_lines(text, "#"), '!');
+  out.findings = material_findings(blocks, false);
+  for (const KeywordBlock& block : blocks) {
     if (block.keyword == "!DENSITY") law.density = density_in(block);
     if (has_law && (block.keyword == "!VISCOELASTIC" || block.keyword == "!ELASTIC")) {
       out.findings.push_back(

@@ -123,23 +123,27 @@ void take_mfront_law(const NumberLists& lists, RubberNumbers& law) {
   }
 }
 
-// The lines of a behaviour that compute, without blanks, comments and parameters.
-std::vector<CardLine> computing_lines(const std::string& text) {
+// The lines of a program that compute, without blanks at their end and comments, and without those of the pattern, whose
+// numbers were read.
+std::vector<CardLine> computing_lines(const std::string& text, const char* comment,
+                                      const char* numbers, bool is_indented) {
   std::vector<CardLine> out;
-  for (CardLine line : card_lines(without_line_comments(text, "//"), "@Parameter")) {
+  for (CardLine line : card_lines(without_line_comments(text, comment), "\n")) {
+    if (first_match(line.text, numbers)) continue;
+    const std::size_t indent = is_indented ? line.text.find_first_not_of(' ') : 0;
     std::erase_if(line.text, [](unsigned char c) { return c <= ' '; });
-    if (!line.text.empty()) out.push_back(line);
+    if (line.text.empty()) continue;
+    line.text.insert(0, indent, ' ');
+    out.push_back(line);
   }
   return out;
 }
 
-// Throws for a behaviour whose formula is not the one that viscard writes for the law.
-void require_formula(const std::string& card, const std::string& by_viscard) {
-  const auto found = computing_lines(card), expected = computing_lines(by_viscard);
+// Throws for a program whose formula is not the one that viscard writes for the law.
+void require_formula(const std::vector<CardLine>& found, const std::vector<CardLine>& expected) {
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (i < found.size() && found[i].text == expected[i].text) continue;
-    const std::string what =
-        "the formula of the behaviour is not that of viscard's card of its law";
+    const std::string what = "the formula of the card is not that of viscard's card of its law";
     throw std::runtime_error(i < found.size() ? at_line(found[i], what) : what + ": it ends early");
   }
   if (found.size() > expected.size())
@@ -192,6 +196,17 @@ RubberText read_sfepy_rubber(const std::string& text) {
   }
   if (module.others.contains("DENSITY")) law.density = only_number(module.others, "DENSITY");
   take_terms(module.others, "G", "TAU", out);
+  const auto lines_of = [](const std::string& card) {
+    const std::string list = "[-+.\\deE, \\[\\]]+$";
+    const std::string pattern =
+        "^\\s+[\"']\\w+[\"']\\s*:\\s*" + list +
+        "|^\\s+\\(\\s*[\"']dw_\\w+[\"']\\s*,\\s*[\"']\\w+[\"']\\s*\\),?\\s*$" +
+        "|^(G|TAU|DENSITY)\\s*=\\s*" + list;
+    return computing_lines(card, "#", pattern.c_str(), true);
+  };
+  // A module of values alone computes nothing by itself.
+  const auto found = lines_of(text);
+  if (found.size() > 4) require_formula(found, lines_of(sfepy_rubber(law)));
   return out;
 }
 
@@ -209,7 +224,10 @@ RubberText read_mfront_rubber(const std::string& text) {
   out.numbers.bulk = only_number(lists, "K");
   take_mfront_law(lists, out.numbers);
   take_terms(lists, "g", "tau", out);
-  require_formula(text, mfront_rubber(out.numbers, name));
+  const auto lines_of = [](const std::string& card) {
+    return computing_lines(card, "//", "^\\s*@Parameter", false);
+  };
+  require_formula(lines_of(text), lines_of(mfront_rubber(out.numbers, name)));
   return out;
 }
 

@@ -161,7 +161,8 @@ void take_ogden(const std::vector<double>& moduli, const std::vector<double>& sh
 RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
   RubberText out;
   bool has_law = false, is_at_once = false;
-  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
+  const std::vector<KeywordBlock> blocks = keyword_blocks(card_lines(text, "**"), '*');
+  for (const KeywordBlock& block : blocks) {
     if (block.keyword == "*HYPERELASTIC") {
       take_keyword_law(block, out);
       has_law = true;
@@ -187,14 +188,9 @@ RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
     }
   }
   require_in_card(has_law, "*HYPERELASTIC");
-  bool has_material = false;
-  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
-    if (block.keyword == "*MATERIAL" && has_material) {
-      out.findings.push_back(
-          {"several-materials",
-           at_line(block.line, "a second material begins; check a file with one of them"), true});
-    }
-    has_material = has_material || block.keyword == "*MATERIAL";
+  for (const CardFinding& finding : material_findings(blocks, false))
+    out.findings.push_back(finding);
+  for (const KeywordBlock& block : blocks) {
     for (const char* other : {"*ELASTIC", "*PLASTIC", "*CREEP", "*HYPERFOAM", "*MULLINS EFFECT",
                               "*HYSTERESIS", "*DAMPING", "*USER MATERIAL", "*VISCOUS",
                               "*DAMAGE INITIATION", "*CONCRETE", "*RATE DEPENDENT"}) {

@@ -184,6 +184,10 @@ void read_ansys(const std::string& text, ReadCard& card) {
       const std::string kind = upper(row.size() > 1 ? row[1] : "").substr(0, 4);
       in_elastic = kind == "ELAS";
       in_shift = kind == "SHIF" && upper(row.size() > 5 ? row[5] : "") == "WLF";
+      // The count and the option of tables whose numbers have fixed places.
+      for (std::size_t i = 4; (in_elastic || in_shift) && i < std::min<std::size_t>(row.size(), 6);
+           ++i)
+        card.also_read += " " + row[i];
       if (kind == "PRON") tables.push_back(table_of(row, line));
     } else if (command.rfind("TBDAT", 0) == 0 && in_elastic) {
       card.numbers.young = cell_number(row, 2, line, "E");

@@ -80,7 +80,10 @@ void read_creep(const KeywordBlock& block, Part& part, ReadCard& card) {
 
 void read_calculix(const std::string& text, ReadCard& card) {
   std::vector<Part> parts;
-  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
+  const std::vector<KeywordBlock> blocks = keyword_blocks(card_lines(text, "**"), '*');
+  for (const CardFinding& finding : material_findings(blocks, true))
+    card.findings.push_back(finding);
+  for (const KeywordBlock& block : blocks) {
     if (block.keyword == "*MATERIAL") {
       parts.emplace_back();
       if (card.name.empty()) card.name = block.name();

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -51,6 +53,36 @@ const UnitSystem& system_of(const std::string& time, const std::string& stress) 
   throw std::runtime_error("no unit system has times in " + time + " and stresses in " + stress);
 }
 
+// A column beside those of time and modulus.
+struct CsvColumn {
+  std::string kind;
+  std::size_t at = 0;
+  int exponent = 0;
+};
+
+// Throws for a column that is none of those that viscard writes, or in other units.
+std::vector<CsvColumn> csv_columns(const std::vector<std::string>& names, const UnitSystem& units,
+                                   const CardLine& line) {
+  const int stress = units.stress_exponent;
+  const std::vector<std::pair<CsvColumn, std::string>> known{
+      {{"compliance_1_", 0, -stress}, units.stress},
+      {{"frequency_", 0, -units.time_exponent}, frequency_unit(units)},
+      {{"storage_modulus_", 0, stress}, units.stress},
+      {{"loss_modulus_", 0, stress}, units.stress}};
+  std::vector<CsvColumn> out;
+  for (std::size_t at = 2; at < names.size(); ++at) {
+    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) {
+      return names[at] == one.first.kind + one.second;
+    });
+    if (found == known.end())
+      throw std::runtime_error(
+          at_line(line, "the column '" + names[at] + "' is not known in these units"));
+    out.push_back(found->first);
+    out.back().at = at;
+  }
+  return out;
+}
+
 // The units stand in the column names.
 double csv_difference(const std::string& text, const Material& reference) {
   const std::vector<CardLine> lines = card_lines(text, "#");
@@ -61,6 +93,8 @@ double csv_difference(const std::string& text, const Material& reference) {
         at_line(lines[0], "expected the columns time_UNIT, modulus_UNIT, ..."));
   }
   const UnitSystem& units = system_of(names[0].substr(5), names[1].substr(8));
+  const std::vector<CsvColumn> columns = csv_columns(names, units, lines[0]);
+  const RetardationSpectrum creep = retardation_from_relaxation(young_series(reference));
   const PronySeries series = young_series(reference);
   double largest = 0.0, time_before_s = -1.0;
   for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -75,6 +109,19 @@ double csv_difference(const std::string& text, const Material& reference) {
     const double found_Pa =
         from_card(cell_number(row, 1, lines[i], "modulus"), units.stress_exponent);
     largest = std::max(largest, std::abs(found_Pa / relaxation_modulus_Pa(series, time_s) - 1.0));
+    const ComplexModulus complex = complex_modulus_Pa(series, 1.0 / time_s);
+    for (const CsvColumn& column : columns) {
+      const double expected = column.kind == "compliance_1_" ? creep_compliance_1_Pa(creep, time_s)
+                              : column.kind == "frequency_"
+                                  ? 1.0 / (2.0 * std::numbers::pi * time_s)
+                              : column.kind == "storage_modulus_" ? complex.storage_Pa
+                                                                  : complex.loss_Pa;
+      const double number =
+          from_card(cell_number(row, column.at, lines[i], names[column.at]), column.exponent);
+      // A loss modulus far from its peak is the difference of nearly equal numbers.
+      const double scale = column.kind == "loss_modulus_" ? complex.storage_Pa : expected;
+      largest = std::max(largest, std::abs(number - expected) / std::abs(scale));
+    }
   }
   return largest;
 }

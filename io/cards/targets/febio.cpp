@@ -101,8 +101,9 @@ void read_febio(const std::string& text, ReadCard& card) {
   const XmlElement* child = material.child("elastic");
   if (child == nullptr) throw std::runtime_error("the card has no <elastic>");
   read_child(material, *child, card);
-  card.numbers.density =
-      child->number("density").value_or(material.number("density").value_or(0.0));
+  auto density = child->number("density");
+  if (!density) density = material.number("density");
+  card.numbers.density = density.value_or(0.0);
   double sum = 0.0;
   for (int i = 1; i <= 6; ++i) {
     const double g = material.number("g" + std::to_string(i)).value_or(0.0),

@@ -67,7 +67,8 @@ void read_frontistr(const std::string& text, ReadCard& card) {
   if (is_small_strain) return;
   card.add("finite-strain",
            "the last of !ELASTIC and !VISCOELASTIC lacks INFINITESIMAL: the formulation is total "
-           "Lagrangian, 3e-3 off at a strain of 1e-3");
+           "Lagrangian, 3e-3 off at a strain of 1e-3",
+           false);
 }
 
 std::string frontistr_mesh(const DeckInput& input) {

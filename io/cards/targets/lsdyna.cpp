@@ -97,6 +97,8 @@ KeywordCards material_cards(const std::string& text, const std::string& long_nam
   }
   const CardLine& first = cards.lines.front();
   const auto row = columns(first.text, cards.width);
+  for (const CardFinding& finding : material_number_findings(row.empty() ? "" : row[0], first))
+    card.findings.push_back(finding);
   card.numbers.density = cell_number_or_zero(row, 1, first, "RO");
   card.numbers.bulk = cell_number(row, 2, first, "BULK");
   return cards;

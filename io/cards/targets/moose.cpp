@@ -2,6 +2,7 @@
 // test gen_maxwell_relax.i for the one-element model, which MOOSE has not run here.
 #include "io/basics/patterns.h"
 #include "io/cards/deck.h"
+#include "io/cards/moose_blocks.h"
 #include "io/cards/named_values.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
@@ -54,13 +55,12 @@ std::string write_moose(const CardBody& body) {
          body.name + "\n  []\n[]\n";
 }
 
-void check_blocks(const std::string& text);
 void check_integration(const std::string& text, ReadCard& card);
 void check_repeats(const std::string& text, ReadCard& card);
 
 void read_moose(const std::string& commented, ReadCard& card) {
   const std::string text = without_line_comments(commented, "#");
-  check_blocks(text);
+  card.findings = moose_block_findings(text);
   const NamedNumbers named = named_lists(
       text,
       "(young_modulus|youngs_modulus|poisson_ratio|poissons_ratio|creep_modulus|"
@@ -93,20 +93,6 @@ void read_moose(const std::string& commented, ReadCard& card) {
   }
 }
 
-// Each opened block, "[name]" or "[./name]", is closed by "[]" or "[../]".
-void check_blocks(const std::string& text) {
-  int depth = 0;
-  for (const Match& match : all_matches(text, "\\[([^\\]\\n]*)\\]")) {
-    const std::string& name = match.group[1];
-    depth += name.empty() || name == "../" ? -1 : 1;
-    if (depth < 0) {
-      throw std::runtime_error(
-          at_line(line_of(text, match.at[0]), "closes a block that is not open"));
-    }
-  }
-  if (depth > 0) throw std::runtime_error("a [block] of the card is not closed by []");
-}
-
 // MOOSE merges blocks of one name and then refuses the parameters that stand there twice.
 void check_repeats(const std::string& text, ReadCard& card) {
   std::set<std::string> names;
@@ -125,7 +111,8 @@ void check_integration(const std::string& text, ReadCard& card) {
   if (!rule || upper(rule->group[1]) != "ZIENKIEWICZ") {
     card.add("integration-rule",
              "integration_rule is not zienkiewicz: the others are of first order in the step (the "
-             "default is backward-euler)");
+             "default is backward-euler)",
+             false);
   }
   if (!first_match(text, "GeneralizedMaxwellModel\\b") ||
       !first_match(text, "LinearViscoelasticStressUpdate\\b") ||

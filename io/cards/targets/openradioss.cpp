@@ -6,6 +6,7 @@
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/targets/radioss_model.h"
+#include "io/cards/unit_system.h"
 
 #include <fmt/format.h>
 
@@ -47,30 +48,15 @@ std::string write_openradioss(const CardBody& body) {
          row20(decay);
 }
 
-// The unit block at line `at`: the first unit system that it matches.
-void read_units(const std::vector<CardLine>& lines, std::size_t at, ReadCard& card) {
-  if (at + 2 >= lines.size()) return;
-  const auto row = columns(lines[at + 2].text, 20);
-  if (row.size() < 3) return;
-  for (const UnitSystem& system : unit_systems()) {
-    const bool is_mass = row[0] == system.mass || (row[0] == "t" && system.name[0] == 'm' &&
-                                                   std::string(system.mass) == "Mg");
-    if (is_mass && row[1] == system.length && row[2] == system.time) {
-      card.units = system;
-      card.units_were_stated = true;
-      return;
-    }
-  }
-  throw std::runtime_error(at_line(lines[at + 2], "the units " + row[0] + ", " + row[1] + ", " +
-                                                      row[2] + " are of no known unit system"));
-}
-
 void read_openradioss(const std::string& text, ReadCard& card) {
   const std::vector<CardLine> lines = card_lines(text, "#");
+  if (const std::string units = radioss_units(lines); !units.empty()) {
+    card.units = unit_system(units);
+    card.units_were_stated = true;
+  }
   std::size_t at = lines.size();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string word = upper(trimmed(lines[i].text));
-    if (word.rfind("/UNIT/", 0) == 0) read_units(lines, i, card);
     if (word.rfind("/MAT/LAW40", 0) != 0 && word.rfind("/MAT/KELVINMAX", 0) != 0) continue;
     if (at != lines.size()) card.add_second_material(lines[i]);
     at = std::min(at, i);
@@ -79,6 +65,8 @@ void read_openradioss(const std::string& text, ReadCard& card) {
     throw std::runtime_error(
         "the card has no complete /MAT/LAW40 (title and four lines of numbers)");
   }
+  for (const CardFinding& finding : radioss_keyword_findings(lines[at], lines))
+    card.findings.push_back(finding);
   card.name = trimmed(lines[at + 1].text);
   const auto row = [&](std::size_t offset) { return columns(lines[at + offset].text, 20); };
   card.numbers.density = cell_number_or_zero(row(2), 0, lines[at + 2], "RHO_I");

@@ -80,8 +80,9 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   }
   options.target = words.target;
   options.units = words.units.empty() ? "SI" : words.units;
-  options.bulk_Pa = words.bulk_Pa;
-  options.density_kg_m3 = words.density_kg_m3;
+  options.bulk_Pa = words.bulk_Pa ? words.bulk_Pa : file.bulk_Pa;
+  options.density_kg_m3 = words.density_kg_m3 ? words.density_kg_m3 : file.density_kg_m3;
+  if (words.target == "mfront") options.density_kg_m3.reset();
   options.accepts_flags = words.accepts_flags;
   options.may_approximate = words.may_approximate;
   options.elastic_only = words.elastic_only;

@@ -26,6 +26,7 @@ struct CardWords {
   std::string units;  // empty: not named
   std::string out;
   std::string check, prove, deck, verify;
+  std::string import_to;            // the material file that a card becomes
   std::string solver, solver_path;  // of --prove; empty: the one that reads the card, from PATH
   std::string bound;                // "", "lower", "upper"
   std::string elastic_only;         // "", "instantaneous", "long-term"
@@ -73,6 +74,9 @@ int check_rubber_file(const CardWords& words, Streams& streams);
 // The same of --prove.
 bool is_rubber_proof(CardWords& words);
 int prove_rubber_file(const CardWords& words, Streams& streams);
+// --import: the card, named in the place of the material, becomes a material file.
+int import_card_file(CardWords words, Streams& streams);
+DescribedResult result_of_import();
 int write_card_file(const CardWords& words, Streams& streams);
 int check_card_file(const CardWords& words, Streams& streams);
 int prove_card_file(const CardWords& words, Streams& streams);

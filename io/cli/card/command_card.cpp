@@ -72,6 +72,11 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "material "
       "file and of the raw data")
       .shown_as("CARD_OR_CERTIFICATE");
+  add("import", &words.import_to,
+      "read CARD, named in the place of the material, and write what it states as a material file, "
+      "linear or of rubber; with it viscard card writes the card of another solver")
+      .shown_as("FILE")
+      .only_typed();
   add("solver", &words.solver,
       "with --prove: calculix, febio, mtest, frontistr, openradioss, or sfepy and dolfinx, which "
       "run the numbers of any card; if not given the one that reads the card")
@@ -105,7 +110,7 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       .shown_as("K");
   add("density", &words.density_kg_m3,
       "of a law of rubber, such as \"1.1 g/cm3\"; LS-DYNA and OpenRadioss need it")
-      .of("kg/m3")
+      .of(quantities::kDensity)
       .shown_as("RHO");
   add("bound", &words.bound,
       "lower or upper: the card at that end of the 95 % interval of E0, the rest by its covariance "
@@ -167,6 +172,13 @@ void check_rubber_words(const CardWords& words) {
     throw UsageError(given_card + " does not name its solver, as cards by viscard do; add --for " +
                      listed(rubber_card_targets()));
   }
+  if (!words.material.empty() && !looks_like_hyperelastic_file(words.material) &&
+      kind_of_file(read_file(words.material)) == FileKind::kMaterial) {
+    const std::string& given_card = words.check.empty() ? words.prove : words.check;
+    throw UsageError(
+        given_card + " is a card of a law of rubber, and " + words.material +
+        " is a linear material; compare the card with the law that it was written from");
+  }
   if (!words.units.empty()) check_word("unit system", words.units, unit_names());
   if (!words.elastic_only.empty())
     check_word("--elastic-only", words.elastic_only, {"instantaneous", "long-term"});
@@ -177,13 +189,25 @@ void check_rubber_words(const CardWords& words) {
 void check_words(CardWords& words) {
   const int modes = (words.list ? 1 : 0) + (words.check.empty() ? 0 : 1) +
                     (words.prove.empty() ? 0 : 1) + (words.deck.empty() ? 0 : 1) +
-                    (words.verify.empty() ? 0 : 1);
+                    (words.verify.empty() ? 0 : 1) + (words.import_to.empty() ? 0 : 1);
   if (modes > 1)
-    throw UsageError("--list, --check, --prove, --verify and --deck exclude each other");
+    throw UsageError("--list, --check, --prove, --verify, --import and --deck exclude each other");
   if (words.is_long && !words.list) throw UsageError("--long belongs to --list");
   if (words.list || !words.verify.empty()) return;
   if (words.prove.empty() && (!words.solver.empty() || !words.solver_path.empty())) {
     throw UsageError("--solver and --solver-path belong to --prove CARD");
+  }
+  if (!words.import_to.empty()) {
+    if (words.material.empty())
+      throw UsageError("no card given; usage: viscard card CARD --import material.json");
+    if (!words.out.empty()) throw UsageError("--import names the file to write; omit --out");
+    if (!words.target.empty()) {
+      std::vector<std::string> known = target_names();
+      known.insert(known.end(), rubber_card_targets().begin(), rubber_card_targets().end());
+      check_word("card target", words.target, known);
+    }
+    if (!words.units.empty()) check_word("unit system", words.units, unit_names());
+    return;
   }
   if (is_rubber_check(words) || is_rubber_proof(words)) return check_rubber_words(words);
   const std::string& given_card = words.check.empty() ? words.prove : words.check;
@@ -244,8 +268,8 @@ int run_card(const Words& words, Streams& streams) {
   syntax.positional.add("material", &material, "material file");
   add_options(syntax, card);
   if (std::find(words.begin(), words.end(), "--deck") != words.end()) syntax.may_exist = {"out"};
-  syntax.results = {result_of_card(), result_of_rubber_card(), result_of_rubber_check(),
-                    result_of_rubber_proof(), result_of_verify()};
+  syntax.results = {result_of_card(),         result_of_rubber_card(), result_of_rubber_check(),
+                    result_of_rubber_proof(), result_of_verify(),      result_of_import()};
   for (const auto& some : {results_of_targets(), results_of_proof()}) {
     syntax.results.insert(syntax.results.end(), some.begin(), some.end());
   }
@@ -258,6 +282,7 @@ int run_card(const Words& words, Streams& streams) {
   check_words(card);
   if (card.list) return list_card_targets(card, streams);
   if (!card.verify.empty()) return verify_file(card, streams);
+  if (!card.import_to.empty()) return import_card_file(card, streams);
   if (is_rubber_check(card)) return check_rubber_file(card, streams);
   if (!card.check.empty()) return check_card_file(card, streams);
   if (is_rubber_proof(card)) return prove_rubber_file(card, streams);

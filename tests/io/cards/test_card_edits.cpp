@@ -1,5 +1,6 @@
 // Mutation tests of --check: edits of a right card are each named, or harmless.
 #include "io/cards/card.h"
+#include "io/cards/card_lines.h"
 #include "io/cards/check_card.h"
 #include "io/cards/targets/card_targets.h"
 #include "tests/io/cards/card_edits.h"
@@ -149,12 +150,11 @@ TEST_CASE("a COMSOL card with E0 beside nu_inf is blamed on the modulus", "[card
 
 TEST_CASE("an edit that no reader sees is reported with its line", "[cards]") {
   const Material material = reference_material();
-  const std::string text = edited(right_card("moose"), "type = ComputeIncrementalSmallStrain",
-                                  "tyxe = ComputeIncrementalSmallStrain");
+  const std::string text = edited(right_card("moose"), "[strain]", "[deformation]");
   const CardCheck check = check_card(text, card_target("moose"), {}, &material);
   REQUIRE(check.findings.size() == 1);
   CHECK(check.findings[0].name == "form-differs");
-  CHECK(check.findings[0].text.find("where viscard writes 'type = Compute") != std::string::npos);
+  CHECK(check.findings[0].text.find("where viscard writes '[strain]'") != std::string::npos);
   const std::string json = edited(right_card("json"), "\"G0\": 0.62", "\"G0\": 0.72");
   CHECK(findings_of(json, "json") == "form-differs");
   CHECK(findings_of(right_card("mfront") + "}\n", "mfront") == "doubled-line");
@@ -210,6 +210,78 @@ TEST_CASE("foreign lines of a Python card and lost rows of a table are mistakes"
   CHECK_THAT(findings_of(gap, "abaqus-table"), Catch::Contains("missing-rows"));
   CHECK_THAT(findings_of(table.substr(0, last + 1), "abaqus-table"),
              Catch::Contains("missing-rows"));
+}
+
+TEST_CASE("what no reader uses is named in a card without header", "[cards]") {
+  const auto bare = [](const char* target) {
+    std::string out;
+    const CardTarget& found = card_target(target);
+    for (const CardLine& line : card_lines(right_card(target), found.comment))
+      out += line.text + "\n";
+    return out;
+  };
+  const auto unread = [](const std::string& text, const char* target) {
+    return findings_of(text, target).find("not-read") != std::string::npos;
+  };
+  struct Foreign {
+    const char *target, *text;
+  };
+  for (const Foreign& foreign : {Foreign{"abaqus", "*FOOBAR\n1., 2.\n"},
+                                 {"abaqus", "*MULLINS EFFECT\n1.5, 0.1, 0.1\n"},
+                                 {"abaqus-frequency", "*PLASTIC\n1., 0.\n"},
+                                 {"abaqus-table", "*EXPANSION\n1e-4\n"},
+                                 {"calculix", "*DAMPING, ALPHA=0.1\n"},
+                                 {"frontistr", "!EXPANSION_COEFF\n1e-4\n"},
+                                 {"ansys", "MP,ALPX,1,1e-4\n"},
+                                 {"lsdyna", "*MAT_ADD_EROSION\n         1       1.0\n"},
+                                 {"lsdyna", "*DAMPING_GLOBAL\n         1       1.0\n"},
+                                 {"openradioss", "/VISC/PRONY/1\n         1\n"},
+                                 {"openradioss", "/DAMP/1\nd\n                 0.1\n"},
+                                 {"moose", "[Materials]\n[foo]\ntype = Foo\n[]\n[]\n"}}) {
+    CAPTURE(foreign.target, foreign.text);
+    CHECK(findings_of(bare(foreign.target), foreign.target) == "");
+    CHECK(unread(bare(foreign.target) + foreign.text, foreign.target));
+  }
+  // Cells that the card's law leaves at 0, and a unit block that is not there.
+  const std::string radioss = bare("openradioss"), zero = "                 0.0\n";
+  CHECK(unread(edited(radioss, zero, "                 7.0\n"), "openradioss"));
+  CHECK(findings_of(edited(radioss, "/UNIT/1", "/UNIT/2"), "openradioss") == "unit-block");
+  CHECK(findings_of(edited(radioss, "LAW40/1/", "LAW40/0/"), "openradioss") == "material-number");
+  CHECK(findings_of(edited(bare("lsdyna"), "         1  ", "         0  "), "lsdyna") ==
+        "material-number");
+  // Keywords that say too little or stand twice.
+  const std::string abaqus = bare("abaqus");
+  CHECK(findings_of(edited(abaqus, "NAME=PDMS", "NAME="), "abaqus") == "missing-name");
+  CHECK(findings_of(edited(abaqus, "*DENSITY\n", ""), "abaqus").find("data-without-keyword") == 0);
+  CHECK(findings_of(edited(abaqus, "*DENSITY\n", "*DENSITY\n*DENSITY\n"), "abaqus")
+            .find("DENSITY has no data line") != std::string::npos);
+  CHECK(findings_of(edited(bare("moose"), "    young_modulus = 1.88\n",
+                           "    young_modulus = 1.88\n    young_modulus = 1.88\n"),
+                    "moose") == "doubled-parameter");
+  CHECK(findings_of(edited(bare("febio"), "</material>", "<density>3</density></material>"),
+                    "febio") == "not-read");
+  // Choices of the solver and columns of temperature are no mistakes.
+  const Material material = reference_material();
+  const std::string row_of_two = "0.01386, 0.01386, 2.403";
+  const CardCheck warm = check_card(edited(abaqus, row_of_two, row_of_two + ", 20."),
+                                    card_target("abaqus"), {.units = "mm-t-s"}, &material);
+  CHECK(warm.agrees);
+  CHECK(has_unread_parts(warm.findings));
+  CHECK(check_card(edited(bare("moose"), "    integration_rule = zienkiewicz\n", ""),
+                   card_target("moose"), {.units = "mm-t-s"}, &material)
+            .agrees);
+  CHECK(check_card(edited(bare("frontistr"), "!VISCOELASTIC, INFINITESIMAL", "!VISCOELASTIC"),
+                   card_target("frontistr"), {.units = "mm-t-s"}, &material)
+            .agrees);
+  // Every column of a table of E(t).
+  const std::string csv = bare("csv");
+  const std::size_t row = csv.find('\n', csv.size() / 2) + 1;
+  for (int column = 0, at = static_cast<int>(row); column < 6; ++column) {
+    CAPTURE(column);
+    CHECK_FALSE(findings_of(std::string(csv).insert(static_cast<std::size_t>(at), "1"), "csv") ==
+                "");
+    at = static_cast<int>(csv.find(',', static_cast<std::size_t>(at))) + 1;
+  }
 }
 
 namespace {

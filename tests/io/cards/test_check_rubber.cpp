@@ -305,3 +305,42 @@ TEST_CASE("rubber cards: what of a card was not read is listed", "[io]") {
     }
   }
 }
+
+TEST_CASE("rubber cards: what the solver would miss or the reader does not use is named", "[io]") {
+  const Rubber neo = rubber_of(HyperelasticForm::kNeoHooke, {2.1e5}, {}, {});
+  const Rubber yeoh = rubber_of(HyperelasticForm::kYeoh, {1.8e5, -1.4e3, 40.0}, {}, {{0.2, 0.1}});
+  const auto findings = [](const std::string& text, const char* target) {
+    std::string out;
+    for (const CardFinding& finding : read_rubber_card(text, target, "mm-t-s").findings)
+      out += finding.name + "|";
+    return out;
+  };
+  const std::string abaqus = card_or_nothing(yeoh, "abaqus", "mm-t-s");
+  CHECK(findings(changed(abaqus, "NAME=RUBBER", "NAME="), "abaqus") == "missing-name|");
+  CHECK(findings(changed(abaqus, "*MATERIAL, NAME=RUBBER\n", ""), "abaqus") == "missing-material|");
+  CHECK_THAT(findings(changed(abaqus, "*VISCOELASTIC, TIME=PRONY\n",
+                              "*VISCOELASTIC, TIME=PRONY\n*VISCOELASTIC, TIME=PRONY\n"),
+                      "abaqus"),
+             Contains("doubled-keyword"));
+  // Behind *VISCOELASTIC, too.
+  CHECK_THAT(findings(abaqus + "*FAIL STRESS\n1., 2.\n", "abaqus"), Contains("not-read"));
+  const std::string radioss = card_or_nothing(yeoh, "openradioss", "mm-t-s");
+  if (!radioss.empty()) {
+    CHECK(findings(radioss, "openradioss") == "");
+    CHECK(findings(changed(radioss, "/UNIT/1", "/UNIT/4"), "openradioss") == "unit-block|");
+    CHECK_THAT(findings(radioss + "/DAMP/1\nd\n 0.1\n", "openradioss"), Contains("not-read"));
+  }
+  const std::string moose = card_or_nothing(neo, "moose", "mm-t-s");
+  CHECK(findings(moose, "moose") == "");
+  CHECK(findings(changed(moose, "    type = ComputeLagrangianStrain\n", ""), "moose") ==
+        "missing-type|");
+  CHECK(findings(changed(moose, "    displacements = 'disp_x disp_y disp_z'\n", ""), "moose") ==
+        "missing-displacements|");
+  CHECK_THROWS_WITH(findings(changed(moose, "[Materials]\n", ""), "moose"), Contains("not open"));
+  const std::string sfepy = card_or_nothing(yeoh, "sfepy", "mm-t-s");
+  CHECK(findings(sfepy, "sfepy") == "");
+  CHECK_THROWS_WITH(
+      findings(changed(sfepy, "np.zeros((points, 3, 3))", "np.zeros((points, 3, 4))"), "sfepy"),
+      Contains("is not that of viscard's card"));
+  CHECK_THROWS_WITH(findings(sfepy + "foo = 3.0\n", "sfepy"), Contains("has no such line"));
+}

@@ -137,6 +137,7 @@ def check_card():
     run(write, "card-write")
     run([*write, "--out", "card.inp"], "card-write")
     run(["card", material, "--verify", "card.inp"], "card-verify")
+    run(["card", "card.inp", "--import", "imported.json"], "card-import")
     run(["card", "rubber.json", "--for", "calculix"], "card-rubber")
     run(["card", "rubber.json", "--for", "abaqus", "--out", "rubber.inp"], "card-rubber")
     run(["card", "rubber.json", "--check", "rubber.inp"], "card-rubber-check")

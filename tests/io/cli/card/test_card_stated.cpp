@@ -185,3 +185,77 @@ TEST_CASE("card --solver and --solver-path are explained when they do not fit", 
         kFailed);
   CHECK_THAT(command.err, Contains("does not answer as SfePy"));
 }
+
+TEST_CASE("card --import makes the material of a card, for another solver", "[cards][cli]") {
+  CardCommand card;
+  const Material material = wlf_material();
+  const std::string file = card.save(material), sent = card.path("sent.inp"),
+                    made = card.path("made.json"), again = card.path("again.inp");
+  REQUIRE(card.run({file, "--for", "abaqus", "--units", "mm-t-s", "--out", sent}) == kDone);
+  REQUIRE(card.run({sent, "--import", made}) == kDone);
+  const Material read = read_material(made).material;
+  CHECK(read.E0_Pa == Approx(material.E0_Pa).epsilon(1e-12));
+  CHECK(read.rho_kg_m3 == Approx(material.rho_kg_m3).epsilon(1e-12));
+  REQUIRE(read.terms.size() == 2);
+  CHECK(read.terms[1].tau_s == Approx(2.403).epsilon(1e-12));
+  REQUIRE(read.shift);
+  CHECK(read.shift->C1 == Approx(8.86));
+  REQUIRE(read.flags.size() == 1);
+  CHECK(read.flags[0].name == "imported");
+  CHECK(card.run({made, "--for", "comsol", "--out", again}) == kDone);
+  CHECK(card.run({"--check", again, file}) == kDone);
+  // A card without header needs its solver and its units.
+  const std::string bare = card.path("bare.inp");
+  write_file(bare,
+             "*MATERIAL, NAME=R\n*ELASTIC, MODULI=INSTANTANEOUS\n1.5, 0.49\n*PLASTIC\n1., 0.\n",
+             true);
+  CHECK(card.run({bare, "--import", card.path("b.json")}) == kBadWords);
+  CHECK_THAT(card.err, Contains("--for"));
+  CHECK(card.run({bare, "--for", "abaqus", "--import", card.path("b.json")}) == kFailed);
+  CHECK_THAT(card.err, Contains("does not state its units"));
+  REQUIRE(card.run({bare, "--for", "abaqus", "--units", "mm-t-s", "--import", card.path("b.json"),
+                    "--json"}) == kDone);
+  CHECK_THAT(card.err, Contains("'*PLASTIC'"));
+  CHECK(nlohmann::json::parse(card.out).at("law") == "linear");
+  CHECK(read_material(card.path("b.json")).material.flags.size() == 2);
+  // A wrong card becomes no material.
+  write_file(bare, "*MATERIAL, NAME=R\n*ELASTIC\n1,5, 0.49\n", true);
+  CHECK(card.run({bare, "--for", "abaqus", "--units", "mm-t-s", "--import", card.path("c.json")}) ==
+        kFailed);
+  CHECK_THAT(card.err, Contains("the card is wrong") && Contains("decimal-comma"));
+  CHECK_FALSE(std::filesystem::exists(card.path("c.json")));
+}
+
+TEST_CASE("card --import makes a law of rubber with its bulk modulus and density", "[cards][cli]") {
+  CardCommand card;
+  const std::string sent = card.path("sent.feb"), made = card.path("law.json"),
+                    other = card.path("other.mac");
+  write_file(sent,
+             "<material id=\"1\" name=\"R\" type=\"uncoupled viscoelastic\">\n<g0>0.8</g0>\n"
+             "<g1>0.2</g1><t1>3</t1>\n<k>500</k>\n<elastic type=\"Ogden\"><density>1.1e-9</density>"
+             "<c1>0.6</c1><m1>2.5</m1></elastic>\n</material>\n",
+             true);
+  REQUIRE(card.run({sent, "--for", "febio", "--units", "mm-t-s", "--import", made}) == kDone);
+  CHECK_THAT(card.out, Contains("a law of rubber, ogden-1"));
+  // Neither of the two files is blamed if they are of different kinds.
+  CHECK(card.run({"--check", sent, card.save(reference_material()), "--for", "febio"}) ==
+        kBadWords);
+  CHECK_THAT(card.err,
+             Contains("is a card of a law of rubber") && Contains("is a linear material"));
+  // c1 = 2 mu; the K and the density of the card stand in that of another solver.
+  REQUIRE(card.run({made, "--for", "ansys", "--units", "mm-t-s", "--out", other}) == kDone);
+  const std::string text = read_file(other);
+  CHECK_THAT(text, Contains("MP,DENS,1,1.1e-09") && Contains("0.004"));
+  REQUIRE(card.run({"--check", other, made, "--json"}) == kDone);
+  const auto check = nlohmann::json::parse(card.out);
+  CHECK(check.at("parameters")[0].at("value").get<double>() == Approx(3e5));
+  CHECK(check.at("bulk_modulus_Pa").get<double>() == Approx(5e8));
+  CHECK(check.at("terms")[0].at("g").get<double>() == Approx(0.2));
+  // An implausible K is refused at this door, too.
+  std::string soft = read_file(sent);
+  soft.replace(soft.find("<k>500"), 6, "<k>5e14");
+  write_file(sent, soft, true);
+  CHECK(card.run({sent, "--for", "febio", "--units", "mm-t-s", "--import", card.path("x.json")}) ==
+        kFailed);
+  CHECK_THAT(card.err, Contains("bulk_modulus_Pa"));
+}

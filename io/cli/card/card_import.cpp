@@ -1,0 +1,144 @@
+#include "io/basics/atomic_file.h"
+#include "io/basics/sha256.h"
+#include "io/basics/timestamp.h"
+#include "io/basics/words.h"
+#include "io/cards/check_card.h"
+#include "io/cards/hyperelastic/check_rubber.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cli/card/card_words.h"
+#include "io/cli/words/json_output.h"
+#include "io/materials/hyperelastic_file.h"
+#include "io/materials/material_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// What a card became.
+struct ImportedCard {
+  std::string json;  // the material file, or that of a law of rubber
+  std::string law;   // "linear", or the name of the law of rubber
+  std::vector<CardFinding> findings;
+};
+
+void show_import(ResultVisitor& v, const ImportedCard& imported, const CardWords& words) {
+  v("card", words.material, "the card");
+  v("target", words.target, "its solver");
+  v("out", words.import_to, "the material file");
+  v("law", imported.law, "linear, or the name of the law of rubber");
+  v("findings", imported.findings, "what was noticed in the card");
+}
+
+// A wrong card, or one of unknown units, would become a wrong material.
+void require_right(const std::vector<CardFinding>& findings, bool units_are_known,
+                   const std::string& card) {
+  std::string mistakes;
+  for (const CardFinding& finding : findings) {
+    if (finding.is_mistake) mistakes += "\n  " + finding.name + ": " + finding.text;
+  }
+  if (!mistakes.empty())
+    throw std::runtime_error(card + ": is not imported, the card is wrong:" + mistakes);
+  if (!units_are_known) {
+    throw std::runtime_error(card +
+                             ": does not state its units; name them with --units (SI, mm-t-s ...)");
+  }
+}
+
+ImportedCard import_linear(const std::string& text, const CardWords& words) {
+  const CardTarget& target = card_target(words.target);
+  if (!states_material(target)) {
+    throw std::runtime_error(words.material + ": a card for " + target.name +
+                             " is a table or a reduction, from which no material can be read");
+  }
+  const CardCheck check = check_card(text, target, {.units = words.units}, nullptr);
+  require_right(check.findings, check.read.units_were_stated || !words.units.empty(),
+                words.material);
+  Material material = check.read.material;
+  if (material.name.empty()) material.name = std::filesystem::path(words.material).stem().string();
+  if (material.shift) material.T_ref_C = material.shift->T_ref_C;
+  material.flags.push_back({"imported", 0,
+                            "read from a card for " + check.read.understood.code +
+                                "; no data and no intervals stand behind it"});
+  if (has_unread_parts(check.findings))
+    material.flags.push_back({"not-all-read", 0, "the card has parts that viscard does not read"});
+  material.provenance.created_by = "viscard " VISCARD_VERSION;
+  if (!words.is_reproducible) {
+    material.provenance.created_at = now_iso8601();
+    material.provenance.command = words.command_line;
+  }
+  material.provenance.raw_files = {{words.material, sha256_of_text(text)}};
+  return {json_from_material(material), "linear", check.findings};
+}
+
+ImportedCard import_rubber(const std::string& text, const CardWords& words) {
+  const RubberCheck check =
+      check_rubber_card(text, nullptr, {.target = words.target, .units = words.units});
+  const ReadRubber& read = check.read;
+  require_right(check.findings, read.units_were_stated || !words.units.empty(), words.material);
+  HyperelasticFile file;
+  file.law = read.law;
+  file.terms = read.terms;
+  if (read.bulk_Pa > 0.0) file.bulk_Pa = read.bulk_Pa;
+  if (read.density_kg_m3 > 0.0) file.density_kg_m3 = read.density_kg_m3;
+  file.raw_files = {{words.material, sha256_of_text(text)}};
+  return {json_from_card_of_rubber(file), name_of(read.law.form), check.findings};
+}
+
+}  // namespace
+
+DescribedResult result_of_import() {
+  return {"card-import", "viscard card --import", {[](ResultVisitor& v) {
+            show_import(v, ImportedCard{}, CardWords{});
+          }}};
+}
+
+int import_card_file(CardWords words, Streams& streams) {
+  const std::string text = read_file(words.material);
+  const std::string rubber = stated_rubber_target(text);
+  if (words.target.empty()) words.target = rubber;
+  if (const CardTarget* linear = stated_card_target(text);
+      words.target.empty() && linear != nullptr)
+    words.target = linear->name;
+  if (words.target.empty()) {
+    throw UsageError(words.material +
+                     " does not name its solver, as cards by viscard do; add --for "
+                     "TARGET ('viscard card --list' shows the targets)");
+  }
+  const ImportedCard imported = [&] {
+    try {
+      return looks_like_rubber_card(text) ? import_rubber(text, words) : import_linear(text, words);
+    } catch (const std::runtime_error& error) {
+      const std::string what = error.what();
+      if (what.rfind(words.material, 0) == 0) throw;
+      throw std::runtime_error(words.material + ": " + what);
+    }
+  }();
+  // What a reader of the file would refuse is refused here, before it is written.
+  if (imported.law == "linear")
+    (void)material_from_json(imported.json, words.material, words.plausible);
+  else
+    (void)hyperelastic_from_json(imported.json, words.material, words.plausible);
+  write_file(words.import_to, imported.json, words.force);
+  for (const CardFinding& finding : imported.findings)
+    streams.err << "viscard: note: " << finding.name << ": " << finding.text << "\n";
+  if (words.json) {
+    print_result(
+        {"viscard-card-import/1", {words.material}},
+        [&](ResultVisitor& v) { show_import(v, imported, words); }, streams);
+    return kDone;
+  }
+  streams.out << "wrote " << words.import_to << ": "
+              << (imported.law == "linear" ? std::string("a linear material")
+                                           : "a law of rubber, " + imported.law)
+              << (has_unread_parts(imported.findings) ? ", of what was read of the card" : "")
+              << "\n";
+  return kDone;
+}
+
+}  // namespace viscard
