@@ -21,7 +21,8 @@ from ._fit import fit
 from ._fit_result import FitResult, Flag, JointFit
 from ._material import Material, Prediction, predict
 from ._planning import TestCost, cost_of_tests
-from ._rubber import Parameter, RubberCard, RubberFit, RubberTerm
+from ._result import Parameter
+from ._rubber import RubberCard, RubberFit, RubberTerm
 from ._scene import cost, forces_from_voltages, plan, simulate
 from ._sweep import Sweep, sweep
 from ._table import Capture, Table, read_capture, read_table

@@ -7,11 +7,11 @@ from typing import Any, Dict, List, NamedTuple
 
 import numpy as np
 
-from . import _check, _core
+from . import _check, _core, _show
 from ._check import Path
 from ._error import Error
 from ._material import Material
-from ._result import Result
+from ._result import Compared, Parameter, Result
 
 
 class Flag(NamedTuple):
@@ -78,7 +78,7 @@ class FitResult(Result):
         self._suffix = {"E": "_Pa", "K": "_N_m", "F": "_N"}[self._letter]
         self._stem = {"E": "modulus", "K": "stiffness", "F": "force"}[self._letter] + self._suffix
         self.unit: str = {"E": "Pa", "K": "N/m", "F": "N"}[self._letter]
-        self._material = found["material"]
+        self._material = None if found["material"] is None else Material._of(found["material"])
         self._no_material: str = found["no_material"]
 
     def _value(self, name: str) -> float:
@@ -158,7 +158,39 @@ class FitResult(Result):
         """The material of the fit. Raises Error if the fit gives no modulus."""
         if self._material is None:
             raise Error(self._no_material, "input")
-        return Material._of(self._material)
+        return self._material
+
+    @property
+    def parameters(self) -> Dict[str, Parameter]:
+        """Moduli, shares and times by name (E0_Pa, E_inf_Pa, g_1, tau_1_s, ...) with their 95 % intervals.
+
+        Examples
+        --------
+        >>> found = viscard.fit(viscard.data_file("demo/example_relaxation.csv")).parameters
+        >>> list(found)
+        ['E0_Pa', 'E_inf_Pa', 'g_1', 'tau_1_s', 'g_2', 'tau_2_s']
+        """
+        rows = [(self._letter + "0" + self._suffix, self.E0, self.E0_interval),
+                (self._letter + "_inf" + self._suffix, self.E_inf, self.E_inf_interval)]
+        for i, (g, g_95, tau, tau_95) in enumerate(zip(self.g, self.g_interval, self.tau_s, self.tau_interval_s), 1):
+            rows += [(f"g_{i}", float(g), tuple(g_95)), (f"tau_{i}_s", float(tau), tuple(tau_95))]
+        return {name: Parameter(name, value, interval) for name, value, interval in rows}
+
+    @property
+    def residuals(self) -> np.ndarray:
+        """Measured minus fitted, shape (rows,), in ``curves["unit"]``; of an oscillation of the storage modulus."""
+        return self.curves["measured"] - self.curves["fitted"]
+
+    def to_frame(self):
+        """The curves as a DataFrame of pandas: at, measured, fitted, residual, sigma."""
+        columns = {name: values for name, values in self.curves.items() if isinstance(values, np.ndarray)}
+        return _show.frame({**columns, "residual": self.residuals})
+
+    def _repr_html_(self) -> str:
+        rows = [(one.name, one.value, one.interval) for one in self.parameters.values()]
+        notes = [] if self.is_trustworthy else ["not to be trusted"]
+        return _show.html_table(f"{self.file}: {self['kind']}", ["", "value", "95 %"], rows,
+                                notes + [f"{flag.name}: {flag.text}" for flag in self.flags])
 
     def summary(self) -> str:
         """The text of ``viscard fit``: moduli with intervals, the table of orders, flags."""
@@ -194,7 +226,7 @@ class FitResult(Result):
                 f"(95 % {low:.6g} to {high:.6g}), {n} term{'' if n == 1 else 's'}{doubt}>")
 
 
-class JointFit:
+class JointFit(Compared):
     """The law of a material in its mixing ratio, from ``fit(files, joint=True)``.
 
     Attributes

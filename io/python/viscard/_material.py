@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, Unpack
 
 import numpy as np
 
-from . import _arrays, _check, _core
+from . import _arrays, _check, _core, _show
 from ._card import Card
 from ._options import PredictOptions
 from ._result import Result
@@ -175,6 +175,54 @@ class Material:
         """
         return self._curve("loss", frequency_Hz, "frequency_Hz", "Hz", band)
 
+    def tan_delta(self, frequency_Hz):
+        """Loss over storage modulus, in the shape of `frequency_Hz` (Hz).
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> f"{viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).tan_delta(1 / (2 * np.pi)):.4f}"
+        '0.1111'
+        """
+        return self.loss(frequency_Hz) / self.storage(frequency_Hz)
+
+    def _window(self, at, name: str) -> np.ndarray:
+        """Where a curve is drawn: two decades beyond the times of the terms."""
+        if at is not None:
+            return np.atleast_1d(_arrays.arguments(at, name, name.rsplit("_", 1)[1]))
+        times = self.tau_s if len(self.tau_s) else np.array([1.0])
+        window = np.geomspace(1e-2 * times.min(), 1e2 * times.max(), 300)
+        return window if name == "time_s" else 1.0 / (2.0 * np.pi * window[::-1])
+
+    @_check.arguments
+    def plot(self, kind: str = "relaxation", at=None, *, ax=None):
+        """Draw a curve of the material with its 95 % band. Needs matplotlib. Returns the axes.
+
+        Parameters
+        ----------
+        kind : "relaxation", "creep", "storage", "loss" or "tan_delta"
+        at : array
+            Times in s or frequencies in Hz. Default: two decades beyond the times of the terms.
+        ax : matplotlib axes
+            Default: new ones.
+
+        Examples
+        --------
+        >>> import matplotlib; matplotlib.use("agg")
+        >>> viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).plot("tan_delta").get_ylabel()
+        'loss factor'
+        """
+        from ._plot import plot_material
+
+        return plot_material(self, kind, at, ax)
+
+    def _repr_html_(self) -> str:
+        rows = [("E0_Pa", self.E0_Pa), ("E_inf_Pa", self.E_inf_Pa), ("nu", self.nu)]
+        for i, (g, tau) in enumerate(zip(self.g, self.tau_s), 1):
+            rows += [(f"g_{i}", g), (f"tau_{i}_s", tau)]
+        flags = [f"{flag['name']}: {flag['text']}" for flag in self.json.get("flags", [])]
+        return _show.html_table(self.name or "material", ["", "value"], rows, flags)
+
     @_check.arguments
     def at_temperature(self, temperature_C: float) -> "Material":
         """The material at another temperature, by its temperature shift (degrees Celsius)."""
@@ -259,6 +307,32 @@ class Prediction(Result):
         self.curves = {n: values for n, values in columns.items() if not n.endswith(("_low_95", "_high_95"))}
         self.agreement: List[Dict[str, Any]] = self.values.get("against", {}).get("quantities", [])
         self.notes: List[str] = self.values["notes"]
+
+    def _columns(self) -> Dict[str, np.ndarray]:
+        columns = {self.argument: self.at, **self.curves}
+        columns.update({f"{name}_low_95": values for name, values in self.low.items()})
+        columns.update({f"{name}_high_95": values for name, values in self.high.items()})
+        return {**columns, "inside_window": self.inside}
+
+    def to_frame(self):
+        """The curves as a DataFrame of pandas, with bands and the window of the fit."""
+        return _show.frame(self._columns())
+
+    def plot(self, ax=None):
+        """Draw the curves with their 95 % bands over time or frequency. Needs matplotlib. Returns the axes.
+
+        Examples
+        --------
+        >>> import matplotlib; matplotlib.use("agg")
+        >>> viscard.predict(viscard.data_file("materials/pdms_1to10_seed.json"), test="creep").plot().get_xlabel()
+        'time (s)'
+        """
+        from ._plot import plot_prediction
+
+        return plot_prediction(self, ax)
+
+    def _repr_html_(self) -> str:
+        return _show.html_columns("prediction", self._columns(), self.notes)
 
     def __repr__(self) -> str:
         return f"<viscard.Prediction of {', '.join(self.curves)}: {len(self.at)} rows>"

@@ -80,6 +80,62 @@ def plot_fit(result, ax, style):
     return ax
 
 
+_NAMES = {"relaxation": "relaxation modulus", "creep": "creep compliance", "storage": "storage modulus",
+          "loss": "loss modulus", "tan_delta": "loss factor"}
+
+
+def _curve(ax, at, values, low, high, name, unit):
+    """A curve with its band, where there is one."""
+    import numpy as np
+
+    factor, unit = _scale(unit, float(np.nanmax(np.abs(values))))
+    (line,) = ax.plot(at, values * factor, "-", label=name)
+    if low is not None and not np.all(np.isnan(low)):
+        ax.fill_between(at, low * factor, high * factor, color=line.get_color(), alpha=0.2, linewidth=0)
+    return f"{name} ({unit})" if unit else name
+
+
+def plot_material(material, kind, at, ax):
+    if kind not in _NAMES:
+        raise Error(f"kind is {kind!r}; use one of {', '.join(_NAMES)}", "usage")
+    argument = "time_s" if kind in ("relaxation", "creep") else "frequency_Hz"
+    at = material._window(at, argument)
+    ax = _axes(ax)
+    if kind == "tan_delta":
+        values, low, high = material.tan_delta(at), None, None
+    else:
+        values, low, high = getattr(material, kind)(at, band=True)
+    unit = {"creep": "1/Pa", "tan_delta": ""}.get(kind, "Pa")
+    ax.set_ylabel(_curve(ax, at, values, low, high, _NAMES[kind], unit))
+    ax.set_xlabel("time (s)" if argument == "time_s" else "frequency (Hz)")
+    ax.set_xscale("log")
+    ax.grid(True, which="major", alpha=0.3)
+    return ax
+
+
+def plot_prediction(found, ax):
+    def unit_of(name):
+        return "1/Pa" if name.endswith("_1_Pa") else "Pa" if name.endswith("_Pa") else ""
+
+    ax = _axes(ax)
+    # Over time the answer comes behind its cause, which may have another unit; moduli come before their ratio.
+    unit = unit_of(list(found.curves)[0 if found.argument == "frequency_Hz" else -1])
+    drawn = [name for name in found.curves if unit_of(name) == unit]
+    for name in drawn:
+        title = name.removesuffix("_1_Pa").removesuffix("_Pa").replace("_", " ")
+        label = _curve(ax, found.at, found.curves[name], found.low.get(name), found.high.get(name), title, unit)
+        if len(drawn) == 1:
+            ax.set_ylabel(label)
+    ax.set_xlabel("time (s)" if found.argument == "time_s" else "frequency (Hz)")
+    if found.argument != "time_s":
+        ax.set_xscale("log")
+        ax.set_yscale("log")
+    ax.grid(True, which="major", alpha=0.3)
+    if len(drawn) > 1:
+        ax.legend(frameon=False)
+    return ax
+
+
 def plot_rubber(rubber, ax):
     import numpy as np
 

@@ -2,12 +2,59 @@
 
 from __future__ import annotations
 
+import json as _json
 from functools import cached_property
-from typing import Any, Dict
+from typing import Any, Dict, NamedTuple, Tuple
 
 
-class Result:
+class Parameter(NamedTuple):
+    """A parameter of a law with its 95 % interval, in the unit that its name states.
+
+    Examples
+    --------
+    >>> viscard.Parameter("C10_Pa", 2e5, (1.9e5, 2.1e5)).value
+    200000.0
+    """
+
+    name: str
+    value: float
+    interval: Tuple[float, float]
+
+
+class _Kept:
+    """What the compiled part gives of a result, kept as values: of a result that was pickled."""
+
+    def __init__(self, json: Dict[str, Any], values: Dict[str, Any], text: str) -> None:
+        self._json, self._values, self._text = json, values, text
+
+    def json(self) -> Dict[str, Any]:
+        return self._json
+
+    def values(self) -> Dict[str, Any]:
+        return self._values
+
+    def text(self) -> str:
+        return self._text
+
+
+class Compared:
+    """Equal to another of its class if all keys are."""
+
+    json: Any
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return self.json == other.json  # type: ignore[attr-defined]
+
+    def __hash__(self) -> int:
+        return hash(_json.dumps(self.json, sort_keys=True))
+
+
+class Result(Compared):
     """A result of the compiled part. ``result["key"]`` gives every key of ``--json``.
+
+    Results can be pickled and copied, so that ``multiprocessing`` can return them; two are equal if all their keys are.
 
     Attributes
     ----------
@@ -30,6 +77,9 @@ class Result:
 
     def __getitem__(self, key: str) -> Any:
         return self.json[key]
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "_core": _Kept(self.json, self.values, self._core.text())}
 
     def find(self, name: str) -> Any:
         """The value of a key, wherever it stands, or of a path such as "terms.0.tau_s".

@@ -12,20 +12,7 @@ from . import _arrays, _check, _core
 from ._check import Path
 from ._error import Error
 from ._fit_result import Flag
-
-
-class Parameter(NamedTuple):
-    """A parameter of a law with its 95 % interval, in the unit that its name states.
-
-    Examples
-    --------
-    >>> viscard.Parameter("C10_Pa", 2e5, (1.9e5, 2.1e5)).value
-    200000.0
-    """
-
-    name: str
-    value: float
-    interval: Tuple[float, float]
+from ._result import Compared, Parameter
 
 
 class RubberTerm(NamedTuple):
@@ -74,7 +61,7 @@ class RubberCard:
         return f"<viscard.RubberCard for {self.target}, {len(self.text.splitlines())} lines>"
 
 
-class RubberFit:
+class RubberFit(Compared):
     """The law of rubber that describes tests at large strain best, of ``fit(["uniaxial=a.csv", ...])``.
 
     ``rubber["key"]`` gives every key of ``viscard fit --json``.
