@@ -166,6 +166,34 @@ void flag_law(MasterCurve& curve) {
            ". Use the factors themselves, or fit fewer temperatures"});
 }
 
+// Isotherms that slip vertically without showing it elsewhere move their shift factors by far more than the rows
+// tell. Where a law describes the factors well, their scatter about it is measured, and widens the errors of
+// all (Birge, Phys. Rev. 40 (1932) 207).
+void widen_by_scatter(MasterCurve& curve) {
+  constexpr double kLawHolds = 0.1 * std::numbers::ln10, kDeviations = 4.0;
+  const TemperatureShift* law = curve.laws.better();
+  if (law == nullptr) return;
+  for (const ShiftFactor& factor : curve.free_factors) {
+    const double off = ln_shift_factor(*law, factor.temperature_C) - factor.ln_a;
+    if (std::abs(off) > kLawHolds) return;
+  }
+  const bool is_wlf = law->law == ShiftLaw::kWlf;
+  const double chi2 = is_wlf ? curve.laws.wlf_chi2 : curve.laws.arrhenius_chi2;
+  const double spare = static_cast<double>(curve.free_factors.size()) - (is_wlf ? 3.0 : 2.0);
+  // So far above its mean never by chance.
+  if (spare < 1.0 || !(chi2 > spare + kDeviations * std::sqrt(2.0 * spare))) return;
+  const double ratio = std::sqrt(chi2 / spare);
+  for (auto* factors : {&curve.factors, &curve.free_factors}) {
+    for (ShiftFactor& factor : *factors) factor.ln_a_se *= ratio;
+  }
+  curve.fit.flags.push_back(
+      {"shifts-scatter", 0,
+       "the shift factors scatter about their law by " + text_of(ratio, 2) +
+           " times their errors from the rows, as isotherms do that slip vertically (geometry, "
+           "temperature, a new clamping). Their errors are widened by that; the moduli slip, too. "
+           "--vertical-shift on fits a factor for each isotherm"});
+}
+
 void flag_vertical(MasterCurve& curve) {
   if (!curve.has_vertical_shift) return;
   const auto by_size = [](const ShiftFactor& a, const ShiftFactor& b) {
@@ -222,6 +250,7 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
     report_highest_storage(1.0 / (2.0 * std::numbers::pi * result.fit_from_s), result);
   }
   flag_left_out(all, result);
+  widen_by_scatter(curve);
   flag_shifts(shifts, curve);
   flag_law(curve);
   flag_vertical(curve);

@@ -245,6 +245,42 @@ TEST_CASE("isotherms with a vertical shift need one, and the horizontal shifts s
   CHECK_FALSE(fit_master_curve(data, off).has_vertical_shift);
 }
 
+TEST_CASE("isotherms that slip vertically widen the errors of their shift factors",
+          "[fit][master]") {
+  // One term a decade: a vertical slip of an isotherm looks like a shift of its time.
+  PronySeries broad{1e6, {}};
+  for (int k = -6; k <= 6; ++k) broad.terms.push_back({1e8 * std::pow(3.0, -k), std::pow(10.0, k)});
+  const auto isotherms = [&](double slip, std::uint64_t seed) {
+    std::mt19937_64 dice(seed);
+    std::normal_distribution<double> normal;
+    MasterData data;
+    for (double T_C = 0.0; T_C <= 60.0; T_C += 10.0) {
+      const double a = std::exp(ln_shift_factor(kWlf, T_C)), b = 1.0 + slip * normal(dice);
+      for (int i = 0; i < 25; ++i) {
+        const double t_s = std::pow(10.0, 3.0 * i / 24.0);
+        data.temperature_C.push_back(T_C);
+        data.argument.push_back(t_s);
+        data.modulus_Pa.push_back(b * relaxation_modulus_Pa(broad, t_s / a) *
+                                  (1.0 + 1e-3 * normal(dice)));
+      }
+    }
+    data.T_ref_C = 20.0;
+    return data;
+  };
+  CHECK_FALSE(has_flag(fit_master_curve(isotherms(0.0, 1)).fit, "shifts-scatter"));
+  int n_flagged = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const MasterCurve curve = fit_master_curve(isotherms(0.01, seed));
+    n_flagged += has_flag(curve.fit, "shifts-scatter") || curve.has_vertical_shift ? 1 : 0;
+    for (const ShiftFactor& factor : curve.factors) {
+      CAPTURE(seed, factor.temperature_C);
+      CHECK(std::abs(factor.ln_a - ln_shift_factor(kWlf, factor.temperature_C)) <=
+            4.0 * factor.ln_a_se + 1e-9);
+    }
+  }
+  CHECK(n_flagged == 3);
+}
+
 TEST_CASE("shifts that follow no smooth curve are taken free, and the difference is flagged",
           "[fit][master]") {
   MasterData data = relaxation_data(kWlf, 0.003, 5);
