@@ -13,6 +13,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -106,25 +107,56 @@ std::int64_t size_of(const StudyParameter& parameter) {
   return parameter.values.empty() ? parameter.count : std::ssize(parameter.values);
 }
 
-// Sets a key such as "geometry.film.thickness".
+// The place of an entry that a part of a key names, "2" the second; nothing if the list has no such entry.
+std::optional<std::size_t> entry_of(const toml::array& list, const std::string& part) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+  if (error != std::errc() || end != part.data() + part.size()) return {};
+  if (number < 1 || number > list.size()) return {};
+  return number - 1;
+}
+
+template <typename Value>
+void put(toml::node& in, const std::string& part, const Value& value, const std::string& key) {
+  if (toml::table* const table = in.as_table()) {
+    table->insert_or_assign(part, value);
+    return;
+  }
+  toml::array& list = *in.as_array();
+  const auto entry = entry_of(list, part);
+  if (!entry) {
+    throw std::runtime_error("the parameter '" + key + "' names entry " + part +
+                             " of a list that has " + std::to_string(list.size()) +
+                             " in the scene; entries are counted from 1");
+  }
+  list.replace(list.cbegin() + static_cast<std::ptrdiff_t>(*entry), value);
+}
+
+// Sets a key such as "geometry.film.thickness", or an entry of a list, such as "shape.at.2" and
+// "analysis.history.1.2".
 void set_key(toml::table& root, const std::string& key, const std::string& value) {
-  toml::table* table = &root;
+  toml::node* node = &root;
   std::size_t begin = 0;
   for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin)) {
     const std::string section = key.substr(begin, dot - begin);
-    toml::table* const inner = (*table)[section].as_table();
-    if (inner == nullptr) {
-      throw std::runtime_error("the scene has no section '" + key.substr(0, dot) +
-                               "' for the parameter '" + key + "'");
+    toml::node* inner = nullptr;
+    if (toml::table* const table = node->as_table()) {
+      inner = table->get(section);
+    } else if (const auto entry = entry_of(*node->as_array(), section)) {
+      inner = node->as_array()->get(*entry);
     }
-    table = inner;
+    if (inner == nullptr || !(inner->is_table() || inner->is_array())) {
+      throw std::runtime_error("the scene has no section or list '" + key.substr(0, dot) +
+                               "' for the parameter '" + key + "'; give it in the scene, too");
+    }
+    node = inner;
     begin = dot + 1;
   }
   const auto number = split(value);
   if (number && number->unit.empty()) {
-    table->insert_or_assign(key.substr(begin), number->number);
+    put(*node, key.substr(begin), number->number, key);
   } else {
-    table->insert_or_assign(key.substr(begin), value);
+    put(*node, key.substr(begin), value, key);
   }
 }
 

@@ -38,7 +38,7 @@ struct Study {
 //   scene = "pillar_sensor.toml"          # beside the study
 //   points = 1000                         # leave it out for a grid
 //   [[parameter]]
-//   key = "geometry.diameter"
+//   key = "geometry.diameter"             # an entry of a list by its number: "shape.at.2"
 //   values = ["30 um", "40 um"]           # or from, to and (in a grid) count; spacing = "log"
 // Throws std::runtime_error with file, line and what is expected.
 Study read_study(const std::filesystem::path& path);

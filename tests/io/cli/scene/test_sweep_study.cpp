@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
+#include <toml++/toml.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -79,6 +80,31 @@ TEST_CASE("a study combines its values, the first parameter slowest", "[cli][sce
   const SceneFile file =
       scene_from_toml(scene_text_with(study, values_at(study, 75)), study.scene_path);
   CHECK(std::get<PillarScene>(file.scene).geometry.diameter_m == Approx(50e-6).epsilon(1e-12));
+}
+
+TEST_CASE("a parameter may be an entry of a list of the scene", "[cli][scene][sweep]") {
+  const std::string scene =
+      "[shape]\nat = [\"1 um\", \"2 um\"]\ntilt = [0.5, \"0 degree\"]\n"
+      "[analysis]\nhistory = [[\"0 s\", \"0 N\"], [\"1 s\", \"5 N\"]]\n"
+      "[[geometry.classes]]\ndiameter = \"30 um\"\n";
+  const auto with = [&](const std::string& key, const std::string& value) {
+    return scene_text_with(scene, "scene.toml", {{key, value}});
+  };
+  const auto read = [](const std::string& text) { return toml::parse(text); };
+  const auto at = read(with("shape.at.2", "-7 um"));
+  CHECK(at["shape"]["at"][0].value<std::string>() == "1 um");
+  CHECK(at["shape"]["at"][1].value<std::string>() == "-7 um");
+  CHECK(read(with("shape.tilt.1", "0.25"))["shape"]["tilt"][0].value<double>() == 0.25);
+  const auto history = read(with("analysis.history.2.1", "3 s"));
+  CHECK(history["analysis"]["history"][1][0].value<std::string>() == "3 s");
+  CHECK(history["analysis"]["history"][1][1].value<std::string>() == "5 N");
+  CHECK(read(with("geometry.classes.1.diameter", "9 um"))["geometry"]["classes"][0]["diameter"]
+            .value<std::string>() == "9 um");
+  CHECK_THROWS_WITH(with("shape.at.3", "1 um"), Catch::Contains("that has 2 in the scene"));
+  CHECK_THROWS_WITH(with("shape.at.0", "1 um"), Catch::Contains("counted from 1"));
+  CHECK_THROWS_WITH(with("shape.at.x", "1 um"), Catch::Contains("counted from 1"));
+  CHECK_THROWS_WITH(with("shape.before.1", "1 um"), Catch::Contains("no section or list"));
+  CHECK_THROWS_WITH(with("analysis.history.5.1", "1 s"), Catch::Contains("no section or list"));
 }
 
 TEST_CASE("a sweep that is killed five times ends with each point once", "[cli][scene][sweep]") {
