@@ -5,8 +5,11 @@
 #include "io/scenes/shape_section.h"
 #include "io/scenes/touch_section.h"
 #include "models/array/space/space_scene.h"
+#include "models/maths/text_of_number.h"
 #include "models/scene/effects.h"
 #include "models/scene/plan.h"
+
+#include <unistd.h>
 
 #include <cmath>
 #include <map>
@@ -51,8 +54,9 @@ struct RawSpace {
   std::vector<PrintedValue> printed;
 };
 
-constexpr std::int64_t kMostRows = 1000;
-constexpr std::size_t kMostPlaced = 200000;
+constexpr std::int64_t kMostRows = 100000;
+constexpr double kBytesOfPillar =
+    1500.0;  // of an answer: maps, errors and sums; 1.3 GB for 1e6 pillars
 
 QuantityField size_of(const char* key, bool is_required = false) {
   return {.key = key, .unit = "m", .range = Range::kPositive, .is_required = is_required};
@@ -141,6 +145,18 @@ void show_space(FieldVisitor& v, RawSpace& s) {
   show_printed(v, s.printed);
 }
 
+// The number of pillars is limited by the memory of this machine only.
+void check_memory(double pillars) {
+  const double needs_B = kBytesOfPillar * pillars;
+  const double has_B =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (!(has_B > 0.0) || needs_B <= has_B) return;
+  throw SceneMistake("geometry", "has " + text_of(pillars, 10) + " pillars, which take about " +
+                                     text_of(1e-9 * needs_B, 2) +
+                                     " GB of memory; this machine has " + text_of(1e-9 * has_B, 2) +
+                                     " GB. Take fewer pillars");
+}
+
 void place_lattice(const RawSpace& raw, SpaceScene& scene) {
   if (raw.rows == 0 || raw.columns == 0) {
     throw SceneMistake("geometry",
@@ -152,6 +168,7 @@ void place_lattice(const RawSpace& raw, SpaceScene& scene) {
   const auto lattice = choice<SpaceLattice>(
       "geometry.lattice", raw.lattice,
       {{"square", SpaceLattice::kSquare}, {"hexagonal", SpaceLattice::kHexagonal}});
+  check_memory(static_cast<double>(raw.rows) * static_cast<double>(raw.columns));
   scene.rows = static_cast<int>(raw.rows);
   scene.columns = static_cast<int>(raw.columns);
   scene.pillars =
@@ -181,11 +198,7 @@ std::size_t standing(const SpaceScene& scene, const std::string& key, RowColumn 
 
 void place_pillars(const RawSpace& raw, const std::filesystem::path& folder, SpaceScene& scene) {
   raw.positions.empty() ? place_lattice(raw, scene) : place_list(raw, folder, scene);
-  if (scene.pillars.size() > kMostPlaced) {
-    throw SceneMistake("geometry", "has " + std::to_string(scene.pillars.size()) +
-                                       " pillars; at most " + std::to_string(kMostPlaced) +
-                                       " are answered");
-  }
+  check_memory(static_cast<double>(scene.pillars.size()));
   std::vector<bool> is_dead(scene.pillars.size(), false);
   for (const RowColumn& place : places_of("geometry.dead", raw.dead)) {
     is_dead[standing(scene, "geometry.dead", place)] = true;

@@ -68,6 +68,23 @@ std::size_t times_in(const std::string& text, const std::string& part) {
 
 }  // namespace
 
+TEST_CASE("only memory limits the number of pillars", "[cli][scene][array]") {
+  const auto with_rows = [](const std::string& count) {
+    std::string text = kSpace;
+    text.replace(text.find("rows = 3"), 8, "rows = " + count);
+    text.replace(text.find("columns = 4"), 11, "columns = " + count);
+    return text;
+  };
+  const SceneText endless(with_rows("100000"));
+  const CommandOutcome refused = run_command({"plan", endless.path()});
+  CHECK(refused.status == 1);
+  CHECK_THAT(refused.err, Catch::Contains("10000000000 pillars") && Catch::Contains("of memory"));
+  const SceneText large(with_rows("460"));  // 211 600
+  const CommandOutcome planned = run_command({"plan", large.path()});
+  CAPTURE(planned.err);
+  CHECK(planned.status == 0);
+}
+
 TEST_CASE("an array in the plane is maps in JSON, with the places of its pillars",
           "[cli][scene][array]") {
   const SceneText scene(kSpace);
