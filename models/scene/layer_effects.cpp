@@ -51,7 +51,10 @@ EffectEstimate finite_strain_estimate(const LayerScene& scene) {
 // request it.
 EffectEstimate contact_estimate(const LayerScene& scene) {
   const EffectRole role = scene.width_m > 0.0 ? EffectRole::kOptional : EffectRole::kNeeded;
-  return {role, 1.0, "", 0.0, "where the shape does not touch, the face is not pulled"};
+  EffectEstimate estimate{role, 1.0, "", 0.0,
+                          "where the shape does not touch, the face is not pulled"};
+  estimate.declared_off = kPrescribed;
+  return estimate;
 }
 
 }  // namespace

@@ -217,6 +217,7 @@ EffectEstimate contact_estimate(const ArrayScene& scene) {
   const RowFoundation pressed = row_foundation(scene);
   EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap or pull over overlap",
                           pressed.lift, "tops that the shape does not touch are not pulled"};
+  estimate.declared_off = kPrescribed;
   const bool holds = scene.press->work_of_adhesion_J_m2 > 0.0;
   if (!pressed.covers_all || holds) estimate.role = EffectRole::kNeeded;
   return estimate;

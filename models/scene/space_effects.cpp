@@ -184,6 +184,7 @@ EffectEstimate contact_estimate(const SpaceScene& scene) {
   const FoundationPress pressed = foundation_press(scene);
   EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap or pull over overlap",
                           pressed.lift, "tops that the shape does not touch are not pulled"};
+  estimate.declared_off = kPrescribed;
   const bool holds = scene.press->work_of_adhesion_J_m2 > 0.0;
   if (!pressed.covers_all || scene.backing || holds) estimate.role = EffectRole::kNeeded;
   if (scene.touch) {

@@ -64,7 +64,9 @@ SceneEffect decided_by_role(const std::string& name, const EffectEstimate& estim
       break;
     case EffectRole::kOptional:
       decision.on = choice == EffectChoice::kOn;
-      decision.is_counted = choice == EffectChoice::kOff;
+      decision.is_counted = choice == EffectChoice::kOff && estimate.declared_off.empty();
+      if (choice == EffectChoice::kOff && !decision.is_counted)
+        decision.reason = estimate.declared_off;
       break;
   }
   return decision;
@@ -117,9 +119,11 @@ void add_notes(const EffectDecisions& plan, double tolerance, SceneAnswer& answe
     if (effect.reason.ends_with(kChangesNothing))
       answer.notes.push_back(effect.name + " is forced on: " + effect.reason);
     if (!is_missing(effect) || effect.estimate <= tolerance) continue;
+    const std::string number =
+        effect.number.empty() ? "" : " (" + effect.number + " = " + percent(effect.value) + ")";
     answer.notes.push_back(effect.name + ": up to " + percent(effect.estimate) +
-                           " that the error estimates do not contain (" + effect.number + " = " +
-                           percent(effect.value) + "); " + effect.reason);
+                           " that the error estimates do not contain" + number + "; " +
+                           effect.reason);
   }
   if (plan.left_out > tolerance) {
     answer.notes.push_back("the effects that the scene forces off may change the results by " +

@@ -28,6 +28,9 @@ struct EffectEstimate {
   std::string number;  // the number that decides, such as "E A/(k L)"
   double value = 0.0;  // of that number
   std::string reason;  // one clause
+  // What forcing it off declares, where that is another task and no approximation: then it is no error of the answer,
+  // and a note says how far the two lie apart.
+  std::string declared_off;
 };
 
 // The estimate of one effect.
