@@ -56,11 +56,8 @@ RequiredValue buckling_of(PillarScene one, bool has_plate, const SceneSolver& so
   if (one.plane) {
     const double engesser_Pa = engesser_pressure_Pa(one);
     const double nu = one.pillar.nu;
-    const double E_Pa =
-        one.pillar.E0_Pa / (*one.plane == PlaneState::kStrain ? 1.0 - nu * nu : 1.0);
-    const double slender = one.geometry.diameter_m / one.geometry.length_m;
-    const double euler_Pa = (has_plate ? 4.0 : 1.0) * std::numbers::pi * std::numbers::pi * E_Pa *
-                            slender * slender / 48.0;
+    const double stiffer = *one.plane == PlaneState::kStrain ? 1.0 / (1.0 - nu * nu) : 1.0;
+    const double euler_Pa = stiffer * euler_pressure_Pa(one, top_end(one));
     return answered(engesser_Pa, std::abs(euler_Pa - engesser_Pa), how + "; strip, eq. E6");
   }
   const SceneResult found = named(solve(one), "buckling_pressure");

@@ -2,6 +2,8 @@
 
 #include "models/array/film/film_table.h"
 #include "models/maths/require.h"
+#include "models/maths/text_of_number.h"
+#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +12,12 @@
 namespace viscard {
 namespace {
 
-constexpr double kApart_kt = 16.0;     // from here on p k is constant (disc_charge.cpp)
-constexpr double kPhase = 5.0;         // farthest distance times a panel of k
-constexpr double kStep = 0.7;          // panel of k times the thickness of the film
-constexpr double kFirstPanel = 0.125;  // first panel over the others: long waves on a backing
-constexpr double kLeastGap = 0.05;     // of the film's thickness, between discs that nearly touch
+constexpr double kApart_kt = 16.0;       // from here on p k is constant (disc_charge.cpp)
+constexpr double kPhase = 5.0;           // farthest distance times a panel of k
+constexpr double kStep = 0.7;            // panel of k times the thickness of the film
+constexpr double kFirstPanel = 0.125;    // first panel over the others: long waves on a backing
+constexpr double kLeastGap = 0.05;       // of the film's thickness, between discs
+constexpr double kLeastOfRadius = 0.02;  // of their radius
 
 // Waves and the potential per charge of each, quadrature weight included.
 struct ChargeWaves {
@@ -43,6 +46,29 @@ ChargeWaves charge_waves(const LayeredFilm& film, const CouplingAccuracy& accura
 }
 
 }  // namespace
+
+double least_gap_m(double film_thickness_m, double radius_m) {
+  return std::max(kLeastGap * film_thickness_m, kLeastOfRadius * radius_m);
+}
+
+void check_electrode_gap(const std::string& key, const std::string& pair, double distance_m,
+                         double radius_m, double least_m) {
+  constexpr double kSame = 1e-9;  // lengths that only rounding tells apart
+  const double gap_m = distance_m - 2.0 * radius_m;
+  const std::string smaller =
+      "; make them smaller, at most " + micrometres(0.5 * (distance_m - least_m), 4) + " in radius";
+  if (gap_m < -kSame * radius_m)
+    throw SceneMistake(key, "the electrodes of " + pair + " overlap" + smaller);
+  if (!(gap_m < (1.0 - kSame) * least_m)) return;
+  if (gap_m < kSame * radius_m) {
+    throw SceneMistake(key, "the electrodes of " + pair +
+                                " touch, which makes them one conductor with one voltage" +
+                                smaller);
+  }
+  throw SceneMistake(key, "the gap of " + micrometres(gap_m, 3) + " between the electrodes of " +
+                              pair + " is smaller than " + micrometres(least_m, 3) +
+                              ", below which the charges on their rims are not resolved" + smaller);
+}
 
 DiscCoupling::DiscCoupling(const LayeredFilm& film, const DiscCharge& charge, double nearest_m,
                            const CouplingAccuracy& accuracy)

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -32,6 +33,15 @@ struct AxialField {
   // More waves, of order 0 and of the first load, that only matter on the own axis.
   std::vector<double> own_k_1_m, own_amplitude;
 };
+
+// The smallest gap between two discs of this radius whose charges this resolves, so that changes between accuracies
+// show the error; discs that touch are one conductor.
+double least_gap_m(double film_thickness_m, double radius_m);
+
+// Throws SceneMistake under the key where discs at this distance overlap, or have a gap smaller than the least one
+// (0: of a face without metal, where discs may touch). The pair as it is called, "pillars 1 and 2".
+void check_electrode_gap(const std::string& key, const std::string& pair, double distance_m,
+                         double radius_m, double least_m);
 
 // Potentials that charges of one disc and other fields leave on an equal disc (eq. S17). The charges of a disc are first
 // the one at equal potential, in units of its sum, then modes without net charge: C, cos(m alpha) and

@@ -1,3 +1,4 @@
+#include "models/array/film/disc_coupling.h"
 #include "models/array/layer/layer_scene.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -62,9 +63,9 @@ void check_electrodes(const LayerScene& scene) {
     for (std::size_t j = 0; j < i; ++j) {
       const double apart_m =
           std::hypot(x_m - scene.electrodes_m[j].first, y_m - scene.electrodes_m[j].second);
-      if (apart_m >= 2.0 * scene.electrode_radius_m) continue;
-      throw SceneMistake("geometry.electrode.at", "electrodes " + std::to_string(j + 1) + " and " +
-                                                      std::to_string(i + 1) + " overlap");
+      check_electrode_gap(
+          "geometry.electrode.at", std::to_string(j + 1) + " and " + std::to_string(i + 1), apart_m,
+          scene.electrode_radius_m, least_gap_m(scene.film_thickness_m, scene.electrode_radius_m));
     }
   }
 }

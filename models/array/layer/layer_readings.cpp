@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -37,18 +36,10 @@ void LayerReadings::add_equipotential() {
                                                    kChargeModes, kChargeDegree);
   factors_.emplace_back([charge](double k_1_m) { return charge->weight(k_1_m); });
   error_ = scene_->pillar.E0_Pa / scene_->film.stiffness_Pa(2, 2);
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scene_->electrodes_m.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto& [x_m, y_m] = scene_->electrodes_m[i];
-      nearest_m = std::min(nearest_m, std::hypot(x_m - scene_->electrodes_m[j].first,
-                                                 y_m - scene_->electrodes_m[j].second));
-    }
-  }
-  if (std::isinf(nearest_m)) return;
-  const double mutual = mutual_influence(film, *charge, nearest_m,
-                                         {.film_degree = kChargeDegree, .largest_kt = 10.0});
-  error_ += mutual * mutual;
+  std::vector<SourcePoint> points;
+  for (const auto& [x_m, y_m] : scene_->electrodes_m) points.push_back({x_m, y_m, 0});
+  error_ +=
+      influence_of_all(film, *charge, points, {.film_degree = kChargeDegree, .largest_kt = 10.0});
 }
 
 // Mean over a quarter of the disc by Gauss points over radius and angle; the potential is smooth there.

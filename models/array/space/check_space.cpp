@@ -1,3 +1,4 @@
+#include "models/array/contact/press_notes.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/space_maps.h"
@@ -93,33 +94,15 @@ void check_press(const SpaceScene& scene) {
   at_key("shape", [&] { validate(press.shape); });
   check_friction(scene);
   check_adhesion(scene);
-  if ((press.depth_m > 0.0 || !press.before_m.empty()) == (press.force_N > 0.0)) {
-    throw SceneMistake(
-        "shape",
-        "needs either a depth, such as depth = \"3 um\", or a force, such as force = "
-        "\"5 mN\"");
-  }
   double longest_m = 0.0;
   for (const SpaceClass& one : classes_of(scene)) longest_m = std::max(longest_m, one.length_m);
-  const std::vector<double> path_m = path_of(press);
-  if (*std::max_element(path_m.begin(), path_m.end()) > longest_m) {
-    throw SceneMistake("shape.depth",
-                       "is more than the pillars' length of " + micrometres(longest_m));
-  }
+  check_press_place(press, "a force, such as force = \"5 mN\"", longest_m);
   const FoundationPress pressed = foundation_press(scene);
-  if (press.force_N > 0.0 && !(pressed.lowest_m < longest_m)) {
-    throw SceneMistake("shape", "there is no pillar under the shape; move it with shape.at");
-  }
-  if (pressed.shortening >= 1.0) {
-    throw SceneMistake(
-        press.force_N > 0.0 ? "shape.force" : "shape.depth",
-        "would press the pillars flat; they are " + micrometres(longest_m) + " long");
-  }
-  if (!scene.feels_contact && !pressed.covers_all) {
-    throw SceneMistake(
-        "effects.contact",
-        "cannot be off: the shape does not cover all tops, which could not follow it");
-  }
+  check_press_plan(press, {.length_m = longest_m,
+                           .touches = pressed.lowest_m < longest_m,
+                           .shortening = pressed.shortening,
+                           .covers_all = pressed.covers_all,
+                           .feels_contact = scene.feels_contact});
 }
 
 // Each class that has a loaded pillar must bear the pressure upright.
@@ -213,7 +196,11 @@ void validate(const SpaceArray& array) {
   if (!(array.electrode_radius_m > 0.0)) {
     throw SceneMistake("geometry.electrode.radius", "the electrode's radius must be positive");
   }
-  double widest = 2.0 * array.electrode_radius_m;
+  const double radius_m = array.electrode_radius_m;
+  const bool is_metal = array.electrode == SpaceElectrode::kEquipotential;
+  const double least_m =
+      is_metal ? least_gap_m(array.film.layers.front().thickness_m, radius_m) : 0.0;
+  double widest = 2.0 * radius_m + least_m;
   for (const PillarClass& one : array.classes)
     widest = std::max(widest, 1.1 * widest_m(one.geometry));
   if (array.film.backing && !OffsetSums::can_sum(sources_of(array))) {
@@ -240,10 +227,7 @@ void validate(const SpaceArray& array) {
                                "; it must be at least a tenth of their diameter, because feet that "
                                "nearly touch change each other's traction");
       }
-      if (distance_m < 2.0 * array.electrode_radius_m) {
-        throw SceneMistake("geometry.electrode.radius",
-                           "the electrodes of " + pair + " overlap; make them smaller");
-      }
+      check_electrode_gap("geometry.electrode.radius", pair, distance_m, radius_m, least_m);
     });
   }
 }

@@ -196,6 +196,14 @@ SceneAnswer pressed_answer_on(const SpaceScene& scene, const Discretisation& mes
   return answer;
 }
 
+// The error that does not fall with the accuracy; refused if it leaves too little of the tolerance.
+double refuse_if_large(const SpaceScene& scene, const ConstantErrors& parts) {
+  const double constant = largest_constant_error(scene, parts);
+  if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance)
+    refuse_constant(scene, constant, parts);
+  return constant;
+}
+
 }  // namespace
 
 SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
@@ -210,10 +218,8 @@ SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh)
 
 SceneAnswer simulate_space(const SpaceScene& scene) {
   validate(scene);
-  const ConstantErrors parts = constant_errors(scene);
-  const double constant = largest_constant_error(scene, parts);
-  if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance)
-    refuse_constant(scene, constant, parts);
+  ConstantErrors parts = constant_errors(scene);
+  refuse_if_large(scene, parts);
   std::optional<SpaceContact> contact;
   std::optional<TouchCourse> course;
   if (scene.press && scene.progress) scene.progress(0.0, "which tops touch");
@@ -223,6 +229,8 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   const TopLoads loads_Pa = contact       ? contact->loads_Pa
                             : is_measured ? measured_loads_Pa(scene)
                                           : loads_of(scene);
+  if (contact || is_measured) set_edge_errors(scene, loads_Pa, parts);
+  const double constant = refuse_if_large(scene, parts);
   double of_contact = contact ? contact_error(*contact) : 0.0;
   if (course) of_contact = std::max(of_contact, course->relative_error);
   BackingEffect backing;
@@ -255,6 +263,7 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   answer.largest_relative_error += constant + of_contact + backing.edge;
   if (contact) add_contact(scene, *contact, answer);
   add_rounding(answer);
+  if (senses_forces(scene)) add_reading_noise(scene, answer);
   set_results(scene, answer);
   if (course) finish_curves(scene, *course, constant, answer);
   add_heat_and_noise(scene, answer);

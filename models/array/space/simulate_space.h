@@ -39,8 +39,9 @@ std::vector<std::string> result_names(const SpaceScene& scene);
 
 // Relative error of a voltage where the foot stands on a rigid base instead of the film (eq. S7).
 double rigid_foot_error(const SpaceScene& scene);
-// Relative error of each pillar's voltages because the film is solved without end (eq. S8).
-std::vector<double> film_edge_errors(const SpaceScene& scene);
+// Error of each pillar's voltages because the film is solved without end, relative to the largest voltage of the
+// loads: each acts by its share of the largest load and by its own way to the edge (eq. S8).
+std::vector<double> film_edge_errors(const SpaceScene& scene, const TopLoads& loads_Pa);
 
 // Changes of the voltages by a backing under the loads (eq. S12).
 struct BackingEffect {
@@ -58,7 +59,7 @@ void check_edge(const SpaceScene& scene, const BackingEffect& effect, double oth
 void add_stretching_note(const SpaceScene& scene, const BackingEffect& effect, SceneAnswer& answer);
 
 // Relative error of the voltages of equipotential electrodes, if the charges that they induce on each other are
-// left out: (p12/p11)^2 of the nearest two (eq. S5).
+// left out: the sum of (p12/p11)^2 over the others (eq. S5). The same sum says what solving for them leaves.
 double electrode_error(const SpaceScene& scene);
 
 // Whether these charges are solved for (eq. S17), how far they are iterated, and the relative error of a voltage that is
@@ -80,7 +81,9 @@ struct ConstantErrors {
   double largest_edge = 0.0;  // of them
 };
 
+// Errors from the film's edge follow from the loads: of a shape and of measured voltages, once these are found.
 ConstantErrors constant_errors(const SpaceScene& scene);
+void set_edge_errors(const SpaceScene& scene, const TopLoads& loads_Pa, ConstantErrors& errors);
 // The part of a map's error, in its unit, that is common to all pillars; and the reference value of the
 // error at the film's edge.
 double common_error_of(const SceneMap& map, const ConstantErrors& errors);

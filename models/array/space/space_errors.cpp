@@ -32,13 +32,11 @@ double rigid_foot_error(const SpaceScene& scene) {
 }
 
 double electrode_error(const SpaceScene& scene) {
-  const double pitch_m = smallest_pitch_m(scene);
   if (scene.electrode != SpaceElectrode::kEquipotential || scene.pillars.size() < 2) return 0.0;
   const SpaceArray array = array_of(scene);
   const PotentialAccuracy accuracy = space_accuracies(array)[1].potential;
   const DiscCharge charge(array.film, array.electrode_radius_m, 1, 4, accuracy.film_degree);
-  const double influence = mutual_influence(array.film, charge, pitch_m, accuracy);
-  return influence * influence;
+  return influence_of_all(array.film, charge, sources_of(array), accuracy);
 }
 
 namespace {
@@ -63,7 +61,6 @@ double direction_spread(const SpaceScene& scene) {
 
 ElectrodeCoupling electrode_coupling(const SpaceScene& scene) {
   constexpr double kNegligible = 0.1;  // of the tolerance
-  constexpr double kNeighbours = 8.0;  // that add to one voltage
   constexpr double kUnsettled = 0.02;  // of the tolerance, where the charges are iterated
   constexpr double kLeast = 1e-8, kMost = 0.3;
   ElectrodeCoupling coupling;
@@ -71,7 +68,7 @@ ElectrodeCoupling electrode_coupling(const SpaceScene& scene) {
   const bool has_percent = has_crosstalk(scene) && asks_for_map(scene, kCrosstalk);
   const double tolerance = (has_percent ? kCrosstalkScale / 100.0 : 1.0) * scene.tolerance;
   if (!scene.feels_neighbours || coupling.error <= kNegligible * tolerance) return coupling;
-  const double all = kNeighbours * coupling.error;
+  const double all = coupling.error;
   coupling.is_on = true;
   coupling.settled = std::clamp(kUnsettled * tolerance / all, kLeast, kMost);
   coupling.error = all * (coupling.settled + 2.0 * direction_spread(scene));
@@ -102,25 +99,53 @@ Eigen::VectorXd SpaceResponse::beyond_reach_V(const TopLoads& loads_Pa) const {
   return largest_V;
 }
 
-std::vector<double> film_edge_errors(const SpaceScene& scene) {
+namespace {
+
+// Loads that no other one exceeds which lies at least as near to the film's edge, in order of rising distance and load.
+struct EdgeLoad {
+  double to_edge_m, share;  // of the largest load
+};
+std::vector<EdgeLoad> loads_at_edge(const std::vector<double>& to_edge_m,
+                                    const TopLoads& loads_Pa) {
+  const double largest_Pa = loads_Pa.size() > 0 ? loads_Pa.cwiseAbs().maxCoeff() : 0.0;
+  std::vector<EdgeLoad> all;
+  for (std::size_t i = 0; i < to_edge_m.size() && largest_Pa > 0.0; ++i) {
+    const double load_Pa = loads_Pa.row(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
+    if (load_Pa > 0.0) all.push_back({to_edge_m[i], load_Pa / largest_Pa});
+  }
+  std::sort(all.begin(), all.end(), [](const EdgeLoad& a, const EdgeLoad& b) {
+    return a.to_edge_m != b.to_edge_m ? a.to_edge_m < b.to_edge_m : a.share > b.share;
+  });
+  std::vector<EdgeLoad> leading;
+  for (const EdgeLoad& one : all) {
+    if (leading.empty() || one.share > leading.back().share) leading.push_back(one);
+  }
+  return leading;
+}
+
+}  // namespace
+
+std::vector<double> film_edge_errors(const SpaceScene& scene, const TopLoads& loads_Pa) {
   const FilmExtent film = film_extent(scene);
-  const std::vector<bool> loaded = is_loaded(scene);
   const std::vector<SpaceClass> classes = classes_of(scene);
   std::vector<double> to_edge_m;
-  double nearest_m = HUGE_VAL;  // of the loaded pillars
-  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
-    const SpacePillar& one = scene.pillars[i];
+  for (const SpacePillar& one : scene.pillars) {
     const double radius_m = 0.5 * classes[static_cast<std::size_t>(one.of_class)].diameter_m;
     to_edge_m.push_back(std::min({one.x_m - film.left_m, film.right_m - one.x_m,
                                   one.y_m - film.low_m, film.high_m - one.y_m}) -
                         radius_m);
-    if (loaded[i]) nearest_m = std::min(nearest_m, to_edge_m.back());
   }
-  for (double& one : to_edge_m) {
-    const double way = (one + nearest_m) / scene.film_thickness_m;
-    one = way < 2.0 ? 2.0 : std::exp(-0.9215 * way);
+  const std::vector<EdgeLoad> loads = loads_at_edge(to_edge_m, loads_Pa);
+  std::vector<double> errors;
+  for (const double own_m : to_edge_m) {
+    double error = 0.0;
+    for (const EdgeLoad& load : loads) {
+      const double way = (own_m + load.to_edge_m) / scene.film_thickness_m;
+      error = std::max(error, load.share * (way < 2.0 ? 2.0 : std::exp(-0.9215 * way)));
+    }
+    errors.push_back(error);
   }
-  return to_edge_m;
+  return errors;
 }
 
 // At its edge the endless film carries stress that a free edge cannot bear. Relieving it changes
@@ -218,6 +243,11 @@ double largest_influence(const SpaceScene& scene) {
 
 }  // namespace
 
+void set_edge_errors(const SpaceScene& scene, const TopLoads& loads_Pa, ConstantErrors& errors) {
+  errors.edge = film_edge_errors(scene, loads_Pa);
+  errors.largest_edge = *std::max_element(errors.edge.begin(), errors.edge.end());
+}
+
 ConstantErrors constant_errors(const SpaceScene& scene) {
   ConstantErrors errors;
   errors.foot = rigid_foot_error(scene);
@@ -230,8 +260,9 @@ ConstantErrors constant_errors(const SpaceScene& scene) {
   const double of_crosstalk = 200.0 * errors.foot * errors.neighbour / kCrosstalkScale;
   if (has_crosstalk(scene) && of_crosstalk > kLargePart * scene.tolerance)
     errors.neighbour = std::min(errors.neighbour, largest_influence(scene));
-  errors.edge = film_edge_errors(scene);
-  errors.largest_edge = *std::max_element(errors.edge.begin(), errors.edge.end());
+  errors.edge.assign(scene.pillars.size(), 0.0);
+  const bool has_loads = !scene.press && scene.quadrants.measured_V.size() == 0;
+  if (has_loads) set_edge_errors(scene, loads_of(scene), errors);
   return errors;
 }
 

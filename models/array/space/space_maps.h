@@ -56,6 +56,8 @@ bool senses_forces(const SpaceScene& scene);
 // SpaceResponse under the loads, or the measured ones of the scene.
 void add_sensed(const SpaceScene& scene, const SpaceResponse& response, const TopLoads& loads_Pa,
                 const Eigen::MatrixXd& readings_V, SceneAnswer& answer);
+// Adds to the errors of forces what the stated noise of the measured voltages makes of them (eq. Q4), 95 %.
+void add_reading_noise(const SpaceScene& scene, SceneAnswer& answer);
 // Adds the remaining results, once, and notes for the reader.
 void finish_sensed(const SpaceScene& scene, SceneAnswer& answer);
 std::vector<std::string> sensed_notes(const SpaceScene& scene);

@@ -194,6 +194,35 @@ void add_sensed(const SpaceScene& scene, const SpaceResponse& response, const To
       {kUnexplained, sensed.left_V.cwiseAbs().maxCoeff(), "V", 0.0, largest_V, false});
 }
 
+void add_reading_noise(const SpaceScene& scene, SceneAnswer& answer) {
+  constexpr double kIn95 = 1.96;  // standard deviations
+  const double noise_V = quarter_noise_V(scene);
+  if (scene.quadrants.measured_V.size() == 0 || noise_V == 0.0) return;
+  const SpaceArray array = array_of(scene);
+  const SpaceResponse response(array, space_accuracies(array)[1]);
+  const QuadrantArray quadrants = quadrant_array(scene, response, false);
+  const std::vector<QuadrantGains> gains = gains_by_class(quadrants);
+  const NoiseGrowth growth = growth_in_middle(quadrants, gains);
+  const std::vector<double> areas_m2 = top_areas_m2(scene);
+  double largest_N = 0.0;
+  for (int l = 0; l < kSensedLoads; ++l) {
+    for (SceneMap& map : answer.maps) {
+      if (map.name != map_name(kForces.at(static_cast<std::size_t>(l)))) continue;
+      map.is_watched = false;  // no finer accuracy makes it less
+      for (std::size_t at = 0; at < map.error.size(); ++at) {
+        const auto c = static_cast<std::size_t>(scene.pillars[map.pillar[at]].of_class);
+        const double noise_N =
+            kIn95 * growth.factor[l] * sensed_noise_Pa(gains[c], noise_V)[l] * areas_m2[c];
+        map.error[at] += noise_N;
+        largest_N = std::max(largest_N, noise_N);
+      }
+    }
+  }
+  answer.notes.push_back("the errors of the forces contain the noise of the readings, " +
+                         text_of(noise_V, 3) + " V rms: up to " + text_of(largest_N, 3) +
+                         " N (95 %)");
+}
+
 void finish_sensed(const SpaceScene& scene, SceneAnswer& answer) {
   // Results that are computed from the voltages have the same relative error, with their own
   // reference value.

@@ -29,17 +29,22 @@ double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral
 enum class LimitMesh { kCoarse = 1, kFine = 3 };
 constexpr double kCoarseLimit = 0.02;
 
-// Pressure at which the pillar buckles with a free top, or the shortening at which it buckles under
-// a plate.
-double buckling_limit(const PillarScene& scene, bool has_plate, LimitMesh on = LimitMesh::kCoarse) {
+// Pressure at which the pillar buckles with a free top or under a plate that slides, and how far it is then shortened.
+struct BucklingLimit {
+  double pressure_Pa = 0.0;
+  double shortening_m = 0.0;  // under a plate
+};
+BucklingLimit buckling_limit(const PillarScene& scene, bool has_plate,
+                             LimitMesh on = LimitMesh::kCoarse) {
   const Discretisation mesh = stressed_mesh_sequence(scene.geometry)[static_cast<std::size_t>(on)];
   const PillarModel axial(scene.geometry, mesh, media_of(scene),
                           {.motion = Motion::kLongitudinal, .rigid_top = has_plate});
   const PillarModel lateral(scene.geometry, mesh, media_of(scene),
                             {.motion = Motion::kLateral, .rigid_top = has_plate});
   const double pressure_Pa = buckling_pressure_Pa(axial, lateral);
-  if (!has_plate) return pressure_Pa;
-  return axial.mean_top_displacement_m(axial.solve(axial.top_traction())) * pressure_Pa;
+  if (!has_plate) return {pressure_Pa};
+  return {pressure_Pa,
+          axial.mean_top_displacement_m(axial.solve(axial.top_traction())) * pressure_Pa};
 }
 
 // A plate holds the top upright, so that the pillar buckles between the two.
@@ -47,7 +52,7 @@ std::string beyond_buckling_under_plate(const PillarScene& scene) {
   const double moved_m = *displacement_m(scene);
   const double rough_m = engesser_pressure_Pa(scene) / scene.pillar.E0_Pa * scene.geometry.length_m;
   if (-moved_m < 0.5 * rough_m) return "";
-  const double most_m = scene.plane ? rough_m : buckling_limit(scene, true);
+  const double most_m = scene.plane ? rough_m : buckling_limit(scene, true).shortening_m;
   if (-moved_m < most_m) return "";
   return "a displacement of " + micrometres(moved_m, 5) + " is beyond about " +
          micrometres(-most_m, 3) +
@@ -56,20 +61,28 @@ std::string beyond_buckling_under_plate(const PillarScene& scene) {
 
 }  // namespace
 
-double engesser_pressure_Pa(const PillarScene& scene) {
+TopEnd top_end(const PillarScene& scene) {
+  return moves_top(scene) || plate_on_top(scene) ? TopEnd::kSlides : TopEnd::kFree;
+}
+
+double euler_pressure_Pa(const PillarScene& scene, TopEnd end) {
   const double radius_of_gyration_m =
       scene.plane ? scene.geometry.diameter_m / std::sqrt(12.0) : 0.25 * scene.geometry.diameter_m;
-  // With a free top a half wave is twice as long as the pillar, under a plate as long as the
-  // pillar.
-  const bool is_upright = moves_top(scene) || plate_on_top(scene);
-  const double half_wave_m = (is_upright ? 1.0 : 2.0) * scene.geometry.length_m;
-  const double slenderness = half_wave_m / radius_of_gyration_m;
-  const double euler_Pa =
-      std::numbers::pi * std::numbers::pi * scene.pillar.E0_Pa / (slenderness * slenderness);
+  const double lengths = end == TopEnd::kFree ? 2.0 : end == TopEnd::kSlides ? 1.0 : 0.5;
+  const double slenderness = lengths * scene.geometry.length_m / radius_of_gyration_m;
+  return std::numbers::pi * std::numbers::pi * scene.pillar.E0_Pa / (slenderness * slenderness);
+}
+
+double engesser_pressure_Pa(const PillarScene& scene, TopEnd end) {
   const double nu = scene.pillar.nu;
   const double shear_Pa = scene.pillar.E0_Pa / (2.0 * (1.0 + nu));
   const double kappa = scene.plane ? 5.0 / 6.0 : 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu);
+  const double euler_Pa = euler_pressure_Pa(scene, end);
   return euler_Pa / (1.0 + euler_Pa / (kappa * shear_Pa));
+}
+
+double engesser_pressure_Pa(const PillarScene& scene) {
+  return engesser_pressure_Pa(scene, top_end(scene));
 }
 
 PillarScene long_term_scene(const PillarScene& scene) {
@@ -102,8 +115,9 @@ double rough_buckling_pressure_Pa(const PillarScene& scene) {
   return 0.5 * euler_Pa / (1.0 + kUnevenTraction * turn);
 }
 
-double pillar_buckling_pressure_Pa(const PillarScene& scene) {
-  return scene.plane ? engesser_pressure_Pa(scene) : buckling_limit(scene, false);
+double pillar_buckling_pressure_Pa(const PillarScene& scene, TopEnd end) {
+  if (scene.plane || end == TopEnd::kSticks) return engesser_pressure_Pa(scene, end);
+  return buckling_limit(scene, end == TopEnd::kSlides).pressure_Pa;
 }
 
 std::string beyond_buckling(const PillarScene& scene) {
@@ -114,7 +128,7 @@ std::string beyond_buckling(const PillarScene& scene) {
   if (largest_Pa < rough_buckling_pressure_Pa(scene)) return "";
   double critical_Pa = pillar_buckling_pressure_Pa(scene);
   if (!scene.plane && std::abs(largest_Pa - critical_Pa) < kCoarseLimit * critical_Pa) {
-    critical_Pa = buckling_limit(scene, false, LimitMesh::kFine);
+    critical_Pa = buckling_limit(scene, false, LimitMesh::kFine).pressure_Pa;
   }
   if (largest_Pa < critical_Pa) return "";
   return "a pressure of " + text_of(largest_Pa, 5) +

@@ -6,18 +6,29 @@
 
 namespace viscard {
 
-// Pressure at which the pillar buckles, clamped at its foot, by Euler's formula with Engesser's
-// correction for shear, P = P_e/(1 + P_e/(kappa G A)) (eq. E6), in Pa. The top is free; a plate on
-// the top keeps it upright but lets it slide, which makes the pressure four times as large.
-double engesser_pressure_Pa(const PillarScene& scene);
+// How the top is held of a pillar that is clamped at its foot. A column buckles in half waves that are twice as long
+// as the pillar, as long, and half as long. Source: Timoshenko & Gere, Theory of Elastic Stability (1961), 2.1 and 2.2.
+enum class TopEnd {
+  kFree,
+  kSlides,  // a plate keeps it level and lets it move sideways
+  kSticks   // a plate holds it
+};
+TopEnd top_end(const PillarScene& scene);
+
+// Pressures, Pa, at which the pillar buckles: by Euler's formula, 1 to 4 to 16 for the three ends, and with Engesser's
+// correction for shear, P = P_e/(1 + P_e/(kappa G A)) (eq. E6), which takes more where the half wave is shorter. The
+// only place of both formulas.
+double euler_pressure_Pa(const PillarScene& scene, TopEnd end);
+double engesser_pressure_Pa(const PillarScene& scene, TopEnd end);
+double engesser_pressure_Pa(const PillarScene& scene);  // with its own end
 
 // A pressure well below which no pillar buckles under a free top: half of Euler's, with the turn of
 // its foot on the film (eq. E1).
 double rough_buckling_pressure_Pa(const PillarScene& scene);
 
-// Pressure at which the pillar buckles under a free top: its own on a coarse mesh (infinite if it is
-// so stubby that it buckles only locally), for a strip Engesser's (eq. E6).
-double pillar_buckling_pressure_Pa(const PillarScene& scene);
+// Pressure at which the pillar buckles under a top that is held like this: its own on a coarse mesh (infinite if it is
+// so stubby that it buckles only locally); for a strip, and for a top that sticks, Engesser's (eq. E6).
+double pillar_buckling_pressure_Pa(const PillarScene& scene, TopEnd end = TopEnd::kFree);
 
 // The same pillar long after loading: with its long-term moduli, after which it relaxes no further.
 PillarScene long_term_scene(const PillarScene& scene);

@@ -1,0 +1,116 @@
+#include "models/array/contact/press_notes.h"
+
+#include "models/maths/text_of_number.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <algorithm>
+
+namespace viscard {
+namespace {
+
+void note_buckling(const PressState& state, std::vector<std::string>& notes) {
+  const AtLimit& worst = state.pressure;
+  if (!(worst.value > worst.limit)) return;
+  notes.push_back(
+      "beyond buckling: pillar " + worst.place + " bears " + text_of(worst.value, 4) +
+      " Pa; with a free top it buckles at " + text_of(state.free_Pa, 4) + " Pa, under a " +
+      (state.sticks ? "shape that it sticks to" : "plate that slides") + " at about " +
+      text_of(state.held_Pa, 3) +
+      (!state.sticks && worst.value > state.held_Pa ? " Pa, which is exceeded too" : " Pa") +
+      ". The answer is that of pillars that stay straight");
+}
+
+void note_strain(const PressState& state, std::vector<std::string>& notes) {
+  const bool is_pressed = !(state.stretch.value > state.shortening.value);
+  const AtLimit& worst = is_pressed ? state.shortening : state.stretch;
+  if (!(worst.value > worst.limit)) return;
+  notes.push_back("large strain: pillar " + worst.place +
+                  (is_pressed ? " shortens by " : " is stretched by ") +
+                  text_of(100.0 * worst.value, 3) + " %; the answer is that of small strains");
+}
+
+void note_slope(const PressState& state, std::vector<std::string>& notes) {
+  const AtLimit& worst = state.slope;
+  if (!(worst.value > worst.limit)) return;
+  notes.push_back("steep shape: its surface rises by " + text_of(worst.value, 2) + " over pillar " +
+                  worst.place +
+                  "; tops are taken to be nearly level, and their sides do not touch");
+}
+
+void note_sideways(const PressState& state, std::vector<std::string>& notes) {
+  const AtLimit& worst = state.sideways;
+  if (!(worst.value > worst.limit)) return;
+  notes.push_back("neighbours meet: the top of pillar " + worst.place + " moves " +
+                  micrometres(worst.value, 3) +
+                  " sideways, more than half of the smallest gap of " +
+                  micrometres(2.0 * worst.limit, 4) + "; contact of their sides is not followed");
+}
+
+void note_pull(const PressState& state, std::vector<std::string>& notes) {
+  const AtLimit& worst = state.pull;
+  if (!(worst.value > worst.limit)) return;
+  notes.push_back("beyond pull-off: pillar " + worst.place + " is pulled by " +
+                  text_of(worst.value, 4) + " " + state.force_unit +
+                  ", and at a work of adhesion of " + text_of(state.work_J_m2, 3) +
+                  " J/m2 its top lets go at " + text_of(worst.limit, 4) + " " + state.force_unit);
+}
+
+void note_held(const PressState& state, std::vector<std::string>& notes) {
+  if (!state.adheres) return;
+  notes.push_back("adhesion pulls " + std::to_string(state.held) + " tops, and " +
+                  std::to_string(state.let_go) +
+                  " have let go; tops that touch are taken to lie flat");
+}
+
+}  // namespace
+
+std::vector<std::string> press_notes(const PressState& state) {
+  std::vector<std::string> notes;
+  if (!state.touches) {
+    note_held(state, notes);
+    notes.push_back("the shape touches no pillar; lower it, or move it over the " + state.body);
+    return notes;
+  }
+  if (state.sticks) {
+    notes.emplace_back(
+        "full stick: what touches at the end is held as if it had never slid, in one step; this is "
+        "for a depth that only grows");
+  }
+  note_buckling(state, notes);
+  note_strain(state, notes);
+  note_slope(state, notes);
+  note_sideways(state, notes);
+  note_pull(state, notes);
+  note_held(state, notes);
+  return notes;
+}
+
+void check_press_place(const ShapePress& press, const std::string& force_words, double length_m) {
+  if ((press.depth_m > 0.0 || !press.before_m.empty()) == (press.force_N > 0.0)) {
+    throw SceneMistake("shape",
+                       "needs either a depth, such as depth = \"3 um\", or " + force_words);
+  }
+  const std::vector<double> path_m = path_of(press);
+  if (*std::max_element(path_m.begin(), path_m.end()) > length_m) {
+    throw SceneMistake("shape.depth",
+                       "is more than the pillars' length of " + micrometres(length_m));
+  }
+}
+
+void check_press_plan(const ShapePress& press, const PressPlan& plan) {
+  if (press.force_N > 0.0 && !plan.touches) {
+    throw SceneMistake("shape", "there is no pillar under the shape; move it with shape.at");
+  }
+  if (plan.shortening >= 1.0) {
+    throw SceneMistake(
+        press.force_N > 0.0 ? "shape.force" : "shape.depth",
+        "would press the pillars flat; they are " + micrometres(plan.length_m) + " long");
+  }
+  if (!plan.feels_contact && !plan.covers_all) {
+    throw SceneMistake(
+        "effects.contact",
+        "cannot be off: the shape does not cover all tops, which could not follow it");
+  }
+}
+
+}  // namespace viscard
