@@ -34,6 +34,11 @@ double first_touch_m(const std::vector<TouchedPillar>& pillars,
         first_m = std::min(first_m, at_m - one.above_m);
       }
     }
+    // The tip may lie between these.
+    const auto tip = round_tip(shape, one.x_m, one.y_m, top.radius_m.back(), HUGE_VAL);
+    if (!tip) continue;
+    first_m =
+        std::min(first_m, height_m(shape, one.x_m + tip->x_m, one.y_m + tip->y_m) - one.above_m);
   }
   return first_m;
 }
@@ -55,7 +60,8 @@ PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
     if (bond == TopBond::kFollows) {
       top = contact.follow(overlap);
     } else if (!is_out_of_reach(shape, one, radius_of(contact), depth_m)) {
-      top = contact.press(overlap);
+      top = contact.press(
+          overlap, round_tip(shape, one.x_m, one.y_m, radius_of(contact), depth_m + one.above_m));
     }
     array.force_N += top.force_N;
     array.contacts += top.share > 0.0 ? 1 : 0;

@@ -69,10 +69,14 @@ PressOnBase::Tops PressOnBase::press(const std::vector<TopContact>& classes, dou
   for (Eigen::Index i = 0; i < count; ++i) {
     const TouchedPillar& one = (*pillars_)[candidates_[static_cast<std::size_t>(i)]];
     const TopContact& contact = classes[static_cast<std::size_t>(one.of_class)];
-    const TopPressure top = contact.press([&](double x_m, double y_m) {
+    auto tip = round_tip(*shape_, one.x_m, one.y_m, top_radius_m(contact), HUGE_VAL);
+    const auto overlap_m = [&](double x_m, double y_m) {
       return depth_m + one.above_m - height_m(*shape_, one.x_m + x_m, one.y_m + y_m) - base(i, 0) -
              base(i, 1) * x_m - base(i, 2) * y_m;
-    });
+    };
+    if (tip) tip->overlap_m = overlap_m(tip->x_m, tip->y_m);
+    if (tip && !(tip->overlap_m > 0.0)) tip.reset();
+    const TopPressure top = contact.press(overlap_m, tip);
     tops.forces.row(i) << top.force_N, top.moment_x_Nm, top.moment_y_Nm;
     if (top.share > 0.0) {
       // A top that is touched in part yields more; that only changes the number of steps.

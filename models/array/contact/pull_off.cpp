@@ -106,7 +106,9 @@ PressedArray press_along(const std::vector<TouchedPillar>& pillars,
     if (is_held_after(holds[i], path_m)) {
       top = contact.follow(overlap);
     } else if (array.depth_m > holds[i].touched_m) {
-      top = contact.press(overlap);
+      top = contact.press(overlap, round_tip(shape, pillars[i].x_m, pillars[i].y_m,
+                                             contact.compliance().radius_m.back(),
+                                             array.depth_m + pillars[i].above_m));
     }
     array.force_N += top.force_N;
     array.contacts += top.share > 0.0 ? 1 : 0;

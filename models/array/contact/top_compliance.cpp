@@ -258,6 +258,9 @@ TopCompliance top_compliance(const PillarGeometry& pillar, const Medium& medium,
   TopCompliance top;
   top.angles = fineness.angles;
   top.radius_m = mesh.ring_radii_m();
+  const double shear_Pa = medium.stiffness_Pa(3, 3), long_Pa = medium.stiffness_Pa(0, 0);
+  top.plane_modulus_Pa = medium.is_isotropic ? 2.0 * medium.shear_Pa / (1.0 - medium.poisson_ratio)
+                                             : 4.0 * shear_Pa * (long_Pa - shear_Pa) / long_Pa;
   for (int harmonic = 0; harmonic <= fineness.angles / 2; ++harmonic) {
     const Section section = mesh.section(harmonic);
     const TopOfHarmonic one(section, normal_kinematics(harmonic));

@@ -24,6 +24,7 @@ struct TopCompliance {
   Eigen::VectorXd ring_area_m2;               // of each; their sum is the area of the top
   std::vector<Eigen::MatrixXd> harmonic_m_N;  // S_m; m = 0 to angles/2
   int angles = 0;
+  double plane_modulus_Pa = 0.0;  // E/(1 - nu^2)
 
   // Sinking under a uniform pressure, m/N; turning about an axis in the top under a traction that grows
   // with the distance from it, rad/(N m).

@@ -213,6 +213,15 @@ TopPressure TopContact::pressure_of(const Eigen::MatrixXd& forces_N) const {
   return pressure;
 }
 
+TopPressure TopContact::press(const Overlap& overlap, const std::optional<RoundTip>& tip) const {
+  if (tip && !sticking_) {
+    const auto small = press_round_tip(
+        *tip, compliance_, [this](const Eigen::MatrixXd& forces_N) { return motion(forces_N); });
+    if (small) return *small;
+  }
+  return press(overlap);
+}
+
 TopPressure TopContact::press(const Overlap& overlap) const {
   const PointOverlap points = overlaps(overlap);
   if (!(points.overlap_m.maxCoeff() > 0.0)) return {};

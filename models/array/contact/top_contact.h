@@ -1,11 +1,13 @@
 #pragma once
 
+#include "models/array/contact/round_tip.h"
 #include "models/array/contact/top_compliance.h"
 #include "models/array/contact/top_pressure.h"
 
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -22,6 +24,8 @@ class TopContact {
   TopContact(TopCompliance compliance, std::shared_ptr<const StickingTop> sticking);
 
   TopPressure press(const Overlap& overlap) const;
+  // The same where a round tip touches, whose contact may be smaller than the grid resolves (eq. T11).
+  TopPressure press(const Overlap& overlap, const std::optional<RoundTip>& tip) const;
   // The top follows the surface everywhere, also where it must be pulled (eq. T2).
   TopPressure follow(const Overlap& overlap) const;
 

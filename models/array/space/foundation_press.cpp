@@ -1,5 +1,6 @@
 // The array under its shape as independent columns, an estimate before anything is solved; and forces on tops as loads.
 #include "models/array/contact/pull_off.h"
+#include "models/array/contact/round_tip.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/space_maps.h"
 #include "models/maths/text_of_number.h"
@@ -48,6 +49,10 @@ Column column_under(const RigidShape& shape, const SpacePillar& one, const Space
     column.highest_m = std::max(column.highest_m, rim_m);
     column.mean_m += 0.5 * rim_m / kAngles;  // exact for a paraboloid
     rims_m[static_cast<std::size_t>(a)] = rim_m;
+  }
+  if (const auto tip = round_tip(shape, one.x_m, one.y_m, R_m, HUGE_VAL)) {
+    column.lowest_m = std::min(column.lowest_m,
+                               height_m(shape, one.x_m + tip->x_m, one.y_m + tip->y_m) - above_m);
   }
   for (std::size_t a = 0; 2 * a < rims_m.size() && std::isfinite(column.highest_m); ++a) {
     const double middle_m = 0.5 * (rims_m[a] + rims_m[a + kAngles / 2]);
