@@ -87,7 +87,6 @@ RubberText read_frontistr_rubber(const std::string& text) {
   RubberNumbers& law = out.numbers;
   bool has_law = false;
   const std::vector<KeywordBlock> blocks = keyword_blocks(card_lines(text, "#"), '!');
-  out.findings = material_findings(blocks, false);
   for (const KeywordBlock& block : blocks) {
     if (block.keyword == "!DENSITY") law.density = density_in(block);
     if (has_law && (block.keyword == "!VISCOELASTIC" || block.keyword == "!ELASTIC")) {
@@ -121,6 +120,8 @@ RubberText read_frontistr_rubber(const std::string& text) {
     }
   }
   require_in_card(has_law, "!HYPERELASTIC");
+  for (const CardFinding& finding : material_findings(blocks, false))
+    out.findings.push_back(finding);
   return out;
 }
 

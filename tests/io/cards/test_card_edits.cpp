@@ -13,6 +13,7 @@
 #include <functional>
 #include <iostream>
 #include <random>
+#include <vector>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -111,9 +112,11 @@ TEST_CASE("right numbers in a card that does something else are named", "[cards]
   CHECK(findings_of(edited(right_card("mfront"), "Nt = 2", "Nt = 3"), "mfront") == "array-size");
   CHECK(
       findings_of(edited(right_card("frontistr"), "!VISCOELASTIC, INFINITESIMAL", "!VISCOELASTIC"),
-                  "frontistr") == "finite-strain");
-  CHECK(findings_of(edited(right_card("moose"), "    integration_rule = zienkiewicz\n", ""),
-                    "moose") == "integration-rule");
+                  "frontistr")
+          .find("finite-strain") == 0);
+  CHECK(
+      findings_of(edited(right_card("moose"), "    integration_rule = zienkiewicz\n", ""), "moose")
+          .find("integration-rule") == 0);
   CHECK(findings_of(edited(right_card("febio"), "isotropic elastic", "neo-Hookean"), "febio") ==
         "elastic-type");
   CHECK(findings_of(edited(right_card("febio"), "  </elastic>\n", ""), "febio")
@@ -226,7 +229,7 @@ TEST_CASE("what no reader uses is named in a card without header", "[cards]") {
   struct Foreign {
     const char *target, *text;
   };
-  for (const Foreign& foreign : {Foreign{"abaqus", "*FOOBAR\n1., 2.\n"},
+  const std::vector<Foreign> all{{"abaqus", "*FOOBAR\n1., 2.\n"},
                                  {"abaqus", "*MULLINS EFFECT\n1.5, 0.1, 0.1\n"},
                                  {"abaqus-frequency", "*PLASTIC\n1., 0.\n"},
                                  {"abaqus-table", "*EXPANSION\n1e-4\n"},
@@ -237,7 +240,8 @@ TEST_CASE("what no reader uses is named in a card without header", "[cards]") {
                                  {"lsdyna", "*DAMPING_GLOBAL\n         1       1.0\n"},
                                  {"openradioss", "/VISC/PRONY/1\n         1\n"},
                                  {"openradioss", "/DAMP/1\nd\n                 0.1\n"},
-                                 {"moose", "[Materials]\n[foo]\ntype = Foo\n[]\n[]\n"}}) {
+                                 {"moose", "[Materials]\n[foo]\ntype = Foo\n[]\n[]\n"}};
+  for (const Foreign& foreign : all) {
     CAPTURE(foreign.target, foreign.text);
     CHECK(findings_of(bare(foreign.target), foreign.target) == "");
     CHECK(unread(bare(foreign.target) + foreign.text, foreign.target));

@@ -203,7 +203,7 @@ TEST_CASE("card --import makes the material of a card, for another solver", "[ca
   REQUIRE(read.flags.size() == 1);
   CHECK(read.flags[0].name == "imported");
   CHECK(card.run({made, "--for", "comsol", "--out", again}) == kDone);
-  CHECK(card.run({"--check", again, file}) == kDone);
+  CHECK(card.run({"--check", again, made}) == kDone);
   // A card without header needs its solver and its units.
   const std::string bare = card.path("bare.inp");
   write_file(bare,
