@@ -74,11 +74,20 @@ std::size_t rows_driven_by(const std::vector<double>& cause, const std::vector<d
   return count;
 }
 
+// Largest less smallest value, over the larger of both sizes.
+double relative_range(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) return 0.0;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return (*high - *low) / std::max(std::abs(*low), std::abs(*high));
+}
+
 // In creep the strain moves on while the stress rests; in relaxation it is the other way round.
 bool is_creep(const CsvTable& table, const FitRequest& request) {
-  constexpr double kTimes = 4.0, kShare = 0.05;
+  constexpr double kTimes = 4.0, kShare = 0.05, kConstant = 0.01;
   const std::vector<double> stress = column_with_gaps_SI(table, "stress_Pa", request.columns);
   const std::vector<double> strain = column_with_gaps_SI(table, "strain", request.columns);
+  if (relative_range(stress) < kConstant) return relative_range(strain) > 2.0 * kConstant;
   const auto by_stress = static_cast<double>(rows_driven_by(stress, strain));
   return by_stress > kTimes * static_cast<double>(rows_driven_by(strain, stress)) &&
          by_stress >= std::max(1.0, kShare * static_cast<double>(stress.size()));

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Stands in for febio4, mfront and mtest, or fistr1, by the name it is called: integrates the numbers
 of a one-element model in simple tension and prints in the solver's format. Formats: FEBio
 DataRecord.cpp, TFEL MTest.cxx, FrontISTR hecmw_result_io_txt.c; rules of FrontISTR's steps:

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Stands in for OpenRadioss' starter and engine and its converter th_to_csv, by the name it is called:
 integrates the equations of motion of the brick of a deck explicitly, with masses, damping and the law
 of /MAT/LAW40, and writes the time history as th_to_csv does. Sources in github.com/OpenRadioss:
