@@ -24,7 +24,8 @@ Body reduced(Body scene, const EffectDecisions& decisions) {
   for (std::size_t i = 0; i < decisions.effects.size(); ++i) {
     const SceneEffect& decision = decisions.effects[i];
     const EffectOn<Body>& effect = effect_on<Body>(effects()[i]);
-    if (decision.is_counted && effect.leave_out != nullptr) effect.leave_out(scene);
+    const bool is_off = decision.is_counted || (decision.is_forced && !decision.on);
+    if (is_off && effect.leave_out != nullptr) effect.leave_out(scene);
     if (decision.on && decision.is_forced && effect.insist != nullptr) effect.insist(scene);
   }
   scene.tolerance =

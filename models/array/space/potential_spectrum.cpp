@@ -272,26 +272,25 @@ double mutual_influence(const LayeredFilm& film, const DiscCharge& charge, doubl
 double influence_of_all(const LayeredFilm& film, const DiscCharge& charge,
                         const std::vector<SourcePoint>& points, const PotentialAccuracy& accuracy) {
   constexpr double kThicknesses = 16.0;  // farther away the grounded face hides the charge
-  constexpr double kNegligible = 1e-4;   // of the nearest pair's
+  constexpr double kNegligible = 1e-3;   // of the nearest pair's
   constexpr double kGrowth = 1.15;       // of the distances of the table
   constexpr std::size_t kMostTried = 2000;
   const double t_m = film.layers.front().thickness_m;
   const double nearest_m = nearest_distance_m(points, 2.0 * charge.radius_m());
   if (!(nearest_m < kThicknesses * t_m)) return 0.0;
-  std::vector<double> squares;  // at nearest_m kGrowth^i
+  std::vector<double> influences;  // at nearest_m kGrowth^i
   double reach_m = nearest_m;
   for (double at_m = nearest_m;; at_m *= kGrowth) {
-    const double influence = mutual_influence(film, charge, at_m, accuracy);
-    squares.push_back(influence * influence);
+    influences.push_back(std::abs(mutual_influence(film, charge, at_m, accuracy)));
     reach_m = at_m;
-    if (at_m > kThicknesses * t_m || squares.back() < kNegligible * squares.front()) break;
+    if (at_m > kThicknesses * t_m || influences.back() < kNegligible * influences.front()) break;
   }
-  const auto square_at = [&](double distance_m) {
+  const auto influence_at = [&](double distance_m) {
     const double place = std::max(0.0, std::log(distance_m / nearest_m) / std::log(kGrowth));
-    const auto i = std::min(static_cast<std::size_t>(place), squares.size() - 1);
-    const auto next = std::min(i + 1, squares.size() - 1);
+    const auto i = std::min(static_cast<std::size_t>(place), influences.size() - 1);
+    const auto next = std::min(i + 1, influences.size() - 1);
     const double share = place - static_cast<double>(i);
-    return (1.0 - share) * squares[i] + share * squares[next];
+    return (1.0 - share) * influences[i] + share * influences[next];
   };
   const Neighbours near(points, reach_m);
   const std::size_t step = 1 + points.size() / kMostTried;
@@ -300,11 +299,11 @@ double influence_of_all(const LayeredFilm& film, const DiscCharge& charge,
     double sum = 0.0;
     near.visit(points[i].x_m, points[i].y_m, [&](std::size_t j) {
       if (j == i) return;
-      sum += square_at(std::hypot(points[j].x_m - points[i].x_m, points[j].y_m - points[i].y_m));
+      sum += influence_at(std::hypot(points[j].x_m - points[i].x_m, points[j].y_m - points[i].y_m));
     });
     largest = std::max(largest, sum);
   }
-  return largest;
+  return largest * largest;
 }
 
 }  // namespace viscard

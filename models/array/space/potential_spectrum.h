@@ -71,9 +71,10 @@ AxialField field_around(const PotentialSpectrum& spectrum);
 // is the relative change of each other's readings by electrodes without net charge.
 double mutual_influence(const LayeredFilm& film, const DiscCharge& charge, double distance_m,
                         const PotentialAccuracy& accuracy);
-// Of equal discs at these points, the largest sum over the others of the squares of p12/p11: what charges that are
-// induced on the discs, and there induce others, add to a voltage at most, relative. Of many points, some of every part
-// are tried.
+// Of equal discs at these points, the square of the largest sum over the others of p12/p11: what charges that are induced
+// on the discs, and there induce others, add to a voltage at most, relative to the largest one. (An induced charge
+// follows from the voltages around a disc, at most the sum, and adds to the voltages around it, at most the sum again.)
+// Of many points, some of every part are tried.
 double influence_of_all(const LayeredFilm& film, const DiscCharge& charge,
                         const std::vector<SourcePoint>& points, const PotentialAccuracy& accuracy);
 
