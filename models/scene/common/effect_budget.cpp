@@ -31,6 +31,11 @@ std::string percent(double share) {
   return text_of(is_large ? std::round(100.0 * share) : 100.0 * share, is_large ? 7 : 2) + " %";
 }
 
+// Forced off, and no error of the answer, because the scene declares another task with it.
+bool is_declared_off(const SceneEffect& effect) {
+  return effect.is_forced && !effect.on && !effect.is_counted;
+}
+
 // The decision without the budget.
 SceneEffect decided_by_role(const std::string& name, const EffectEstimate& estimate,
                             EffectChoice choice) {
@@ -118,6 +123,9 @@ void add_notes(const EffectDecisions& plan, double tolerance, SceneAnswer& answe
   for (const SceneEffect& effect : plan.effects) {
     if (effect.reason.ends_with(kChangesNothing))
       answer.notes.push_back(effect.name + " is forced on: " + effect.reason);
+    if (is_declared_off(effect))
+      answer.notes.push_back(effect.name + ": up to " + percent(effect.estimate) + "; " +
+                             effect.reason);
     if (!is_missing(effect) || effect.estimate <= tolerance) continue;
     const std::string number =
         effect.number.empty() ? "" : " (" + effect.number + " = " + percent(effect.value) + ")";
@@ -134,7 +142,7 @@ void add_notes(const EffectDecisions& plan, double tolerance, SceneAnswer& answe
 }  // namespace
 
 bool is_missing(const SceneEffect& effect) {
-  return !effect.on && !effect.is_counted && effect.estimate > 0.0;
+  return !effect.on && !effect.is_counted && !is_declared_off(effect) && effect.estimate > 0.0;
 }
 
 const SceneEffect* largest_not_computed(const SceneAnswer& answer) {
