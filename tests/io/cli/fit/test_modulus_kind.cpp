@@ -158,8 +158,12 @@ TEST_CASE("rows with gaps are counted, and the notes state how a table was read"
                                {"--youngs-modulus", "3 MPa"});
   CHECK(relative["E0_Pa"].get<double>() == Approx(3e6).epsilon(1e-3));
   CHECK_THAT(relative["notes"][0].get<std::string>(), Contains("--youngs-modulus"));
+  // A storage modulus shows a spectrum, a loss modulus alone leaves out what does not relax.
+  CHECK(has_flag(
+      fitted(folder.write("s.csv", "Frequency (Hz),Storage modulus (MPa)\n1,2\n2,3\n3,4\n")),
+      "storage-alone"));
   const CommandOutcome unknown = run_command(
-      {"fit", folder.write("s.csv", "Frequency (Hz),Storage modulus (MPa)\n1,2\n2,3\n3,4\n")});
+      {"fit", folder.write("l.csv", "Frequency (Hz),Loss modulus (MPa)\n1,2\n2,3\n3,4\n")});
   CHECK(unknown.status == kFailed);
   CHECK_THAT(unknown.err, Contains("tan delta") && !Contains("modulus_Pa=2"));
 }
