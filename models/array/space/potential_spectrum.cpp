@@ -274,7 +274,7 @@ double influence_of_all(const LayeredFilm& film, const DiscCharge& charge,
   constexpr double kThicknesses = 16.0;  // farther away the grounded face hides the charge
   constexpr double kNegligible = 1e-3;   // of the nearest pair's
   constexpr double kGrowth = 1.15;       // of the distances of the table
-  constexpr double kWider = 1.5;  // a load raises voltages around it farther out than a charge
+  constexpr double kWider = 12.0;  // found for two pillars with a small gap; below 1.6 for twelve
   constexpr std::size_t kMostTried = 2000;
   const double t_m = film.layers.front().thickness_m;
   const double nearest_m = nearest_distance_m(points, 2.0 * charge.radius_m());

@@ -73,7 +73,8 @@ double mutual_influence(const LayeredFilm& film, const DiscCharge& charge, doubl
                         const PotentialAccuracy& accuracy);
 // Of equal discs at these points, the square of the largest sum over the others of p12/p11: what charges that are induced
 // on the discs, and there induce others, add to a voltage at most, relative to the largest one. (An induced charge
-// follows from the voltages around a disc, at most the sum, and adds to the voltages around it, at most the sum again.)
+// follows from the voltages around a disc and adds to the voltages around it; a load raises them farther out than a charge,
+// which is a factor here.)
 // Of many points, some of every part are tried.
 double influence_of_all(const LayeredFilm& film, const DiscCharge& charge,
                         const std::vector<SourcePoint>& points, const PotentialAccuracy& accuracy);

@@ -71,7 +71,9 @@ ElectrodeCoupling electrode_coupling(const SpaceScene& scene) {
   const double all = coupling.error;
   coupling.is_on = true;
   coupling.settled = std::clamp(kUnsettled * tolerance / all, kLeast, kMost);
-  coupling.error = all * (coupling.settled + 2.0 * direction_spread(scene));
+  // Of many neighbours the bound is wide, because their loads and charges do not all add up.
+  const double others = std::clamp(static_cast<double>(scene.pillars.size()) - 1.0, 1.0, 8.0);
+  coupling.error = all * (coupling.settled + 2.0 * direction_spread(scene) / others);
   return coupling;
 }
 
