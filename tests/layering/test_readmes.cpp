@@ -24,7 +24,7 @@ std::string text_of(const fs::path& file) {
 
 // The pages of the root and README.md of all folders of ours, from the root.
 std::vector<fs::path> readmes() {
-  std::vector<fs::path> found{"README.md", "CONTRIBUTING.md"};
+  std::vector<fs::path> found{"README.md", "tests/CONTRIBUTING.md"};
   for (const char* folder : {"models", "fit", "rig", "io", "tests", "data"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
       if (entry.path().filename() == "README.md") {

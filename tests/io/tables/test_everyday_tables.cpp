@@ -133,7 +133,7 @@ TEST_CASE("clock times become seconds", "[io][csv]") {
   CHECK(times("Time (hh:mm)", {"00:01", "00:02"}) == Numbers{60.0, 120.0});
 }
 
-TEST_CASE("several tables in a file are told apart and chosen by number", "[io][csv]") {
+TEST_CASE("several tables in a file are listed and chosen by number", "[io][csv]") {
   const std::string below =
       "First\nTime (s),E (MPa)\n0,1\n1,2\n\nSecond\nTime (s),E (MPa)\n0,3\n1,4\n2,5\n";
   const CsvTable most = read(below);
