@@ -78,7 +78,8 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     moved.to_m = stage.position_m();
   } catch (const RigError& error) {
     if (!session.is_stage_connected() || !session.has_moved()) throw;
-    const double back_m = order.is_home ? stage.position_m() : std::min(moved.from_m, stage.position_m());
+    const double back_m =
+        order.is_home ? stage.position_m() : std::min(moved.from_m, stage.position_m());
     const SafeEnd end = session.make_safe(back_m, order.speed_m_s);
     throw RigError(std::string(error.what()) + ". The stage was stopped at " +
                    in_mm(stage.position_m()) + (end.trouble.empty() ? "" : "; " + end.trouble));

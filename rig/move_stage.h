@@ -10,14 +10,14 @@ namespace viscard {
 
 // A move that a person asks for, outside of any test.
 struct StageOrder {
-  double toward_m = 0.0;     // way toward the specimen; negative: away from it
+  double toward_m = 0.0;  // way toward the specimen; negative: away from it
   double speed_m_s = 0.2e-3;
-  double limit_N = 0.0;      // the stage stops when the force has changed by this; > 0
-  bool is_home = false;      // the controller's homing cycle, before any move
+  double limit_N = 0.0;  // the stage stops when the force has changed by this; > 0
+  bool is_home = false;  // the controller's homing cycle, before any move
 };
 
 struct StageMoved {
-  double from_m = 0.0, to_m = 0.0;                    // positions of the controller
+  double from_m = 0.0, to_m = 0.0;                   // positions of the controller
   double force_before_N = 0.0, force_after_N = 0.0;  // by the calibration, without a tare
   bool is_stopped_by_force = false;
 };

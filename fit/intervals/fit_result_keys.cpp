@@ -44,8 +44,7 @@ void show_term(ResultVisitor& v, const FitResult& fit, std::size_t i, const Modu
     show_intervals(v, {term.modulus_Pa_95, term.g_95, term.tau_s_95}, modulus);
   });
   v.object("combined_interval_95", "the same with the systematic parts, in quadrature", [&] {
-    show_intervals(v, i < fit.terms.size() ? combined_intervals(fit, i) : TermIntervals{},
-                   modulus);
+    show_intervals(v, i < fit.terms.size() ? combined_intervals(fit, i) : TermIntervals{}, modulus);
   });
 }
 

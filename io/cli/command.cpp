@@ -72,8 +72,9 @@ int dispatch(const Words& words, Streams& streams) {
   }
   if (words[0] == "--version") {
     if (std::find(words.begin(), words.end(), "--json") != words.end()) {
-      print_result({"viscard-version/1", {}},
-                   [](ResultVisitor& v) { v("program", "viscard", "viscard"); }, streams);
+      print_result(
+          {"viscard-version/1", {}}, [](ResultVisitor& v) { v("program", "viscard", "viscard"); },
+          streams);
     } else {
       streams.out << "viscard " VISCARD_VERSION "\n";
     }

@@ -256,7 +256,8 @@ RatioFit ratio_fit_from(const std::string& text, const std::string& name) {
   } catch (const Json::exception& error) {
     throw std::runtime_error(name + ": is not a complete joint fit: " + reason_of(error));
   } catch (const std::exception& error) {
-    throw std::runtime_error(name + ": is not a valid joint fit: " + failure_text(error, "reading it"));
+    throw std::runtime_error(name +
+                             ": is not a valid joint fit: " + failure_text(error, "reading it"));
   }
   if (!json.contains("common"))
     throw std::runtime_error(name +

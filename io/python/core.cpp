@@ -1,6 +1,6 @@
 // The compiled module viscard._core.
-#include "io/basics/words.h"
 #include "io/basics/failure_text.h"
+#include "io/basics/words.h"
 #include "io/flow/command_error.h"
 #include "io/options/option.h"
 #include "io/python/job.h"

@@ -22,9 +22,9 @@ namespace py = pybind11;
 
 // viscard design --require.
 PythonResult design_scene(const std::optional<std::string>& text, const std::string& path,
-                       const std::optional<std::string>& require_text,
-                       const std::string& require_path, std::optional<double> tolerance,
-                       const py::object& search_time, const py::object& progress) {
+                          const std::optional<std::string>& require_text,
+                          const std::string& require_path, std::optional<double> tolerance,
+                          const py::object& search_time, const py::object& progress) {
   const double search_s = quantity_from("search_time", search_time, "s").value_or(60.0);
   if (search_s < 0.0) {
     throw OptionError("search_time is " + fmt::format("{:g}", search_s) +
@@ -56,9 +56,8 @@ PythonResult design_of_spec(const std::string& path, const py::object& progress)
   const auto found = in_background({.progress = progress}, [=](Job& job) {
     const DesignSpec spec = read_design_spec(path);
     return std::make_shared<const Found>(Found{
-        spec, design_front(spec, [&](double done, const std::string& what) {
-          job.report(done, what);
-        })});
+        spec,
+        design_front(spec, [&](double done, const std::string& what) { job.report(done, what); })});
   });
   return {"viscard-design-front/1",
           {path},

@@ -1,5 +1,5 @@
-#include "io/flow/command_error.h"
 #include "io/basics/failure_text.h"
+#include "io/flow/command_error.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/test_words.h"
 #include "io/flow/words/fit_text.h"
@@ -61,8 +61,7 @@ py::dict outcome_dict(FitOutcome outcome) {
     return out;
   }
   const auto fitted = std::make_shared<const FittedFile>(std::move(*outcome.fitted));
-  out["result"] = PythonResult{"viscard-fit/1",
-                               std::move(outcome.inputs),
+  out["result"] = PythonResult{"viscard-fit/1", std::move(outcome.inputs),
                                [fitted](ResultVisitor& v) { show_keys(v, *fitted); },
                                [fitted] {
                                  std::ostringstream text;

@@ -29,9 +29,8 @@ py::dict cost_of_tests(const std::string& rig, const std::string& specimen,
     throw OptionError("at_most is " + fmt::format("{:g}", request.longest_s) +
                       " s; it must be positive, such as \"20 min\"");
   }
-  const auto study = in_background({}, [request](Job&) {
-    return std::make_shared<const TestStudy>(study_tests(request));
-  });
+  const auto study = in_background(
+      {}, [request](Job&) { return std::make_shared<const TestStudy>(study_tests(request)); });
   std::vector<std::string> inputs{rig, specimen};
   for (const auto& file : {test, guess, scene}) {
     if (file) inputs.push_back(*file);

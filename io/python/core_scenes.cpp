@@ -192,9 +192,8 @@ PythonResult plan_scene(const std::optional<std::string>& text, const std::strin
   const auto found = in_background({}, [=](Job& job) {
     const Scene scene = scene_of(text, path, tolerance, plausible).scene;
     const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
-    auto shown = std::make_shared<ShownPlan>(
-        ShownPlan{plan.effects, {}, plan.left_out, common(scene).tolerance,
-                  common(plan.reduced).tolerance});
+    auto shown = std::make_shared<ShownPlan>(ShownPlan{
+        plan.effects, {}, plan.left_out, common(scene).tolerance, common(plan.reduced).tolerance});
     job.report(0.5, "plan");
     try {
       shown->savings = effect_savings(scene);

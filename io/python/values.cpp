@@ -106,9 +106,10 @@ class PythonWriter : public ResultVisitor {
   void close() override { within_.pop_back(); }
 
  private:
-  static py::object text_of(const std::string& value) {  // messages may quote bytes that are not UTF-8
-    return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
-        value.data(), static_cast<py::ssize_t>(value.size()), "replace"));
+  static py::object text_of(
+      const std::string& value) {  // messages may quote bytes that are not UTF-8
+    return py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(value.data(), static_cast<py::ssize_t>(value.size()), "replace"));
   }
   void set(std::string_view key, const py::object& value) {
     within_.back()[py::str(key.data(), key.size())] = value;
@@ -117,9 +118,8 @@ class PythonWriter : public ResultVisitor {
 };
 
 py::object json_of(const PythonResult& result) {
-  nlohmann::ordered_json json{{"schema", result.schema},
-                              {"version", VISCARD_VERSION},
-                              {"inputs", result.inputs}};
+  nlohmann::ordered_json json{
+      {"schema", result.schema}, {"version", VISCARD_VERSION}, {"inputs", result.inputs}};
   json.update(json_from_keys(result.show));
   return to_python(json);
 }
@@ -145,9 +145,8 @@ void add_results(py::module_& module) {
   py::class_<PythonResult>(module, "Result")
       .def("json", &json_of)
       .def("values", [](const PythonResult& result) { return values_from_keys(result.show); })
-      .def("text", [](const PythonResult& result) {
-        return result.text ? result.text() : std::string();
-      });
+      .def("text",
+           [](const PythonResult& result) { return result.text ? result.text() : std::string(); });
 }
 
 }  // namespace viscard::python

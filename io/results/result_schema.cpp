@@ -91,8 +91,7 @@ class SchemaWriter : public ResultVisitor {
     add(key, schema, what);
   }
   void pair(std::string_view key, const Interval& /*value*/, const char* what) override {
-    add(key,
-        {{"type", "array"}, {"items", {{"type", kNumber}}}, {"minItems", 2}, {"maxItems", 2}},
+    add(key, {{"type", "array"}, {"items", {{"type", kNumber}}}, {"minItems", 2}, {"maxItems", 2}},
         what);
   }
   void numbers(std::string_view key, const std::vector<double>& /*values*/,
@@ -119,7 +118,8 @@ class SchemaWriter : public ResultVisitor {
     if (part == Part::kList) schema = {{"type", "array"}};
     if (part == Part::kMap) schema = {{"type", "object"}};
     if (part != Part::kEntry) schema["description"] = what;
-    frames_.push_back({part, std::string(key), std::move(schema), std::exchange(is_nullable_, false)});
+    frames_.push_back(
+        {part, std::string(key), std::move(schema), std::exchange(is_nullable_, false)});
   }
   void close() override {
     Frame done = std::move(frames_.back());

@@ -1,7 +1,7 @@
 #include "io/serve/rig_api.h"
 
-#include "io/basics/failure_text.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/failure_text.h"
 #include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
@@ -261,8 +261,9 @@ Json RigApi::run(std::size_t from, std::size_t keep_every) const {
   if (!state.trouble.empty()) {
     json["error"] = json_from_result(command_error(state.trouble_code, state.trouble));
   }
-  json["outcome"] = state.outcome ? json_from_result(CaptureOfSeries{.file = state.file, .run = state.outcome})
-                                  : Json(nullptr);
+  json["outcome"] =
+      state.outcome ? json_from_result(CaptureOfSeries{.file = state.file, .run = state.outcome})
+                    : Json(nullptr);
   json["points"] = {{"keep_every", points.keep_every},
                     {"from", points.from},
                     {"time_s", rounded(points.time_s, 1e-4)},

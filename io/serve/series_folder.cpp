@@ -1,7 +1,7 @@
 #include "io/serve/series_folder.h"
 
-#include "io/basics/failure_text.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/failure_text.h"
 #include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
 #include "io/flow/series_files.h"

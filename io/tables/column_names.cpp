@@ -438,9 +438,9 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const ColumnKin
     return HeaderMatch{3, *scale};
   }
   // The column phase of a capture holds words, an angle does not.
-  const bool is_text = !column.text.empty() &&
-                       std::all_of(column.values.begin(), column.values.end(),
-                                   [](double value) { return std::isnan(value); });
+  const bool is_text =
+      !column.text.empty() && std::all_of(column.values.begin(), column.values.end(),
+                                          [](double value) { return std::isnan(value); });
   if (is_text && !quantity.is_text && names_a_part(column.name)) return std::nullopt;
   // tau is a relaxation time, too.
   const bool is_tau = column.name == "tau" || column.name == "τ";

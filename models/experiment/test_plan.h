@@ -69,9 +69,9 @@ struct TestPlan {
   // not shown that it measures is brought no further than surface_margin_m beyond.
   double surface_m = 0.0;
   double surface_margin_m = 50e-6;
-  double contact_force_N = 0.01;   // force above the baseline that counts as contact
-  double gap_m = 20e-6;            // distance from contact before the ramp
-  double baseline_s = 10.0;        // recorded out of contact before the ramp, and after retract
+  double contact_force_N = 0.01;  // force above the baseline that counts as contact
+  double gap_m = 20e-6;           // distance from contact before the ramp
+  double baseline_s = 10.0;       // recorded out of contact before the ramp, and after retract
   // ramp and hold (protocol "ramp-hold")
   double depth_m = 0.13e-3;  // indentation of the specimen at the ramp's end
   double ramp_s = 1.0;       // from contact to full depth

@@ -74,8 +74,7 @@ class ResultVisitor {
   virtual void texts(std::string_view key, const std::vector<std::string>& values,
                      const char* what) = 0;
   virtual void flags(std::string_view key, const std::vector<bool>& values, const char* what) = 0;
-  virtual void matrix(std::string_view key, const Eigen::MatrixXd& values,
-                      const char* what) = 0;
+  virtual void matrix(std::string_view key, const Eigen::MatrixXd& values, const char* what) = 0;
   virtual void null(std::string_view key) = 0;
   // What follows up to close() are keys of the object or map `key`, entries of the list `key`, or (kEntry)
   // keys of the next entry of the list.
@@ -124,7 +123,8 @@ void ResultVisitor::operator()(std::string_view key, const Value& value, const c
   } else if constexpr (std::is_same_v<Value, Eigen::MatrixXd>) {
     matrix(key, value, what);
   } else if constexpr (IsOptional<Value>::value) {
-    when(value.has_value(), [&] { (*this)(key, value ? *value : typename Value::value_type{}, what); });
+    when(value.has_value(),
+         [&] { (*this)(key, value ? *value : typename Value::value_type{}, what); });
   } else if constexpr (IsVector<Value>::value) {
     if constexpr (std::is_integral_v<typename Value::value_type>) {
       wholes(key, {value.begin(), value.end()}, what);

@@ -47,10 +47,10 @@ FrameLoadCell::FrameLoadCell(Transport& transport, const LoadCellConfig& config,
 void FrameLoadCell::connect(const Pump& pump) {
   if (await_readings(pump, kFirstFrame_wall_s, false)) return;
   const std::string known = who_answers({frames_.skipped()});
-  throw RigError("no frame of '" + description_ + "' is in the bytes that came on '" +
-                 transport_.name() + "'; the newest are '" + shown_bytes(frames_.skipped()) +
-                 "'. " +
-                 (known.empty() ? "Check frame and baud under [load_cell] of the rig file" : known));
+  throw RigError(
+      "no frame of '" + description_ + "' is in the bytes that came on '" + transport_.name() +
+      "'; the newest are '" + shown_bytes(frames_.skipped()) + "'. " +
+      (known.empty() ? "Check frame and baud under [load_cell] of the rig file" : known));
 }
 
 void FrameLoadCell::service() {

@@ -37,13 +37,12 @@ void Hx711LoadCell::connect(const Pump& pump) {
       patience_ * (kFirstReading_wall_s + kPeriodsToLearn * period_s_ / clock_.speed());
   if (await_readings(pump, wall_s, true)) return;
   const std::string known = who_answers({learner_.newest_text()});
-  throw RigError("no line on '" + transport_.name() +
-                 "' could be read as a reading; the last one was '" +
-                 shown_bytes(learner_.newest_text()) + "'. " +
-                 (known.empty()
-                      ? "Set line_format in the rig file to counts, micros,counts, millis,counts "
-                        "or volts, or name the columns, such as -,counts"
-                      : known));
+  throw RigError(
+      "no line on '" + transport_.name() + "' could be read as a reading; the last one was '" +
+      shown_bytes(learner_.newest_text()) + "'. " +
+      (known.empty() ? "Set line_format in the rig file to counts, micros,counts, millis,counts "
+                       "or volts, or name the columns, such as -,counts"
+                     : known));
 }
 
 void Hx711LoadCell::service() {

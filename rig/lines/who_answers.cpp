@@ -11,7 +11,8 @@
 namespace viscard {
 namespace {
 
-constexpr const char* kNeeded = ", which this driver cannot use. The stage needs GRBL 1.1, grblHAL or Zaber ASCII";
+constexpr const char* kNeeded =
+    ", which this driver cannot use. The stage needs GRBL 1.1, grblHAL or Zaber ASCII";
 constexpr const char* kSwapped = ": are the ports of stage and load cell swapped in the rig file?";
 
 struct Speaker {
@@ -43,11 +44,12 @@ std::string lower(std::string text) {
 
 // Numbers with separators and a short unit at most, such as "8388607", "12.5 g" or "1042,-31".
 bool is_reading(const std::string& line) {
-  const auto n_digits = std::count_if(line.begin(), line.end(),
-                                      [](unsigned char c) { return std::isdigit(c) != 0; });
-  const auto n_letters = std::count_if(line.begin(), line.end(),
-                                       [](unsigned char c) { return std::isalpha(c) != 0; });
-  return n_digits >= 1 && n_digits > n_letters && line.find_first_of("<>[]{}@$") == std::string::npos;
+  const auto n_digits =
+      std::count_if(line.begin(), line.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  const auto n_letters =
+      std::count_if(line.begin(), line.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+  return n_digits >= 1 && n_digits > n_letters &&
+         line.find_first_of("<>[]{}@$") == std::string::npos;
 }
 
 }  // namespace
@@ -67,7 +69,8 @@ std::string who_answers(const std::vector<std::string>& lines) {
     n_ok += text == "ok" || text == "start" ? 1 : 0;
   }
   if (n == 0) return "";
-  if (n_ok == n) return std::string("This is a G-code controller that does not speak as GRBL") + kNeeded;
+  if (n_ok == n)
+    return std::string("This is a G-code controller that does not speak as GRBL") + kNeeded;
   if (2 * n_readings > n) return std::string("These are readings, as of a load cell") + kSwapped;
   return "";
 }

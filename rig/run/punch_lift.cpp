@@ -11,9 +11,10 @@ constexpr double kStandstill_wall_s = 10.0;  // longest wait for standstill
 constexpr double kLargestLift_m = 2e-3;      // one lift is at most this long, contact known or not
 constexpr double kOldReadings_wall_s = 1.0;  // longest wait for a reading made after the lift
 constexpr int kAttempts = 4;
-constexpr double kReopen_wall_s = 5.0;  // longest wait for a port; USB needs 1 to 3 s to list it again
+constexpr double kReopen_wall_s =
+    5.0;  // longest wait for a port; USB needs 1 to 3 s to list it again
 constexpr double kBlindSpeed_m_s = 0.2e-3;  // of a lift from a position that is not known
-constexpr double kFallen = 0.9;  // of the force before the lift
+constexpr double kFallen = 0.9;             // of the force before the lift
 
 }  // namespace
 
@@ -83,8 +84,9 @@ std::string PunchLift::lift(double share) {
           : std::min(from_m,
                      std::max(from_m - share * (from_m - options.retract_to_m), shortest_m));
   if (to_m < from_m) {
-    const double speed_m_s =
-        devices.is_position_lost() ? std::min(options.speed_m_s, kBlindSpeed_m_s) : options.speed_m_s;
+    const double speed_m_s = devices.is_position_lost()
+                                 ? std::min(options.speed_m_s, kBlindSpeed_m_s)
+                                 : options.speed_m_s;
     stage.begin_move(to_m, speed_m_s, "retract");
     const double deadline_s = clock.awake_s() + kStandstill_wall_s + (from_m - to_m) / speed_m_s;
     const double highest_N = before_N + options.pressing_N;

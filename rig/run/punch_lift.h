@@ -31,7 +31,8 @@ struct PunchLift {
   Pump pump;  // serves both devices
   Options options;
   double lifted_m = 0.0;  // so far
-  double pressed_m = std::numeric_limits<double>::infinity();  // the way to here, once the position is lost
+  double pressed_m =
+      std::numeric_limits<double>::infinity();  // the way to here, once the position is lost
 
   SafeEnd carry_out();
 

@@ -147,8 +147,9 @@ void refuse_drift(TestRun& run, const ForceMean& change) {
       "moved toward the specimen, set toward_specimen = " + std::to_string(-sign) +
       " under [stage] of the rig file (it is " + std::to_string(sign) +
       "); if it did lift, and a finger that presses on the cell lowers the force of 'viscard rig "
-      "check', set compression_is_positive = " + (is_positive ? "false" : "true") +
-      " under [load_cell] (it is " + (is_positive ? "true" : "false") + ")");
+      "check', set compression_is_positive = " +
+      (is_positive ? "false" : "true") + " under [load_cell] (it is " +
+      (is_positive ? "true" : "false") + ")");
 }
 
 // Lifts by the distance of [retract], and again until the force no longer falls in the last part of

@@ -94,7 +94,8 @@ void ZaberStage::recover(const Pump& pump) {
   polls_ = false;
   question_.reset();
   wait_for_rest(pump, kRest_wall_s);
-  identity_ = "Zaber, firmware " + ask("get version", pump);  // the port may have come back with another
+  identity_ =
+      "Zaber, firmware " + ask("get version", pump);  // the port may have come back with another
   ask("warnings clear", pump);
   if (flag_ == "FO" || flag_ == "FD") ask("driver enable", pump);
   ask_position(pump);

@@ -157,7 +157,8 @@ std::vector<SolverSample> frontistr_samples(const fs::path& folder, const DeckIn
     const fs::path path = folder / fmt::format("deck.res.0.{}", step);
     if (!fs::exists(path)) return samples;
     SolverSample sample;
-    if (read_frontistr_step(read_own_file(path), input.is_creep(), sample)) samples.push_back(sample);
+    if (read_frontistr_step(read_own_file(path), input.is_creep(), sample))
+      samples.push_back(sample);
   }
 }
 

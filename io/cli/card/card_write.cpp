@@ -93,8 +93,8 @@ CardOptions card_options(const CardWords& words, const PreparedMaterial& prepare
 }
 
 DescribedResult result_of_card() {
-  return {"card-write", "viscard card",
-          {[](ResultVisitor& v) { show_card(v, Card{}, CardWords{}); }}};
+  return {
+      "card-write", "viscard card", {[](ResultVisitor& v) { show_card(v, Card{}, CardWords{}); }}};
 }
 
 int write_card_file(const CardWords& words, Streams& streams) {
@@ -111,8 +111,9 @@ int write_card_file(const CardWords& words, Streams& streams) {
     write_file(words.out, card.text, words.force);
   }
   if (words.json) {
-    print_result({"viscard-card-write/1", {words.material}},
-                 [&](ResultVisitor& v) { show_card(v, card, words); }, streams);
+    print_result(
+        {"viscard-card-write/1", {words.material}},
+        [&](ResultVisitor& v) { show_card(v, card, words); }, streams);
     return kDone;
   }
   if (words.out.empty()) {

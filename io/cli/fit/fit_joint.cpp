@@ -103,8 +103,8 @@ int run_joint_fit(JointRequest request, const FitOutput& output, Streams& stream
   if (!output.json) print(fit, FittedText(streams));
   if (!output.file.empty()) write_file(output.file, json_from_ratio_fit(fit), output.overwrite);
   if (output.json) {
-    print_result({"viscard-joint/1", request.files}, [&](ResultVisitor& v) { show_keys(v, fit); },
-                 streams);
+    print_result(
+        {"viscard-joint/1", request.files}, [&](ResultVisitor& v) { show_keys(v, fit); }, streams);
   }
   return kDone;
 }

@@ -35,8 +35,9 @@ int run_completion(const Words& words, Streams& streams, const AskDocuments& doc
                        "viscard completion bash"};
   syntax.reads_quantities = false;
   syntax.positional.add("shell", &name, "the shell").such_as(shell_names());
-  syntax.results = {{"completion", "viscard completion SHELL",
-                     {[](ResultVisitor& v) { show_script(v, "", ""); }}}};
+  syntax.results = {{"completion", "viscard completion SHELL", {[](ResultVisitor& v) {
+                       show_script(v, "", "");
+                     }}}};
   if (!parse_words(syntax, words, streams)) return kDone;
   for (const Shell& shell : kShells) {
     if (name != shell.name) continue;

@@ -39,25 +39,24 @@ void show_list(ResultVisitor& v, const CommandDocuments& documents) {
 }
 
 void show_page(ResultVisitor& v, const std::string& page) {
-  v.when(!page.empty(),
-         [&] { v("manual_page", page, "source of the manual page, with --man"); });
+  v.when(!page.empty(), [&] { v("manual_page", page, "source of the manual page, with --man"); });
 }
 
 // Those of no command of their own, and of this one.
 std::vector<DescribedResult> common_results() {
-  DescribedResult error{"error", "any command that fails before it has a result",
+  DescribedResult error{"error",
+                        "any command that fails before it has a result",
                         {[](ResultVisitor& v) { v("error", CommandError{}, "why it failed"); }}};
   error.has_inputs = false;
   return {error,
-          {"version", "viscard --version",
-           {[](ResultVisitor& v) { v("program", "viscard", "viscard"); }}},
-          {"help", "viscard help COMMAND, viscard COMMAND --help",
-           {[](ResultVisitor& v) {
+          {"version", "viscard --version", {[](ResultVisitor& v) {
+             v("program", "viscard", "viscard");
+           }}},
+          {"help", "viscard help COMMAND, viscard COMMAND --help", {[](ResultVisitor& v) {
              show_keys(v, CommandSyntax{});
              show_page(v, "");
            }}},
-          {"commands", "viscard help",
-           {[](ResultVisitor& v) {
+          {"commands", "viscard help", {[](ResultVisitor& v) {
              show_list(v, {});
              show_page(v, "");
            }}}};

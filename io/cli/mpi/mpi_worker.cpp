@@ -65,9 +65,10 @@ class Dispatcher0 {
 Study study_of(const WorkerStart& start) {
   Study study = read_study(start.study_path);
   if (fingerprint_with_inputs(study) != start.fingerprint) {
-    throw std::runtime_error(start.study_path +
-                             ": this machine sees another study, scene, material or version of viscard than "
-                             "rank 0; use a folder that all machines share");
+    throw std::runtime_error(
+        start.study_path +
+        ": this machine sees another study, scene, material or version of viscard than "
+        "rank 0; use a folder that all machines share");
   }
   return study;
 }

@@ -262,8 +262,8 @@ int run_report(const Words& words, Streams& streams) {
   write_file(page, rendered.html, is_forced);
   const std::vector<std::string> defects = defects_of(input);
   const std::vector<std::string> disagreements = rubber_disagreements(input);
-  const WrittenReport written{page.string(), input.specimens, rendered.pictures.size(), pictures,
-                              defects, disagreements};
+  const WrittenReport written{page.string(), input.specimens, rendered.pictures.size(),
+                              pictures,      defects,         disagreements};
   const auto show = [&](ResultVisitor& v) { show_keys(v, written); };
   if (!print_result(syntax, {"viscard-report/1", given_words(syntax, {"files", "truth"})}, show,
                     streams)) {

@@ -124,8 +124,9 @@ void show_frame(ResultVisitor& v, const FrameStiffnessFit& fit, const CalibrateW
 
 void print(const FrameStiffnessFit& fit, const CalibrateWords& words, Streams& streams) {
   if (words.as_json) {
-    print_result({"viscard-calibrate-frame/1", inputs_of(words)},
-                 [&](ResultVisitor& v) { show_frame(v, fit, words); }, streams, -1);
+    print_result(
+        {"viscard-calibrate-frame/1", inputs_of(words)},
+        [&](ResultVisitor& v) { show_frame(v, fit, words); }, streams, -1);
     return;
   }
   streams.out << fmt::format("stiffness   {:.4g} N/mm, {:.4g} to {:.4g} (k = 2)\n",
@@ -143,8 +144,9 @@ void print(const FrameStiffnessFit& fit, const CalibrateWords& words, Streams& s
 }  // namespace
 
 DescribedResult result_of_frame() {
-  return {"calibrate-frame", "viscard calibrate --compliance",
-          {[](ResultVisitor& v) { show_frame(v, FrameStiffnessFit{}, CalibrateWords{}); }}};
+  return {"calibrate-frame", "viscard calibrate --compliance", {[](ResultVisitor& v) {
+            show_frame(v, FrameStiffnessFit{}, CalibrateWords{});
+          }}};
 }
 
 int calibrate_frame(const CalibrateWords& words, Streams& streams) {
@@ -155,7 +157,8 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
     return largest == points.force_N.end() ? 0.0 : gain_relative_u(rig.calibration, *largest);
   };
   if (words.data_file && looks_like_capture(*words.data_file)) {
-    const CapturedRun run = read_capture(*words.data_file, {.accepts_damage = words.accepts_unverified});
+    const CapturedRun run =
+        read_capture(*words.data_file, {.accepts_damage = words.accepts_unverified});
     for (const IntegrityNote& note : integrity_notes(run)) {
       streams.err << "viscard: " << *words.data_file << ": " << note.text << "\n";
     }

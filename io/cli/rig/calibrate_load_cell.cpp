@@ -263,8 +263,8 @@ WeightReadings readings_on_rig(const RigConfig& rig, const CalibrateWords& words
 }  // namespace
 
 DescribedResult result_of_load_cell() {
-  return {"calibrate", "viscard calibrate",
-          {[](ResultVisitor& v) { show_load_cell(v, {}, {}, ""); }}};
+  return {
+      "calibrate", "viscard calibrate", {[](ResultVisitor& v) { show_load_cell(v, {}, {}, ""); }}};
 }
 
 int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {

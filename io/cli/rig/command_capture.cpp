@@ -1,5 +1,5 @@
-#include "io/cli/rig/capture_summary.h"
 #include "io/basics/failure_text.h"
+#include "io/cli/rig/capture_summary.h"
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
@@ -30,7 +30,8 @@ struct SeriesResult {
 };
 
 void show_keys(ResultVisitor& v, const SeriesResult& series) {
-  v("runs", series.runs, "one for each capture, in their order, with the keys of viscard-capture/1");
+  v("runs", series.runs,
+    "one for each capture, in their order, with the keys of viscard-capture/1");
   v("reason", series.trouble, "why the series ended early; empty: it did not");
   v.when(!series.trouble.empty(), [&] {
     const auto last = series.runs.empty() ? std::nullopt : error_of(series.runs.back());
@@ -40,9 +41,9 @@ void show_keys(ResultVisitor& v, const SeriesResult& series) {
 }
 
 std::vector<DescribedResult> results_of_capture() {
-  return {described<CaptureOfSeries>("capture", "viscard capture, one test"),
-          described<SeriesResult>("capture-series",
-                                  "viscard capture, several specimens or touches")};
+  return {
+      described<CaptureOfSeries>("capture", "viscard capture, one test"),
+      described<SeriesResult>("capture-series", "viscard capture, several specimens or touches")};
 }
 
 CommandSyntax capture_syntax(CaptureWords& words) {
@@ -241,11 +242,13 @@ int run_capture(const Words& words, Streams& streams) {
   if (asked.as_json) {
     const Words inputs = given_words(syntax, {"rig", "test", "specimen", "truth"});
     if (steps.size() == 1) {
-      print_result({"viscard-capture/1", inputs},
-                   [&](ResultVisitor& v) { show_keys(v, result.runs.at(0)); }, streams, -1);
+      print_result(
+          {"viscard-capture/1", inputs}, [&](ResultVisitor& v) { show_keys(v, result.runs.at(0)); },
+          streams, -1);
     } else {
-      print_result({"viscard-capture-series/1", inputs},
-                   [&](ResultVisitor& v) { show_keys(v, result); }, streams, -1);
+      print_result(
+          {"viscard-capture-series/1", inputs}, [&](ResultVisitor& v) { show_keys(v, result); },
+          streams, -1);
     }
   }
   if (result.trouble.empty()) return kDone;

@@ -57,8 +57,9 @@ void show_check(ResultVisitor& v, const CaptureCheck& check, const std::string& 
 int verify(const std::string& capture, bool is_json, Streams& streams) {
   const CaptureCheck check = check_capture(capture);
   if (is_json) {
-    print_result({"viscard-export-verify/1", {capture}},
-                 [&](ResultVisitor& v) { show_check(v, check, capture); }, streams);
+    print_result(
+        {"viscard-export-verify/1", {capture}},
+        [&](ResultVisitor& v) { show_check(v, check, capture); }, streams);
   } else if (check.faults.empty()) {
     streams.out << capture << ": "
                 << (check.is_checked
@@ -98,11 +99,12 @@ int run_export(const Words& words, Streams& streams) {
                      "compare the capture with its checksums; writes no table");
   syntax.options.add("unverified", &reading.accepts_damage, kUnverifiedHelp);
   syntax.options.add("force", &overwrite, "replace an existing file");
-  syntax.results = {
-      {"export", "viscard export",
-       {[](ResultVisitor& v) { show_summary(v, CapturedRun{}, "", std::nullopt); }}},
-      {"export-verify", "viscard export --verify",
-       {[](ResultVisitor& v) { show_check(v, CaptureCheck{}, ""); }}}};
+  syntax.results = {{"export", "viscard export", {[](ResultVisitor& v) {
+                       show_summary(v, CapturedRun{}, "", std::nullopt);
+                     }}},
+                    {"export-verify", "viscard export --verify", {[](ResultVisitor& v) {
+                       show_check(v, CaptureCheck{}, "");
+                     }}}};
   if (!parse_words(syntax, words, streams)) return kDone;
   const bool is_json = syntax.as_json;
   if (verifies) {
@@ -121,8 +123,9 @@ int run_export(const Words& words, Streams& streams) {
     streams.out << table;
   }
   if (is_json) {
-    print_result({"viscard-export/1", {capture}},
-                 [&](ResultVisitor& v) { show_summary(v, run, capture, out); }, streams);
+    print_result(
+        {"viscard-export/1", {capture}},
+        [&](ResultVisitor& v) { show_summary(v, run, capture, out); }, streams);
   }
   for (const IntegrityNote& note : integrity_notes(run)) {
     streams.err << "viscard: " << capture << ": " << note.text << "\n";

@@ -103,8 +103,9 @@ int list_ports(const std::optional<RigConfig>& rig, const Words& inputs, bool as
   for (const std::string& path : present_ports()) found.ports.push_back(port_status(path));
   if (rig && has_own_port(rig->thermometer)) found.thermometer = read_thermometer(*rig);
   if (as_json) {
-    print_result({"viscard-rig-list/1", inputs}, [&](ResultVisitor& v) { show_keys(v, found); },
-                 streams, kOneLine);
+    print_result(
+        {"viscard-rig-list/1", inputs}, [&](ResultVisitor& v) { show_keys(v, found); }, streams,
+        kOneLine);
   } else {
     print_text(found, streams.out);
   }
@@ -143,8 +144,9 @@ int show_overshoot(bool as_json, Streams& streams) {
       study_overshoot({}, [&](double fraction) { progress.show(fraction, ""); });
   progress.clear();
   if (as_json) {
-    print_result({"viscard-rig-overshoot/1", {}}, [&](ResultVisitor& v) { show_keys(v, rows); },
-                 streams, kOneLine);
+    print_result(
+        {"viscard-rig-overshoot/1", {}}, [&](ResultVisitor& v) { show_keys(v, rows); }, streams,
+        kOneLine);
     return kDone;
   }
   FittedText fitting(streams);
@@ -198,7 +200,8 @@ CommandSyntax rig_syntax(RigWords& words) {
       "thermometer's of a rig file. check opens all devices of a rig file, identifies and measures "
       "them, and reports what to change; nothing moves. touch waits for a finger or a weight on a "
       "load cell whose readings show no noise, and writes the day into the rig file. jog moves the "
-      "stage toward the specimen or away from it, lift moves it 2 mm away; both stop when the force "
+      "stage toward the specimen or away from it, lift moves it 2 mm away; both stop when the "
+      "force "
       "has changed by --limit. home runs the homing cycle of the controller, which only the force "
       "limits of the rig file stop. overshoot "
       "shows how far the force goes beyond a limit, on the emulated rig.";
@@ -212,19 +215,21 @@ CommandSyntax rig_syntax(RigWords& words) {
       .of("m");
   syntax.options.add("away", &words.away_m, "jog, lift: way from the specimen, such as \"1 mm\"")
       .of("m");
-  syntax.options.add("speed", &words.speed_m_s, "jog, lift: speed").of("m/s").by_default("0.2 mm/s");
+  syntax.options.add("speed", &words.speed_m_s, "jog, lift: speed")
+      .of("m/s")
+      .by_default("0.2 mm/s");
   syntax.options
       .add("limit", &words.limit_N, "jog, lift: the stage stops when the force has changed by this")
       .of("N")
       .by_default("0.1 N");
-  syntax.results = {described<RigList>("rig-list", "viscard rig list"),
-                    described<RigCheck>("rig-check", "viscard rig check"),
-                    {"rig-touch", "viscard rig touch",
-                     {[](ResultVisitor& v) { show_touch(v, 0.0); }}},
-                    {"rig-move", "viscard rig jog",
-                     {[](ResultVisitor& v) { show_move(v, {}); }}},
-                    {"rig-overshoot", "viscard rig overshoot",
-                     {[](ResultVisitor& v) { show_keys(v, std::vector<OvershootRow>{}); }}}};
+  syntax.results = {
+      described<RigList>("rig-list", "viscard rig list"),
+      described<RigCheck>("rig-check", "viscard rig check"),
+      {"rig-touch", "viscard rig touch", {[](ResultVisitor& v) { show_touch(v, 0.0); }}},
+      {"rig-move", "viscard rig jog", {[](ResultVisitor& v) { show_move(v, {}); }}},
+      {"rig-overshoot", "viscard rig overshoot", {[](ResultVisitor& v) {
+         show_keys(v, std::vector<OvershootRow>{});
+       }}}};
   return syntax;
 }
 
@@ -245,8 +250,9 @@ int check_and_print(const RigWords& words, bool as_json, Streams& streams) {
   if (words.rig_file) add_calibration(rig, found);
   if (as_json) {
     const Words inputs = words.rig_file ? Words{*words.rig_file} : Words{};
-    print_result({"viscard-rig-check/1", inputs}, [&](ResultVisitor& v) { show_keys(v, found); },
-                 streams, kOneLine);
+    print_result(
+        {"viscard-rig-check/1", inputs}, [&](ResultVisitor& v) { show_keys(v, found); }, streams,
+        kOneLine);
   } else {
     print_text(found, FittedText(streams));
   }
@@ -269,8 +275,9 @@ int touch_and_write(const RigWords& words, bool as_json, Streams& streams) {
       &StopOnSignal::is_asked());
   if (file && !words.is_emulated) write_answer(*file, today());
   if (as_json) {
-    print_result({"viscard-rig-touch/1", file ? Words{*file} : Words{}},
-                 [&](ResultVisitor& v) { show_touch(v, force_N); }, streams, kOneLine);
+    print_result(
+        {"viscard-rig-touch/1", file ? Words{*file} : Words{}},
+        [&](ResultVisitor& v) { show_touch(v, force_N); }, streams, kOneLine);
   } else {
     streams.out << fmt::format("the load cell answered with {:.4f} N", force_N)
                 << (file && !words.is_emulated
@@ -304,7 +311,8 @@ StageOrder order_from(const RigWords& words) {
     throw UsageError(fmt::format("--speed is {} mm/s; it must be above 0 and at most {} mm/s",
                                  order.speed_m_s * 1e3, kFastest_m_s * 1e3));
   }
-  if (!(order.limit_N > 0.0)) throw UsageError("--limit must be a force above 0, such as \"0.1 N\"");
+  if (!(order.limit_N > 0.0))
+    throw UsageError("--limit must be a force above 0, such as \"0.1 N\"");
   order.toward_m = words.toward_m ? way_m : -way_m;
   return order;
 }
@@ -325,8 +333,9 @@ int move_and_print(const RigWords& words, bool as_json, Streams& streams) {
   const StopOnSignal on_signal;
   const StageMoved moved = move_rig_stage(rig, words.is_emulated, order, &StopOnSignal::is_asked());
   if (as_json) {
-    print_result({"viscard-rig-move/1", file ? Words{*file} : Words{}},
-                 [&](ResultVisitor& v) { show_move(v, moved); }, streams, kOneLine);
+    print_result(
+        {"viscard-rig-move/1", file ? Words{*file} : Words{}},
+        [&](ResultVisitor& v) { show_move(v, moved); }, streams, kOneLine);
   } else if (order.is_home) {
     streams.out << fmt::format("homed; the stage stands at {:.3f} mm\n", moved.to_m * 1e3);
   } else {
@@ -348,12 +357,13 @@ int run_rig(const Words& words, Streams& streams) {
   CommandSyntax syntax = rig_syntax(asked);
   if (!parse_words(syntax, words, streams)) return kDone;
   asked.plausible = given_plausible(syntax);
-  for (const std::string option : {"rig", "seconds", "emulate", "toward", "away", "speed", "limit"}) {
+  for (const std::string option :
+       {"rig", "seconds", "emulate", "toward", "away", "speed", "limit"}) {
     const bool is_of_move = option != "rig" && option != "seconds" && option != "emulate";
-    const bool belongs =
-        moves(asked) ? option != "seconds"
-                     : !is_of_move && (asked.what == "check" || asked.what == "touch" ||
-                                       (asked.what == "list" && option == "rig"));
+    const bool belongs = moves(asked)
+                             ? option != "seconds"
+                             : !is_of_move && (asked.what == "check" || asked.what == "touch" ||
+                                               (asked.what == "list" && option == "rig"));
     if (belongs || !is_given(syntax, option)) continue;
     throw UsageError("--" + option + " belongs to 'viscard rig " +
                      (is_of_move ? "jog'" : "check'"));

@@ -45,8 +45,9 @@ CommandSyntax serve_syntax(ServeOptions& options, std::string& folder) {
   add("seed", &options.seed, "seed of the emulated noise");
   add("speed", &options.speed,
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
-  syntax.results = {{"serve", "viscard serve, when the page can be opened",
-                     {[](ResultVisitor& v) { show_page(v, "", 0, ""); }}}};
+  syntax.results = {{"serve", "viscard serve, when the page can be opened", {[](ResultVisitor& v) {
+                       show_page(v, "", 0, "");
+                     }}}};
   return syntax;
 }
 

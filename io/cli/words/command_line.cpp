@@ -139,8 +139,8 @@ void set_all(const OptionList& options, const CommandSyntax& syntax) {
 void show_help(const CommandSyntax& syntax, Streams& streams) {
   if (streams.on_help) return streams.on_help(syntax);
   if (syntax.as_json) {
-    return print_result({"viscard-help/1", {}}, [&](ResultVisitor& v) { show_keys(v, syntax); },
-                        streams);
+    return print_result(
+        {"viscard-help/1", {}}, [&](ResultVisitor& v) { show_keys(v, syntax); }, streams);
   }
   streams.out << help_text(syntax, streams.columns, streams.is_out_coloured);
 }

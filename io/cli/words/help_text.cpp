@@ -4,7 +4,6 @@
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/terminal.h"
 
-
 #include <algorithm>
 #include <optional>
 #include <sstream>

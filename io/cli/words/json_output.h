@@ -4,7 +4,6 @@
 #include "io/cli/words/streams.h"
 #include "io/results/result_json.h"
 
-
 #include <functional>
 
 namespace viscard {

@@ -103,8 +103,7 @@ void show_keys(ResultVisitor& v, const ClosedFormDesign& d) {
   v("relative_sensitivity", concentration, "to a film without pillars");
   v("sensitivity_V_Pa", sensitivity_V_Pa(g.diameter_m, g.spacing_m, d.material, d.requirements),
     "volts for a pascal");
-  v("stress_concentration", concentration,
-    "pressure under a pillar over pressure on the sensor");
+  v("stress_concentration", concentration, "pressure under a pillar over pressure on the sensor");
 }
 
 std::string text_from_design(const ClosedFormDesign& d) {

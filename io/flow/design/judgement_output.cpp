@@ -128,7 +128,8 @@ void show_line(ResultVisitor& v, const JudgedLine& line, const std::function<voi
 void show_keys(ResultVisitor& v, const Judgement& judgement) {
   v.list("lines", "the requirements", judgement.lines, [&](const JudgedLine& line) {
     show_line(v, line, [&] {
-      v.list("remedies", "single dimensions that would pass, others fixed; the smallest change first",
+      v.list("remedies",
+             "single dimensions that would pass, others fixed; the smallest change first",
              line.remedies, [&](const Remedy& one) {
                v("error_estimate", one.found.error_estimate, "its error");
                v("from_m", one.from_m, "what the scene has");

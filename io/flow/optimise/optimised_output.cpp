@@ -20,23 +20,22 @@ std::string list_of(const std::vector<std::string>& words) {
 
 void show_lines(ResultVisitor& v, const OptimisedDesign& design) {
   std::size_t k = 0;
-  v.list("lines", "the requirements, as in viscard-design-judge/1", design.judgement.lines,
-         [&](const JudgedLine& line) {
-           show_line(v, line, [&] {
-             v("probability",
-               number_or_null(k < design.probabilities.size()
-                                  ? std::optional(design.probabilities[k])
-                                  : std::nullopt),
-               "that it holds under the uncertainties of the scene; null: not asked");
-           });
-           ++k;
-         });
+  v.list(
+      "lines", "the requirements, as in viscard-design-judge/1", design.judgement.lines,
+      [&](const JudgedLine& line) {
+        show_line(v, line, [&] {
+          v("probability",
+            number_or_null(k < design.probabilities.size() ? std::optional(design.probabilities[k])
+                                                           : std::nullopt),
+            "that it holds under the uncertainties of the scene; null: not asked");
+        });
+        ++k;
+      });
 }
 
 void show_design(ResultVisitor& v, const OptimisedDesign& design) {
   v("active", design.active, "limits and ends of ranges that hold it, or that stop every design");
-  v("feasible", design.is_feasible,
-    "whether all lines pass, with the probability that was asked");
+  v("feasible", design.is_feasible, "whether all lines pass, with the probability that was asked");
   show_lines(v, design);
   v.list("objectives", "at this design", design.objectives, [&](const DesignedObjective& one) {
     v("error_estimate", one.error_estimate, "absolute");

@@ -13,8 +13,7 @@ void show_errors(ResultVisitor& v, const ProtocolStudy& study, const ProtocolRow
   v.list("errors", "of the wanted quantities", row.errors, [&](const ErrorCauses& causes) {
     const bool is_given = i < row.errors.size();
     v("quantity", is_given ? study.wanted[i].name : "", "its name");
-    v("half_width_95", causes.half_width_95(),
-      "of its interval, relative, with systematic parts");
+    v("half_width_95", causes.half_width_95(), "of its interval, relative, with systematic parts");
     v("worst_half_width_95", is_given ? row.worst_half_width[i] : 0.0,
       "the largest over the doubt in the guess");
     v.object("standard_errors", "relative standard errors by cause", [&] {
@@ -83,8 +82,7 @@ void show_keys(ResultVisitor& v, const TestStudy& study) {
   v.list("rows", "the front and what is near it, by time", protocols.rows,
          [&](const ProtocolRow& row) { show_row(v, protocols, row); });
   v("tried", protocols.n_tried, "number of tests that were compared");
-  v("loses_terms", protocols.loses_terms,
-    "whether no test shows all terms of the guess clearly");
+  v("loses_terms", protocols.loses_terms, "whether no test shows all terms of the guess clearly");
   v.or_null("recommended", protocols.advised,
             "number in rows, from 0; null: no test fits into the time");
   v("meets_all", protocols.meets_all, "whether it meets all that is wanted");

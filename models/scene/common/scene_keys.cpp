@@ -87,9 +87,8 @@ void show_notes(ResultVisitor& v, const SceneAnswer& answer) {
 
 void show_results(ResultVisitor& v, const SceneAnswer& answer) {
   std::vector<SceneResult> results = answer.results;
-  std::stable_sort(results.begin(), results.end(), [](const SceneResult& a, const SceneResult& b) {
-    return a.name < b.name;
-  });
+  std::stable_sort(results.begin(), results.end(),
+                   [](const SceneResult& a, const SceneResult& b) { return a.name < b.name; });
   v.map("results", "by name", results, [&](const SceneResult& result) {
     v.object(result.name, "one result", [&] {
       v("error_estimate", result.error_estimate, "in unit");

@@ -140,23 +140,24 @@ TEST_CASE("constraints come from the command line or a file", "[cli]") {
   out.close();
   const std::string file = (folder / "c.txt").string();
   std::ofstream(file) << "# from the data sheet\ntau_1 = 0.82\n\ng_2 = 0:0.05\n";
-  const CommandOutcome ran =
-      run_command({"fit", table, "--terms", "2", "--constraints", file, "--plausible", "off", "--json"});
+  const CommandOutcome ran = run_command(
+      {"fit", table, "--terms", "2", "--constraints", file, "--plausible", "off", "--json"});
   INFO(ran.err);
   REQUIRE(ran.status == kDone);
   const auto json = nlohmann::json::parse(ran.out);
   CHECK(json["terms"][0]["tau_s"].get<double>() == Approx(0.82).epsilon(1e-10));
   CHECK(json["terms"][1]["g"].get<double>() <= 0.05 * (1.0 + 1e-9));
-  const CommandOutcome words = run_command(
-      {"fit", table, "--terms", "2", "--fix", "tau_1=0.82", "--bound", "g_2=0:0.05", "--plausible", "off",
-       "--json"});
+  const CommandOutcome words =
+      run_command({"fit", table, "--terms", "2", "--fix", "tau_1=0.82", "--bound", "g_2=0:0.05",
+                   "--plausible", "off", "--json"});
   auto of_words = nlohmann::json::parse(words.out), of_file = json;
   of_words.erase("input_files");  // the file of constraints is one of them
   of_file.erase("input_files");
   CHECK(of_words == of_file);
   CHECK(run_command({"fit", table, "--fix", "tau_1=0.9"}).status == kBadWords);
   CHECK(run_command({"fit", table, "--terms", "2", "--fix", "tau_1"}).status == kBadWords);
-  const CommandOutcome below = run_command({"fit", table, "--terms", "2", "--fix", "E0=0.9", "--plausible", "off"});
+  const CommandOutcome below =
+      run_command({"fit", table, "--terms", "2", "--fix", "E0=0.9", "--plausible", "off"});
   CHECK(below.status == kFailed);
   CHECK_THAT(below.err, Contains("contradict the data"));
   CHECK(run_command({"fit", table, "--terms", "2", "--fix", "E0=-1"}).status == kBadWords);

@@ -4,7 +4,6 @@
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
-
 #include <sys/wait.h>
 #include <unistd.h>
 

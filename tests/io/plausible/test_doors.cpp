@@ -184,7 +184,8 @@ TEST_CASE("a table in another unit is refused, and the advised words read it", "
   }
 }
 
-TEST_CASE("a table with a wrong unit is fitted with --plausible off, and the result says so", "[io][cli]") {
+TEST_CASE("a table with a wrong unit is fitted with --plausible off, and the result says so",
+          "[io][cli]") {
   const ScratchFolder folder;
   for (const Case& one : wrong_units()) {
     INFO(one.what);

@@ -63,8 +63,9 @@ TEST_CASE("JSON has the keys of a result in their order, null for what is not fi
 TEST_CASE("a schema refuses unknown keys, requires those of all examples and marks nulls", "[io]") {
   const nlohmann::ordered_json schema = schema_of(of_example());
   CHECK(schema.at("additionalProperties") == false);
-  CHECK(schema.at("required") == nlohmann::ordered_json::array({"schema", "version", "inputs", "rows",
-                                                         "cause", "counts", "interval_95"}));
+  CHECK(schema.at("required") ==
+        nlohmann::ordered_json::array(
+            {"schema", "version", "inputs", "rows", "cause", "counts", "interval_95"}));
   const auto& keys = schema.at("properties");
   CHECK(keys.at("schema").at("const") == "viscard-example/1");
   CHECK(keys.contains("E_Pa"));
@@ -73,7 +74,8 @@ TEST_CASE("a schema refuses unknown keys, requires those of all examples and mar
   const auto& row = keys.at("rows").at("items");
   CHECK(row.at("additionalProperties") == false);
   CHECK(row.at("required") == nlohmann::ordered_json::array({"value_m"}));
-  CHECK(row.at("properties").at("value_m").at("type") == nlohmann::ordered_json::array({"number", "null"}));
+  CHECK(row.at("properties").at("value_m").at("type") ==
+        nlohmann::ordered_json::array({"number", "null"}));
   CHECK(row.at("properties").at("number").at("type") == "integer");
   CHECK(keys.at("counts").at("additionalProperties").at("type") == "integer");
 }
@@ -88,6 +90,6 @@ TEST_CASE("the list of keys names the place, the type and what is not always the
         "example counts: object\n"
         "example interval_95: list\n"
         "example F_N?: number\n");
-  CHECK(table_of_keys({of_example()}).find(
-            "| `rows` | list | a list {`value_m`, `number`} |") != std::string::npos);
+  CHECK(table_of_keys({of_example()}).find("| `rows` | list | a list {`value_m`, `number`} |") !=
+        std::string::npos);
 }

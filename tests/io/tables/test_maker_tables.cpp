@@ -259,8 +259,8 @@ TEST_CASE("columns are shown with first values, and words that read them are pro
 TEST_CASE("proposed words follow the names within headers, not the order of the columns",
           "[io][csv]") {
   CHECK(proposed_words(read("Time,CalculatedValue,AdjustedForce\n0,1,5\n1,2,6\n")).empty());
-  CHECK(proposed_words(
-            read("Elapsed time,CalculatedValue,AdjustedForce,Raw_Displacement\n0,1,5,1\n1,2,6,2\n")) ==
+  CHECK(proposed_words(read(
+            "Elapsed time,CalculatedValue,AdjustedForce,Raw_Displacement\n0,1,5,1\n1,2,6,2\n")) ==
         "--column time_s=1 --column force_N=3 --column depth_m=4");
   // A value in Pa is no modulus beside a force and a depth with their names.
   CHECK(proposed_words(read("Time (s),CalculatedValue (kPa),AdjustedForce (N),Extension (mm)\n"

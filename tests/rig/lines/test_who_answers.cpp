@@ -1,5 +1,5 @@
-#include "rig/lines/who_answers.h"
 #include "rig/emulator/pty_port.h"
+#include "rig/lines/who_answers.h"
 #include "rig/protocols/grbl_protocol.h"
 #include "rig/stages/grbl_stage.h"
 #include "tests/rig/rig_fixture.h"
@@ -58,7 +58,8 @@ TEST_CASE("lines that tell nothing name no device", "[rig]") {
 
 TEST_CASE("a stage that speaks another protocol is quoted and named", "[rig][pty]") {
   const std::string marlin = error_of_grbl_on("start\r\necho:Marlin 2.1.2\r\n");
-  CHECK_THAT(marlin, Contains("It sent 'start', 'echo:Marlin 2.1.2'") && Contains("This is Marlin"));
+  CHECK_THAT(marlin,
+             Contains("It sent 'start', 'echo:Marlin 2.1.2'") && Contains("This is Marlin"));
   CHECK_THAT(error_of_grbl_on("ok\r\nok\r\n"), Contains("G-code controller"));
   CHECK_THAT(error_of_grbl_on("123456\r\n123460\r\n"), Contains("swapped"));
   CHECK_THAT(error_of_grbl_on(""), Contains("Is this the stage's port"));

@@ -371,7 +371,8 @@ TEST_CASE("a database that is not the store of a study is not changed", "[cli][s
   CHECK_FALSE(std::filesystem::exists(other + "-wal"));
 }
 
-TEST_CASE("a second sweep into the same file is refused until the first has ended", "[cli][scene][sweep]") {
+TEST_CASE("a second sweep into the same file is refused until the first has ended",
+          "[cli][scene][sweep]") {
   const FilmStudy files;
   const StudyLock first(files.store, nullptr);
   const CommandOutcome outcome = files.sweep({"--out", files.store});
