@@ -48,10 +48,9 @@ PronySeries series_from_creep(const SpectralModel& model, const SpectralState& s
 [[noreturn]] void refuse_without_E0() {
   throw std::runtime_error(
       "the record shows no instantaneous compliance (it begins at zero), so E0 of a series of "
-      "terms "
-      "would be infinite. For creep by a power of time, as of soft gels and cells, add --model "
-      "springpot; otherwise start the record earlier after the step, or give fewer terms with "
-      "--terms");
+      "terms would be infinite. For creep by a power of time, as of soft gels and cells, add "
+      "--model springpot; otherwise start the record earlier after the step, or give fewer terms "
+      "with --terms");
 }
 
 FitResult fit_creep_as(std::span<const double> time_s, std::span<const double> compliance_1_Pa,
@@ -166,8 +165,7 @@ FitResult fit_stress_history(const CreepData& data, const FitOptions& options) {
   if (options.keep_rows) {
     throw std::runtime_error(
         "creep under a stress that changes cannot be fitted together with other tests; fit it "
-        "alone, "
-        "or choose the rows of one constant stress with --from and --to");
+        "alone, or choose the rows of one constant stress with --from and --to");
   }
   const std::optional<TimeRounding> rounding = time_rounding(data.time_s);
   const bool is_spread = rounding && !rounding->time_s.empty();

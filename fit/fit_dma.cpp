@@ -134,9 +134,8 @@ void report_slow_dashpot(FitResult& result) {
            " Pa, and the loss modulus falls as one over the frequency, as with a dashpot of " +
            text_of(slowest.modulus_Pa * slowest.tau_s, 3) +
            " Pa s in series: relaxation slower than the measured frequencies. The slowest term "
-           "stands "
-           "for it. Part of the plateau may be an equilibrium modulus, so the interval of E_inf "
-           "reaches from 0 to the plateau. Lower frequencies would decide it"});
+           "stands for it. Part of the plateau may be an equilibrium modulus, so the interval of "
+           "E_inf reaches from 0 to the plateau. Lower frequencies would decide it"});
 }
 
 // What a fit says about E_inf = 0 is less sure beside a slow dashpot.
@@ -231,10 +230,9 @@ void report_storage_alone(FitResult& result) {
   result.flags.push_back(
       {"storage-alone", 0,
        "only the storage modulus was given. It cannot show relaxation slower than the lowest "
-       "frequency, "
-       "which adds a constant as E_inf does (the interval of E_inf includes that), nor relaxation "
-       "faster than the highest, which E0 lacks, nor a dashpot; and it cannot be checked against "
-       "the "
+       "frequency, which adds a constant as E_inf does (the interval of E_inf includes that), nor "
+       "relaxation faster than the highest, which E0 lacks, nor a dashpot; and it cannot be "
+       "checked against the "
        "loss modulus (Kramers-Kronig). Losses that follow from this result are those of its terms "
        "alone. Export the loss modulus or the phase as well"});
 }

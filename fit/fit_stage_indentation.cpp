@@ -223,8 +223,7 @@ Preparation prepared(const IndentationData& data, const AveragedRun& run,
     if (path.empty()) {
       throw std::runtime_error(
           "no model fits these readings: every fitted modulus is zero or not finite. Check the "
-          "sign "
-          "of the force, the calibration and the moves of the capture");
+          "sign of the force, the calibration and the moves of the capture");
     }
     const SpectralState& state = path.back();
     now.start = state.nuisance;

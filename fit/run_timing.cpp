@@ -78,8 +78,7 @@ RunTiming timing_from_capture(const CapturedRun& run) {
   for (const CommandedMove& move : run.moves) timing.move_start_s.push_back(move.move.start_time_s);
   timing.description =
       "time_s is the time of the reading on the clock that the fit uses; the moves in contact "
-      "start "
-      "when the force shows it";
+      "start when the force shows it";
   try {
     fit_starts(run, timing);
   } catch (const std::exception& error) {

@@ -214,8 +214,7 @@ void flag_time_zero(const RecordNotes& notes, FitResult& result) {
   const std::string answer =
       notes.counts_from_first
           ? "E0 is the modulus at the first row; the times count from half a step before it. If "
-            "the "
-            "record was cropped, the modulus at t = 0 is higher, and unknown"
+            "the record was cropped, the modulus at t = 0 is higher, and unknown"
           : "The modulus at the first row is " + number(result.first->modulus_Pa) +
                 ". If the record was cropped, E0 is an extrapolation from it";
   add_defect(result, "time-zero-doubtful",

@@ -104,8 +104,7 @@ SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, dou
   slow.batch_inflation = most;
   slow.doubt +=
       ": the record is short for such noise. Intervals are widened to what means of a fortieth to "
-      "a "
-      "tenth of it imply, and are rough";
+      "a tenth of it imply, and are rough";
   return slow;
 }
 

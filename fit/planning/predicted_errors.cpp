@@ -26,8 +26,7 @@ StageNoise noise_of(const RigPerformance& performance, double stiffness_N_m) {
     throw std::invalid_argument(
         "the noise of the rig is not known. Give noise = \"0.5 mN\" (the standard deviation of one "
         "reading at rest) under [performance] of the rig file; viscard rig check and viscard "
-        "capture "
-        "report it");
+        "capture report it");
   }
   StageNoise noise;
   noise.resting_N = performance.noise_N;

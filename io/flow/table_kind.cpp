@@ -22,9 +22,8 @@ namespace {
     throw std::runtime_error(
         table.file +
         ": an oscillation needs frequencies and the storage modulus, better two of storage "
-        "modulus, loss "
-        "modulus, tan delta and phase (or |E*|, |G*| or the complex viscosity with one of the last "
-        "two), because one of them does not determine the other" +
+        "modulus, loss modulus, tan delta and phase (or |E*|, |G*| or the complex viscosity with "
+        "one of the last two), because one of them does not determine the other" +
         columns);
   }
   const std::string words = proposed_words(table);

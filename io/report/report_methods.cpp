@@ -76,9 +76,8 @@ void add_methods(Page& page, const ReportInput& input) {
       "The joint fit is a multivariate meta-regression of the specimens' parameters on the mixing "
       "ratio, with one variance between specimens for each kind of parameter (van Houwelingen, "
       "Arends and Stijnen, 2002). Repeated touches are first pooled to their specimen. The "
-      "variances "
-      "between touches, specimens and ratios are restricted maximum likelihood estimates of a "
-      "nested "
+      "variances between touches, specimens and ratios are restricted maximum likelihood estimates "
+      "of a nested "
       "random model (Patterson and Thompson, 1971), with intervals from its profile.");
 }
 

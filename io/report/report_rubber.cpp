@@ -165,8 +165,7 @@ std::vector<std::string> rubber_disagreements(const ReportInput& input) {
     if (one.overlaps) continue;
     lines.push_back(
         fmt::format("{} and {} disagree on {} at rest: {} Pa and {} Pa ({:+.2g} %), and their 95 % "
-                    "intervals do "
-                    "not overlap",
+                    "intervals do not overlap",
                     estimates[one.specimen].label, input.rubbers[one.rubber].name, one.which,
                     text_of(one.linear.value, 4), text_of(one.large_strain.value, 4),
                     100.0 * relative_difference(one)));

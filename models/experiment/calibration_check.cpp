@@ -82,9 +82,8 @@ std::optional<CalibrationFault> calibration_fault(const LoadCellCalibration& cal
         "volts_per_newton",
         "the gain is negative, " + text_of(gain, 4) + (span.is_in_newton ? "" : " V/N") +
             ": the reading falls when the load rises. Swap the two signal wires of the cell, or "
-            "turn the "
-            "sign of the readings; a cell that the specimen presses to its negative side has a "
-            "positive gain "
+            "turn the sign of the readings; a cell that the specimen presses to its negative side "
+            "has a positive gain "
             "and compression_is_positive = false under [load_cell] of the rig file"};
   }
   if (calibration.largest_force_N > (1.0 + kRounding) * calibration.capacity_N) {
@@ -112,8 +111,7 @@ std::string frame_fault(const FrameConfig& frame) {
   if (!(stiffness_N_m >= kSoftest_N_m && stiffness_N_m <= kStiffest_N_m)) {
     return "the stiffness of the frame is " + text_of(stiffness_N_m, 4) +
            " N/m; expected 100 N/m to 1e9 N/m, such as \"10 N/mm\". Is a column or a key a "
-           "thousand "
-           "times off (mm for m)?";
+           "thousand times off (mm for m)?";
   }
   if (frame.stiffness_relative_u < 1.0) return {};
   return "the stiffness of the frame has a relative standard uncertainty of " +

@@ -45,8 +45,7 @@ std::string nothing_touched_text(const TestRun& run) {
   const int sign = run.rig.stage.toward_specimen;
   return "nothing was touched within " + text_from_number(run.plan.approach_limit_m * 1e3, 2) +
          " mm. If the punch came nearer, bring it nearer to the specimen before the start, or "
-         "raise "
-         "limit under [approach] of the test file. If it moved away, set toward_specimen = " +
+         "raise limit under [approach] of the test file. If it moved away, set toward_specimen = " +
          std::to_string(-sign) + " under [stage] of the rig file (it is " + std::to_string(sign) +
          "). If it did not move at all, the motor is dead: check its supply, its cable and the "
          "enable input of its driver";

@@ -271,8 +271,7 @@ std::string remedy_for_slow_readings(const LoadCellConfig& cell) {
   if (cell.driver == "hx711") return "set its rate to 80/s (RATE pin of the HX711 high)";
   if (cell.driver == "adc" || cell.driver == "adc-frames") {
     return "let the board convert at 80/s or faster (ADS1256: DRATE; ADS1232: SPEED pin high; "
-           "NAU7802: "
-           "setSampleRate) and print every reading";
+           "NAU7802: setSampleRate) and print every reading";
   }
   if (cell.driver == "scpi") {
     return "set the multimeter's interface to its highest baud rate and 1 power line cycle or less";

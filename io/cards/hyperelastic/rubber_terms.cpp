@@ -47,27 +47,22 @@ struct TermsRule {
 constexpr std::array<TermsRule, 11> kTermsRules{{
     {"abaqus", true, false, 0,
      "the law at once, g_i of its deviator, constant bulk modulus, tau_i; Simo's rule at large "
-     "strain "
-     "(Theory Guide 4.8.2), not run"},
+     "strain (Theory Guide 4.8.2), not run"},
     {"ansys", true, false, 100,
      "the law at once, g_i of its deviator, constant bulk modulus, tau_i; NOT CHECKED: no public "
-     "text "
-     "with its rule at large strain was found"},
+     "text with its rule at large strain was found"},
     {"febio", true, false, 6,
      "the law at once with g0 = 1 - sum g, g_i, t_i = tau_i, constant bulk modulus; Simo's rule at "
      "large strain, run in FEBio 4.11 with Ogden"},
     {"openradioss", true, false, 50,
      "LAW62: the law at once, gamma_i = g_i of its deviator, tau_i; Simo's rule at large strain "
-     "(its "
-     "source), not run"},
+     "(its source), not run"},
     {"lsdyna", true, true, 12,
      "approximated: the law after all relaxation and shear moduli G_i = g_i G_0 with BETA_i = "
-     "1/tau_i, "
-     "right at small strain; NOT CHECKED at large strain, where it is not the fitted law"},
+     "1/tau_i, right at small strain; NOT CHECKED at large strain, where it is not the fitted law"},
     {"sfepy", true, false, 0,
      "the law at once, g_i of its deviator, tau_i; SfePy has no memory: class Memory integrates "
-     "Simo's "
-     "rule in numpy"},
+     "Simo's rule in numpy"},
     {"calculix", false, false, 0, "ccx has no Prony series beside *HYPERELASTIC and ignores one"},
     {"comsol", false, false, 0, "the parameters are those of the law alone"},
     {"frontistr", false, false, 0,

@@ -175,13 +175,11 @@ CardTarget abaqus_table_target() {
                                        read_abaqus_table);
   target.advice =
       "Use *STEADY STATE DYNAMICS, DIRECT (or SUBSPACE PROJECTION). The first two columns of a row "
-      "are "
-      "G''/G_inf and 1 - G'/G_inf, the next two those of K.";
+      "are G''/G_inf and 1 - G'/G_inf, the next two those of K.";
   target.cannot_represent = "tests in time, and frequencies outside the table";
   target.conventions =
       "long-term E, nu; rows Re(wg*) = G''/G_inf, Im(wg*) = 1 - G'/G_inf, the same of K, frequency "
-      "in cycles "
-      "per time";
+      "in cycles per time";
   target.values = abaqus_table_values;
   target.rows_per_decade = 20;
   target.band_note = table_note;

@@ -161,8 +161,7 @@ std::string calculix_step_note(const Material& material) {
   }
   return fmt::format(
       "First order in the time step: with increments of {:g} s (the shortest tau/{:g}) E(t) after "
-      "a "
-      "jump is off by up to {:.1e}; half the increment, half the error.",
+      "a jump is off by up to {:.1e}; half the increment, half the error.",
       shortest_s / kSteps, kSteps, worst);
 }
 

@@ -176,9 +176,8 @@ CardTarget frontistr_target() {
       .evidence_note = "FrontISTR 5.9 on one element, relaxation and creep",
       .advice =
           "Needs !SOLUTION, TYPE=NLSTATIC and !STEP, TYPE=VISCO; each such step adds its "
-          "prescribed "
-          "displacements again. INFINITESIMAL: small strain; without it the formulation is total "
-          "Lagrangian."};
+          "prescribed displacements again. INFINITESIMAL: small strain; without it the formulation "
+          "is total Lagrangian."};
 }
 
 }  // namespace viscard

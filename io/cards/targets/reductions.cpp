@@ -37,9 +37,8 @@ std::string band_refusal(const CardBody& body) {
   if (reduced.storage_change <= kWorstStorageChange) return "";
   return fmt::format(
       "from {:g} to {:g} Hz the storage modulus of this material grows {:.3g} times, so one "
-      "Young's "
-      "modulus is up to {:.3g} % wrong; name a narrower --band, choose a target that takes the "
-      "whole series or a table, or pass --approximate to write it all the same",
+      "Young's modulus is up to {:.3g} % wrong; name a narrower --band, choose a target that takes "
+      "the whole series or a table, or pass --approximate to write it all the same",
       body.band().from_Hz, body.band().to_Hz, reduced.storage_ratio,
       100.0 * reduced.storage_change);
 }

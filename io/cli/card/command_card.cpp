@@ -69,8 +69,7 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       .shown_as("CARD");
   add("verify", &words.verify,
       "compare every SHA-256 that a card or a certificate states: of itself, of the card, of the "
-      "material "
-      "file and of the raw data")
+      "material file and of the raw data")
       .shown_as("CARD_OR_CERTIFICATE");
   add("import", &words.import_to,
       "read CARD, named in the place of the material, and write what it states as a material file, "
@@ -84,8 +83,7 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       .such_as(solver_names());
   add("solver-path", &words.solver_path,
       "with --prove: the program, if it is not in PATH; of OpenRadioss its starter, with the "
-      "engine "
-      "and th_to_csv beside it")
+      "engine and th_to_csv beside it")
       .shown_as("PATH");
   add("deck", &words.deck,
       "relaxation or creep: write a one-element model with the expected curve beside it")

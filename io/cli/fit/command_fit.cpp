@@ -96,8 +96,7 @@ CommandSyntax fit_syntax(FitCommand& command) {
   options
       .add("csv", &command.csv,
            "write a table here: of one file its data, fit, residuals and weights; of several files "
-           "one "
-           "row each with moduli, intervals and flags")
+           "one row each with moduli, intervals and flags")
       .only_typed();
   options
       .add("svg", &command.svg,

@@ -27,9 +27,8 @@ SweepProgram described_program(double& lost_after_s) {
       "Answers the points of a study as viscard sweep does, on all ranks that mpirun or srun has "
       "started. Rank 0 hands out one point after the other and keeps each answer as it arrives, in "
       "a file that viscard sweep reads, too; the answers are the same bit for bit. A sweep that "
-      "was "
-      "stopped continues where it was. A rank that dies ends all others, unless mpirun was called "
-      "with --enable-recovery: then others answer its point.",
+      "was stopped continues where it was. A rank that dies ends all others, unless mpirun was "
+      "called with --enable-recovery: then others answer its point.",
       "mpirun -n 2 viscard-mpi sweep data/studies/pillar.toml --out study.sqlite --csv study.csv"};
   program.add_options = [&lost_after_s](OptionList& options) {
     options.add("lost-after", &lost_after_s, "a rank that is silent for so long counts as lost")

@@ -55,9 +55,8 @@ CommandSyntax capture_syntax(CaptureWords& words) {
       "Ctrl-C stops the stage, lifts the punch and keeps the record. Several --specimen options "
       "make\n"
       "a series: --out is then a folder, and --resume captures what is not finished in it. "
-      "--repeat "
-      "touches each specimen several times; viscard fit --joint then separates the scatter of "
-      "touches "
+      "--repeat touches each specimen several times; viscard fit --joint then separates the "
+      "scatter of touches "
       "from that of specimens.";
   syntax.example = "viscard capture --emulate --speed 50 --out run.viscap";
   const auto add = [&](const char* name, OptionTarget target, const char* what) -> Option& {
@@ -72,8 +71,7 @@ CommandSyntax capture_syntax(CaptureWords& words) {
       "skip finished captures, repeat interrupted ones in files beside them");
   add("repeat", &words.repeats,
       "touch each specimen this many times, with a new contact each time; --out is then a folder, "
-      "and "
-      "the touches in it are numbered on");
+      "and the touches in it are numbered on");
   add("lift-wait", &words.lift_wait_s,
       "how long the punch stays lifted between two touches, such as \"60 s\" (default)")
       .of("s");

@@ -201,9 +201,8 @@ CommandSyntax rig_syntax(RigWords& words) {
       "them, and reports what to change; nothing moves. touch waits for a finger or a weight on a "
       "load cell whose readings show no noise, and writes the day into the rig file. jog moves the "
       "stage toward the specimen or away from it, lift moves it 2 mm away; both stop when the "
-      "force "
-      "has changed by --limit. home runs the homing cycle of the controller, which only the force "
-      "limits of the rig file stop. overshoot "
+      "force has changed by --limit. home runs the homing cycle of the controller, which only the "
+      "force limits of the rig file stop. overshoot "
       "shows how far the force goes beyond a limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";
   syntax.positional.add("what", &words.what, "what to do")

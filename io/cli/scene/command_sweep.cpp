@@ -70,8 +70,7 @@ const SweepProgram& on_all_cores() {
       "Answers a scene at many values of its parameters, on all cores: every combination of lists "
       "and ranges, or points of a Sobol' sequence. Each point is kept as it ends, so that a sweep "
       "that was stopped, also by kill -9, continues where it was. Parts of a sweep may run on "
-      "other "
-      "machines (--shard) and be merged; viscard-mpi answers one on many machines at once.",
+      "other machines (--shard) and be merged; viscard-mpi answers one on many machines at once.",
       "viscard sweep data/studies/pillar.toml --out study.sqlite --csv study.csv", nullptr,
       [](const SweepJob& job) {
         return run_study(job.study, job.shard, job.store, job.progress, job.judged);

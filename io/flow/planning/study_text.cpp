@@ -75,8 +75,7 @@ std::vector<std::string> limits_of(const TestStudy& study) {
   if (protocols.loses_terms) {
     limits.push_back(
         "no test shows all terms of the guess clearly: the fit may find fewer, and then its errors "
-        "are "
-        "not those shown");
+        "are not those shown");
   }
   double slowest_s = 0.0;
   for (const MaterialTerm& term : study.guess.terms) slowest_s = std::max(slowest_s, term.tau_s);

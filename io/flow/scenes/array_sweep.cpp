@@ -129,8 +129,7 @@ class SpacingLimit {
     const Deviation& again = all_[settled - 1];
     std::string note = fmt::format(
         "the deviation{} is below {:g} % at {:.4g} um only because it changes sign there; it is "
-        "{:.2g} "
-        "% at {:.4g} um",
+        "{:.2g} % at {:.4g} um",
         at, limit_percent_, 1e6 * all_[first].spacing_m, again.percent, 1e6 * again.spacing_m);
     if (settled == all_.size()) {
       note += ", and no spacing of the sweep is known to be wide enough";

@@ -397,8 +397,7 @@ StudyLock::StudyLock(std::filesystem::path path, std::function<void(const std::s
     throw std::runtime_error(
         path_.string() +
         ": another sweep is answering its points; wait for it to end, then the same command goes "
-        "on. "
-        "To share the work, give each a file of its own with --shard, and --merge them");
+        "on. To share the work, give each a file of its own with --shard, and --merge them");
   }
   watch_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }

@@ -171,8 +171,7 @@ TouchCourse settled_course(const SpaceScene& scene) {
 
 std::string note_of_shrinking(const TouchCourse& course) {
   return "contact shrinks in this touch, which is followed step by step; maps and single values "
-         "are "
-         "those of the largest force, at " +
+         "are those of the largest force, at " +
          text_of(course.time_s[course.shown_at], 4) + " s";
 }
 

@@ -149,8 +149,8 @@ void run_large(const PillarScene& scene, SceneAnswer& answer) {
 std::string at_once_note(const PillarScene& scene, const PillarScene& reduced) {
   if (scene.pillar.terms.empty() || !is_large(reduced)) return "";
   return "large strain is that of the law of rubber at once, right after loading; the relaxation "
-         "of its "
-         "file does not count here (creep, relaxation and vibration have it, at small strain)";
+         "of its file does not count here (creep, relaxation and vibration have it, at small "
+         "strain)";
 }
 
 std::vector<SectionGrid> large_fields(const PillarScene& scene, const Discretisation& mesh) {
