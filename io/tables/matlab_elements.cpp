@@ -1,4 +1,4 @@
-#include "io/tables/matlab_elements.h"
+#include "io/tables/matlab_file.h"
 
 #include <zlib.h>
 

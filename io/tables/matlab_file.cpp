@@ -3,7 +3,6 @@
 #include "io/basics/number_text.h"
 #include "io/basics/words.h"
 #include "io/tables/hdf5_file.h"
-#include "io/tables/matlab_elements.h"
 
 #include <matio.h>
 #include <sys/mman.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/tables/csv_column.h"
 #include "io/tables/csv_dialect.h"
+#include "io/tables/csv_table.h"
 #include "io/tables/line_numbers.h"
 
 #include <cstddef>

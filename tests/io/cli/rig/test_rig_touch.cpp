@@ -1,7 +1,7 @@
 // viscard rig touch, faults of the emulated rig on the command line, and doubts that come first.
 #include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
-#include "io/flow/touch_rig.h"
+#include "io/flow/rig_actions.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "models/experiment/rig_config.h"
+#include "rig/move_stage.h"
+#include "rig/rig_check.h"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+
+// What is done with a rig outside of a run: check it, wait for a finger, move its stage. Each opens the devices of a rig
+// file, or an emulated rig in their place, and throws RigError for a port that cannot be opened and for wrong words of
+// the rig file.
+namespace viscard {
+
+// Opens both devices of a rig (or of an emulated one) and measures them for some seconds; moves
+// nothing. Throws RigError as check_rig() does.
+RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds);
+
+// As in a capture: an expired calibration, or one dated later than today, forbids a test; one
+// without a date is only a warning.
+void add_calibration(const RigConfig& rig, RigCheck& found);
+
+// Listens to the load cell of a rig (or of an emulated one, which gets a weight of a tenth of its
+// capacity) until it answers a finger or a weight; moves nothing. Returns the force, N. Throws
+// RigError as await_touch() does.
+double touch_rig(const RigConfig& rig, bool is_emulated, double wait_s,
+                 const std::function<void()>& ready, const std::atomic<bool>* stop);
+
+// Writes answered_on = DAY under [load_cell] of a rig file and changes nothing else of it. Throws
+// std::runtime_error if the file has no such section or cannot be written.
+void write_answer(const std::filesystem::path& rig_file, const std::string& day);
+
+// Opens the devices of the rig, or of an emulated one, and carries out the order. stop: set by a
+// signal handler; may be nullptr. Throws RigError as move_stage() does, and if another program holds
+// a port.
+StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& order,
+                          const std::atomic<bool>* stop);
+
+}  // namespace viscard
