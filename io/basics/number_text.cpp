@@ -73,4 +73,13 @@ std::string nearest_number(double value, int columns) {
   return best;
 }
 
+std::string csv_cell(std::string_view text) {
+  std::string cell = "\"";
+  for (const char c : text) {
+    cell += c;
+    if (c == '"') cell += c;
+  }
+  return cell + '"';
+}
+
 }  // namespace viscard

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace viscard {
 
-// Numbers as files and solvers read them: ASCII, with a decimal point in every locale.
+// Numbers and cells as files and solvers read them: ASCII, with a decimal point in every locale.
+
+// A text as a cell of a CSV file: in quotes, with those inside doubled (RFC 4180).
+std::string csv_cell(std::string_view text);
 
 // Returns the shortest text that reads back as exactly this double.
 std::string text_from_number(double value);

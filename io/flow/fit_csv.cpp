@@ -2,8 +2,10 @@
 #include "io/basics/number_text.h"
 #include "io/flow/fit_file.h"
 
+#include <cmath>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace viscard {
@@ -31,19 +33,29 @@ std::string name_of_column(const FittedFile& fitted) {
                                                                       : "modulus_Pa";
 }
 
+// "storage_modulus" of storage_modulus_Pa.
+std::string without_unit(const std::string& name) {
+  for (const std::string_view unit : {"_1_Pa", "_N_m", "_Pa", "_N"}) {
+    if (name.ends_with(unit)) return name.substr(0, name.size() - unit.size());
+  }
+  return name;
+}
+
+// 0 if none is positive.
+double least_positive(const std::vector<double>& values) {
+  double least = 0.0;
+  for (const double value : values) {
+    if (value > 0.0 && (least == 0.0 || value < least)) least = value;
+  }
+  return least;
+}
+
 std::string text_of_failure(const FileOutcome& outcome) {
   try {
     std::rethrow_exception(outcome.error);
   } catch (const std::exception& error) {
     return failure_text(error, outcome.path);
   }
-}
-
-// A text in a cell of its own.
-std::string cell_of(const std::string& text) {
-  std::string cell = "\"";
-  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return cell + "\"";
 }
 
 }  // namespace
@@ -59,22 +71,25 @@ std::string csv_from_fit(const FittedFile& fitted, const std::string& command) {
   }
   const bool is_sweep = has_loss || fitted.result.kind == FitKind::kDma;
   std::string text = first_of(command) + (is_sweep ? "frequency_Hz" : "time_s");
+  std::vector<double> least_sigma;  // of each column
   for (const FittedColumn& column : columns) {
     text += "," + column.name;
     for (const char* part : {"fitted_", "residual_", "sigma_"}) text += "," + (part + column.name);
-    text += ",weight_" + column.name;
+    text += ",relative_weight_" + without_unit(column.name);
+    least_sigma.push_back(least_positive(column.sigma));
   }
   text += "\n";
   for (std::size_t i = 0; i < curves.time_s.size(); ++i) {
     text += text_from_number(curves.time_s[i]);
-    for (const FittedColumn& column : columns) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const FittedColumn& column = columns[c];
       const double sigma = i < column.sigma.size() ? column.sigma[i] : 0.0;
       for (const double value :
            {column.measured[i], column.fitted[i], column.measured[i] - column.fitted[i], sigma}) {
         text += "," + text_from_number(value);
       }
       text += ",";
-      if (sigma > 0.0) text += text_from_number(1.0 / (sigma * sigma));
+      if (sigma > 0.0) text += text_from_number(std::pow(least_sigma[c] / sigma, 2));
     }
     text += "\n";
   }
@@ -87,9 +102,9 @@ std::string csv_from_fits(const std::vector<FileOutcome>& outcomes, const std::s
       "file,kind,unit,E0,E0_low,E0_high,E_inf,E_inf_low,E_inf_high,n_terms,n_samples,"
       "trustworthy,flags,error\n";
   for (const FileOutcome& outcome : outcomes) {
-    text += cell_of(outcome.path);
+    text += csv_cell(outcome.path);
     if (!outcome.fitted) {
-      text += ",,,,,,,,,,,0,," + cell_of(text_of_failure(outcome)) + "\n";
+      text += ",,,,,,,,,,,0,," + csv_cell(text_of_failure(outcome)) + "\n";
       continue;
     }
     const FitResult& fit = outcome.fitted->result;
@@ -108,7 +123,7 @@ std::string csv_from_fits(const std::vector<FileOutcome>& outcomes, const std::s
         flags += (flags.empty() ? "" : " ") + flag.name;
     }
     text += "," + std::to_string(fit.terms.size()) + "," + std::to_string(fit.n_samples) + "," +
-            (fit.is_trustworthy ? "1" : "0") + "," + cell_of(flags) + ",\n";
+            (fit.is_trustworthy ? "1" : "0") + "," + csv_cell(flags) + ",\n";
   }
   return text;
 }

@@ -38,7 +38,7 @@ void show_keys(ResultVisitor& v, const FittedFile& fitted);
 void show_keys(ResultVisitor& v, const FileOutcome& outcome);
 
 // A fit as a table: for each row (averages of neighbours where samples are dense) the measured and the fitted value,
-// their difference, the standard deviation of the value and its weight in the fit. Storage and loss modulus
+// their difference, the standard deviation of the value and its weight in the fit, over the largest. Storage and loss modulus
 // have these columns each.
 std::string csv_from_fit(const FittedFile& fitted, const std::string& command);
 

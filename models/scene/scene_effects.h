@@ -29,8 +29,7 @@ void leave_out_finite_strain(PillarScene& scene);
 // What a scene declares that forces off the contact of a shape.
 constexpr const char* kPrescribed =
     "off, the scene prescribes the motion of all tops, which are pulled, too; a shape that only "
-    "pushes bears something "
-    "else";
+    "pushes bears something else";
 
 // Adhesion of neighbours whose length is `ratio` times the longest that parts again (row_effects.cpp).
 EffectEstimate adhesion_at(double ratio);

@@ -2,6 +2,7 @@
 
 #include "io/basics/json_string.h"
 #include "io/basics/missing_file.h"
+#include "io/basics/number_text.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/row_checksum.h"
 
@@ -269,13 +270,6 @@ std::vector<std::int64_t> damaged_rows(Database& database) {
   return damaged;
 }
 
-std::string quoted(std::string text) {
-  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) {
-    text.insert(at, 1, '"');
-  }
-  return '"' + text + '"';
-}
-
 }  // namespace
 
 std::string bytes_from_point(const StudyPoint& point) {
@@ -444,19 +438,19 @@ std::string csv_from_study(StudyStore& store, const Study& study) {
   for (const StudyParameter& parameter : study.parameters) text += "," + parameter.key;
   for (const NamedValue& one : names) {
     const std::string unit = one.unit == "1" ? "" : " [" + one.unit + "]";
-    text += "," + quoted(one.name + unit) + "," + quoted("error " + one.name + unit);
+    text += "," + csv_cell(one.name + unit) + "," + csv_cell("error " + one.name + unit);
   }
   text += ",failure\n";
   store.for_each([&](const StudyPoint& point) {
     text += std::to_string(point.point);
-    for (const auto& [key, value] : point.values) text += "," + quoted(value);
+    for (const auto& [key, value] : point.values) text += "," + csv_cell(value);
     for (std::size_t i = 0; i < names.size(); ++i) {
       const bool has = i < point.results.size() && point.results[i].name == names[i].name;
       text +=
           has ? fmt::format(",{},{:.3g}", point.results[i].value, point.results[i].error_estimate)
               : ",,";
     }
-    text += point.failure.empty() ? ",\n" : "," + quoted(point.failure) + "\n";
+    text += point.failure.empty() ? ",\n" : "," + csv_cell(point.failure) + "\n";
   });
   return text;
 }

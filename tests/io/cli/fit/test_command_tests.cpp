@@ -252,11 +252,13 @@ TEST_CASE("fit writes its rows as a table and a picture, and several fits as one
   std::getline(in, line);
   CHECK(line ==
         "frequency_Hz,storage_modulus_Pa,fitted_storage_modulus_Pa,residual_storage_modulus_Pa,"
-        "sigma_storage_modulus_Pa,weight_storage_modulus_Pa,loss_modulus_Pa,fitted_loss_modulus_Pa,"
-        "residual_loss_modulus_Pa,sigma_loss_modulus_Pa,weight_loss_modulus_Pa");
+        "sigma_storage_modulus_Pa,relative_weight_storage_modulus,loss_modulus_Pa,fitted_loss_"
+        "modulus_Pa,"
+        "residual_loss_modulus_Pa,sigma_loss_modulus_Pa,relative_weight_loss_modulus");
   int n_rows = 0;
+  double largest_weight = 0.0;
   while (std::getline(in, line)) {
-    double cell[5];
+    double cell[6];
     std::istringstream row(line);
     for (double& value : cell) {
       std::string text;
@@ -265,8 +267,11 @@ TEST_CASE("fit writes its rows as a table and a picture, and several fits as one
     }
     CHECK(cell[3] == Approx(cell[1] - cell[2]).margin(1e-6));
     CHECK(std::abs(cell[3]) < 5.0 * cell[4]);
+    CHECK(cell[5] > 0.0);
+    largest_weight = std::max(largest_weight, cell[5]);
     ++n_rows;
   }
+  CHECK(largest_weight == 1.0);
   CHECK(n_rows == 80);
   std::stringstream picture;
   picture << std::ifstream(svg).rdbuf();
