@@ -89,12 +89,26 @@ Plan true_moves(const EmulatedTruth& truth, const TestPlan& plan, const RunCondi
   return result;
 }
 
+// Position of the motor: whole steps from the start of the move.
+double stepped_m(const std::vector<StageMove>& moves, double time_s, double steps_per_m,
+                 bool when_due) {
+  const double z_m = position_m(moves, time_s);
+  if (!when_due) return quantised_m(z_m, steps_per_m);
+  double direction = 1.0;
+  for (const StageMove& move : moves) {
+    if (time_s >= move.start_time_s) direction = move.to_m >= move.from_m ? 1.0 : -1.0;
+  }
+  constexpr double kOfAStep = 1e-6;  // rounding
+  return direction * std::floor(direction * z_m * steps_per_m + kOfAStep) / steps_per_m;
+}
+
 // True force at every reading: fine steps while the stage moves, one step a reading while it rests.
-std::vector<double> true_forces_N(const EmulatedTruth& truth, const Plan& plan, double stage_speed,
+std::vector<double> true_forces_N(const EmulatedTruth& truth, const Plan& plan,
+                                  const RunConditions& conditions,
                                   const std::vector<double>& times_s) {
   std::vector<StageMove> moves;
   for (const CommandedMove& move : plan.moves) {
-    moves.push_back(at_true_speed(move.move, stage_speed));
+    moves.push_back(at_true_speed(move.move, conditions.stage_speed));
   }
   const auto is_moving = [&](double t) {
     for (const StageMove& move : moves) {
@@ -112,8 +126,9 @@ std::vector<double> true_forces_N(const EmulatedTruth& truth, const Plan& plan, 
     const int steps =
         is_moving(reading_s) ? std::max(1, static_cast<int>(std::ceil(dt_s / 0.25e-3))) : 1;
     for (int i = 1; i <= steps; ++i) {
-      const double z = position_m(moves, t + dt_s * i / steps);
-      force_N = bench.advance_N(dt_s / steps, quantised_m(z, truth.steps_per_m));
+      const double z_m =
+          stepped_m(moves, t + dt_s * i / steps, truth.steps_per_m, conditions.steps_when_due);
+      force_N = bench.advance_N(dt_s / steps, z_m);
     }
     t = reading_s;
     forces_N.push_back(force_N);
@@ -135,7 +150,7 @@ CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
   for (double k = phase; k / truth.sample_rate_Hz < moves.end_s; k += 1.0) {
     times_s.push_back(k / truth.sample_rate_Hz);
   }
-  const std::vector<double> forces_N = true_forces_N(truth, moves, conditions.stage_speed, times_s);
+  const std::vector<double> forces_N = true_forces_N(truth, moves, conditions, times_s);
 
   CapturedRun run;
   run.plan = plan;

@@ -21,6 +21,9 @@ struct RunConditions {
   // error of the guess.
   double guess_over_truth = 1.0;
   double touched_N = 0.1;
+  // The motor makes a step when the move has gone that far, as GRBL does: on the way it lies half a step behind on
+  // the average. false: it makes the step half a step earlier.
+  bool steps_when_due = true;
 };
 CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
                           const RunConditions& conditions = {});
