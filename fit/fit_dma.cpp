@@ -324,6 +324,7 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
                              " Hz: this is not a measurement. Remove the row");
   }
   check_sign(storage_Pa, "a storage modulus", "storage_modulus_Pa");
+  check_loss_sign(loss_Pa);
   FitResult result = fit_solid_or_liquid(options, [&](const FitOptions& as) {
     return fit_moduli(frequency_Hz, storage_Pa, loss_Pa, as);
   });

@@ -43,6 +43,7 @@ void check_moduli(const MasterSegment& segment) {
   }
   check_sign(segment.value, is_dma ? "a storage modulus" : "a relaxation modulus",
              is_dma ? "storage_modulus_Pa" : "modulus_Pa");
+  check_loss_sign(segment.loss);
 }
 
 }  // namespace

@@ -202,6 +202,7 @@ double resolution_beside(std::span<const double> values, const EqualRun& run) {
 
 // Runs of a display that stands still: the rows beside scatter by several steps of the display, so that
 // so many equal readings are no chance. A display that repeats every reading is not one that stands still.
+// Without the first reading of each run, which is one.
 std::vector<EqualRun> stuck_runs(std::span<const double> values,
                                  const std::vector<EqualRun>& runs) {
   constexpr std::size_t kShortest = 10, kMostRuns = 50;
@@ -221,12 +222,9 @@ std::vector<EqualRun> stuck_runs(std::span<const double> values,
   constexpr std::size_t kSeveral = 5;
   const bool repeats = longs.size() >= kSeveral && n_in_long > 0.5 * n;
   if (by_chance > kMostEqual || repeats) return {};
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
   std::vector<EqualRun> stuck;
   for (const EqualRun& run : longs) {
-    const double value = values[run.begin];
-    // Zeros are a force out of contact, the largest value an amplifier at its end.
-    if (value == 0.0 || value == *high || value == *low) continue;
+    if (values[run.begin] == 0.0) continue;  // a force out of contact
     const double sigma = noise_beside(values, run.begin, run.end);
     const double step = resolution_beside(values, run);
     if (!(sigma > kScatter * step)) continue;
@@ -234,9 +232,27 @@ std::vector<EqualRun> stuck_runs(std::span<const double> values,
     const double chance = std::max(by_chance, step / (3.545 * sigma));
     const auto length = static_cast<double>(run.length());
     if (length * -std::log(chance) < std::log(n) + kSure) continue;
-    stuck.push_back({run.begin + 1, run.end});  // the first reading is one
+    stuck.push_back({run.begin + 1, run.end});
   }
   return stuck;
+}
+
+// Which of them: those at the end of the range to which the test leads (a relaxation below what the instrument
+// shows, a creep above it), with their first reading, or those inside the range. At the other end they are a
+// force out of contact, or rows of saturated_runs().
+enum class Stuck { kClipped, kInside };
+std::vector<std::size_t> stuck_rows(Stuck which, RecordKind kind, std::span<const double> values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  std::vector<EqualRun> chosen;
+  for (EqualRun run : stuck_runs(values, runs_of_equal(values))) {
+    const bool is_low = values[run.begin] == *low, is_high = values[run.begin] == *high;
+    const bool is_clipped =
+        (kind == RecordKind::kRelaxation && is_low) || (kind == RecordKind::kCreep && is_high);
+    if (which == Stuck::kClipped ? !is_clipped : (is_low || is_high)) continue;
+    if (is_clipped) --run.begin;
+    chosen.push_back(run);
+  }
+  return rows_in(chosen);
 }
 
 // Runs at the largest value of a record of a step, above which the next rows lead back.
@@ -348,7 +364,12 @@ void check_values(RecordKind kind, CleanViews& clean, RecordNotes& notes) {
                   "they stand exactly at the largest value, above which the next rows lead: the "
                   "instrument reached the end of its range");
   }
-  findings.drop("stuck", "stuck-left-out", rows_in(stuck_runs(value(), runs_of_equal(value()))),
+  findings.drop("saturated", "saturated", stuck_rows(Stuck::kClipped, kind, value()),
+                std::string("they stand exactly at the ") +
+                    (kind == RecordKind::kCreep ? "largest" : "smallest") +
+                    " value, although the rows beside them scatter: the instrument reached the end "
+                    "of its range");
+  findings.drop("stuck", "stuck-left-out", stuck_rows(Stuck::kInside, kind, value()),
                 "they repeat the reading before them exactly, although the rows beside them "
                 "scatter: the instrument or its logger stood still");
   if (!notes.rise_s) return;

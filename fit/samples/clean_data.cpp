@@ -129,6 +129,13 @@ void check_sign(std::span<const double> values, const std::string& what,
                            column + "=-NAME");
 }
 
+void check_loss_sign(std::span<const double> loss_Pa) {
+  constexpr double kTimes = 3.0;
+  double positive = 0.0, negative = 0.0;
+  for (const double loss : loss_Pa) (loss > 0.0 ? positive : negative) += std::abs(loss);
+  if (negative > kTimes * positive) check_sign(loss_Pa, "a loss modulus", "loss_modulus_Pa");
+}
+
 namespace {
 
 // A step between two that are five times as long is a wrong time stamp: sampling in log time only

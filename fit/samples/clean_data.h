@@ -45,6 +45,9 @@ class CleanViews {
 // flip the sign of the column. `what` names the quantity that must be positive ("a relaxation
 // modulus"), `column` is its name in a table.
 void check_sign(std::span<const double> values, const std::string& what, const std::string& column);
+// The same for loss moduli, which may be noise about zero: throws if the negative ones outweigh the others three
+// times.
+void check_loss_sign(std::span<const double> loss_Pa);
 
 // Shortest positive difference of sorted times, apart from single wrong stamps (a step less than a
 // fifth of both its neighbours), and their median difference, which a gap does not change. Both

@@ -184,16 +184,37 @@ FitResult fit_force_table(const CsvTable& table, const FitRequest& request) {
   return result;
 }
 
+// A stress is a modulus only over its strain.
+[[noreturn]] void refuse_stress_alone(const CsvTable& table, const FitRequest& request) {
+  const auto header_of = [&](const char* name) -> std::string {
+    const auto use = find_column(table, name, request.columns);
+    return use ? table.columns[use->index].header : "";
+  };
+  const std::string length = header_of("depth_m");
+  const std::string what = table.file + ": '" + header_of("stress_Pa") +
+                           "' is a stress, and without its strain it is no modulus. ";
+  if (!length.empty()) {
+    throw std::runtime_error(what + "'" + length +
+                             "' is a length; state the length of the specimen between the grips "
+                             "with --gauge-length, such as \"25 mm\", and it becomes the strain");
+  }
+  throw std::runtime_error(what +
+                           "Add a column of strain, or, if the strain was constant, a column of "
+                           "the stress divided by it, "
+                           "with a header such as 'modulus (MPa)'");
+}
+
 FitResult fit_relaxation_table(const CsvTable& table, const FitRequest& request) {
   RelaxationData data;
   data.time_s = time_of(table, request);
   data.is_zero_known = request.time_zero_s.has_value();
   data.zero_unsure_s = zero_unsure_s(table, request);
   const bool has_modulus = find_column(table, "modulus_Pa", request.columns).has_value();
-  data.value = moduli_of(table, has_modulus ? "modulus_Pa" : "stress_Pa", request);
-  if (!has_modulus && find_column(table, "strain", request.columns)) {
-    data.strain = column_SI(table, "strain", request.columns);
+  if (!has_modulus && !find_column(table, "strain", request.columns)) {
+    refuse_stress_alone(table, request);
   }
+  data.value = moduli_of(table, has_modulus ? "modulus_Pa" : "stress_Pa", request);
+  if (!has_modulus) data.strain = column_SI(table, "strain", request.columns);
   return fit_relaxation(data, request.options);
 }
 

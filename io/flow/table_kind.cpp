@@ -29,8 +29,8 @@ namespace {
   const std::string words = proposed_words(table);
   throw std::runtime_error(
       table.file +
-      ": no known column to fit; expected force_N with depth_m, modulus_Pa, stress_Pa, "
-      "compliance_1_Pa, or storage_modulus_Pa with loss_modulus_Pa" +
+      ": no known column to fit; expected force_N with depth_m, modulus_Pa, stress_Pa with "
+      "strain, compliance_1_Pa, or storage_modulus_Pa with loss_modulus_Pa" +
       columns +
       (words.empty() ? ". State what each is, as in --column compliance_1_Pa=\"HEADER\", or with "
                        "its number from 1"
@@ -191,7 +191,7 @@ void require_kind(const CsvTable& table, FitKind kind, const FitRequest& request
   if (is_of_kind) return;
   constexpr const char* kNames[] = {"an indentation", "a relaxation", "creep", "an oscillation"};
   constexpr const char* kColumns[] = {"force_N and depth_m",
-                                      "modulus_Pa, stress_Pa or force_N alone",
+                                      "modulus_Pa, stress_Pa with strain, or force_N alone",
                                       "compliance_1_Pa, or strain under a known stress_Pa",
                                       "frequency_Hz, storage_modulus_Pa and loss_modulus_Pa"};
   FitRequest open = request;

@@ -151,8 +151,9 @@ void derive_strains(Derivation& made) {
 }
 
 void derive_from_load(const SpecimenSize& size, Derivation& made) {
-  if (!made.has("force_N") || size.area_m2 <= 0.0) return;
   const bool has_stress = made.has("stress_Pa") || made.has("nominal_stress_Pa");
+  const bool has_load = made.has("force_N") && size.area_m2 > 0.0;
+  if (!has_load && !has_stress) return;
   const bool has_strain = made.has("strain") || made.has("stretch");
   if (!has_strain && made.has("depth_m") && size.gauge_length_m > 0.0) {
     Values strain = made.of("depth_m");

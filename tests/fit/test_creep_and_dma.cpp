@@ -180,3 +180,14 @@ TEST_CASE("a storage modulus alone gives the series within its frequencies and s
   // Relaxation slower than the sweep adds a constant.
   CHECK(fit.E_inf_interval_95.low < 0.9e6);
 }
+
+TEST_CASE("losses that are counted negative are refused with the column to flip", "[fit]") {
+  DmaData data;
+  for (int i = 0; i < 20; ++i) {
+    const double w = 0.1 * std::pow(1.5, i), x = 0.3 * w;
+    data.frequency_Hz.push_back(w / 6.283185307179586);
+    data.storage_Pa.push_back(1e6 + 5e5 * x * x / (1.0 + x * x));
+    data.loss_Pa.push_back(-5e5 * x / (1.0 + x * x));
+  }
+  CHECK_THROWS_WITH(fit_dma(data), Catch::Contains("--column loss_modulus_Pa=-NAME"));
+}

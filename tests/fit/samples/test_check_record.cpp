@@ -180,6 +180,29 @@ TEST_CASE("readings at the end of a range are left out, and the fit is not trust
   check_values_of_material(fit, 0.02);
 }
 
+TEST_CASE("a relaxation that falls below the range is cut there, and the fit is not trusted",
+          "[fit]") {
+  std::mt19937_64 random(9);
+  for (int k = 0; k < kPositions; ++k) {
+    RelaxationData data = record(80 + static_cast<std::uint64_t>(k));
+    // Above the last value, so that many rows are clipped.
+    const double bottom =
+        data.value.back() * std::uniform_real_distribution<double>(1.03, 1.15)(random);
+    for (double& value : data.value) value = std::max(value, bottom);
+    const CheckedRecord found = checked(data);
+    CAPTURE(bottom);
+    REQUIRE(flags_of(found.notes) == std::vector<std::string>{"saturated"});
+    CHECK_THAT(found.notes.faults[0].text, Contains("exactly at the smallest value"));
+    CHECK_FALSE(fit_relaxation(data).is_trustworthy);
+    // A creep that grows beyond the range.
+    CreepData creep{.time_s = data.time_s, .compliance_1_Pa = data.value};
+    for (double& value : creep.compliance_1_Pa) value = 1.0 / value;
+    const CheckedRecord risen({creep.time_s, creep.compliance_1_Pa}, 3, RecordKind::kCreep);
+    REQUIRE(flags_of(risen.notes) == std::vector<std::string>{"saturated"});
+    CHECK_FALSE(fit_creep(creep).is_trustworthy);
+  }
+}
+
 TEST_CASE("records of coarse resolution, without noise, or of repeated readings are healthy",
           "[fit]") {
   const double resolution = GENERATE(0.0, 1.0, 2e3, 1e4, 5e4);

@@ -165,3 +165,26 @@ TEST_CASE("an impossible density or mixing ratio is refused before the fit", "[c
     CHECK_FALSE(std::filesystem::exists(folder.file("m.json")));
   }
 }
+
+TEST_CASE("a stress without its strain is no modulus, and an extension needs the gauge length",
+          "[cli]") {
+  const TableFolder folder;
+  std::ostringstream alone, extended;
+  alone << "time_s,stress_kPa\n";
+  extended << "time_s,stress_kPa,displacement_mm\n";
+  for (int i = 1; i <= 100; ++i) {
+    const double t = 0.5 * i, stress_kPa = 10.0 + 5.0 * std::exp(-t / 5.0);
+    alone << t << "," << stress_kPa << "\n";
+    extended << t << "," << stress_kPa << ",0.2\n";
+  }
+  const CommandOutcome refused = run_command({"fit", folder.write("alone.csv", alone.str())});
+  CHECK(refused.status == 1);
+  CHECK_THAT(refused.err,
+             Contains("'stress_kPa' is a stress, and without its strain it is no modulus"));
+  const std::string with_extension = folder.write("extended.csv", extended.str());
+  CHECK_THAT(run_command({"fit", with_extension}).err, Contains("--gauge-length"));
+  const CommandOutcome ran =
+      run_command({"fit", with_extension, "--gauge-length", "20 mm", "--json"});
+  REQUIRE(ran.status == 0);
+  CHECK(nlohmann::json::parse(ran.out)["E0_Pa"].get<double>() == Approx(1.5e6).epsilon(1e-3));
+}
