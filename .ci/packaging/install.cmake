@@ -9,8 +9,6 @@ file(CREATE_LINK ${CMAKE_SOURCE_DIR}/data ${CMAKE_BINARY_DIR}/share/viscard SYMB
 
 # --- runtime: the program, its data, man pages, completions ---------------------------------------
 install(TARGETS viscard RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
-# Addresses of functions of other libraries are written once, at the start, and read-only from then on.
-target_link_options(viscard PRIVATE -Wl,-z,relro -Wl,-z,now)
 # Texts with paths of the installed files in the place of those of the source tree.
 set(folders_of_data "demo|designs|materials|protocols|requirements|scenes|studies")
 configure_file(${packaging}/installed_texts.cmake.in ${CMAKE_BINARY_DIR}/installed_texts.cmake @ONLY)
@@ -39,7 +37,6 @@ install(FILES ${completions}/viscard.fish COMPONENT runtime OPTIONAL
 # --- mpi: a program of its own, since plain viscard needs no MPI -----------------------------------------
 if(TARGET viscard_mpi)
   install(TARGETS viscard_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
-  target_link_options(viscard_mpi PRIVATE -Wl,-z,relro -Wl,-z,now)
   install(CODE "include(\"${CMAKE_BINARY_DIR}/installed_texts.cmake\")
     if(EXISTS \"${CMAKE_BINARY_DIR}/mpi/viscard-mpi.1\")
       install_text(\"${CMAKE_BINARY_DIR}/mpi/viscard-mpi.1\" \"${CMAKE_INSTALL_MANDIR}/man1\")

@@ -164,7 +164,7 @@ TEST_CASE("a capture that is frozen while it presses names the computer", "[cli]
   INFO(program.said());
   REQUIRE(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 1);
-  CHECK(contains(program.said(), "this computer was late by 0."));
+  CHECK(contains(program.said(), "this computer was late by "));
   CHECK_FALSE(contains(program.said(), "modulus_guess"));
   CHECK_FALSE(rig.emulated.outcome().is_moving);
   CHECK(rig.emulated.outcome().final_position_m < 0.05e-3);
