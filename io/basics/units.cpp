@@ -61,30 +61,58 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// Words that UDUNITS does not know. Most of them count something, so they have no dimension.
+// Words that UDUNITS does not know: some count something, so they have no dimension; some instruments write
+// units in capitals (by the SI, MM would be a million metres).
 std::string with_known_words(std::string_view text, bool is_temperature) {
   struct Word {
     std::string_view word, meaning;
   };
-  constexpr std::array<Word, 9> kWords{{{"step", "1"},
-                                        {"steps", "1"},
-                                        {"sample", "1"},
-                                        {"samples", "1"},
-                                        {"sps", "s-1"},
-                                        {"SPS", "s-1"},
-                                        {"counts", "count"},
-                                        {"secs", "s"},
-                                        {"deg", "arc_degree"}}};
-  constexpr std::array<Word, 33> kLocal{
-      {{"秒", "s"},         {"毫秒", "ms"},       {"分钟", "min"},    {"牛", "N"},
-       {"牛顿", "N"},       {"毫牛", "mN"},       {"千牛", "kN"},     {"毫米", "mm"},
-       {"微米", "um"},      {"帕", "Pa"},         {"千帕", "kPa"},    {"兆帕", "MPa"},
-       {"赫兹", "Hz"},      {"弧度/秒", "rad/s"}, {"摄氏度", "degC"}, {"分", "min"},
-       {"ニュートン", "N"}, {"с", "s"},           {"сек", "s"},       {"мс", "ms"},
-       {"мин", "min"},      {"Н", "N"},           {"мН", "mN"},       {"кН", "kN"},
-       {"м", "m"},          {"мм", "mm"},         {"мкм", "um"},      {"Па", "Pa"},
-       {"кПа", "kPa"},      {"МПа", "MPa"},       {"ГПа", "GPa"},     {"Гц", "Hz"},
-       {"рад/с", "rad/s"}}};
+  constexpr std::array<Word, 28> kWords{
+      {{"step", "1"},  {"steps", "1"},      {"sample", "1"}, {"samples", "1"},      {"sps", "s-1"},
+       {"SPS", "s-1"}, {"counts", "count"}, {"secs", "s"},   {"deg", "arc_degree"}, {"dyn", "dyne"},
+       {"SEC", "s"},   {"Sec", "s"},        {"Secs", "s"},   {"msec", "ms"},        {"mins", "min"},
+       {"MIN", "min"}, {"PSI", "psi"},      {"Psi", "psi"},  {"KSI", "ksi"},        {"MPA", "MPa"},
+       {"KPA", "kPa"}, {"KPa", "kPa"},      {"GPA", "GPa"},  {"IN", "in"},          {"MM", "mm"},
+       {"LBF", "lbf"}, {"HZ", "Hz"},        {"KN", "kN"}}};
+  constexpr std::array<Word, 39> kLocal{{{"µε", "1e-6"},
+                                         {"με", "1e-6"},
+                                         {"µstrain", "1e-6"},
+                                         {"ustrain", "1e-6"},
+                                         {"microstrain", "1e-6"},
+                                         {"ue", "1e-6"},
+                                         {"秒", "s"},
+                                         {"毫秒", "ms"},
+                                         {"分钟", "min"},
+                                         {"牛", "N"},
+                                         {"牛顿", "N"},
+                                         {"毫牛", "mN"},
+                                         {"千牛", "kN"},
+                                         {"毫米", "mm"},
+                                         {"微米", "um"},
+                                         {"帕", "Pa"},
+                                         {"千帕", "kPa"},
+                                         {"兆帕", "MPa"},
+                                         {"赫兹", "Hz"},
+                                         {"弧度/秒", "rad/s"},
+                                         {"摄氏度", "degC"},
+                                         {"分", "min"},
+                                         {"ニュートン", "N"},
+                                         {"с", "s"},
+                                         {"сек", "s"},
+                                         {"мс", "ms"},
+                                         {"мин", "min"},
+                                         {"Н", "N"},
+                                         {"мН", "mN"},
+                                         {"кН", "kN"},
+                                         {"м", "m"},
+                                         {"мм", "mm"},
+                                         {"мкм", "um"},
+                                         {"Па", "Pa"},
+                                         {"кПа", "kPa"},
+                                         {"МПа", "MPa"},
+                                         {"ГПа", "GPa"},
+                                         {"Гц", "Hz"},
+                                         {"рад/с", "rad/s"}}};
   if (is_temperature && (text == "C" || text == "°C")) return "degC";
   for (const Word& local : kLocal) {
     if (text == local.word) return std::string(local.meaning);

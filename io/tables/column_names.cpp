@@ -47,11 +47,12 @@ bool has_alias(const ColumnKind& quantity, const std::string& name) {
   });
 }
 
-// The name without the kind of load ("Tensile stress") and without symbols beside words: "Shear
+// The name without the kind of load ("Tensile stress") or of value ("Mean stress") and without symbols beside words: "Shear
 // relaxation modulus G(t)" is a "relaxation modulus", "E' - Storage modulus" a "Storage modulus".
 std::string without_kind_and_symbol(const std::string& name) {
   constexpr const char* kKinds[] = {"shear",   "tensile", "tension", "compressive", "compression",
-                                    "young's", "youngs",  "young",   "axial",       "uniaxial"};
+                                    "young's", "youngs",  "young",   "axial",       "uniaxial",
+                                    "mean",    "average", "avg"};
   constexpr const char* kSymbols[] = {
       "e",    "g",     "j",     "d",    "e(t)", "g(t)",   "j(t)",   "d(t)", "e'",    "g'",
       "e''",  "g''",   "|e*|",  "|g*|", "e*",   "g*",     "|eta*|", "|η*|", "eta*",  "η*",
@@ -105,8 +106,9 @@ bool is_angular(const std::string& name) {
 }
 
 std::vector<const char*> frequency_names() {
-  std::vector<const char*> names{"f",         "freq",       "frequenz",   "fréquence", "频率",
-                                 "frequenza", "frecuencia", "frequência", "частота",   "周波数"};
+  std::vector<const char*> names{"f",       "freq",      "frequenz",     "fréquence",
+                                 "频率",    "frequenza", "frecuencia",   "frequência",
+                                 "частота", "周波数",    "częstotliwość"};
   names.insert(names.end(), std::begin(kAngular), std::end(kAngular));
   return names;
 }
@@ -154,7 +156,7 @@ std::vector<ColumnKind> recorded_kinds() {
             "timestamp",  "time stamp",   "date time", "date/time",    "datetime",  "clock",
             "clock time", "zeit",         "prüfzeit",  "versuchszeit", "temps",     "tempo",
             "tiempo",     "время",        "时间",      "试验时间",     "测试时间",  "時間",
-            "経過時間",   "試験時間"}},
+            "経過時間",   "試験時間",     "czas"}},
           {"force_N",
            "force",
            quantities::kForce,
@@ -183,7 +185,8 @@ std::vector<ColumnKind> recorded_kinds() {
             "负荷",
             "法向力",
             "荷重",
-            "試験力"}},
+            "試験力",
+            "siła"}},
           {"depth_m",
            "depth",
            quantities::kLength,
@@ -191,6 +194,7 @@ std::vector<ColumnKind> recorded_kinds() {
             "indentation",
             "indentation depth",
             "displacement",
+            "disp",
             "extension",
             "penetration",
             "standard travel",
@@ -219,7 +223,8 @@ std::vector<ColumnKind> recorded_kinds() {
             "伸び",
             "位移",
             "压入深度",
-            "深度"}}};
+            "深度",
+            "przemieszczenie"}}};
 }
 
 // What is computed from force and geometry.
@@ -253,13 +258,14 @@ std::vector<ColumnKind> material_kinds() {
         "杨氏模量",
         "弾性率",
         "ヤング率",
-        "緩和弾性率"}},
+        "緩和弾性率",
+        "moduł"}},
       {"stress_Pa",
        "stress",
        quantities::kStress,
        {"sigma", "σ", "shear stress", "spannung", "schubspannung", "contrainte", "sforzo", "tau",
-        "τ", "tensione", "esfuerzo", "tensión", "tensão", "напряжение", "应力", "剪切应力",
-        "応力"}},
+        "τ", "tensione", "esfuerzo", "tensión", "tensão", "напряжение", "应力", "剪切应力", "応力",
+        "naprężenie"}},
       {"strain",
        "strain",
        quantities::kStrain,
@@ -288,7 +294,8 @@ std::vector<ColumnKind> material_kinds() {
         "工程应变",
         "ひずみ",
         "歪み",
-        "歪"}},
+        "歪",
+        "odkształcenie"}},
       {"nominal_stress_Pa",
        "nominal_stress",
        quantities::kStress,

@@ -169,20 +169,55 @@ std::vector<std::string_view> header_cells(const TextLine& line, char separator)
   return joined;
 }
 
+namespace {
+
+bool is_decimal_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// "1,498" or "-1,498,996.2": one to three digits, then groups of three behind commas.
+bool has_groups_of_three(std::string_view cell) {
+  if (!cell.empty() && (cell.front() == '-' || cell.front() == '+')) cell.remove_prefix(1);
+  std::size_t n = 0;
+  while (n < cell.size() && is_decimal_digit(cell[n])) ++n;
+  if (n < 1 || n > 3 || cell[0] == '0') return false;
+  cell.remove_prefix(n);
+  std::size_t n_groups = 0;
+  while (cell.size() >= 4 && cell[0] == ',' &&
+         std::all_of(cell.begin() + 1, cell.begin() + 4, is_decimal_digit)) {
+    cell.remove_prefix(4);
+    ++n_groups;
+  }
+  return n_groups > 0 && (cell.empty() || !(is_decimal_digit(cell[0]) || cell[0] == ','));
+}
+
+}  // namespace
+
 std::optional<double> number_from_cell(std::string_view cell, const Dialect& dialect) {
-  std::array<char, 64> with_point{};
+  std::array<char, 64> changed{};
+  const auto change = [&] {
+    if (cell.size() > changed.size()) return false;
+    std::copy(cell.begin(), cell.end(), changed.begin());
+    cell = {changed.data(), cell.size()};
+    return true;
+  };
   if (dialect.has_decimal_comma) {
-    if (cell.size() > with_point.size() || cell.find('.') != std::string_view::npos) {
-      return std::nullopt;
-    }
-    std::replace_copy(cell.begin(), cell.end(), with_point.begin(), ',', '.');
-    cell = {with_point.data(), cell.size()};
+    if (cell.find('.') != std::string_view::npos || !change()) return std::nullopt;
+    std::replace(changed.begin(), changed.end(), ',', '.');
+  } else if (dialect.has_thousands_comma && has_groups_of_three(cell) && change()) {
+    const auto* end = std::remove(changed.begin(), changed.begin() + cell.size(), ',');
+    cell = {changed.data(), static_cast<std::size_t>(end - changed.data())};
   }
   if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
   double value = 0.0;
-  const char* end = cell.data() + cell.size();
-  const auto result = std::from_chars(cell.data(), end, value);
-  if (result.ptr != end || cell.empty()) return std::nullopt;
+  auto result = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  // 1.498D+06, as Fortran writes a double.
+  if (const std::size_t at = cell.find_first_of("Dd");
+      at != std::string_view::npos && result.ptr == cell.data() + at && at > 0 && change()) {
+    changed[at] = 'e';
+    result = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  }
+  if (result.ptr != cell.data() + cell.size() || cell.empty()) return std::nullopt;
   if (result.ec == std::errc::result_out_of_range) {
     const bool is_tiny =
         cell.find("e-") != std::string_view::npos || cell.find("E-") != std::string_view::npos;
@@ -204,26 +239,51 @@ bool is_gap(std::string_view cell) {
 }
 
 Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& name) {
-  Dialect dialect{detect_separator(sample), false};
-  if (dialect.separator == ',') return dialect;
+  Dialect dialect{detect_separator(sample), false, false};
   const TextLine* with_comma = nullptr;
   const TextLine* with_point = nullptr;
+  const TextLine* grouped = nullptr;
+  std::string example;
+  bool is_certain = false;  // that a comma stands between thousands: "1,498,996" or "1,498.2"
   std::vector<std::string_view> cells;
   for (const TextLine& line : sample) {
     split_cells(line, dialect.separator, cells);
     for (const std::string_view cell : cells) {
       const bool has_comma = cell.find(',') != std::string_view::npos;
       const bool has_point = cell.find('.') != std::string_view::npos;
-      if (has_comma && number_from_cell(cell, {dialect.separator, true})) with_comma = &line;
-      if (has_point && number_from_cell(cell, {dialect.separator, false})) with_point = &line;
+      if (has_comma && has_groups_of_three(cell)) {
+        if (grouped == nullptr) {
+          grouped = &line;
+          example = std::string(cell);
+        }
+        is_certain = is_certain || has_point || std::count(cell.begin(), cell.end(), ',') > 1;
+      } else if (has_comma && number_from_cell(cell, {dialect.separator, true, false})) {
+        with_comma = &line;
+      }
+      if (has_point && number_from_cell(cell, {dialect.separator, false, true})) with_point = &line;
     }
   }
+  const bool has_thousands =
+      grouped != nullptr && with_comma == nullptr && (is_certain || with_point != nullptr);
+  if (grouped != nullptr && !has_thousands) {
+    // Where commas separate the cells, nothing else than the quotes says what the comma in "1,498" is.
+    if (with_comma == nullptr && with_point == nullptr && dialect.separator == ',') {
+      throw std::runtime_error(
+          name + ": line " + std::to_string(grouped->number) + " has '" + example +
+          "', which may be " +
+          "a number with thousands or with a decimal comma; write it without the comma, "
+          "or separate the cells by semicolons");
+    }
+    if (with_comma == nullptr) with_comma = grouped;
+  }
+  if (dialect.separator == ',' && with_point != nullptr) with_comma = nullptr;  // a quoted note
   if (with_comma != nullptr && with_point != nullptr) {
     throw std::runtime_error(name + ": line " + std::to_string(with_comma->number) +
                              " has a decimal comma and line " + std::to_string(with_point->number) +
                              " a decimal point; use the same decimal sign in all numbers");
   }
   dialect.has_decimal_comma = with_comma != nullptr;
+  dialect.has_thousands_comma = has_thousands;
   return dialect;
 }
 

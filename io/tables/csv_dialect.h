@@ -39,6 +39,7 @@ std::string_view first_line(std::string_view text);
 struct Dialect {
   char separator = ',';  // ' ' stands for any run of blanks
   bool has_decimal_comma = false;
+  bool has_thousands_comma = false;  // "1,498,996.2", in quotes where commas separate the cells
 };
 
 // Returns the cells of a line, trimmed and without the quotes around them. Throws
@@ -54,7 +55,8 @@ std::optional<double> number_from_cell(std::string_view cell, const Dialect& dia
 // True for a cell that stands for a missing value: empty, "-", "NaN", "n/a", "#N/A", "null" ....
 bool is_gap(std::string_view cell);
 
-// Throws std::runtime_error naming the file if it mixes decimal points and decimal commas.
+// Throws std::runtime_error naming the file if it mixes decimal points and decimal commas, or if "1,498" may
+// be either of two numbers.
 Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& name);
 
 }  // namespace viscard

@@ -5,6 +5,7 @@
 #include "io/tables/column_names.h"
 #include "io/tables/csv_dialect.h"
 #include "io/tables/csv_header.h"
+#include "io/tables/log_columns.h"
 #include "io/tables/maker_table.h"
 #include "io/tables/table_rows.h"
 #include "models/maths/text_of_number.h"
@@ -60,6 +61,7 @@ class TableReader {
     read_rows();
     drop_empty_edge_columns();
     read_clock_times(table_);
+    take_antilogarithms(table_);
     return std::move(table_);
   }
 

@@ -1,6 +1,8 @@
 #include "io/tables/text_encoding.h"
 
 #include "io/basics/words.h"
+#include "io/tables/column_names.h"
+#include "io/tables/csv_header.h"
 
 #include <iconv.h>
 
@@ -93,13 +95,12 @@ bool has_pairs_only(std::string_view bytes) {
   return true;
 }
 
-// Text in GB18030, which contains GB 2312 and GBK; nothing for other encodings.
-std::optional<std::string> from_chinese(std::string_view bytes) {
-  if (!has_pairs_only(bytes)) return std::nullopt;
-  const iconv_t converter = iconv_open("UTF-8", "GB18030");
+// Text in UTF-8 from another encoding, by iconv; nothing if the bytes are none of it.
+std::optional<std::string> from_encoding(std::string_view bytes, const char* encoding) {
+  const iconv_t converter = iconv_open("UTF-8", encoding);
   // (iconv_t)-1 as POSIX has it: this system does not know the encoding.
   if (reinterpret_cast<std::intptr_t>(converter) == -1) return std::nullopt;
-  std::string in(bytes), out(2 * bytes.size() + 4, '\0');  // two bytes become three at most
+  std::string in(bytes), out(3 * bytes.size() + 4, '\0');
   char *from = in.data(), *to = out.data();
   std::size_t left = in.size(), room = out.size();
   const bool is_whole = iconv(converter, &from, &left, &to, &room) != static_cast<std::size_t>(-1);
@@ -107,6 +108,45 @@ std::optional<std::string> from_chinese(std::string_view bytes) {
   if (!is_whole) return std::nullopt;
   out.resize(out.size() - room);
   return out;
+}
+
+// How many letters of names of quantities a text has that ASCII lacks: "Zeit" counts nothing, "время"
+// five.
+std::size_t n_known_letters(const std::string& text) {
+  const std::string lower = lower_case(text);
+  std::size_t count = 0;
+  for (const ColumnKind& kind : column_kinds()) {
+    for (const char* alias : kind.aliases) {
+      const std::string_view name = alias;
+      const auto n_letters =
+          static_cast<std::size_t>(std::count_if(name.begin(), name.end(), [](char c) {
+            return (static_cast<unsigned char>(c) & 0xc0) == 0xc0;
+          }));
+      if (n_letters > 0 && lower.find(name) != std::string::npos) count += n_letters;
+    }
+  }
+  return count;
+}
+
+// What neither Unicode nor plain ASCII is: the encoding in which most names of quantities are known; without
+// any, Chinese if bytes above 0x7f come in pairs only, else Latin-1, in which old instruments write the micro
+// sign.
+std::string from_old_encoding(std::string_view bytes) {
+  constexpr std::size_t kHead = 8192;  // notes and header
+  const std::string_view whole_lines = bytes.substr(0, bytes.rfind('\n', kHead));
+  const std::string_view head = whole_lines.substr(0, std::min(whole_lines.size(), kHead));
+  const char* best =
+      has_pairs_only(bytes) && from_encoding(bytes, "GB18030") ? "GB18030" : "ISO-8859-1";
+  std::size_t most = 0;
+  for (const char* encoding :
+       {"ISO-8859-1", "GB18030", "CP932", "CP1251", "CP1250", "KOI8-R", "BIG5"}) {
+    const auto text = from_encoding(head, encoding);
+    const std::size_t count = text ? n_known_letters(*text) : 0;
+    if (count <= most || !from_encoding(bytes, encoding)) continue;
+    most = count;
+    best = encoding;
+  }
+  return from_encoding(bytes, best).value_or(std::string());
 }
 
 }  // namespace
@@ -124,12 +164,7 @@ std::string_view utf8_view(std::string_view bytes, const std::string& name,
                              ": is not a text table (it contains NUL bytes); export it as CSV");
   }
   if (is_utf8(bytes)) return bytes;
-  if (auto chinese = from_chinese(bytes)) {
-    converted = std::move(*chinese);
-    return converted;
-  }
-  converted.clear();  // Latin-1, in which old instruments write the micro sign
-  for (std::size_t i = 0; i < bytes.size(); ++i) append_utf8(converted, byte_at(bytes, i));
+  converted = from_old_encoding(bytes);
   return converted;
 }
 

@@ -305,11 +305,76 @@ TEST_CASE("MATLAB files of level 4 are read, and damaged ones are not taken for 
 TEST_CASE("words are proposed only where headers or units support them", "[io][csv]") {
   CHECK(proposed_words(read("a,b\n0,5\n1,4\n2,3\n")).empty());
   CHECK(proposed_words(read("Frequency (Hz),Storage mod. (MPa)\n1,5\n2,4\n")).empty());
-  CHECK(proposed_words(read("log frequency,my storage modulus,my loss modulus\n1,5,1\n2,6,2\n"))
+  CHECK(proposed_words(read("std frequency,my storage modulus,my loss modulus\n1,5,1\n2,6,2\n"))
             .empty());
   CHECK(proposed_words(read("Strain rate (1/s),Viscosity (Pa s)\n1,5\n2,4\n")).empty());
   // A unit that is not known keeps its column unread.
   CHECK_FALSE(find_column(read("Time,Modulus\ns,Mpa\n0,1\n1,2\n"), "modulus_Pa"));
+}
+
+TEST_CASE("a column of logarithms is read as what it is the logarithm of", "[io][csv]") {
+  const CsvTable rheometer = read("log10 f (Hz),log10 E' (Pa),lg E'' (Pa)\n0,6,5\n1,6,5\n");
+  CHECK(column_SI(rheometer, "frequency_Hz") == Numbers{1.0, 10.0});
+  CHECK(column_SI(rheometer, "storage_modulus_Pa") == Numbers{1e6, 1e6});
+  CHECK(column_SI(rheometer, "loss_modulus_Pa") == Numbers{1e5, 1e5});
+  REQUIRE(rheometer.notes.size() == 3);
+  CHECK(contains(rheometer.notes.front(), "'log10 f (Hz)' was read as logarithms to base 10"));
+  const CsvTable inside = read("log(t/s);ln E (MPa)\n-1;0\n0;1\n");
+  CHECK(column_SI(inside, "time_s") == Numbers{0.1, 1.0});
+  CHECK(column_SI(inside, "modulus_Pa")[1] == Catch::Detail::Approx(1e6 * std::exp(1.0)));
+  // Hencky's strain is a quantity of its own, and a logger no logarithm.
+  const CsvTable hencky = read("t,log strain,logged\n0,0.1,1\n1,0.2,2\n");
+  CHECK(column_SI(hencky, "true_strain") == Numbers{0.1, 0.2});
+  CHECK(hencky.notes.empty());
+}
+
+TEST_CASE("numbers with thousands, quoted decimal commas and Fortran's exponents are read",
+          "[io][csv]") {
+  const Numbers expected{1498996.5, 998.0};
+  CHECK(column_SI(read("t,E\n0,\"1,498,996.5\"\n1,\"998.0\"\n"), "modulus_Pa") == expected);
+  CHECK(column_SI(read("t;E\n0;1,498,996.5\n1;998.0\n"), "modulus_Pa") == expected);
+  CHECK(column_SI(read("t E\n0 1.4989965D+06\n1 9.98d2\n"), "modulus_Pa") == expected);
+  CHECK(column_SI(read("t,E\n\"0,1\",\"1,25\"\n\"1,2\",\"1,5\"\n"), "modulus_Pa") ==
+        Numbers{1.25, 1.5});
+  // A note with a comma does not change the decimal sign of the table.
+  CHECK(column_SI(read("Rate,\"1,5\"\nt,E\n0.5,2.5\n1.5,3.5\n"), "modulus_Pa") ==
+        Numbers{2.5, 3.5});
+  CHECK(
+      contains(error_text([] { read("t,E\n0,\"1,498\"\n1,\"1,500\"\n"); }),
+               "line 2 has '1,498', which may be a number with thousands or with a decimal comma"));
+}
+
+TEST_CASE("units in capitals, microstrain, dynes and the names of mean values are read",
+          "[io][csv]") {
+  const CsvTable capitals = read("TIME(SEC),STRESS(PSI),STRAIN(IN/IN)\n0,1,0.05\n1,2,0.05\n");
+  CHECK(column_SI(capitals, "stress_Pa")[0] == Catch::Detail::Approx(6894.757293));
+  CHECK(column_SI(capitals, "strain")[0] == 0.05);
+  for (const char* unit : {"µε", "με", "ustrain", "microstrain"}) {
+    CAPTURE(unit);
+    const CsvTable gauge = read("t (s),Strain (" + std::string(unit) + ")\n0,50000\n1,50000\n");
+    CHECK(column_SI(gauge, "strain")[0] == Catch::Detail::Approx(0.05));
+  }
+  const CsvTable mean = read("Time (s),Mean modulus (dyn/cm²),SD\n0,10,1\n1,20,1\n");
+  CHECK(column_SI(mean, "modulus_Pa")[1] == Catch::Detail::Approx(2.0));
+}
+
+TEST_CASE("tables in older encodings are read by the names that they hold", "[io][csv]") {
+  // "Время, с;Модуль, МПа" in Windows-1251, "Czas [s];Naprężenie [MPa];..." in Windows-1250, "時間" in Shift-JIS.
+  const CsvTable russian =
+      read("\xc2\xf0\xe5\xec\xff, \xf1;\xcc\xee\xe4\xf3\xeb\xfc, \xcc\xcf\xe0\n0;1\n1;2\n");
+  CHECK(column_SI(russian, "modulus_Pa") == Numbers{1e6, 2e6});
+  const CsvTable polish = read(
+      "Czas [s];Napr\xea\xbf"
+      "enie [MPa];Odkszta\xb3"
+      "cenie [%]\n0;1;5\n1;2;5\n");
+  CHECK(column_SI(polish, "stress_Pa") == Numbers{1e6, 2e6});
+  CHECK(column_SI(polish, "strain")[0] == Catch::Detail::Approx(0.05));
+  const CsvTable japanese = read("\x8e\x9e\x8a\xd4 (s),\x89\x9e\x97\xcd (MPa)\n0,1\n1,2\n");
+  CHECK(column_SI(japanese, "stress_Pa") == Numbers{1e6, 2e6});
+  const CsvTable german = read(
+      "Zeit [s];Weg [\xb5m];Kraft [N];Pr\xfc"
+      "fer\n0;1;2;3\n1;2;3;4\n");
+  CHECK(column_SI(german, "depth_m")[1] == Catch::Detail::Approx(2e-6));
 }
 
 }  // namespace
