@@ -133,7 +133,11 @@ std::optional<UnitScale> scale_if_fits(const std::string& name, const std::strin
     if (is_stated(unit) && unit != "rad/s" && unit != "1/s" && unit != "s-1") return std::nullopt;
     return UnitScale{0.5 / std::numbers::pi, 0.0};
   }
-  if (!is_stated(unit)) return UnitScale{};
+  if (!is_stated(unit)) {
+    // An elongation is a strain or a length, and P a pressure or a load: their units say which.
+    const bool needs_unit = plain(name) == "elongation" || name == "P";
+    return needs_unit ? std::nullopt : std::optional(UnitScale{});
+  }
   if (std::string(quantity.unit.si) == "N" && is_weight_unit(unit)) {
     constexpr double kStandardGravity_m_s2 = 9.80665;  // BIPM, The International System of Units
     return UnitScale{kStandardGravity_m_s2 * scale_to_si(unit, "kg").factor, 0.0};
@@ -196,6 +200,7 @@ std::vector<ColumnKind> recorded_kinds() {
             "displacement",
             "disp",
             "extension",
+            "elongation",
             "penetration",
             "standard travel",
             "compressive extension",
@@ -295,12 +300,17 @@ std::vector<ColumnKind> material_kinds() {
         "ひずみ",
         "歪み",
         "歪",
-        "odkształcenie"}},
+        "odkształcenie",
+        "eng strain",
+        "elongation",
+        "伸び率",
+        "伸长率"}},
       {"nominal_stress_Pa",
        "nominal_stress",
        quantities::kStress,
-       {"engineering stress", "nennspannung", "contrainte nominale", "名义应力", "工程应力",
-        "公称応力"}},
+       {"engineering stress", "eng stress", "pk1", "pk1 stress", "P",
+        "first piola kirchhoff stress", "nennspannung", "contrainte nominale", "名义应力",
+        "工程应力", "公称応力"}},
       {"true_stress_Pa",
        "true_stress",
        quantities::kStress,
@@ -402,14 +412,15 @@ bool names_a_part(const std::string& name) {
   });
 }
 
-// force_mN, depth_um: the quantity's own name followed by a unit; storage_kPa, load_mN: another name of it.
+// force_mN, depth_um: the quantity's own name followed by a unit; storage_kPa, "Load mN": another name of it.
 std::optional<HeaderMatch> match_unit_in_name(const std::string& name, const ColumnKind& quantity) {
   const std::string base = std::string(quantity.base) + "_";
   const bool is_own = name.rfind(base, 0) == 0;
-  const std::size_t at = is_own ? base.size() - 1 : name.rfind('_');
+  const std::size_t at = is_own ? base.size() - 1 : name.find_last_of("_ ");
   if (at == std::string::npos) return std::nullopt;
   const std::string head = name.substr(0, at), unit = unit_in_name(name.substr(at + 1));
-  if (!is_stated(unit) || !(is_own || has_alias(quantity, head))) return std::nullopt;
+  const bool is_named = is_own || plain(head) == plain(quantity.base) || has_alias(quantity, head);
+  if (!is_stated(unit) || !is_named) return std::nullopt;
   const auto scale = scale_if_fits(is_own ? quantity.base : head, unit, quantity);
   if (!scale) return std::nullopt;
   const bool is_weight = std::string(quantity.unit.si) == "N" && is_weight_unit(unit);

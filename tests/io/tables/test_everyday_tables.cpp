@@ -358,6 +358,21 @@ TEST_CASE("units in capitals, microstrain, dynes and the names of mean values ar
   CHECK(column_SI(mean, "modulus_Pa")[1] == Catch::Detail::Approx(2.0));
 }
 
+TEST_CASE("a unit behind a name without brackets is read, and decides what an elongation is",
+          "[io][csv]") {
+  const CsvTable table = read("Time s,Load mN,Elongation %,Stress MPa\n0,1,5,2\n1,2,5,3\n");
+  CHECK(column_SI(table, "force_N")[0] == Catch::Detail::Approx(1e-3));
+  CHECK(column_SI(table, "strain")[0] == Catch::Detail::Approx(0.05));
+  CHECK(column_SI(table, "stress_Pa") == Numbers{2e6, 3e6});
+  CHECK(column_SI(read("t (s),Elongation (mm)\n0,5\n1,5\n"), "depth_m")[0] ==
+        Catch::Detail::Approx(5e-3));
+  const CsvTable bare = read("t (s),Elongation\n0,5\n1,5\n");
+  CHECK_FALSE(find_column(bare, "strain", {}));
+  CHECK_FALSE(find_column(bare, "depth_m", {}));
+  CHECK(column_SI(read("Eng. Strain (mm/mm),Eng. Stress (N/mm^2)\n0.1,1\n0.2,2\n"),
+                  "nominal_stress_Pa") == Numbers{1e6, 2e6});
+}
+
 TEST_CASE("tables in older encodings are read by the names that they hold", "[io][csv]") {
   // "Время, с;Модуль, МПа" in Windows-1251, "Czas [s];Naprężenie [MPa];..." in Windows-1250, "時間" in Shift-JIS.
   const CsvTable russian =

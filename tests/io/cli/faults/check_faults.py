@@ -275,6 +275,7 @@ FLIPPED = [
     ("flip: joint fit", "new_joint.json", "card new_joint.json --ratio 12 --for febio --units SI --reproducible --json"),
     ("flip: sweep store", "kept.sqlite", "sweep studies/pillar.toml --out kept.sqlite --force --json --csv out.csv"),
     ("flip: card", "new.inp", "card --verify new.inp --json"),
+    ("flip: certificate", "proven.inp.calculix.proof.json", "card --verify proven.inp.calculix.proof.json --json"),
 ]
 # What a run takes, where it ran and by what.
 VOLATILE = re.compile(r'"(wall_s|cpu_s|memory_B|created_at|duration_s|elapsed_s|sha256)": ?("[^"]*"|[^,}\n]*)|sha256 [0-9a-f]{64}')
@@ -292,7 +293,8 @@ def try_flips(study, home, number):
     for words in ("sweep studies/pillar.toml --out kept.sqlite",
                   "fit example_relaxation.csv --terms 2 --out new.json",
                   "fit --joint ratio10.csv ratio13.csv ratio20.csv --ratio 10 --ratio 13 --ratio 20 --out new_joint.json",
-                  "card material.json --for abaqus --units mm-t-s --out new.inp"):
+                  "card material.json --for abaqus --units mm-t-s --out new.inp",
+                  "card new.json --for calculix --units mm-t-s --out proven.inp", "card --prove proven.inp"):
         made = study.run(words.split(), folder)
         if made.status != 0:
             raise SystemExit(f"{words} fails: {made.err[-500:]}")
