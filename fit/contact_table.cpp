@@ -45,6 +45,21 @@ void check_depth(const Column& force_N, const Column& depth_m) {
   }
 }
 
+// A frame that yields by more than the stage moved leaves no depth.
+void check_frame(const Column& force_N, const Column& depth_m, double stiffness_N_m) {
+  const auto [least, most] = std::minmax_element(force_N.begin(), force_N.end());
+  const auto [deepest_low, deepest] = std::minmax_element(depth_m.begin(), depth_m.end());
+  const double rise_N = std::max(*most, *most - *least);
+  const double moved_m = std::max(*deepest, *deepest - *deepest_low);
+  const double frame_m = rise_N / stiffness_N_m;
+  if (!(frame_m >= moved_m)) return;
+  throw std::runtime_error("a frame of " + text_of(stiffness_N_m, 4) + " N/m yields by " +
+                           text_of(1e3 * frame_m, 4) + " mm at " + text_of(rise_N, 4) +
+                           " N, but the position changes by " + text_of(1e3 * moved_m, 4) +
+                           " mm only. Is the unit of the frame's stiffness right? State it, such as "
+                           "--frame-stiffness \"10 N/mm\"");
+}
+
 void find_first_contact(ContactTable& table) {
   const FirstLoading first = first_loading(table.depth_m);
   const bool is_flat = table.law.power == 1.0;
@@ -159,6 +174,7 @@ ContactTable contact_table(const IndentationData& data) {
   table.depth_m = copy(2);
   check_depth(table.force_N, table.depth_m);
   if (data.frame_stiffness_N_m > 0.0) {
+    check_frame(table.force_N, table.depth_m, data.frame_stiffness_N_m);
     for (std::size_t i = 0; i < table.time_s.size(); ++i) {
       table.depth_m[i] -= table.force_N[i] / data.frame_stiffness_N_m;
     }

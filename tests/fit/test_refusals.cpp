@@ -168,3 +168,16 @@ TEST_CASE("a captured run without a ramp, a gain or readings is refused", "[fit]
                       Contains("sign of the load cell"));
   }
 }
+
+TEST_CASE("a frame that yields by more than the stage moved is refused by its stiffness", "[fit]") {
+  // 1 N under 0.13 mm, and a frame of 10 N/m where 10 N/mm was meant: 100 mm.
+  IndentationData data;
+  data.frame_stiffness_N_m = 10.0;
+  for (int i = 0; i < 20; ++i) {
+    data.time_s.push_back(0.1 * i);
+    data.force_N.push_back(1.0 - 0.005 * i);
+    data.depth_m.push_back(1.3e-4);
+  }
+  CHECK_THROWS_WITH(fit_indentation(data), Contains("a frame of 10 N/m yields by 100 mm at 1 N") &&
+                                               Contains("--frame-stiffness \"10 N/mm\""));
+}
