@@ -21,6 +21,7 @@ void show_keys(ResultVisitor& v, const ShownAnswer& shown) {
   show_solution(v, answer);
   v("effects_within_tolerance", effects_within_tolerance(shown),
     "whether no effect that is not computed may change the results by more than the tolerance");
+  v("compared", shown.compared, "with --compare: beside the answer of another scene");
   show_notes(v, answer);
   v.when(!shown.printed.empty(), [&] {
     v.list("printed", "beside the values that the scene quotes", shown.printed,
@@ -156,6 +157,7 @@ void write_files(const ShownAnswer& shown, const std::string& folder, bool overw
                                 [&](ResultVisitor& v) { show_keys(v, shown); });
   write("results.json", text_from_json(object, 2) + "\n");
   if (!answer.results.empty()) write("results.csv", csv_of_results(answer.results, command));
+  if (shown.compared) write("compared.csv", csv_of_compared(*shown.compared, command));
   if (!answer.modes.empty()) write("modes.csv", csv_of_modes(answer.modes, command));
   for (const SceneCurve& curve : answer.curves) write(curve.name + ".csv", csv_of(curve, command));
   write_pictures(pictures_of(answer), folder, overwrite);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/flow/scenes/compared_answers.h"
 #include "io/flow/scenes/scene_uncertainty.h"
 #include "io/scenes/scene_file.h"
 #include "models/array/plane/row_shapes.h"
@@ -36,6 +37,7 @@ struct ShownAnswer {
   SceneAnswer answer;
   double wall_s = 0.0;
   std::vector<PrintedComparison> printed;
+  std::optional<ComparedAnswers> compared;
   std::optional<SceneUncertainty> uncertainty;
   double tolerance = 0.0;            // of the scene
   std::string command;               // of results.json
@@ -69,5 +71,9 @@ std::vector<PrintedComparison> compare_printed(const std::vector<PrintedValue>& 
                                                const SceneAnswer& answer);
 
 void print_comparison(const std::vector<PrintedComparison>& rows, std::ostream& out);
+
+// The other scene of --compare beside this one.
+void print_compared(const ComparedAnswers& compared, std::ostream& out);
+std::string csv_of_compared(const ComparedAnswers& compared, const std::string& command);
 
 }  // namespace viscard

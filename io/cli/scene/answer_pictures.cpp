@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 namespace viscard {
 
@@ -56,7 +57,20 @@ ShownUnit unit_of_curve(const std::string& unit, const std::vector<double>& valu
                                                     : shown_unit(unit, values);
 }
 
-PlotPanel panel_of(const SceneCurve& curve) {
+// A panel without series, and what values are multiplied by on its axes.
+struct EmptyPanel {
+  PlotPanel panel;
+  double x_per_si = 1.0, y_per_si = 1.0;
+
+  PlotSeries line(const SceneCurve& curve) const {
+    PlotSeries out;
+    out.x = times(curve.x, x_per_si);
+    out.y = times(curve.value, y_per_si);
+    return out;
+  }
+};
+
+EmptyPanel axes_of(const SceneCurve& curve) {
   const Abscissa x = abscissa_of(curve);
   const bool is_frequency = x.unit == "Hz";
   const bool is_size = curve.name.ends_with("_magnitude") || curve.name.ends_with("_spectrum");
@@ -65,26 +79,67 @@ PlotPanel panel_of(const SceneCurve& curve) {
   const ShownUnit x_unit = is_frequency ? ShownUnit{1.0, "Hz"} : shown_unit(x.unit, curve.x);
   const ShownUnit y_unit =
       is_log ? ShownUnit{1.0, curve.unit} : unit_of_curve(curve.unit, curve.value);
-  PlotPanel panel;
+  EmptyPanel out{.panel = {}, .x_per_si = x_unit.per_si, .y_per_si = y_unit.per_si};
   // Waves are shown over their logarithm; times and places start at, or are on both sides of, 0.
-  panel.x = {.label = x.name + " (" + x_unit.text + ")",
-             .is_log = (is_frequency || x.name == "wavelength") && spans_decades(curve.x)};
-  panel.y = {.label = label_of(curve, y_unit.text), .is_log = is_log};
-  PlotSeries line;
-  line.x = times(curve.x, x_unit.per_si);
-  line.y = times(curve.value, y_unit.per_si);
-  if (curve.error.size() == curve.value.size() && !is_log) {
+  out.panel.x = {.label = x.name + " (" + x_unit.text + ")",
+                 .is_log = (is_frequency || x.name == "wavelength") && spans_decades(curve.x)};
+  out.panel.y = {.label = label_of(curve, y_unit.text), .is_log = is_log};
+  return out;
+}
+
+PlotPanel panel_of(const SceneCurve& curve) {
+  EmptyPanel axes = axes_of(curve);
+  PlotSeries line = axes.line(curve);
+  if (curve.error.size() == curve.value.size() && !axes.panel.y.is_log) {
     PlotSeries band{.mark = Mark::kBand, .label = "estimated error", .x = line.x};
     for (std::size_t i = 0; i < curve.value.size(); ++i) {
-      const double half = curve.error[i] * y_unit.per_si;
+      const double half = curve.error[i] * axes.y_per_si;
       band.y_low.push_back(line.y[i] - half);
       band.y_high.push_back(line.y[i] + half);
     }
     band.ink = Ink::kSky;
-    panel.series.push_back(std::move(band));
+    axes.panel.series.push_back(std::move(band));
   }
-  panel.series.push_back(std::move(line));
-  return panel;
+  axes.panel.series.push_back(std::move(line));
+  return std::move(axes.panel);
+}
+
+// Two curves on common axes; the second one is dashed. has_dots: where their points are few.
+PlotPanel panel_of_both(const SceneCurve& here, const SceneCurve& other, const ComparedNames& names,
+                        bool has_dots) {
+  SceneCurve all = here;
+  all.x.insert(all.x.end(), other.x.begin(), other.x.end());
+  all.value.insert(all.value.end(), other.value.begin(), other.value.end());
+  EmptyPanel axes = axes_of(all);
+  for (const auto& [curve, name, index] :
+       {std::tuple(&here, &names.here, 0), std::tuple(&other, &names.other, 1)}) {
+    PlotSeries line = axes.line(*curve);
+    line.label = *name;
+    line.ink = ink_of_series(static_cast<std::size_t>(index));
+    line.pattern = index;
+    PlotSeries dots = line;
+    dots.mark = Mark::kPoints;
+    dots.label.clear();
+    axes.panel.series.push_back(std::move(line));
+    if (has_dots) axes.panel.series.push_back(std::move(dots));
+  }
+  return std::move(axes.panel);
+}
+
+// A profile as a curve over x.
+SceneCurve curve_of(const VoltageProfile& profile) {
+  return {.name = profile.name,
+          .unit = "V",
+          .x = profile.x_m,
+          .value = profile.value_V,
+          .x_name = "x_m",
+          .error = {},
+          .allowed = {}};
+}
+
+// One part of a complex amplitude: its magnitude and phase say as much.
+bool is_part(const std::string& curve) {
+  return curve.ends_with("_real") || curve.ends_with("_imaginary") || curve.ends_with("_phase");
 }
 
 const SceneCurve* find(const SceneAnswer& answer, const std::string& name) {
@@ -139,9 +194,7 @@ void draw_touch(const SceneAnswer& answer, Pictures& pictures) {
 Pictures pictures_of(const SceneAnswer& answer) {
   Pictures pictures;
   for (const SceneCurve& curve : answer.curves) {
-    const bool is_part = curve.name.ends_with("_real") || curve.name.ends_with("_imaginary") ||
-                         curve.name.ends_with("_phase");
-    if (is_part || curve.x.size() < 2) continue;
+    if (is_part(curve.name) || curve.x.size() < 2) continue;
     Plot plot;
     plot.title = label_of(curve, curve.unit);
     plot.description = plot.title + " against " + curve.x_name;
@@ -156,6 +209,34 @@ Pictures pictures_of(const SceneAnswer& answer) {
     if (!draw(curve.name, plot, "curve", pictures)) return {};
   }
   draw_touch(answer, pictures);
+  return pictures;
+}
+
+Pictures pictures_of_compared(const SceneAnswer& here, const SceneAnswer& other,
+                              const ComparedAnswers& compared, const ComparedNames& names) {
+  Pictures pictures;
+  const auto add = [&](const SceneCurve& one, const SceneCurve& two) {
+    Plot plot{.title = label_of(one, one.unit), .panels = {}};
+    plot.description = plot.title + " of " + names.here + " and of " + names.other;
+    plot.panels.push_back(panel_of_both(one, two, names, one.x_name == "x_m"));
+    if (!spans_decades({largest_size(one.value), largest_size(two.value)}))
+      return draw("compared_" + one.name, plot, "compared", pictures);
+    // A common axis would show the smaller one as a line at 0.
+    plot.panels = {panel_of(one), panel_of(two)};
+    plot.panels[0].title = names.here;
+    plot.panels[1].title = names.other;
+    plot.height_px = 640;
+    return draw("compared_" + one.name, plot, "compared", pictures);
+  };
+  for (const SceneCurve& curve : here.curves) {
+    const SceneCurve* beside = find(other, curve.name);
+    if (beside == nullptr || is_part(curve.name) || curve.x.size() < 2 || beside->x.size() < 2)
+      continue;
+    if (beside->x_name == curve.x_name && !add(curve, *beside)) return {};
+  }
+  for (const ComparedProfile& profile : compared.profiles) {
+    if (!add(curve_of(profile.here), curve_of(profile.other))) return {};
+  }
   return pictures;
 }
 

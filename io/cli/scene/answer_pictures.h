@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/flow/scenes/array_sweep.h"
+#include "io/flow/scenes/compared_answers.h"
 #include "io/plots/plot.h"
 #include "models/scene/common/scene_answer.h"
 #include "models/sensor/sensor_design.h"
@@ -17,6 +18,13 @@ using Pictures = std::vector<std::pair<std::string, std::string>>;
 
 // Curves: histories over time, responses over frequency (log magnitude above phase), spectra.
 Pictures pictures_of(const SceneAnswer& answer);
+
+// Curves and profiles of voltages that two answers have, in one picture each: "compared_NAME".
+struct ComparedNames {
+  std::string here, other;  // of the legend
+};
+Pictures pictures_of_compared(const SceneAnswer& here, const SceneAnswer& other,
+                              const ComparedAnswers& compared, const ComparedNames& names);
 
 // A result that every pillar of a row has ("centre_voltage_1", "centre_voltage_2", ...) over the
 // pillars, with its error. If they differ by decades, its magnitude on a logarithmic axis.

@@ -53,17 +53,18 @@ void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutpu
   write_pictures(pictures_over_pillars(answer, loaded), output.folder, output.overwrite);
 }
 
-// The uncertainty of an answer, if it is asked for.
 // The options of `viscard simulate`.
 struct SimulateWords {
   std::string scene;
   std::optional<double> tolerance;
+  std::optional<std::string> compare;
   bool with_uncertainty = false;
   std::optional<std::size_t> n_samples;
   std::optional<std::string> out;
   bool overwrite = false;
 };
 
+// The uncertainty of an answer, if it is asked for.
 std::optional<SceneUncertainty> uncertainty_of(const SimulateWords& words, const SceneFile& file,
                                                const SceneAnswer& answer, Streams& streams) {
   const std::string& path = words.scene;
@@ -84,6 +85,29 @@ std::optional<SceneUncertainty> uncertainty_of(const SimulateWords& words, const
                                            }});
 }
 
+std::string stem_of(const std::string& path) {
+  return std::filesystem::path(path).stem().string();
+}
+
+// Answers the other scene, to its own tolerance unless the command states one, and draws both.
+void compare_with(const SimulateWords& words, const SceneFile& file, Plausible judged,
+                  const SweepOutput& output, ShownAnswer& shown, Streams& streams) {
+  SceneFile other = read_scene(*words.compare, judged);
+  streams.accepts_implausible |= other.accepts_implausible;
+  if (!file.sweep.is_empty() || !other.sweep.is_empty())
+    throw UsageError("--compare is for single answers; omit [sweep] in both scenes");
+  apply_tolerance(words.tolerance, other.scene);
+  SceneAnswer answer = answer_of(other.scene, *words.compare, streams);
+  keep_wanted(common(other.scene).wanted, answer);
+  shown.compared =
+      compare_answers({file.scene, shown.answer}, {other.scene, answer}, *words.compare);
+  if (output.folder.empty()) return;
+  std::filesystem::create_directories(output.folder);
+  const ComparedNames names{stem_of(words.scene), stem_of(*words.compare)};
+  write_pictures(pictures_of_compared(shown.answer, answer, *shown.compared, names), output.folder,
+                 output.overwrite);
+}
+
 CommandSyntax simulate_syntax(SimulateWords& words) {
   CommandSyntax syntax{
       "viscard simulate SCENE.toml [OPTIONS]",
@@ -96,6 +120,12 @@ CommandSyntax simulate_syntax(SimulateWords& words) {
   syntax.positional.add("scene", &words.scene, "scene file");
   OptionList& options = syntax.options;
   add_tolerance_option(options, words.tolerance);
+  options
+      .add("compare", &words.compare,
+           "a second scene: results, modes and voltages along x of both beside each other, and in "
+           "--out "
+           "curves and voltages of both in one picture each")
+      .shown_as("SCENE.toml");
   options.add("uncertainty", &words.with_uncertainty,
               "95 % intervals of the results, and the share of each input in their variance: "
               "quantities such as \"40 um +- 1 um\" (also: uniform, lognormal) and what material "
@@ -135,6 +165,8 @@ int run_simulate(const Words& words, Streams& streams) {
   if (file.accepts_implausible) answer.notes.emplace_back(kPlausibleOffText);
   shown.printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
+  if (asked.compare)
+    compare_with(asked, file, given_plausible(syntax, Plausible::kScene), output, shown, streams);
   shown.uncertainty = uncertainty_of(asked, file, answer, streams);
   if (!folder.empty()) {
     shown.command = output.command;
@@ -154,6 +186,7 @@ int run_simulate(const Words& words, Streams& streams) {
   streams.out << path << missing_effects(shown) << "\n";
   print_answer(answer, shown.wall_s, FittedText(streams));
   print_comparison(shown.printed, FittedText(streams));
+  if (shown.compared) print_compared(*shown.compared, FittedText(streams));
   if (shown.uncertainty) print_uncertainty(*shown.uncertainty, FittedText(streams));
   return code;
 }

@@ -59,4 +59,46 @@ void show_keys(ResultVisitor& v, const PrintedComparison& row) {
   v("unit", row.unit, "its unit");
 }
 
+void print_compared(const ComparedAnswers& compared, std::ostream& out) {
+  std::size_t width = 24;
+  for (const ComparedValue& row : compared.values) width = std::max(width, row.name.size());
+  out << "\n  beside " << compared.scene << "\n";
+  if (!compared.values.empty())
+    out << fmt::format("  {:<{}} {:>14} {:>14} {:<5} {:>12}\n", "", width, "here", "there", "",
+                       "here/there");
+  for (const ComparedValue& row : compared.values) {
+    const std::string ratio = row.ratio
+                                  ? fmt::format("{:>12.6g} +- {:.1e}", *row.ratio, row.ratio_error)
+                                  : fmt::format("{:>12}", "-");
+    out << fmt::format("  {:<{}} {:>14.7g} {:>14.7g} {:<5} {}\n", row.name, width, row.value,
+                       row.other, row.unit, ratio);
+  }
+  for (const ComparedProfile& profile : compared.profiles) {
+    out << fmt::format("  {} along x: from one electrode to the next, {:.4g} um apart, up to ",
+                       profile.here.name, 1e6 * profile.pitch_m);
+    if (profile.contrast)
+      out << fmt::format("{:.3g} % of the largest here", 100.0 * *profile.contrast);
+    if (profile.contrast && profile.other_contrast) {
+      out << fmt::format(" and {:.3g} % there: {:.3g} times as sharp",
+                         100.0 * *profile.other_contrast,
+                         *profile.contrast / *profile.other_contrast);
+    } else {
+      out << "; there no electrodes have that distance";
+    }
+    out << "\n";
+  }
+}
+
+std::string csv_of_compared(const ComparedAnswers& compared, const std::string& command) {
+  std::string text =
+      fmt::format("# {} (viscard {})\nresult,value,other,unit,ratio,error,other_error\n", command,
+                  VISCARD_VERSION);
+  for (const ComparedValue& row : compared.values) {
+    text += fmt::format("{},{:.9g},{:.9g},{},{},{:.3g},{:.3g}\n", row.name, row.value, row.other,
+                        row.unit, row.ratio ? fmt::format("{:.9g}", *row.ratio) : "", row.error,
+                        row.other_error);
+  }
+  return text;
+}
+
 }  // namespace viscard

@@ -1,4 +1,5 @@
 #include "io/cost/study_cost.h"
+#include "io/flow/scenes/compared_answers.h"
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/run_command.h"
 
@@ -208,4 +209,70 @@ TEST_CASE("the factor over linear elements is read off the line through their er
   CHECK(between->factor == Approx(4e-3 / 2e-3).epsilon(1e-12));
   CHECK_FALSE(between->is_extrapolated);
   CHECK_FALSE(factor_over_linear(study, 1e-5));  // no row is that accurate
+}
+
+TEST_CASE("two scenes stand beside each other with ratios, pictures and a contrast at the pitch",
+          "[cli][scene]") {
+  const ScratchFolder folder;
+  // Half the modulus gives twice the displacement, in every number of the answer but the voltages.
+  const SceneText stiff(kSensor);
+  const SceneText soft(replaced(kSensor, "1.8 MPa", "0.9 MPa"));
+  const CommandOutcome both =
+      run_command({"simulate", stiff.path(), "--compare", soft.path(), "--json"});
+  CAPTURE(both.err);
+  REQUIRE(both.status == 0);
+  const nlohmann::json compared = nlohmann::json::parse(both.out)["compared"];
+  CHECK(compared["scene"] == soft.path());
+  bool has_stiffness = false;
+  for (const auto& row : compared["values"]) {
+    if (row["name"] != "top_displacement") continue;
+    has_stiffness = true;
+    // The film deforms too, so that the ratio lies between the pillar's 1/2 and 1.
+    CHECK(row["ratio"].get<double>() > 0.5);
+    CHECK(row["ratio"].get<double>() < 0.52);
+    CHECK(row["ratio_error"].get<double>() < 4e-3);
+  }
+  CHECK(has_stiffness);
+  CHECK(compared["profiles"].empty());
+
+  const std::string seed = std::string(VISCARD_SOURCE_DIR) + "/data/seed/";
+  const std::string out = (folder / "out").string();
+  const CommandOutcome bulk = run_command({"simulate", seed + "array_cylinder.toml", "--compare",
+                                           seed + "layer_cylinder.toml", "--out", out});
+  CAPTURE(bulk.err);
+  CHECK(bulk.out.find("times as sharp") != std::string::npos);
+  CHECK(std::filesystem::exists(folder / "out/compared.csv"));
+  CHECK(std::filesystem::exists(folder / "out/compared_centre_voltage.svg"));
+
+  const CommandOutcome other =
+      run_command({"simulate", stiff.path(), "--compare", seed + "table_7_1_modes.toml"});
+  CHECK(other.status == 1);
+  CHECK(other.err.find("have no value, curve or profile") != std::string::npos);
+}
+
+TEST_CASE("the contrast of a profile is the largest step of one pitch over the largest voltage",
+          "[cli][scene]") {
+  Scene row = ArrayScene{};
+  std::get<ArrayScene>(row).geometry.count = 3;
+  Scene layer = LayerScene{};
+  const double pitch_m = 100e-6;  // of the default row
+  std::get<LayerScene>(layer).electrodes_m = {{0.0, 0.0}, {pitch_m, 0.0}, {3.0 * pitch_m, 0.0}};
+  const auto answer = [](double one, double two, double three) {
+    SceneAnswer out;
+    for (const auto& [name, value] : {std::pair("centre_voltage_1", one),
+                                      {"centre_voltage_2", two},
+                                      {"centre_voltage_3", three}})
+      out.results.push_back({.name = name, .value = value, .unit = "V", .error_estimate = 1e-6});
+    return out;
+  };
+  const SceneAnswer here = answer(-1.0, -4.0, -2.0), there = answer(-8.0, -6.0, 0.0);
+  const ComparedAnswers found = compare_answers({row, here}, {layer, there}, "layer.toml");
+  REQUIRE(found.profiles.size() == 1);
+  CHECK(found.profiles[0].pitch_m == Approx(pitch_m));
+  CHECK(*found.profiles[0].contrast == Approx(3.0 / 4.0));
+  CHECK(*found.profiles[0].other_contrast == Approx(2.0 / 8.0));  // the third is two pitches away
+  CHECK(found.values.size() == 3);
+  CHECK(*found.values[0].ratio == Approx(1.0 / 8.0));
+  CHECK(found.values[0].ratio_error == Approx(1e-6 / 8.0 * (1.0 + 1.0 / 8.0)));
+  CHECK_FALSE(found.values[2].ratio);  // 0 V
 }
