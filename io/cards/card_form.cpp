@@ -152,7 +152,7 @@ std::string comparable_text(const HeaderLine& line, bool has_reference) {
 // Without the material, only values that the numbers of the card determine are checked.
 bool follows_from_card(const std::string& key) {
   return key.rfind("viscard ", 0) == 0 || key == "CANNOT REPRESENT" || key == "units" ||
-         key == "conventions" || key == "E0 (instantaneous)" || key == "K0" ||
+         key == "conventions" || key == "E0 (instantaneous)" || key == "K0" || key == "rho" ||
          key.rfind("SET THE TEMPERATURE", 0) == 0;
 }
 
@@ -213,7 +213,8 @@ std::vector<CardFinding> compare_headers(const std::vector<HeaderLine>& found,
       differs = CardFinding{
           "header-differs",
           at_line(match.line->line, "'" + line.key + "' says '" + match.line->text + right), true};
-    } else if (match.line == nullptr && !is_missing) {
+    } else if (match.line == nullptr && !is_missing &&
+               line.key != "rho") {  // older headers lack it
       is_missing =
           CardFinding{"header-incomplete", "the header has no '" + line.key + right, false};
     }

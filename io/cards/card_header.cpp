@@ -20,8 +20,8 @@ std::string interval_text(const Interval& interval) {
   return fmt::format("[{:.6g}, {:.6g}]", interval.low, interval.high);
 }
 
-void add_moduli(std::vector<std::string>& lines, const Material& material,
-                const UnitSystem& units) {
+void add_moduli(std::vector<std::string>& lines, const Material& material, const UnitSystem& units,
+                bool has_density) {
   const DerivedModuli moduli = derived_moduli(material);
   const auto in_units = [&](double value_Pa) {
     return fmt::format("{:.10g} {}", to_card(value_Pa, units.stress_exponent), units.stress);
@@ -30,6 +30,10 @@ void add_moduli(std::vector<std::string>& lines, const Material& material,
                   ", E_inf (long-term) = " + in_units(moduli.E_inf_Pa));
   lines.push_back("K0 = " + (material.nu < 0.5 ? in_units(moduli.K0_Pa) : "infinite") +
                   fmt::format(" from nu = {} ({})", material.nu, material.provenance.nu_origin));
+  if (has_density && material.rho_kg_m3 > 0.0) {
+    lines.push_back(fmt::format(
+        "rho = {:.10g} {}", to_card(material.rho_kg_m3, units.density_exponent), units.density));
+  }
 }
 
 void add_validity(std::vector<std::string>& lines, const Material& material) {
@@ -126,7 +130,7 @@ std::vector<std::string> card_header(const Material& material, const CardTarget&
   }
   lines.push_back(std::string("units: ") + units.name + " (" + units.description + ")");
   lines.push_back("conventions: " + conventions_in_words(target));
-  add_moduli(lines, material, units);
+  add_moduli(lines, material, units, target.states_density);
   for (const FidelityItem& item : fidelity) {
     lines.push_back(item.item + ": " + to_word(item.mapping) +
                     (item.text.empty() ? "" : ", " + item.text));

@@ -50,8 +50,8 @@ double value_mismatch(const ValuePair& pair) {
 std::string pair_in_words(const ValuePair& pair) {
   if (pair.found == nullptr) return pair.expected->name + " is missing";
   if (pair.expected == nullptr) return pair.found->name + " is not expected";
-  return fmt::format("{} is {:.6g} where {:.6g} is expected", pair.found->name, pair.found->value,
-                     pair.expected->value);
+  return fmt::format("{} is {:.6g} where {:.6g} is expected{}", pair.found->name, pair.found->value,
+                     pair.expected->value, factor_of(pair.found->value, pair.expected->value));
 }
 
 std::vector<double> card_frequencies_Hz(const Material& material, const CardTarget& target,

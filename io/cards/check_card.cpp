@@ -64,11 +64,12 @@ std::optional<CardFinding> bulk_finding(const ReadCard& read, const Material& re
   at_found.nu = found.nu;
   const double found_Pa = bulk_Pa(at_found), expected_Pa = bulk_Pa(reference);
   if (std::abs(found_Pa / expected_Pa - 1.0) <= kHandTyped) return std::nullopt;
-  return CardFinding{"poisson-ratio",
-                     fmt::format("nu is {:g} and the material's {:g}: the bulk modulus is {:.3g} "
-                                 "Pa where it should be {:.3g} Pa",
-                                 found.nu, reference.nu, found_Pa, expected_Pa),
-                     true};
+  return CardFinding{
+      "poisson-ratio",
+      fmt::format("nu is {:g} and the material's {:g}: the bulk modulus is {:.3g} "
+                  "Pa where it should be {:.3g} Pa{}",
+                  found.nu, reference.nu, found_Pa, expected_Pa, factor_of(found_Pa, expected_Pa)),
+      true};
 }
 
 std::optional<CardFinding> density_finding(const ReadCard& read, const Material& reference) {
@@ -83,9 +84,10 @@ std::optional<CardFinding> density_finding(const ReadCard& read, const Material&
                        false};
   }
   if (std::abs(found / expected - 1.0) <= kHandTyped) return std::nullopt;
-  return CardFinding{
-      "density", fmt::format("the density is {:g} kg/m3 and the material's {:g}", found, expected),
-      true};
+  return CardFinding{"density",
+                     fmt::format("the density is {:g} kg/m3 and the material's {:g}{}", found,
+                                 expected, factor_of(found, expected)),
+                     true};
 }
 
 std::string in_words(const TemperatureShift& shift) {
@@ -210,8 +212,8 @@ void compare_with_header(const std::string& text, CardCheck& check) {
   const std::string& missing = check.read.missing_keyword;
   check.findings.push_back(
       {missing.empty() ? "header-disagrees" : "E0-without-instantaneous",
-       fmt::format("the header says E0 = {:g} Pa and the numbers below mean {:g} Pa{}", stated_Pa,
-                   found_Pa, missing.empty() ? "" : "; " + missing),
+       fmt::format("the header says E0 = {:g} Pa and the numbers below mean {:g} Pa{}{}", stated_Pa,
+                   found_Pa, factor_of(found_Pa, stated_Pa), missing.empty() ? "" : "; " + missing),
        true});
 }
 

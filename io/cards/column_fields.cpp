@@ -21,6 +21,17 @@ std::vector<std::string> columns(const std::string& line, std::size_t width) {
   return out;
 }
 
+std::size_t dyna_width(const std::vector<CardLine>& lines, const CardLine& keyword) {
+  constexpr std::size_t kUsual = 10, kLong = 20;
+  const std::string_view word = trimmed(keyword.text);
+  if (word.ends_with('+')) return kLong;
+  const bool is_long_deck = std::any_of(lines.begin(), lines.end(), [](const CardLine& line) {
+    const std::string deck = upper(trimmed(line.text));
+    return deck.rfind("*KEYWORD", 0) == 0 && deck.find("LONG=Y") != std::string::npos;
+  });
+  return is_long_deck && !word.ends_with('-') ? kLong : kUsual;
+}
+
 std::string radioss_units(const std::vector<CardLine>& lines) {
   for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
     if (upper(trimmed(lines[i].text)).rfind("/UNIT/", 0) != 0) continue;

@@ -15,6 +15,10 @@ namespace viscard {
 // The fields of a line, blanks trimmed; the cells between commas if the line has any.
 std::vector<std::string> columns(const std::string& line, std::size_t width);
 
+// Columns of a field below a keyword of LS-DYNA: 20 in a deck with *KEYWORD LONG=Y or below a keyword that ends with
+// "+", 10 else and below one that ends with "-".
+std::size_t dyna_width(const std::vector<CardLine>& lines, const CardLine& keyword);
+
 // The unit system of the block /UNIT of OpenRadioss, or "". Throws std::runtime_error for units of no known system.
 std::string radioss_units(const std::vector<CardLine>& lines);
 // Mistakes of the keyword "/MAT/LAW40/1/2" of a law: no whole number of the material, or a unit block (the last number)

@@ -113,7 +113,7 @@ std::vector<CardFinding> material_findings(const std::vector<KeywordBlock>& bloc
     if (word == "MATERIAL") {
       if (has_material && !may_have_several) {
         add("several-materials",
-            at_line(block.line, "a second material begins; check a file with one of them"));
+            at_line(block.line, "a second material begins; choose one by --material-name"));
         return out;
       }
       has_material = true;

@@ -92,11 +92,22 @@ void compare_branch(const CardBranch& found, const CardBranch& expected, const C
   add(time_word(target), found.time, expected.time);
 }
 
+}  // namespace
+
+std::string factor_of(double found, double expected) {
+  const double factor = found / expected;
+  if (!std::isfinite(factor)) return "";
+  return fmt::format(", {:.{}g} times it", factor, std::abs(factor - 1.0) < 1e-4 ? 10 : 6);
+}
+
+namespace {
+
 std::string difference_in_words(const Difference& difference) {
   // Six digits, or as many as show the difference.
   const bool is_small = relative_mismatch(difference.found, difference.expected) < 1e-4;
-  return fmt::format("{} is {:.{}g} where {:.{}g} is expected", difference.what, difference.found,
-                     is_small ? 12 : 6, difference.expected, is_small ? 12 : 6);
+  return fmt::format("{} is {:.{}g} where {:.{}g} is expected{}", difference.what, difference.found,
+                     is_small ? 12 : 6, difference.expected, is_small ? 12 : 6,
+                     factor_of(difference.found, difference.expected));
 }
 
 // How many digits of a number are not trailing zeros, of fourteen; and the place of the last one.

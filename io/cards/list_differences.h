@@ -12,6 +12,9 @@ std::vector<CardBranch> by_time(std::vector<CardBranch> branches);
 // Largest relative difference of two numbers; 1 if one of them is not finite.
 double relative_mismatch(double a, double b);
 
+// ", 1.02256 times it": the factor between two numbers; "" if there is none.
+std::string factor_of(double found, double expected);
+
 // A row of the card too few or too many, or one number off: "missing-row", "doubled-row",
 // "missing-creep", "missing-viscoelastic", "one-number", "one-number-unit". Empty if the
 // differences are of another kind, or only those of nu or of the density, which have their own

@@ -114,7 +114,7 @@ void ReadCard::add_unread(const std::vector<std::string>& parts) {
 
 void ReadCard::add_second_material(const CardLine& line) {
   add("several-materials",
-      at_line(line, "a second material begins; check a file with one of them"));
+      at_line(line, "a second material begins; choose one by --material-name"));
 }
 
 std::string stated_unit_system(const std::string& text) {

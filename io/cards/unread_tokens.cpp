@@ -110,10 +110,10 @@ AccountedLines accounted_lines(const std::string& text, const std::string& targe
     }
   } else if (is_dyna || target == "openradioss") {
     out.lines = column_lines(card_lines(text, is_dyna ? "$" : "#"), is_dyna);
-    // The number of the material, in the first ten columns of LS-DYNA.
-    const bool has_row = !out.lines.empty() && out.lines.front().text[0] != '*';
-    if (is_dyna && has_row)
-      out.neutral = {std::string(trimmed(out.lines.front().text.substr(0, 10)))};
+    // The number of the material of LS-DYNA, in columns of any width or before a comma.
+    const std::string_view first = out.lines.empty() ? "" : trimmed(out.lines.front().text);
+    if (is_dyna && !first.starts_with('*'))
+      out.neutral = {std::string(first.substr(0, first.find_first_of(" ,")))};
   } else if (is_frontistr || target == "calculix" || target.rfind("abaqus", 0) == 0) {
     out.neutral = {"N",    "TYPE", "ISOTROPIC",     "ISO",     "MODULI", "INSTANTANEOUS",
                    "LONG", "TERM", "INFINITESIMAL", "INFINITE"};

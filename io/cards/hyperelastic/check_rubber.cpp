@@ -5,6 +5,8 @@
 #include "io/cards/hyperelastic/rubber_rows.h"
 #include "io/cards/list_differences.h"
 #include "io/cards/unit_system.h"
+#include "io/materials/material_json.h"
+#include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 
@@ -19,8 +21,9 @@ namespace {
 struct RubberParts {
   HyperelasticLaw law;
   std::vector<RubberTerm> terms;
-  double bulk_Pa = 0.0;        // 0: not compared
-  double density_kg_m3 = 0.0;  // 0: not compared
+  std::optional<double> bulk_Pa = {};  // 0: incompressible; none: not compared
+  double density_kg_m3 = 0.0;          // 0: not compared
+  double poisson = 0.0;                // of a card that states it for the bulk modulus; 0 else
 };
 
 // Neo-Hooke and Mooney-Rivlin as the law of Ogden that they equal, for cards that have only that.
@@ -66,7 +69,10 @@ std::vector<RubberPair> pairs_between(const RubberParts& found, const RubberPart
     out.push_back({fmt::format("g_{}", i + 1), a[i].g, b[i].g});
     out.push_back({fmt::format("tau_{}_s", i + 1), a[i].tau_s, b[i].tau_s});
   }
-  if (expected.bulk_Pa > 0.0) out.push_back({"bulk modulus", found.bulk_Pa, expected.bulk_Pa});
+  if (expected.poisson != 0.0)
+    out.push_back({"Poisson's ratio", found.poisson, expected.poisson});
+  else if (expected.bulk_Pa)
+    out.push_back({"bulk modulus", found.bulk_Pa.value_or(0.0), *expected.bulk_Pa});
   if (expected.density_kg_m3 > 0.0)
     out.push_back({"density", found.density_kg_m3, expected.density_kg_m3});
   return out;
@@ -192,18 +198,20 @@ void add_law_mistakes(HyperelasticForm form, const std::string& target,
 void add_volume_and_unit_mistakes(const UnitSystem& units, std::vector<RubberMistake>& list) {
   list.push_back({"K-for-D", "the bulk modulus stands where the solver takes D = 2/K",
                   [&units](RubberParts& p) {
-                    const double in_card = to_card(p.bulk_Pa, units.stress_exponent);
+                    if (!p.bulk_Pa || *p.bulk_Pa == 0.0) return;
+                    const double in_card = to_card(*p.bulk_Pa, units.stress_exponent);
                     p.bulk_Pa = from_card(2.0 / in_card, units.stress_exponent);
                   }});
-  list.push_back({"D-without-2", "D is 1/K, where the solver takes 2/K",
-                  [](RubberParts& p) { p.bulk_Pa *= 2.0; }});
+  list.push_back({"D-without-2", "D is 1/K, where the solver takes 2/K", [](RubberParts& p) {
+                    if (p.bulk_Pa) *p.bulk_Pa *= 2.0;
+                  }});
   for (const UnitSystem& other : unit_systems()) {
     const int shift = other.stress_exponent - units.stress_exponent;
     if (shift == 0) continue;
     list.push_back({"stress-unit", fmt::format("the moduli are in the unit of {}", other.name),
                     [shift](RubberParts& p) {
                       scale_law(p, to_card(1.0, shift));
-                      p.bulk_Pa = to_card(p.bulk_Pa, shift);
+                      if (p.bulk_Pa) p.bulk_Pa = to_card(*p.bulk_Pa, shift);
                     }});
   }
   for (const int shift : {3, -3}) {
@@ -245,16 +253,98 @@ std::vector<CardFinding> explained(const RubberParts& found, const RubberParts& 
     }
   }
   if (best != nullptr) return {{best->name, best->text, true}};
+  std::vector<RubberPair> pairs = pairs_between(found, expected);
+  // Of a card with Poisson's ratio the bulk modulus shows what a small difference means.
+  if (expected.poisson != 0.0 && expected.bulk_Pa && found.bulk_Pa)
+    pairs.push_back({"so that the bulk modulus", *found.bulk_Pa, *expected.bulk_Pa});
   std::string text;
-  for (const RubberPair& pair : pairs_between(found, expected)) {
+  for (const RubberPair& pair : pairs) {
     if (relative_mismatch(pair.found, pair.expected) <= 1e-6) continue;
-    text +=
-        fmt::format("{}{} is {:.9g}, {}", text.empty() ? "" : "; ", pair.name, pair.found,
-                    pair.expected == 0.0 ? std::string("not 0")
-                                         : fmt::format("{:.6g} times the expected {:.9g}",
-                                                       pair.found / pair.expected, pair.expected));
+    text += fmt::format(
+        "{}{} is {:.9g}, {}", text.empty() ? "" : "; ", pair.name, pair.found,
+        pair.expected == 0.0
+            ? "not 0" + std::string(pair.name == "bulk modulus" ? " (incompressible)" : "")
+            : fmt::format("{:.6g} times the expected {:.9g}", pair.found / pair.expected,
+                          pair.expected));
   }
   return {{"numbers-differ", text, true}};
+}
+
+// The number behind a mark of viscard's own header, or nothing.
+std::optional<double> stated_number(const std::string& text, const std::string& mark) {
+  if (stated_rubber_target(text).empty()) return std::nullopt;
+  std::size_t at = text.find(mark);
+  if (at == std::string::npos) return std::nullopt;
+  at += mark.size();
+  return number_from_text(std::string_view(text).substr(at, text.find_first_of(" \n", at) - at));
+}
+
+// Shear modulus at rest of the law that stands in the card.
+double shear_in_card_Pa(const RubberParts& parts, bool is_long_term) {
+  return youngs_modulus_Pa(parts.law) / 3.0 *
+         (is_long_term ? 1.0 - sum_of_shares(parts.terms) : 1.0);
+}
+
+// Bulk modulus and density that the card should have: as asked for, of the file, or of viscard's header.
+void take_volume(const std::string& text, const HyperelasticFile* file,
+                 const RubberCheckOptions& options, const ReadRubber& read, RubberParts& expected) {
+  const auto first = [](const auto&... all) {
+    std::optional<double> out;
+    ((out = out ? out : all), ...);
+    return out;
+  };
+  const std::optional<double> of_file = file == nullptr ? std::nullopt : file->bulk_Pa;
+  const auto has = [&](const char* words) {
+    return !stated_rubber_target(text).empty() && text.find(words) != std::string::npos;
+  };
+  const std::optional<double> of_header =
+      has(" incompressible: use hybrid") ? std::optional(0.0)
+      : has(kUsualBulkText) ? std::optional(kUsualBulkRatio * youngs_modulus_Pa(expected.law) / 3.0)
+                            : stated_number(text, " bulk modulus ");
+  expected.bulk_Pa = first(options.bulk_Pa, of_file, of_header);
+  expected.density_kg_m3 =
+      first(options.density_kg_m3, file == nullptr ? std::nullopt : file->density_kg_m3,
+            stated_number(text, " density "))
+          .value_or(0.0);
+  if (!expected.bulk_Pa || read.poisson == 0.0) return;
+  const double shear_Pa = shear_in_card_Pa(expected, read.is_long_term), K = *expected.bulk_Pa;
+  expected.poisson = (3.0 * K - 2.0 * shear_Pa) / (6.0 * K + 2.0 * shear_Pa);
+}
+
+// Without the file of the law: numbers that viscard's own header states otherwise.
+std::vector<CardFinding> header_findings(const std::string& text, const RubberParts& found,
+                                         const RubberParts& expected) {
+  std::vector<CardFinding> out;
+  const auto compare = [&](const std::string& what, double a, double b) {
+    // The header has ten digits, a column of LS-DYNA six and more.
+    constexpr double kRounding = 2e-5;
+    if (relative_mismatch(a, b) <= kRounding) return;
+    out.push_back(
+        {"header-differs",
+         fmt::format("{} is {:.9g}, {:.6g} times the {:.9g} stated", what, a, a / b, b),
+         true});
+  };
+  if (const auto E = stated_number(text, "Young's modulus at rest "))
+    compare("Young's modulus at rest", youngs_modulus_Pa(found.law), *E);
+  if (expected.bulk_Pa && expected.poisson == 0.0)
+    compare("the bulk modulus", found.bulk_Pa.value_or(0.0), *expected.bulk_Pa);
+  if (expected.poisson != 0.0) compare("Poisson's ratio", found.poisson, expected.poisson);
+  if (expected.density_kg_m3 > 0.0)
+    compare("the density", found.density_kg_m3, expected.density_kg_m3);
+  return out;
+}
+
+// Rubber hardly changes its volume.
+std::optional<CardFinding> soft_volume(const std::string& text, const ReadRubber& read) {
+  constexpr double kLeastRatio = 10.0;
+  const double ratio = read.bulk_Pa / (youngs_modulus_Pa(read.law) / 3.0);
+  if (read.bulk_Pa == 0.0 || ratio >= kLeastRatio) return std::nullopt;
+  const bool is_negative = ratio < 2.0 / 3.0 * (1.0 - 1e-6);
+  return CardFinding{"soft-volume",
+                     fmt::format("the bulk modulus is {:.4g} times the shear modulus at rest{}; "
+                                 "rubber has about 1000 times",
+                                 ratio, is_negative ? ", so that Poisson's ratio is negative" : ""),
+                     is_negative && text.find(kPlausibleOffText) == std::string::npos};
 }
 
 // What ten columns of lsdyna lose of the law: the difference that viscard's own card has. At most 1 %.
@@ -268,7 +358,7 @@ double rounding_of(const RubberParts& expected, const RubberCheckOptions& option
   writing.may_approximate = true;
   const ReadRubber own = read_rubber_card(rubber_card(expected.law, expected.terms, writing),
                                           options.target, read.units->name);
-  const RubberParts rounded{own.law, own.terms, 0.0, 0.0};
+  const RubberParts rounded{own.law, own.terms};
   return std::min(kMost, largest_mismatch(rounded, in_form(expected, own.law.form)));
 }
 
@@ -279,9 +369,11 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
   RubberCheck check{.read = read_rubber_card(text, options.target, options.units)};
   check.findings = check.read.findings;
   check.tolerance = options.tolerance.value_or(1e-6);
+  if (const auto soft = soft_volume(text, check.read)) check.findings.push_back(*soft);
+  const RubberParts found{check.read.law, check.read.terms, check.read.bulk_Pa,
+                          check.read.density_kg_m3, check.read.poisson};
   if (file != nullptr) {
-    RubberParts expected{file->law, file->terms, options.bulk_Pa.value_or(0.0),
-                         options.density_kg_m3.value_or(0.0)};
+    RubberParts expected{file->law, file->terms};
     if (!options.elastic_only.empty()) {
       expected.law = law_without_terms(file->law, file->terms, options.elastic_only);
       expected.terms.clear();
@@ -291,14 +383,18 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
       check.tolerance =
           std::max(check.tolerance, kMore * rounding_of(expected, options, check.read));
     }
-    const RubberParts found{check.read.law, check.read.terms, check.read.bulk_Pa,
-                            check.read.density_kg_m3};
+    take_volume(text, file, options, check.read, expected);
     expected = in_form(expected, found.law.form);
     check.difference = largest_mismatch(found, expected);
     if (*check.difference > check.tolerance) {
       const auto why = explained(found, expected, options.target, *check.read.units);
       check.findings.insert(check.findings.end(), why.begin(), why.end());
     }
+  } else {
+    RubberParts expected{check.read.law, check.read.terms};
+    take_volume(text, file, options, check.read, expected);
+    const auto differ = header_findings(text, found, expected);
+    check.findings.insert(check.findings.end(), differ.begin(), differ.end());
   }
   const std::string stated = stated_card_sum(text);
   if (check.findings.empty() && !stated.empty() && stated != card_sum(text)) {

@@ -1,6 +1,7 @@
 #include "io/cards/hyperelastic/read_rubber.h"
 
 #include "io/basics/words.h"
+#include "io/cards/card_lines.h"
 #include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/hyperelastic/rubber_readers.h"
 #include "io/cards/unit_system.h"
@@ -62,6 +63,7 @@ void take_at_once(const RubberText& read, double stress_Pa, ReadRubber& out) {
   const double shear_Pa = youngs_modulus_Pa(out.law) / 3.0;
   if (read.has_poisson && read.poisson > -1.0 && read.poisson < 0.5) {
     out.bulk_Pa = 2.0 * shear_Pa * (1.0 + read.poisson) / (3.0 * (1.0 - 2.0 * read.poisson));
+    out.poisson = read.poisson;
   }
   for (const RubberNumbers::Term& term : numbers.terms)
     out.terms.push_back({term.g, from_card(term.time, out.units->time_exponent)});
@@ -85,31 +87,35 @@ void take_at_once(const RubberText& read, double stress_Pa, ReadRubber& out) {
 }  // namespace
 
 bool looks_like_rubber_card(const std::string& text) {
-  const auto& words = {"*HYPERELASTIC",
-                       "TB,HYPER",
-                       "*MAT_OGDEN_RUBBER",
-                       "*MAT_077",
-                       "*MAT_HYPERELASTIC",
-                       "/MAT/LAW62",
-                       "/MAT/LAW82",
-                       "/MAT/LAW92",
-                       "/MAT/LAW94",
-                       "\"Ogden\"",
-                       "\"Yeoh\"",
-                       "\"Arruda-Boyce\"",
-                       "\"Gent\"",
-                       "'Ogden'",
-                       "'Yeoh'",
-                       "'Arruda-Boyce'",
-                       "'Gent'",
-                       "uncoupled hyperelastic",
-                       "!HYPERELASTIC",
-                       "dw_tl_he_",
-                       "ComputeNeoHookeanStress",
-                       "DefaultFiniteStrain"};
   if (!stated_rubber_target(text).empty()) return true;
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return text.find(word) != std::string::npos; });
+  // Abaqus/CAE writes "*Hyperelastic", MAPDL "TB,HYPE".
+  static const std::vector<std::string> kWords{"*HYPERELASTIC",
+                                               "TB,HYPE",
+                                               "*MAT_OGDEN_RUBBER",
+                                               "*MAT_077",
+                                               "*MAT_HYPERELASTIC",
+                                               "/MAT/LAW62",
+                                               "/MAT/LAW82",
+                                               "/MAT/LAW92",
+                                               "/MAT/LAW94",
+                                               "\"OGDEN\"",
+                                               "\"YEOH\"",
+                                               "\"ARRUDA-BOYCE\"",
+                                               "\"GENT\"",
+                                               "'OGDEN'",
+                                               "'YEOH'",
+                                               "'ARRUDA-BOYCE'",
+                                               "'GENT'",
+                                               "UNCOUPLEDHYPERELASTIC",
+                                               "!HYPERELASTIC",
+                                               "DW_TL_HE_",
+                                               "COMPUTENEOHOOKEANSTRESS",
+                                               "DEFAULTFINITESTRAIN"};
+  std::string plain = upper(text);
+  std::erase_if(plain, [](char c) { return c == ' ' || c == '\t'; });
+  return std::any_of(kWords.begin(), kWords.end(), [&](const std::string& word) {
+    return plain.find(word) != std::string::npos;
+  });
 }
 
 std::string stated_rubber_target(const std::string& text) {

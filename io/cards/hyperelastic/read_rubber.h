@@ -16,6 +16,7 @@ struct ReadRubber {
   // The law that stands in the card is the one after all relaxation.
   bool is_long_term = false;
   double bulk_Pa = 0.0;        // 0: incompressible
+  double poisson = 0.0;        // stands in the card for the bulk modulus; 0: it does not
   double density_kg_m3 = 0.0;  // 0: not in the card
   const UnitSystem* units = nullptr;
   bool units_were_stated = false;

@@ -122,13 +122,12 @@ RubberNumbers numbers_of(const HyperelasticLaw& law, const std::vector<RubberTer
   for (const double modulus_Pa : law.moduli_Pa)
     out.moduli.push_back(to_card(modulus_Pa, units.stress_exponent));
   const bool may_be_incompressible = options.target == "abaqus" || options.target == "ansys";
-  constexpr double kUsual = 1000.0;
   out.shear = to_card(youngs_modulus_Pa(law) / 3.0, units.stress_exponent);
   if (options.bulk_Pa) {
     require_positive("the bulk modulus", *options.bulk_Pa, "Pa");
     out.bulk = to_card(*options.bulk_Pa, units.stress_exponent);
   } else if (!may_be_incompressible) {
-    out.bulk = kUsual * out.shear;
+    out.bulk = kUsualBulkRatio * out.shear;
   }
   if (options.density_kg_m3) {
     require_positive("the density", *options.density_kg_m3, "kg/m3");

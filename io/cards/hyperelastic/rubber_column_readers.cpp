@@ -41,21 +41,9 @@ double at_or_zero(const std::vector<double>& row, std::size_t i) {
 }
 
 // 077_H: C10, C01, C11, C20, C02, C30.
-void take_polynomial(std::vector<double> c, RubberNumbers& law) {
+void take_077_H(std::vector<double> c, RubberNumbers& law) {
   c.resize(6, 0.0);
-  const bool is_yeoh = c[3] != 0.0 || c[5] != 0.0;
-  if (c[2] != 0.0 || c[4] != 0.0 || (is_yeoh && c[1] != 0.0)) {
-    throw std::runtime_error(
-        "077_H has constants that are neither those of Mooney-Rivlin nor those of Yeoh");
-  }
-  if (is_yeoh) {
-    law.form = ColumnForm::kYeoh;
-    law.moduli = {c[0], c[3], c[5]};
-  } else {
-    law.form = c[1] != 0.0 ? ColumnForm::kMooneyRivlin : ColumnForm::kNeoHooke;
-    law.moduli = {c[0]};
-    if (c[1] != 0.0) law.moduli.push_back(c[1]);
-  }
+  take_invariant_law({c[0], c[1], c[3], c[2], c[4], c[5]}, law);
 }
 
 constexpr std::size_t kTen = 10, kTwenty = 20, kPerLine = 5;
@@ -107,29 +95,30 @@ double bulk_from(double d) {
 }  // namespace
 
 RubberText read_lsdyna_rubber(const std::string& text) {
+  const Lines all = card_lines(text, "$");
   const Lines lines =
-      lines_from(card_lines(text, "$"),
-                 {"*MAT_OGDEN_RUBBER", "*MAT_077_O", "*MAT_HYPERELASTIC_RUBBER", "*MAT_077_H"},
+      lines_from(all, {"*MAT_OGDEN_RUBBER", "*MAT_077_O", "*MAT_HYPERELASTIC_RUBBER", "*MAT_077_H"},
                  "*MAT_OGDEN_RUBBER or *MAT_HYPERELASTIC_RUBBER");
   const std::string keyword = upper(lines[0].text);
+  const std::size_t width = dyna_width(all, lines[0]);
   std::size_t at = keyword.find("_TITLE") != std::string::npos ? 2 : 1;
   RubberText out;
   RubberNumbers& law = out.numbers;
   if (at < lines.size()) {
-    const auto fields = columns(lines[at].text, kTen);
+    const auto fields = columns(lines[at].text, width);
     out.findings = material_number_findings(fields.empty() ? "" : fields[0], lines[at]);
   }
-  const auto head = row_at(lines, at++, kTen);
+  const auto head = row_at(lines, at++, width);
   law.density = at_or_zero(head, 1);
   out.poisson = at_or_zero(head, 2);
   out.has_poisson = true;
   if (at_or_zero(head, 3) != 0.0)
     throw std::runtime_error("N is not 0: LS-DYNA fits the constants, and the card has none");
-  const auto first = row_at(lines, at++, kTen);
+  const auto first = row_at(lines, at++, width);
   if (keyword.find("HYPER") != std::string::npos || keyword.find("077_H") != std::string::npos) {
-    take_polynomial(first, law);
+    take_077_H(first, law);
   } else {
-    const auto alpha = row_at(lines, at++, kTen);
+    const auto alpha = row_at(lines, at++, width);
     std::vector<double> moduli, shapes;
     for (std::size_t i = 0; i < first.size() && i < alpha.size(); ++i) {
       if (first[i] == 0.0 || alpha[i] == 0.0) break;
@@ -139,7 +128,7 @@ RubberText read_lsdyna_rubber(const std::string& text) {
     take_ogden(moduli, shapes, law);
   }
   for (; at < lines.size() && !lines[at].text.starts_with('*'); ++at) {
-    const auto row = row_at(lines, at, kTen);
+    const auto row = row_at(lines, at, width);
     if (row.empty() || row[0] == 0.0) continue;
     if (!(at_or_zero(row, 1) > 0.0))
       throw std::runtime_error(at_line(lines[at], "a row G_i lacks its BETA_i above 0"));

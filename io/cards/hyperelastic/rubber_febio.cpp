@@ -151,7 +151,7 @@ void take_law(const XmlElement& law, const std::string& type, RubberText& read) 
     for (double& value : c) value /= 2.0;  // c/m^2 is 2 mu/alpha^2
     take_ogden(c, m, out);
   } else if (type == "Mooney-Rivlin") {
-    take_invariant_law(law.required("c1"), law.number("c2").value_or(0.0), out);
+    take_invariant_law({law.required("c1"), law.number("c2").value_or(0.0)}, out);
   } else if (type == "Gent") {
     out.form = Form::kGent;
     out.moduli = {law.required("G")};
@@ -209,7 +209,7 @@ FebioMaterial material_in(const XmlElement& root, RubberText& out) {
       out.findings.push_back(
           {"several-materials",
            at_line(one->place(),
-                   "a second material of rubber begins; check a file with one of them"),
+                   "a second material of rubber begins; choose one by --material-name"),
            true});
       return found;
     }

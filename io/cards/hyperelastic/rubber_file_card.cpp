@@ -18,8 +18,11 @@
 namespace viscard {
 namespace {
 
+constexpr int kDigits = 10;  // of numbers that --check compares
+
 std::string relaxation_line(const HyperelasticFile& file, const RubberCardOptions& options) {
-  const std::string E0 = text_of(file.E0_Pa, 5) + " Pa", E_inf = text_of(file.E_inf_Pa, 5) + " Pa";
+  const std::string E0 = text_of(file.E0_Pa, kDigits) + " Pa",
+                    E_inf = text_of(file.E_inf_Pa, kDigits) + " Pa";
   if (file.terms.empty()) {
     return "elastic at any rate: the law has no relaxation. Young's modulus at rest " + E0;
   }
@@ -48,21 +51,20 @@ std::vector<std::string> header_lines(const HyperelasticFile& file,
   }
   lines.push_back("evidence: " + rubber_evidence(options.target));
   if (options.density_kg_m3) {
-    lines.push_back("density " + text_of(*options.density_kg_m3, 6) + " kg/m3");
+    lines.push_back("density " + text_of(*options.density_kg_m3, kDigits) + " kg/m3");
   }
   if (file.accepts_implausible || options.plausible == Plausible::kOff) {
     lines.push_back(kPlausibleOffText);
   }
   if (file.is_edited) lines.push_back(std::string("note: ") + kEditedText);
   if (options.bulk_Pa) {
-    lines.push_back("bulk modulus " + text_of(*options.bulk_Pa, 5) + " Pa");
+    lines.push_back("bulk modulus " + text_of(*options.bulk_Pa, kDigits) + " Pa");
     const std::string doubt = doubtful_bulk_modulus(file, options);
     if (!doubt.empty()) lines.push_back("warning: " + doubt);
   } else if (options.target == "abaqus" || options.target == "ansys") {
     lines.push_back("incompressible: use hybrid (mixed) elements, or --bulk-modulus");
   } else {
-    lines.push_back(
-        "bulk modulus 1000 times the shear modulus at rest, chosen because the solver needs one");
+    lines.push_back(std::string(kUsualBulkText) + ", chosen because the solver needs one");
   }
   for (std::size_t d = 0; d < file.measured.size(); ++d) {
     const auto& measured = file.measured[d];
@@ -98,14 +100,12 @@ std::string comment_mark(const std::string& target) {
 // Throws if the text does not say what the file does.
 void read_back(const std::string& text, const HyperelasticFile& file, const std::string& name,
                const RubberCardOptions& options) {
-  const bool has_poisson = options.target == "lsdyna" || options.target == "openradioss";
-  const RubberCheck check =
-      check_rubber_card(text, &file,
-                        {.target = options.target,
-                         .units = options.units,
-                         .bulk_Pa = has_poisson ? std::nullopt : options.bulk_Pa,
-                         .density_kg_m3 = options.density_kg_m3,
-                         .elastic_only = options.elastic_only});
+  const RubberCheck check = check_rubber_card(text, &file,
+                                              {.target = options.target,
+                                               .units = options.units,
+                                               .bulk_Pa = options.bulk_Pa,
+                                               .density_kg_m3 = options.density_kg_m3,
+                                               .elastic_only = options.elastic_only});
   if (check.agrees) return;
   throw std::runtime_error(name + ": the card for " + options.target +
                            " read back is not the law of the file" +

@@ -37,7 +37,7 @@ RubberText read_moose_rubber(const std::string& commented) {
       named_lists(text, "\\b(lambda|mu|prop_values)\\s*=\\s*('[^'\\n]*'|\"[^\"\\n]*\"|[^\\s\\[]+)");
   const double mu = one_of(named, "mu");
   out.numbers.bulk = one_of(named, "lambda") + 2.0 * mu / 3.0;
-  take_invariant_law(mu / 2.0, 0.0, out.numbers);
+  take_invariant_law({mu / 2.0}, out.numbers);
   if (first_match(text, "prop_names\\s*=\\s*['\"]?density"))
     out.numbers.density = one_of(named, "prop_values");
   if (all_matches(text, "large_kinematics\\s*=\\s*true").size() < 2) {
@@ -75,7 +75,7 @@ RubberText read_comsol_rubber(const std::string& text) {
   }
   const bool has_mu = found.contains("mu"), has_constants = found.contains("C10");
   require_in_card(has_mu != has_constants, "parameter ending in mu or in C10, or has both");
-  take_invariant_law(has_mu ? found["mu"] / 2.0 : found["C10"], has_mu ? 0.0 : found["C01"],
+  take_invariant_law({has_mu ? found["mu"] / 2.0 : found["C10"], has_mu ? 0.0 : found["C01"]},
                      out.numbers);
   out.numbers.bulk = found["kappa"];
   out.numbers.density = found["rho"];

@@ -153,12 +153,6 @@ void require_formula(const std::vector<CardLine>& found, const std::vector<CardL
 
 }  // namespace
 
-void take_invariant_law(double C10, double C01, RubberNumbers& law) {
-  law.form = C01 != 0.0 ? ModelForm::kMooneyRivlin : ModelForm::kNeoHooke;
-  law.moduli = {C10};
-  if (C01 != 0.0) law.moduli.push_back(C01);
-}
-
 RubberText read_sfepy_rubber(const std::string& text) {
   const SfepyModule module = sfepy_module(text);
   RubberText out;
@@ -185,7 +179,7 @@ RubberText read_sfepy_rubber(const std::string& text) {
     throw std::runtime_error(
         "the card has no terms dw_tl_he_... of one law in its TERMS, or those of several");
   if (has_invariants) {
-    take_invariant_law(mu / 2.0, kappa / 2.0, law);
+    take_invariant_law({mu / 2.0, kappa / 2.0}, law);
   } else if (auto own = factors.find("dw_tl_he_ogden"); own != factors.end()) {
     const std::vector<double>& alpha = exponents.at(own->first);
     for (std::size_t i = 0; i < alpha.size(); ++i) own->second[i] *= alpha[i] / 2.0;

@@ -30,67 +30,90 @@ double bulk_of(double d) {
   return d > 0.0 ? 2.0 / d : 0.0;
 }
 
+// Eight cells to a line, as Abaqus and CalculiX read them: blank ones are 0, those at the end are left out.
 std::vector<double> all_numbers(const KeywordBlock& block) {
+  constexpr std::size_t kEight = 8;
   std::vector<double> out;
   for (const CardLine& line : block.data) {
-    for (const std::string& cell : cells(line.text, ',')) {
-      if (!cell.empty()) out.push_back(card_number(cell, line, "constant"));
-    }
+    if (const std::size_t rest = out.size() % kEight; rest != 0)
+      out.resize(out.size() + kEight - rest);
+    auto row = cells(line.text, ',');
+    while (!row.empty() && row.back().empty()) row.pop_back();
+    for (std::size_t i = 0; i < row.size(); ++i)
+      out.push_back(cell_number_or_zero(row, i, line, "constant"));
   }
   return out;
+}
+
+// N= of a law of several orders.
+std::size_t order_of(const KeywordBlock& block) {
+  for (const std::string& parameter : block.parameters) {
+    if (parameter.rfind("N=", 0) == 0)
+      return static_cast<std::size_t>(
+          cell_integer({parameter.substr(2)}, 0, block.line, "N of " + block.keyword));
+  }
+  return 1;
+}
+
+// The first n numbers, as constants of the polynomial C_ij (I1 - 3)^i (I2 - 3)^j; those of REDUCED POLYNOMIAL are C_i0.
+void take_polynomial(const KeywordBlock& block, const std::vector<double>& numbers, std::size_t n,
+                     RubberNumbers& law) {
+  std::vector<double> constants(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(n));
+  if (block.has("REDUCEDPOLYNOMIAL")) {
+    constants.resize(std::max<std::size_t>(n, 3), 0.0);
+    if (std::any_of(constants.begin() + 3, constants.end(), [](double c) { return c != 0.0; }))
+      throw std::runtime_error(
+          at_line(block.line, "a constant C_i0 above C30 is not 0, and viscard has no such law"));
+    constants = {constants[0], 0.0, constants[1], 0.0, 0.0, constants[2]};
+  }
+  take_invariant_law(constants, law);
 }
 
 // Abaqus and CalculiX: the constants, then D.
 void take_keyword_law(const KeywordBlock& block, RubberText& out) {
   const std::vector<double> numbers = all_numbers(block);
   RubberNumbers& law = out.numbers;
-  std::size_t n = 1;
-  if (block.has("OGDEN")) {
-    for (const std::string& parameter : block.parameters) {
-      if (parameter.rfind("N=", 0) == 0)
-        n = static_cast<std::size_t>(
-            cell_integer({parameter.substr(2)}, 0, block.line, "N of OGDEN"));
-    }
-    require_count(numbers, 2 * n, "*HYPERELASTIC, OGDEN");
+  const bool is_ogden_law = block.has("OGDEN"), is_reduced = block.has("REDUCEDPOLYNOMIAL"),
+             is_polynomial = block.has("POLYNOMIAL"), is_yeoh = block.has("YEOH");
+  const bool has_order = is_ogden_law || is_reduced || is_polynomial;
+  const std::size_t order = has_order ? order_of(block) : is_yeoh ? 3 : 1;
+  const std::size_t n = is_ogden_law                                     ? 2 * order
+                        : is_polynomial                                  ? order * (order + 3) / 2
+                        : is_reduced || is_yeoh || block.has("NEOHOOKE") ? order
+                        : block.has("MOONEY-RIVLIN") || block.has("ARRUDA-BOYCE") ? 2
+                                                                                  : 0;
+  if (n == 0) {
+    throw std::runtime_error(
+        at_line(block.line,
+                "only OGDEN, NEO HOOKE, MOONEY-RIVLIN, YEOH, ARRUDA-BOYCE, POLYNOMIAL and REDUCED "
+                "POLYNOMIAL are read"));
+  }
+  require_count(numbers, n, block.keyword.c_str());
+  if (is_ogden_law) {
     std::vector<double> moduli, shapes;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < order; ++i) {
       moduli.push_back(numbers[2 * i]);
       shapes.push_back(numbers[2 * i + 1]);
     }
     take_ogden(moduli, shapes, law);
-    n *= 2;
+  } else if (is_reduced || is_polynomial) {
+    take_polynomial(block, numbers, n, law);
   } else if (block.has("ARRUDA-BOYCE")) {
-    require_count(numbers, n = 2, "*HYPERELASTIC, ARRUDA-BOYCE");
     law.form = ReadForm::kArrudaBoyce;
     law.moduli = {numbers[0]};
     law.shapes = {numbers[1]};
   } else {
-    // REDUCED POLYNOMIAL, N=3 is Yeoh, N=1 Neo-Hooke; POLYNOMIAL, N=1 is Mooney-Rivlin.
-    const bool is_reduced = block.has("REDUCEDPOLYNOMIAL"), is_polynomial = block.has("POLYNOMIAL");
-    const bool has_three = block.has("N=3"), is_simple = !block.has("N=2") && !has_three;
-    n = block.has("YEOH") || (is_reduced && has_three)               ? 3
-        : block.has("MOONEY-RIVLIN") || (is_polynomial && is_simple) ? 2
-                                                                     : 1;
-    if (n == 1 && !block.has("NEOHOOKE") && !(is_reduced && is_simple))
-      throw std::runtime_error(
-          at_line(block.line,
-                  "only OGDEN, NEO HOOKE, MOONEY-RIVLIN, YEOH, ARRUDA-BOYCE, "
-                  "REDUCED POLYNOMIAL of N = 1 or 3 and POLYNOMIAL of N = 1 are read"));
-    require_count(numbers, n, "*HYPERELASTIC");
-    law.form = n == 3 ? ReadForm::kYeoh : n == 2 ? ReadForm::kMooneyRivlin : ReadForm::kNeoHooke;
+    law.form = is_yeoh ? ReadForm::kYeoh : n == 2 ? ReadForm::kMooneyRivlin : ReadForm::kNeoHooke;
     law.moduli.assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(n));
   }
   law.bulk = numbers.size() > n ? bulk_of(numbers[n]) : 0.0;
-  // D_2 ... of OGDEN and YEOH are beyond the law; with D_1^i they count for nothing, or are 0.
-  const std::size_t n_D = block.has("OGDEN")                      ? n / 2
-                          : block.has("YEOH") || block.has("N=3") ? 3
-                                                                  : 1;
-  if (numbers.size() > n + n_D) {
+  // D_2 ... are beyond the laws; with D_1^i they count for nothing, or are 0.
+  if (numbers.size() > n + order) {
     out.findings.push_back(
         {"other-count",
          at_line(block.line,
                  fmt::format("{} numbers stand below {}, which takes {} constants and {} D",
-                             numbers.size(), block.keyword, n, n_D)),
+                             numbers.size(), block.keyword, n, order)),
          true});
   }
   for (std::size_t i = n + 1; i < numbers.size(); ++i) {
@@ -112,11 +135,6 @@ struct TableOfMapdl {
   std::vector<double> constants;
   CardLine line;
 };
-
-// Constants of the volume that a law may state.
-std::size_t n_volume_of(const std::string& option) {
-  return option == "YEOH" ? 3 : 1;
-}
 
 std::map<std::string, TableOfMapdl> mapdl_tables(const std::string& text) {
   std::map<std::string, TableOfMapdl> tables;
@@ -156,6 +174,27 @@ void take_ogden(const std::vector<double>& moduli, const std::vector<double>& sh
                                   : ReadForm::kOgden3;
   out.moduli = moduli;
   out.shapes = shapes;
+}
+
+void take_invariant_law(const std::vector<double>& constants, RubberNumbers& law) {
+  static const std::vector<const char*> kNames{"C10", "C01", "C20", "C11", "C02",
+                                               "C30", "C21", "C12", "C03"};
+  std::vector<double> C = constants;
+  C.resize(std::max(C.size(), kNames.size()), 0.0);
+  const bool is_yeoh_law = C[2] != 0.0 || C[5] != 0.0;
+  for (std::size_t i = 1; i < C.size(); ++i) {
+    const bool is_of_law = i == 2 || i == 5 || (i == 1 && !is_yeoh_law);
+    if (C[i] == 0.0 || is_of_law) continue;
+    throw std::runtime_error(
+        (i < kNames.size() ? kNames[i] : std::string("a constant of a higher order")) + " = " +
+        fmt::format("{:g}", C[i]) + " is not of Neo-Hooke, Mooney-Rivlin or Yeoh" +
+        (i == 1 ? " beside C20 and C30" : "") + ", the laws of the invariants that are read");
+  }
+  law.form = is_yeoh_law   ? ReadForm::kYeoh
+             : C[1] != 0.0 ? ReadForm::kMooneyRivlin
+                           : ReadForm::kNeoHooke;
+  law.moduli = is_yeoh_law ? std::vector{C[0], C[2], C[5]} : std::vector{C[0]};
+  if (law.form == ReadForm::kMooneyRivlin) law.moduli.push_back(C[1]);
 }
 
 RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
@@ -215,9 +254,9 @@ RubberText read_ansys_rubber(const std::string& text) {
   std::vector<double> numbers = table.constants;
   RubberText out;
   RubberNumbers& law = out.numbers;
-  std::size_t n = 2;
+  std::size_t n = 2, n_volume = 1;
   if (table.option == "OGDEN") {
-    const auto terms = static_cast<std::size_t>(std::max(table.n_points, 1));
+    const auto terms = n_volume = static_cast<std::size_t>(std::max(table.n_points, 1));
     require_count(numbers, 2 * terms, "TB,HYPER,,,,OGDEN");
     std::vector<double> moduli, shapes;
     for (std::size_t i = 0; i < terms; ++i) {
@@ -230,20 +269,26 @@ RubberText read_ansys_rubber(const std::string& text) {
     require_count(numbers, n = 1, "TB,HYPER,,,,NEO");
     law.form = ReadForm::kNeoHooke;
     law.moduli = {numbers[0] / 2.0};
-  } else if (table.option == "MOONEY" || table.option == "YEOH") {
-    n = table.option == "YEOH" ? 3 : 2;
+  } else if (table.option == "MOONEY" || table.option == "POLY") {
+    // Two, three, five or nine constants of Mooney and Rivlin; POLY has all of its order.
+    const bool is_poly = table.option == "POLY";
+    n_volume = is_poly ? static_cast<std::size_t>(std::max(table.n_points, 1)) : 1;
+    n = is_poly ? n_volume * (n_volume + 3) / 2
+                : static_cast<std::size_t>(std::max(table.n_points, 2));
     require_count(numbers, n, "TB,HYPER");
-    out.also_read += fmt::format(" {}", table.n_points);
-    if (table.n_points != 0 && table.n_points != static_cast<int>(n)) {
-      out.findings.push_back(
-          {"other-count",
-           at_line(table.line,
-                   fmt::format("TB,HYPER announces {} constants of {}, of which {} are read",
-                               table.n_points, table.option, n)),
-           true});
-    }
-    law.form = n == 3 ? ReadForm::kYeoh : ReadForm::kMooneyRivlin;
-    law.moduli.assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(n));
+    std::vector<double> constants(numbers.begin(),
+                                  numbers.begin() + static_cast<std::ptrdiff_t>(n));
+    if (!is_poly && n == 3) constants = {numbers[0], numbers[1], 0.0, numbers[2]};  // C11
+    take_invariant_law(constants, law);
+  } else if (table.option == "YEOH") {
+    n = n_volume = static_cast<std::size_t>(table.n_points > 0 ? table.n_points : 3);
+    require_count(numbers, n, "TB,HYPER");
+    std::vector<double> moduli(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(n));
+    moduli.resize(std::max<std::size_t>(n, 3), 0.0);
+    if (n > 3)
+      throw std::runtime_error(at_line(table.line, "only the first three orders of YEOH are read"));
+    law.form = ReadForm::kYeoh;
+    law.moduli = moduli;
   } else if (table.option == "BOYCE" || table.option == "GENT") {
     require_count(numbers, 2, "TB,HYPER");
     law.form = table.option == "BOYCE" ? ReadForm::kArrudaBoyce : ReadForm::kGent;
@@ -251,7 +296,7 @@ RubberText read_ansys_rubber(const std::string& text) {
     law.shapes = {numbers[1]};
   } else {
     throw std::runtime_error("TB,HYPER has '" + table.option +
-                             "'; OGDEN, NEO, MOONEY, YEOH, BOYCE and GENT are read");
+                             "'; OGDEN, NEO, MOONEY, POLY, YEOH, BOYCE and GENT are read");
   }
   law.bulk = numbers.size() > n ? bulk_of(numbers[n]) : 0.0;
   for (const CardLine& line : card_lines(text, "!")) {
@@ -275,8 +320,7 @@ RubberText read_ansys_rubber(const std::string& text) {
           {"bulk-relaxes", at_line(line, "a table of BULK: the bulk modulus would relax"), true});
     }
   }
-  if (numbers.size() >
-      n + std::max<std::size_t>(1, table.option == "OGDEN" ? n / 2 : n_volume_of(table.option))) {
+  if (numbers.size() > n + n_volume) {
     out.findings.push_back(
         {"other-count",
          at_line(table.line, fmt::format("{} constants are given and {} of {} are read",

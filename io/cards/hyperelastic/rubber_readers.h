@@ -27,8 +27,9 @@ struct RubberText {
 // Parameters of a law: a reader fills numbers by its form. Throws std::runtime_error if `found` has fewer numbers.
 void take_ogden(const std::vector<double>& moduli, const std::vector<double>& shapes,
                 RubberNumbers& out);
-// Neo-Hooke, or Mooney-Rivlin if C01 is not 0.
-void take_invariant_law(double C10, double C01, RubberNumbers& out);
+// Neo-Hooke, Mooney-Rivlin or Yeoh of constants in the order C10, C01, C20, C11, C02, C30, C21, C12, C03; missing ones
+// are 0. Throws std::runtime_error naming a constant that none of them has.
+void take_invariant_law(const std::vector<double>& constants, RubberNumbers& out);
 
 RubberText read_keyword_rubber(const std::string& text, bool is_calculix);
 RubberText read_ansys_rubber(const std::string& text);

@@ -40,7 +40,7 @@ void show_proof(ResultVisitor& v, const CardProof& proof) {
 }  // namespace
 
 CardChain chain_of(const CertificateRequest& request) {
-  return chain_of(request.card_path, request.card_text, request.material_path);
+  return chain_of(request.card_path, read_file(request.card_path), request.material_path);
 }
 
 std::string sealed_certificate(const std::string& text) {

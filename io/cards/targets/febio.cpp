@@ -83,7 +83,7 @@ const XmlElement& viscoelastic_in(const std::vector<const XmlElement*>& all, Rea
       found = one;
     } else {
       card.add("second-element",
-               at_line(one->place(), "a second viscoelastic <material>; keep one"));
+               at_line(one->place(), "a second viscoelastic <material>; keep one, or choose one by --material-name"));
     }
   }
   if (found != nullptr) return *found;

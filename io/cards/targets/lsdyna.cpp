@@ -74,17 +74,17 @@ struct KeywordCards {
 KeywordCards material_cards(const std::string& text, const std::string& long_name,
                             const std::string& short_name, ReadCard& card) {
   KeywordCards cards;
-  bool inside = false, wants_title = false, is_long_deck = false;
+  bool inside = false, wants_title = false;
   int materials = 0;
-  for (const CardLine& line : card_lines(text, "$")) {
+  const std::vector<CardLine> all = card_lines(text, "$");
+  for (const CardLine& line : all) {
     const std::string word = upper(trimmed(line.text));
     if (!word.empty() && word[0] == '*') {
-      if (word.rfind("*KEYWORD", 0) == 0) is_long_deck = word.find("LONG=Y") != std::string::npos;
       const bool begins = word.rfind(long_name, 0) == 0 || word.rfind(short_name, 0) == 0;
       inside = begins && ++materials == 1;
       if (begins && !inside) card.add_second_material(line);
       wants_title = inside && word.find("_TITLE") != std::string::npos;
-      if (inside && (is_long_deck || word.back() == '+')) cards.width = 20;
+      if (inside) cards.width = dyna_width(all, line);
     } else if (inside && wants_title) {
       card.name = trimmed(line.text);
       wants_title = false;

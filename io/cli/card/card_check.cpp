@@ -1,5 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/cards/check_card.h"
+#include "io/cards/hyperelastic/read_rubber.h"
+#include "io/cards/named_material.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/targets/target_table.h"
 #include "io/cli/card/card_words.h"
@@ -218,6 +220,21 @@ std::vector<DescribedResult> results_of_targets() {
   return {{"card-list", "viscard card --list", {show_targets}}, checked};
 }
 
+std::string card_text_of(const std::string& path, const CardWords& words) {
+  const std::string text = read_file(path);
+  if (words.material_name.empty()) return text;
+  std::string target = words.target.empty() ? stated_rubber_target(text) : words.target;
+  const CardTarget* linear = stated_card_target(text);
+  if (target.empty() && linear != nullptr) target = linear->name;
+  if (target.empty())
+    throw UsageError(path + " does not name its solver, as cards by viscard do; add --for TARGET");
+  try {
+    return material_named(text, target, words.material_name);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(path + ": " + error.what());
+  }
+}
+
 int list_card_targets(const CardWords& words, Streams& streams) {
   if (words.json) {
     print_result({"viscard-card-list/1", {}}, show_targets, streams);
@@ -232,7 +249,7 @@ int list_card_targets(const CardWords& words, Streams& streams) {
 }
 
 int check_card_file(const CardWords& words, Streams& streams) {
-  const std::string text = read_file(words.check);
+  const std::string text = card_text_of(words.check, words);
   std::optional<PreparedMaterial> reference;
   std::vector<CardFinding> notes;
   if (!words.material.empty()) reference = stated_material(text, words, notes);

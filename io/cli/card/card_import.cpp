@@ -99,7 +99,7 @@ DescribedResult result_of_import() {
 }
 
 int import_card_file(CardWords words, Streams& streams) {
-  const std::string text = read_file(words.material);
+  const std::string text = card_text_of(words.material, words);
   const std::string rubber = stated_rubber_target(text);
   if (words.target.empty()) words.target = rubber;
   if (const CardTarget* linear = stated_card_target(text);

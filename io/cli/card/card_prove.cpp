@@ -135,7 +135,7 @@ int prove_card_file(const CardWords& words, Streams& streams) {
                      words.prove + " compares them");
   }
   const Solver& solver = chosen_solver(words);
-  const CertificateRequest request{words.prove, read_file(words.prove), words.material,
+  const CertificateRequest request{words.prove, card_text_of(words.prove, words), words.material,
                                    words.target};
   const std::string path =
       words.out.empty() ? words.prove + "." + solver.name + ".proof.json" : words.out;

@@ -21,21 +21,6 @@ void require_rubber_target(const CardWords& words) {
                    " has no card of rubber; use " + listed(known));
 }
 
-// Options of a linear series; a law of rubber must not drop them silently.
-void refuse_linear_options(const CardWords& words) {
-  const auto refuse = [&](bool is_given, const char* option) {
-    if (!is_given) return;
-    throw UsageError(std::string(option) + " is for linear materials, and " + words.material +
-                     " is a law of rubber; omit it");
-  };
-  refuse(!words.bound.empty(), "--bound");
-  refuse(words.terms.has_value(), "--terms");
-  refuse(words.clamped_nu.has_value(), "--clamp-nu");
-  refuse(words.ratio.has_value(), "--ratio");
-  refuse(words.temperature_C.has_value(), "--at-temperature");
-  refuse(words.band_text.has_value(), "--band");
-}
-
 void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const CardWords& words,
                       const std::string& doubt, const std::string& text) {
   v("target", words.target, "solver of the card");
@@ -66,7 +51,6 @@ bool is_rubber(const CardWords& words) {
 int write_rubber_card(const CardWords& words, Streams& streams) {
   require_rubber_target(words);
   const HyperelasticFile file = read_hyperelastic(words.material, words.plausible);
-  refuse_linear_options(words);
   if (words.target == "mfront" && words.density_kg_m3) {
     throw UsageError(
         "a behaviour of MFront has no density, the solver that calls it has; omit --density");

@@ -90,7 +90,7 @@ void print_rubber_check(const RubberCheck& check, const CardWords& words, std::o
 // states.
 bool is_card_of_rubber(const std::string& path, CardWords& words) {
   if (path.empty()) return false;
-  const std::string text = read_file(path);
+  const std::string text = card_text_of(path, words);
   const bool has_law = !words.material.empty() && looks_like_hyperelastic_file(words.material);
   if (!has_law && !looks_like_rubber_card(text)) return false;
   if (words.target.empty()) words.target = stated_rubber_target(text);
@@ -121,7 +121,7 @@ int check_rubber_file(const CardWords& words, Streams& streams) {
   if (!words.material.empty()) file = read_hyperelastic(words.material, words.plausible);
   const RubberCheck check = [&] {
     try {
-      return check_rubber_card(read_file(words.check), file ? &*file : nullptr,
+      return check_rubber_card(card_text_of(words.check, words), file ? &*file : nullptr,
                                {.target = words.target,
                                 .units = words.units,
                                 .tolerance = words.tolerance,

@@ -112,7 +112,7 @@ int prove_rubber_file(const CardWords& words, Streams& streams) {
   const std::string path =
       words.out.empty() ? words.prove + "." + solver.name + ".proof.json" : words.out;
   refuse_existing(path, words.force);
-  const std::string text = read_file(words.prove);
+  const std::string text = card_text_of(words.prove, words);
   std::optional<HyperelasticFile> file;
   if (!words.material.empty()) file = read_hyperelastic(words.material, words.plausible);
   const std::string elastic_only =
@@ -128,7 +128,7 @@ int prove_rubber_file(const CardWords& words, Streams& streams) {
     }
   }();
   const RubberCertificateRequest request{words.prove, words.material, words.target};
-  const CardChain chain = chain_of(words.prove, text, words.material);
+  const CardChain chain = chain_of(words.prove, read_file(words.prove), words.material);
   if (!words.json) print_rubber_proof(words, found, proof, chain, FittedText(streams));
   write_file(path, rubber_certificate_text(request, chain, found, proof), words.force);
   if (words.json) {

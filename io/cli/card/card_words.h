@@ -26,6 +26,7 @@ struct CardWords {
   std::string units;  // empty: not named
   std::string out;
   std::string check, prove, deck, verify;
+  std::string material_name;        // of several materials in a card; empty: there is one
   std::string import_to;            // the material file that a card becomes
   std::string solver, solver_path;  // of --prove; empty: the one that reads the card, from PATH
   std::string bound;                // "", "lower", "upper"
@@ -45,6 +46,8 @@ struct CardWords {
   Plausible plausible = Plausible::kMeasured;
 };
 
+// The text of a card that somebody sent: of several materials in it the one that the words name.
+std::string card_text_of(const std::string& path, const CardWords& words);
 // The material that the words name; checks that a mixing ratio is given where it is needed. Throws
 // UsageError, and what prepare_card_material() throws.
 PreparedMaterial prepared_material(const CardWords& words);

@@ -76,6 +76,10 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "linear or of rubber; with it viscard card writes the card of another solver")
       .shown_as("FILE")
       .only_typed();
+  add("material-name", &words.material_name,
+      "with --check, --prove and --import: of several materials in a card the one of this name or "
+      "number")
+      .shown_as("NAME");
   add("solver", &words.solver,
       "with --prove: calculix, febio, mtest, frontistr, openradioss, or sfepy and dolfinx, which "
       "run the numbers of any card; if not given the one that reads the card")
@@ -157,6 +161,89 @@ void check_band(const CardWords& words) {
                    listed(names) + " have");
 }
 
+// On what an option acts: writing a card, and the options that name something else to do.
+enum Deed : unsigned {
+  kWrite = 1,
+  kDeck = 2,
+  kCheck = 4,
+  kProve = 8,
+  kVerify = 16,
+  kImport = 32,
+  kList = 64
+};
+
+Deed deed_of(const CardWords& words) {
+  return words.list                 ? kList
+         : !words.check.empty()     ? kCheck
+         : !words.prove.empty()     ? kProve
+         : !words.verify.empty()    ? kVerify
+         : !words.import_to.empty() ? kImport
+         : !words.deck.empty()      ? kDeck
+                                    : kWrite;
+}
+
+struct OptionUse {
+  const char* name;
+  unsigned linear, rubber;  // deeds for a linear material and for a law of rubber
+};
+
+constexpr unsigned kOfMaterial = kWrite | kDeck | kCheck | kProve;  // it changes the material
+constexpr OptionUse kUses[]{
+    {"for", kOfMaterial | kImport, kWrite | kCheck | kProve | kImport},
+    {"units", kOfMaterial | kImport, kWrite | kCheck | kProve | kImport},
+    {"out", kWrite | kDeck | kProve, kWrite | kProve},
+    {"tolerance", kCheck, kCheck},
+    {"approximate", kOfMaterial, kWrite},
+    {"terms", kOfMaterial, 0},
+    {"ratio", kOfMaterial, 0},
+    {"extrapolate", kOfMaterial, 0},
+    {"at-temperature", kOfMaterial, 0},
+    {"bulk-modulus", 0, kWrite | kCheck},
+    {"density", 0, kWrite | kCheck},
+    {"bound", kOfMaterial, 0},
+    {"elastic-only", kOfMaterial, kWrite | kCheck | kProve},
+    {"band", kWrite | kCheck, 0},
+    {"clamp-nu", kOfMaterial, 0},
+    {"accept-flags", kWrite | kDeck, kWrite},
+    {"reproducible", kWrite | kDeck | kImport, kWrite | kImport},
+    {"force", kWrite | kDeck | kProve | kImport, kWrite | kProve | kImport},
+    {"material-name", kCheck | kProve | kImport, kCheck | kProve | kImport}};
+
+std::string deeds_in_words(unsigned deeds) {
+  std::vector<std::string> names;
+  if ((deeds & kWrite) != 0) names.emplace_back("writing a card");
+  const std::pair<Deed, const char*> kOthers[]{
+      {kDeck, "--deck"}, {kCheck, "--check"}, {kProve, "--prove"}, {kImport, "--import"}};
+  for (const auto& [deed, name] : kOthers) {
+    if ((deeds & deed) != 0) names.emplace_back(name);
+  }
+  return listed(names);
+}
+
+// An option that would change nothing is refused by name.
+void refuse_idle_options(const CommandSyntax& syntax, CardWords& words) {
+  const Deed deed = deed_of(words);
+  const bool is_law =
+      (deed == kCheck && is_rubber_check(words)) || (deed == kProve && is_rubber_proof(words)) ||
+      ((deed == kWrite || deed == kDeck) && looks_like_hyperelastic_file(words.material));
+  for (const OptionUse& use : kUses) {
+    if (!is_given(syntax, use.name)) continue;
+    const unsigned all = use.linear | use.rubber;
+    const std::string option = std::string("--") + use.name;
+    if ((all & deed) == 0)
+      throw UsageError(option + " changes nothing here, it belongs to " + deeds_in_words(all) +
+                       "; omit it");
+    if (deed == kImport || deed == kDeck || ((is_law ? use.rubber : use.linear) & deed) != 0)
+      continue;
+    const std::string& what = words.material.empty() ? words.check + words.prove : words.material;
+    if (!is_law)
+      throw UsageError(option + " is for laws of rubber, and " + what + " is linear; omit it");
+    throw UsageError(
+        option + (use.rubber == 0 ? " is for linear materials, and " : " changes nothing here, ") +
+        what + " is a law of rubber; omit it");
+  }
+}
+
 // Of --check or --prove CARD with a law of rubber.
 void check_rubber_words(const CardWords& words) {
   if (words.target.empty()) {
@@ -210,7 +297,7 @@ void check_words(CardWords& words) {
   if (is_rubber_check(words) || is_rubber_proof(words)) return check_rubber_words(words);
   const std::string& given_card = words.check.empty() ? words.prove : words.check;
   if (words.target.empty() && !given_card.empty()) {
-    const std::string contents = read_file(given_card);
+    const std::string contents = card_text_of(given_card, words);
     const CardTarget* target = stated_card_target(contents);
     if (target == nullptr) {
       // Numbers alone may be a card of another program.
@@ -278,6 +365,7 @@ int run_card(const Words& words, Streams& streams) {
   if (card.band_text) card.band = band_from_text(*card.band_text);
   card.command_line = quoted_command_line("card", words);
   check_words(card);
+  refuse_idle_options(syntax, card);
   if (card.list) return list_card_targets(card, streams);
   if (!card.verify.empty()) return verify_file(card, streams);
   if (!card.import_to.empty()) return import_card_file(card, streams);
@@ -291,9 +379,6 @@ int run_card(const Words& words, Streams& streams) {
   }
   if (!card.deck.empty()) return write_deck_files(card, streams);
   if (is_rubber(card)) return write_rubber_card(card, streams);
-  if (card.bulk_Pa || card.density_kg_m3) {
-    throw UsageError("--bulk-modulus and --density are for laws of rubber; omit them");
-  }
   return write_card_file(card, streams);
 }
 

@@ -76,7 +76,7 @@ TEST_CASE("mistakes planted in Abaqus cards are named", "[cards]") {
   CHECK(mistakes(beta, "abaqus") == "beta-for-tau");
   std::string absolute = replaced(card, "0.008206, 0.008206", "0.00515962542, 0.00515962542");
   absolute = replaced(absolute, "0.01386, 0.01386", "0.00871464883, 0.00871464883");
-  CHECK(mistakes(replaced(card, "9.65e-10", "965"), "abaqus") == "density-unit");
+  CHECK(mistakes(replaced(card, "\n9.65e-10", "\n965"), "abaqus") == "density-unit");
   CHECK(mistakes(card + "*STEP\n*STATIC\n1., 1.\n*END STEP\n", "abaqus") == "static-step");
   CHECK(mistakes(card_text("abaqus", "SI"), "abaqus", reference_material(), "mm-t-s") ==
         "other-unit-system");
@@ -200,7 +200,7 @@ TEST_CASE("a card is compared in Poisson ratio, density and shift too, not in E(
   Material material = reference_material();
   const std::string abaqus = card_text("abaqus");
   CHECK(mistakes(replaced(abaqus, "1.88, 0.495", "1.88, 0.3"), "abaqus") == "poisson-ratio");
-  CHECK(mistakes(replaced(abaqus, "9.65e-10", "1e-9"), "abaqus") == "density");
+  CHECK(mistakes(replaced(abaqus, "\n9.65e-10", "\n1e-9"), "abaqus") == "density");
   CHECK(mistakes(replaced(card_text("febio"), "<v>0.495</v>", "<v>0.45</v>"), "febio") ==
         "poisson-ratio");
   const CardCheck without = check_card(replaced(abaqus, "*DENSITY\n9.65e-10,\n", ""),

@@ -343,3 +343,60 @@ TEST_CASE("rubber cards: what the solver would miss or the reader does not use i
       Contains("is not that of viscard's card"));
   CHECK_THROWS_WITH(findings(sfepy + "foo = 3.0\n", "sfepy"), Contains("has no such line"));
 }
+
+TEST_CASE(
+    "rubber cards: bulk modulus and density are compared with the file, the options or the "
+    "header",
+    "[io]") {
+  const Rubber rubber =
+      rubber_of(HyperelasticForm::kOgden2, {2e5, 1e4}, {1.3, -2.1}, {{0.1, 0.05}, {0.3, 7.0}});
+  HyperelasticFile file = file_of(rubber);
+  file.bulk_Pa = kBulk_Pa;
+  file.density_kg_m3 = 1100.0;
+  const auto checked = [](const std::string& card, const std::string& target,
+                          const HyperelasticFile* of) {
+    std::string out;
+    for (const CardFinding& finding :
+         check_rubber_card(card, of, {.target = target, .units = "mm-t-s"}).findings)
+      out += finding.name + ": " + finding.text + "|";
+    return out;
+  };
+  struct Edit {
+    const char *target, *from, *to, *says;
+  };
+  // D = 2/K = 0.00666..., nu of K = 300 MPa and G = 0.21 or 0.126 MPa, the density in t/mm3.
+  for (const Edit& edit : {Edit{"febio", "<k>300</k>", "<k>450</k>", "1.5 times"},
+                           Edit{"abaqus", "0.00666666666666", "0.01666666666666", "0.4 times"},
+                           Edit{"openradioss", "0.499650", "0.499450", "0.63"},
+                           Edit{"lsdyna", ".49979", ".49959", "0.51"},
+                           Edit{"abaqus", "1.1e-09", "1.3e-09", "1.18182 times"},
+                           Edit{"lsdyna", "1.1E-9", "1.2E-9", "1.09091 times"}}) {
+    CAPTURE(edit.target, edit.from);
+    const std::string right = card_or_nothing(rubber, edit.target, "mm-t-s");
+    CAPTURE(right);
+    CHECK(checked(right, edit.target, &file) == "");
+    const std::string wrong = changed(right, edit.from, edit.to);
+    CHECK_THAT(checked(wrong, edit.target, &file),
+               Contains("numbers-differ: ") && Contains(edit.says));
+    // Without the file its header says what the numbers should be.
+    const std::string header = "** viscard card: ogden-2 for " + std::string(edit.target) +
+                               "\n** bulk modulus 3e+08 Pa\n** density 1100 kg/m3\n";
+    const std::string comment = std::string(edit.target) == "lsdyna"        ? "$"
+                                : std::string(edit.target) == "openradioss" ? "#"
+                                                                            : "**";
+    std::string commented = header;
+    for (std::size_t at = 0; (at = commented.find("** ", at)) != std::string::npos; ++at)
+      commented.replace(at, 2, comment);
+    if (std::string(edit.target) == "febio")
+      commented = "<!-- viscard card: ogden-2 for febio -->\n<!-- bulk modulus 3e+08 Pa -->\n";
+    CHECK(checked(commented + right, edit.target, nullptr) == "");
+    CHECK_THAT(checked(commented + wrong, edit.target, nullptr),
+               Contains("header-differs: ") && Contains(edit.says));
+  }
+  // Softer in volume than rubber is: a note; below 2G/3: a mistake.
+  const std::string abaqus = card_or_nothing(rubber, "abaqus", "mm-t-s");
+  CHECK_THAT(checked(changed(abaqus, "0.00666666666666", "1.66666666666"), "abaqus", nullptr),
+             Contains("soft-volume: ") && !Contains("negative"));
+  CHECK_THAT(checked(changed(abaqus, "0.00666666666666", "100.66666666666"), "abaqus", nullptr),
+             Contains("soft-volume: ") && Contains("negative"));
+}

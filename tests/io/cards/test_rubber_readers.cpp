@@ -122,3 +122,53 @@ TEST_CASE("rubber cards: what FrontISTR, MOOSE and COMSOL lack is refused", "[io
   CHECK_THROWS_WITH(read_as_mm("R_mu 1[psi]\n", "comsol"), Contains("unit [psi] is not known"));
   CHECK_THROWS_WITH(read_as_mm("R_mu 1[MPa]\nS_mu 1[MPa]\n", "comsol"), Contains("twice"));
 }
+
+TEST_CASE("rubber cards: what other programs write for the same law is read as that law", "[io]") {
+  const auto moduli = [](const std::string& text, const char* target) {
+    CAPTURE(text);
+    CHECK(looks_like_rubber_card(text));
+    const ReadRubber read = read_rubber_card(text, target, "");
+    CHECK_FALSE(has_unread_parts(read.findings));
+    for (const CardFinding& finding : read.findings) CHECK_FALSE(finding.is_mistake);
+    return std::vector<double>(read.law.moduli_Pa.begin(), read.law.moduli_Pa.end());
+  };
+  const std::vector<double> mooney{0.15, 0.02}, yeoh{0.2, 0.03, 0.005}, two_orders{0.2, 0.03, 0.0};
+  // Abaqus: capitals are free, blank cells are 0, eight cells to a line.
+  const std::string head = "*Material, name=R\n";
+  CHECK(moduli(head + "*Hyperelastic, mooney-rivlin\n0.15, 0.02,, ,\n", "abaqus") == mooney);
+  CHECK(moduli(head + "*Hyperelastic, polynomial, n=2\n0.15, 0.02, , , , 0.001\n", "abaqus") ==
+        mooney);
+  CHECK(moduli(head + "*Hyperelastic, polynomial, n=2\n0.2, , 0.03, , , 0.001\n", "abaqus") ==
+        two_orders);
+  CHECK(moduli(head + "*Hyperelastic, polynomial, n=3\n0.2, , 0.03, , , 0.005, , \n, 0.001\n",
+               "abaqus") == yeoh);
+  CHECK(moduli(head + "*Hyperelastic, reduced polynomial, n=2\n0.2, 0.03, 0.001\n", "abaqus") ==
+        two_orders);
+  CHECK(read_rubber_card(head + "*Hyperelastic, mooney-rivlin\n0.2, , 0.001\n", "abaqus", "")
+            .bulk_Pa == Approx(2000.0));
+  // ANSYS: three, five and nine constants of Mooney and Rivlin, and POLY.
+  CHECK(moduli("TB,HYPE,1,1,3,MOON\nTBDATA,1,0.15,0.02,0,0.001\n", "ansys") == mooney);
+  CHECK(moduli("tb,hyper,1,1,5,mooney\ntbdata,1,0.2,0,0.03,0,0,0.001\n", "ansys") == two_orders);
+  CHECK(moduli("TB,HYPER,1,1,9,MOONEY\nTBDATA,1,0.2,0,0.03,0,0,0.005\nTBDATA,7,0,0,0,0.001\n",
+               "ansys") == yeoh);
+  CHECK(moduli("TB,HYPER,1,1,2,POLY\nTBDATA,1,0.15,0.02,0,0,0,0.001\n", "ansys") == mooney);
+  CHECK(moduli("TB,HYPER,1,1,2,YEOH\nTBDATA,1,0.2,0.03,0.001\n", "ansys") == two_orders);
+  // LS-DYNA: twenty columns, or commas.
+  const std::string row = "*MAT_HYPERELASTIC_RUBBER";
+  CHECK(moduli("*KEYWORD LONG=Y\n" + row +
+                   "\n                   1             1.1E-09               0.499"
+                   "                   0\n                0.15                0.02\n*END\n",
+               "lsdyna") == mooney);
+  CHECK(moduli("*KEYWORD\n" + row +
+                   " +\n                   7             1.1E-09               0.499\n"
+                   "                0.15                0.02\n*END\n",
+               "lsdyna") == mooney);
+  CHECK(moduli("*KEYWORD\n" + row + "\n7,1.1E-9,.499\n.15,.02\n*END\n", "lsdyna") == mooney);
+  // A constant of no law of viscard is named.
+  CHECK_THROWS_WITH(
+      read_rubber_card("*HYPERELASTIC, POLYNOMIAL, N=2\n0.2,0.1,0,0.03,0,0.001\n", "abaqus", ""),
+      Contains("C11 = 0.03 is not of Neo-Hooke, Mooney-Rivlin or Yeoh"));
+  CHECK_THROWS_WITH(
+      read_rubber_card("TB,HYPER,1,1,5,MOONEY\nTBDATA,1,0.2,0.1,0.03,0,0,0.001\n", "ansys", ""),
+      Contains("C01 = 0.1 is not of") && Contains("beside C20"));
+}

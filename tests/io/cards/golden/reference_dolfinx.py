@@ -4,6 +4,7 @@
 # conventions: instantaneous E, nu; branches relative (g_i = G_i/G_0); time tau; bulk relaxes with its own k_i
 # E0 (instantaneous) = 1.88 MPa, E_inf (long-term) = 1.83851592 MPa
 # K0 = 62.66666667 MPa from nu = 0.495 (assumed)
+# rho = 9.65e-10 t/mm3
 # terms: exact, 2
 # bulk: exact, relaxes with its own k_i (assumed)
 # numbers: exact
@@ -11,7 +12,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
-# card sha256 cec2d09ad7ed4ded0eec8308a5b34d6de2acc173afe7b4036ec64ec83d21046e
+# card sha256 47603ce28ffc9083a8033aa4856459987482b1ac7b5197a8cd8a1badf50223d2
 # Import it; see ufl_stress for the form of a step, and the one-element model (--deck) for the loop.
 import numpy as np
 

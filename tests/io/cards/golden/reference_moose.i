@@ -3,6 +3,7 @@
 # conventions: instantaneous E, nu; branches absolute (E_i = g_i E_0); time tau; bulk relaxes with the shear (constant nu)
 # E0 (instantaneous) = 1.88 MPa, E_inf (long-term) = 1.83851592 MPa
 # K0 = 62.66666667 MPa from nu = 0.495 (assumed)
+# rho = 9.65e-10 t/mm3
 # terms: exact, 2
 # bulk: exact, relaxes with the shear (constant nu) (assumed)
 # numbers: exact
@@ -10,7 +11,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
-# card sha256 091a6c30004e6b6b9d197bbbfab8278028021456cc5f0050653d256ad4531ca2
+# card sha256 0bc995c0c12e6918f3d6be1b95dc247219a5e4687dcdbc6ed0083c23f3c5b1a4
 # creep_viscosity is the relaxation time. Keep the UserObject, or nothing relaxes. zienkiewicz is exact for steps of one size; where the size changes, MOOSE uses the old one once.
 [Materials]
   [PDMS]

@@ -72,6 +72,69 @@ TEST_CASE("viscard card explains every wrong use in one line", "[cards][cli]") {
   }
 }
 
+TEST_CASE("viscard card refuses by name every option that would change nothing", "[cards][cli]") {
+  CardCommand card;
+  const std::string material = card.save(reference_material()), law = card.path("law.json"),
+                    linear = card.path("c.inp"), rubber = card.path("r.inp");
+  write_file(law,
+             R"({"schema": "viscard-hyperelastic/1", "law": "neo-hooke", "trustworthy": true,
+"laws": [{"name": "neo-hooke", "parameters": [{"name": "C10_Pa", "value": 200000.0}], "terms": [],
+"trustworthy": true, "flags": []}], "tests": [], "flags": []})",
+             true);
+  REQUIRE(card.run({material, "--for", "abaqus", "--out", linear}) == kDone);
+  REQUIRE(card.run({law, "--for", "abaqus", "--out", rubber}) == kDone);
+  struct Row {
+    std::vector<std::string> words;
+    const char* part;
+  };
+  for (const Row& row : std::vector<Row>{
+           {{material, "--for", "abaqus", "--tolerance", "1e-3"},
+            "--tolerance changes nothing here, it belongs to --check"},
+           {{material, "--for", "abaqus", "--density", "1.1 g/cm3"},
+            "--density is for laws of rubber"},
+           {{material, "--check", linear, "--bulk-modulus", "2 GPa"},
+            "--bulk-modulus is for laws of rubber"},
+           {{law, "--check", rubber, "--bound", "lower"}, "--bound is for linear materials"},
+           {{law, "--for", "abaqus", "--at-temperature", "37"},
+            "--at-temperature is for linear materials"},
+           {{law, "--for", "abaqus", "--extrapolate"}, "--extrapolate is for linear materials"},
+           {{law, "--check", rubber, "--approximate"}, "--approximate changes nothing here"},
+           {{material, "--check", linear, "--reproducible"},
+            "belongs to writing a card, --deck, --import"},
+           {{"--verify", linear, "--units", "SI"}, "--units changes nothing here"},
+           {{material, "--for", "abaqus", "--material-name", "A"},
+            "belongs to --check, --prove, --import"}}) {
+    std::string line;
+    for (const std::string& word : row.words) line += word + " ";
+    CAPTURE(line);
+    CHECK(card.run(row.words) == kBadWords);
+    CHECK_THAT(card.err, Catch::Contains(row.part));
+  }
+}
+
+TEST_CASE("viscard card --material-name chooses the material that is checked and imported",
+          "[cards][cli]") {
+  CardCommand card;
+  const std::string sent = card.path("two.inp"), made = card.path("made.json");
+  write_file(sent,
+             "*Material, name=Foot\n*Elastic\n200., 0.3\n*Material, name=Gum\n"
+             "*Hyperelastic, mooney-rivlin\n0.15, 0.02, 0.001\n",
+             true);
+  CHECK(card.run({"--check", sent, "--for", "abaqus", "--units", "mm-t-s"}) == kFailed);
+  CHECK_THAT(card.out, Catch::Contains("choose one by --material-name"));
+  CHECK(card.run({"--check", sent, "--for", "abaqus", "--units", "mm-t-s", "--material-name",
+                  "Gum"}) == kDone);
+  CHECK_THAT(card.out, Catch::Contains("mooney-rivlin"));
+  CHECK(card.run({"--check", sent, "--for", "abaqus", "--units", "mm-t-s", "--material-name",
+                  "Foot"}) == kDone);
+  CHECK_THAT(card.out, Catch::Contains("E0 = 200000000 Pa") || Catch::Contains("2e+08"));
+  CHECK(card.run({"--check", sent, "--for", "abaqus", "--material-name", "Sole"}) == kBadWords);
+  CHECK_THAT(card.err, Catch::Contains("the file has Foot, Gum"));
+  REQUIRE(card.run({sent, "--for", "abaqus", "--units", "mm-t-s", "--material-name", "Gum",
+                    "--import", made}) == kDone);
+  CHECK_THAT(card.out, Catch::Contains("a law of rubber, mooney-rivlin"));
+}
+
 TEST_CASE("viscard card --list shows every target, in words and as JSON", "[cards][cli]") {
   CardCommand card;
   CHECK(card.run({"--list"}) == kDone);
