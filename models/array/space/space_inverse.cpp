@@ -1,0 +1,156 @@
+// From the voltages of an array back to the loads on its tops: what models/array/inverse needs to know of a scene.
+#include "models/array/space/space_inverse.h"
+
+#include "models/array/space/simulate_space.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr std::size_t kLevel = 2, kFinerLevel = 3;  // of space_accuracies(): 7e-5 and better
+constexpr Eigen::Index kFirstOfQuarters = 2;        // among the readings of an electrode
+
+// The readings of one array per load at an offset.
+class InverseKernel {
+ public:
+  InverseKernel(const SpaceScene& scene, std::size_t level, bool at_centre)
+      : array_(array_of(scene)),
+        is_in_quarters_(scene.electrode == SpaceElectrode::kQuadrants),
+        row_(is_in_quarters_                                             ? kFirstOfQuarters
+             : scene.electrode == SpaceElectrode::kSampled && !at_centre ? 1
+                                                                         : 0),
+        response_(array_, without_coupling(space_accuracies(array_)[level])) {}
+
+  Eigen::MatrixXd at(int of_class, double x_m, double y_m) const {
+    const auto all = response_.kernel(of_class, x_m, y_m);
+    return all.block(row_, 0, is_in_quarters_ ? 4 : 1, kFirstTilt);
+  }
+  double reach_m() const { return response_.reach_m(); }
+
+ private:
+  static constexpr Eigen::Index kFirstTilt = static_cast<Eigen::Index>(TopLoad::kTiltX);
+  SpaceArray array_;
+  bool is_in_quarters_;
+  Eigen::Index row_;
+  SpaceResponse response_;
+};
+
+// Largest change of the own voltage between the two, over it; and the sum of those at the nearest pillars.
+struct KernelChange {
+  double own = 0.0, others = 0.0;
+};
+KernelChange change_between(const SpaceScene& scene, const InverseKernel& coarse,
+                            const InverseKernel& fine) {
+  constexpr int kAround = 8, kSteps = 3;  // directions, and distances within the reach
+  KernelChange change;
+  const auto loads = inverse_loads(scene);
+  const double pitch_m = smallest_pitch_m(scene);
+  for (int of_class = 0; of_class <= static_cast<int>(scene.others.size()); ++of_class) {
+    const auto size_of = [&](double x_m, double y_m) {
+      const Eigen::MatrixXd a = coarse.at(of_class, x_m, y_m), b = fine.at(of_class, x_m, y_m);
+      return (a - b).leftCols(loads).cwiseAbs().maxCoeff();
+    };
+    const double own_V_Pa = fine.at(of_class, 0.0, 0.0).leftCols(loads).cwiseAbs().maxCoeff();
+    change.own = std::max(change.own, size_of(0.0, 0.0) / own_V_Pa);
+    double others = 0.0;
+    for (int step = 1; step <= kSteps && scene.pillars.size() > 1; ++step) {
+      for (int d = 0; d < kAround; ++d) {
+        const double angle = 2.0 * std::numbers::pi * d / kAround, r_m = step * pitch_m;
+        // A ring holds about 8 pillars per step.
+        others += step * size_of(r_m * std::cos(angle), r_m * std::sin(angle)) / own_V_Pa;
+      }
+    }
+    change.others = std::max(change.others, others);
+  }
+  return change;
+}
+
+void check_inverse(const SpaceScene& scene, const InverseOptions& options) {
+  if (scene.backing && scene.feels_backing) {
+    throw SceneMistake(
+        "geometry.film.backing",
+        "lets every electrode feel all pillars; pressures are found from voltages of "
+        "films on a rigid base: say backing = \"rigid\"");
+  }
+  if (options.noise_V && !(*options.noise_V > 0.0 && std::isfinite(*options.noise_V))) {
+    throw std::invalid_argument("noise must be positive: V rms of each electrode, such as 1e-5");
+  }
+  if (!(options.gain_spread >= 0.0 && options.gain_spread < 1.0)) {
+    throw std::invalid_argument(
+        "gain_spread must lie between 0 and 1: a standard deviation over the gain, such as 0.02");
+  }
+  if (!(options.shear_Pa >= 0.0 && std::isfinite(options.shear_Pa))) {
+    throw std::invalid_argument("shear must not be negative");
+  }
+  if (options.shear_Pa > 0.0 && scene.electrode == SpaceElectrode::kQuadrants) {
+    throw std::invalid_argument("shear is found from quarters; it is stated for one electrode");
+  }
+  if (options.choice.weight && !(*options.choice.weight > 0.0)) {
+    throw std::invalid_argument("weight must be positive");
+  }
+}
+
+}  // namespace
+
+Eigen::Index inverse_readings(const SpaceScene& scene) {
+  return scene.electrode == SpaceElectrode::kQuadrants ? 4 : 1;
+}
+
+Eigen::Index inverse_loads(const SpaceScene& scene) {
+  return scene.electrode == SpaceElectrode::kQuadrants ? 3 : 1;
+}
+
+LoadReader load_reader(const SpaceScene& scene, const VoltageFrames& examples,
+                       const InverseOptions& options) {
+  check_inverse(scene, options);
+  const auto kernel = std::make_shared<const InverseKernel>(scene, kFinerLevel, options.at_centre);
+  ReadArray array;
+  array.pillars = sources_of(array_of(scene));
+  array.classes = static_cast<int>(scene.others.size()) + 1;
+  array.readings = inverse_readings(scene);
+  array.loads = inverse_loads(scene);
+  array.reach_m = kernel->reach_m();
+  array.kernel = [kernel](int of_class, double x_m, double y_m) {
+    return kernel->at(of_class, x_m, y_m);
+  };
+  const auto readings = static_cast<std::size_t>(array.readings);
+  const std::size_t places =
+      static_cast<std::size_t>(scene.rows) * static_cast<std::size_t>(scene.columns);
+  std::vector<std::size_t> place_of;
+  array.works.assign(scene.pillars.size() * readings, 1);
+  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+    const SpacePillar& one = scene.pillars[i];
+    place_of.push_back(static_cast<std::size_t>(one.row - 1) *
+                           static_cast<std::size_t>(scene.columns) +
+                       static_cast<std::size_t>(one.column - 1));
+    for (std::size_t r = 0; r < readings; ++r) {
+      for (std::size_t f = 0; f < examples.count; ++f) {
+        const double voltage_V = examples.voltages_V[(f * places + place_of.back()) * readings + r];
+        if (std::isnan(voltage_V)) array.works[i * readings + r] = 0;
+      }
+    }
+  }
+  ReadingErrors errors;
+  errors.noise_V = options.noise_V;
+  errors.gain_spread = options.gain_spread;
+  errors.disturbing_Pa = options.shear_Pa;
+  const InverseKernel coarse(scene, kLevel, options.at_centre);
+  const KernelChange change = change_between(scene, coarse, *kernel);
+  const ConstantErrors constant = constant_errors(scene);
+  errors.own_model = change.own + constant.foot + electrode_error(scene);
+  errors.other_model = change.others + 2.0 * constant.foot * constant.neighbour;
+  TopLoads all = TopLoads::Zero(static_cast<Eigen::Index>(scene.pillars.size()), kTopLoads);
+  all.leftCols(array.loads).setOnes();
+  errors.pillar_model = film_edge_errors(scene, all);
+  return LoadReader(std::move(array), std::move(place_of), places, errors, options.choice,
+                    examples);
+}
+
+}  // namespace viscard
