@@ -58,7 +58,7 @@ install(DIRECTORY data/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COM
         FILES_MATCHING PATTERN "*.cpp" PATTERN "CMakeLists.txt")
 if(TARGET viscard_python)
   install(DIRECTORY data/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT python
-          FILES_MATCHING PATTERN "*.py")
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.ipynb")
 endif()
 
 file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)

@@ -1,5 +1,7 @@
-"""The example scripts, and the Python block of the README."""
+"""The example scripts and notebooks, and the Python block of the README."""
+import ast
 import csv
+import json
 import pathlib
 import re
 import subprocess
@@ -8,6 +10,8 @@ import sys
 import pytest
 
 import viscard
+
+EXAMPLES = pathlib.Path(__file__).parents[3] / "data/examples"
 
 
 def run_script(name, folder):
@@ -40,6 +44,67 @@ def test_a_design_study(tmp_path):
     # A slender cantilever bends at 1/L^2 (Euler-Bernoulli); a stubby one on a film is softer than that.
     of_40 = {row["length_um"]: float(row["bending_kHz"]) for row in rows if row["diameter_um"] == "40"}
     assert 1.5 < of_40["80"] / of_40["120"] < (120 / 80) ** 2
+
+
+def code_cells(name):
+    cells = json.loads((EXAMPLES / f"{name}.ipynb").read_text())["cells"]
+    assert not any(cell.get("outputs") for cell in cells), "a notebook is kept without its outputs"
+    return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+
+
+def shown(value):
+    """What a notebook shows of a value."""
+    return value._repr_html_() if hasattr(value, "_repr_html_") else repr(value)
+
+
+def run_notebook(name):
+    """Runs the cells in order, as Jupyter does: a cell that ends with an expression shows its value. Returns the
+    names that the cells defined, and what they showed."""
+    names, texts = {}, []
+    for number, source in enumerate(code_cells(name), 1):
+        tree = ast.parse(source, f"{name}, cell {number}")
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, f"{name}, cell {number}", "exec"), names)
+        if last is not None:
+            value = eval(compile(ast.Expression(last.value), f"{name}, cell {number}", "eval"), names)
+            texts += [] if value is None else [shown(value)]
+    return names, "\n".join(texts)
+
+
+@pytest.fixture
+def in_empty_folder(tmp_path, monkeypatch):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    monkeypatch.chdir(tmp_path)
+    yield tmp_path
+    pyplot.close("all")
+
+
+def test_the_notebook_from_a_csv_to_a_card(in_empty_folder):
+    names, texts = run_notebook("csv_to_card")
+    assert "E0_Pa" in texts and "*VISCOELASTIC" in (in_empty_folder / "pdms.inp").read_text().upper()
+    kept = viscard.Material.load(in_empty_folder / "pdms.json")
+    assert kept.E0_Pa == names["result"].E0_Pa == pytest.approx(1.88e6, rel=1e-3)  # stated in the file
+
+
+def test_the_notebook_from_volts_to_the_voltage_of_a_sensor(in_empty_folder):
+    names, _ = run_notebook("volts_to_sensor")
+    low, high = names["result"].E0_combined_interval
+    assert low < 1.88e6 < high  # the emulated specimen: data/demo/03_pdms_1to10.truth.toml
+    truth = viscard.Material(1.88e6, names["result"].material.nu, terms=[(0.008206, 0.1945), (0.01386, 2.403)])
+    scene = {**names["scene"], "materials": {**names["scene"]["materials"], "pillar": truth}}
+    low, high = names["voltage"]["interval_95"]
+    assert low < viscard.simulate(scene)["electrode_voltage"] < high
+    assert sum(names["voltage"]["shares"].values()) == pytest.approx(1.0, abs=0.05)
+
+
+def test_the_notebook_on_the_rubber_of_treloar(in_empty_folder):
+    names, texts = run_notebook("rubber_of_treloar")
+    assert 0.9e6 < names["rubber"].E0_Pa < 1.5e6  # Treloar's rubber: G about 0.4 MPa
+    measured = names["measured"]
+    together, alone = (abs(law.stress(measured["stretch"], "equibiaxial") - measured["nominal_stress_Pa"]).max() /
+                       measured["nominal_stress_Pa"].max() for law in (names["rubber"], names["alone"]))
+    assert together < 0.1 < alone  # a law from one way of stretching is no law of another
+    assert (in_empty_folder / "treloar.feb").exists()
 
 
 def blocks(path):
