@@ -49,7 +49,9 @@ constexpr DriverRow<LoadCell, LoadCellConfig> kCells[] = {
     {"scpi", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
     {"mark10", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
     {"mark10-continuous", made<LoadCell, Mark10Stream, LoadCellConfig>, check_mark10_words, true},
-    {"sauter", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words}};
+    {"sauter", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
+    {"mt-sics", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
+    {"sartorius", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words}};
 
 template <class Row, std::size_t n>
 const Row& row_of(const Row (&rows)[n], const std::string& name, const std::string& section) {

@@ -29,7 +29,8 @@ struct StageConfig {
 
 // The load cell and how it is connected.
 struct LoadCellConfig {
-  // "hx711" | "adc" | "adc-frames" | "scpi" | "mark10" | "mark10-continuous" | "sauter"
+  // "hx711" | "adc" | "adc-frames" | "scpi" | "mark10" | "mark10-continuous" | "sauter" |
+  // "mt-sics" | "sartorius"
   std::string driver = "hx711";
   std::string port;
   int baud = 115200;
@@ -63,7 +64,7 @@ inline bool has_converter(const LoadCellConfig& cell) {
 // True for an instrument that sends forces; its gain is then 1 unless dead weights give another.
 inline bool measures_force(const LoadCellConfig& cell) {
   return cell.driver == "mark10" || cell.driver == "mark10-continuous" || cell.driver == "sauter" ||
-         !cell.unit.empty();
+         cell.driver == "mt-sics" || cell.driver == "sartorius" || !cell.unit.empty();
 }
 
 // What measures the temperature beside the specimen (rig/sensors/thermometer.h).

@@ -27,7 +27,9 @@ struct GaugeDriver {
 constexpr GaugeDriver kDrivers[] = {
     {"scpi", [](const LoadCellConfig& config) { return scpi_protocol(config.dialect); }},
     {"mark10", [](const LoadCellConfig& config) { return mark10_protocol(config.unit); }},
-    {"sauter", [](const LoadCellConfig& config) { return sauter_protocol(config.unit); }}};
+    {"sauter", [](const LoadCellConfig& config) { return sauter_protocol(config.unit); }},
+    {"mt-sics", [](const LoadCellConfig& config) { return mt_sics_protocol(config.unit); }},
+    {"sartorius", [](const LoadCellConfig& config) { return sartorius_protocol(config.unit); }}};
 
 GaugeProtocol gauge_protocol(const LoadCellConfig& config) {
   for (const GaugeDriver& driver : kDrivers) {

@@ -20,6 +20,8 @@ struct EmulatedGauge::Instrument {
   bool streams;                           // it can send readings by itself
   const char* refusal;                    // answer to an unknown command; empty: none
   std::string (*reading)(const Shown& shown);
+  const char* unit = "";      // of its readings; empty: that of the habits
+  const char* identity = "";  // answer to a question for it
 };
 
 namespace {
@@ -27,6 +29,11 @@ namespace {
 // "1.500" becomes "01.500": six characters, as these instruments send them.
 std::string with_leading_zeros(const std::string& number) {
   return std::string(6 - std::min<std::size_t>(6, number.size()), '0') + number;
+}
+
+// Right-aligned, as balances send values.
+std::string in_columns(const std::string& number, std::size_t width) {
+  return std::string(width - std::min(width, number.size()), ' ') + number;
 }
 
 }  // namespace
@@ -44,10 +51,39 @@ const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string&
        }},
       {"mark10", {"?"}, true, false, "*10\r\n", mark10_text},
       {"mark10-continuous", {"?"}, true, true, "*10\r\n", mark10_text},
-      {"sauter", {"9"}, false, false, "", [](const Shown& shown) {
+      {"sauter",
+       {"9"},
+       false,
+       false,
+       "",
+       [](const Shown& shown) {
          return (shown.force >= 0.0 ? "0" : "1") +
                 with_leading_zeros(text_from_number(std::min(std::abs(shown.force), 99.999), 3));
-       }}};
+       }},
+      // Under a punch it is never at rest.
+      {"mt-sics",
+       {"SI"},
+       true,
+       false,
+       "ES\r\n",
+       [](const Shown& shown) {
+         if (shown.is_overload) return std::string("S +\r\n");
+         return "S D " + in_columns(text_from_number(shown.force, 3), 10) + " g\r\n";
+       },
+       "g",
+       "I4 A \"1114350697\"\r\n"},
+      {"sartorius",
+       {"\x1bP"},
+       true,
+       false,
+       "",
+       [](const Shown& shown) {
+         if (shown.is_overload) return std::string("       H        \r\n");
+         return (shown.force < 0.0 ? "-" : "+") +
+                in_columns(text_from_number(std::abs(shown.force), 3), 9) + "    \r\n";
+       },
+       "g",
+       "BCE623-1S\r\n"}};
   for (const Instrument& row : kInstruments) {
     if (driver == row.driver) return row;
   }
@@ -86,6 +122,8 @@ void EmulatedGauge::take_command(const std::string& command, double time_s) {
     due_s_.push_back(time_s + 1.0 / rate_Hz_);
   } else if (command == "*IDN?") {
     answers_.add(time_s, "HEWLETT-PACKARD,34401A,0,10-5-2\r\n");
+  } else if (command == "I4" || command == "@" || command == "\x1bx1_") {
+    answers_.add(time_s, instrument_.identity);
   } else if (command == "SYST:ERR?") {
     answers_.add(time_s,
                  habits_.refuses_setup ? "-113,\"Undefined header\"\r\n" : "+0,\"No error\"\r\n");
@@ -161,7 +199,9 @@ void EmulatedGauge::convert(double force_N, bool is_cell_broken) {
 std::string EmulatedGauge::text_of(double shown, bool is_overload) const {
   const bool is_changed =
       habits_.changes_unit_after > 0 && n_readings_ > habits_.changes_unit_after;
-  const std::string unit = is_changed ? "lbF" : habits_.unit;
+  const std::string unit = is_changed               ? "lbF"
+                           : *instrument_.unit != 0 ? instrument_.unit
+                                                    : habits_.unit;
   return instrument_.reading({.volts = shown,
                               .force = shown / newtons_per_unit(unit).value_or(1.0),
                               .unit = habits_.hides_unit ? "" : unit,

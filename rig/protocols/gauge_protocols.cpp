@@ -145,21 +145,130 @@ GaugeProtocol sauter_protocol(const std::string& unit) {
   return protocol;
 }
 
+namespace {
+
+// The words of a line, without blanks.
+std::vector<std::string> words_of(std::string_view line) {
+  std::vector<std::string> words;
+  for (const std::string_view part : split(trimmed(line), ' ')) {
+    if (!trimmed(part).empty()) words.emplace_back(trimmed(part));
+  }
+  return words;
+}
+
+std::string upper_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(), [&](const char* one) { return word == one; });
+}
+
+GaugeAnswer refusal(std::string_view line) {
+  GaugeAnswer answer;
+  answer.error = std::string(trimmed(line));
+  return answer;
+}
+
+// A weight of so many of a unit; nothing for another quantity, such as pieces.
+std::optional<GaugeAnswer> weight(std::string_view digits, const std::string& unit) {
+  const auto value = number_from_text(digits);
+  const auto newtons = newtons_per_unit(unit);
+  if (!value || !newtons) return std::nullopt;
+  GaugeAnswer answer;
+  answer.force_N = *value * *newtons;
+  answer.unit = unit;
+  return answer;
+}
+
+GaugeAnswer above_range() {
+  GaugeAnswer answer;
+  answer.is_overload = true;
+  return answer;
+}
+
+GaugeProtocol balance(std::string name, const std::string& unit,
+                      std::optional<GaugeAnswer> (*parse)(std::string_view, const std::string&)) {
+  const std::string word = checked_gauge_unit(unit.empty() ? "g" : unit);
+  GaugeProtocol protocol;
+  protocol.name = std::move(name);
+  protocol.parse = [word, parse](std::string_view line) { return parse(line, word); };
+  return protocol;
+}
+
+}  // namespace
+
+std::optional<GaugeAnswer> parse_mt_sics_reading(std::string_view line, const std::string& unit) {
+  const std::vector<std::string> words = words_of(line);
+  if (words.size() == 1 && is_one_of(words[0], {"ES", "ET", "EL"})) return refusal(line);
+  if (words.size() < 2 || !is_one_of(words[0], {"S", "SI"})) return std::nullopt;
+  if (words[1] == "+") return above_range();
+  if (is_one_of(words[1], {"-", "I", "L"})) return refusal(line);
+  if (words.size() < 3 || !is_one_of(words[1], {"S", "D"})) return std::nullopt;
+  if (words[2] == "Error") return refusal(line);
+  return weight(words[2], words.size() > 3 ? words[3] : unit);
+}
+
+GaugeProtocol mt_sics_protocol(const std::string& unit) {
+  GaugeProtocol protocol = balance("mt-sics", unit, parse_mt_sics_reading);
+  protocol.opening = {"@\r\n"};
+  protocol.identity_query = "I4\r\n";
+  protocol.query = "SI\r\n";
+  return protocol;
+}
+
+std::optional<GaugeAnswer> parse_sartorius_reading(std::string_view line, const std::string& unit) {
+  std::vector<std::string> words = words_of(line);
+  // A label of up to four letters before the value: N, G, T, Stat.
+  constexpr std::size_t kLongestLabel = 4;
+  const auto is_label = [&](const std::string& word) {
+    return word.size() <= kLongestLabel &&
+           std::all_of(word.begin(), word.end(),
+                       [](unsigned char c) { return std::isalpha(c) || c == '#'; });
+  };
+  if (!words.empty() && is_one_of(upper_case(words[0]), {"ERR", "APP.", "DIS.", "PRT."}))
+    return refusal(line);
+  if (words.size() > 1 && is_label(words[0])) words.erase(words.begin());
+  if (words.empty()) return std::nullopt;
+  const std::string first = upper_case(words[0]);
+  if (is_one_of(first, {"H", "HH", "HIGH"})) return above_range();
+  if (is_one_of(first, {"L", "LL", "LOW", "C", "CAL", "CAL.INT.", "--"})) return refusal(line);
+  std::string digits = words[0];
+  words.erase(words.begin());
+  if ((digits == "+" || digits == "-") && !words.empty()) {
+    digits += words[0];
+    words.erase(words.begin());
+  }
+  std::erase_if(digits, [](char c) { return c == '[' || c == ']'; });
+  if (digits.starts_with('+')) digits.erase(0, 1);
+  if (words.size() > 1) return std::nullopt;
+  return weight(digits, words.empty() ? unit : words[0]);
+}
+
+GaugeProtocol sartorius_protocol(const std::string& unit) {
+  GaugeProtocol protocol = balance("sartorius", unit, parse_sartorius_reading);
+  protocol.identity_query = "\x1bx1_\r\n";
+  protocol.query = "\x1bP\r\n";
+  return protocol;
+}
+
 std::string checked_gauge_unit(const std::string& unit) {
   std::string word = unit.empty() ? "N" : unit;
   if (newtons_per_unit(word)) return word;
-  throw RigError(
-      "unit '" + unit +
-      "' under [load_cell] of the rig file is unknown; choose N, mN, kN, gf, kgf, ozf or lbf");
+  throw RigError("unit '" + unit +
+                 "' under [load_cell] of the rig file is unknown; choose N, mN, kN, mg, g, gf, "
+                 "kgf, ozf or lbf");
 }
 
 std::optional<double> newtons_per_unit(std::string_view unit) {
   constexpr double kGravity = 9.80665;
   constexpr double kPound_kg = 0.45359237;
-  static constexpr std::array<std::pair<const char*, double>, 13> kRows{
+  static constexpr std::array<std::pair<const char*, double>, 14> kRows{
       {{"n", 1.0},
        {"mn", 1e-3},
        {"kn", 1e3},
+       {"mg", 1e-6 * kGravity},
        {"g", 1e-3 * kGravity},
        {"gf", 1e-3 * kGravity},
        {"kg", kGravity},

@@ -69,12 +69,28 @@ std::optional<GaugeAnswer> parse_mark10_reading(std::string_view line, const std
 GaugeProtocol sauter_protocol(const std::string& unit);
 std::optional<GaugeAnswer> parse_sauter_reading(std::string_view bytes, const std::string& unit);
 
+// Balances, which weigh the force on their pan; compression is positive. unit: of readings that bear none, g
+// unless the rig file names another. Throws RigError on an unknown one. A balance filters for 0.1 to 2 s: its
+// readings limit a slow test, and no fast approach.
+//
+// Mettler Toledo MT-SICS. The query is "SI"; the answer is "S S     100.00 g" at rest, "S D ..." in motion, "S +"
+// above and "S -" below the range, "S I" if it is busy; ES, ET, EL and "S S Error 10b" are errors. "@" cancels
+// what was begun. Source: MT-SICS Reference Manual, "Commands and responses".
+GaugeProtocol mt_sics_protocol(const std::string& unit);
+std::optional<GaugeAnswer> parse_mt_sics_reading(std::string_view line, const std::string& unit);
+
+// Sartorius SBI. The query is ESC P; the answer has 16 characters, "+   123.56 g  ", or 22 with a label of six
+// before them; without a unit the balance is not at rest, digits in brackets are not verified. H or High is above
+// the range, L or Low below it. Source: Sartorius, operating instructions, "Data interface" (SBI).
+GaugeProtocol sartorius_protocol(const std::string& unit);
+std::optional<GaugeAnswer> parse_sartorius_reading(std::string_view line, const std::string& unit);
+
 // The unit of a gauge that does not send one; N unless the rig file names another. Throws RigError if
 // that is unknown.
 std::string checked_gauge_unit(const std::string& unit);
 
 // Newtons in one unit of force as balances and force gauges write it: N mN kN gf kgf ozf lbf, p
-// (pond), and g kg oz lb lbs for the weight of that mass. Case does not matter, except that MN is
+// (pond), and mg g kg oz lb lbs for the weight of that mass. Case does not matter, except that MN is
 // refused. Returns nothing for another word.
 // Source: BIPM SI Brochure (standard gravity 9.80665 m/s2); NIST SP 811, B.8 (pound, ounce).
 std::optional<double> newtons_per_unit(std::string_view unit);

@@ -70,8 +70,43 @@ TEST_CASE("Mark-10 and Sauter readings are read in their units", "[rig]") {
   CHECK_THROWS_WITH(sauter_protocol("stone"), Contains("unit 'stone'"));
 }
 
+TEST_CASE("balances are read as their makers write them", "[rig]") {
+  constexpr double kGram_N = 9.80665e-3;
+  CHECK(*parse_mt_sics_reading("S S     100.00 g\r", "g")->force_N == Approx(100.0 * kGram_N));
+  CHECK(*parse_mt_sics_reading("S D     -12.34 g", "g")->force_N == Approx(-12.34 * kGram_N));
+  CHECK(*parse_mt_sics_reading("SI D      1.5 N", "g")->force_N == 1.5);
+  CHECK(parse_mt_sics_reading("S +", "g")->is_overload);
+  for (const char* refused : {"S -", "S I", "S L", "ES", "ET", "EL", "S S Error 10b"}) {
+    CAPTURE(refused);
+    CHECK(parse_mt_sics_reading(refused, "g")->error == refused);
+  }
+  for (const char* other :
+       {"I4 A \"1114350697\"", "Z A", "S D 12 pcs", "S", "", "12.34 g", "S D 1:2 g"}) {
+    CAPTURE(other);
+    CHECK_FALSE(parse_mt_sics_reading(other, "g"));
+  }
+  CHECK(*parse_sartorius_reading("+   123.56 g  \r", "g")->force_N == Approx(123.56 * kGram_N));
+  CHECK(*parse_sartorius_reading("N     -   123.56 g  ", "g")->force_N ==
+        Approx(-123.56 * kGram_N));
+  CHECK(*parse_sartorius_reading("+    0.006    ", "kg")->force_N ==
+        Approx(6.0 * kGram_N));  // in motion
+  CHECK(*parse_sartorius_reading("+   123.5[6] g  ", "g")->force_N == Approx(123.56 * kGram_N));
+  CHECK(parse_sartorius_reading("       H        ", "g")->is_overload);
+  CHECK(parse_sartorius_reading("Stat     High         ", "g")->is_overload);
+  for (const char* refused : {"L", "Cal.Int.", "Err 54", "APP. ERR", "--"}) {
+    CAPTURE(refused);
+    CHECK(parse_sartorius_reading(refused, "g")->error == refused);
+  }
+  for (const char* other : {"SerNo. 0031801165", "", "+ 12 pcs", "BCE623-1S", "+ 1 2 g"}) {
+    CAPTURE(other);
+    CHECK_FALSE(parse_sartorius_reading(other, "g"));
+  }
+  CHECK(*newtons_per_unit("mg") == Approx(1e-3 * kGram_N));
+}
+
 TEST_CASE("each kind of load cell is identified and measured by a rig check", "[rig][pty]") {
-  const std::string driver = GENERATE("scpi", "mark10", "mark10-continuous", "sauter");
+  const std::string driver =
+      GENERATE("scpi", "mark10", "mark10-continuous", "sauter", "mt-sics", "sartorius");
   EmulatedRigOptions options = gauge_rig(driver);
   options.gauge.echoes = driver == "scpi";
   DeviceFixture rig(options);
@@ -87,7 +122,8 @@ TEST_CASE("each kind of load cell is identified and measured by a rig check", "[
 }
 
 TEST_CASE("a whole test runs on a multimeter and on force gauges", "[rig][pty]") {
-  const std::string driver = GENERATE("scpi", "mark10", "mark10-continuous", "sauter");
+  const std::string driver =
+      GENERATE("scpi", "mark10", "mark10-continuous", "sauter", "mt-sics", "sartorius");
   DeviceFixture rig(gauge_rig(driver));
   const RunOutcome outcome = rig.run(quick_plan());
   INFO(driver << ": " << outcome.reason);
