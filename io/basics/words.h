@@ -24,6 +24,9 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 std::string no_such_word(const std::string& kind, const std::string& word,
                          const std::vector<std::string>& known);
 
+// The words with blanks between them, quoted for a shell where it needs that.
+std::string quoted_for_shell(const std::vector<std::string>& words);
+
 // The length in bytes of the UTF-8 character that begins at `at`; 0 if none does.
 std::size_t utf8_length(std::string_view text, std::size_t at);
 

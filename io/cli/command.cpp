@@ -96,6 +96,7 @@ const std::vector<Command>& commands() {
       {"rig", "list serial ports, check a rig", run_rig},
       {"capture", "run one indentation on the rig, or on an emulated one", run_capture},
       {"serve", "show a page at the rig: run a series of specimens and fit it", run_serve},
+      {"desk", "show a page for tables of any machine: read, fit, look, take a card", run_desk},
       {"calibrate", "find the load cell's gain with weights, or the frame's stiffness on a block",
        run_calibrate},
       {"export", "write a capture as CSV", run_export},

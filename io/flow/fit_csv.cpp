@@ -1,9 +1,11 @@
 #include "io/basics/failure_text.h"
 #include "io/basics/number_text.h"
 #include "io/flow/fit_file.h"
+#include "models/maths/result_visitor.h"
 
 #include <cmath>
 #include <exception>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,19 +60,44 @@ std::string text_of_failure(const FileOutcome& outcome) {
   }
 }
 
-}  // namespace
-
-std::string csv_from_fit(const FittedFile& fitted, const std::string& command) {
+std::vector<FittedColumn> columns_of(const FittedFile& fitted) {
   const FitCurves& curves = fitted.result.curves;
   std::vector<FittedColumn> columns{
       {name_of_column(fitted), curves.measured, curves.fitted, curves.sigma}};
-  const bool has_loss = !curves.loss_measured.empty();
-  if (has_loss) {
+  if (!curves.loss_measured.empty()) {
     columns.push_back(
         {"loss_modulus_Pa", curves.loss_measured, curves.loss_fitted, curves.loss_sigma});
   }
-  const bool is_sweep = has_loss || fitted.result.kind == FitKind::kDma;
-  std::string text = first_of(command) + (is_sweep ? "frequency_Hz" : "time_s");
+  return columns;
+}
+
+const char* argument_of(const FittedFile& fitted) {
+  const bool has_loss = !fitted.result.curves.loss_measured.empty();
+  return has_loss || fitted.result.kind == FitKind::kDma ? "frequency_Hz" : "time_s";
+}
+
+}  // namespace
+
+void show_curves(ResultVisitor& v, const FittedFile& fitted) {
+  v.object("curves", "data and fit, with --curves; where samples are dense, averages", [&] {
+    v("argument", argument_of(fitted), "what they are over: time_s or frequency_Hz");
+    v("values", fitted.result.curves.time_s, "of the argument");
+    const std::vector<FittedColumn> columns = columns_of(fitted);
+    std::vector<std::size_t> numbers(columns.size());  // a column has no default to describe
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    v.list("columns", "what was fitted", numbers, [&](std::size_t c) {
+      v("name", columns[c].name, "quantity and unit: modulus_Pa, force_N ...");
+      v("measured", columns[c].measured, "data");
+      v("fitted", columns[c].fitted, "by the model");
+      v("sigma", columns[c].sigma, "standard deviations of the data; empty: not known");
+    });
+  });
+}
+
+std::string csv_from_fit(const FittedFile& fitted, const std::string& command) {
+  const FitCurves& curves = fitted.result.curves;
+  const std::vector<FittedColumn> columns = columns_of(fitted);
+  std::string text = first_of(command) + argument_of(fitted);
   std::vector<double> least_sigma;  // of each column
   for (const FittedColumn& column : columns) {
     text += "," + column.name;

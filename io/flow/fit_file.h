@@ -37,6 +37,9 @@ struct FileOutcome {
 void show_keys(ResultVisitor& v, const FittedFile& fitted);
 void show_keys(ResultVisitor& v, const FileOutcome& outcome);
 
+// Data and fit of one file as keys, for those who draw them: the columns of csv_from_fit().
+void show_curves(ResultVisitor& v, const FittedFile& fitted);
+
 // A fit as a table: for each row (averages of neighbours where samples are dense) the measured and the fitted value,
 // their difference, the standard deviation of the value and its weight in the fit, over the largest. Storage and loss modulus
 // have these columns each.

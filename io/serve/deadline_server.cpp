@@ -25,7 +25,8 @@ struct Arriving {
   socket_t socket = -1;
   SteadyClock::time_point deadline;
   std::string bytes;
-  bool has_continued = false;  // the client was told to send the body
+  bool has_continued = false;    // the client was told to send the body
+  std::size_t largest_body = 0;  // bytes; known with the head
 };
 
 namespace {
@@ -55,16 +56,24 @@ std::string field_of(const std::string& head, const std::string& name) {
 
 enum class State { kIncomplete, kComplete, kTooLarge };
 
-State state_of(const Arriving& request, const ConnectionLimits& limits) {
+State state_of(Arriving& request, const ConnectionLimits& limits) {
   const std::size_t end = request.bytes.find("\r\n\r\n");
   if (end == std::string::npos) {
     return request.bytes.size() > limits.largest_head ? State::kTooLarge : State::kIncomplete;
   }
   if (end > limits.largest_head) return State::kTooLarge;
   const std::string head = lower_case(std::string_view(request.bytes).substr(0, end + 2));
+  if (request.largest_body == 0) {
+    request.largest_body = limits.largest_body;
+    const std::size_t large = limits.large_body ? limits.large_body(head) : 0;
+    if (large > 0) {
+      request.largest_body = large;
+      request.deadline += limits.large_arrival - limits.arrival;
+    }
+  }
   const std::size_t body = request.bytes.size() - (end + 4);
   if (!field_of(head, "transfer-encoding").empty()) {
-    if (body > limits.largest_body) return State::kTooLarge;
+    if (body > request.largest_body) return State::kTooLarge;
     return request.bytes.ends_with("0\r\n\r\n") ? State::kComplete : State::kIncomplete;
   }
   const std::string length = field_of(head, "content-length");
@@ -73,7 +82,7 @@ State state_of(const Arriving& request, const ConnectionLimits& limits) {
     return State::kTooLarge;
   }
   const std::size_t wanted = std::stoull(length);
-  if (wanted > limits.largest_body) return State::kTooLarge;
+  if (wanted > request.largest_body) return State::kTooLarge;
   return body >= wanted ? State::kComplete : State::kIncomplete;
 }
 
@@ -165,7 +174,7 @@ class DeadlineServer::Arrivals {
   void add(socket_t socket) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      fresh_.push_back({socket, SteadyClock::now() + limits_.arrival, {}, false});
+      fresh_.push_back({.socket = socket, .deadline = SteadyClock::now() + limits_.arrival});
     }
     wake();
   }
@@ -248,7 +257,8 @@ class DeadlineServer::Arrivals {
     const std::string code = status.starts_with("413") ? "too-large" : "bad-request";
     const std::string message =
         status.starts_with("413")
-            ? "the request is larger than " + std::to_string(limits_.largest_body) + " bytes"
+            ? "the request is larger than " +
+                  std::to_string(std::max(request.largest_body, limits_.largest_body)) + " bytes"
             : "the request did not arrive in time";
     const std::string body = "{\"error\":{\"code\":\"" + code + "\",\"message\":\"" + message +
                              "\",\"where\":\"\",\"hint\":\"\"}}";

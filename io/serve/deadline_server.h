@@ -19,6 +19,10 @@ struct ConnectionLimits {
   std::size_t most_open =
       64;  // connections whose request has not arrived; a further one ends the oldest
   std::size_t n_threads = 8;  // that answer
+  // Of requests that may be larger: bytes of the body by the head in lower case, 0 for all others; and the time
+  // in which they must arrive.
+  std::function<std::size_t(const std::string& head)> large_body{};
+  std::chrono::milliseconds large_arrival{5000};
 };
 
 // httplib::Server gives each connection a thread before it has sent anything, so that a few dozen slow ones

@@ -10,23 +10,20 @@
 
 namespace viscard {
 
-std::string refusal_of(const RequestOrigin& request, int port) {
+std::string refusal_of(const RequestOrigin& request, int port, const std::string& program) {
   const std::string by_number = fmt::format("127.0.0.1:{}", port);
   const std::string by_name = fmt::format("localhost:{}", port);
   if (request.host != by_number && request.host != by_name) {
-    return "viscard serve answers only under http://" + by_number +
-           ". Open the address that it "
-           "has printed";
+    return program + " answers only under http://" + by_number +
+           ". Open the address that it has printed";
   }
+  const std::string refusal =
+      " may not use this program. Open the address that " + program + " has printed";
   if (!request.origin.empty() && request.origin != "http://" + request.host) {
-    return "a page of " + request.origin +
-           " may not use the rig. Open the address that viscard "
-           "serve has printed";
+    return "a page of " + request.origin + refusal;
   }
   const std::string& site = request.fetch_site;
-  if (!site.empty() && site != "same-origin" && site != "none") {
-    return "another page may not use the rig. Open the address that viscard serve has printed";
-  }
+  if (!site.empty() && site != "same-origin" && site != "none") return "another page" + refusal;
   return "";
 }
 

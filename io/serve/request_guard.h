@@ -13,9 +13,9 @@ struct RequestOrigin {
   std::string fetch_site;  // header Sec-Fetch-Site; empty if there is none
 };
 
-// Why a request is refused, or "". Another name in Host means that a foreign name was made to point
+// Why a request to this program ("viscard serve") is refused, or "". Another name in Host means that a foreign name was made to point
 // to this machine (DNS rebinding); another Origin, that a foreign page sends the request.
-std::string refusal_of(const RequestOrigin& request, int port);
+std::string refusal_of(const RequestOrigin& request, int port, const std::string& program);
 
 // Compares all characters, so that the time does not depend on the first that differs.
 bool is_same_token(const std::string& given, const std::string& token);

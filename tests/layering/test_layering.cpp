@@ -178,7 +178,7 @@ TEST_CASE("two files include the header of the HTTP library, which is expensive 
     }
   }
   CHECK(places ==
-        std::vector<std::string>{"io/serve/deadline_server.h", "io/serve/rig_server.cpp"});
+        std::vector<std::string>{"io/serve/deadline_server.h", "io/serve/page_server.cpp"});
 }
 
 TEST_CASE("what x.h declares is defined in x.cpp or in a file of that room without a header",

@@ -31,7 +31,14 @@ void show_card(ResultVisitor& v, const Card& card, const CardWords& words) {
            v("mapping", to_word(item.mapping), "exact, approximated, dropped ...");
            v("text", item.text, "in words");
          });
-  v.when(words.out.empty(), [&] { v("card", card.text, "the card itself, without --out"); });
+  v.when(words.out.empty(), [&] {
+    v("card", card.text, "the card itself, without --out");
+    v.list("companions", "files that the card reads beside it, without --out", card.companions,
+           [&](const CompanionFile& file) {
+             v("suffix", file.suffix, "in the place of the card's extension");
+             v("text", file.text, "its contents");
+           });
+  });
 }
 
 void report_losses(const Card& card, Streams& streams) {

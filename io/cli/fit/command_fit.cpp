@@ -26,8 +26,10 @@
 namespace viscard {
 namespace {
 
-void show_fit(ResultVisitor& v, const FileOutcome& outcome, const NextMeasurements& next) {
+void show_fit(ResultVisitor& v, const FileOutcome& outcome, const NextMeasurements& next,
+              bool with_curves) {
   show_keys(v, outcome);
+  v.when(with_curves, [&] { show_curves(v, outcome.fitted ? *outcome.fitted : FittedFile{}); });
   v.when(next.has_value(), [&] {
     v.object("next", "what to measure next, if --want asks for it", [&] {
       v("text", next ? text_of_next(*next) : "", "in a sentence");
@@ -58,7 +60,7 @@ std::vector<FileOutcome> examples() {
 std::vector<DescribedResult> results_of_fit() {
   DescribedResult fit{"fit", "viscard fit FILE, or several tests of one material", {}};
   for (const FileOutcome& one : examples()) {
-    fit.examples.emplace_back([one](ResultVisitor& v) { show_fit(v, one, std::nullopt); });
+    fit.examples.emplace_back([one](ResultVisitor& v) { show_fit(v, one, std::nullopt, false); });
   }
   DescribedResult joint{"joint", "viscard fit --joint, and the file that it writes", {}};
   for (const int degree : {1, kPerRatio}) {
@@ -72,6 +74,7 @@ std::vector<DescribedResult> results_of_fit() {
       fit,
       {"fits", "viscard fit FILE FILE ...", {[](ResultVisitor& v) { show_fits(v, examples()); }}},
       joint,
+      result_of_table(),
       described<FittedLargeStrain>("hyperelastic",
                                    "viscard fit of tests at large strain; --out writes the same "
                                    "without version and inputs")};
@@ -108,6 +111,16 @@ CommandSyntax fit_syntax(FitCommand& command) {
            "g_2=5% (repeatable; E0, E_inf, sum_g, E_i, g_i, tau_i); prints what to measure next: "
            "what narrows the widest one most for a minute at the rig")
       .only_typed();
+  options
+      .add("curves", &command.curves,
+           "with --json and one file: the object has data and fit, as --csv writes them")
+      .only_typed();
+  options
+      .add(
+          "show-table", &command.show_table,
+          "print how a table is read, with its columns, their quantities and what was guessed; fit "
+          "nothing")
+      .only_typed();
   options.add("out", &command.out, "material file to write (one input file, or several tests)")
       .only_typed();
   options.add("force", &command.overwrite, "replace an existing material file").only_typed();
@@ -127,11 +140,11 @@ void print_as_text(const std::vector<FileOutcome>& outcomes, std::ostream& out) 
 
 // One file has its keys at the top, several stand in a list.
 void print_as_json(const std::vector<FileOutcome>& outcomes, const Words& files,
-                   const NextMeasurements& next, Streams& streams) {
+                   const NextMeasurements& next, bool with_curves, Streams& streams) {
   if (outcomes.size() == 1) {
     print_result(
-        {"viscard-fit/1", files}, [&](ResultVisitor& v) { show_fit(v, outcomes.front(), next); },
-        streams);
+        {"viscard-fit/1", files},
+        [&](ResultVisitor& v) { show_fit(v, outcomes.front(), next, with_curves); }, streams);
   } else {
     print_result(
         {"viscard-fits/1", files}, [&](ResultVisitor& v) { show_fits(v, outcomes); }, streams);
@@ -176,6 +189,20 @@ std::vector<TestFile> tests_given(const Words& words) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+}
+
+// --curves belongs to one object, and --show-table fits nothing that it could write.
+void check_shown(const FitCommand& asked, bool as_json, std::size_t n_files, bool are_tests) {
+  if (asked.curves && (!as_json || n_files > 1 || asked.fit.joint)) {
+    throw UsageError(
+        "--curves adds data and fit to the object of one file; give --json and one file");
+  }
+  if (!asked.show_table) return;
+  if (asked.out || asked.csv || asked.svg || asked.fit.joint || asked.curves) {
+    throw UsageError(
+        "--show-table fits nothing, so it excludes --out, --csv, --svg, --curves and --joint");
+  }
+  if (are_tests) throw UsageError("--show-table takes plain files, without KIND=; state --kind");
 }
 
 // The data of several tests together have different meanings, and a joint fit has only a law.
@@ -240,6 +267,7 @@ int run_fit(const Words& words, Streams& streams) {
     if (output) refuse_existing(*output, overwrite);
   }
   check_curves(asked, tests.empty() ? files.size() : 1);
+  check_shown(asked, as_json, files.size(), !tests.empty());
   if (options.joint) {
     JointRequest joint = with_usage_errors([&] { return joint_request(options, files, command); });
     return run_joint_fit(std::move(joint), {out.value_or(""), overwrite, as_json}, streams);
@@ -248,6 +276,7 @@ int run_fit(const Words& words, Streams& streams) {
     request = fit_request(options);
     about = material_request(options, command);
   });
+  if (asked.show_table) return show_tables(files, request, as_json, streams);
   request.needs_modulus = out.has_value();
   if (tests.size() == 1) request.kind = tests.front().kind;
   Progress progress(streams, "fit");
@@ -272,7 +301,7 @@ int run_fit(const Words& words, Streams& streams) {
     write_file(*out, json_from_material(material), overwrite);
   }
   write_curves(asked, outcomes, command);
-  if (as_json) print_as_json(outcomes, files, next, streams);
+  if (as_json) print_as_json(outcomes, files, next, asked.curves, streams);
   return report_defects(outcomes, streams.err);
 }
 

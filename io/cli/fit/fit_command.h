@@ -29,7 +29,7 @@ struct FitCommand {
   LargeStrainWords large;
   std::vector<std::string> want;
   std::optional<std::string> out, svg, csv;
-  bool overwrite = false;
+  bool overwrite = false, curves = false, show_table = false;
 };
 
 // The tests at large strain that the words name; empty: none. Throws UsageError for words that mix
@@ -41,6 +41,11 @@ std::vector<LargeStrainFile> large_strain_given(const FitCommand& command,
 // and writes --out and --svg. Throws UsageError for options that do not belong to such tests.
 int run_large_strain(const std::vector<LargeStrainFile>& files, const FitCommand& command,
                      const CommandSyntax& syntax, Streams& streams);
+
+// viscard fit --show-table: prints how the tables are read, and fits nothing. Throws what view_table() throws.
+int show_tables(const std::vector<std::string>& files, const FitRequest& request, bool as_json,
+                Streams& streams);
+DescribedResult result_of_table();
 
 // viscard fit --want: what to measure next; nothing if nothing is wanted.
 using NextMeasurements = std::optional<std::vector<NextMeasurement>>;

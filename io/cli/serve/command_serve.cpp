@@ -55,9 +55,7 @@ void check_options(const ServeOptions& options) {
   if (options.folder.empty()) {
     throw UsageError("serve needs the folder of the series: viscard serve FOLDER --rig FILE");
   }
-  if (options.port < 0 || options.port > kHighestPort) {
-    throw UsageError(fmt::format("--port {} is outside 0 to {}", options.port, kHighestPort));
-  }
+  check_port(options.port);
   if (!(options.speed > 0.0) || options.speed > kFastestEmulation) {
     throw UsageError(fmt::format("--speed is {}; it must be above 0 and at most {}", options.speed,
                                  kFastestEmulation));
@@ -72,6 +70,11 @@ void check_options(const ServeOptions& options) {
 }
 
 }  // namespace
+
+void check_port(int port) {
+  if (port >= 0 && port <= kHighestPort) return;
+  throw UsageError(fmt::format("--port {} is outside 0 to {}", port, kHighestPort));
+}
 
 int run_serve(const Words& words, Streams& streams) {
   ServeOptions options;

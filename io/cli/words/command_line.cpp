@@ -213,20 +213,10 @@ Words given_words(const CommandSyntax& syntax, std::initializer_list<const char*
 }
 
 std::string quoted_command_line(const std::string& command, const Words& words) {
-  const std::string plain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@%_-+=:,./";
-  std::string line = "viscard " + command;
-  for (const std::string& word : words) {
-    line += ' ';
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += '\'';
-  }
-  return line;
+  Words all{"viscard", command};
+  all.insert(all.end(), words.begin(), words.end());
+  std::erase(all, "--json");  // no file is another one for it
+  return quoted_for_shell(all);
 }
 
 }  // namespace viscard

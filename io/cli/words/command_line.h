@@ -24,7 +24,7 @@ Words given_words(const CommandSyntax& syntax, std::initializer_list<const char*
 // How --plausible wants numbers judged: `otherwise`, or kOff.
 Plausible given_plausible(const CommandSyntax& syntax, Plausible otherwise = Plausible::kMeasured);
 
-// "viscard" and the words, quoted for a shell; output files record it.
+// "viscard" and the words without --json, quoted for a shell; output files record it.
 std::string quoted_command_line(const std::string& command, const Words& words);
 
 // Does the work; a mistake in the options becomes a UsageError.

@@ -1,4 +1,4 @@
-// Requests to viscard serve. The token stands behind "#" in the printed address; it is kept for this
+// Requests to the program that serves this page. The token stands behind "#" in the printed address; it is kept for this
 // tab only and removed from the address line.
 
 import { sentence } from "./format.js";
@@ -16,7 +16,7 @@ function token() {
   return sessionStorage.getItem(kTokenKey) || "";
 }
 
-// What viscard serve answers when it cannot do what was asked; `code` is one short word.
+// What the program answers when it cannot do what was asked; `code` is one short word.
 export class Refused extends Error {
   constructor(error) {
     super([error.message, error.hint].map(sentence).join(" ").trim());
@@ -29,14 +29,15 @@ export class Unreachable extends Error {}
 
 async function request(method, path, body, longest_ms) {
   const headers = { "X-Viscard-Token": token() };
-  if (body !== undefined) headers["Content-Type"] = "application/json";
+  const isFile = body instanceof Blob;
+  if (body !== undefined) headers["Content-Type"] = isFile ? "application/octet-stream" : "application/json";
   let response, json;
   try {
-    response = await fetch(path, { method, headers, body: body === undefined ? undefined : JSON.stringify(body),
+    response = await fetch(path, { method, headers, body: body === undefined || isFile ? body : JSON.stringify(body),
                                    signal: longest_ms ? AbortSignal.timeout(longest_ms) : undefined });
     json = await response.json();
   } catch {
-    throw new Unreachable("viscard serve does not answer");
+    throw new Unreachable("viscard does not answer");
   }
   if (!response.ok) throw new Refused(json.error);
   return json;
@@ -44,6 +45,7 @@ async function request(method, path, body, longest_ms) {
 
 export const ask = (path) => request("GET", path, undefined, kLongest_ms);
 // The box below the test, for every request that reads numbers.
-const judged = () => (document.getElementById("plausible-off").checked ? { plausible: "off" } : {});
+const judged = () => (document.getElementById("plausible-off")?.checked ? { plausible: "off" } : {});
 export const order = (path, body = {}) => request("POST", path, { ...judged(), ...body });
 export const orderSoon = (path, body = {}) => request("POST", path, body, kLongest_ms);
+export const drop = (path, file) => request("POST", `${path}?name=${encodeURIComponent(file.name)}`, file);

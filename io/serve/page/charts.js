@@ -10,7 +10,8 @@ Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.
 
 // One chart. options: labels of the columns, colors by name, right: label of the column on the right
 // axis, titles: {xlabel, ylabel, y2label}, limits: [{value, text, color}], range() of the left axis, window()
-// of the time, onWindow([from, to]) when that changes, readout(row), points, band.
+// of the time, onWindow([from, to]) when that changes, readout(row), points, band, logs() = {x, y}: which axes are
+// logarithmic.
 export class Chart {
   constructor(node, options) {
     this.node = node;
@@ -34,6 +35,13 @@ export class Chart {
     if (this.data.length >= 2) this.build();
   }
 
+  // It is not drawn again.
+  close() {
+    if (this.graph) this.graph.destroy();
+    this.graph = null;
+    charts.delete(this);
+  }
+
   // Shows this part of the time, as another chart does that it belongs to.
   showWindow([from, to]) {
     if (!this.graph) return;
@@ -50,10 +58,11 @@ export class Chart {
     const most = this.options.right ? Math.max(...this.data.map((row) => row[2])) : 0;
     const scale = left && most > 0 ? 2 * most / left[1] : 0;
     const label = { axisLabelWidth: 54, drawGrid: true };
+    const logs = this.options.logs ? this.options.logs() : { x: false, y: false };
     return {
       axes: {
-        x: { drawGrid: false, pixelsPerLabel: 45 },
-        y: { ...label, valueRange: left },
+        x: { drawGrid: false, pixelsPerLabel: 45, logscale: logs.x },
+        y: { ...label, valueRange: left, logscale: logs.y },
         y2: { ...label, drawGrid: false, independentTicks: true,
               valueRange: scale > 0 ? left.map((end) => end * scale) : null },
       },
@@ -72,7 +81,8 @@ export class Chart {
       }
     });
     this.graph = new Dygraph(this.node, this.data, {
-      labels, series, legend: "never", rightGap: 12, xRangePad: 4, connectSeparatedPoints: true,
+      labels, series, legend: "never", rightGap: 12,
+      xRangePad: this.options.logs && this.options.logs().x ? 0 : 4,  // it would reach below zero connectSeparatedPoints: true,
       gridLineColor: color("line"), axisLineColor: color("line"), axisLabelFontSize: 13,
       digitsAfterDecimal: 4, xLabelHeight: 16, yLabelWidth: 16, ...titles, ...this.ranges(),
       ...(onWindow ? { drawCallback: (graph) => onWindow(graph.xAxisRange()) } : {}),

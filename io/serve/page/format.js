@@ -85,3 +85,12 @@ export function numberFrom(text) {
   const tidy = text.trim().replace(",", ".").replace("−", "-");
   return tidy === "" ? NaN : Number(tidy);
 }
+
+const kUnits = { N_m: "N/m", "1_Pa": "1/Pa" };
+// "storage_modulus_Pa" -> how it is shown: "storage modulus (MPa)" and its factor. largest: of the values.
+export function axisOf(name, largest = 0) {
+  const found = /^(.*?)_(1_Pa|N_m|Pa|N|s|Hz)$/.exec(name);
+  if (!found) return { label: name.replaceAll("_", " "), factor: 1, unit: "" };
+  const { factor, unit } = found[2] === "Pa" && largest > 0 ? modulusUnit(largest) : { factor: 1, unit: kUnits[found[2]] ?? found[2] };
+  return { label: `${found[1].replaceAll("_", " ")} (${unit})`, factor, unit };
+}

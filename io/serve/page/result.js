@@ -1,7 +1,8 @@
 // The fit of a capture: moduli and terms with intervals, data with fit, residuals.
 import { order } from "./api.js";
 import { Chart } from "./charts.js";
-import { element, list, make, modulusUnit, range, sentence, show, showText, significant } from "./format.js";
+import { element, list, sentence, show, showText, significant } from "./format.js";
+import { showModuli } from "./moduli.js";
 import { isRunning } from "./run.js";
 
 const kRetry_ms = 1000, kMostTries = 120;
@@ -48,27 +49,8 @@ const residualChart = new Chart(element("residual-chart"), {
   },
 });
 
-const sub = (letter, index) => [make("i", {}, letter), make("sub", {}, index)];
-
-function rowsOf(fit) {
-  const stem = "E0_Pa" in fit ? "E" : "K";
-  const suffix = stem === "E" ? "_Pa" : "_N_m";
-  const shown = stem === "E" ? modulusUnit(fit.E0_Pa) : { factor: 1, unit: "N/m" };
-  const rows = ["0", "_inf"].map((which) => [
-    sub(stem, which === "0" ? "0" : "∞"),
-    `${significant(fit[`${stem}${which}${suffix}`] * shown.factor, 5)} ${shown.unit}`,
-    `${range(fit[`${stem}${which}_interval_95`], shown.factor, 5)} ${shown.unit}`]);
-  fit.terms.forEach((term, i) => {
-    rows.push([sub("g", String(i + 1)), significant(term.g, 4), range(term.interval_95.g)]);
-    rows.push([sub("τ", String(i + 1)), `${significant(term.tau_s, 4)} s`, `${range(term.interval_95.tau_s)} s`]);
-  });
-  return rows;
-}
-
 function showFit(fit) {
-  element("result-table").tBodies[0].replaceChildren(...rowsOf(fit).map(([name, value, interval]) =>
-    make("tr", {}, make("th", { scope: "row" }, ...name), make("td", { class: "number" }, value),
-         make("td", { class: "number" }, interval))));
+  showModuli(element("result-table"), fit);
   const saved = fit.material_file ? ` The material is in ${fit.material_file}.`
     : fit.material_trouble ? ` The material was not saved: ${sentence(fit.material_trouble)}` : "";
   element("result-note").textContent =

@@ -94,16 +94,17 @@ def check_rig():
 
 
 def check_serve():
-    commands_run.add("serve")
-    page = subprocess.Popen([VISCARD, "serve", "page", "--emulate", "--json"], stdout=subprocess.PIPE, text=True)
-    text = ""
-    for line in page.stdout:
-        text += line
-        if line.rstrip() == "}":
-            break
-    page.send_signal(signal.SIGINT)
-    page.wait(60)
-    check_object("viscard serve", text, "viscard-serve/1")
+    for command, *words in (("serve", "page", "--emulate"), ("desk", "tables")):
+        commands_run.add(command)
+        page = subprocess.Popen([VISCARD, command, *words, "--json"], stdout=subprocess.PIPE, text=True)
+        text = ""
+        for line in page.stdout:
+            text += line
+            if line.rstrip() == "}":
+                break
+        page.send_signal(signal.SIGINT)
+        page.wait(60)
+        check_object(f"viscard {command}", text, f"viscard-{command}/1")
 
 
 def check_fit():
@@ -111,6 +112,8 @@ def check_fit():
     printed = run(["fit", relaxation, "--out", "material.json"], "fit")
     if printed and printed["inputs"] != [str(relaxation)]:
         mistakes.append("viscard fit: inputs are not the files as named")
+    run(["fit", relaxation, "--show-table"], "table")
+    run(["fit", relaxation, "--curves"], "fit")
     run(["fit", relaxation, "--profiles", "--diagnose", "--bootstrap", "20"], "fit")
     run(["fit", "run.viscap", "--want", "E0=1%", "--want", "sum_g=5%"], "fit")
     run(["fit", relaxation, "missing.csv"], "fits", 1)

@@ -121,7 +121,9 @@ TEST_CASE("the page comes with the program and loads nothing from elsewhere", "[
   for (const PageFile& file : page_files()) {
     CAPTURE(file.path);
     httplib::Client client("127.0.0.1", rig.server().port());
-    const auto result = client.Get(file.path);  // without a token
+    const std::string path = file.path;
+    if (path == "/desk.html") continue;                                        // of another door
+    const auto result = client.Get(path == "/rig.html" ? "/" : path.c_str());  // without a token
     REQUIRE(result);
     CHECK(result->status == 200);
     CHECK(result->body == file.text);

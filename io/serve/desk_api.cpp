@@ -1,0 +1,257 @@
+#include "io/serve/desk_api.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/basics/words.h"
+#include "io/flow/words/fit_words.h"
+#include "io/materials/material_file.h"
+#include "io/serve/api_error.h"
+#include "io/serve/series_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Texts = std::vector<std::string>;
+
+constexpr int kMostRunning = 3;  // commands at once; a further one waits
+constexpr std::size_t kLongestValue = 200;
+
+// Options of fit that the page may set: those that neither read another file nor belong to several.
+bool is_offered(const Option& option) {
+  static const Texts kOfSeveral{"joint", "own-terms", "specimen-id", "share", "ratio"};
+  return !option.is_file &&
+         std::find(kOfSeveral.begin(), kOfSeveral.end(), option.name) == kOfSeveral.end();
+}
+
+// Options of card that the page may set.
+const Texts& card_options_offered() {
+  static const Texts kNames{"approximate",  "accept-flags", "clamp-nu", "bound",
+                            "elastic-only", "terms",        "band",     "at-temperature"};
+  return kNames;
+}
+
+void add_value(const std::string& name, const Json& value, Texts& words) {
+  if (!value.is_string()) {
+    throw ApiError(400, "bad-value", "'" + name + "' must be a text, or true for a switch");
+  }
+  const auto text = value.get<std::string>();
+  if (text.size() > kLongestValue || text.find('\0') != std::string::npos) {
+    throw ApiError(400, "bad-value", "the value of '" + name + "' is no value of an option");
+  }
+  if (!text.empty()) words.push_back("--" + name + "=" + text);
+}
+
+// {"terms": "3", "liquid": true, "column": ["a=b"]} as words of a command line.
+Texts words_of(const Json& request, const char* key,
+               const std::function<bool(const std::string&)>& may_set) {
+  Texts words;
+  if (!request.contains(key)) return words;
+  const Json& options = request.at(key);
+  if (!options.is_object()) {
+    throw ApiError(400, "bad-value", std::string("'") + key + "' must be an object");
+  }
+  for (const auto& [name, value] : options.items()) {
+    if (!may_set(name)) {
+      throw ApiError(400, "bad-value", "the page cannot set the option '" + name + "'");
+    }
+    if (value.is_boolean()) {
+      if (value.get<bool>()) words.push_back("--" + name);
+    } else if (value.is_array()) {
+      for (const Json& one : value) add_value(name, one, words);
+    } else {
+      add_value(name, value, words);
+    }
+  }
+  return words;
+}
+
+Texts fit_words_of(const Json& request) {
+  FitWords unused;
+  const OptionList list = options_of(unused);
+  return words_of(request, "options", [&](const std::string& name) {
+    const Option* option = list.find(name);
+    return option != nullptr && is_offered(*option);
+  });
+}
+
+// A name that no command takes for an option, or for KIND=FILE.
+std::string word_of_file(const std::string& name) {
+  const bool is_plain = name.front() != '-' && name.find('=') == std::string::npos;
+  return is_plain ? name : "./" + name;
+}
+
+Texts command_words(const char* command, const std::string& file, const Texts& options,
+                    const Texts& more = {}) {
+  Texts words{command, word_of_file(file)};
+  words.insert(words.end(), options.begin(), options.end());
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+// As a person types it in the folder.
+std::string typed(const Texts& words) {
+  Texts all{"viscard"};
+  all.insert(all.end(), words.begin(), words.end());
+  return quoted_for_shell(all);
+}
+
+Json answered(const Texts& words, Json result) {
+  return {{"command", typed(words)}, {"result", std::move(result)}};
+}
+
+// True if this file is the material that the command would write of this table.
+bool is_material_of(const std::filesystem::path& path, const std::string& command,
+                    const std::string& table_sha256) {
+  try {
+    const Provenance made = read_material(path).material.provenance;
+    return made.command == command && made.raw_files.size() == 1 &&
+           made.raw_files.front().sha256 == table_sha256;
+  } catch (const std::exception&) {
+    return false;  // another file
+  }
+}
+
+}  // namespace
+
+DeskApi::DeskApi(DeskOptions options) : options_(std::move(options)), folder_(options_.folder) {}
+
+Json DeskApi::state() const {
+  Json tables = Json::array();
+  for (const DeskTable& table : folder_.tables()) {
+    tables.push_back(
+        {{"name", table.name}, {"bytes", table.bytes}, {"is_capture", table.is_capture}});
+  }
+  const bool is_full = tables.size() == kMostDeskFiles;
+  return {{"program", "viscard " VISCARD_VERSION}, {"folder", folder_.path().string()},
+          {"folder_trouble", folder_.trouble()},   {"largest_drop_B", kLargestDrop_B},
+          {"tables", std::move(tables)},           {"are_more", is_full}};
+}
+
+Json DeskApi::result_of(const Texts& words) {
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    one_has_ended_.wait(lock, [&] { return is_closing_ || n_running_ < kMostRunning; });
+    if (is_closing_) throw ApiError(409, "closing", "viscard desk is ending; start it again");
+    ++n_running_;
+  }
+  ChildEnd end;
+  std::exception_ptr failure;
+  Texts all = words;
+  all.emplace_back("--json");
+  try {
+    end = run_child(options_.program, all, folder_.path(), options_.limits, is_closing_);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    --n_running_;
+  }
+  one_has_ended_.notify_all();
+  if (failure) std::rethrow_exception(failure);
+  if (!end.trouble.empty()) {
+    throw ApiError(422, "ended",
+                   typed(words) + " " + end.trouble +
+                       ". The desk goes on; try a part of the table, or the command");
+  }
+  Json result = Json::parse(end.out, nullptr, false);
+  if (!result.is_object()) {
+    throw ApiError(422, "failed",
+                   typed(words) + " gave no result (exit status " + std::to_string(end.status) +
+                       "): " + end.err.substr(0, 500));
+  }
+  if (!result.contains("error")) return result;
+  const Json& error = result.at("error");
+  std::string text = error.value("message", "");
+  const std::string hint = error.value("hint", "");
+  if (!hint.empty()) text += ". " + hint;
+  throw ApiError(422, error.value("code", "failed"), text);
+}
+
+Json DeskApi::choices() {
+  const Json list = result_of({"card", "--list"});
+  Json options = Json::array();
+  FitWords unused;
+  const OptionList offered = options_of(unused);
+  const Json described = result_of({"fit", "--help"});
+  for (const Json& option : described.at("options")) {
+    const Option* one = offered.find(option.at("name").get<std::string>());
+    if (one != nullptr && is_offered(*one)) options.push_back(option);
+  }
+  return {{"targets", list.at("targets")},
+          {"units", list.at("units")},
+          {"options", std::move(options)},
+          {"card_options", card_options_offered()}};
+}
+
+Json DeskApi::drop(const std::string& name, const std::string& bytes) {
+  const std::lock_guard<std::mutex> lock(writing_);
+  return {{"name", folder_.drop(name, bytes)}};
+}
+
+Json DeskApi::table(const Json& request) {
+  const std::string table = text_at(request, "table");
+  folder_.require_table(table);
+  const Texts words = command_words("fit", table, fit_words_of(request), {"--show-table"});
+  return answered(words, result_of(words));
+}
+
+Json DeskApi::fit(const Json& request) {
+  const std::string table = text_at(request, "table");
+  folder_.require_table(table);
+  const Texts options = fit_words_of(request);
+  const Json result = result_of(command_words("fit", table, options, {"--curves"}));
+  return answered(command_words("fit", table, options), result);
+}
+
+std::string DeskApi::write_material(const std::string& table, const Texts& options) {
+  const std::lock_guard<std::mutex> lock(writing_);
+  const std::string sum = sha256_of_file(folder_.path() / table);
+  const std::string stem = std::filesystem::path(table).stem().string();
+  for (int n = 1;; ++n) {
+    const std::string name = stem + (n > 1 ? "." + std::to_string(n) : "") + ".json";
+    const Texts words = command_words("fit", table, options, {"--out=" + name});
+    const std::filesystem::path path = folder_.path() / name;
+    if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
+      if (is_material_of(path, typed(words), sum)) return name;
+      continue;
+    }
+    result_of(words);
+    return name;
+  }
+}
+
+Json DeskApi::card(const Json& request) {
+  const std::string table = text_at(request, "table");
+  folder_.require_table(table);
+  const Texts options = fit_words_of(request);
+  if (!request.contains("card")) throw ApiError(400, "bad-value", "the request needs 'card'");
+  const Texts of_card = words_of(request, "card", [](const std::string& name) {
+    const Texts& more = card_options_offered();
+    return name == "for" || name == "units" ||
+           std::find(more.begin(), more.end(), name) != more.end();
+  });
+  const std::string material = write_material(table, options);
+  const Texts words = command_words("card", material, of_card);
+  Json answer = answered(words, result_of(words));
+  answer["material"] = material;
+  answer["fit_command"] = typed(command_words("fit", table, options, {"--out=" + material}));
+  return answer;
+}
+
+void DeskApi::close() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_closing_ = true;
+  }
+  one_has_ended_.notify_all();
+}
+
+}  // namespace viscard

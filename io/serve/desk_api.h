@@ -1,0 +1,64 @@
+#pragma once
+
+#include "io/serve/child_command.h"
+#include "io/serve/desk_folder.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+struct DeskOptions {
+  std::filesystem::path folder;
+  int port = 0;  // 0: any free one
+  // The program whose commands answer. It is this one even after an upgrade has replaced its file.
+  std::string program = "/proc/self/exe";
+  ChildLimits limits;
+};
+
+// The requests of the desk, as functions from JSON to JSON (README.md lists them). Each carries out a command of viscard
+// in a process of its own, in the folder, and answers {"command", "result"}: what a person would type, and
+// its --json object. All state is files of the folder. Functions throw ApiError, or std::exception with a message
+// for a person. Any thread may call them.
+class DeskApi {
+ public:
+  using Json = nlohmann::ordered_json;
+
+  explicit DeskApi(DeskOptions options);
+
+  Json state() const;
+  // What the page offers: the options of fit, and the targets and units of cards.
+  Json choices();
+  Json drop(const std::string& name, const std::string& bytes);
+  // {"table", "options"}: viscard fit --show-table.
+  Json table(const Json& request);
+  // {"table", "options"}: viscard fit, with the curves.
+  Json fit(const Json& request);
+  // {"table", "options", "card"}: writes the material of the fit beside the table, under a name that is free or that of
+  // the same fit, and then viscard card.
+  Json card(const Json& request);
+
+  // Ends the commands that are running; no further one begins.
+  void close();
+
+ private:
+  // The object that a command prints. Throws ApiError 422 if it prints none or one of an error.
+  Json result_of(const std::vector<std::string>& words);
+  std::string write_material(const std::string& table, const std::vector<std::string>& words);
+
+  DeskOptions options_;
+  DeskFolder folder_;
+  std::atomic<bool> is_closing_{false};
+  std::mutex mutex_;  // of n_running_
+  std::condition_variable one_has_ended_;
+  int n_running_ = 0;
+  std::mutex writing_;  // one file after the other, so that no two take one name
+};
+
+}  // namespace viscard

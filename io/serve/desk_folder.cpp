@@ -1,0 +1,181 @@
+#include "io/serve/desk_folder.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/basics/file_kind.h"
+#include "io/serve/api_error.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestFileName = 100;  // bytes
+
+constexpr std::size_t kBeginning_B = 16 * 1024;  // that tells the kind of a file
+
+// Endings of files that hold tables although their contents do not look like one at once.
+constexpr const char* kTableEndings[] = {".csv", ".tsv",  ".txt", ".dat", ".asc", ".xlsx", ".mat",
+                                         ".npy", ".hdf5", ".h5",  ".xls", ".out", ".prn"};
+
+FileKind kind_of_beginning(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(kBeginning_B, '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  return kind_of_file(begin);
+}
+
+bool has_table_ending(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  }
+  return std::find(std::begin(kTableEndings), std::end(kTableEndings), ending) !=
+         std::end(kTableEndings);
+}
+
+// By its contents, and by its ending where they do not tell.
+bool is_table(const fs::path& path, FileKind kind) {
+  if (kind == FileKind::kTable || kind == FileKind::kCapture) return true;
+  const bool is_unclear =
+      kind == FileKind::kOther || kind == FileKind::kBinary || kind == FileKind::kEmpty;
+  return is_unclear && has_table_ending(path);
+}
+
+// The first of name.csv, name.2.csv ... that is free.
+fs::path free_path(const fs::path& first) {
+  fs::path path = first;
+  for (int n = 2; fs::exists(fs::symlink_status(path)); ++n) {
+    path = first.parent_path() /
+           (first.stem().string() + "." + std::to_string(n) + first.extension().string());
+  }
+  return path;
+}
+
+}  // namespace
+
+std::string plain_file_name(const std::string& name) {
+  const std::size_t slash = name.find_last_of("/\\");
+  std::string plain = slash == std::string::npos ? name : name.substr(slash + 1);
+  for (char& c : plain) {
+    const auto byte = static_cast<unsigned char>(c);
+    // Bytes of UTF-8 stay.
+    const bool is_kept =
+        byte >= 0x80 || std::isalnum(byte) != 0 || std::strchr("._-+() ,", c) != nullptr;
+    if (!is_kept || c == '\0') c = '_';
+  }
+  const std::size_t begin = plain.find_first_not_of(" .-_");
+  if (begin == std::string::npos) return "";
+  plain.erase(0, begin);
+  plain.erase(plain.find_last_not_of(" .") + 1);
+  if (plain.size() > kLongestFileName) {
+    const std::string ending = fs::path(plain).extension().string().substr(0, 10);
+    std::size_t end = kLongestFileName - ending.size();
+    // Not within a character of UTF-8.
+    while (end > 0 && (static_cast<unsigned char>(plain[end]) & 0xc0u) == 0x80u) --end;
+    plain = plain.substr(0, end) + ending;
+  }
+  return plain;
+}
+
+DeskFolder::DeskFolder(fs::path path) : path_(fs::absolute(path)) {
+  if (fs::exists(path_) && !fs::is_directory(path_)) {
+    throw std::runtime_error(path_.string() + " is a file; name the folder that holds the tables");
+  }
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error) {
+    throw std::runtime_error(path_.string() + ": cannot create this folder: " + error.message() +
+                             ". Name one that you may write to");
+  }
+}
+
+std::string DeskFolder::trouble() const {
+  if (!fs::is_directory(path_)) return path_.string() + " is gone";
+  if (::access(path_.c_str(), W_OK | X_OK) == 0) return "";
+  return path_.string() + " cannot be written to: " + std::strerror(errno);
+}
+
+std::vector<DeskTable> DeskFolder::tables() const {
+  std::vector<DeskTable> tables;
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator entry(path_, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    const std::string name = entry->path().filename().string();
+    if (name.front() != '.' && entry->is_regular_file(ignored)) files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    if (tables.size() == kMostDeskFiles) break;
+    const FileKind kind = kind_of_beginning(file);
+    if (!is_table(file, kind)) continue;
+    std::error_code ignored;
+    tables.push_back(
+        {file.filename().string(), fs::file_size(file, ignored), kind == FileKind::kCapture});
+  }
+  return tables;
+}
+
+void DeskFolder::require_table(const std::string& name) const {
+  // Only the name decides: a path would have to be the last part of itself.
+  const fs::path file = path_ / name;
+  std::error_code ignored;
+  const bool is_there = !name.empty() && name.front() != '.' && fs::path(name).filename() == name &&
+                        name.find('\0') == std::string::npos &&
+                        fs::is_regular_file(file, ignored) &&
+                        is_table(file, kind_of_beginning(file));
+  if (is_there) return;
+  throw ApiError(404, "no-such-file",
+                 "there is no table '" + name + "' in " + path_.string() +
+                     ". Choose one of the list, or drop it");
+}
+
+std::string DeskFolder::drop(const std::string& name, const std::string& bytes) const {
+  const std::string plain = plain_file_name(name);
+  if (plain.empty()) {
+    throw ApiError(400, "bad-value", "'" + name + "' is no name of a file; give it another one");
+  }
+  if (bytes.empty()) throw ApiError(400, "bad-value", plain + " is empty; choose another file");
+  const FileKind kind = kind_of_file(std::string_view(bytes).substr(0, kBeginning_B));
+  if (!is_table(plain, kind)) {
+    throw ApiError(422, "input",
+                   plain + " is " + file_kind_in_words(kind) +
+                       "; the desk takes tables and captures. " + use_of_file_kind(kind));
+  }
+  std::error_code ignored;
+  std::size_t count = 0;
+  for (fs::directory_iterator entry(path_, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    ++count;
+  }
+  if (count >= 4 * kMostDeskFiles) {
+    throw ApiError(409, "full",
+                   path_.string() + " holds " + std::to_string(count) +
+                       " files. Move some to another folder, or start viscard desk on another one");
+  }
+  // Another page may take the name meanwhile; then the next one.
+  for (int tries = 0;; ++tries) {
+    const fs::path path = free_path(path_ / plain);
+    try {
+      write_file(path, bytes, false);
+      return path.filename().string();
+    } catch (const std::exception&) {
+      if (tries >= 20 || !fs::exists(fs::symlink_status(path))) throw;
+    }
+  }
+}
+
+}  // namespace viscard

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What may lie in the folder of a desk.
+inline constexpr std::size_t kLargestDrop_B = std::size_t{64} << 20;
+inline constexpr std::size_t kMostDeskFiles = 500;
+
+// A table or capture of the folder.
+struct DeskTable {
+  std::string name;
+  std::uintmax_t bytes = 0;
+  bool is_capture = false;
+};
+
+// The folder whose tables a desk shows. It is read again for each request; a name in a request must be one
+// of the folder's own and never becomes a path by itself.
+class DeskFolder {
+ public:
+  // Throws std::runtime_error if it does not exist and cannot be made.
+  explicit DeskFolder(std::filesystem::path path);
+
+  const std::filesystem::path& path() const { return path_; }
+  // Why nothing can be written to it, or "".
+  std::string trouble() const;
+  // By name; the first kMostDeskFiles of them.
+  std::vector<DeskTable> tables() const;
+  // Throws ApiError 404 unless it is one of tables().
+  void require_table(const std::string& name) const;
+  // Writes a file under the last part of this name, or, if that is taken, under a numbered one, and returns the
+  // name. Throws ApiError 400 for a name that no file of a table may have, 409 if the folder is full.
+  std::string drop(const std::string& name, const std::string& bytes) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+// The last part of a name, of a path of any system, with characters replaced that a command line or a file
+// system could take for something else; empty if nothing is left.
+std::string plain_file_name(const std::string& name);
+
+}  // namespace viscard

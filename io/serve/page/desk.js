@@ -1,0 +1,172 @@
+// Puts the parts of the desk together. All that is made lies in the folder; the page holds what is chosen for each table.
+import { ask, drop, order, Unreachable } from "./api.js";
+import { chosenCard, showCard, showCardState, startCard } from "./desk_card.js";
+import { forgetOrders, redrawFit, showFit, showFitState } from "./desk_fit.js";
+import { pythonOf, showFields, showSame, startOptions } from "./desk_options.js";
+import { showTable, showTableError } from "./desk_table.js";
+import { element, make, sentence, show, showText } from "./format.js";
+
+const kSteps = ["table", "fit", "card"];
+const kLook_ms = 3000;
+
+let state = null, table = null, choices = {}, view = "table", asked = 0;
+const chosen = () => (choices[table] ??= {});
+
+function showLink(error) {
+  const isLost = error instanceof Unreachable || (error && error.code === "wrong-token");
+  showText(element("link"), isLost ? "not connected" : "connected");
+  showText(element("lost"), !error ? "" : error instanceof Unreachable
+    ? `${sentence(error.message)} If it has ended, start viscard desk again and open the address that it prints.`
+    : sentence(error.message));
+}
+
+// Does one thing; what was asked before it is forgotten.
+async function latest(work, onError) {
+  const number = ++asked;
+  const isNow = () => number === asked;
+  try {
+    await work(isNow);
+    showLink(null);
+  } catch (error) {
+    if (!isNow()) return;
+    if (error instanceof Unreachable || error.code === "wrong-token") showLink(error);
+    else onError(sentence(error.message));
+  }
+}
+
+function showTables() {
+  element("tables").replaceChildren(...state.tables.map((one) => {
+    const button = make("button", { type: "button", "aria-current": one.name === table ? "true" : undefined }, one.name);
+    button.addEventListener("click", () => open(one.name));
+    return make("li", {}, button);
+  }));
+  show(element("no-tables"), state.tables.length === 0);
+  showText(element("folder-trouble"), sentence(state.folder_trouble));
+  element("folder").textContent = state.folder;
+}
+
+async function refresh() {
+  const before = JSON.stringify(state);
+  state = await ask("/api/desk");
+  if (JSON.stringify(state) !== before) showTables();
+}
+
+function showView(name) {
+  view = name;
+  for (const step of kSteps) {
+    const isThis = step === name;
+    show(element(`view-${step}`), isThis);
+    element(`tab-${step}`).setAttribute("aria-selected", String(isThis));
+    element(`tab-${step}`).tabIndex = isThis ? 0 : -1;
+  }
+  if (name === "fit") redrawFit();
+  if (name === "card") makeCard();
+}
+
+function request() {
+  return { table, options: chosen() };
+}
+
+function readAndFit() {
+  showFitState("Fitting …", "");
+  return latest(async (isNow) => {
+    const read = order("/api/desk/table", request());
+    const fitted = order("/api/desk/fit", request());
+    fitted.catch(() => {});  // it is awaited below, after the table
+    try {
+      const answer = await read;
+      if (!isNow()) return;
+      showTable(answer.result);
+      showFields(answer.result, chosen());
+    } catch (error) {
+      if (isNow()) showTableError(error.message);
+    }
+    const { command, result } = await fitted;
+    if (!isNow()) return;
+    showFit(result, chosen().terms, (terms) => setOption("terms", terms));
+    showSame(element("fit-same"), command, pythonOf(table, chosen()));
+    if (view === "card") makeCard();
+  }, (text) => { showFitState(text, "alert"); element("fit-same").replaceChildren(); });
+}
+
+function makeCard() {
+  showCardState("Writing …", "");
+  element("card-same").replaceChildren();
+  return latest(async (isNow) => {
+    const answer = await order("/api/desk/card", { ...request(), card: chosenCard() });
+    if (!isNow()) return;
+    showCard(answer);
+    const { for: target, units } = chosenCard();
+    showSame(element("card-same"), `${answer.fit_command}\n${answer.command}`,
+             `${pythonOf(table, chosen())}\nprint(result.material.card(${JSON.stringify(target)}, ${JSON.stringify(units)}))`);
+  }, (text) => showCardState(text, "alert"));
+}
+
+function setOption(name, value) {
+  if (value === undefined) delete chosen()[name];
+  else chosen()[name] = value;
+  if (name !== "terms") forgetOrders();
+  return readAndFit();
+}
+
+function open(name) {
+  table = name;
+  forgetOrders();
+  showTables();
+  element("table-name").textContent = name;
+  show(element("work"), true);
+  if (view === "card") showView("fit");
+  return readAndFit();
+}
+
+async function take(files) {
+  showText(element("drop-error"), "");
+  let last = null;
+  for (const file of files) {
+    try {
+      if (file.size > state.largest_drop_B) throw new Error(`${file.name} is larger than ${state.largest_drop_B >> 20} MiB`);
+      last = (await drop("/api/desk/drop", file)).name;
+    } catch (error) {
+      showText(element("drop-error"), sentence(error.message));
+    }
+  }
+  await refresh();
+  if (last !== null) {
+    showView("table");
+    await open(last);
+  }
+}
+
+function startDrop() {
+  const zone = element("drop"), input = element("file");
+  input.addEventListener("change", () => { const files = [...input.files]; input.value = ""; take(files); });
+  for (const event of ["dragenter", "dragover"]) {
+    addEventListener(event, (e) => { e.preventDefault(); zone.classList.add("over"); });
+  }
+  addEventListener("dragleave", (e) => { if (!e.relatedTarget) zone.classList.remove("over"); });
+  addEventListener("drop", (e) => { e.preventDefault(); zone.classList.remove("over"); take([...e.dataTransfer.files]); });
+}
+
+function startTabs() {
+  for (const step of kSteps) element(`tab-${step}`).addEventListener("click", () => showView(step));
+  document.querySelector(".tabs").addEventListener("keydown", (event) => {
+    const move = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!move) return;
+    const next = kSteps[(kSteps.indexOf(view) + move + kSteps.length) % kSteps.length];
+    showView(next);
+    element(`tab-${next}`).focus();
+  });
+}
+
+async function start() {
+  startDrop();
+  startTabs();
+  const described = await ask("/api/desk/choices");
+  startOptions(described.options, setOption);
+  startCard(described, makeCard);
+  await refresh();
+  showLink(null);
+  setInterval(() => refresh().then(() => showLink(null)).catch(showLink), kLook_ms);
+}
+
+start().catch(showLink);

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "io/basics/atomic_file.h"
+#include "io/serve/desk_server.h"
+#include "tests/io/serve/served_rig.h"
+#include "tests/support/scratch_folder.h"
+
+#include <httplib.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace viscard::test {
+
+// viscard desk on a folder of its own, and a client that has its token. Its commands are those of the built program.
+class ServedDesk {
+ public:
+  explicit ServedDesk(const ChildLimits& limits = {})
+      : server_({.folder = scratch_ / "tables", .program = VISCARD_PROGRAM, .limits = limits}),
+        client_("127.0.0.1", server_.port()) {
+    client_.set_read_timeout(120);
+    client_.set_default_headers({{"X-Viscard-Token", server_.token()}});
+  }
+
+  DeskServer& server() { return server_; }
+  httplib::Client& client() { return client_; }
+  std::filesystem::path folder() const { return scratch_ / "tables"; }
+
+  ApiAnswer ask(const std::string& path) { return answer_of(client_.Get(path)); }
+  ApiAnswer order(const std::string& what, const Json& body) {
+    return answer_of(client_.Post("/api/desk/" + what, body.dump(), "application/json"));
+  }
+  ApiAnswer drop(const std::string& name, const std::string& bytes) {
+    const std::string path = "/api/desk/drop?name=" + httplib::detail::encode_query_param(name);
+    return answer_of(client_.Post(path, bytes, "application/octet-stream"));
+  }
+  // The example that comes with viscard.
+  static std::string example() {
+    return read_file(VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv");
+  }
+
+ private:
+  static ApiAnswer answer_of(const httplib::Result& result) {
+    if (!result) return {};
+    return {result->status, Json::parse(result->body, nullptr, false)};
+  }
+
+  ScratchFolder scratch_;
+  DeskServer server_;
+  httplib::Client client_;
+};
+
+}  // namespace viscard::test

@@ -1,0 +1,263 @@
+// The requests of viscard desk.
+#include "io/materials/material_file.h"
+#include "io/serve/child_command.h"
+#include "tests/io/serve/raw_request.h"
+#include "tests/io/serve/served_desk.h"
+#include "tests/support/error_text.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+
+namespace viscard {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ApiAnswer;
+using test::contains;
+using test::Json;
+using test::run_command;
+using test::ScratchFolder;
+using test::ServedDesk;
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+  return names;
+}
+
+std::string message_of(const ApiAnswer& answer) {
+  const Json& error = answer.json.at("error");
+  return error.at("message").get<std::string>() + " " + error.at("hint").get<std::string>();
+}
+
+TEST_CASE(
+    "a dropped table is shown as it was read, fitted as the command fits it, and becomes a card",
+    "[serve][desk]") {
+  ServedDesk desk;
+  const ApiAnswer dropped = desk.drop("pdms.csv", ServedDesk::example());
+  INFO(dropped.json.dump());
+  REQUIRE(dropped.status == 200);
+  CHECK(dropped.json.at("name") == "pdms.csv");
+  CHECK(read_file(desk.folder() / "pdms.csv") == ServedDesk::example());
+  CHECK(desk.ask("/api/desk").json.at("tables").at(0).at("name") == "pdms.csv");
+
+  const Json read = desk.order("table", {{"table", "pdms.csv"}}).json;
+  INFO(read.dump());
+  CHECK(read.at("command") == "viscard fit pdms.csv --show-table");
+  CHECK(read.at("result").at("kind") == "relaxation");
+  CHECK(read.at("result").at("columns").at(0).at("quantity") == "time_s");
+
+  const Json fitted = desk.order("fit", {{"table", "pdms.csv"}}).json;
+  const auto typed = run_command({"fit", (desk.folder() / "pdms.csv").string(), "--json"});
+  const Json own = Json::parse(typed.out);
+  for (const char* key : {"E0_Pa", "E0_interval_95", "terms", "orders", "flags", "rss"}) {
+    CAPTURE(key);
+    CHECK(fitted.at("result").at(key) == own.at(key));
+  }
+  CHECK(fitted.at("command") == "viscard fit pdms.csv");
+  const Json& curves = fitted.at("result").at("curves");
+  const std::size_t n = curves.at("values").size();
+  CHECK(n > 10);
+  CHECK(curves.at("columns").at(0).at("measured").size() == n);
+  CHECK(curves.at("columns").at(0).at("fitted").size() == n);
+
+  const Json wanted = {{"table", "pdms.csv"}, {"card", {{"for", "abaqus"}, {"units", "mm-t-s"}}}};
+  const Json card = desk.order("card", wanted).json;
+  INFO(card.dump());
+  CHECK(card.at("material") == "pdms.json");
+  CHECK(card.at("fit_command") == "viscard fit pdms.csv --out=pdms.json");
+  CHECK(card.at("command") == "viscard card pdms.json --for=abaqus --units=mm-t-s");
+  CHECK(contains(card.at("result").at("card"), "*VISCOELASTIC"));
+  CHECK_FALSE(contains(card.at("result").at("card"), "--json"));
+  CHECK(read_material(desk.folder() / "pdms.json").material.E0_Pa == own.at("E0_Pa").get<double>());
+}
+
+TEST_CASE("the same fit keeps its material, another one gets a name that is free",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  const auto material = [&](const Json& options) {
+    const ApiAnswer answer = desk.order(
+        "card",
+        {{"table", "a.csv"}, {"options", options}, {"card", {{"for", "abaqus"}, {"units", "SI"}}}});
+    INFO(answer.json.dump());
+    REQUIRE(answer.status == 200);
+    return answer.json.at("material").get<std::string>();
+  };
+  CHECK(material(Json::object()) == "a.json");
+  const std::string first = read_file(desk.folder() / "a.json");
+  CHECK(material(Json::object()) == "a.json");
+  CHECK(material({{"terms", "1"}}) == "a.2.json");
+  CHECK(material({{"terms", "1"}}) == "a.2.json");
+  CHECK(material(Json::object()) == "a.json");
+  CHECK(read_file(desk.folder() / "a.json") == first);
+  CHECK(names_in(desk.folder()) == std::set<std::string>{"a.csv", "a.json", "a.2.json"});
+}
+
+TEST_CASE("a dropped file is written into the folder only, and replaces nothing", "[serve][desk]") {
+  ServedDesk desk;
+  const std::string table = ServedDesk::example();
+  const auto name_of = [&](const std::string& name) {
+    const ApiAnswer answer = desk.drop(name, table);
+    CAPTURE(name, answer.json.dump());
+    REQUIRE(answer.status == 200);
+    return answer.json.at("name").get<std::string>();
+  };
+  CHECK(name_of("a.csv") == "a.csv");
+  CHECK(name_of("a.csv") == "a.2.csv");
+  CHECK(name_of("../../a.csv") == "a.3.csv");
+  CHECK(name_of("/etc/passwd.csv") == "passwd.csv");
+  CHECK(name_of("C:\\data\\b.csv") == "b.csv");
+  CHECK(name_of("--out=x.csv") == "out_x.csv");
+  CHECK(name_of("uniaxial=c.csv") == "uniaxial_c.csv");
+  CHECK(name_of(".hidden.csv") == "hidden.csv");
+  CHECK(name_of("two\nlines\x01.csv") == "two_lines_.csv");
+  CHECK(name_of("\xc3\xa4 b.csv") == "\xc3\xa4 b.csv");
+  CHECK(name_of(std::string(300, 'x') + ".csv").size() <= 100);
+  for (const char* none : {"", "..", "/", "a/", "...", "-"}) {
+    CAPTURE(none);
+    CHECK(desk.drop(none, table).status == 400);
+  }
+  CHECK(desk.drop("empty.csv", "").status == 400);
+  const ApiAnswer scene = desk.drop("scene.toml", "[pillar]\nradius = \"1 um\"\n");
+  CHECK(scene.status == 422);
+  CHECK(contains(message_of(scene), "the desk takes tables and captures"));
+  CHECK(names_in(desk.folder().parent_path()) == std::set<std::string>{"tables"});
+  CHECK(desk.ask("/api/desk").json.at("tables").size() == 11);
+}
+
+TEST_CASE("a link that lies in the place of a dropped file is not written through",
+          "[serve][desk]") {
+  ServedDesk desk;
+  const fs::path outside = desk.folder().parent_path() / "outside.csv";
+  fs::create_symlink(outside, desk.folder() / "a.csv");
+  CHECK(desk.drop("a.csv", ServedDesk::example()).json.at("name") == "a.2.csv");
+  CHECK_FALSE(fs::exists(outside));
+}
+
+TEST_CASE("no name of a table leads out of the folder of the desk", "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  write_file(desk.folder().parent_path() / "b.csv", ServedDesk::example(), false);
+  write_file(desk.folder() / ".b.csv", ServedDesk::example(), false);
+  for (const char* foreign : {"../b.csv", "../tables/a.csv", "./a.csv", "/etc/passwd", "..", "",
+                              ".", ".b.csv", "none.csv", "a.csv/", "--help"}) {
+    CAPTURE(foreign);
+    CHECK(desk.order("table", {{"table", foreign}}).status == 404);
+    CHECK(desk.order("fit", {{"table", foreign}}).status == 404);
+    CHECK(desk.order("card", {{"table", foreign}, {"card", Json::object()}}).status == 404);
+  }
+}
+
+TEST_CASE("the page sets options of a fit, and none that reads or writes another file",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  const auto fit = [&](const Json& options) {
+    return desk.order("fit", {{"table", "a.csv"}, {"options", options}});
+  };
+  const Json one = fit({{"terms", "1"}, {"column", {"time_s=1"}}, {"no-drift", true}}).json;
+  INFO(one.dump());
+  CHECK(one.at("result").at("n_terms") == 1);
+  CHECK(one.at("command") == "viscard fit a.csv --terms=1 --column=time_s=1 --no-drift");
+  for (const char* name : {"out", "csv", "svg", "force", "specimen", "constraints", "joint", "help",
+                           "json", "show-table", "nothing", "--terms", ""}) {
+    CAPTURE(name);
+    CHECK(fit({{name, "x"}}).status == 400);
+  }
+  CHECK(fit({{"terms", 3}}).status == 400);
+  CHECK(fit({{"terms", std::string(1000, '1')}}).status == 400);
+  CHECK(fit(Json::array()).status == 400);
+  const ApiAnswer bad = fit({{"terms", "many"}});
+  CHECK(bad.status == 422);
+  CHECK(contains(message_of(bad), "--terms"));
+  const ApiAnswer card =
+      desk.order("card", {{"table", "a.csv"}, {"card", {{"for", "abaqus"}, {"out", "/tmp/x"}}}});
+  CHECK(card.status == 400);
+  const Json described = desk.ask("/api/desk/choices").json;
+  for (const Json& option : described.at("options")) {
+    CHECK(option.at("name") != "specimen");
+  }
+  CHECK(described.at("targets").size() > 10);
+  CHECK(described.at("units").size() > 4);
+}
+
+TEST_CASE("a table that kills or exhausts its fit leaves the desk alive", "[serve][desk]") {
+  const ChildLimits limits =
+      GENERATE(ChildLimits{.memory_B = 2u << 20}, ChildLimits{.clock = std::chrono::seconds(0)});
+  ServedDesk desk(limits);
+  desk.drop("a.csv", ServedDesk::example());
+  const ApiAnswer answer = desk.order("fit", {{"table", "a.csv"}});
+  INFO(answer.json.dump());
+  CHECK(answer.status == 422);
+  CHECK(desk.ask("/api/desk").json.at("tables").size() == 1);
+}
+
+TEST_CASE("a command in a process of its own is ended by its limits and by the end of the program",
+          "[serve][desk]") {
+  const std::atomic<bool> no{false}, yes{true};
+  const auto run = [](const std::string& script, const ChildLimits& limits,
+                      const std::atomic<bool>& is_closing) {
+    return run_child("/bin/sh", {"-c", script}, "/", limits, is_closing);
+  };
+  const ChildEnd plain = run("echo out; echo err >&2; exit 3", {}, no);
+  CHECK(plain.status == 3);
+  CHECK(plain.out == "out\n");
+  CHECK(plain.err == "err\n");
+  CHECK(plain.trouble.empty());
+  CHECK(contains(run("kill -SEGV $$", {}, no).trouble, "signal 11"));
+  CHECK(contains(run("while :; do :; done", {.processor_s = 1}, no).trouble, "processor time"));
+  CHECK(contains(run("sleep 100", {.clock = std::chrono::seconds(1)}, no).trouble, "1 s"));
+  CHECK(contains(run("sleep 100", {}, yes).trouble, "this program ends"));
+  CHECK(run("cat", {}, no).status == 0);  // nothing can be typed into it
+  CHECK(run_child("/nowhere/viscard", {}, "/", {}, no).status == 127);
+  CHECK(contains(run("exec yes", {.file_B = 1u << 20}, no).trouble, "wrote more than 1 MiB"));
+}
+
+TEST_CASE("the desk has the guard of viscard serve, and takes large files from its page alone",
+          "[serve][desk]") {
+  ServedDesk desk;
+  const std::string right = desk.server().token(), wrong(32, '0');
+  const auto status_with = [&](const httplib::Headers& headers, const std::string& body) {
+    httplib::Client client("127.0.0.1", desk.server().port());
+    const auto result =
+        client.Post("/api/desk/drop?name=a.csv", headers, body, "application/octet-stream");
+    return result ? result->status : 0;
+  };
+  std::string large = "time_s,modulus_Pa\n";
+  while (large.size() < 1'000'000) large += "1.25,1000000\n";
+  CHECK(status_with({{"X-Viscard-Token", right}}, large) == 200);
+  CHECK(status_with({{"X-Viscard-Token", wrong}}, "a,b\n1,2\n") == 403);
+  CHECK(status_with({}, "a,b\n1,2\n") == 403);
+  CHECK(status_with({{"X-Viscard-Token", wrong}}, large) != 200);
+  CHECK(status_with({{"X-Viscard-Token", right}, {"Origin", "http://example.org"}}, large) == 403);
+  CHECK(status_with({{"X-Viscard-Token", right}, {"Sec-Fetch-Site", "cross-site"}}, large) == 403);
+  CHECK(names_in(desk.folder()) == std::set<std::string>{"a.csv"});
+  const std::string too_large = test::answer_to_bytes(
+      desk.server().port(), "POST /api/desk/drop?name=b.csv HTTP/1.1\r\nHost: 127.0.0.1:" +
+                                std::to_string(desk.server().port()) +
+                                "\r\nX-Viscard-Token: " + right +
+                                "\r\nContent-Type: application/octet-stream\r\nContent-Length: " +
+                                std::to_string(kLargestDrop_B + 1) + "\r\n\r\n");
+  CHECK(contains(too_large, "413"));
+  CHECK(contains(too_large, std::to_string(kLargestDrop_B)));
+  // Other requests keep their small limit.
+  CHECK(desk.order("fit", {{"table", std::string(100'000, 'x')}}).status != 200);
+  CHECK(desk.ask("/rig.html").status == 404);
+  CHECK(contains(desk.client().Get("/")->body, "viscard desk"));
+}
+
+TEST_CASE("desk refuses words that make no sense", "[serve][cli][desk]") {
+  CHECK(run_command({"desk"}).status == kBadWords);
+  CHECK(run_command({"desk", "/tmp/x", "--port", "70000"}).status == kBadWords);
+  ScratchFolder scratch;
+  write_file(scratch / "file", "x", false);
+  const auto outcome = run_command({"desk", (scratch / "file").string()});
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err, "name the folder that holds the tables"));
+}
+
+}  // namespace
+}  // namespace viscard

@@ -1,0 +1,141 @@
+// The desk in Chromium: from a table to a card, with the clicks counted.
+#include "tests/io/serve/browser.h"
+#include "tests/io/serve/served_desk.h"
+#include "tests/support/error_text.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <iostream>
+
+namespace viscard {
+namespace {
+
+using test::Browser;
+using test::contains;
+using test::ScratchFolder;
+using test::ServedDesk;
+
+bool has_no_browser() {
+  const std::string missing = Browser::missing();
+  if (!missing.empty()) std::cout << "skipped: " << missing << "\n";
+  return !missing.empty();
+}
+
+// With VISCARD_SCREENSHOTS=FOLDER the test leaves pictures of the page there.
+void picture_of_desk(Browser& browser, const std::string& name) {
+  const char* folder = std::getenv("VISCARD_SCREENSHOTS");
+  if (folder == nullptr) return;
+  for (const auto& [ending, width, height, is_dark, is_phone] :
+       {std::tuple("light", 1280, 800, false, false), std::tuple("dark", 1280, 800, true, false),
+        std::tuple("phone", 390, 1600, false, true)}) {
+    browser.set_window(width, height, is_dark, is_phone);
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    browser.save_screenshot(std::filesystem::path(folder) / (name + "_" + ending + ".png"));
+  }
+  browser.set_window(1280, 800, false, false);
+}
+
+// Clicks as a person does: only what is seen without scrolling.
+class Person {
+ public:
+  explicit Person(Browser& browser) : browser_(browser) {}
+  void click(const std::string& selector) {
+    CAPTURE(selector);
+    CHECK(
+        browser_.wait_until("const r = document.querySelector('" + selector +
+                                "').getBoundingClientRect(); return r.height > 0 && r.top >= 0 && "
+                                "r.bottom <= innerHeight && r.left >= 0 && r.right <= innerWidth",
+                            10));
+    browser_.click(selector);
+    ++n_clicks;
+  }
+  // Of a list: the click that opens it and one on the entry.
+  void choose(const std::string& list, const std::string& value) {
+    click(list);
+    browser_.press_key("\uE00C");  // Escape closes what a browser without a window draws elsewhere
+    browser_.run("const s = document.querySelector('" + list + "'); s.value = '" + value +
+                 "'; s.dispatchEvent(new Event('change', {bubbles: true}))");
+    ++n_clicks;
+  }
+  int n_clicks = 0;
+
+ private:
+  Browser& browser_;
+};
+
+// Drops a file with these contents onto the page, as a file manager does.
+void drop_on_page(Browser& browser, const std::string& name, const std::string& text) {
+  browser.run("const d = new DataTransfer(); d.items.add(new File([" + nlohmann::json(text).dump() +
+              "], '" + name +
+              "')); document.body.dispatchEvent(new DragEvent('drop', {dataTransfer: d, bubbles: "
+              "true, cancelable: true}))");
+}
+
+// Keeps what the page offers for download.
+constexpr const char* kKeepDownloads =
+    "window.saved = []; const make = URL.createObjectURL; let text = null; URL.createObjectURL = "
+    "(blob) => { "
+    "text = blob.text(); return make(blob); }; HTMLAnchorElement.prototype.click = function () { "
+    "const name = "
+    "this.download; text.then(t => window.saved.push([name, t])); }";
+
+// True once a chart shows a line in this colour of the page.
+std::string has_line(const std::string& chart, const std::string& color) {
+  return "const c = document.querySelector('" + chart +
+         " canvas'); if (!c) return false; const probe = "
+         "document.createElement('canvas').getContext('2d'); "
+         "probe.fillStyle = getComputedStyle(document.documentElement).getPropertyValue('--" +
+         color +
+         "').trim(); probe.fillRect(0, 0, 1, 1); const want = probe.getImageData(0, 0, 1, 1).data; "
+         "const d = "
+         "c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0; for (let i = "
+         "0; i < d.length; "
+         "i += 4) if (d[i] === want[0] && d[i + 1] === want[1] && d[i + 2] === want[2] && d[i + 3] "
+         "> 200) ++n; "
+         "return n > 100";
+}
+
+TEST_CASE("a newcomer comes from a dropped table to the card in at most six clicks",
+          "[desk][slow]") {
+  if (has_no_browser()) return;
+  ServedDesk desk;
+  ScratchFolder scratch;
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 800, false, false);
+  browser.open(desk.server().address());
+  REQUIRE(
+      browser.wait_until("return document.getElementById('link').textContent === 'connected'", 20));
+  picture_of_desk(browser, "desk_empty");
+  drop_on_page(browser, "pdms.csv", ServedDesk::example());
+  Person person(browser);
+  REQUIRE(browser.wait_until("return document.querySelectorAll('#rows tbody tr').length > 10", 20));
+  CHECK(contains(browser.text("#rows thead"), "modulus_Pa"));
+  picture_of_desk(browser, "desk_table");
+  person.click("#tab-fit");
+  REQUIRE(
+      browser.wait_until("return document.querySelectorAll('#moduli tbody tr').length > 2", 30));
+  CHECK(contains(browser.text("#moduli"), "MPa"));
+  CHECK(browser.wait_until(has_line("#fit-chart", "fit"), 10));
+  CHECK(browser.wait_until(has_line("#residual-chart", "depth"), 10));
+  picture_of_desk(browser, "desk_fit");
+  person.click("#tab-card");
+  person.choose("#target", "abaqus");
+  person.click("#units input[value=mm-t-s]");
+  REQUIRE(browser.wait_until(
+      "return document.getElementById('card-text').textContent.includes('mm-t-s')", 30));
+  browser.run("const s = getSelection(); s.removeAllRanges();");
+  picture_of_desk(browser, "desk_card");
+  browser.run(kKeepDownloads);
+  person.click("#download");
+  REQUIRE(browser.wait_until("return window.saved.length === 1", 10));
+  CHECK(person.n_clicks <= 6);
+  const nlohmann::json saved = browser.run("return window.saved[0]");
+  CHECK(saved.at(0) == "pdms.inp");
+  CHECK(contains(saved.at(1), "*VISCOELASTIC"));
+  CHECK(std::filesystem::exists(desk.folder() / "pdms.json"));
+  CHECK(browser.errors().empty());
+}
+
+}  // namespace
+}  // namespace viscard
