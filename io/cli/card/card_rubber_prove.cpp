@@ -28,19 +28,21 @@ std::string stated_elastic_only(const std::string& text) {
 const Solver& rubber_solver(const CardWords& words) {
   const auto& known = rubber_solvers();
   std::string name = words.solver;
-  if (name.empty() && std::find(known.begin(), known.end(), words.target) != known.end())
-    name = words.target;
+  for (const std::string& solver : known) {
+    if (name.empty() && runs_text_of(solver, words.target)) name = solver;
+  }
   if (name.empty()) {
     throw UsageError("viscard runs no solver that reads cards of rubber for " + words.target +
                      "; --solver sfepy runs the numbers that are read from the card");
   }
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw UsageError("--solver " + name + " runs no cards of rubber; " + listed(known) + " do");
-  if (name == "calculix" && words.target != "calculix") {
-    throw UsageError("CalculiX does not read cards of rubber for " + words.target +
+  if (name == "sfepy") return solver_for(name, "");
+  if (!runs_text_of(name, words.target)) {
+    throw UsageError("--solver " + name + " does not read cards of rubber for " + words.target +
                      "; --solver sfepy runs the numbers of any card");
   }
-  return solver_for(name, name == "calculix" ? name : "");
+  return solver_for(name, words.target);
 }
 
 void print_constants(const RubberProof& proof, std::ostream& out) {

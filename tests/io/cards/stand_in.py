@@ -3,6 +3,7 @@
 of a one-element model in simple tension and prints in the solver's format. Formats: FEBio
 DataRecord.cpp, TFEL MTest.cxx, FrontISTR hecmw_result_io_txt.c; rules of FrontISTR's steps:
 fstr_AddBC.f90, fstr_ass_load.f90. An independent implementation for tests of viscard."""
+import cmath
 import math
 import os
 import re
@@ -51,6 +52,45 @@ class Bar:
         return v / 3 + d, axial if confined else 3 * self.shear * (gd * d + hd)
 
 
+class Cube:
+    """A law of rubber in principal stretches with Simo's terms: W(isochoric stretches) is differentiated by a
+    complex step, J U'(J) is given; the branches are pushed forward as they are."""
+
+    def __init__(self, energy, volume, g, tau):
+        self.energy, self.volume, self.g, self.tau = energy, volume, g, tau
+        self.elastic, self.branches = [0.0] * 3, [[0.0] * 3 for _ in tau]
+
+    def _stress(self, stretches, dt):
+        logs = [math.log(s) for s in stretches]
+        now = []
+        for i in range(3):
+            z = [x + (1e-30j if i == k else 0) for k, x in enumerate(logs)]
+            now.append(self.energy([cmath.exp(x - sum(z) / 3) for x in z]).imag / 1e-30 / stretches[i] ** 2)
+        share, total, kept = 1 - sum(self.g), [], []
+        for i in range(3):
+            kept.append([math.exp(-dt / t) * h[i] - math.expm1(-dt / t) / (dt / t) * (now[i] - self.elastic[i])
+                         for t, h in zip(self.tau, self.branches)])
+            total.append((share * now[i] + sum(g * h for g, h in zip(self.g, kept[i]))) * stretches[i] ** 2)
+        pressure = self.volume(math.prod(stretches))
+        return [t + pressure for t in total], now, [list(h) for h in zip(*kept)]
+
+    def step(self, dt, z, x=None, y=None):
+        """Nominal stress along z, and all stretches; x and y are free if not given, and then equal if both are."""
+        low, high = 0.2, 5.0
+        for _ in range(80):
+            free = math.sqrt(low * high)
+            at = [free if x is None else x, free if y is None else y, z]
+            stress, now, branches = self._stress(at, dt)
+            side = stress[0] if x is None else stress[1] if y is None else 0.0
+            low, high = (free, high) if side < 0 else (low, free)
+        self.elastic, self.branches = now, branches
+        return stress[2] / z, at
+
+
+def squares(l):
+    return sum(x * x for x in l) - 3
+
+
 def numbers(pattern, text):
     return [float(x) for x in re.findall(pattern, text)]
 
@@ -66,6 +106,8 @@ def febio():
     if sys.argv[1:] == ["-info"]:
         return print("compiled on Jan  1 2026\nFEBio version  = 4.9.0 (stand-in)")
     text = open(sys.argv[sys.argv.index("-i") + 1]).read()
+    if "rz.txt" in text:
+        return febio_rubber(text)
     g, tau = numbers(r"<g[1-6]>([^<]*)", text), numbers(r"<t[1-6]>([^<]*)", text)
     if "uncoupled" in text.split("<elastic")[0].split("<material")[1]:
         shear, bulk = 2 * numbers(r"<c1>([^<]*)", text)[0], numbers(r"<k>([^<]*)", text)[0]
@@ -89,6 +131,59 @@ def febio():
                       f"7 {strain if creep else stress:.12g}", file=out)
 
 
+def febio_rubber(text):
+    one = lambda name: numbers(f"<{name}>([^<]*)", text)[0]
+    k = one("k")
+    if 'type="Ogden"' in text:
+        pairs = list(zip(numbers(r"<c\d>([^<]*)", text), numbers(r"<m\d>([^<]*)", text)))
+        energy = lambda l: sum(c / m**2 * (sum(x**m for x in l) - 3) for c, m in pairs)
+    elif 'type="Gent"' in text:
+        energy = lambda l: -one("G") * one("Jm") / 2 * cmath.log(1 - squares(l) / one("Jm"))
+    else:  # W of I1
+        formula = re.search("<W>([^<]*)", text).group(1).replace("^", "**")
+        energy = lambda l: eval(formula, {"I1": squares(l) + 3})
+    cube = Cube(energy, lambda J: k * math.log(J), numbers(r"<g[1-6]>([^<]*)", text), numbers(r"<t[1-6]>([^<]*)", text))
+    fixed = lambda face: f'node_set="{face}" type="zero' in text
+    top = numbers(r'lc="1">([^<]*)', text)[0]
+    points = [tuple(map(float, p.split(","))) for p in re.findall(r"<pt>([^<]*)", text)]
+    with open("rz.txt", "w") as out:
+        time = 0.0
+        print("*Step  = 0\n*Time  = 0\n*Data  = Rz\n5 0\n6 0\n7 0\n8 0", file=out)
+        for count, size in re.findall(r"<time_steps>(\d+)</time_steps>\s*<step_size>([^<]*)", text):
+            for _ in range(int(count)):
+                time += float(size)
+                z = 1 + top * ramp(points, time)
+                x = 1.0 if fixed("x1") else z if 'node_set="x1" type="prescribed' in text else None
+                force, _ = cube.step(float(size), z, x, 1.0 if fixed("y1") else None)
+                rows = "\n".join(f"{node} {-force / 4:.12g}" for node in (5, 6, 7, 8))
+                print(f"*Step  = 1\n*Time  = {time:.12g}\n*Data  = Rz\n{rows}", file=out)
+
+
+def mtest_rubber(value, text):
+    K = value["K"][0]
+    if "alpha" in value:
+        pairs = list(zip(value["mu"], value["alpha"]))
+        energy = lambda l: sum(2 * m / a**2 * (sum(x**a for x in l) - 3) for m, a in pairs)
+    else:  # C10, C20 ... of I1 - 3
+        energy = lambda l: sum(value.get(f"C{i}0", [0.0])[0] * squares(l) ** i for i in (1, 2, 3))
+    cube = Cube(energy, lambda J: K * J * (J - 1), value.get("g", []), value.get("tau", []))
+    way = {name: [tuple(map(float, p.split(":"))) for p in points.split(",")] for name, points in
+           re.findall(r"'(F..)' {([^}]*)}", text)}
+    held = set(re.findall(r"'(F..)' 1.;", text))
+    time = 0.0
+    with open("deck.res", "w") as out:
+        print("# first column: time\n0" + " 0" * 15, file=out)
+        for end, count in re.findall(r", (\S+) in (\d+)", text):
+            start = time
+            for i in range(1, int(count) + 1):
+                now = start + (float(end) - start) * i / int(count)
+                z = ramp(way["FZZ"], now)
+                x = 1.0 if "FXX" in held else z if "FXX" in way else None
+                force, at = cube.step(now - time, z, x, 1.0 if "FYY" in held else None)
+                time = now
+                print(repr(now), *map(repr, at), *[0] * 6, 0, 0, repr(force / at[0] / at[1]), 0, 0, 0, file=out)
+
+
 def mfront():
     if sys.argv[1:] == ["--version"]:
         print("tfel\nVersion : 5.2.0-stand-in")
@@ -99,7 +194,9 @@ def mtest():
         return print("mtest is an behaviour testing utility")
     card = re.sub("//.*", "", open("card.mfront").read())
     value = {name: [float(x) for x in re.sub("[{}]", "", text).split(",")] for name, text in
-             re.findall(r"@Parameter real (\w+)(?:\[Nt\])? = ([^;]*);", card)}
+             re.findall(r"@Parameter real (\w+)(?:\[N[tv]\])? = ([^;]*);", card)}
+    if "@ImposedDeformationGradient" in open(sys.argv[1]).read():
+        return mtest_rubber(value, open(sys.argv[1]).read())
     bar = Bar(value["E0"][0], value["nu0"][0], value["g"], value["k"], value["tau"])
     text = open(sys.argv[1]).read()
     creep, confined = "@ImposedStress" in text, "'EXX'" in text

@@ -6,6 +6,7 @@
 #include "io/cards/proof/solvers.h"
 #include "io/cards/targets/card_targets.h"
 #include "tests/io/cards/card_materials.h"
+#include "tests/io/cards/stand_in.h"
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
@@ -106,14 +107,6 @@ std::vector<std::string> readable_targets() {
     if (states_material(target)) out.push_back(target.name);
   }
   return out;
-}
-
-// The stand-in under the name of a program.
-std::string stand_in(const fs::path& folder, const char* name) {
-  const fs::path script = fs::path(VISCARD_GOLDEN_FOLDER).parent_path() / "stand_in.py";
-  fs::copy_file(script, folder / name, fs::copy_options::overwrite_existing);
-  fs::permissions(folder / name, fs::perms::owner_all);
-  return (folder / name).string();
 }
 
 }  // namespace

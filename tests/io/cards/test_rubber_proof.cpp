@@ -5,6 +5,8 @@
 #include "io/cards/unit_system.h"
 #include "tests/io/cards/rubber_rules.h"
 #include "tests/io/cards/sfepy_cube.h"
+#include "tests/io/cards/stand_in.h"
+#include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -261,4 +263,98 @@ TEST_CASE("rubber proofs: rows of SfePy carry what its iteration left on free si
   REQUIRE(held.size() == 1);
   CHECK(held[0].unbalanced == 0.0);
   CHECK(held[0].coarser == 1.1e5);
+}
+
+TEST_CASE(
+    "rubber proofs: a relaxing cube is the elastic one without terms, and tends to the "
+    "incompressible one",
+    "[io][reduction]") {
+  StretchHistory history{{0.0}, {1.0}};
+  for (int i = 1; i <= 40; ++i) {
+    history.time_s.push_back(0.02 * i);
+    history.stretch.push_back(1.0 + 0.015 * i);
+  }
+  for (const double end_s : {1.5, 4.0, 30.0}) {
+    history.time_s.push_back(end_s);
+    history.stretch.push_back(1.6);
+  }
+  const HyperelasticLaw& law = rubbers()[2].law;
+  const std::vector<RubberTerm> terms{{0.3, 0.4}, {0.2, 9.0}};
+  const double G = youngs_modulus_Pa(law) / 3.0;
+  const auto elastic =
+      relaxing_stress_Pa(law, {}, 50.0 * G, history, VolumeRule::kLogSquared, false);
+  for (std::size_t i = 0; i < elastic.size(); ++i)
+    CHECK(elastic[i] == Approx(cube_stress_Pa(law, 50.0 * G, Deformation::kUniaxial,
+                                              history.stretch[i + 1], VolumeRule::kLogSquared))
+                            .epsilon(1e-10));
+  const auto exact = nominal_stress_Pa(law, terms, Deformation::kUniaxial, history);
+  for (const bool is_projected : {false, true}) {
+    const auto error = [&](double ratio) {
+      return relaxing_stress_Pa(law, terms, ratio * G, history, VolumeRule::kUnitVolume,
+                                is_projected)
+                     .back() /
+                 exact[exact.size() - 1] -
+             1.0;
+    };
+    CHECK(std::abs(error(1e4)) < 3e-4);
+    CHECK(error(1e3) / error(2e3) == Approx(2.0).epsilon(2e-2));  // of first order in G/K
+  }
+}
+
+TEST_CASE("rubber proofs: FEBio's and MTest's own runs of a card show every constant (stand-ins)",
+          "[io]") {
+  if (std::system("command -v python3 >/dev/null 2>&1") != 0) return;
+  const ScratchFolder folder;
+  (void)stand_in(folder.path(), "mfront");
+  const auto proof_in = [&](const std::string& card, const Rubber& rubber,
+                            const std::string& target) {
+    const std::string program = stand_in(folder.path(), target == "febio" ? "febio4" : "mtest");
+    HyperelasticFile file = law_file(rubber);
+    const FoundSolver found = find_solver(solver_for("", target), program);
+    return prove_rubber_card(card, target, read_rubber_card(card, target, "mm-t-s"), &file, "",
+                             found);
+  };
+  const std::vector<RubberTerm> two{{0.3, 0.4}, {0.2, 9.0}};
+  const Rubber ogden = rubber_of(HyperelasticForm::kOgden2, {2e5, 1e4}, {1.3, -2.1}, two),
+               yeoh = rubber_of(HyperelasticForm::kYeoh, {2e5, 3e4, 5e3}, {}, two),
+               gent = rubber_of(HyperelasticForm::kGent, {2.7e5}, {20.0}, {}),
+               chains = rubber_of(HyperelasticForm::kArrudaBoyce, {2.7e5}, {2.2}, {});
+  struct Row {
+    const char* target;
+    const Rubber* rubber;
+    const char *from, *to;  // an edit that must be found
+  };
+  for (const Row& row : {Row{"febio", &ogden, "<t2>9</t2>", "<t2>9.3</t2>"},
+                         Row{"febio", &yeoh, "0.005*(I1-3)^3", "0.0052*(I1-3)^3"},
+                         Row{"febio", &gent, "<Jm>20</Jm>", "<Jm>21</Jm>"},
+                         Row{"febio", &chains, "<k>311.", "<k>331."},
+                         Row{"mfront", &ogden, "alpha[Nt] = {1.3", "alpha[Nt] = {1.4"},
+                         Row{"mfront", &yeoh, "g[Nv] = {0.3", "g[Nv] = {0.31"}}) {
+    CAPTURE(row.target, name_of(row.rubber->law.form));
+    const std::string card = card_of(*row.rubber, row.target);
+    CAPTURE(card);
+    const RubberProof proof = proof_in(card, *row.rubber, row.target);
+    for (const CubeProof& cube : proof.cubes) {
+      CAPTURE(cube.test.name, cube.error, cube.resolved, cube.compared);
+      CHECK(cube.agrees());
+    }
+    REQUIRE(proof.hold.has_value() == !row.rubber->terms.empty());
+    if (proof.hold) {
+      CAPTURE(proof.hold->error, proof.hold->resolved);
+      CHECK(proof.hold->agrees());
+      CHECK(proof.hold->resolved < 2e-3);
+    }
+    CHECK(proof.not_exercised() == "");
+    CHECK(proof.holds());
+    CHECK_FALSE(proof_in(replaced(card, row.from, row.to), *row.rubber, row.target).agrees());
+  }
+  // FEBio's Yeoh with C_i0 for i C_i0, which a run of the numbers by another law would not see.
+  const std::string older =
+      "<material id=\"1\" name=\"R\" type=\"Yeoh\">\n<c1>0.2</c1><c2>0.03</c2>"
+      "<c3>0.005</c3><k>300</k>\n</material>\n";
+  CHECK(runs_text_of("febio", "febio"));
+  CHECK(runs_text_of("mtest", "mfront"));
+  CHECK_FALSE(runs_text_of("sfepy", "febio"));
+  CHECK(statement_of_rubber(solver_for("febio", "febio"), "febio") == "");
+  CHECK(read_rubber_card(older, "febio", "").findings.size() == 1);
 }

@@ -31,6 +31,7 @@ Eigen::Vector3d with_sides(Deformation deformation, double measured, double side
 // Kirchhoff stress of the volume: J dU/dJ.
 double volume_stress_Pa(double bulk_Pa, double J, VolumeRule rule) {
   if (rule == VolumeRule::kLogarithmic) return 0.5 * bulk_Pa * (J * J - 1.0);
+  if (rule == VolumeRule::kLogSquared) return bulk_Pa * std::log(J);
   return bulk_Pa * J * (J - 1.0);
 }
 
@@ -65,6 +66,55 @@ double cube_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, Deformation de
   // tau_3 = 0, so that the pressure is minus its deviator.
   const Eigen::Vector3d stress_Pa = deviator_Pa(law, strain, rule);
   return (stress_Pa[0] - stress_Pa[2]) / stretch;
+}
+
+std::vector<double> relaxing_stress_Pa(const HyperelasticLaw& law,
+                                       const std::vector<RubberTerm>& terms, double bulk_Pa,
+                                       const StretchHistory& history, VolumeRule rule,
+                                       bool is_projected) {
+  double lasting = 1.0;
+  for (const RubberTerm& term : terms) lasting -= term.g;
+  Eigen::Vector3d elastic = Eigen::Vector3d::Zero();  // second Piola-Kirchhoff stress of the law
+  std::vector<Eigen::Vector3d> branches(terms.size(), elastic);
+  double side = 0.0;  // logarithm of the stretch of the sides
+  std::vector<double> out;
+  for (std::size_t n = 1; n < history.time_s.size(); ++n) {
+    const double step_s = history.time_s[n] - history.time_s[n - 1],
+                 measured = std::log(history.stretch[n]);
+    std::vector<Eigen::Vector3d> next;
+    Eigen::Vector3d now;
+    // Principal Kirchhoff stresses without the pressure, at the logarithm of a side's stretch.
+    const auto stress_Pa = [&](double of_side) -> Eigen::Vector3d {
+      const Eigen::Vector3d strain{measured, of_side, of_side};
+      const Eigen::Array3d squares = (2.0 * strain.array()).exp();
+      now = deviator_Pa(law, strain, rule).array() / squares;
+      Eigen::Vector3d sum = lasting * now;
+      next = branches;
+      for (std::size_t i = 0; i < terms.size(); ++i) {
+        const double x = step_s / terms[i].tau_s, mean = x > 0.0 ? -std::expm1(-x) / x : 1.0;
+        next[i] = std::exp(-x) * branches[i] + mean * (now - elastic);
+        sum += terms[i].g * next[i];
+      }
+      Eigen::Vector3d pushed = sum.array() * squares;
+      if (is_projected) pushed.array() -= pushed.mean();
+      return pushed;
+    };
+    const auto free_Pa = [&](double of_side) {
+      return stress_Pa(of_side)[2] +
+             volume_stress_Pa(bulk_Pa, std::exp(measured + 2.0 * of_side), rule);
+    };
+    double low = -0.5 * measured - 0.5, high = -0.5 * measured + 0.5;
+    constexpr int kHalvings = 60;
+    for (int i = 0; i < kHalvings; ++i) {
+      side = 0.5 * (low + high);
+      (free_Pa(side) < 0.0 ? low : high) = side;
+    }
+    const Eigen::Vector3d found_Pa = stress_Pa(side);
+    out.push_back((found_Pa[0] - found_Pa[2]) / history.stretch[n]);
+    branches = next;
+    elastic = now;
+  }
+  return out;
 }
 
 }  // namespace viscard

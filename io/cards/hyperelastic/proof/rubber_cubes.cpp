@@ -1,15 +1,19 @@
-// Models of one cube on rollers. CalculiX reads the card's own text. SfePy imports the module and stretches the
+// Models of one cube on rollers. CalculiX, FEBio and MTest read the card's own text (Rz: FEBioMechModule.cpp; MTest
+// keywords: TFEL's mtest/doc). SfePy imports the module and stretches the
 // cube with its terms; for the terms of relaxation its answers with K, 2 K and 4 K, extrapolated to an
 // incompressible body, give the second Piola-Kirchhoff stress that the module's Memory relaxes.
 #include "io/cards/hyperelastic/proof/rubber_cubes.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/patterns.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/keyword_lines.h"
 #include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -22,6 +26,12 @@ std::string material_name(const std::string& card) {
     if (block.keyword == "*MATERIAL" && !block.name().empty()) return block.name();
   }
   throw std::runtime_error("the card has no *MATERIAL, NAME=...");
+}
+
+// Of row n, counted from 1; of the holds the last.
+double stretch_at(const CubeTest& test, std::size_t n) {
+  const double share = static_cast<double>(n) / test.steps;
+  return 1.0 + (test.top - 1.0) * std::min(share, 1.0);
 }
 
 constexpr const char* kSfepyCubes = R"py(
@@ -115,6 +125,101 @@ if hold:
 
 }  // namespace
 
+std::vector<DeckFile> febio_cube(const std::string& card, const CubeTest& test) {
+  const auto name = first_match(card, "<material[^>]*\\sname=\"([^\"]*)\"");
+  if (!name) throw std::runtime_error("the card has no <material name=\"...\">");
+  std::vector<std::array<double, 3>> points;
+  for (const auto& [x, y, z] : kCubeCorners) points.push_back({double(x), double(y), double(z)});
+  if (test.is_confined) {
+    for (int i = 0; i < 4; ++i) points.push_back({points[i][0], points[i][1], 0.5});
+  }
+  std::string mesh = "<Mesh>\n<Nodes name=\"nodes\">\n";
+  for (std::size_t i = 0; i < points.size(); ++i)
+    mesh += fmt::format("<node id=\"{}\">{},{},{}</node>\n", i + 1, points[i][0], points[i][1],
+                        points[i][2]);
+  mesh += "</Nodes>\n<Elements type=\"hex8\" name=\"cube\">";
+  mesh += test.is_confined ? "<elem id=\"1\">1,2,3,4,9,10,11,12</elem>"
+                             "<elem id=\"2\">9,10,11,12,5,6,7,8</elem>"
+                           : "<elem id=\"1\">1,2,3,4,5,6,7,8</elem>";
+  mesh += "</Elements>\n";
+  for (const char* face : {"x0", "y0", "z0", "x1", "y1", "z1"}) {
+    std::string nodes;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i][static_cast<std::size_t>(face[0] - 'x')] == double(face[1] - '0'))
+        nodes += (nodes.empty() ? "" : ",") + std::to_string(i + 1);
+    }
+    mesh += fmt::format("<NodeSet name=\"{}\">{}</NodeSet>\n", face, nodes);
+  }
+  mesh += "</Mesh>\n<MeshDomains><SolidDomain name=\"cube\" mat=\"" + name->group[1] +
+          "\"/></MeshDomains>\n<Boundary>\n";
+  std::vector<std::string> fixed{"x0", "y0", "z0"}, pulled{"z1"};
+  if (test.is_confined) fixed.insert(fixed.end(), {"x1", "y1"});
+  if (!test.is_confined && test.deformation == Deformation::kPlanar) fixed.emplace_back("y1");
+  if (test.deformation == Deformation::kEquibiaxial) pulled.emplace_back("x1");
+  for (const std::string& face : fixed) {
+    mesh += fmt::format(
+        "<bc name=\"fix {0}\" node_set=\"{0}\" type=\"zero displacement\">"
+        "<x_dof>{1}</x_dof><y_dof>{2}</y_dof><z_dof>{3}</z_dof></bc>\n",
+        face, face[0] == 'x' ? 1 : 0, face[0] == 'y' ? 1 : 0, face[0] == 'z' ? 1 : 0);
+  }
+  for (const std::string& face : pulled) {
+    mesh += fmt::format(
+        "<bc name=\"pull {0}\" node_set=\"{0}\" type=\"prescribed displacement\"><dof>{1}</dof>"
+        "<value lc=\"1\">{2}</value><relative>0</relative></bc>\n",
+        face, face[0], test.top - 1.0);
+  }
+  std::string steps;
+  const auto add_step = [&](int count, double size) {
+    steps += fmt::format(
+        "<step><Control><analysis>STATIC</analysis><time_steps>{}</time_steps>"
+        "<step_size>{}</step_size><solver type=\"solid\"><dtol>1e-10</dtol><etol>1e-14</etol>"
+        "<rtol>0</rtol></solver></Control></step>\n",
+        count, size);
+  };
+  add_step(test.steps, test.ramp / test.steps);
+  double before = test.ramp;
+  for (const double end : test.until) {
+    add_step(1, end - before);
+    before = end;
+  }
+  return {{"deck.feb",
+           "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<febio_spec version=\"4.0\">\n"
+           "<Module type=\"solid\"/>\n<Material>\n" +
+               card + "</Material>\n" + mesh + "</Boundary>\n" +
+               fmt::format("<LoadData><load_controller id=\"1\" type=\"loadcurve\">"
+                           "<interpolate>LINEAR</interpolate><extend>CONSTANT</extend><points>"
+                           "<pt>0,0</pt><pt>{},1</pt><pt>{},1</pt></points></load_controller>"
+                           "</LoadData>\n<Step>\n{}</Step>\n",
+                           test.ramp, 2.0 * test.end(), steps) +
+               "<Output><logfile><node_data data=\"Rz\" file=\"rz.txt\">5,6,7,8</node_data>"
+               "</logfile></Output>\n</febio_spec>\n"}};
+}
+
+std::vector<DeckFile> mtest_cube(const std::string& card, const CubeTest& test) {
+  const auto name = first_match(card, "@Behaviour\\s+(\\w+)");
+  if (!name) throw std::runtime_error("the card has no @Behaviour");
+  // Newton's iteration ends where strain and stress both change by less.
+  constexpr double kSmall = 1e-11;
+  std::string text = fmt::format(
+      "@ModellingHypothesis 'Tridimensional';\n@Behaviour<generic> 'src/libBehaviour.so' '{}';\n"
+      "@ExternalStateVariable 'Temperature' 293.15;\n@OutputFilePrecision 15;\n"
+      "@DeformationGradientEpsilon {};\n@StressEpsilon {};\n",
+      name->group[1], kSmall, kSmall * std::abs(test.stress));
+  const std::string pulled =
+      fmt::format("{{0.: 1., {}: {}, {}: {}}}", test.ramp, test.top, 2.0 * test.end(), test.top);
+  const auto impose = [&](const std::string& component, const std::string& value) {
+    text += fmt::format("@ImposedDeformationGradient<evolution> '{}' {};\n", component, value);
+  };
+  impose("FZZ", pulled);
+  if (test.is_confined || test.deformation == Deformation::kPlanar) impose("FYY", "1.");
+  if (test.is_confined) impose("FXX", "1.");
+  if (test.deformation == Deformation::kEquibiaxial) impose("FXX", pulled);
+  for (const char* shear : {"FXY", "FYX", "FXZ", "FZX", "FYZ", "FZY"}) impose(shear, "0.");
+  text += fmt::format("@Times {{0., {} in {}", test.ramp, test.steps);
+  for (const double end : test.until) text += fmt::format(", {} in 1", end);
+  return {{"deck.mtest", text + "};\n"}, {"card.mfront", card}};
+}
+
 std::vector<DeckFile> calculix_cube(const std::string& card, const CubeTest& test) {
   const bool is_confined = test.is_confined;
   std::string text =
@@ -146,8 +251,7 @@ std::vector<CubeRow> calculix_rows(const std::filesystem::path& folder, const Cu
   std::istringstream lines(read_own_file(folder / "deck.dat"));
   for (std::string line; std::getline(lines, line);) {
     if (line.find("and time") != std::string::npos) {
-      const double share = static_cast<double>(rows.size() + 1) / test.steps;
-      rows.push_back({.at = 1.0 + (test.top - 1.0) * share});
+      rows.push_back({.at = stretch_at(test, rows.size() + 1)});
       continue;
     }
     std::vector<double> cells_of_row;
@@ -165,8 +269,44 @@ std::vector<CubeRow> calculix_rows(const std::filesystem::path& folder, const Cu
   return rows;
 }
 
+// FECore/DataRecord.cpp: "*Time  = 0.1" above the rows of nodes.
+std::vector<CubeRow> febio_rows(const std::filesystem::path& folder, const CubeTest& test) {
+  std::vector<CubeRow> rows;
+  if (!std::filesystem::exists(folder / "rz.txt")) return rows;
+  std::istringstream lines(read_own_file(folder / "rz.txt"));
+  bool is_at_rest = true;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("*Time", 0) == 0) {
+      is_at_rest = leading_number(line.substr(line.find('=') + 1)) == 0.0;
+      if (!is_at_rest) rows.push_back({.at = stretch_at(test, rows.size() + 1)});
+    } else if (!line.empty() && line[0] != '*' && !is_at_rest) {
+      const std::size_t value = line.find_first_not_of(' ', line.find(' '));
+      if (value != std::string::npos) rows.back().stress += leading_number(line.substr(value));
+    }
+  }
+  for (CubeRow& row : rows) row.stress = std::copysign(row.stress, test.top - 1.0);
+  return rows;
+}
+
+// MTest.cxx: time, nine components of F (XX YY ZZ first), six of the Cauchy stress.
+std::vector<CubeRow> mtest_rows(const std::filesystem::path& folder, const CubeTest&) {
+  std::vector<CubeRow> rows;
+  if (!std::filesystem::exists(folder / "deck.res")) return rows;
+  std::istringstream lines(read_own_file(folder / "deck.res"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::vector<double> row;
+    std::istringstream words(line);
+    for (std::string word; words >> word;) row.push_back(leading_number(word));
+    constexpr std::size_t kLeast = 16;
+    if (row.size() < kLeast || row[0] == 0.0) continue;
+    rows.push_back({.at = row[3], .stress = row[12] * row[1] * row[2]});
+  }
+  return rows;
+}
+
 std::vector<DeckFile> sfepy_cubes(const std::string& card, const std::vector<CubeTest>& tests,
-                                  const CubeHold* hold) {
+                                  const CubeTest* hold) {
   std::string text = "tests = [\n";
   for (const CubeTest& test : tests)
     text += fmt::format("    (\"{}\", {}, {}),\n",

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <stdexcept>
 
 namespace viscard {
@@ -29,8 +31,7 @@ struct WantedRubber {
 };
 
 constexpr double kUsualTop = 1.8;
-// Of the stretch. CalculiX iterates twice, so that its steps are small; a step of SfePy takes some 10 ms.
-constexpr double kCalculixStep = 0.04, kSfepyStep = 0.1;
+constexpr double kSfepyStep = 0.1;  // of the stretch; each takes some 10 ms
 
 // Between 10 and 80 steps.
 int steps_to(double top, double step) {
@@ -99,12 +100,12 @@ void note_constants(const WantedRubber& wanted, RubberProof& proof) {
 
 // A ramp of half the shortest time, and four holds per decade to five times the longest. Stretches rise by less
 // than 0.02 a step, so that nominal_stress_Pa() divides no step, and both integrate the same polygon.
-CubeHold hold_of(const std::vector<RubberTerm>& terms, double top) {
+CubeTest hold_of(const std::vector<RubberTerm>& terms, double top) {
   constexpr double kStep = 0.0199, kMost = 1.4, kPerDecade = 4.0, kLast = 5.0;
   const auto by_tau = [](const RubberTerm& a, const RubberTerm& b) { return a.tau_s < b.tau_s; };
   const auto [least, most] = std::minmax_element(terms.begin(), terms.end(), by_tau);
-  CubeHold hold{std::min(top, kMost), 0.5 * least->tau_s, 0, {}};
-  hold.steps = static_cast<int>(std::ceil((hold.top - 1.0) / kStep));
+  CubeTest hold{.name = "relaxation", .top = std::min(top, kMost), .ramp = 0.5 * least->tau_s};
+  hold.steps = static_cast<int>(std::ceil(std::abs(hold.top - 1.0) / kStep));
   const int n =
       static_cast<int>(std::ceil(kPerDecade * std::log10(kLast * most->tau_s / hold.ramp)));
   for (int i = 1; i <= n; ++i)
@@ -112,7 +113,7 @@ CubeHold hold_of(const std::vector<RubberTerm>& terms, double top) {
   return hold;
 }
 
-StretchHistory history_of(const CubeHold& hold) {
+StretchHistory history_of(const CubeTest& hold) {
   StretchHistory history{{0.0}, {1.0}};
   for (int i = 1; i <= hold.steps; ++i) {
     history.time_s.push_back(hold.ramp * i / hold.steps);
@@ -125,43 +126,43 @@ StretchHistory history_of(const CubeHold& hold) {
   return history;
 }
 
-HoldProof compared_hold(const CubeHold& hold, const std::vector<CubeRow>& rows,
-                        const WantedRubber& wanted, const UnitSystem& units, double resolves) {
-  const StretchHistory history = history_of(hold);
-  const auto stresses_of = [&](const std::vector<RubberTerm>& terms) {
-    return nominal_stress_Pa(wanted.law, terms, Deformation::kUniaxial, history);
-  };
-  const auto exact_Pa = stresses_of(wanted.terms);
-  if (rows.size() + 1 != exact_Pa.size())
+using StressOfTerms = std::function<std::vector<double>(const std::vector<RubberTerm>&)>;
+
+// `stresses_of` gives the exact answer behind the start of the history for any terms.
+HoldProof compared_hold(const StretchHistory& history, const std::vector<CubeRow>& rows,
+                        const std::vector<RubberTerm>& terms, const StressOfTerms& stresses_of,
+                        const UnitSystem& units, double resolves) {
+  const auto exact_Pa = stresses_of(terms);
+  if (rows.size() != exact_Pa.size())
     throw std::runtime_error("the run of the relaxing cube ended after " +
                              counted(rows.size(), "step"));
   HoldProof out{.end_s = history.time_s.back(), .resolved = resolves};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double found_Pa = from_card(rows[i].stress, units.stress_exponent);
-    const double error = std::abs(found_Pa / exact_Pa[i + 1] - 1.0);
-    out.resolved = std::max(out.resolved, std::abs(rows[i].coarser / rows[i].stress - 1.0));
+    const double error = std::abs(found_Pa / exact_Pa[i] - 1.0);
+    if (rows[i].coarser != 0.0)
+      out.resolved = std::max(out.resolved, std::abs(rows[i].coarser / rows[i].stress - 1.0));
     if (error <= out.error) continue;
     out.error = error;
     out.at_s = history.time_s[i + 1];
   }
-  const auto change_with = [&](const std::vector<RubberTerm>& terms) {
-    const auto changed_Pa = stresses_of(terms);
+  const auto change_with = [&](const std::vector<RubberTerm>& changed) {
+    const auto changed_Pa = stresses_of(changed);
     double change = 0.0;
-    for (std::size_t i = 1; i < changed_Pa.size(); ++i)
+    for (std::size_t i = 0; i < changed_Pa.size(); ++i)
       change = std::max(change, std::abs(changed_Pa[i] / exact_Pa[i] - 1.0));
     return change;
   };
   constexpr double kMore = 1.1, kTwice = 2.0;
-  for (std::size_t k = 0; k < wanted.terms.size(); ++k) {
-    std::vector<RubberTerm> longer = wanted.terms, less = wanted.terms;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    std::vector<RubberTerm> longer = terms, less = terms;
     longer[k].tau_s *= kMore;
     less[k].g /= kMore;
     const double change = change_with(longer), of_share = change_with(less);
-    out.terms.push_back(
-        {wanted.terms[k].g, wanted.terms[k].tau_s, change, change >= kTwice * out.resolved});
+    out.terms.push_back({terms[k].g, terms[k].tau_s, change, change >= kTwice * out.resolved});
     const bool is_seen = of_share >= kTwice * out.resolved;
     out.shares.push_back({.name = "g_" + std::to_string(k + 1),
-                          .value = wanted.terms[k].g,
+                          .value = terms[k].g,
                           .change = of_share,
                           .is_exercised = is_seen,
                           .seen_by = is_seen ? "relaxation" : ""});
@@ -185,22 +186,84 @@ WantedRubber wanted_of(const ReadRubber& read, const HyperelasticFile* file,
   return out;
 }
 
-// Each test by a run of its own.
-void run_calculix(const std::string& card, const std::vector<CubeTest>& tests,
-                  const WantedRubber& wanted, const ReadRubber& read, const FoundSolver& found,
-                  RubberProof& proof) {
-  for (const CubeTest& test : tests) {
-    const auto files = calculix_cube(card, test);
-    proof.models.push_back({test.name + "/" + files[0].name, files[0].text});
-    std::vector<CubeRow> rows;
-    const bool has_finished =
-        run_files(found, files, [&](const auto& folder) { rows = calculix_rows(folder, test); });
-    if (!has_finished) {
-      proof.diverged = test.name;
-      return;
-    }
-    proof.cubes.push_back(compared(test, rows, wanted, *read.units, found.solver.resolves));
+// A solver that runs the text of a card, each test by a run of its own.
+struct CubeRunner {
+  const char* solver;
+  double step;  // largest one of the stretch
+  VolumeRule rule;
+  bool has_memory;  // runs terms of relaxation
+  std::vector<DeckFile> (*files)(const std::string& card, const CubeTest& test);
+  std::vector<CubeRow> (*rows)(const std::filesystem::path& folder, const CubeTest& test);
+};
+
+// CalculiX iterates twice, so that its steps are small.
+constexpr CubeRunner kRunners[]{
+    {"calculix", 0.04, VolumeRule::kUnitVolume, false, calculix_cube, calculix_rows},
+    {"febio", 0.04, VolumeRule::kLogSquared, true, febio_cube, febio_rows},
+    {"mtest", 0.1, VolumeRule::kUnitVolume, true, mtest_cube, mtest_rows}};
+
+const CubeRunner* runner_of(const std::string& solver) {
+  const auto found = std::find_if(std::begin(kRunners), std::end(kRunners),
+                                  [&](const CubeRunner& one) { return solver == one.solver; });
+  return found == std::end(kRunners) ? nullptr : found;
+}
+
+double shortest_s(const std::vector<RubberTerm>& terms) {
+  double out = HUGE_VAL;
+  for (const RubberTerm& term : terms) out = std::min(out, term.tau_s);
+  return out;
+}
+
+// The rows of one test; none if it diverged.
+std::vector<CubeRow> rows_of(const std::string& card, const CubeTest& test,
+                             const FoundSolver& found, const CubeRunner& runner,
+                             RubberProof& proof) {
+  const auto files = runner.files(card, test);
+  proof.models.push_back({test.name + "/" + files[0].name, files[0].text});
+  std::vector<CubeRow> rows;
+  const bool has_finished =
+      run_files(found, files, [&](const auto& folder) { rows = runner.rows(folder, test); });
+  if (!has_finished) proof.diverged = test.name;
+  return rows;
+}
+
+void run_each(const std::string& card, const std::vector<CubeTest>& tests,
+              const WantedRubber& wanted, const ReadRubber& read, const FoundSolver& found,
+              const CubeRunner& runner, RubberProof& proof) {
+  const UnitSystem& units = *read.units;
+  // Cubes of a card with terms are stretched so fast that no more than this relaxes.
+  constexpr double kRelaxed = 1e-6;
+  const bool relaxes = runner.has_memory && !wanted.terms.empty();
+  double resolves = found.solver.resolves;
+  if (relaxes) resolves = std::max(resolves, kRelaxed);
+  for (CubeTest test : tests) {
+    if (relaxes) test.ramp = to_card(kRelaxed * shortest_s(wanted.terms), units.time_exponent);
+    test.stress = to_card(wanted.stress_Pa(test, test.top), units.stress_exponent);
+    const auto rows = rows_of(card, test, found, runner, proof);
+    if (!proof.diverged.empty()) return;
+    proof.cubes.push_back(compared(test, rows, wanted, units, resolves));
   }
+  if (!relaxes) return;
+  CubeTest hold = hold_of(wanted.terms, tests.front().top);
+  const StretchHistory history = history_of(hold);
+  hold.ramp = to_card(hold.ramp, units.time_exponent);
+  for (double& end : hold.until) end = to_card(end, units.time_exponent);
+  hold.stress = to_card(wanted.stress_Pa(hold, hold.top), units.stress_exponent);
+  const auto rows = rows_of(card, hold, found, runner, proof);
+  if (!proof.diverged.empty()) return;
+  const auto stresses_of = [&](bool is_projected) {
+    return [&wanted, &history, is_projected](const std::vector<RubberTerm>& terms) {
+      return relaxing_stress_Pa(wanted.law, terms, wanted.bulk_Pa, history, wanted.rule,
+                                is_projected);
+    };
+  };
+  // Versions of FEBio may push the branches forward either way.
+  if (found.solver.name == "febio") {
+    const auto one = stresses_of(false)(wanted.terms), other = stresses_of(true)(wanted.terms);
+    for (std::size_t i = 0; i < one.size(); ++i)
+      resolves = std::max(resolves, std::abs(other[i] / one[i] - 1.0));
+  }
+  proof.hold = compared_hold(history, rows, wanted.terms, stresses_of(false), units, resolves);
 }
 
 // All tests by one run.
@@ -212,11 +275,11 @@ void run_sfepy(const std::string& card, const std::string& target,
           ? card
           : rubber_card(read.law, read.terms,
                         {.target = "sfepy", .units = read.units->name, .bulk_Pa = wanted.bulk_Pa});
-  CubeHold hold;
+  CubeTest hold;
   if (!read.terms.empty()) {
     hold = hold_of(read.terms, tests.front().top);
     const int exponent = read.units->time_exponent;
-    CubeHold in_card = hold;
+    CubeTest in_card = hold;
     in_card.ramp = to_card(hold.ramp, exponent);
     for (double& end : in_card.until) end = to_card(end, exponent);
     proof.models = sfepy_cubes(module, tests, &in_card);
@@ -230,8 +293,15 @@ void run_sfepy(const std::string& card, const std::string& target,
   const double resolves = found.solver.resolves;
   for (std::size_t i = 0; i < tests.size(); ++i)
     proof.cubes.push_back(compared(tests[i], rows[i], wanted, *read.units, resolves));
-  if (!read.terms.empty())
-    proof.hold = compared_hold(hold, rows.back(), wanted, *read.units, resolves);
+  if (read.terms.empty()) return;
+  const StretchHistory history = history_of(hold);
+  const auto stresses_of = [&](const std::vector<RubberTerm>& terms) {
+    auto all = nominal_stress_Pa(wanted.law, terms, Deformation::kUniaxial, history);
+    all.erase(all.begin());
+    return std::vector<double>(all.begin(), all.end());
+  };
+  proof.hold =
+      compared_hold(history, rows.back(), wanted.terms, stresses_of, *read.units, resolves);
 }
 
 }  // namespace
@@ -284,12 +354,12 @@ std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticF
 }
 
 const std::vector<std::string>& rubber_solvers() {
-  static const std::vector<std::string> kSolvers{"calculix", "sfepy"};
+  static const std::vector<std::string> kSolvers{"calculix", "febio", "mtest", "sfepy"};
   return kSolvers;
 }
 
 bool runs_text_of(const std::string& solver, const std::string& target) {
-  return solver == target;
+  return solver == target || (solver == "mtest" && target == "mfront");
 }
 
 std::string statement_of_rubber(const Solver& solver, const std::string& target) {
@@ -305,19 +375,19 @@ RubberProof prove_rubber_card(const std::string& card, const std::string& target
         "the card has no terms of relaxation and the law has " +
         std::to_string(wanted.terms.size()) +
         "; --elastic-only instantaneous or long-term says which law without them it should be");
-  const bool is_sfepy = found.solver.name == "sfepy";
-  if (is_sfepy) wanted.rule = VolumeRule::kWholeOgden;
-  if (!is_sfepy && wanted.law.form == HyperelasticForm::kArrudaBoyce)
+  const CubeRunner* runner = runner_of(found.solver.name);
+  wanted.rule = runner == nullptr ? VolumeRule::kWholeOgden : runner->rule;
+  if (found.solver.name == "calculix" && wanted.law.form == HyperelasticForm::kArrudaBoyce)
     wanted.rule = VolumeRule::kLogarithmic;
   RubberProof proof{.bulk_Pa = wanted.bulk_Pa};
   const std::vector<CubeTest> tests =
-      cube_tests(wanted.law, file, is_sfepy ? kSfepyStep : kCalculixStep);
+      cube_tests(wanted.law, file, runner == nullptr ? kSfepyStep : runner->step);
   if (tests.empty())
     throw std::runtime_error("the law is not stable at any stretch that could be run");
-  if (is_sfepy) {
+  if (runner == nullptr) {
     run_sfepy(card, target, tests, wanted, read, found, proof);
   } else {
-    run_calculix(card, tests, wanted, read, found, proof);
+    run_each(card, tests, wanted, read, found, *runner, proof);
   }
   if (proof.diverged.empty()) {
     note_constants(wanted, proof);

@@ -54,13 +54,13 @@ std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticF
 
 // Names of the solvers that run cards of rubber.
 const std::vector<std::string>& rubber_solvers();
-// True if the solver runs the text of cards for this target; SfePy runs the numbers of others.
+// True if the solver runs the text of cards of rubber for this target; SfePy runs the numbers of others.
 bool runs_text_of(const std::string& solver, const std::string& target);
 // The first line about a run of another solver than the card's: "" if it is that.
 std::string statement_of_rubber(const Solver& solver, const std::string& target);
 
-// Runs a card. calculix reads cards of calculix; sfepy imports those of sfepy, and a module with the numbers
-// that were read from any other. `file` is what the card should be; without it the card is compared with
+// Runs a card. calculix, febio and mtest read the text of theirs; sfepy imports those of sfepy, and a module with the
+// numbers that were read from any other. `file` is what the card should be; without it the card is compared with
 // its own numbers. Throws std::invalid_argument for a solver that cannot run the card, and what run_files() throws.
 RubberProof prove_rubber_card(const std::string& card, const std::string& target,
                               const ReadRubber& read, const HyperelasticFile* file,
