@@ -29,11 +29,7 @@ std::string stated_card_sum(const std::string& card) {
 
 std::string card_sum(const std::string& card) {
   std::string rest = card;
-  if (const std::size_t at = digits_at(card); at != std::string::npos) {
-    const std::size_t begin = at < 1 ? 0 : rest.rfind('\n', at) + 1;  // npos + 1 is 0
-    const std::size_t end = rest.find('\n', at);
-    rest.erase(begin, end == std::string::npos ? end : end + 1 - begin);
-  }
+  if (const std::size_t at = digits_at(card); at != std::string::npos) rest.erase(at, kDigits);
   std::erase(rest, '\r');
   return sha256_of_text(rest);
 }

@@ -4,8 +4,8 @@
 
 namespace viscard {
 
-// A card states in its header the SHA-256 of its own text, without the line of that sum and without
-// carriage returns, so that an edit of any other line shows.
+// A card states in its header the SHA-256 of its own text, without the digits of that sum and without
+// carriage returns, so that an edit of anything else shows.
 
 // "card sha256 000..." as it is written before the text of the card is known; sealed() puts the sum in.
 std::string unsealed_sum_line();

@@ -94,7 +94,7 @@ DeskFolder::DeskFolder(fs::path path) : path_(fs::absolute(path)) {
     throw std::runtime_error(path_.string() + " is a file; name the folder that holds the tables");
   }
   std::error_code error;
-  fs::create_directories(path_, error);
+  fs::create_directory(path_, error);
   if (error) {
     throw std::runtime_error(path_.string() + ": cannot create this folder: " + error.message() +
                              ". Name one that you may write to");

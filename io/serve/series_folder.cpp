@@ -119,7 +119,7 @@ SeriesFolder::SeriesFolder(const fs::path& folder) : folder_(fs::absolute(folder
                              " is a file; name the folder that holds the series");
   }
   std::error_code error;
-  fs::create_directories(folder_, error);
+  fs::create_directory(folder_, error);
   if (error) {
     throw std::runtime_error(folder_.string() + ": cannot create this folder: " + error.message() +
                              ". Name one that you may write to");

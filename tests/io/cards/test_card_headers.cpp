@@ -1,5 +1,6 @@
 // Headers of cards are checked as their numbers are; second elements, bands, reductions beyond use.
 #include "io/cards/card.h"
+#include "io/cards/card_sum.h"
 #include "io/cards/check_card.h"
 #include "io/cards/targets/card_targets.h"
 #include "tests/io/cards/card_materials.h"
@@ -181,4 +182,18 @@ TEST_CASE("the temperature that a header asks for is in the unit of the card", "
              Contains("296.15 K for the times below"));
   CHECK_THAT(write_card(material, card_target("abaqus"), {}).text,
              Contains("23 C for the times below"));
+}
+
+TEST_CASE("no flipped bit of a card leaves its sum right", "[cards]") {
+  const CardTarget& target = card_target("abaqus");
+  const std::string text =
+      write_card(material_for(target), target, {.units = "mm-t-s", .is_reproducible = true}).text;
+  REQUIRE(stated_card_sum(text) == card_sum(text));
+  std::size_t n_unnoticed = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::string flipped = text;
+    flipped[i] = static_cast<char>(flipped[i] ^ 1);
+    n_unnoticed += stated_card_sum(flipped) == card_sum(flipped) ? 1 : 0;
+  }
+  CHECK(n_unnoticed == 0);
 }

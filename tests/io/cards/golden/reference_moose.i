@@ -11,7 +11,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
-# card sha256 0bc995c0c12e6918f3d6be1b95dc247219a5e4687dcdbc6ed0083c23f3c5b1a4
+# card sha256 3fc4b3e11f9f78f485828a1d0bd6e6fbb2a74b91038ce268d0f81c5dadac7608
 # creep_viscosity is the relaxation time. Keep the UserObject, or nothing relaxes. zienkiewicz is exact for steps of one size; where the size changes, MOOSE uses the old one once.
 [Materials]
   [PDMS]

@@ -12,7 +12,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
-# card sha256 0c22e9f6ab5245d35f13f244ace7246bffd56e606aff892d60b0c841114ce13b
+# card sha256 23e1abade25181688c86655c3279b9eac8f1d83d53f0ae57e41eb80f75b19a33
 # Import it; step after step: stiffness(dt) for dw_lin_elastic, prestress(memory.known_stress(dt)) for dw_lin_prestress, then memory.advance.
 import numpy as np
 
