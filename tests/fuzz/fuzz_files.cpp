@@ -7,7 +7,7 @@
 //   material  the input overwrites bytes of a material file with a sum
 #include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
-#include "io/flow/design/requirements.h"
+#include "io/flow/design/requirement_kinds.h"
 #include "io/flow/optimise/design_spec.h"
 #include "io/flow/sweep/study_store.h"
 #include "io/materials/material_file.h"
@@ -91,8 +91,11 @@ const std::string& whole_store() {
     const auto path = folder() / "whole.sqlite";
     {
       StudyStore store(path, study());
-      store.add(StudyPoint{
-          .point = 0, .values = {}, .results = {{"voltage_V", 1.0}}, .failure = "", .kind = {}});
+      store.add(StudyPoint{.point = 0,
+                           .values = {},
+                           .results = {{"voltage_V", 1.0, "V", 0.0}},
+                           .failure = "",
+                           .kind = {}});
     }
     return read_file(path);
   }();
