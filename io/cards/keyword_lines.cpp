@@ -69,6 +69,15 @@ std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, cha
   return blocks;
 }
 
+std::vector<CardLine> mapdl_commands(const std::string& text) {
+  std::vector<CardLine> commands;
+  for (const CardLine& line : card_lines(text, "!")) {
+    for (const std::string& command : cells(line.text.substr(0, line.text.find('!')), '$'))
+      commands.push_back({line.number, command});
+  }
+  return commands;
+}
+
 void check_width(const CardLine& line, std::size_t most, ReadCard& card) {
   std::vector<std::string> row = cells(line.text, ',');
   while (!row.empty() && row.back().empty()) row.pop_back();

@@ -31,6 +31,9 @@ struct KeywordBlock {
 // The blocks whose keywords start with `mark`; lines above the first keyword are left out.
 std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, char mark);
 
+// Commands of ANSYS MAPDL without comments; "$" separates those of one line.
+std::vector<CardLine> mapdl_commands(const std::string& text);
+
 double density_in(const KeywordBlock& block);
 // A mistake if the row has more cells than the keyword takes: a decimal comma, or a column that is
 // not read.

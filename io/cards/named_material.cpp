@@ -6,6 +6,7 @@
 #include "io/cards/unread_tokens.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 namespace viscard {
@@ -112,7 +113,9 @@ Materials ansys_materials(const std::string& text) {
 Materials comsol_materials(const std::string& text) {
   Materials out;
   for (const CardLine& line : card_lines(text, "%")) {
-    const auto row = first_match(line.text, "^\\s*(\\w+)_[A-Za-z0-9]+\\s");
+    // Other parameters of a model have other endings.
+    const auto row = first_match(
+        line.text, "^\\s*(\\w+)_(?:Einf|E|nu|mu|C10|C01|kappa|rho|G\\d*|g\\d*|K\\d*|tau\\d*)\\s");
     if (!row) continue;
     const auto known = std::find_if(out.begin(), out.end(), [&](const FoundMaterial& one) {
       return one.name == row->group[1];
@@ -124,7 +127,8 @@ Materials comsol_materials(const std::string& text) {
   return out;
 }
 
-Materials materials_in(const std::string& text, const std::string& target) {
+// Nothing for a target whose materials are not told apart.
+std::optional<Materials> materials_in(const std::string& text, const std::string& target) {
   if (target == "frontistr") return keyword_materials(text, '!');
   if (target == "calculix" || target.rfind("abaqus", 0) == 0) return keyword_materials(text, '*');
   if (target.rfind("febio", 0) == 0) return febio_materials(text);
@@ -132,7 +136,7 @@ Materials materials_in(const std::string& text, const std::string& target) {
   if (target == "openradioss") return radioss_materials(text);
   if (target == "ansys") return ansys_materials(text);
   if (target.rfind("comsol", 0) == 0) return comsol_materials(text);
-  throw std::invalid_argument("materials in files for " + target + " are not told apart by name");
+  return std::nullopt;
 }
 
 const char* comment_of(const std::string& target) {
@@ -146,20 +150,23 @@ const char* comment_of(const std::string& target) {
 }  // namespace
 
 std::vector<std::string> material_names(const std::string& text, const std::string& target) {
-  std::vector<std::string> out;
-  for (const FoundMaterial& one : materials_in(text, target)) {
+  std::vector<std::string> out, numbers;
+  for (const FoundMaterial& one : materials_in(text, target).value_or(Materials{})) {
     const std::string& name = one.name.empty() ? one.number : one.name;
     const bool is_part =
-        one.name.empty() &&
-        std::any_of(out.begin(), out.end(), [&](const auto& known) { return known == name; });
+        one.name.empty() && std::find(numbers.begin(), numbers.end(), one.number) != numbers.end();
     if (!name.empty() && !is_part) out.push_back(name);
+    numbers.push_back(one.number);
   }
   return out;
 }
 
 std::string material_named(const std::string& text, const std::string& target,
                            const std::string& name) {
-  const Materials all = materials_in(text, target);
+  const auto found = materials_in(text, target);
+  if (!found)
+    throw std::invalid_argument("materials in files for " + target + " are not told apart by name");
+  const Materials& all = *found;
   const auto is_overlay = [&](const FoundMaterial& one) {
     return target == "calculix" && one.name.rfind(name + "_", 0) == 0;
   };

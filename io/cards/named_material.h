@@ -9,7 +9,7 @@ namespace viscard {
 // (Abaqus, CalculiX, FrontISTR), FEBio, ANSYS (numbers), LS-DYNA, OpenRadioss and COMSOL (the words before the last
 // "_"); in files for other targets not.
 
-// The names, or the numbers of materials without a name, in their order.
+// The names, or the numbers of materials without a name, in their order; none for another target.
 std::vector<std::string> material_names(const std::string& text, const std::string& target);
 
 // The text in which all other materials are comments or blanks, so that lines keep their numbers. In CalculiX a name

@@ -319,10 +319,9 @@ std::vector<CardFinding> header_findings(const std::string& text, const RubberPa
     // The header has ten digits, a column of LS-DYNA six and more.
     constexpr double kRounding = 2e-5;
     if (relative_mismatch(a, b) <= kRounding) return;
-    out.push_back(
-        {"header-differs",
-         fmt::format("{} is {:.9g}, {:.6g} times the {:.9g} stated", what, a, a / b, b),
-         true});
+    out.push_back({"header-differs",
+                   fmt::format("{} is {:.9g}, {:.6g} times the {:.9g} stated", what, a, a / b, b),
+                   true});
   };
   if (const auto E = stated_number(text, "Young's modulus at rest "))
     compare("Young's modulus at rest", youngs_modulus_Pa(found.law), *E);

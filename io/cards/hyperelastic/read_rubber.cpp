@@ -3,7 +3,8 @@
 #include "io/basics/words.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/hyperelastic/rubber_card.h"
-#include "io/cards/hyperelastic/rubber_readers.h"
+#include "io/cards/hyperelastic/rubber_targets.h"
+#include "io/cards/named_material.h"
 #include "io/cards/unit_system.h"
 #include "io/cards/unread_tokens.h"
 
@@ -32,19 +33,7 @@ std::string reading_of(const RubberText& read) {
 }
 
 RubberText text_of_target(const std::string& text, const std::string& target) {
-  if (target == "abaqus" || target == "calculix")
-    return read_keyword_rubber(text, target == "calculix");
-  if (target == "ansys") return read_ansys_rubber(text);
-  if (target == "febio") return read_febio_rubber(text);
-  if (target == "lsdyna") return read_lsdyna_rubber(text);
-  if (target == "openradioss") return read_openradioss_rubber(text);
-  if (target == "frontistr") return read_frontistr_rubber(text);
-  if (target == "sfepy") return read_sfepy_rubber(text);
-  if (target == "mfront") return read_mfront_rubber(text);
-  if (target == "moose") return read_moose_rubber(text);
-  if (target == "comsol") return read_comsol_rubber(text);
-  throw std::invalid_argument("cards of rubber for " + target + " cannot be read; those for " +
-                              listed(rubber_card_targets()) + " can");
+  return rubber_target(target).read(text);
 }
 
 Eigen::VectorXd vector_of(const std::vector<double>& numbers) {
@@ -151,6 +140,14 @@ ReadRubber read_rubber_card(const std::string& text, const std::string& target,
   if (read.numbers.density > 0.0)
     out.density_kg_m3 = from_card(read.numbers.density, out.units->density_exponent);
   out.findings = read.findings;
+  const auto names = material_names(text, target);
+  const bool is_named = std::any_of(out.findings.begin(), out.findings.end(), [](const auto& one) {
+    return one.name == "several-materials";
+  });
+  if (names.size() > 1 && !is_named)
+    out.findings.push_back(
+        {"several-materials",
+         "the file has the materials " + listed(names) + "; choose one by --material-name", true});
   add_unread_parts(unread_tokens(text, target,
                                  [&](const std::string& changed) {
                                    return reading_of(text_of_target(changed, target));

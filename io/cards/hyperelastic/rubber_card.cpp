@@ -12,8 +12,8 @@
 // terms of relaxation: rubber_terms.cpp.
 #include "io/cards/hyperelastic/rubber_card.h"
 
-#include "io/basics/words.h"
 #include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/hyperelastic/rubber_targets.h"
 #include "io/cards/hyperelastic/rubber_terms.h"
 #include "io/cards/keyword_lines.h"
 #include "io/cards/unit_system.h"
@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace viscard {
 namespace {
@@ -47,13 +48,13 @@ std::string rows_of_eight(const Numbers& numbers) {
   return text;
 }
 
-// abaqus and calculix.
-std::string keyword_card(const RubberNumbers& law, const std::string& target,
-                         const std::string& material) {
-  if (law.form == Form::kGent) refuse_law(law, target);
+}  // namespace
+
+std::string keyword_rubber(const RubberNumbers& law, bool is_calculix,
+                           const std::string& material) {
   // calculix takes a smaller D for a missing one.
   constexpr double kLeast = 1e-10;
-  require(target != "calculix" || law.d() >= kLeast,
+  require(!is_calculix || law.d() >= kLeast,
           "calculix replaces D = 2/K below 1e-10 by 0.1/mu, which is far softer; choose units with "
           "smaller numbers (--units mm-t-s) or a smaller --bulk-modulus");
   std::string keyword;
@@ -73,14 +74,14 @@ std::string keyword_card(const RubberNumbers& law, const std::string& target,
   // One D for each term of OGDEN and YEOH. The higher ones add the 4th and 6th power of J - 1:
   // abaqus leaves them out for 0; calculix would replace a 0, and with D_1^i they count for nothing.
   const std::size_t n_terms = is_ogden(law.form) || law.form == Form::kYeoh ? law.moduli.size() : 1;
-  for (std::size_t i = 1; i < n_terms; ++i) numbers.push_back(target == "calculix" ? 1e10 : 0.0);
+  for (std::size_t i = 1; i < n_terms; ++i) numbers.push_back(is_calculix ? 1e10 : 0.0);
   if (!law.terms.empty()) keyword += ", MODULI=INSTANTANEOUS";
   std::string text = "*MATERIAL, NAME=" + material + "\n";
   if (law.density > 0.0) text += "*DENSITY\n" + number_of_20(law.density) + ",\n";
   return text + "*HYPERELASTIC, " + keyword + "\n" + rows_of_eight(numbers) + abaqus_terms(law);
 }
 
-std::string ansys_card(const RubberNumbers& law) {
+std::string ansys_rubber(const RubberNumbers& law) {
   std::string option;
   Numbers numbers = law.moduli;
   std::size_t n_terms = 1;
@@ -112,8 +113,10 @@ std::string ansys_card(const RubberNumbers& law) {
   return text + ansys_terms(law);
 }
 
+namespace {
+
 RubberNumbers numbers_of(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
-                         const RubberCardOptions& options) {
+                         const RubberTarget& target, const RubberCardOptions& options) {
   const UnitSystem& units = unit_system(options.units);
   RubberNumbers out;
   out.form = law.form;
@@ -121,12 +124,11 @@ RubberNumbers numbers_of(const HyperelasticLaw& law, const std::vector<RubberTer
   out.units = &units;
   for (const double modulus_Pa : law.moduli_Pa)
     out.moduli.push_back(to_card(modulus_Pa, units.stress_exponent));
-  const bool may_be_incompressible = options.target == "abaqus" || options.target == "ansys";
   out.shear = to_card(youngs_modulus_Pa(law) / 3.0, units.stress_exponent);
   if (options.bulk_Pa) {
     require_positive("the bulk modulus", *options.bulk_Pa, "Pa");
     out.bulk = to_card(*options.bulk_Pa, units.stress_exponent);
-  } else if (!may_be_incompressible) {
+  } else if (!target.may_be_incompressible) {
     out.bulk = kUsualBulkRatio * out.shear;
   }
   if (options.density_kg_m3) {
@@ -139,13 +141,6 @@ RubberNumbers numbers_of(const HyperelasticLaw& law, const std::vector<RubberTer
 }
 
 }  // namespace
-
-const std::vector<std::string>& rubber_card_targets() {
-  static const std::vector<std::string> kTargets{"abaqus", "ansys",       "calculix", "comsol",
-                                                 "febio",  "frontistr",   "lsdyna",   "mfront",
-                                                 "moose",  "openradioss", "sfepy"};
-  return kTargets;
-}
 
 HyperelasticLaw law_without_terms(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
                                   const std::string& when) {
@@ -170,27 +165,17 @@ std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm
     elastic.elastic_only.clear();
     return rubber_card(law_without_terms(law, terms, options.elastic_only), elastic);
   }
-  const RubberNumbers numbers = numbers_of(law, terms, options);
-  const auto& known = rubber_card_targets();
-  if (std::find(known.begin(), known.end(), options.target) != known.end())
-    require_terms_taken(numbers, options.target, options.may_approximate);
-  if (options.target == "abaqus" || options.target == "calculix") {
-    return keyword_card(numbers, options.target, options.material_name);
+  const RubberTarget& target = rubber_target(options.target);
+  const RubberNumbers numbers = numbers_of(law, terms, target, options);
+  if (target.laws.of(law.form).empty()) {
+    throw std::invalid_argument(
+        target.name + " has no " + name_of(law.form) +
+        " law; fit another with viscard fit --model, such as mooney-rivlin or yeoh");
   }
-  if (options.target == "febio") return febio_rubber(numbers, options.material_name);
-  if (options.target == "ansys") return ansys_card(numbers);
-  if (options.target == "frontistr") return frontistr_rubber(numbers, options.material_name);
-  if (options.target == "lsdyna") return lsdyna_rubber(numbers, options.material_name);
-  if (options.target == "openradioss") {
-    return terms.empty() ? openradioss_rubber(numbers, options.material_name)
-                         : openradioss_with_terms(numbers, options.material_name);
-  }
-  if (options.target == "comsol") return comsol_rubber(numbers, options.material_name);
-  if (options.target == "mfront") return mfront_rubber(numbers, options.material_name);
-  if (options.target == "moose") return moose_rubber(numbers, options.material_name);
-  if (options.target == "sfepy") return sfepy_rubber(numbers);
-  throw std::invalid_argument("there is no card of rubber for '" + options.target + "'; use " +
-                              listed(rubber_card_targets()));
+  require(!target.needs_density || numbers.density > 0.0,
+          target.name + " needs a density: --density \"1.1 g/cm3\"");
+  require_terms_taken(numbers, target, options.may_approximate);
+  return target.write(numbers, options.material_name);
 }
 
 }  // namespace viscard

@@ -3,7 +3,7 @@
 #include "io/cards/card_header.h"
 #include "io/cards/card_sum.h"
 #include "io/cards/hyperelastic/check_rubber.h"
-#include "io/cards/hyperelastic/rubber_terms.h"
+#include "io/cards/hyperelastic/rubber_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/materials/material_json.h"
 #include "models/hyperelastic/law_stability.h"
@@ -40,16 +40,17 @@ std::string relaxation_line(const HyperelasticFile& file, const RubberCardOption
 }
 
 // What is known about the law, one line each.
-std::vector<std::string> header_lines(const HyperelasticFile& file,
+std::vector<std::string> header_lines(const HyperelasticFile& file, const RubberTarget& target,
                                       const RubberCardOptions& options) {
   std::vector<std::string> lines{
       "viscard card: " + name_of(file.law.form) + " for " + options.target,
       fmt::format("units: {} ({})", options.units, unit_system(options.units).description),
       relaxation_line(file, options)};
   if (!file.terms.empty() && options.elastic_only.empty()) {
-    lines.push_back("terms: " + rubber_terms_rule(options.target));
+    lines.push_back("terms: " + target.terms);
   }
-  lines.push_back("evidence: " + rubber_evidence(options.target));
+  lines.push_back("conventions: " + target.laws.of(file.law.form) + "; volume " + target.volume);
+  lines.push_back("evidence: " + target.evidence);
   if (options.density_kg_m3) {
     lines.push_back("density " + text_of(*options.density_kg_m3, kDigits) + " kg/m3");
   }
@@ -61,10 +62,16 @@ std::vector<std::string> header_lines(const HyperelasticFile& file,
     lines.push_back("bulk modulus " + text_of(*options.bulk_Pa, kDigits) + " Pa");
     const std::string doubt = doubtful_bulk_modulus(file, options);
     if (!doubt.empty()) lines.push_back("warning: " + doubt);
-  } else if (options.target == "abaqus" || options.target == "ansys") {
+  } else if (target.may_be_incompressible) {
     lines.push_back("incompressible: use hybrid (mixed) elements, or --bulk-modulus");
   } else {
     lines.push_back(std::string(kUsualBulkText) + ", chosen because the solver needs one");
+  }
+  if (file.E0_interval_95.high > file.E0_interval_95.low) {
+    lines.push_back("95 % intervals: E0 [" + text_of(file.E0_interval_95.low) + ", " +
+                    text_of(file.E0_interval_95.high) + "] Pa, E_inf [" +
+                    text_of(file.E_inf_interval_95.low) + ", " +
+                    text_of(file.E_inf_interval_95.high) + "] Pa");
   }
   for (std::size_t d = 0; d < file.measured.size(); ++d) {
     const auto& measured = file.measured[d];
@@ -86,15 +93,6 @@ std::vector<std::string> header_lines(const HyperelasticFile& file,
   if (!options.command.empty()) lines.push_back("by " + options.command);
   lines.push_back("viscard " VISCARD_VERSION);
   return lines;
-}
-
-std::string comment_mark(const std::string& target) {
-  if (target == "febio") return "<!--";
-  if (target == "ansys") return "!";
-  if (target == "lsdyna") return "$";
-  if (target == "comsol") return "%";
-  if (target == "mfront") return "//";
-  return target == "abaqus" || target == "calculix" ? "**" : "#";
 }
 
 // Throws if the text does not say what the file does.
@@ -152,9 +150,10 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
                              ". --accept-flags writes it all the same");
   }
   refuse_bulk_modulus(file, options);
+  const RubberTarget& target = rubber_target(options.target);
   const std::string card = rubber_card(file.law, file.terms, options);
   const std::string text =
-      sealed(as_comments(header_lines(file, options), comment_mark(options.target)) + card);
+      sealed(as_comments(header_lines(file, target, options), target.comment) + card);
   read_back(text, file, name, options);
   return text;
 }

@@ -139,8 +139,8 @@ struct TableOfMapdl {
 std::map<std::string, TableOfMapdl> mapdl_tables(const std::string& text) {
   std::map<std::string, TableOfMapdl> tables;
   TableOfMapdl* table = nullptr;
-  for (const CardLine& line : card_lines(text, "!")) {
-    const auto row = cells(line.text.substr(0, line.text.find('!')), ',');
+  for (const CardLine& line : mapdl_commands(text)) {
+    const auto row = cells(line.text, ',');
     const std::string command = upper(row[0]);
     if (command == "TB" && row.size() > 1) {
       table = &tables[upper(row[1]).substr(0, 4)];
@@ -299,8 +299,8 @@ RubberText read_ansys_rubber(const std::string& text) {
                              "'; OGDEN, NEO, MOONEY, POLY, YEOH, BOYCE and GENT are read");
   }
   law.bulk = numbers.size() > n ? bulk_of(numbers[n]) : 0.0;
-  for (const CardLine& line : card_lines(text, "!")) {
-    const auto row = cells(line.text.substr(0, line.text.find('!')), ',');
+  for (const CardLine& line : mapdl_commands(text)) {
+    const auto row = cells(line.text, ',');
     const std::string command = upper(row[0]), property = row.size() > 1 ? upper(row[1]) : "";
     if (command == "MP" && property == "DENS") law.density = cell_number(row, 3, line, "DENS");
     if (command == "MPDATA" && row.size() > 6 && upper(row[3]) == "DENS")

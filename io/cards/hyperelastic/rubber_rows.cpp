@@ -51,10 +51,6 @@ struct ShortRows {
   }
 };
 
-void require_density(const RubberNumbers& law, const std::string& target) {
-  require(law.density > 0.0, target + " needs a density: --density \"1.1 g/cm3\"");
-}
-
 // The law after all relaxation.
 RubberNumbers relaxed(RubberNumbers law) {
   const double share = law.long_term_share();
@@ -109,13 +105,6 @@ std::vector<double> pairs_of(const RubberNumbers& law) {
   return out;
 }
 
-void refuse_law(const RubberNumbers& law, const std::string& target) {
-  throw std::invalid_argument(
-      target + " has no " + name_of(law.form) +
-      " law; fit another with viscard fit --model, such as mooney-rivlin or "
-      "yeoh");
-}
-
 std::string frontistr_rubber(const RubberNumbers& law, const std::string& material) {
   constexpr double kLeast = 1e-12;
   require(law.d() > kLeast,
@@ -126,10 +115,8 @@ std::string frontistr_rubber(const RubberNumbers& law, const std::string& materi
     type = "NEOHOOKE";
   } else if (law.form == Law::kMooneyRivlin) {
     type = "MOONEY-RIVLIN";
-  } else if (law.form == Law::kArrudaBoyce) {
-    type = "ARRUDA-BOYCE";
   } else {
-    refuse_law(law, "frontistr");
+    type = "ARRUDA-BOYCE";
   }
   for (const double modulus : law.moduli) numbers += number_of_20(modulus) + ", ";
   for (const double shape : law.shapes) numbers += number_of_20(shape) + ", ";
@@ -140,9 +127,7 @@ std::string frontistr_rubber(const RubberNumbers& law, const std::string& materi
 }
 
 std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& material) {
-  require_density(at_once, "lsdyna");
   const RubberNumbers law = relaxed(at_once);
-  if (law.form == Law::kGent || law.form == Law::kArrudaBoyce) refuse_law(law, "lsdyna");
   const bool ogden = is_ogden(law.form);
   ShortRows rows;
   std::string first = rows.row({law.density, poisson_ratio_of(law)});
@@ -172,8 +157,6 @@ std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& mater
 }
 
 std::string openradioss_rubber(const RubberNumbers& law, const std::string& material) {
-  require_density(law, "openradioss");
-  if (law.form == Law::kGent) refuse_law(law, "openradioss");
   const bool is_yeoh = law.form == Law::kYeoh, is_boyce = law.form == Law::kArrudaBoyce;
   std::string text = radioss_unit_block(law) +
                      fmt::format("/MAT/LAW{}/1/1\n{}\n",

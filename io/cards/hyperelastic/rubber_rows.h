@@ -42,12 +42,11 @@ RubberNumbers as_ogden(const RubberNumbers& law);
 double poisson_ratio_of(const RubberNumbers& law);
 // The block /UNIT of OpenRadioss.
 std::string radioss_unit_block(const RubberNumbers& law);
-// Throws std::invalid_argument "target has no ... law".
-[[noreturn]] void refuse_law(const RubberNumbers& law, const std::string& target);
-
 // Cards of solvers that take nothing else than rows of numbers. Conventions and sources stand in
 // rubber_rows.cpp. They throw std::invalid_argument for laws that the solver has not, for a density that
 // it needs, and for numbers that it would misread.
+std::string keyword_rubber(const RubberNumbers& law, bool is_calculix, const std::string& material);
+std::string ansys_rubber(const RubberNumbers& law);
 std::string febio_rubber(const RubberNumbers& law, const std::string& material);
 std::string frontistr_rubber(const RubberNumbers& law, const std::string& material);
 std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& material);

@@ -22,63 +22,17 @@
 #include "io/cards/hyperelastic/rubber_terms.h"
 
 #include "io/cards/column_fields.h"
+#include "io/cards/hyperelastic/rubber_targets.h"
 #include "io/cards/keyword_lines.h"
 #include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace viscard {
 namespace {
-
-// What a target does with terms.
-struct TermsRule {
-  const char* target;
-  bool is_taken;
-  bool is_for_small_strain;
-  std::size_t most;  // terms; 0: any number
-  const char* words;
-};
-
-constexpr std::array<TermsRule, 11> kTermsRules{{
-    {"abaqus", true, false, 0,
-     "the law at once, g_i of its deviator, constant bulk modulus, tau_i; Simo's rule at large "
-     "strain (Theory Guide 4.8.2), not run"},
-    {"ansys", true, false, 100,
-     "the law at once, g_i of its deviator, constant bulk modulus, tau_i; NOT CHECKED: no public "
-     "text with its rule at large strain was found"},
-    {"febio", true, false, 6,
-     "the law at once with g0 = 1 - sum g, g_i, t_i = tau_i, constant bulk modulus; Simo's rule at "
-     "large strain, run in FEBio 4.11 with Ogden"},
-    {"openradioss", true, false, 50,
-     "LAW62: the law at once, gamma_i = g_i of its deviator, tau_i; Simo's rule at large strain "
-     "(its source), not run"},
-    {"lsdyna", true, true, 12,
-     "approximated: the law after all relaxation and shear moduli G_i = g_i G_0 with BETA_i = "
-     "1/tau_i, right at small strain; NOT CHECKED at large strain, where it is not the fitted law"},
-    {"sfepy", true, false, 0,
-     "the law at once, g_i of its deviator, tau_i; SfePy has no memory: class Memory integrates "
-     "Simo's rule in numpy"},
-    {"calculix", false, false, 0, "ccx has no Prony series beside *HYPERELASTIC and ignores one"},
-    {"comsol", false, false, 0, "the parameters are those of the law alone"},
-    {"frontistr", false, false, 0,
-     "the last of !HYPERELASTIC and !VISCOELASTIC decides on the material"},
-    {"mfront", true, false, 0,
-     "the law at once, g_i of its deviator, constant bulk modulus, tau_i; the behaviour integrates "
-     "Simo's rule, exact for a stress that is linear in each step"},
-    {"moose", false, false, 0, "ComputeNeoHookeanStress has no memory"},
-}};
-
-const TermsRule& terms_rule(const std::string& target) {
-  const auto found = std::find_if(kTermsRules.begin(), kTermsRules.end(),
-                                  [&](const TermsRule& rule) { return rule.target == target; });
-  if (found == kTermsRules.end()) throw std::invalid_argument("no card of rubber for " + target);
-  return *found;
-}
 
 constexpr int kColumn = 20;
 
@@ -138,42 +92,26 @@ class Memory:
 
 }  // namespace
 
-std::string rubber_evidence(const std::string& target) {
-  if (target == "calculix") return "run by viscard's tests in CalculiX 2.20, laws without terms";
-  if (target == "sfepy") return "run by viscard's tests in SfePy 2021.4";
-  if (target == "mfront") return "run in MTest 5.2";
-  if (target == "frontistr") return "run in FrontISTR 5.9";
-  if (target == "febio") {
-    return "Ogden, Mooney-Rivlin and Gent run in FEBio 4.11; of 'uncoupled hyperelastic' (Yeoh, "
-           "Arruda-Boyce) FEBio's parser and derivatives of W were run, the material not";
-  }
-  return "not run in its solver: by its manual or its source";
-}
-
-std::string rubber_terms_rule(const std::string& target) {
-  return terms_rule(target).words;
-}
-
-void require_terms_taken(const RubberNumbers& law, const std::string& target,
+void require_terms_taken(const RubberNumbers& law, const RubberTarget& target,
                          bool may_approximate) {
   if (law.terms.empty()) return;
-  const TermsRule& rule = terms_rule(target);
   const std::string way_out =
       "; --elastic-only long-term or --elastic-only instantaneous writes the law without them";
-  if (!rule.is_taken) {
-    throw std::invalid_argument(target + " cannot take the terms of relaxation: " + rule.words +
-                                way_out);
+  if (!target.takes_terms) {
+    throw std::invalid_argument(target.name +
+                                " cannot take the terms of relaxation: " + target.terms + way_out);
   }
-  if (rule.most > 0 && law.terms.size() > rule.most) {
+  if (target.most_terms > 0 && law.terms.size() > target.most_terms) {
     throw std::invalid_argument(fmt::format("{} takes {} terms of relaxation and the law has {}{}",
-                                            target, rule.most, law.terms.size(), way_out));
+                                            target.name, target.most_terms, law.terms.size(),
+                                            way_out));
   }
   require(law.long_term_share() > 0.0,
           "the shares g of the terms sum to 1: nothing is left after all relaxation, and solvers "
           "need less; fit again with fewer --terms");
-  if (!rule.is_for_small_strain || may_approximate) return;
+  if (!target.is_for_small_strain || may_approximate) return;
   throw std::invalid_argument(
-      target +
+      target.name +
       " adds its terms of relaxation as a solid that is linear in the strain, not by the law's "
       "own stress: right at small strain only; --approximate writes them" +
       way_out);
@@ -208,7 +146,6 @@ std::string febio_terms(const RubberNumbers& law) {
 }
 
 std::string openradioss_with_terms(const RubberNumbers& law, const std::string& material) {
-  require(law.density > 0.0, "openradioss needs a density: --density \"1.1 g/cm3\"");
   if (!has_ogden_form(law.form)) {
     throw std::invalid_argument(
         "openradioss takes terms of relaxation in LAW62, which has no " + name_of(law.form) +

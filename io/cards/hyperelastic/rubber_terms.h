@@ -6,17 +6,13 @@
 
 namespace viscard {
 
-// How a target takes the terms of relaxation beside a law, one sentence for the card's header: which law
-// its numbers are (at once, or after all relaxation), which shares and times, its rule at large strain.
-std::string rubber_terms_rule(const std::string& target);
-
-// Which solver ran cards of rubber for the target, and where none did "not run"; for the header.
-std::string rubber_evidence(const std::string& target);
+struct RubberTarget;
 
 // Throws std::invalid_argument if the target cannot take the terms of the law: no memory beside a law,
 // too many terms, shares that sum to 1, or a rule that holds at small strain only (unless it may
 // approximate).
-void require_terms_taken(const RubberNumbers& law, const std::string& target, bool may_approximate);
+void require_terms_taken(const RubberNumbers& law, const RubberTarget& target,
+                         bool may_approximate);
 
 // Lines that stand below the law, or around it.
 std::string abaqus_terms(const RubberNumbers& law);

@@ -109,17 +109,6 @@ void add_tables(const std::vector<PronyTable>& tables, ReadCard& card) {
   }
 }
 
-// Commands without comments; "$" separates commands on one line.
-std::vector<CardLine> ansys_commands(const std::string& text) {
-  std::vector<CardLine> commands;
-  for (const CardLine& line : card_lines(text, "!")) {
-    for (const std::string& command : cells(line.text.substr(0, line.text.find('!')), '$')) {
-      commands.push_back({line.number, command});
-    }
-  }
-  return commands;
-}
-
 // All commands of the card must be of one material number.
 void check_material_number(const std::vector<std::string>& row, const CardLine& line,
                            std::string& number, ReadCard& card) {
@@ -162,7 +151,7 @@ void read_ansys(const std::string& text, ReadCard& card) {
   std::vector<PronyTable> tables;
   bool in_elastic = false, in_shift = false, has_young = false;
   std::string number;
-  for (const CardLine& line : ansys_commands(text)) {
+  for (const CardLine& line : mapdl_commands(text)) {
     const std::vector<std::string> row = cells(line.text, ',');
     const std::string command = upper(row[0]);
     if (command == "MP" || command == "TB") check_material_number(row, line, number, card);

@@ -2,6 +2,7 @@
 #include "io/basics/timestamp.h"
 #include "io/basics/words.h"
 #include "io/cards/hyperelastic/rubber_file_card.h"
+#include "io/cards/hyperelastic/rubber_targets.h"
 #include "io/cli/card/card_words.h"
 #include "io/cli/words/json_output.h"
 #include "io/materials/hyperelastic_file.h"
@@ -51,9 +52,10 @@ bool is_rubber(const CardWords& words) {
 int write_rubber_card(const CardWords& words, Streams& streams) {
   require_rubber_target(words);
   const HyperelasticFile file = read_hyperelastic(words.material, words.plausible);
-  if (words.target == "mfront" && words.density_kg_m3) {
-    throw UsageError(
-        "a behaviour of MFront has no density, the solver that calls it has; omit --density");
+  const bool has_density = rubber_target(words.target).has_density;
+  if (!has_density && words.density_kg_m3) {
+    throw UsageError("cards for " + words.target +
+                     " have no place for a density, the solver that uses them has; omit --density");
   }
   RubberCardOptions options;
   options.file_sha256 = sha256_of_file(words.material);
@@ -66,7 +68,7 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   options.units = words.units.empty() ? "SI" : words.units;
   options.bulk_Pa = words.bulk_Pa ? words.bulk_Pa : file.bulk_Pa;
   options.density_kg_m3 = words.density_kg_m3 ? words.density_kg_m3 : file.density_kg_m3;
-  if (words.target == "mfront") options.density_kg_m3.reset();
+  if (!has_density) options.density_kg_m3.reset();
   options.accepts_flags = words.accepts_flags;
   options.may_approximate = words.may_approximate;
   options.elastic_only = words.elastic_only;

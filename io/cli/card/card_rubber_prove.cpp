@@ -94,7 +94,9 @@ void print_rubber_proof(const CardWords& words, const FoundSolver& found, const 
                        proof.hold->resolved);
   }
   print_constants(proof, out);
-  out << verdict_of(proof, statement.empty(), words.target) << chain_in_words(chain);
+  out << verdict_of(proof, statement.empty(), words.target);
+  if (!proof.caution.empty()) out << "  " << proof.caution << "\n";
+  out << chain_in_words(chain);
 }
 
 }  // namespace

@@ -65,6 +65,15 @@ TEST_CASE("materials of LS-DYNA and OpenRadioss are chosen with what else bears 
       "*KEYWORD\n*MAT_HYPERELASTIC_RUBBER_TITLE\nfoot\n         1    1.1E-9      .499\n"
       "       .15       .02\n*MAT_HYPERELASTIC_RUBBER_TITLE\ngel\n         2    1.1E-9      .499\n"
       "       .30       .04\n*MAT_ADD_EROSION\n         2\n*END\n";
+  const auto both = read_rubber_card(dyna, "lsdyna", "").findings;
+  REQUIRE_FALSE(both.empty());
+  CHECK(both[0].name == "several-materials");
+  CHECK_THAT(both[0].text, Contains("the file has the materials foot, gel"));
+  // ANSYS: the density of another material is not that of the rubber.
+  const auto other = read_rubber_card(
+      "TB,HYPER,1,1,2,MOONEY $ TBDATA,1,0.15,0.02,0.001\nMP,DENS,2,1e-9\n", "ansys", "");
+  CHECK(other.law.moduli_Pa[1] == 0.02);
+  CHECK_THAT(other.findings.at(0).text, Contains("the materials 1, 2"));
   const ReadRubber foot = read_rubber_card(material_named(dyna, "lsdyna", "foot"), "lsdyna", ""),
                    gel = read_rubber_card(material_named(dyna, "lsdyna", "2"), "lsdyna", "");
   CHECK(foot.law.moduli_Pa[0] == 0.15);

@@ -64,6 +64,8 @@ void show_certificate(ResultVisitor& v, const RubberCertificateRequest& request,
       [&] { show_hold(v, proof.hold.value_or(HoldProof{})); }, !proof.hold);
   v("constants", proof.constants, "the constants of the law, its shares, and the bulk modulus");
   v.or_null("diverged", if_named(proof.diverged), "the test that did not converge; null: none");
+  v.or_null("caution", if_named(proof.caution),
+            "what to know before trusting a run in this solver");
   v("holds", proof.holds() && statement.empty(), "whether the card is proven, by its own solver");
   v("numbers_hold", proof.holds(), "whether its numbers are proven, by any solver");
   v.object("chain", "from the card to the raw data", [&] {

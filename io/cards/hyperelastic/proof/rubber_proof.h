@@ -37,6 +37,7 @@ struct RubberProof {
   std::optional<HoldProof> hold;  // if the card has terms that the solver runs
   std::vector<ConstantProof> constants;
   double bulk_Pa = 0.0;  // of the cubes
+  std::string caution;   // what to know before trusting a run of this solver; ""
   std::string diverged;  // the test that did not converge; the numbers above are not filled then
   std::vector<DeckFile> models;
 

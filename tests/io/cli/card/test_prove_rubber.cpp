@@ -104,8 +104,11 @@ TEST_CASE("card --prove of a card of rubber without its solver says which one ru
   CHECK_THAT(error_of({}), Contains("no solver that reads cards of rubber for abaqus") &&
                                Contains("--solver sfepy"));
   CHECK_THAT(error_of({"--solver", "calculix"}),
-             Contains("CalculiX does not read cards of rubber for abaqus"));
-  CHECK_THAT(error_of({"--solver", "febio"}), Contains("--solver febio runs no cards of rubber"));
+             Contains("--solver calculix does not read cards of rubber for abaqus"));
+  CHECK_THAT(error_of({"--solver", "febio"}),
+             Contains("--solver febio does not read cards of rubber for abaqus"));
+  CHECK_THAT(error_of({"--solver", "frontistr"}),
+             Contains("--solver frontistr runs no cards of rubber"));
 }
 
 TEST_CASE("card --check and --prove of a linear card against a law of rubber name both", "[cli]") {
