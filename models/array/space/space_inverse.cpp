@@ -72,6 +72,21 @@ KernelChange change_between(const SpaceScene& scene, const InverseKernel& coarse
   return change;
 }
 
+// The array of a scene under a small load of each kind that is found.
+SpaceScene without_loads(SpaceScene scene) {
+  scene.press.reset();
+  scene.touch.reset();
+  scene.heat.reset();
+  scene.noise.reset();
+  scene.noise_readout.reset();
+  scene.quadrants = {};
+  scene.wanted.clear();
+  scene.loaded.clear();
+  scene.pressure_Pa = 1.0;
+  scene.shear_x_Pa = scene.shear_y_Pa = inverse_loads(scene) > 1 ? 1.0 : 0.0;
+  return scene;
+}
+
 void check_inverse(const SpaceScene& scene, const InverseOptions& options) {
   if (scene.backing && scene.feels_backing) {
     throw SceneMistake(
@@ -107,8 +122,10 @@ Eigen::Index inverse_loads(const SpaceScene& scene) {
   return scene.electrode == SpaceElectrode::kQuadrants ? 3 : 1;
 }
 
-LoadReader load_reader(const SpaceScene& scene, const VoltageFrames& examples,
+LoadReader load_reader(const SpaceScene& whole, const VoltageFrames& examples,
                        const InverseOptions& options) {
+  const SpaceScene scene = without_loads(whole);
+  validate(scene);
   check_inverse(scene, options);
   const auto kernel = std::make_shared<const InverseKernel>(scene, kFinerLevel, options.at_centre);
   ReadArray array;
@@ -146,9 +163,7 @@ LoadReader load_reader(const SpaceScene& scene, const VoltageFrames& examples,
   const ConstantErrors constant = constant_errors(scene);
   errors.own_model = change.own + constant.foot + electrode_error(scene);
   errors.other_model = change.others + 2.0 * constant.foot * constant.neighbour;
-  TopLoads all = TopLoads::Zero(static_cast<Eigen::Index>(scene.pillars.size()), kTopLoads);
-  all.leftCols(array.loads).setOnes();
-  errors.pillar_model = film_edge_errors(scene, all);
+  errors.pillar_model = constant.edge;
   return LoadReader(std::move(array), std::move(place_of), places, errors, options.choice,
                     examples);
 }

@@ -42,6 +42,13 @@ def test_a_design_study(tmp_path):
     assert 1.5 < of_40["80"] / of_40["120"] < (120 / 80) ** 2
 
 
+def test_a_touch_read_back(tmp_path):
+    pytest.importorskip("matplotlib")
+    printed = run_script("pressure_map", tmp_path)
+    inside = float(re.search(r"; ([\d.]+) % of the pressures lie within", printed)[1])
+    assert 92.0 < inside < 98.0 and "resolution 50 um" in printed and is_png(tmp_path / "pressure_map.png")
+
+
 def blocks(path):
     return re.findall(r"```python\n(.*?)```", pathlib.Path(path).read_text(), re.S)
 
