@@ -44,6 +44,17 @@ def test_pressures_of_single_loads_come_back(electrode, voltage):
     assert found.resolution_m == pytest.approx(50e-6, rel=0.02)
 
 
+def test_electrodes_that_nearly_touch_are_read_through_each_others_charges():
+    dense = {"kind": "equipotential", "radius": "45 um"}
+    made = scene(7, 7, dense, {"pressure": "8 kPa", "pillars": [[4, 4], [4, 5], [1, 1]]}, want=["electrode_voltage"])
+    found = viscard.pressures_from_voltages(scene(7, 7, dense), viscard.simulate(made, tol=1e-3).maps["electrode_voltage"]["value"],
+                                            noise=1e-6)
+    right_Pa = np.zeros((7, 7))
+    right_Pa[3, 3] = right_Pa[3, 4] = right_Pa[0, 0] = 8e3
+    assert (np.abs(found.pressure_Pa - right_Pa) <= found.pressure_half_width_Pa).all()
+    assert found.pressure_half_width_Pa.max() < 0.05 * 8e3
+
+
 def test_quarters_give_pressure_and_shear():
     load = {"pressure": "5 kPa", "shear_x": "1 kPa", "shear_y": "-500 Pa", "pillars": [[2, 2]]}
     names = [f"quadrant_{q}_voltage" for q in range(1, 5)]
