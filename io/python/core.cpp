@@ -62,6 +62,7 @@ PYBIND11_MODULE(_core, module) {
   viscard::python::add_materials(module);
   viscard::python::add_planning(module);
   viscard::python::add_scenes(module);
+  viscard::python::add_inverse(module);
   viscard::python::add_sweeps(module);
   viscard::python::add_designs(module);
   viscard::python::add_rig(module);

@@ -20,6 +20,7 @@ void add_rubber(pybind11::module_& module);     // tests at large strain, cards 
 void add_materials(pybind11::module_& module);  // materials, cards, predictions
 void add_planning(pybind11::module_& module);   // cost_of_tests
 void add_scenes(pybind11::module_& module);     // simulate, plan, cost
+void add_inverse(pybind11::module_& module);    // pressures from voltages
 void add_sweeps(pybind11::module_& module);     // sweep
 void add_designs(pybind11::module_& module);    // design
 void add_rig(pybind11::module_& module);        // capture

@@ -19,6 +19,7 @@ from ._design import DesignLimits, Designs, Judgement, design
 from ._error import DoubtWarning, Error
 from ._fit import fit
 from ._fit_result import FitResult, Flag, JointFit
+from ._inverse import PressureReader, Pressures, pressures_from_voltages
 from ._material import Material, Prediction, predict
 from ._planning import TestCost, cost_of_tests
 from ._result import Parameter
@@ -29,10 +30,11 @@ from ._table import Capture, Table, read_capture, read_table
 
 __version__: str = _core.version
 
-__all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "DesignLimits", "Designs", "DoubtWarning", "Error", "Field", "FitResult",
-           "Flag", "JointFit", "Judgement", "Material", "Parameter", "Plan", "Prediction", "RubberCard", "RubberFit", "RubberTerm", "Sweep", "Table",
-           "TestCost", "Value", "capture", "card_targets", "cost", "cost_of_tests", "data_file", "design", "fit",
-           "forces_from_voltages", "plan", "predict", "read_capture", "read_table", "simulate", "sweep"]
+__all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "DesignLimits", "Designs", "DoubtWarning", "Error", "Field",
+           "FitResult", "Flag", "JointFit", "Judgement", "Material", "Parameter", "Plan", "Prediction", "PressureReader", "Pressures",
+           "RubberCard", "RubberFit", "RubberTerm", "Sweep", "Table", "TestCost", "Value", "capture", "card_targets", "cost",
+           "cost_of_tests", "data_file", "design", "fit", "forces_from_voltages", "plan", "predict", "pressures_from_voltages",
+           "read_capture", "read_table", "simulate", "sweep"]
 
 
 def _end_jobs() -> None:

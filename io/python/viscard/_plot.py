@@ -157,3 +157,20 @@ def plot_rubber(rubber, ax):
     ax.grid(True, which="major", alpha=0.3)
     ax.legend(frameon=False)
     return ax
+
+
+def plot_pressures(values, is_resolved, ax):
+    import numpy as np
+
+    ax = _axes(ax)
+    largest = float(np.nanmax(np.abs(values), initial=0.0))
+    factor, unit = _scale("Pa", largest)
+    is_signed = bool(np.nanmin(values, initial=0.0) < -0.05 * largest)
+    image = ax.imshow(values * factor, origin="lower", cmap="RdBu_r" if is_signed else "viridis", interpolation="nearest",
+                      vmin=-largest * factor if is_signed else 0.0, vmax=largest * factor or None)
+    rows, columns = np.nonzero(~is_resolved & np.isfinite(values))
+    ax.plot(columns, rows, "x", color="0.5", markersize=4)
+    ax.figure.colorbar(image, ax=ax, label=f"pressure ({unit})")
+    ax.set_xlabel("column")
+    ax.set_ylabel("row")
+    return ax

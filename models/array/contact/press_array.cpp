@@ -47,7 +47,8 @@ double first_touch_m(const std::vector<TouchedPillar>& pillars,
 
 PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
                             const std::vector<TopContact>& classes, const RigidShape& shape,
-                            double depth_m, TopBond bond) {
+                            double depth_m, TopBond bond, std::vector<Eigen::MatrixXd>* last) {
+  if (last != nullptr) last->resize(pillars.size());
   PressedArray array;
   array.depth_m = depth_m;
   array.tops.reserve(pillars.size());
@@ -61,7 +62,8 @@ PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
       top = contact.follow(overlap);
     } else if (!is_out_of_reach(shape, one, radius_of(contact), depth_m)) {
       top = contact.press(
-          overlap, round_tip(shape, one.x_m, one.y_m, radius_of(contact), depth_m + one.above_m));
+          overlap, round_tip(shape, one.x_m, one.y_m, radius_of(contact), depth_m + one.above_m),
+          last != nullptr ? &(*last)[array.tops.size()] : nullptr);
     }
     array.force_N += top.force_N;
     array.contacts += top.share > 0.0 ? 1 : 0;
@@ -119,9 +121,10 @@ PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,
     step_m = std::max(step_m, force_N * one.compliance().sinking_m_N());
   }
   PressedArray array;
+  std::vector<Eigen::MatrixXd> last;
   depth_of_force(
       [&](double depth_m) {
-        array = press_to_depth(pillars, classes, shape, depth_m, bond);
+        array = press_to_depth(pillars, classes, shape, depth_m, bond, &last);
         return array.force_N;
       },
       {.low_m = low_m, .guess_m = low_m + step_m, .force_N = force_N});

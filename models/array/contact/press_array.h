@@ -28,10 +28,11 @@ struct PressedArray {
 enum class TopBond { kPushed, kFollows };
 
 // Pillars do not feel each other through a film on a rigid base, so that each is pressed alone. `classes`
-// has the contact of each class of pillars.
+// has the contact of each class of pillars. `last` keeps forces of each top from one depth to the next, as a start.
 PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
                             const std::vector<TopContact>& classes, const RigidShape& shape,
-                            double depth_m, TopBond bond = TopBond::kPushed);
+                            double depth_m, TopBond bond = TopBond::kPushed,
+                            std::vector<Eigen::MatrixXd>* last = nullptr);
 
 // The depth at which the shape bears the force, to rounding: the force grows with the depth. Throws
 // std::invalid_argument unless the force is positive and there is a pillar under the shape.

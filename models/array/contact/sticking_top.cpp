@@ -73,7 +73,10 @@ PointVectors StickingTop::in_harmonics(const PointVectors& values, const Blocks&
     pair << by_wave.col(cosine), by_wave.col(sine);
     pair.block(n, 0, n, 1) = by_wave.block(n, sine, n, 1);
     pair.block(n, 1, n, 1) = -by_wave.block(n, cosine, n, 1);
-    const Eigen::MatrixXd answer = blocks[m] * pair;
+    // Column by column: a product with two columns would first copy the block.
+    Eigen::MatrixXd answer(3 * n, 2);
+    for (Eigen::Index side = 0; side < 2; ++side)
+      answer.col(side).noalias() = blocks[m] * pair.col(side);
     by_wave.col(cosine) = answer.col(0);
     by_wave.col(sine) = answer.col(1);
     by_wave.block(n, sine, n, 1) = answer.block(n, 0, n, 1);
@@ -92,13 +95,12 @@ PointVectors StickingTop::forces(const PointVectors& motion_m) const {
 // Conjugate gradients on the points that touch, from the given forces; the stiffness of a top that is held everywhere
 // is the preconditioner.
 void StickingTop::hold(const Eigen::MatrixXd& overlap_m, const PointMask& touches,
-                       const PointVectors& softness_m_N, PointVectors& f) const {
+                       const PointVectors& softness_m_N, double accuracy, PointVectors& f) const {
   const auto moved_by = [&](const PointVectors& forces_N) -> PointVectors {
     if (softness_m_N.size() == 0) return motion(forces_N);
     return motion(forces_N) + softness_m_N.cwiseProduct(forces_N);
   };
   constexpr int kMostSteps = 1000;
-  constexpr double kResidual = 1e-12;
   PointVectors wanted = PointVectors::Zero(f.rows(), f.cols());
   wanted.bottomRows(rings()) = overlap_m;
   f = held_part(f, touches);
@@ -107,7 +109,7 @@ void StickingTop::hold(const Eigen::MatrixXd& overlap_m, const PointMask& touche
   PointVectors direction = towards;
   double work = inner(residual, towards);
   const double size_m = touches.select(overlap_m, 0.0).cwiseAbs().maxCoeff();
-  const double enough = std::pow(kResidual * size_m, 2) * static_cast<double>(f.size());
+  const double enough = std::pow(accuracy * size_m, 2) * static_cast<double>(f.size());
   for (int step = 0; step < kMostSteps && inner(residual, residual) > enough; ++step) {
     const PointVectors moved = held_part(moved_by(direction), touches);
     const double along = work / inner(direction, moved);
@@ -121,8 +123,10 @@ void StickingTop::hold(const Eigen::MatrixXd& overlap_m, const PointMask& touche
 }
 
 PointVectors StickingTop::pushing_forces(const Eigen::MatrixXd& overlap_m, const PointMask& start,
-                                         const Eigen::MatrixXd& softness_m_N) const {
+                                         const Eigen::MatrixXd& softness_m_N,
+                                         const PointVectors& start_N) const {
   constexpr int kMostSets = 500, kMostReleases = 3;
+  constexpr double kRough = 1e-4, kResidual = 1e-12;
   const Eigen::Index n = rings();
   const double size_m = overlap_m.maxCoeff();
   PointVectors f = PointVectors::Zero(3 * n, overlap_m.cols());
@@ -137,24 +141,35 @@ PointVectors StickingTop::pushing_forces(const Eigen::MatrixXd& overlap_m, const
     f = all;
   }
   if (start.size() > 0 && start.any()) touches = start;
+  if (start_N.size() > 0 && (start_N.bottomRows(n).array() > 0.0).any()) {
+    f = start_N;
+    touches = f.bottomRows(n).array() > 0.0;
+  }
   PointVectors softness;  // in all directions
   if (softness_m_N.size() > 0) softness = softness_m_N.replicate(3, 1);
   PointExchange exchange;
   // Near the edge of a sticking contact the pressure changes its sign without end, so that a point may pull when it is
   // held and overlap when it is not. One that was let go this often stays free.
   Eigen::ArrayXXi releases = Eigen::ArrayXXi::Zero(n, overlap_m.cols());
+  double accuracy = kRough;  // most sets are given up at once
   for (int set = 0; set < kMostSets; ++set) {
-    hold(overlap_m, touches, softness, f);
+    hold(overlap_m, touches, softness, accuracy, f);
+    const double slack = std::max(1e-9, accuracy);
     const Eigen::MatrixXd down = f.bottomRows(n);
-    const PointMask pulls = touches && down.array() < -1e-9 * down.maxCoeff();
+    const PointMask pulls = touches && down.array() < -slack * down.maxCoeff();
     Eigen::MatrixXd left_m = overlap_m - motion(f).bottomRows(n);
     if (softness_m_N.size() > 0) left_m -= softness_m_N.cwiseProduct(down);
     const PointMask overlaps =
-        !touches && left_m.array() > 1e-9 * size_m && releases < kMostReleases;
+        !touches && left_m.array() > slack * size_m && releases < kMostReleases;
     const PointMask wrong = pulls || overlaps;
-    if (!wrong.any()) {
+    if (!wrong.any() && accuracy == kResidual) {
       f.bottomRows(n) = down.cwiseMax(0.0);
       return f;
+    }
+    if (!wrong.any()) {
+      accuracy = kResidual;
+      exchange = {};
+      continue;
     }
     const PointMask changes = exchange.next(wrong);
     releases += (pulls && changes).cast<int>();
@@ -195,13 +210,17 @@ TopPressure StickingTop::pressure_of(const PointVectors& forces_N) const {
   return pressure;
 }
 
-TopPressure StickingTop::press(const Overlap& overlap, const PointMask& start) const {
+TopPressure StickingTop::press(const Overlap& overlap, const PointMask& start,
+                               PointVectors* last) const {
   const PointCover cover = point_cover(overlap, compliance_.radius_m, compliance_.angles);
   const Eigen::MatrixXd overlap_m = cover.overlap_m.cwiseMax(kNoSurface_m);
-  if (!cover.is_cut) return pressure_of(pushing_forces(overlap_m, start));
-  const PointVectors forces_N =
-      pushing_forces(overlap_m, start, softness_m_N(cover, point_stiffness_N_m_));
+  const PointVectors start_N = last != nullptr ? *last : PointVectors();
+  const PointVectors forces_N = pushing_forces(
+      overlap_m, start,
+      cover.is_cut ? softness_m_N(cover, point_stiffness_N_m_) : Eigen::MatrixXd(), start_N);
+  if (last != nullptr) *last = forces_N;
   TopPressure pressure = pressure_of(forces_N);
+  if (!cover.is_cut) return pressure;
   pressure.is_partial = pressure.is_cut = true;
   pressure.share = share_of(forces_N.bottomRows(rings()), cover.share, compliance_.ring_area_m2);
   return pressure;

@@ -23,7 +23,9 @@ class StickingTop {
 
   // The shape only pushes. `start` (rings x angles) is a guess of the points that touch, or empty. Throws
   // std::runtime_error if the set of points that touch does not settle.
-  TopPressure press(const Overlap& overlap, const PointMask& start = {}) const;
+  // `last`: forces as start, or none; those of the answer after the call.
+  TopPressure press(const Overlap& overlap, const PointMask& start = {},
+                    PointVectors* last = nullptr) const;
   // All points follow the shape, also where they must be pulled.
   TopPressure follow(const Overlap& overlap) const;
 
@@ -33,13 +35,14 @@ class StickingTop {
   // Forces that hold the points at the overlap (rings x angles) where they touch, and do not pull.
   // `softness_m_N` as for TopContact.
   PointVectors pushing_forces(const Eigen::MatrixXd& overlap_m, const PointMask& start = {},
-                              const Eigen::MatrixXd& softness_m_N = {}) const;
+                              const Eigen::MatrixXd& softness_m_N = {},
+                              const PointVectors& start_N = {}) const;
 
  private:
   using Blocks = std::vector<Eigen::MatrixXd>;
   PointVectors in_harmonics(const PointVectors& values, const Blocks& blocks) const;
   void hold(const Eigen::MatrixXd& overlap_m, const PointMask& touches,
-            const PointVectors& softness_m_N, PointVectors& forces_N) const;
+            const PointVectors& softness_m_N, double accuracy, PointVectors& forces_N) const;
   TopPressure pressure_of(const PointVectors& forces_N) const;
   Eigen::Index rings() const { return compliance_.ring_area_m2.size(); }
 

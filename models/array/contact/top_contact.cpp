@@ -82,17 +82,44 @@ Eigen::MatrixXd TopContact::forces(const Eigen::MatrixXd& motion_m) const {
   return by_wave * waves_.transpose();
 }
 
-// Conjugate gradients on the points that touch; points that pull are let go, points that overlap are
-// taken in, until neither happens.
+// Conjugate gradients on the points that touch, with the stiffness of a top that is held everywhere as preconditioner.
+void TopContact::hold(const Eigen::MatrixXd& overlap_m, const Mask& touches,
+                      const Eigen::MatrixXd& softness_m_N, double accuracy,
+                      Eigen::MatrixXd& f) const {
+  constexpr int kMostSteps = 2000;
+  Eigen::MatrixXd residual = masked(overlap_m - moved_by(f, softness_m_N), touches);
+  const double size_m = std::max(overlap_m.maxCoeff(), 0.0);
+  const double enough = std::pow(accuracy * size_m, 2) * static_cast<double>(f.size());
+  if (!(residual.squaredNorm() > enough)) return;
+  Eigen::MatrixXd towards = masked(forces(residual), touches);
+  Eigen::MatrixXd direction = towards;
+  double work = dot(residual, towards);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::MatrixXd moved = masked(moved_by(direction, softness_m_N), touches);
+    const double along = work / dot(direction, moved);
+    f += along * direction;
+    residual -= along * moved;
+    if (!(residual.squaredNorm() > enough)) return;
+    towards = masked(forces(residual), touches);
+    const double next = dot(residual, towards);
+    direction = towards + (next / work) * direction;
+    work = next;
+  }
+}
+
+Eigen::MatrixXd TopContact::moved_by(const Eigen::MatrixXd& forces_N,
+                                     const Eigen::MatrixXd& softness_m_N) const {
+  if (softness_m_N.size() == 0) return motion(forces_N);
+  return motion(forces_N) + softness_m_N.cwiseProduct(forces_N);
+}
+
+// Points that pull are let go, points that overlap are taken in, until neither happens: at first roughly, because most
+// sets are given up at once.
 Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
                                               const Eigen::MatrixXd& start,
                                               const Eigen::MatrixXd& softness_m_N) const {
-  const auto moved_by = [&](const Eigen::MatrixXd& forces_N) -> Eigen::MatrixXd {
-    if (softness_m_N.size() == 0) return motion(forces_N);
-    return motion(forces_N) + softness_m_N.cwiseProduct(forces_N);
-  };
-  constexpr int kMostSets = 2000, kMostSteps = 2000;
-  constexpr double kResidual = 1e-13;
+  constexpr int kMostSets = 2000;
+  constexpr double kRough = 1e-4, kResidual = 1e-13;
   const double size_m = std::max(overlap_m.maxCoeff(), 0.0);
   Eigen::MatrixXd f = start.cwiseMax(0.0);
   if (size_m == 0.0) return Eigen::MatrixXd::Zero(f.rows(), f.cols());
@@ -100,26 +127,21 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
   if (!touches.any()) touches = overlap_m.array() > 0.0;
   f = masked(f, touches);
   PointExchange exchange;
+  double accuracy = kRough;
   for (int set = 0; set < kMostSets; ++set) {
-    Eigen::MatrixXd residual = masked(overlap_m - moved_by(f), touches);
-    Eigen::MatrixXd direction = residual;
-    double square = dot(residual, residual);
-    const double enough = std::pow(kResidual * size_m, 2) * static_cast<double>(f.size());
-    for (int step = 0; step < kMostSteps && square > enough; ++step) {
-      const Eigen::MatrixXd moved = masked(moved_by(direction), touches);
-      const double along = square / dot(direction, moved);
-      f += along * direction;
-      residual -= along * moved;
-      const double next = dot(residual, residual);
-      direction = residual + (next / square) * direction;
-      square = next;
-    }
-    const double pull_N = 1e-10 * f.maxCoeff();
+    hold(overlap_m, touches, softness_m_N, accuracy, f);
+    const double pull_N = std::max(1e-10, accuracy) * f.maxCoeff();
     const Mask pulls = touches && f.array() < -pull_N;
-    const Eigen::MatrixXd left_m = overlap_m - moved_by(masked(f.cwiseMax(0.0), touches));
-    const Mask overlaps = !touches && left_m.array() > 1e-9 * size_m;
+    const Eigen::MatrixXd left_m =
+        overlap_m - moved_by(masked(f.cwiseMax(0.0), touches), softness_m_N);
+    const Mask overlaps = !touches && left_m.array() > std::max(1e-9, accuracy) * size_m;
     const Mask wrong = pulls || overlaps;
-    if (!wrong.any()) return f.cwiseMax(0.0);
+    if (!wrong.any() && accuracy == kResidual) return f.cwiseMax(0.0);
+    if (!wrong.any()) {
+      accuracy = kResidual;
+      exchange = {};
+      continue;
+    }
     const Mask changes = exchange.next(wrong);
     touches = (touches && !changes) || (overlaps && changes);
     f = masked(f.cwiseMax(0.0), touches);
@@ -213,16 +235,17 @@ TopPressure TopContact::pressure_of(const Eigen::MatrixXd& forces_N) const {
   return pressure;
 }
 
-TopPressure TopContact::press(const Overlap& overlap, const std::optional<RoundTip>& tip) const {
+TopPressure TopContact::press(const Overlap& overlap, const std::optional<RoundTip>& tip,
+                              Eigen::MatrixXd* last) const {
   if (tip && !sticking_) {
     const auto small = press_round_tip(
         *tip, compliance_, [this](const Eigen::MatrixXd& forces_N) { return motion(forces_N); });
     if (small) return *small;
   }
-  return press(overlap);
+  return press(overlap, last);
 }
 
-TopPressure TopContact::press(const Overlap& overlap) const {
+TopPressure TopContact::press(const Overlap& overlap, Eigen::MatrixXd* last) const {
   const PointOverlap points = overlaps(overlap);
   if (!(points.overlap_m.maxCoeff() > 0.0)) return {};
   Eigen::MatrixXd everywhere;
@@ -234,9 +257,12 @@ TopPressure TopContact::press(const Overlap& overlap) const {
     pressure.largest_Pa = pressure_of(everywhere).largest_Pa;
     return pressure;
   }
+  const bool has_last = last != nullptr && last->size() > 0;
+  if (sticking_ && has_last) return sticking_->press(overlap, {}, last);
   const Eigen::MatrixXd forces_N =
-      pushing_forces(points.overlap_m, everywhere, points.softness_m_N);
-  if (sticking_) return sticking_->press(overlap, forces_N.array() > 0.0);
+      pushing_forces(points.overlap_m, has_last ? *last : everywhere, points.softness_m_N);
+  if (sticking_) return sticking_->press(overlap, forces_N.array() > 0.0, last);
+  if (last != nullptr) *last = forces_N;
   TopPressure pressure = pressure_of(forces_N);
   pressure.is_partial = true;
   if (points.share.size() == 0) return pressure;

@@ -23,9 +23,11 @@ class TopContact {
   // press() and follow() are those of a top that sticks.
   TopContact(TopCompliance compliance, std::shared_ptr<const StickingTop> sticking);
 
-  TopPressure press(const Overlap& overlap) const;
+  // `last`: forces that the top bore at nearly the same depth, or none; those of this answer after the call.
+  TopPressure press(const Overlap& overlap, Eigen::MatrixXd* last = nullptr) const;
   // The same where a round tip touches, whose contact may be smaller than the grid resolves (eq. T11).
-  TopPressure press(const Overlap& overlap, const std::optional<RoundTip>& tip) const;
+  TopPressure press(const Overlap& overlap, const std::optional<RoundTip>& tip,
+                    Eigen::MatrixXd* last = nullptr) const;
   // The top follows the surface everywhere, also where it must be pulled (eq. T2).
   TopPressure follow(const Overlap& overlap) const;
 
@@ -51,6 +53,12 @@ class TopContact {
  private:
   // True, with the forces, if all points push when they all follow the overlap.
   bool is_full(const Eigen::MatrixXd& overlap_m, Eigen::MatrixXd& everywhere) const;
+  Eigen::MatrixXd moved_by(const Eigen::MatrixXd& forces_N,
+                           const Eigen::MatrixXd& softness_m_N) const;
+  // Forces that move the points in the mask by the overlap, to a relative accuracy; f holds a guess.
+  void hold(const Eigen::MatrixXd& overlap_m,
+            const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>& touches,
+            const Eigen::MatrixXd& softness_m_N, double accuracy, Eigen::MatrixXd& f) const;
   void add_resultants(const Eigen::MatrixXd& forces_N, TopPressure& pressure) const;
   Eigen::MatrixXd in_harmonics(const Eigen::MatrixXd& values,
                                const std::vector<Eigen::MatrixXd>& blocks) const;

@@ -2,20 +2,91 @@
 #include "models/array/space/space_inverse.h"
 
 #include "models/array/space/simulate_space.h"
+#include "models/maths/neighbours.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace viscard {
 namespace {
 
+constexpr double kTolerance = 1e-4;                 // decides on charges of other electrodes
 constexpr std::size_t kLevel = 2, kFinerLevel = 3;  // of space_accuracies(): 7e-5 and better
 constexpr Eigen::Index kFirstOfQuarters = 2;        // among the readings of an electrode
+
+// What charges on all electrodes of a lattice of like pillars add to the voltage of one in its middle, by the offset from a
+// loaded pillar (eq. S17). At the edge of an array electrodes are missing, which changes these charges.
+class LatticeCharges {
+ public:
+  // Nothing where offsets do not repeat.
+  static std::optional<LatticeCharges> of(const SpaceArray& array, double reach_m,
+                                          std::size_t level) {
+    LatticeCharges charges;
+    charges.unit_m_ = kSameOffset * reach_m;
+    const std::vector<SourcePoint> points = sources_of(array);
+    const Neighbours near(points, reach_m);
+    std::map<Key, SourcePoint> offsets;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      near.visit(points[i].x_m, points[i].y_m, [&](std::size_t j) {
+        const double x_m = points[j].x_m - points[i].x_m, y_m = points[j].y_m - points[i].y_m;
+        if (offsets.size() <= kMostOffsets)
+          offsets.emplace(charges.key(x_m, y_m), SourcePoint{x_m, y_m, 0});
+      });
+      if (offsets.size() > kMostOffsets) return {};
+    }
+    charges.added_ = charges.added_on(array, offsets, level, false);
+    // A quarter of the lattice, as from its corner.
+    for (const auto& [key, value] : charges.added_on(array, offsets, level, true)) {
+      charges.at_edge_V_Pa_ += std::abs((value - charges.added_.at(key))[0]);
+    }
+    return charges;
+  }
+
+  // V/Pa by kind of load.
+  Eigen::RowVectorXd at(double x_m, double y_m) const {
+    const auto found = added_.find(key(x_m, y_m));
+    return found == added_.end() ? Eigen::RowVectorXd::Zero(kTopLoads).eval() : found->second;
+  }
+  // Sum over the offsets of what the missing electrodes change, per pressure.
+  double at_edge_V_Pa() const { return at_edge_V_Pa_; }
+
+ private:
+  using Key = std::pair<long, long>;
+  using Added = std::map<Key, Eigen::RowVectorXd>;
+  static constexpr double kSameOffset = 1e-7;  // of the reach
+  static constexpr std::size_t kMostOffsets = 500;
+
+  Key key(double x_m, double y_m) const {
+    return {std::lround(x_m / unit_m_), std::lround(y_m / unit_m_)};
+  }
+  Added added_on(SpaceArray array, const std::map<Key, SourcePoint>& offsets, std::size_t level,
+                 bool is_corner) const {
+    array.pillars = {{0.0, 0.0, 0}};
+    for (const auto& [key, point] : offsets) {
+      if (key == Key{0, 0} || (is_corner && (key.first < 0 || key.second < 0))) continue;
+      array.pillars.push_back({point.x_m, point.y_m, 0});
+    }
+    Added added;
+    if (array.pillars.size() < 2) return added;
+    const SpaceResponse response(array, space_accuracies(array)[level]);
+    const Eigen::MatrixXd rows = response.added_by_electrodes(0);
+    for (std::size_t p = 0; p < array.pillars.size(); ++p) {
+      const Key from = key(-array.pillars[p].x_m, -array.pillars[p].y_m);
+      added[from] = rows.row(static_cast<Eigen::Index>(p));
+    }
+    return added;
+  }
+
+  double unit_m_ = 0.0, at_edge_V_Pa_ = 0.0;
+  Added added_;
+};
 
 // The readings of one array per load at an offset.
 class InverseKernel {
@@ -29,10 +100,17 @@ class InverseKernel {
         response_(array_, without_coupling(space_accuracies(array_)[level])) {}
 
   Eigen::MatrixXd at(int of_class, double x_m, double y_m) const {
-    const auto all = response_.kernel(of_class, x_m, y_m);
+    auto all = response_.kernel(of_class, x_m, y_m);
+    if (charges_) all.row(0) += charges_->at(x_m, y_m);
     return all.block(row_, 0, is_in_quarters_ ? 4 : 1, kFirstTilt);
   }
   double reach_m() const { return response_.reach_m(); }
+  // Includes charges of other electrodes; false where they are left out.
+  bool couple(std::size_t level) {
+    if (array_.classes.size() == 1) charges_ = LatticeCharges::of(array_, reach_m(), level);
+    return charges_.has_value();
+  }
+  double at_edge_V_Pa() const { return charges_ ? charges_->at_edge_V_Pa() : 0.0; }
 
  private:
   static constexpr Eigen::Index kFirstTilt = static_cast<Eigen::Index>(TopLoad::kTiltX);
@@ -40,6 +118,7 @@ class InverseKernel {
   bool is_in_quarters_;
   Eigen::Index row_;
   SpaceResponse response_;
+  std::optional<LatticeCharges> charges_;
 };
 
 // Largest change of the own voltage between the two, over it; and the sum of those at the nearest pillars.
@@ -70,6 +149,22 @@ KernelChange change_between(const SpaceScene& scene, const InverseKernel& coarse
     change.others = std::max(change.others, others);
   }
   return change;
+}
+
+// The array of a scene under a small load of each kind that is found.
+SpaceScene without_loads(SpaceScene scene) {
+  scene.press.reset();
+  scene.touch.reset();
+  scene.heat.reset();
+  scene.noise.reset();
+  scene.noise_readout.reset();
+  scene.quadrants = {};
+  scene.wanted.clear();
+  scene.loaded.clear();
+  scene.pressure_Pa = 1.0;
+  scene.tolerance = kTolerance;
+  scene.shear_x_Pa = scene.shear_y_Pa = inverse_loads(scene) > 1 ? 1.0 : 0.0;
+  return scene;
 }
 
 void check_inverse(const SpaceScene& scene, const InverseOptions& options) {
@@ -107,10 +202,18 @@ Eigen::Index inverse_loads(const SpaceScene& scene) {
   return scene.electrode == SpaceElectrode::kQuadrants ? 3 : 1;
 }
 
-LoadReader load_reader(const SpaceScene& scene, const VoltageFrames& examples,
+LoadReader load_reader(const SpaceScene& whole, const VoltageFrames& examples,
                        const InverseOptions& options) {
+  const SpaceScene scene = without_loads(whole);
+  validate(scene);
   check_inverse(scene, options);
-  const auto kernel = std::make_shared<const InverseKernel>(scene, kFinerLevel, options.at_centre);
+  const auto kernel = std::make_shared<InverseKernel>(scene, kFinerLevel, options.at_centre);
+  InverseKernel coarse(scene, kLevel, options.at_centre);
+  const ConstantErrors constant = constant_errors(scene);
+  double of_charges = electrode_error(scene);
+  if (constant.coupling.is_on && kernel->couple(kFinerLevel) && coarse.couple(kLevel)) {
+    of_charges = constant.coupling.error;
+  }
   ReadArray array;
   array.pillars = sources_of(array_of(scene));
   array.classes = static_cast<int>(scene.others.size()) + 1;
@@ -141,14 +244,11 @@ LoadReader load_reader(const SpaceScene& scene, const VoltageFrames& examples,
   errors.noise_V = options.noise_V;
   errors.gain_spread = options.gain_spread;
   errors.disturbing_Pa = options.shear_Pa;
-  const InverseKernel coarse(scene, kLevel, options.at_centre);
   const KernelChange change = change_between(scene, coarse, *kernel);
-  const ConstantErrors constant = constant_errors(scene);
-  errors.own_model = change.own + constant.foot + electrode_error(scene);
-  errors.other_model = change.others + 2.0 * constant.foot * constant.neighbour;
-  TopLoads all = TopLoads::Zero(static_cast<Eigen::Index>(scene.pillars.size()), kTopLoads);
-  all.leftCols(array.loads).setOnes();
-  errors.pillar_model = film_edge_errors(scene, all);
+  errors.own_model = change.own + constant.foot + of_charges;
+  errors.other_model = change.others + 2.0 * constant.foot * constant.neighbour +
+                       kernel->at_edge_V_Pa() / std::abs(kernel->at(0, 0.0, 0.0)(0, 0));
+  errors.pillar_model = constant.edge;
   return LoadReader(std::move(array), std::move(place_of), places, errors, options.choice,
                     examples);
 }

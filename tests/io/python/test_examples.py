@@ -107,6 +107,13 @@ def test_the_notebook_on_the_rubber_of_treloar(in_empty_folder):
     assert (in_empty_folder / "treloar.feb").exists()
 
 
+def test_a_touch_read_back(tmp_path):
+    pytest.importorskip("matplotlib")
+    printed = run_script("pressure_map", tmp_path)
+    inside = float(re.search(r"; ([\d.]+) % of the pressures lie within", printed)[1])
+    assert 92.0 < inside < 98.0 and "resolution 50 um" in printed and is_png(tmp_path / "pressure_map.png")
+
+
 def blocks(path):
     return re.findall(r"```python\n(.*?)```", pathlib.Path(path).read_text(), re.S)
 
