@@ -83,6 +83,7 @@ class Pressures:
         """Whether the interval of a pressure holds 0."""
         return np.abs(self.pressure_Pa) <= self.pressure_half_width_Pa
 
+    @_check.arguments
     def plot(self, frame: int = 0, ax=None):
         """The pressures of a frame as a map, crossed out where none is resolved; returns the axes of matplotlib."""
         whole = _arrays.whole(frame, "frame", 0)
