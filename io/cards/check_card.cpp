@@ -72,6 +72,11 @@ std::optional<CardFinding> bulk_finding(const ReadCard& read, const Material& re
       true};
 }
 
+// Others have no E(t): their bulk modulus is negative.
+bool has_solid_nu(const ReadCard& read) {
+  return read.material.nu > -1.0 && read.material.nu <= 0.5;
+}
+
 std::optional<CardFinding> density_finding(const ReadCard& read, const Material& reference) {
   const double found = read.material.rho_kg_m3, expected = reference.rho_kg_m3;
   const bool has_place = read.understood.states_density;
@@ -163,7 +168,9 @@ CardNumbers expected_numbers(const Material& reference, const ReadCard& read) {
 }
 
 void compare(const Material& reference, CardCheck& check) {
-  const bool is_solid = !check.read.material.terms.empty() || check.read.numbers.branches.empty();
+  const bool is_solid =
+      (!check.read.material.terms.empty() || check.read.numbers.branches.empty()) &&
+      has_solid_nu(check.read);
   const std::vector<double> times_s = comparison_times_s(reference);
   if (is_solid && check.read.material.E0_Pa > 0.0) {
     const Material ruled = with_bulk_rule(reference, check.read.understood.bulk);
@@ -271,6 +278,13 @@ CardCheck check_plain_card(const std::string& text, const CardTarget& target,
     note_times_outside_window(*reference, check);
   } else {
     compare_with_header(text, check);
+    if (!has_solid_nu(check.read)) {
+      check.findings.push_back(
+          {"poisson-ratio",
+           fmt::format("nu is {:g}; that of a solid lies above -1 and is at most 0.5",
+                       check.read.material.nu),
+           true});
+    }
   }
   // "no-solid" is only a consequence of any other mistake.
   const bool has_cause = std::any_of(

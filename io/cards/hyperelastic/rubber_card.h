@@ -35,7 +35,7 @@ struct RubberCardOptions {
   std::string file_sha256 = {}, file_name = {}, created_at = {}, command = {};
 };
 
-// The card of a law. Each solver's convention, with its source, stands in rubber_card.cpp and in the
+// The card of a law. Each solver's convention, with its source, stands in rubber_targets.cpp and in the
 // README. Throws std::invalid_argument for a target without this law (gent in abaqus, for instance), a
 // missing density, a bulk modulus or density that is not positive, and numbers that calculix or
 // frontistr would replace silently.

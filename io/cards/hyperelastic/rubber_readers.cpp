@@ -1,4 +1,4 @@
-// What the solvers take from a card of rubber; conventions and sources as in rubber_card.cpp and rubber_terms.cpp.
+// What the solvers take from a card of rubber; conventions and sources as in rubber_keywords.cpp and rubber_terms.cpp.
 #include "io/cards/hyperelastic/rubber_readers.h"
 
 #include "io/basics/patterns.h"

@@ -1,7 +1,6 @@
 #include "io/cards/hyperelastic/rubber_targets.h"
 
 #include "io/basics/words.h"
-#include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/hyperelastic/rubber_terms.h"
 
 #include <algorithm>
@@ -181,22 +180,15 @@ const std::vector<RubberTarget>& rubber_targets() {
   return kTable;
 }
 
-const std::vector<std::string>& rubber_card_targets() {
-  static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names;
-    for (const RubberTarget& target : rubber_targets()) names.push_back(target.name);
-    return names;
-  }();
-  return kNames;
-}
-
 const RubberTarget& rubber_target(const std::string& name) {
   const auto& all = rubber_targets();
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const RubberTarget& one) { return one.name == name; });
   if (found != all.end()) return *found;
+  std::vector<std::string> names;
+  for (const RubberTarget& target : all) names.push_back(target.name);
   throw std::invalid_argument("there is no card of rubber for '" + name + "'; use " +
-                              listed(rubber_card_targets()));
+                              listed(names));
 }
 
 }  // namespace viscard

@@ -22,7 +22,6 @@
 #include "io/cards/hyperelastic/rubber_terms.h"
 
 #include "io/cards/column_fields.h"
-#include "io/cards/hyperelastic/rubber_targets.h"
 #include "io/cards/keyword_lines.h"
 #include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
@@ -91,31 +90,6 @@ class Memory:
 )py";
 
 }  // namespace
-
-void require_terms_taken(const RubberNumbers& law, const RubberTarget& target,
-                         bool may_approximate) {
-  if (law.terms.empty()) return;
-  const std::string way_out =
-      "; --elastic-only long-term or --elastic-only instantaneous writes the law without them";
-  if (!target.takes_terms) {
-    throw std::invalid_argument(target.name +
-                                " cannot take the terms of relaxation: " + target.terms + way_out);
-  }
-  if (target.most_terms > 0 && law.terms.size() > target.most_terms) {
-    throw std::invalid_argument(fmt::format("{} takes {} terms of relaxation and the law has {}{}",
-                                            target.name, target.most_terms, law.terms.size(),
-                                            way_out));
-  }
-  require(law.long_term_share() > 0.0,
-          "the shares g of the terms sum to 1: nothing is left after all relaxation, and solvers "
-          "need less; fit again with fewer --terms");
-  if (!target.is_for_small_strain || may_approximate) return;
-  throw std::invalid_argument(
-      target.name +
-      " adds its terms of relaxation as a solid that is linear in the strain, not by the law's "
-      "own stress: right at small strain only; --approximate writes them" +
-      way_out);
-}
 
 std::string abaqus_terms(const RubberNumbers& law) {
   if (law.terms.empty()) return "";

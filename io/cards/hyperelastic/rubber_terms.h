@@ -6,14 +6,6 @@
 
 namespace viscard {
 
-struct RubberTarget;
-
-// Throws std::invalid_argument if the target cannot take the terms of the law: no memory beside a law,
-// too many terms, shares that sum to 1, or a rule that holds at small strain only (unless it may
-// approximate).
-void require_terms_taken(const RubberNumbers& law, const RubberTarget& target,
-                         bool may_approximate);
-
 // Lines that stand below the law, or around it.
 std::string abaqus_terms(const RubberNumbers& law);
 std::string ansys_terms(const RubberNumbers& law);

@@ -56,20 +56,39 @@ bool is_certificate_unchanged(const std::string& text) {
   return text.rfind(kSumKey) != std::string::npos && sealed_certificate(text) == text;
 }
 
-void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,
-                      const FoundSolver& found, const CardProof& proof) {
-  const std::string statement = statement_of(found.solver, request.target);
+void show_head(ResultVisitor& v, const CertificateRequest& request, const std::string& statement,
+               const FoundSolver& found) {
   v("statement", statement.empty() ? "the solver read the card itself" : statement,
     "which text was run");
   v("card", request.card_path, "the card");
   v("target", request.target, "its solver");
   v.or_null("compared_with", unless_empty(request.material_path),
-            "the material file; null: the card as read");
+            "the material file or that of the law; null: the card as read");
   v("solver", found.solver.code, "that ran it");
   v("solver_version", found.version, "its version");
   v("solver_program", found.program, "its path");
   v("created_by", "viscard " VISCARD_VERSION, "version of viscard");
   v("created_at", request.created_at, "time");
+}
+
+void show_end(ResultVisitor& v, const std::string& statement, bool holds,
+              const std::function<void()>& show_chain, const std::vector<DeckFile>& models) {
+  v("holds", holds && statement.empty(), "whether the card is proven, by its own solver");
+  v("numbers_hold", holds, "whether its numbers are proven, by any solver");
+  v.object("chain", "from the card to the raw data", show_chain);
+  v("models", models, "the models that were run");
+  v("certificate_sha256", kUnsealed,
+    "sum of the certificate with 64 zeros here; of --json not computed");
+}
+
+std::string certificate_text(const std::function<void(ResultVisitor&)>& show) {
+  return sealed_certificate(text_from_json(json_from_keys(show), 2) + "\n");
+}
+
+void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,
+                      const FoundSolver& found, const CardProof& proof) {
+  const std::string statement = statement_of(found.solver, request.target);
+  show_head(v, request, statement, found);
   v.object("relaxation", "the test of relaxation", [&] { show_error(v, proof.relaxation); });
   v.object("creep", "the test of creep", [&] { show_error(v, proof.creep); });
   const StepError confined = proof.confined.value_or(StepError{});
@@ -92,19 +111,14 @@ void show_certificate(ResultVisitor& v, const CertificateRequest& request, const
   v.or_null("caution", unless_empty(found.solver.caution),
             "what to know before trusting a run in this solver");
   show_proof(v, proof);
-  v("holds", proof.holds() && statement.empty(), "whether the card is proven, by its own solver");
-  v("numbers_hold", proof.holds(), "whether its numbers are proven, by any solver");
-  v.object("chain", "from the card to the raw data", [&] { show_keys(v, chain); });
-  v("models", proof.models, "the models that were run");
-  v("certificate_sha256", kUnsealed,
-    "sum of the certificate with 64 zeros here; of --json not computed");
+  show_end(
+      v, statement, proof.holds(), [&] { show_keys(v, chain); }, proof.models);
 }
 
 std::string certificate_text(const CertificateRequest& request, const CardChain& chain,
                              const FoundSolver& found, const CardProof& proof) {
-  const auto json =
-      json_from_keys([&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); });
-  return sealed_certificate(text_from_json(json, 2) + "\n");
+  return certificate_text(
+      [&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); });
 }
 
 }  // namespace viscard

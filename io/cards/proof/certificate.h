@@ -4,6 +4,7 @@
 #include "io/cards/proof/card_chain.h"
 #include "io/cards/proof/card_proof.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,16 @@ std::string sealed_certificate(const std::string& text);
 // Whether the sum of a certificate is that of its text.
 bool is_certificate_unchanged(const std::string& text);
 
-// Card, solver and its version, deviations, terms, the models as run, the chain; and the same as JSON.
+// What every certificate begins with: statement, card, solver and its version.
+void show_head(ResultVisitor& v, const CertificateRequest& request, const std::string& statement,
+               const FoundSolver& found);
+// And ends with: whether card and numbers hold, the chain, the models as run, the sum.
+void show_end(ResultVisitor& v, const std::string& statement, bool holds,
+              const std::function<void()>& show_chain, const std::vector<DeckFile>& models);
+// The keys as JSON with their sum.
+std::string certificate_text(const std::function<void(ResultVisitor&)>& show);
+
+// Of a card of Prony series: deviations, terms; and the same as JSON.
 void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,
                       const FoundSolver& found, const CardProof& proof);
 std::string certificate_text(const CertificateRequest& request, const CardChain& chain,

@@ -38,23 +38,6 @@ std::string text_of(const SolverDivergence& divergence, const std::string& code)
             "solver\n");
 }
 
-std::string terms_of(const CardProof& proof) {
-  std::string out;
-  for (std::size_t i = 0; i < proof.terms.size(); ++i) {
-    const TermProof& term = proof.terms[i];
-    out += fmt::format(
-        "  term {}: g = {:g}, tau = {:g} s: {}; a tau 10 % off changes the answer by {:.1e}\n",
-        i + 1, term.g, term.tau_s, term.is_exercised ? "exercised" : "NOT exercised", term.change);
-  }
-  return out;
-}
-
-std::string constants_of(const CardProof& proof) {
-  std::string out;
-  for (const ConstantProof& constant : proof.constants) out += row_of_constant(constant);
-  return out;
-}
-
 std::string verdict_of(const CardProof& proof, bool ran_card, const std::string& target) {
   if (!proof.agrees()) return "the card does not hold: the error stays at smaller steps\n";
   if (!proof.exercises_all()) {
@@ -96,8 +79,8 @@ void print_proof(const CardWords& words, const FoundSolver& found, const Materia
   } else {
     out << row_of("relaxation", proof.relaxation) << row_of("creep", proof.creep)
         << (proof.confined ? row_of("confined", *proof.confined) : "")
-        << temperature_of(material, found, proof) << terms_of(proof) << constants_of(proof)
-        << verdict_of(proof, statement.empty(), words.target);
+        << temperature_of(material, found, proof) << rows_of(proof.terms)
+        << rows_of(proof.constants) << verdict_of(proof, statement.empty(), words.target);
   }
   if (*found.solver.caution != '\0') out << "  " << found.solver.caution << "\n";
   out << chain_in_words(chain);
@@ -150,16 +133,10 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   const FoundSolver found = find_solver(solver, words.solver_path);
   const CardProof proof = prove_card(request.card_text, read, material, found);
   const CardChain chain = chain_of(request);
-  if (!words.json) print_proof(words, found, material, proof, chain, FittedText(streams));
-  write_file(path, certificate_text(request, chain, found, proof), words.force);
-  if (words.json) {
-    Words inputs{words.prove};
-    if (!words.material.empty()) inputs.push_back(words.material);
-    const auto show = [&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); };
-    print_result({"viscard-card-prove/1", inputs}, show, streams);
-  }
-  if (!words.json) streams.out << "wrote " << path << "\n";
-  return proof.holds() ? kDone : kFailed;
+  return finish_proof(
+      words, path, "viscard-card-prove/1", proof.holds(),
+      [&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); },
+      [&](std::ostream& out) { print_proof(words, found, material, proof, chain, out); }, streams);
 }
 
 int write_deck_files(const CardWords& words, Streams& streams) {

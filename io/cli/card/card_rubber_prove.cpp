@@ -45,17 +45,6 @@ const Solver& rubber_solver(const CardWords& words) {
   return solver_for(name, words.target);
 }
 
-void print_constants(const RubberProof& proof, std::ostream& out) {
-  for (const ConstantProof& constant : proof.constants) out << row_of_constant(constant);
-  if (!proof.hold) return;
-  for (std::size_t i = 0; i < proof.hold->terms.size(); ++i) {
-    const TermProof& term = proof.hold->terms[i];
-    out << fmt::format(
-        "  term {}: g = {:g}, tau = {:g} s: {}; a tau 10 % off changes the stress by {:.1e}\n",
-        i + 1, term.g, term.tau_s, term.is_exercised ? "exercised" : "NOT exercised", term.change);
-  }
-}
-
 std::string verdict_of(const RubberProof& proof, bool ran_card, const std::string& target) {
   if (!proof.diverged.empty()) {
     return "nothing is proven: the " + proof.diverged + " cube did not converge\n";
@@ -93,8 +82,8 @@ void print_rubber_proof(const CardWords& words, const FoundSolver& found, const 
                        "relaxation", proof.hold->end_s, proof.hold->error, proof.hold->at_s,
                        proof.hold->resolved);
   }
-  print_constants(proof, out);
-  out << verdict_of(proof, statement.empty(), words.target);
+  out << rows_of(proof.constants) << (proof.hold ? rows_of(proof.hold->terms) : "")
+      << verdict_of(proof, statement.empty(), words.target);
   if (!proof.caution.empty()) out << "  " << proof.caution << "\n";
   out << chain_in_words(chain);
 }
@@ -103,7 +92,7 @@ void print_rubber_proof(const CardWords& words, const FoundSolver& found, const 
 
 DescribedResult result_of_rubber_proof() {
   const auto show = [](ResultVisitor& v) {
-    show_certificate(v, RubberCertificateRequest{}, CardChain{}, {solvers().front(), "", ""},
+    show_certificate(v, CertificateRequest{}, CardChain{}, {solvers().front(), "", ""},
                      RubberProof{});
   };
   return {"card-rubber-prove",
@@ -131,19 +120,12 @@ int prove_rubber_file(const CardWords& words, Streams& streams) {
       throw std::runtime_error(words.prove + ": " + error.what());
     }
   }();
-  const RubberCertificateRequest request{words.prove, words.material, words.target};
-  const CardChain chain = chain_of(words.prove, read_file(words.prove), words.material);
-  if (!words.json) print_rubber_proof(words, found, proof, chain, FittedText(streams));
-  write_file(path, rubber_certificate_text(request, chain, found, proof), words.force);
-  if (words.json) {
-    Words inputs{words.prove};
-    if (!words.material.empty()) inputs.push_back(words.material);
-    const auto show = [&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); };
-    print_result({"viscard-card-rubber-prove/1", inputs}, show, streams);
-  } else {
-    streams.out << "wrote " << path << "\n";
-  }
-  return proof.holds() ? kDone : kFailed;
+  const CertificateRequest request{words.prove, text, words.material, words.target};
+  const CardChain chain = chain_of(request);
+  return finish_proof(
+      words, path, "viscard-card-rubber-prove/1", proof.holds(),
+      [&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); },
+      [&](std::ostream& out) { print_rubber_proof(words, found, proof, chain, out); }, streams);
 }
 
 }  // namespace viscard

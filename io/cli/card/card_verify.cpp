@@ -119,16 +119,51 @@ std::string chain_in_words(const CardChain& chain) {
   return "  chain: not complete: " + missing + "\n";
 }
 
-std::string row_of_constant(const ConstantProof& constant) {
-  const std::string start = fmt::format("  {} = {:.6g}: ", constant.name, constant.value);
-  if (constant.seen_by == "read back")
-    return start + "as in the material (no static test shows it)\n";
-  if (!constant.is_exercised && constant.change == 0.0 && constant.name == "rho_kg_m3")
-    return start + "NOT that of the material\n";
-  return start + fmt::format("{}; 10 % off changes an answer by {:.1e}\n",
-                             constant.is_exercised ? "seen by " + constant.seen_by
-                                                   : std::string("NOT exercised"),
-                             constant.change);
+std::string rows_of(const std::vector<TermProof>& terms) {
+  std::string out;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    out += fmt::format(
+        "  term {}: g = {:g}, tau = {:g} s: {}; a tau 10 % off changes an answer by {:.1e}\n",
+        i + 1, terms[i].g, terms[i].tau_s, terms[i].is_exercised ? "exercised" : "NOT exercised",
+        terms[i].change);
+  }
+  return out;
+}
+
+std::string rows_of(const std::vector<ConstantProof>& constants) {
+  std::string out;
+  for (const ConstantProof& constant : constants) {
+    out += fmt::format("  {} = {:.6g}: ", constant.name, constant.value);
+    if (constant.seen_by == "read back") {
+      out += "as in the material (no static test shows it)\n";
+    } else if (constant.name == "rho_kg_m3") {
+      out += "NOT that of the material\n";
+    } else {
+      out += fmt::format(
+          "{}; 10 % off changes an answer by {:.1e}\n",
+          constant.is_exercised ? "seen by " + constant.seen_by : std::string("NOT exercised"),
+          constant.change);
+    }
+  }
+  return out;
+}
+
+int finish_proof(const CardWords& words, const std::string& path, const char* schema, bool holds,
+                 const std::function<void(ResultVisitor&)>& show,
+                 const std::function<void(std::ostream&)>& print, Streams& streams) {
+  if (!words.json) {
+    FittedText text(streams);
+    print(text);
+  }
+  write_file(path, certificate_text(show), words.force);
+  if (words.json) {
+    Words inputs{words.prove};
+    if (!words.material.empty()) inputs.push_back(words.material);
+    print_result({schema, inputs}, show, streams);
+  } else {
+    streams.out << "wrote " << path << "\n";
+  }
+  return holds ? kDone : kFailed;
 }
 
 DescribedResult result_of_verify() {

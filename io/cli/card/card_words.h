@@ -7,6 +7,7 @@
 #include "io/results/result_schema.h"
 #include "models/quantities/plausible.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ namespace viscard {
 
 struct CardChain;
 struct ConstantProof;
+struct TermProof;
 
 // viscard card: writes a material card for a solver, lists targets, checks cards, proves them.
 int run_card(const Words& words, Streams& streams);
@@ -60,8 +62,13 @@ CardOptions card_options(const CardWords& words, const PreparedMaterial& prepare
 
 // "  chain: ..." of --prove and --verify, one line.
 std::string chain_in_words(const CardChain& chain);
-// One line of a constant that a proof exercised or not.
-std::string row_of_constant(const ConstantProof& constant);
+// Lines of the terms and constants that a proof exercised or not.
+std::string rows_of(const std::vector<TermProof>& terms);
+std::string rows_of(const std::vector<ConstantProof>& constants);
+// Writes the certificate to the path and prints its keys with --json; `print` prints a text without.
+int finish_proof(const CardWords& words, const std::string& path, const char* schema, bool holds,
+                 const std::function<void(ResultVisitor&)>& show,
+                 const std::function<void(std::ostream&)>& print, Streams& streams);
 int verify_file(const CardWords& words, Streams& streams);
 // What it prints with --json.
 DescribedResult result_of_verify();

@@ -65,7 +65,8 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       .shown_as("X");
   add("prove", &words.prove,
       "run a card on one element in a solver against the exact answer, and write a certificate "
-      "beside it (CARD.SOLVER.proof.json, or --out); of a law of rubber in calculix, febio, mtest or sfepy")
+      "beside it (CARD.SOLVER.proof.json, or --out); of a law of rubber in calculix, febio, mtest "
+      "or sfepy")
       .shown_as("CARD");
   add("verify", &words.verify,
       "compare every SHA-256 that a card or a certificate states: of itself, of the card, of the "

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <regex>
 
 using namespace viscard;
@@ -191,6 +192,24 @@ TEST_CASE("rounding to the columns of a card is no mistake in any unit system", 
         }
         CHECK(mistakes(text, target.name, material).empty());
       }
+    }
+  }
+}
+
+TEST_CASE("a Poisson ratio above 0.5 is named with and without the material", "[cards]") {
+  const Material material = reference_material();
+  for (const char* target : {"abaqus", "calculix", "febio", "frontistr", "ansys"}) {
+    CAPTURE(target);
+    std::string card = card_text(target);
+    for (std::size_t at = 0; (at = card.find("0.495", at)) != std::string::npos;)
+      card.replace(at, 5, "0.645");
+    const CardCheck with = check_card(card, card_target(target), {}, &material),
+                    without = check_card(card, card_target(target), {}, nullptr);
+    for (const CardCheck& check : {with, without}) {
+      CHECK_FALSE(check.agrees);
+      CHECK(std::any_of(check.findings.begin(), check.findings.end(), [](const auto& finding) {
+        return finding.name == "poisson-ratio" && finding.text.find("nu is 0.645") == 0;
+      }));
     }
   }
 }

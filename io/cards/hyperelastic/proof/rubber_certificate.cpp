@@ -1,7 +1,5 @@
 #include "io/cards/hyperelastic/proof/rubber_certificate.h"
 
-#include "io/basics/json_string.h"
-#include "io/cards/proof/certificate.h"
 #include "io/results/result_json.h"
 
 #include <filesystem>
@@ -41,22 +39,12 @@ void show_hold(ResultVisitor& v, const HoldProof& hold) {
 
 }  // namespace
 
-void show_certificate(ResultVisitor& v, const RubberCertificateRequest& request,
-                      const CardChain& chain, const FoundSolver& found, const RubberProof& proof) {
+void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,
+                      const FoundSolver& found, const RubberProof& proof) {
   const std::string statement = statement_of_rubber(found.solver, request.target);
-  v("statement", statement.empty() ? "the solver read the card itself" : statement,
-    "which text was run");
-  v("card", request.card_path, "the card");
-  v("target", request.target, "its solver");
-  v.or_null("compared_with", if_named(request.law_path),
-            "the file of the law; null: the card as read");
-  v("solver", found.solver.code, "that ran it");
-  v("solver_version", found.version, "its version");
-  v("solver_program", found.program, "its path");
+  show_head(v, request, statement, found);
   v("ran_text", runs_text_of(found.solver.name, request.target),
     "false: the solver ran the numbers that were read from the card, not its text");
-  v("created_by", "viscard " VISCARD_VERSION, "version of viscard");
-  v("created_at", request.created_at, "time");
   v("bulk_modulus_Pa", proof.bulk_Pa, "of the cubes");
   show_cubes(v, proof);
   v.object(
@@ -66,9 +54,7 @@ void show_certificate(ResultVisitor& v, const RubberCertificateRequest& request,
   v.or_null("diverged", if_named(proof.diverged), "the test that did not converge; null: none");
   v.or_null("caution", if_named(proof.caution),
             "what to know before trusting a run in this solver");
-  v("holds", proof.holds() && statement.empty(), "whether the card is proven, by its own solver");
-  v("numbers_hold", proof.holds(), "whether its numbers are proven, by any solver");
-  v.object("chain", "from the card to the raw data", [&] {
+  const auto show_chain = [&] {
     show_ends(v, chain);
     v.list("raw_files", "tables that the law was fitted to", chain.raw_files,
            [&](const ChainLink& link) {
@@ -78,17 +64,8 @@ void show_certificate(ResultVisitor& v, const RubberCertificateRequest& request,
            });
     v.or_null("law_sha256", if_named(chain.material.now),
               "sum of the file of the law; null: it is not here");
-  });
-  v("models", proof.models, "the models that were run");
-  v("certificate_sha256", std::string(64, '0'),
-    "sum of the certificate with 64 zeros here; of --json not computed");
-}
-
-std::string rubber_certificate_text(const RubberCertificateRequest& request, const CardChain& chain,
-                                    const FoundSolver& found, const RubberProof& proof) {
-  const auto json =
-      json_from_keys([&](ResultVisitor& v) { show_certificate(v, request, chain, found, proof); });
-  return sealed_certificate(text_from_json(json, 2) + "\n");
+  };
+  show_end(v, statement, proof.holds(), show_chain, proof.models);
 }
 
 }  // namespace viscard
