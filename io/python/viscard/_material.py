@@ -443,8 +443,8 @@ def predict(material: Union[Material, Path], **options: Unpack[PredictOptions]) 
         if _arrays.is_table(keywords.get(name)):
             tables[name] = _arrays.table(keywords[name], name)
             keywords[name] = name
-        elif name in keywords:
-            keywords[name] = _arrays.path_of(keywords[name], name)
+        elif name in keywords and not isinstance(keywords[name], (str, os.PathLike)):
+            raise TypeError(f"{name} must be a path or a dict of arrays by header, not {_check.shown(keywords[name])}")
     one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"), plausible=plausible)
     inputs = [os.fspath(path) for path in (material, options.get("history"), options.get("against"))
               if isinstance(path, (str, os.PathLike))]

@@ -89,7 +89,7 @@ def next_test(capture: Union[Path, Capture], want: Union[str, Sequence[str]], **
     True
     """
     words = [want] if isinstance(want, str) else list(want)
-    path = capture.file if isinstance(capture, Capture) else os.fspath(capture)
+    path = capture.file if isinstance(capture, Capture) else _arrays.path_of(capture, "capture")
     keywords = {name: value for name, value in options.items() if value is not None}
     found: List[NextTest] = _core.next_test(path, words, keywords)["measurements"]
     return found

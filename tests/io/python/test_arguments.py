@@ -49,6 +49,7 @@ WRONG_TYPES = [
     (lambda **k: viscard.forces_from_voltages(ARRAY, np.zeros((1, 2, 4)), **k), "noise", NO_NUMBER, "a number"),
     (viscard.sweep, "study", NO_PATH, "a path"),
     (lambda **k: viscard.predict(viscard.Material(1e6, 0.4), **k), "against", NO_PATH, "a path"),
+    (lambda **k: viscard.next_test(want="E0=1%", **k), "capture", NO_PATH, "a path"),
     (lambda **k: viscard.sweep("a.toml", **k), "over", (3, [1]), "a dict of values"),
     (lambda **k: viscard.sweep("a.toml", "a.sqlite", **k), "merge", NO_PATH[:2], "a path or a list of paths"),
     (lambda **k: viscard.design("a.toml", {}, **k), "search_time", (True, [1], None), "a text or a number"),
