@@ -15,7 +15,7 @@ import numpy as np
 import viscard
 
 
-def make_curves(folder, n_specimens=10):
+def make_curves(folder: pathlib.Path, n_specimens: int = 10) -> list[pathlib.Path]:
     """Files of E(t) of specimens with E0 about 1.88 MPa, as a relaxation test in tension gives them."""
     random = np.random.default_rng(20)
     time_s = np.geomspace(0.01, 300.0, 500)
@@ -29,7 +29,7 @@ def make_curves(folder, n_specimens=10):
     return paths
 
 
-def write_table(results, path):
+def write_table(results: list[viscard.FitResult], path: pathlib.Path) -> None:
     with open(path, "w", newline="") as file:
         table = csv.writer(file)
         table.writerow(["specimen", "E0_MPa", "low_95", "high_95", "E_inf_MPa", "terms", "flags"])
@@ -40,7 +40,7 @@ def write_table(results, path):
                             " ".join(sorted({flag.name for flag in result.flags}))])
 
 
-def plot(results, path):
+def plot(results: list[viscard.FitResult], path: pathlib.Path) -> None:
     import matplotlib
 
     matplotlib.use("agg")
@@ -61,8 +61,8 @@ def plot(results, path):
     figure.savefig(path, dpi=120)
 
 
-def main(folder="campaign"):
-    folder = pathlib.Path(folder)
+def main(name: str = "campaign") -> None:
+    folder = pathlib.Path(name)
     folder.mkdir(parents=True, exist_ok=True)
     results = viscard.fit(make_curves(folder))  # all ten, on all cores
     write_table(results, folder / "campaign.csv")

@@ -18,7 +18,7 @@ DIAMETERS_UM = (30, 40, 50, 60)
 LENGTHS_UM = (80, 120, 160)
 
 
-def pillar(diameter_um, length_um, analysis):
+def pillar(diameter_um: int, length_um: int, analysis: dict[str, object]) -> dict[str, object]:
     """A pillar of PDMS on a film of PVDF with an electrode under its foot."""
     return {
         "tolerance": 1e-2,
@@ -30,8 +30,8 @@ def pillar(diameter_um, length_um, analysis):
         "analysis": analysis}
 
 
-def study():
-    press = {"kind": "static", "load": {"force": "-10 uN", "on": "top"}}
+def study() -> list[dict[str, float]]:
+    press: dict[str, object] = {"kind": "static", "load": {"force": "-10 uN", "on": "top"}}
     rows = []
     for diameter_um in DIAMETERS_UM:
         for length_um in LENGTHS_UM:
@@ -48,7 +48,7 @@ def study():
     return rows
 
 
-def plot(rows, path):
+def plot(rows: list[dict[str, float]], path: pathlib.Path) -> None:
     import matplotlib
 
     matplotlib.use("agg")
@@ -71,8 +71,8 @@ def plot(rows, path):
     figure.savefig(path, dpi=120)
 
 
-def main(folder="study"):
-    folder = pathlib.Path(folder)
+def main(name: str = "study") -> None:
+    folder = pathlib.Path(name)
     folder.mkdir(parents=True, exist_ok=True)
     rows = study()
     with open(folder / "study.csv", "w", newline="") as file:

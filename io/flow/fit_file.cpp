@@ -139,6 +139,10 @@ const char* name_of_kind(FitKind kind) {
 }
 
 FittedFile fit_file(const std::string& path, const FitRequest& request) {
+  if (request.in_memory) {
+    const auto table = request.in_memory->find(path);
+    if (table != request.in_memory->end()) return fit_values(table->second, request);
+  }
   const bool is_capture = looks_like_capture(path);
   return fit_named(path, request, is_capture, [&](const FitRequest& wanted) {
     return is_capture ? fit_capture(path, wanted) : fit_table(path, wanted);

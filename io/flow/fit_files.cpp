@@ -164,6 +164,9 @@ FittedFile fit_tests(const std::vector<TestFile>& tests, const FitRequest& reque
   const auto has_no_depth = [](const FittedFile& file) { return file.has_no_depth; };
   fitted.has_no_depth = std::all_of(own.begin(), own.end(), has_no_depth);
   fitted.tests = tests;
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    fitted.tests[k].is_in_memory = own[k].is_in_memory;
+  }
   fitted.fitted_unit = "weighted";
   const auto accepts_any = [](const FittedFile& file) {
     return accepts_implausible(file.result.flags);

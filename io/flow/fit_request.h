@@ -12,6 +12,8 @@
 #include "models/quantities/modulus_kind.h"
 #include "models/quantities/plausible.h"
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +32,7 @@ inline constexpr const char* kUnverifiedHelp =
 struct TestFile {
   FitKind kind = FitKind::kRelaxation;
   std::string path;
+  bool is_in_memory = false;  // the path is only a name (FitRequest::in_memory)
 };
 
 // What to fit in a capture or a table, and how.
@@ -64,6 +67,8 @@ struct FitRequest {
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the result
   // Fit a capture whose description, events or moves are damaged; the result is flagged "unverified".
   bool accepts_unverified = false;
+  // Tables that stand for files, by the path that names them: arrays of a program. May be null.
+  std::shared_ptr<const std::map<std::string, CsvTable>> in_memory;
 };
 
 // What a table of moduli was measured in, and how it became Young's modulus.

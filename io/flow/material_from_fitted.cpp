@@ -1,6 +1,5 @@
 #include "io/basics/atomic_file.h"
 #include "io/flow/fit_file.h"
-#include "io/flow/test_words.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -77,8 +76,11 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
   material.provenance.created_by = "viscard " VISCARD_VERSION;
   material.provenance.created_at = request.created_at;
   material.provenance.command = request.command;
-  std::vector<std::string> files = paths_of(fitted.tests);
-  if (files.empty() && !fitted.is_in_memory) files.push_back(fitted.path);
+  std::vector<std::string> files;
+  for (const TestFile& test : fitted.tests) {
+    if (!test.is_in_memory) files.push_back(test.path);
+  }
+  if (fitted.tests.empty() && !fitted.is_in_memory) files.push_back(fitted.path);
   for (const std::string& file : files) {
     material.provenance.raw_files.push_back({file, sha256_of_file(file)});
   }

@@ -59,8 +59,9 @@ struct ReadTable {
   }
 };
 
-ReadTable read_compared(const std::string& path, const PredictFileRequest& request, double nu) {
-  ReadTable read{read_csv(path), &request};
+ReadTable read_compared(const std::string& path, const CsvTable* in_memory,
+                        const PredictFileRequest& request, double nu) {
+  ReadTable read{in_memory != nullptr ? *in_memory : read_csv(path), &request};
   read.table.judged = request.plausible;
   derive_columns(read.table, request.columns, {});
   std::vector<std::string> used = compared_names();
@@ -261,10 +262,12 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
 
   PredictionRequest wanted = request.prediction;
   std::optional<ReadTable> history, measured;
-  for (auto [path, table] :
-       {std::pair(&request.history, &history), std::pair(&request.against, &measured)}) {
-    if (!path->empty()) table->emplace(read_compared(*path, request, material.nu));
-  }
+  const auto read = [&](const std::string& path, const CsvTable* in_memory,
+                        std::optional<ReadTable>& table) {
+    if (!path.empty()) table.emplace(read_compared(path, in_memory, request, material.nu));
+  };
+  read(request.history, request.history_in_memory.get(), history);
+  read(request.against, request.against_in_memory.get(), measured);
   wanted.test = request.test ? *request.test
                 : history    ? PredictedTest::kHistory
                 : measured   ? test_of_columns(*measured)

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "io/tables/column_map.h"
+#include "io/tables/csv_table.h"
 #include "models/material/material.h"
 #include "models/material/prediction.h"
 #include "models/quantities/modulus_kind.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +22,10 @@ struct PredictFileRequest {
   PredictionRequest prediction;       // its `test`, `history` and `also_at` are filled in
   std::string history;                // table with time_s and strain or stress_Pa; may be empty
   std::string against;                // table of measured values; may be empty
-  bool is_driven_by_stress = false;   // of a table with strain and stress, which one is the input
-  ColumnMap columns;                  // of both tables
+  // Tables that stand for these two files, of which then only the names are used.
+  std::shared_ptr<const CsvTable> history_in_memory, against_in_memory;
+  bool is_driven_by_stress = false;  // of a table with strain and stress, which one is the input
+  ColumnMap columns;                 // of both tables
   std::optional<ModulusKind> modulus_kind;     // of both; none: their headers decide
   double time_zero_s = 0.0;                    // time in the tables where t = 0
   std::optional<double> temperature_C;         // by the material's temperature shift

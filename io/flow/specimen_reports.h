@@ -12,7 +12,8 @@ namespace viscard {
 
 // What a report is made of.
 struct ReportRequest {
-  std::vector<std::string> files;  // captures, tables and material files
+  std::vector<std::string> files;    // captures, tables and material files
+  std::vector<std::string> rubbers;  // files of laws of rubber, beside them
   // Instead of files: several tests of one material, which make one specimen.
   std::vector<TestFile> tests;
   // One per capture or table, in their order. Empty: the truth files beside the captures, if any.

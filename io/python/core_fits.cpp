@@ -1,6 +1,12 @@
+#include "io/basics/atomic_file.h"
 #include "io/basics/failure_text.h"
+#include "io/basics/timestamp.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cards/unit_system.h"
 #include "io/flow/command_error.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/planning/next_test.h"
+#include "io/flow/read_report.h"
 #include "io/flow/test_words.h"
 #include "io/flow/words/fit_text.h"
 #include "io/materials/material_file.h"
@@ -8,10 +14,12 @@
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
+#include "io/report/report.h"
 
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
+#include <map>
 #include <memory>
 #include <sstream>
 #include <variant>
@@ -73,6 +81,44 @@ py::dict outcome_dict(FitOutcome outcome) {
   return out;
 }
 
+// What to measure next after the fit of a capture.
+py::dict next_test(const std::string& path, const std::vector<std::string>& want,
+                   const py::dict& keywords) {
+  const FitWords words = fit_words_from(keywords);
+  const FitRequest request = fit_request(words);
+  const auto next = in_background({}, [=](Job&) {
+    const FittedFile fitted = fit_file(path, request);
+    return next_after_capture(path, fitted.result, fitted.specimen, want);
+  });
+  py::dict out = values_from_keys([&](ResultVisitor& v) { v("measurements", next, "best first"); });
+  out["text"] = text_of_next(next);
+  return out;
+}
+
+// Writes the page about captures, tables and materials. Returns what is not to be trusted on it.
+std::vector<std::string> report(const std::vector<std::string>& files, const std::string& page,
+                                const std::string& title, const std::vector<std::string>& cards,
+                                const std::string& units, bool overwrite, bool reproducible,
+                                const std::string& plausible, const py::object& progress) {
+  ReportRequest request{.files = files, .card_targets = cards, .card_units = units};
+  request.command = "viscard.report()";
+  request.plausible = judged_by(plausible);
+  if (!reproducible) request.created_at = now_iso8601();
+  try {
+    sort_inputs(request);
+    for (const std::string& target : cards) card_target(target);
+    unit_system(units);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+  return in_background({.progress = progress}, [=](Job& job) {
+    const ReportInput input = read_report(
+        request, title, [&](double done, const std::string& what) { job.report(done, what); });
+    write_file(page, render_report(input).html, overwrite);
+    return defects_of(input);
+  });
+}
+
 py::list list_from(std::vector<FitOutcome> outcomes) {
   py::list out;
   for (FitOutcome& outcome : outcomes) out.append(outcome_dict(std::move(outcome)));
@@ -87,7 +133,18 @@ std::vector<TestFile> tests_given(const std::vector<std::string>& files) {
   }
 }
 
-py::list fit_paths(std::vector<std::string> files, const py::dict& keywords,
+// Tables of arrays by the name that stands for a file; null if there are none.
+std::shared_ptr<const std::map<std::string, CsvTable>> in_memory(const py::dict& tables) {
+  if (tables.empty()) return nullptr;
+  auto found = std::make_shared<std::map<std::string, CsvTable>>();
+  for (const auto& [name, arrays] : tables) {
+    const auto file = name.cast<std::string>();
+    found->emplace(file, table_from_arrays(arrays.cast<py::dict>(), file));
+  }
+  return found;
+}
+
+py::list fit_paths(std::vector<std::string> files, const py::dict& tables, const py::dict& keywords,
                    const std::string& command, const py::object& progress) {
   const FitWords words = fit_words_from(keywords);
   const std::vector<TestFile> tests = tests_given(files);
@@ -95,6 +152,7 @@ py::list fit_paths(std::vector<std::string> files, const py::dict& keywords,
   refuse_contradictions(words, tests, files.size(), false);
   FitRequest request = fit_request(words);
   if (tests.size() == 1) request.kind = tests.front().kind;
+  request.in_memory = in_memory(tables);
   const MaterialRequest about = material_request(words, command);
   return list_from(in_background({.progress = progress}, [=](Job& job) {
     const FlowProgress show = [&](double done, const std::string& file) { job.report(done, file); };
@@ -116,33 +174,18 @@ py::list fit_paths(std::vector<std::string> files, const py::dict& keywords,
   }));
 }
 
-py::list fit_arrays(const py::dict& arrays, const std::string& name, const py::dict& keywords,
-                    const std::string& command, const py::object& progress) {
-  const FitWords words = fit_words_from(keywords);
-  refuse_contradictions(words, {}, 1, false);
-  if (words.joint) throw OptionError("--joint fits files; give their paths");
-  const FitRequest request = fit_request(words);
-  const MaterialRequest about = material_request(words, command);
-  return list_from(
-      in_background({.progress = progress}, [=, table = table_from_arrays(arrays, name)](Job& job) {
-        std::vector<FitOutcome> outcomes(1);
-        outcomes[0] = {.path = name, .inputs = {name}, .fitted = fit_values(table, request)};
-        add_material(words, about, outcomes[0]);
-        job.report(1.0, name);
-        return outcomes;
-      }));
-}
-
-RatioFit fit_ratios(const std::vector<std::string>& files, const py::dict& keywords,
-                    const std::string& command, const py::object& progress) {
+RatioFit fit_ratios(const std::vector<std::string>& files, const py::dict& tables,
+                    const py::dict& keywords, const std::string& command,
+                    const py::object& progress) {
   const FitWords words = fit_words_from(keywords);
   const std::vector<TestFile> tests = tests_given(files);
   refuse_contradictions(words, tests, files.size(), false);
-  return in_background(
-      {.progress = progress}, [request = joint_request(words, files, command)](Job& job) mutable {
-        request.progress = [&](double done, const std::string& file) { job.report(done, file); };
-        return fit_jointly(request);
-      });
+  JointRequest request = joint_request(words, files, command);
+  request.fit.in_memory = in_memory(tables);
+  return in_background({.progress = progress}, [request](Job& job) mutable {
+    request.progress = [&](double done, const std::string& file) { job.report(done, file); };
+    return fit_jointly(request);
+  });
 }
 
 }  // namespace
@@ -157,8 +200,9 @@ void add_fits(py::module_& module) {
         return material_at_ratio(fit, ratio, may_extrapolate);
       });
   module.def("fit_paths", &fit_paths);
-  module.def("fit_arrays", &fit_arrays);
   module.def("fit_ratios", &fit_ratios);
+  module.def("next_test", &next_test);
+  module.def("report", &report);
   module.def("ratio_fit_from_json", [](const std::string& text, const std::string& name) {
     return ratio_fit_from_json(text, name);
   });

@@ -4,6 +4,7 @@
 #include "io/cards/targets/card_targets.h"
 #include "io/flow/card_material.h"
 #include "io/flow/predict_file.h"
+#include "io/flow/validation_keys.h"
 #include "io/materials/material_file.h"
 #include "io/options/option.h"
 #include "io/python/job.h"
@@ -12,6 +13,7 @@
 #include "io/python/values.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/material/series_band.h"
+#include "models/pillar/validate_material.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -143,14 +145,35 @@ py::dict card(const Material& material, const std::string& target, const std::st
   return out;
 }
 
-PythonResult predict(const Material& material, const py::dict& keywords,
+// tables: arrays by the name that a keyword, history or against, gives in the place of a file.
+PythonResult predict(const Material& material, const py::dict& keywords, const py::dict& tables,
                      const std::vector<std::string>& inputs) {
-  const PredictFileRequest request = predict_request(
+  PredictFileRequest request = predict_request(
       predict_words_from(keywords), material.name.empty() ? "the material" : material.name);
+  const auto in_memory = [&](const std::string& name) -> std::shared_ptr<const CsvTable> {
+    if (name.empty() || !tables.contains(name)) return nullptr;
+    return std::make_shared<const CsvTable>(table_from_arrays(tables[py::str(name)], name));
+  };
+  request.history_in_memory = in_memory(request.history);
+  request.against_in_memory = in_memory(request.against);
   const auto found = in_background({}, [=](Job&) {
     return std::make_shared<const PredictedFile>(predict_material(material, request));
   });
   return {"viscard-predict/1", inputs, [found](ResultVisitor& v) { show_keys(v, *found); }, {}};
+}
+
+PythonResult validate(const Material& material, double max_error, const py::object& progress) {
+  if (!(max_error > 0.0)) {
+    throw OptionError(fmt::format("max_error is {:g}; it must be positive", max_error));
+  }
+  const auto found = in_background({.progress = progress}, [=](Job& job) {
+    ValidateOptions options;
+    options.tolerance = max_error;
+    options.progress = [&](double done) { job.report(done, "validate"); };
+    return std::make_shared<const ValidationResult>(validate_material(material, options));
+  });
+  const std::string name = material.name.empty() ? "the material" : material.name;
+  return {"viscard-validate/1", {}, [=](ResultVisitor& v) { show_keys(v, *found, name); }, {}};
 }
 
 // From text that Python has composed, or from a file.
@@ -181,6 +204,7 @@ void add_materials(py::module_& module) {
     return names;
   });
   module.def("predict", &predict);
+  module.def("validate", &validate);
 }
 
 }  // namespace viscard::python

@@ -12,6 +12,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <memory>
 #include <sstream>
 
 namespace viscard::python {
@@ -27,9 +28,15 @@ std::vector<LargeStrainFile> large_strain_given(const std::vector<std::string>& 
   }
 }
 
-py::dict fit_rubber(const std::vector<std::string>& files, const py::dict& keywords) {
-  const LargeStrainRequest request =
+py::dict fit_rubber(const std::vector<std::string>& files, const py::dict& tables,
+                    const py::dict& keywords) {
+  LargeStrainRequest request =
       large_strain_request(large_strain_words_from(keywords), large_strain_given(files));
+  for (LargeStrainFile& file : request.files) {
+    if (!tables.contains(file.path)) continue;
+    const py::dict arrays = tables[py::str(file.path)];
+    file.in_memory = std::make_shared<const CsvTable>(table_from_arrays(arrays, file.path));
+  }
   FittedLargeStrain fitted =
       in_background({}, [=](Job&) { return fit_large_strain_files(request); });
   std::ostringstream text;

@@ -4,6 +4,7 @@
 #include "io/flow/scenes/answer_scene.h"
 #include "io/flow/scenes/named_values.h"
 #include "io/flow/scenes/scene_uncertainty.h"
+#include "io/pictures/scene_picture.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
@@ -187,6 +188,17 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   return out;
 }
 
+// Reads and plans a scene; nothing is solved.
+py::dict check_scene(const std::optional<std::string>& text, const std::string& path,
+                     const std::string& name, const std::string& plausible) {
+  const Scene scene = scene_of(text, path, std::nullopt, plausible).scene;
+  with_lines_of(path, [&] { return checked_plan(scene); });
+  py::dict out;
+  out["kind"] = kind_of(scene);
+  out["svg"] = svg_from_scene(scene, name);
+  return out;
+}
+
 PythonResult plan_scene(const std::optional<std::string>& text, const std::string& path,
                         std::optional<double> tolerance, const std::string& plausible) {
   const auto found = in_background({}, [=](Job& job) {
@@ -226,6 +238,7 @@ PythonResult cost_scene(const std::optional<std::string>& text, const std::strin
 
 void add_scenes(py::module_& module) {
   module.def("simulate", &simulate_scene);
+  module.def("check_scene", &check_scene);
   module.def("plan", &plan_scene);
   module.def("cost", &cost_scene);
 }

@@ -173,6 +173,10 @@ void add_tables(py::module_& module) {
     return table_dict(std::move(*table), map);
   });
   module.def("read_capture", &capture_dict);
+  module.def("csv_of_capture", [](const std::string& path, bool accepts_damage) {
+    const py::gil_scoped_release others_may_run;
+    return table_from_capture(read_capture(path, {.accepts_damage = accepts_damage}));
+  });
   module.def("table_of_capture", [](const std::string& path, bool accepts_damage) {
     std::optional<CsvTable> table;
     {

@@ -85,7 +85,8 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
                     text_of(stable.high, 3) + (stable.high_is_open ? " and more" : "")));
   }
   for (const auto& raw : file.raw_files)
-    lines.push_back("raw data " + raw.file + " sha256 " + raw.sha256);
+    lines.push_back("raw data " + raw.file +
+                    (raw.sha256.empty() ? " in memory" : " sha256 " + raw.sha256));
   if (!options.file_sha256.empty())
     lines.push_back("material file " + options.file_name + " sha256 " + options.file_sha256);
   lines.push_back(unsealed_sum_line());

@@ -8,12 +8,10 @@
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/read_report.h"
 #include "io/flow/specimen_reports.h"
-#include "io/flow/test_words.h"
-#include "io/materials/hyperelastic_file.h"
 #include "io/report/report.h"
 #include "io/report/report_rubber.h"
-#include "models/hyperelastic/hyperelastic_law.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -67,67 +65,14 @@ CommandSyntax report_syntax(ReportWords& words) {
   return syntax;
 }
 
-// A law of rubber as the page shows it.
-RubberReport rubber_report(const std::string& path) {
-  const HyperelasticFile file = read_hyperelastic(path);
-  RubberReport out{fs::path(path).filename().string(),
-                   name_of(file.law.form),
-                   file.E0_Pa,
-                   file.E_inf_Pa,
-                   file.E0_interval_95,
-                   file.E_inf_interval_95,
-                   {},
-                   file.t_min_s,
-                   file.t_max_s,
-                   "",
-                   file.is_trustworthy};
-  for (const RubberTerm& term : file.terms) out.terms.push_back({term.g, 0.0, term.tau_s});
-  for (std::size_t d = 0; d < file.measured.size(); ++d) {
-    if (!file.measured[d]) continue;
-    out.stretches += (out.stretches.empty() ? "" : ", ") + deformation_names()[d] + " " +
-                     text_of(file.measured[d]->low, 3) + " to " +
-                     text_of(file.measured[d]->high, 3);
-  }
-  return out;
-}
-
-// Takes the laws of rubber out of the files.
-std::vector<std::string> take_rubbers(std::vector<std::string>& files) {
-  std::vector<std::string> rubbers, others;
-  std::error_code error;
-  for (const std::string& file : files) {
-    const bool is_law = fs::path(file).extension() == ".json" && fs::is_regular_file(file, error) &&
-                        looks_like_hyperelastic_file(file);
-    (is_law ? rubbers : others).push_back(file);
-  }
-  files = others;
-  return rubbers;
-}
-
-ReportRequest checked_words(const ReportWords& asked, const Words& words,
-                            std::vector<std::string>& rubbers) {
-  ReportRequest report{asked.files,
-                       {},
-                       asked.truth,
-                       asked.cards,
-                       asked.units,
-                       "",
-                       quoted_command_line("report", words)};
-  rubbers = take_rubbers(report.files);
-  if (report.files.empty()) {
-    throw UsageError(
-        "a law of rubber stands beside linear tests; give a capture, a table or a material "
-        "file too");
-  }
+ReportRequest checked_words(const ReportWords& asked, const Words& words) {
+  ReportRequest report{asked.files, {},          {}, asked.truth,
+                       asked.cards, asked.units, "", quoted_command_line("report", words)};
   try {
-    report.tests = tests_from_words(report.files);
+    sort_inputs(report);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  if (report.tests.size() == 1) {
-    throw UsageError("there is one test only; give its file without the kind, or more tests");
-  }
-  if (!report.tests.empty()) report.files.clear();
   if (!asked.out) {
     throw UsageError("no page given; name it with --out report.html");
   }
@@ -149,21 +94,6 @@ ReportRequest checked_words(const ReportWords& asked, const Words& words,
   return report;
 }
 
-ReportInput input_from_words(const ReportRequest& words, const std::vector<std::string>& rubbers,
-                             const std::string& title, Streams& streams) {
-  ReportInput input;
-  input.title = title;
-  input.created_by = "viscard " VISCARD_VERSION;
-  input.created_at = words.created_at;
-  input.command = words.command;
-  Progress progress(streams, "report");
-  input.specimens = read_specimens(
-      words, [&](double fraction, const std::string& what) { progress.show(fraction, what); });
-  input.law = mixing_law_of(words.files, input.specimens);
-  for (const std::string& rubber : rubbers) input.rubbers.push_back(rubber_report(rubber));
-  return input;
-}
-
 std::vector<std::string> write_pictures(const RenderedReport& report, const fs::path& folder,
                                         bool is_forced) {
   fs::create_directories(folder);
@@ -173,32 +103,6 @@ std::vector<std::string> write_pictures(const RenderedReport& report, const fs::
     write_file(paths.back(), picture.svg, is_forced);
   }
   return paths;
-}
-
-bool passed_pillar(const SpecimenReport& specimen) {
-  if (!specimen.pillar) return true;
-  const PillarCheck& pillar = *specimen.pillar;
-  const double worst =
-      std::max(pillar.relaxation.largest_relative_error, pillar.creep.largest_relative_error);
-  return worst <= pillar.limit;
-}
-
-// One line for each result on the page that is not to be trusted.
-std::vector<std::string> defects_of(const ReportInput& input) {
-  std::vector<std::string> lines;
-  for (const SpecimenReport& specimen : input.specimens) {
-    const std::string& id = specimen.specimen.id;
-    if (specimen.fit && !specimen.fit->is_trustworthy) {
-      lines.push_back(id +
-                      ": the fit is not to be trusted; the page and viscard fit give the reason");
-    }
-    if (!passed_pillar(specimen)) {
-      lines.push_back(id +
-                      ": the pillar differs from the exact solution by more than the limit; see "
-                      "the page and viscard validate");
-    }
-  }
-  return lines;
 }
 
 void show_specimen(ResultVisitor& v, const SpecimenReport& specimen) {
@@ -247,13 +151,15 @@ int run_report(const Words& words, Streams& streams) {
   syntax.results = {described<WrittenReport>("report", "viscard report")};
   if (!parse_words(syntax, words, streams)) return kDone;
   asked.plausible = given_plausible(syntax);
-  std::vector<std::string> rubbers;
-  const ReportRequest report = checked_words(asked, words, rubbers);
+  const ReportRequest report = checked_words(asked, words);
   const fs::path page = *asked.out;
   const bool is_forced = asked.overwrite;
   refuse_existing(page, is_forced);
 
-  const ReportInput input = input_from_words(report, rubbers, asked.title, streams);
+  Progress progress(streams, "report");
+  const ReportInput input =
+      read_report(report, asked.title,
+                  [&](double fraction, const std::string& what) { progress.show(fraction, what); });
   const RenderedReport rendered = render_report(input);
   std::vector<std::string> pictures;
   if (asked.pictures) {

@@ -4,6 +4,7 @@
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/flow/validation_keys.h"
 #include "io/materials/material_file.h"
 #include "models/material/liquid.h"
 #include "models/pillar/validate_material.h"
@@ -14,36 +15,6 @@
 
 namespace viscard {
 namespace {
-
-void show_curve(ResultVisitor& v, const ValidationCurve& curve, const std::string& quantity) {
-  const auto show_answer = [&] { v(quantity, curve.solver, "answer of the solver"); };
-  const bool is_first = quantity < "exact_";  // keys stand in the order of their names
-  v("at_time_s", curve.at_time_s, "when");
-  if (is_first) show_answer();
-  v("exact_" + quantity, curve.exact, "exact answer");
-  v("largest_relative_error", curve.largest_relative_error,
-    "largest difference from the exact answer");
-  v("solver_error_estimate", curve.solver_error_estimate, "what the solver estimated");
-  v("steps", curve.steps, "time steps");
-  if (!is_first) show_answer();
-  v("time_s", curve.time_s, "times");
-}
-
-void show_result(ResultVisitor& v, const ValidationResult& result, const std::string& name) {
-  v.object("creep", "the test of creep", [&] { show_curve(v, result.creep, "displacement_m"); });
-  v("diameter_m", result.diameter_m, "of the pillar");
-  v("exact_method", result.exact_method, "where the exact answer comes from");
-  v("length_m", result.length_m, "of the pillar");
-  v("material", name, "name of the material");
-  v("max_error", result.tolerance, "largest relative error allowed");
-  v("notes", result.notes, "what to keep in mind");
-  v("passed", result.passed, "whether both tests are within max_error");
-  v("pressure_Pa", result.pressure_Pa, "in creep");
-  v.object("relaxation", "the test of relaxation",
-           [&] { show_curve(v, result.relaxation, "stress_Pa"); });
-  v("strain", result.strain, "in relaxation");
-  v("unknowns", result.unknowns, "of the mesh");
-}
 
 std::string csv_from_curve(const ValidationCurve& curve, const char* quantity,
                            const std::string& command) {
@@ -92,7 +63,7 @@ int run_validate(const Words& words, Streams& streams) {
       .by_default("1e-6");
   syntax.options.add("force", &overwrite, "overwrite existing files");
   syntax.results = {{"validate", "viscard validate", {[](ResultVisitor& v) {
-                       show_result(v, ValidationResult{}, "");
+                       show_keys(v, ValidationResult{}, "");
                      }}}};
   if (!parse_words(syntax, words, streams)) return kDone;
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
@@ -113,7 +84,7 @@ int run_validate(const Words& words, Streams& streams) {
   };
   write(relaxation_csv, result.relaxation, "stress_Pa");
   write(creep_csv, result.creep, "displacement_m");
-  const auto show = [&](ResultVisitor& v) { show_result(v, result, name); };
+  const auto show = [&](ResultVisitor& v) { show_keys(v, result, name); };
   if (!print_result(syntax, {"viscard-validate/1", {path}}, show, streams)) {
     print_result(result, name, FittedText(streams));
   }

@@ -243,7 +243,7 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   fitted.files = request.files;
   std::vector<CsvTable> tables;
   for (const LargeStrainFile& file : request.files) {
-    tables.push_back(read_csv(file.path, request.table));
+    tables.push_back(file.in_memory ? *file.in_memory : read_csv(file.path, request.table));
     tables.back().judged = request.plausible;
     std::size_t n_gaps = 0;
     derive_columns(tables.back(), request.columns, size_from_notes(tables.back(), request.size));

@@ -3,10 +3,12 @@
 #include "fit/large_strain/fit_large_strain.h"
 #include "io/plots/plot.h"
 #include "io/tables/column_map.h"
+#include "io/tables/csv_table.h"
 #include "io/tables/derived_columns.h"
 
 #include <cstddef>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@ struct LargeStrainFile {
   Deformation deformation = Deformation::kUniaxial;
   bool is_compression = false;
   std::string path;
+  std::shared_ptr<const CsvTable> in_memory = nullptr;  // stands for the file, if it is given
 };
 
 // The words of a command that name tests at large strain: "planar=b.csv". Kinds: uniaxial (or

@@ -113,8 +113,8 @@ void show_keys(ResultVisitor& v, const FittedLargeStrain& fitted) {
   std::vector<ShownTest> tests;
   for (std::size_t i = 0; i < result.tests.size(); ++i) {
     const std::string& path = fitted.files[i].path;
-    tests.push_back(
-        {result.tests[i], path, sha256_of_file(path), times_of(fitted.tests[i]), fitted.cycles[i]});
+    tests.push_back({result.tests[i], path, fitted.files[i].in_memory ? "" : sha256_of_file(path),
+                     times_of(fitted.tests[i]), fitted.cycles[i]});
   }
   v("law", name_of(best.law.form), "the chosen law");
   v("trustworthy", best.is_trustworthy, "it may be used");

@@ -75,6 +75,22 @@ void check_range(const Study& study, const StudyParameter& parameter) {
   }
 }
 
+// A table of points: every parameter has one value for each.
+void check_rows(const Study& study) {
+  if (study.n_points > 0) {
+    throw std::runtime_error(study.path.string() + ": points and rows exclude each other");
+  }
+  const std::size_t n = study.parameters.front().values.size();
+  for (const StudyParameter& parameter : study.parameters) {
+    if (parameter.values.empty()) refuse(study, parameter, "needs values = [...] with rows = true");
+    if (parameter.values.size() == n) continue;
+    refuse(
+        study, parameter,
+        fmt::format("has {} values and '{}' has {}; with rows = true all have one for each point",
+                    parameter.values.size(), study.parameters.front().key, n));
+  }
+}
+
 void check(const Study& study) {
   if (study.parameters.empty()) {
     throw std::runtime_error(study.path.string() + ": there is no [[parameter]]");
@@ -84,12 +100,13 @@ void check(const Study& study) {
     if (!keys.insert(parameter.key).second) refuse(study, parameter, "is given twice");
     if (parameter.values.empty()) check_range(study, parameter);
   }
+  if (study.is_rows) check_rows(study);
   double points = 1.0;
   for (const StudyParameter& parameter : study.parameters) {
     points *= static_cast<double>(parameter.values.empty() ? parameter.count
                                                            : std::ssize(parameter.values));
   }
-  if (study.n_points == 0 && points > kMostPoints) {
+  if (study.n_points == 0 && !study.is_rows && points > kMostPoints) {
     throw std::runtime_error(
         fmt::format("{}: combines {:.6g} points; at most {:.6g} are answered in one study. Give "
                     "fewer values, or points = N for a Sobol' sequence",
@@ -197,6 +214,7 @@ Study read_study(const std::filesystem::path& path) {
   const auto show = [&](FieldVisitor& v) {
     v.text({"scene", "pillar_sensor.toml", true}, scene);
     v.integer("points", 1, static_cast<std::int64_t>(kMostPoints), study.n_points);
+    v.boolean("rows", study.is_rows);
     v.list(
         "parameter", study.parameters.size(), [&](std::size_t n) { study.parameters.resize(n); },
         [&](FieldVisitor& p, std::size_t i) {
@@ -230,6 +248,7 @@ Study read_study(const std::filesystem::path& path) {
 
 std::int64_t count_points(const Study& study) {
   if (study.n_points > 0) return study.n_points;
+  if (study.is_rows) return std::ssize(study.parameters.front().values);
   std::int64_t count = 1;
   for (const StudyParameter& parameter : study.parameters) count *= size_of(parameter);
   return count;
@@ -240,6 +259,10 @@ StudyValues values_at(const Study& study, std::int64_t point) {
   for (std::size_t k = study.parameters.size(); k-- > 0;) {
     const StudyParameter& parameter = study.parameters[k];
     values[k].first = parameter.key;
+    if (study.is_rows) {
+      values[k].second = value_at(parameter, point);
+      continue;
+    }
     if (study.n_points == 0) {
       values[k].second = value_at(parameter, point % size_of(parameter));
       point /= size_of(parameter);

@@ -27,7 +27,8 @@ struct Study {
   std::filesystem::path path, scene_path;
   std::string scene_text;
   std::vector<StudyParameter> parameters;
-  std::int64_t n_points = 0;               // of a Sobol' sequence; 0: a grid
+  std::int64_t n_points = 0;               // of a Sobol' sequence; 0: a grid or rows
+  bool is_rows = false;                    // the n-th values of all parameters are the n-th point
   std::vector<std::vector<double>> sobol;  // shares of the ranges, 0 to 1, by point
   // The study, its scene and every file that the scene names at any value of a parameter. Names are
   // relative to the folder of the study, so that they are the same on another machine.
@@ -37,6 +38,7 @@ struct Study {
 // Studies are TOML:
 //   scene = "pillar_sensor.toml"          # beside the study
 //   points = 1000                         # leave it out for a grid
+//   rows = true                           # the n-th values of all parameters are one point
 //   [[parameter]]
 //   key = "geometry.diameter"             # an entry of a list by its number: "shape.at.2"
 //   values = ["30 um", "40 um"]           # or from, to and (in a grid) count; spacing = "log"

@@ -2,11 +2,91 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, NamedTuple, Optional
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple, TypedDict, cast
 
 import numpy as np
 
+from . import _core, _show
 from ._result import Result
+from ._types import Booleans, Floats, Integers
+
+
+class Mode(TypedDict):
+    """A mode of vibration or of buckling."""
+
+    name: str
+    family: str
+    harmonic: int
+    frequency_Hz: float
+    error_estimate: float
+    damping_ratio: Optional[float]
+
+
+class Curve(TypedDict):
+    """A history or a response."""
+
+    unit: str
+    x_name: str
+    x: Floats
+    value: Floats
+    error: Floats
+
+
+class MapOfPillars(TypedDict):
+    """A result of all pillars of an array, shape (rows, columns)."""
+
+    unit: str
+    value: Floats
+    error: Floats
+
+
+class FieldValues(TypedDict):
+    """Values of a field, shape (points, components)."""
+
+    unit: str
+    value: Floats
+
+
+class Effect(TypedDict):
+    """An effect that a scene has or leaves out, and why."""
+
+    name: str
+    on: bool
+    estimate: float
+    number: str
+    value: float
+    forced: bool
+    counted: bool
+    choice: str
+    reason: str
+
+
+class UncertainResult(TypedDict, total=False):
+    """A result with its interval."""
+
+    value: float
+    unit: str
+    interval_95: Optional[Tuple[float, float]]
+    no_interval: str
+    standard_uncertainty: float
+    numerical_error: float
+    shares: Dict[str, float]
+    share_errors: Dict[str, float]
+
+
+class Uncertainty(TypedDict):
+    """Intervals of results, and what they come from."""
+
+    method: str
+    reason: str
+    answers: int
+    first_order_answers: int
+    failed: int
+    failed_share: float
+    notes: List[str]
+    results: Dict[str, UncertainResult]
+    inputs: Dict[str, str]
+    derivatives: Dict[str, str]
 
 
 class Value(NamedTuple):
@@ -44,10 +124,10 @@ class Field(NamedTuple):
 
     name: str
     harmonic: int
-    x_m: np.ndarray
-    z_m: np.ndarray
-    quads: np.ndarray
-    values: Dict[str, Dict[str, Any]]
+    x_m: Floats
+    z_m: Floats
+    quads: Integers
+    values: Dict[str, FieldValues]
 
 
 class Answer:
@@ -90,15 +170,15 @@ class Answer:
 
     def __init__(self, found: Dict[str, Any]) -> None:
         self.results = {name: Value(*row) for name, row in found["results"].items()}
-        self.modes: List[Dict[str, Any]] = found["modes"]
-        self.curves: Dict[str, Dict[str, Any]] = found["curves"]
-        self.maps: Dict[str, Dict[str, Any]] = found["maps"]
-        self.x_m: np.ndarray = found["x_m"]
-        self.y_m: np.ndarray = found["y_m"]
+        self.modes: List[Mode] = found["modes"]
+        self.curves: Dict[str, Curve] = found["curves"]
+        self.maps: Dict[str, MapOfPillars] = found["maps"]
+        self.x_m: Floats = found["x_m"]
+        self.y_m: Floats = found["y_m"]
         self.fields = [Field(f["name"], f["harmonic"], f["x_m"], f["z_m"], f["quads"], f["values"])
                        for f in found["fields"]]
-        self.effects: List[Dict[str, Any]] = found["effects"]
-        self.uncertainty = _uncertainty(found["uncertainty"])
+        self.effects: List[Effect] = found["effects"]
+        self.uncertainty: Optional[Uncertainty] = _uncertainty(found["uncertainty"])
         self.notes: List[str] = found["notes"]
         self.within_tolerance: bool = found["within_tolerance"]
         self.unknowns: int = found["unknowns"]
@@ -112,9 +192,39 @@ class Answer:
         raise KeyError(f"the answer has no '{name}'; it has {', '.join([*self.results, *frequencies]) or 'no results'}")
 
     @property
-    def frequencies_Hz(self) -> np.ndarray:
+    def frequencies_Hz(self) -> Floats:
         """Of all modes, shape (modes,)."""
         return np.array([mode["frequency_Hz"] for mode in self.modes])
+
+    def plot(self, name: Optional[str] = None, ax: Any = None) -> Any:
+        """Draw a map, a curve or a result with its error. Needs matplotlib. Returns the axes.
+
+        Parameters
+        ----------
+        name : str
+            Of maps, curves or results. Default: the first map, or the first curve, or all modes, or all results.
+        ax : matplotlib axes
+            Default: new ones.
+
+        Examples
+        --------
+        >>> import matplotlib; matplotlib.use("agg")
+        >>> viscard.simulate(viscard.data_file("scenes/pillar_modal.toml")).plot().get_xlabel()
+        'frequency (kHz)'
+        """
+        from ._plot import plot_answer
+
+        return plot_answer(self, name, ax)
+
+    def _repr_html_(self) -> str:
+        rows: List[Any] = [(name, one.value, one.unit, one.error) for name, one in self.results.items()]
+        if self.uncertainty is not None:
+            of = self.uncertainty["results"]
+            rows = [(*row, of[row[0]].get("interval_95") if row[0] in of else None) for row in rows]
+        rows += [(mode["name"], mode["frequency_Hz"], "Hz", mode["error_estimate"]) for mode in self.modes]
+        heads = ["", "value", "unit", "error"] + (["95 %"] if self.uncertainty is not None else [])
+        curves = [f"curve {name} ({len(curve['x'])} points)" for name, curve in self.curves.items()]
+        return _show.html_table("answer", heads, rows, curves + [f"map {name}" for name in self.maps] + self.notes)
 
     def __repr__(self) -> str:
         shown = [f"{name} {v.value:.4g} {v.unit}" for name, v in self.results.items()]
@@ -122,7 +232,7 @@ class Answer:
         return "<viscard.Answer " + ", ".join(shown[:4]) + (", ...>" if len(shown) > 4 else ">")
 
 
-def _uncertainty(found: Optional[Dict[str, Any]]) -> Optional[Dict[str, Any]]:
+def _uncertainty(found: Optional[Dict[str, Any]]) -> Optional[Uncertainty]:
     """By the names of inputs and results; a result without an interval has None."""
     if found is None:
         return None
@@ -135,9 +245,10 @@ def _uncertainty(found: Optional[Dict[str, Any]]) -> Optional[Dict[str, Any]]:
         of["share_errors"] = {cause["input"]: cause["share_standard_error"] for cause in one["causes"]}
         results[one["name"]] = of
     names = ("method", "reason", "answers", "first_order_answers", "failed", "failed_share", "notes")
-    return {**{name: found[name] for name in names}, "results": results,
-            "inputs": {one["name"]: one["text"] for one in found["inputs"]},
-            "derivatives": {one["name"]: one["derivatives"] for one in found["inputs"]}}
+    whole = {**{name: found[name] for name in names}, "results": results,
+             "inputs": {one["name"]: one["text"] for one in found["inputs"]},
+             "derivatives": {one["name"]: one["derivatives"] for one in found["inputs"]}}
+    return cast(Uncertainty, whole)
 
 
 class Plan(Result):
@@ -158,9 +269,9 @@ class Plan(Result):
     True
     """
 
-    def __init__(self, core) -> None:
+    def __init__(self, core: _core.Result) -> None:
         super().__init__(core)
-        self.effects: List[Dict[str, Any]] = self.values["effects"]
+        self.effects: List[Effect] = self.values["effects"]
         self.savings: List[Dict[str, Any]] = self.values["savings"]
         self.tolerance: float = self.values["tolerance"]
         self.mesh_tolerance: float = self.values["mesh_tolerance"]
@@ -171,6 +282,10 @@ class Plan(Result):
             if one["name"] == effect:
                 return one["on"]
         raise KeyError(f"no effect '{effect}'; there are {', '.join(e['name'] for e in self.effects)}")
+
+    def _repr_html_(self) -> str:
+        rows = [(one["name"], "on" if one["on"] else "off", one["estimate"], one["reason"]) for one in self.effects]
+        return _show.html_table(f"plan, tolerance {self.tolerance:g}", ["effect", "", "error without it", "reason"], rows)
 
     def __repr__(self) -> str:
         return "<viscard.Plan on: " + ", ".join(e["name"] for e in self.effects if e["on"]) + ">"
@@ -196,14 +311,17 @@ class Cost(Result):
     True
     """
 
-    def __init__(self, core) -> None:
+    def __init__(self, core: _core.Result) -> None:
         super().__init__(core)
         rows, found = self.values["rows"], self.values
         self.discretisation: List[str] = [row["discretisation"] for row in rows]
         self.effects: List[str] = [row["effects"] for row in rows]
-        for name, kind in (("unknowns", int), ("cpu_s", float), ("wall_s", float), ("memory_B", float),
-                           ("error", float), ("pareto", bool)):
-            setattr(self, name, np.array([row[name] for row in rows], dtype=kind))
+        self.unknowns: Integers = np.array([row["unknowns"] for row in rows], dtype=int)
+        self.cpu_s: Floats = np.array([row["cpu_s"] for row in rows], dtype=float)
+        self.wall_s: Floats = np.array([row["wall_s"] for row in rows], dtype=float)
+        self.memory_B: Floats = np.array([row["memory_B"] for row in rows], dtype=float)
+        self.error: Floats = np.array([row["error"] for row in rows], dtype=float)
+        self.pareto: Booleans = np.array([row["pareto"] for row in rows], dtype=bool)
         self.recommendations = [(one["tolerance"], -1 if one["row"] is None else one["row"], one["text"])
                                 for one in found["recommendations"]]
         self.reference: str = found["reference"]
@@ -211,6 +329,18 @@ class Cost(Result):
         self.rows_left_out: int = found["rows_left_out"]
         self.rows_without_answer = [(one["discretisation"], one["effects"], one["reason"])
                                     for one in found["rows_without_answer"]]
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the error over the processor time. Needs matplotlib. Returns the axes."""
+        from ._plot import plot_cost
+
+        return plot_cost(self, ax)
+
+    def _repr_html_(self) -> str:
+        columns: Dict[str, Any] = {"discretisation": np.array(self.discretisation), "effects": np.array(self.effects),
+                                   "unknowns": self.unknowns, "cpu_s": self.cpu_s, "error": self.error}
+        best = {name: values[self.pareto] for name, values in columns.items()}
+        return _show.html_columns("cost: the best rows", best, [one[2] for one in self.recommendations])
 
     def __repr__(self) -> str:
         return f"<viscard.Cost: {len(self.error)} rows, {int(self.pareto.sum())} on the Pareto front>"

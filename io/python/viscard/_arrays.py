@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import operator
 import os
+from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
 from ._check import is_boolean, is_number, shown
 from ._error import Error
+from ._types import Floats
 
 
-def path_of(value, name: str) -> str:
+def path_of(value: Any, name: str) -> str:
     """A path as text."""
     if not isinstance(value, (str, os.PathLike)):
         raise TypeError(f"{name} must be a path, not {shown(value)}")
-    return os.fspath(value)
+    return str(os.fspath(value))
 
 
-def whole(value, name: str, least: int, most: int = 2**31 - 1) -> "int | None":
+def whole(value: Any, name: str, least: int, most: int = 2**31 - 1) -> Optional[int]:
     """A whole number between these, or None."""
     if value is None:
         return None
@@ -29,7 +31,7 @@ def whole(value, name: str, least: int, most: int = 2**31 - 1) -> "int | None":
     return number
 
 
-def number(value, name: str) -> float:
+def number(value: Any, name: str) -> float:
     """A finite number."""
     if not is_number(value):
         raise TypeError(f"{name} must be a number, not {shown(value)}")
@@ -38,17 +40,32 @@ def number(value, name: str) -> float:
     return float(value)
 
 
-def _holds_boolean(values) -> bool:
+def _holds_boolean(values: Any) -> bool:
     """Of nested lists; an array shows it by its type."""
     if isinstance(values, (list, tuple)):
         return any(_holds_boolean(one) for one in values)
     return is_boolean(values) or (isinstance(values, np.ndarray) and values.dtype.kind == "b")
 
 
-def numbers(values, name: str, shape: "tuple[int, ...] | None" = None) -> np.ndarray:
-    """Real numbers as float64. Raises TypeError for anything else."""
+def _is_missing(value: Any) -> bool:
+    """None, and the NA of pandas, which is not imported for it."""
+    return value is None or type(value).__name__ == "NAType"
+
+
+def _with_gaps(values: Any) -> Any:
+    """NaN in the place of what is missing: masked, None, or NA of pandas. All else as it is."""
+    if isinstance(values, np.ma.MaskedArray) and values.dtype.kind in "fiu":
+        return values.astype(np.float64).filled(np.nan)  # type: ignore[attr-defined]
+    array = np.asarray(values)
+    if array.dtype.kind != "O" or not all(_is_missing(one) or is_number(one) for one in array.flat):
+        return array
+    return np.array([np.nan if _is_missing(one) else float(one) for one in array.flat]).reshape(array.shape)
+
+
+def numbers(values: Any, name: str, shape: Optional[Tuple[int, ...]] = None) -> Floats:
+    """Real numbers as float64; what is missing is NaN. Raises TypeError for anything else."""
     try:
-        array = np.asarray(values)
+        array = _with_gaps(values)
     except ValueError:  # rows of different lengths
         raise TypeError(f"{name} must hold numbers in rows of one length, not {shown(values)}") from None
     if _holds_boolean(values) or array.dtype.kind == "b":
@@ -58,12 +75,10 @@ def numbers(values, name: str, shape: "tuple[int, ...] | None" = None) -> np.nda
         raise TypeError(f"{name} must hold real numbers, not {found}")
     if shape is not None and array.shape != shape:
         raise Error(f"{name} has the shape {array.shape}; it must be {shape}", "input")
-    array = np.asarray(array, dtype=np.float64, order="C")  # keeps a single number without dimension
-    masked = np.ma.getmask(values)  # what a masked array masks is no number
-    return np.where(masked, np.nan, array) if np.any(masked) else array
+    return np.asarray(array, dtype=np.float64, order="C")  # keeps a single number without dimension
 
 
-def arguments(values, name: str, unit: str) -> np.ndarray:
+def arguments(values: Any, name: str, unit: str) -> Floats:
     """Times or frequencies: finite and not negative."""
     array = numbers(values, name)
     bad = ~(np.isfinite(array) & (array >= 0.0))
@@ -73,10 +88,14 @@ def arguments(values, name: str, unit: str) -> np.ndarray:
     return array
 
 
-def table(columns, name: str) -> "dict[str, np.ndarray]":
-    """Columns of one length by header."""
-    out: "dict[str, np.ndarray]" = {}
-    for header, values in columns.items():
+def table(columns: Any, name: str) -> Dict[str, Floats]:
+    """Columns of numbers of one length by header, of a dict, a Table or a DataFrame; what is missing is NaN."""
+    out: Dict[str, Floats] = {}
+    is_own = hasattr(columns, "preamble")  # a Table, whose segments and specimens are texts
+    for header in columns.keys():
+        values = columns[header]
+        if is_own and isinstance(values, list):
+            continue
         if not isinstance(header, str):
             raise TypeError(f"a column of {name} has the name {shown(header)}; names are texts such as 'time_s'")
         out[header] = numbers(values, header)
@@ -86,28 +105,80 @@ def table(columns, name: str) -> "dict[str, np.ndarray]":
     if len(set(lengths.values())) > 1:
         raise Error(f"{name}: the columns have different lengths: " +
                     ", ".join(f"{header} {n}" for header, n in lengths.items()), "input")
-    masked = [header for header, values in columns.items() if np.any(np.ma.getmask(values))]
-    if masked:  # a row that one of them masks is no reading
-        kept = ~np.any([np.ma.getmaskarray(columns[header]) for header in masked], axis=0)
-        out = {header: values[kept] for header, values in out.items()}
-        lengths = {header: int(kept.sum()) for header in out}
     if not lengths or min(lengths.values()) == 0:
         raise Error(f"{name} holds no rows", "input")
     return out
 
 
-def pair(interval) -> "tuple[float, float]":
+def is_table(value: Any) -> bool:
+    """Arrays by header: a dict, a Table, or a DataFrame of pandas, which has keys."""
+    return hasattr(value, "keys") and hasattr(value, "__getitem__") and not is_by_kind(value)
+
+
+def is_by_kind(value: Any) -> bool:
+    """Tests by kind, {"creep": table or path}: a dict that holds paths, tables, captures, or lists of these."""
+    if not isinstance(value, dict) or not value:
+        return False
+    first = next(iter(value.values()))
+    first = first[0] if isinstance(first, (list, tuple)) and len(first) > 0 else first
+    return isinstance(first, (str, os.PathLike)) or hasattr(first, "keys") or hasattr(first, "moves")
+
+
+class Given(NamedTuple):
+    """What a function was given in the place of files: the words of the command, and arrays by the name that stands for
+    their file."""
+
+    words: List[str]
+    tables: Dict[str, Dict[str, Floats]]
+
+    def add(self, value: Any, name: str, kind: str = "") -> None:
+        """A path, a capture, or a table, which has this name unless it comes from a file."""
+        if is_table(value):
+            name = value.file if hasattr(value, "preamble") else name  # a Table knows its file
+            while name in self.tables:  # two parts of one file
+                name += " again"
+            self.tables[name] = table(value, name)
+            path = name
+        else:
+            path = value.file if hasattr(value, "moves") else path_of(value, name)  # a Capture has one
+        self.words.append(f"{kind}={path}" if kind else path)
+
+
+def given(data: Any, name: str) -> Given:
+    """Of one path, capture or table, a list of these, or tests by kind."""
+    out = Given([], {})
+    if is_by_kind(data):
+        for kind, tests in data.items():
+            each = tests if isinstance(tests, (list, tuple)) else [tests]
+            for number, one in enumerate(each, 1):
+                out.add(one, kind if len(each) == 1 else f"{kind} {number}", kind)
+        return out
+    if is_table(data):
+        out.add(data, "arrays")
+        return out
+    if isinstance(data, (str, os.PathLike)) or hasattr(data, "moves"):
+        out.add(data, name)
+        return out
+    if isinstance(data, (np.ndarray, bytes, bytearray)) or not hasattr(data, "__iter__"):
+        raise TypeError(f"{name} must be a path, a dict of arrays by header, a Capture or a list of these, "
+                        f"not {shown(data)}")
+    for number, one in enumerate(data, 1):
+        out.add(one, f"arrays {number}" if is_table(one) else name)
+    return out
+
+
+def pair(interval: Optional[Sequence[Optional[float]]]) -> Tuple[float, float]:
     """An interval of the JSON, in which null is an end without bound."""
     low, high = interval if interval is not None else (None, None)
     return (float("-inf") if low is None else low, float("inf") if high is None else high)
 
 
-def column(rows, key) -> np.ndarray:
+def column(rows: Iterable[Any], key: Callable[[Any], Optional[float]]) -> Floats:
     """One number of each row; null becomes NaN."""
     return np.array([np.nan if key(row) is None else key(row) for row in rows], dtype=float)
 
 
-def with_head(schema: str, inputs: "list[str]", found: dict) -> dict:
+def with_head(schema: str, inputs: List[str], found: Dict[str, Any]) -> Dict[str, Any]:
     """The object of ``--json`` with what every one begins with."""
     from ._core import version
 

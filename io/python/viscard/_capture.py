@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from typing import Callable, Optional
+from typing import Any, Callable, Dict, Optional
 
 from . import _check, _core
 from ._arrays import whole
-from ._check import OptionalPath, Path, Progress
+from ._types import OptionalPath, Path, Progress
 from ._error import Error
 from ._result import Result
 from ._table import Capture, read_capture
@@ -29,7 +29,7 @@ class CaptureOutcome(Result):
     'finished'
     """
 
-    def __init__(self, core, file: str) -> None:
+    def __init__(self, core: _core.Result, file: str) -> None:
         super().__init__(core)
         self.file = file
         self.status: str = self.json["status"]
@@ -78,15 +78,15 @@ def capture(out: Path, *, rig: OptionalPath = None, test: OptionalPath = None, s
     >>> outcome = viscard.capture("run.viscap", emulate=True, speed=500, sample=lambda *one: readings.append(one))
     >>> time_s, force_N, depth_m = readings[-1]
     """
-    words = {name: None if path is None else os.fspath(path)
+    words: Dict[str, Any] = {name: None if path is None else os.fspath(path)
              for name, path in (("rig", rig), ("test", test), ("specimen", specimen), ("truth", truth))}
     words.update(emulate=emulate, seed=whole(seed, "seed", 0, 2**64 - 1), speed=float(speed), overwrite=overwrite,
                  uncalibrated=uncalibrated, lift=lift, plausible=plausible, command="viscard.capture()")
     file = os.fspath(out)
     was_enough = []
 
-    def watched(time_s, force_N, depth_m):
-        answer = sample(time_s, force_N, depth_m)
+    def watched(time_s: float, force_N: float, depth_m: float) -> object:
+        answer = sample and sample(time_s, force_N, depth_m)
         if answer is False:
             was_enough.append(True)
         return answer

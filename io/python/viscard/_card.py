@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+import pathlib
 from typing import Any, Dict, List, NamedTuple, Tuple
 
 from . import _check, _core
+from ._types import Path
 
 
 class Fidelity(NamedTuple):
@@ -47,9 +48,9 @@ class Card:
         self.largest_difference: float = found["largest_difference"]
 
     @_check.arguments
-    def save(self, path: _check.Path, *, overwrite: bool = False) -> None:
+    def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Write the card and its companions; existing files are kept unless `overwrite` is True."""
-        to = Path(path)
+        to = pathlib.Path(path)
         for suffix, text in self.companions:
             _core.write_file(str(to.with_suffix("")) + suffix, text, overwrite)
         _core.write_file(str(to), self.text, overwrite)

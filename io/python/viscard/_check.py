@@ -16,7 +16,6 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, TypeV
 import numpy as np
 
 from ._error import Error
-from ._types import OptionalPath, Path, Progress, Quantity, Scene, Texts  # noqa: F401
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -81,7 +80,7 @@ def _fits(value: Any, hint: Any) -> bool:
 
 
 def _in_words(hint: Any) -> str:
-    kinds = _alternatives(hint)
+    kinds = [_kind(one) if _kind(one) in _KINDS else one for one in _alternatives(hint)]
     if os.PathLike in kinds:  # a path is a text, which need not be said
         kinds.remove(str)
     words = [_LISTS[_element(one)] if _element(one) else _KINDS[_kind(one)][0] for one in kinds]
@@ -89,10 +88,11 @@ def _in_words(hint: Any) -> str:
     return ", ".join(words[:-1]) + " or " + words[-1] if len(words) > 1 else words[0]
 
 
-def _check(name: str, value: Any, hint: Any) -> None:
-    if not any(_fits(value, one) for one in _alternatives(hint)):
-        raise TypeError(f"{name} must be {_in_words(hint)}, not {shown(value)}")
-    for number in [value] if is_number(value) else value if isinstance(value, (list, tuple, np.ndarray)) else []:
+def value(name: str, given: Any, hint: Any) -> None:
+    """Raises TypeError for a value of another type, Error for a number that is not finite."""
+    if not any(_fits(given, one) for one in _alternatives(hint)):
+        raise TypeError(f"{name} must be {_in_words(hint)}, not {shown(given)}")
+    for number in [given] if is_number(given) else given if isinstance(given, (list, tuple, np.ndarray)) else []:
         try:
             is_finite = not is_number(number) or math.isfinite(number)
         except OverflowError:
@@ -156,14 +156,14 @@ def arguments(function: _Function) -> _Function:
         unknown = [] if others else [name for name in keywords if name not in positional]
         if unknown:
             raise TypeError(_no_such_keyword(function.__qualname__, unknown[0], positional))
-        for name, value in [*zip(positional, given), *keywords.items()]:
-            hint = hints().get(name if name in positional else others)
+        for name, one in [*zip(positional, given), *keywords.items()]:
+            hint = hints().get(name if name in positional else str(others))
             if hint is not None:
-                _check(name, value, hint)
+                value(name, one, hint)
         return function(*given, **keywords)
 
     if options:
         checked.__signature__ = _listed(inspect.signature(function), options)  # type: ignore[attr-defined]
-        described = "\n".join("    " + line for line in options.__doc__.split("\n"))
-        checked.__doc__ = function.__doc__.replace("    **options", described)
+        described = "\n".join("    " + line for line in str(options.__doc__).split("\n"))
+        checked.__doc__ = str(function.__doc__).replace("    **options", described)
     return typing.cast(_Function, checked)

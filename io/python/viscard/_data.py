@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
+import pathlib
 
 from . import _check
 from ._error import Error
+from ._types import Path
 
 
 @_check.arguments
-def data_file(name: _check.Path = "") -> str:
+def data_file(name: Path = "") -> str:
     """The path of a file that comes with viscard, such as "scenes/pillar_press.toml"; of a folder or "", the folder.
 
     There are the folders demo, designs, materials, protocols, reference, requirements, scenes and studies.
@@ -33,7 +34,7 @@ def data_file(name: _check.Path = "") -> str:
     """
     wanted = os.fspath(name)
     # Beside the module: PREFIX/share/viscard of PREFIX/lib/python3/dist-packages/viscard; in a build folder likewise.
-    roots = [parent / "share" / "viscard" for parent in Path(__file__).absolute().parents]
+    roots = [parent / "share" / "viscard" for parent in pathlib.Path(__file__).absolute().parents]
     root = next((one for one in roots if (one / "demo").is_dir()), None)
     if root is None:
         raise Error(f"the files that come with viscard were not found in '{roots[-2]}' nor beside the module; install the "

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any, Dict, List, Optional, Union
+from typing import Any, Dict, List, Optional, Union, overload
 
-from . import _check, _core
+from . import _arrays, _check, _core, _show
 from ._arrays import path_of
-from ._check import OptionalPath, Progress, Quantity
+from ._types import Numbers, OptionalPath, Progress, Quantity, Scene
 from ._error import Error
 from ._result import Result
 from ._scene import _scene_toml, _with_scene
@@ -36,7 +36,7 @@ class Judgement(Result):
     'pass'
     """
 
-    def __init__(self, core) -> None:
+    def __init__(self, core: _core.Result) -> None:
         super().__init__(core)
         self.name: str = self.json["name"]
         self.passes: bool = self.json["passes"]
@@ -50,7 +50,11 @@ class Judgement(Result):
 
     def summary(self) -> str:
         """The table that viscard design prints."""
-        return self._core.text()
+        return str(self._core.text())
+
+    def _repr_html_(self) -> str:
+        rows = [(one["requirement"], one["verdict"], one["value"], one["limit"], one["unit"], one["reason"]) for one in self.lines]
+        return _show.html_table(f"requirements: {self.name}", ["", "verdict", "value", "limit", "unit", "reason"], rows)
 
     def __repr__(self) -> str:
         return "<viscard.Judgement " + ", ".join(f"{one['requirement']}: {one['verdict']}" for one in self.lines) + ">"
@@ -74,14 +78,19 @@ class Designs(Result):
     (True, ['bandwidth'])
     """
 
-    def __init__(self, core) -> None:
+    def __init__(self, core: _core.Result) -> None:
         super().__init__(core)
         self.feasible: bool = self.json["feasible"]
         self.designs: List[Dict[str, Any]] = self.json["designs"]
 
     def summary(self) -> str:
         """The text that viscard design prints."""
-        return self._core.text()
+        return str(self._core.text())
+
+    def _repr_html_(self) -> str:
+        rows = [(i, "yes" if one["feasible"] else "no", ", ".join(f"{key} {text}" for key, text in one["values"].items()),
+                 ", ".join(one["active"])) for i, one in enumerate(self.designs)]
+        return _show.html_table("designs", ["", "feasible", "values", "held by"], rows)
 
     def __repr__(self) -> str:
         return f"<viscard.Designs: {len(self.designs)}, {'feasible' if self.feasible else 'not feasible'}>"
@@ -108,7 +117,7 @@ class DesignLimits(Result):
     (True, True, 'buckling')
     """
 
-    def __init__(self, core) -> None:
+    def __init__(self, core: _core.Result) -> None:
         super().__init__(core)
         self.admissible: bool = self.json["admissible"]
         self.limits: List[Dict[str, Any]] = self.json["limits"]
@@ -123,7 +132,11 @@ class DesignLimits(Result):
 
     def summary(self) -> str:
         """The text that viscard design prints."""
-        return self._core.text()
+        return str(self._core.text())
+
+    def _repr_html_(self) -> str:
+        rows = [(one["name"], "yes" if one["met"] else "no", one["value"], one["limit"], one["unit"]) for one in self.limits]
+        return _show.html_table("limits of a pillar sensor", ["", "met", "value", "limit", "unit"], rows)
 
     def __repr__(self) -> str:
         failed = [one["name"] for one in self.limits if not one["met"]]
@@ -135,7 +148,7 @@ _OF_LIMITS = ("diameter", "spacing", "length", "pressure", "modulus", "poisson",
               "sensitivity", "lattice")
 
 
-def _limits(require, tol, folder, values) -> DesignLimits:
+def _limits(require: Optional[Scene], tol: Optional[float], folder: OptionalPath, values: Dict[str, Quantity]) -> DesignLimits:
     if require is not None:
         raise Error("--require judges a scene; name its file, such as SCENE.toml", "usage")
     if tol is not None or folder is not None:
@@ -143,9 +156,34 @@ def _limits(require, tol, folder, values) -> DesignLimits:
     return DesignLimits(_core.design_limits({name: value for name, value in values.items() if value is not None}))
 
 
-@_check.arguments
-def design(scene: Optional[_check.Scene] = None, require: Optional[_check.Scene] = None, *, tol: Optional[float] = None, search_time: Union[str, float] = 60.0,
-           folder: OptionalPath = None, progress: Progress = None, **values: Quantity) -> Union[Judgement, Designs, DesignLimits]:
+def _points(values: Dict[str, Any]) -> Optional[List[Dict[str, Quantity]]]:
+    """The values one by one, if some are arrays; of one length."""
+    arrays = {name: value for name, value in values.items()
+              if name != "lattice" and (isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) > 0)}
+    if not arrays:
+        return None
+    columns = {name: list(value) if isinstance(value, (list, tuple)) and any(isinstance(one, str) for one in value)
+               else _arrays.numbers(value, name).ravel().tolist() for name, value in arrays.items()}
+    first, n = next((name, len(column)) for name, column in columns.items())
+    for name, column in columns.items():
+        if len(column) != n:
+            raise Error(f"{name} has {len(column)} values and {first} has {n}; arrays belong together one by one", "usage")
+    return [{**values, **{name: column[i] for name, column in columns.items()}} for i in range(n)]
+
+
+@overload
+def design(scene: None = ..., require: None = ..., **values: Quantity) -> DesignLimits: ...  # type: ignore[misc]
+@overload
+def design(scene: None = ..., require: None = ..., **values: Union[Quantity, Numbers]) -> List[DesignLimits]: ...
+@overload
+def design(scene: Scene, require: None = ..., *, progress: Progress = ...) -> Designs: ...
+@overload
+def design(scene: Scene, require: Scene, *, tol: Optional[float] = ..., search_time: Union[str, float] = ...,
+           folder: OptionalPath = ..., progress: Progress = ...) -> Judgement: ...
+@_check.arguments  # type: ignore[misc]
+def design(scene: Optional[Scene] = None, require: Optional[Scene] = None, *,
+           tol: Optional[float] = None, search_time: Union[str, float] = 60.0,
+           folder: OptionalPath = None, progress: Progress = None, **values: Any) -> Union[Judgement, Designs, DesignLimits, List[DesignLimits]]:
     """Judge a scene by requirements, each against a computed quantity with its error; design one; or state closed-form limits.
 
     Parameters
@@ -160,7 +198,8 @@ def design(scene: Optional[_check.Scene] = None, require: Optional[_check.Scene]
     **values
         Without `scene`, for `DesignLimits`: diameter, spacing, length, pressure, modulus, poisson, surface_energy,
         work_of_adhesion, strength, end_factor, film_thickness, charge_constant, permittivity, smallest_feature, aspect_ratio,
-        pitch, sensitivity and lattice, as in ``viscard design --help``; texts with a unit or numbers in SI.
+        pitch, sensitivity and lattice, as in ``viscard design --help``; texts with a unit or numbers in SI. Arrays of one
+        length give a list, one `DesignLimits` for each place.
 
     Examples
     --------
@@ -173,7 +212,13 @@ def design(scene: Optional[_check.Scene] = None, require: Optional[_check.Scene]
     if unknown:
         raise TypeError(f"design() has no keyword '{unknown[0]}'; there are {', '.join(_OF_LIMITS)}")
     if scene is None:
-        return _limits(require, tol, folder, values)
+        points = _points(values)
+        for point in [values] if points is None else points:
+            for name, one in point.items():
+                _check.value(name, one, Quantity)
+        if points is None:
+            return _limits(require, tol, folder, values)
+        return [_limits(require, tol, folder, point) for point in points]
     if values:
         raise Error(f"{next(iter(values))} belongs to the closed-form limits; a scene has its own values", "usage")
     if require is None:
@@ -181,8 +226,7 @@ def design(scene: Optional[_check.Scene] = None, require: Optional[_check.Scene]
             raise Error("tol and folder belong to a scene that is judged by require", "usage")
         return Designs(_core.design_of_spec(path_of(scene, "scene"), progress))
     tolerance = None if tol is None else float(tol)
-    is_table = isinstance(require, Mapping)
-    table = _scene_toml({"require": dict(require)}, "") if is_table else None
-    name = "require" if is_table else os.fspath(require)
+    table = _scene_toml({"require": dict(require)}, "") if isinstance(require, Mapping) else None
+    name = "require" if isinstance(require, Mapping) else os.fspath(require)
     return Judgement(_with_scene(scene, folder, lambda scene_text, path: _core.design(
         scene_text, path, table, name, tolerance, search_time, progress)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any, Tuple
 
 _OPTION = re.compile(r"--([a-z]+(?:-[a-z]+)*)")
 _OTHER_NAMES = {"from": "from_", "emulate": "emulate=True", "force": "overwrite=True",
@@ -65,7 +66,7 @@ class Error(RuntimeError):
         self.where = _in_python(where)
         self.hint = _in_python(hint)
 
-    def __reduce__(self):
+    def __reduce__(self) -> Tuple[Any, ...]:
         return (Error, (str(self), self.code, self.message, self.where, self.hint))
 
 

@@ -4,28 +4,16 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Mapping as _Mapping
-from typing import Any, List, Unpack
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, Dict, List, Literal, Sequence, Union, Unpack, overload
 
 from . import _arrays, _check, _core
 from ._error import DoubtWarning, Error
 from ._fit_result import FitResult, JointFit
-from ._options import FitOptions
-from ._table import Capture, Table
-from ._types import Progress
+from ._options import FitOptions, JointOptions
+from ._types import Progress, RubberTests, Source, Tests
 
-
-def _paths(data, name: str = "data") -> "list[str]":
-    if isinstance(data, Capture):
-        return [data.file]
-    if isinstance(data, (str, os.PathLike)):
-        return [_arrays.path_of(data, name)]
-    if isinstance(data, (np.ndarray, bytes, bytearray)) or not hasattr(data, "__iter__"):
-        raise TypeError(f"{name} must be a path, a dict of arrays by header, a Capture or a list of paths, "
-                        f"not {_check.shown(data)}")
-    return [one.file if isinstance(one, Capture) else _arrays.path_of(one, name) for one in data]
+if TYPE_CHECKING:
+    from ._rubber import RubberFit
 
 
 def _file_of(word: str) -> str:
@@ -34,15 +22,31 @@ def _file_of(word: str) -> str:
     return file if sign and not os.path.exists(word) else word
 
 
-def _warn(result, name: str) -> None:
+def _warn(result: Union[FitResult, RubberFit], name: str) -> None:
     if result.is_trustworthy:
         return
     causes = "; ".join(flag.text for flag in result.flags) or "no flag names the cause"
     warnings.warn(f"{name}: the result is not to be trusted: {causes}", DoubtWarning, stacklevel=5)
 
 
+# A text is a sequence of texts, and a dict of tests has keys as a table has: the first overload that fits is the right one.
+@overload
+def fit(data: RubberTests, *, errors: str = ..., progress: Progress = ...,  # type: ignore[misc]
+        **options: Unpack[FitOptions]) -> RubberFit: ...
+@overload
+def fit(data: Union[Source, Tests], *, errors: str = ..., progress: Progress = ...,  # type: ignore[misc]
+        **options: Unpack[FitOptions]) -> FitResult: ...
+@overload
+def fit(data: Sequence[Source], *, joint: Literal[True], errors: str = ..., progress: Progress = ...,  # type: ignore[misc]
+        **options: Unpack[JointOptions]) -> JointFit: ...
+@overload
+def fit(data: Sequence[Source], *, errors: Literal["return"], progress: Progress = ...,
+        **options: Unpack[FitOptions]) -> List[Union[FitResult, Error]]: ...
+@overload
+def fit(data: Sequence[Source], *, errors: Literal["raise"] = ..., progress: Progress = ...,
+        **options: Unpack[FitOptions]) -> List[FitResult]: ...
 @_check.arguments
-def fit(data, *, errors: str = "raise", progress: Progress = None, **options: Unpack[FitOptions]):
+def fit(data: Any, *, errors: str = "raise", progress: Progress = None, **options: Unpack[FitOptions]) -> Any:
     """Fit the instantaneous modulus and a Prony series, with 95 % intervals.
 
     Quantities are texts with a unit ("0.1 mm") or numbers in SI. The options are those of ``viscard fit``, with "_"
@@ -50,12 +54,16 @@ def fit(data, *, errors: str = "raise", progress: Progress = None, **options: Un
 
     Parameters
     ----------
-    data : path, Capture, Table, dict of arrays, or list of paths
-        A list gives a list of results, fitted on all cores. "relaxation=a.csv", "creep=b.csv", ... in a list are
-        tests of one material, fitted together into one result; "uniaxial=a.csv", "compression=b.csv", "planar=c.csv",
-        "equibiaxial=d.csv" are tests of rubber at large strain. A dict has arrays of shape (rows,) by header with
-        unit: ``{"time_s": t, "modulus_Pa": E}``, ``{"Time [ms]": t, "Force [mN]": F}``; a message about
-        "arrays:7" means row 7, from 1. Rows that a masked array masks are left out.
+    data : path, Capture, Table, dict of arrays, DataFrame, list of these, or dict of these by kind of test
+        A dict has arrays of shape (rows,) by header with unit: ``{"time_s": t, "modulus_Pa": E}``,
+        ``{"Time [ms]": t, "Force [mN]": F}``, and so has a DataFrame of pandas; a message about "arrays:7" means row 7,
+        from 1. What is missing (NaN, None, NA of pandas, masked) or infinite leaves its row out, if the fit uses the
+        column; the result counts these rows.
+        A list gives a list of results, fitted on all cores.
+        A dict by kind gives one result: tests of one material that are fitted together, ``{"relaxation": "a.csv",
+        "creep": {"time_s": t, "compliance_1_Pa": J}}`` (also dma, indentation), or tests of rubber at large strain,
+        ``{"uniaxial": {"stretch": s, "nominal_stress_Pa": P}}`` (also compression, planar, equibiaxial). Several tests
+        of a kind are a list. The words of the command line do the same: ["relaxation=a.csv", "creep=b.csv"].
     errors : "raise" or "return"
         Of a list: "return" puts the Error of a file that cannot be fitted in the place of its result.
     progress : function of (fraction, step)
@@ -81,31 +89,30 @@ def fit(data, *, errors: str = "raise", progress: Progress = None, **options: Un
     if errors not in ("raise", "return"):
         raise Error(f"errors is {errors!r}; use 'raise' or 'return'", "usage")
     command = "viscard.fit(" + ", ".join(f"{k}={v!r}" for k, v in keywords.items() if v is not False) + ")"
-    if isinstance(data, _Mapping) or hasattr(data, "keys"):  # a DataFrame of pandas has keys
-        _refuse_rubber_options(keywords)
-        return _fit_arrays(data, keywords, command, progress)
-    paths = _paths(data)
-    if not paths:
+    given = _arrays.given(data, "data")
+    if not given.words:
         raise Error("there is nothing to fit: the list is empty", "usage")
-    if _core.is_large_strain(paths):
-        return _fit_rubber(paths, keywords)
+    if _core.is_large_strain(given.words):
+        return _fit_rubber(given, keywords)
     _refuse_rubber_options(keywords)
     if keywords.get("joint"):
-        return JointFit(_core.fit_ratios(paths, keywords, command, progress))
-    found = _core.fit_paths(paths, keywords, command, progress)
+        if _arrays.is_table(data):
+            raise Error("joint fits records at several mixing ratios; give a list of them", "usage")
+        return JointFit(_core.fit_ratios(given.words, given.tables, keywords, command, progress))
+    found = _core.fit_paths(given.words, given.tables, keywords, command, progress)
     return _results(data, found, errors)
 
 
 _RUBBER_ONLY = ("weight", "cycle")
 
 
-def _refuse_rubber_options(keywords) -> None:
+def _refuse_rubber_options(keywords: Dict[str, Any]) -> None:
     for name in _RUBBER_ONLY:
         if name in keywords:
             raise Error(f'{name} is for tests at large strain ("uniaxial=FILE"); omit it', "usage")
 
 
-def _fit_rubber(paths, keywords):
+def _fit_rubber(given: _arrays.Given, keywords: Dict[str, Any]) -> RubberFit:
     from ._rubber import RubberFit
 
     for name, value in keywords.items():
@@ -115,26 +122,16 @@ def _fit_rubber(paths, keywords):
             raise Error(f"{name} does not belong to tests at large strain; omit it", "usage")
     if isinstance(keywords.get("cycle"), int):
         keywords["cycle"] = str(keywords["cycle"])
-    found = _core.fit_rubber(paths, keywords)
-    result = RubberFit(found["json_text"], " + ".join(_file_of(path) for path in paths), found["text"],
+    found = _core.fit_rubber(given.words, given.tables, keywords)
+    result = RubberFit(found["json_text"], " + ".join(_file_of(word) for word in given.words), found["text"],
                        found["tests"], found["times"], found["stresses"])
     _warn(result, result._name)
     return result
 
 
-def _fit_arrays(data, keywords, command, progress):
-    name = data.file if isinstance(data, Table) else "arrays"
-    numbers = {key: data[key] for key in data.keys() if not (isinstance(data, Table) and isinstance(data[key], list))}
-    arrays = _arrays.table(numbers, name)
-    found = _core.fit_arrays(arrays, name, keywords, command, progress)[0]
-    result = FitResult(found)
-    _warn(result, result.file)
-    return result
-
-
-def _results(data, found, errors):
-    is_one = len(found) == 1 and (isinstance(data, (str, os.PathLike, Capture)) or
-                                  " + " in found[0]["file"] or "=" in str(list(data)[0]))
+def _results(data: Any, found: List[Dict[str, Any]], errors: str) -> Any:
+    is_list = not isinstance(data, (str, os.PathLike)) and not hasattr(data, "keys") and not hasattr(data, "moves")
+    is_one = len(found) == 1 and (not is_list or " + " in found[0]["file"] or "=" in str(list(data)[0]))
     results: List[Any] = []
     for one in found:
         error = one["error"]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, NamedTuple
+from typing import Any, Dict, List, NamedTuple, Tuple
 
 import numpy as np
 
 from . import _check, _core, _show
-from ._check import Path
+from ._types import Floats, Path
 from ._error import Error
 from ._material import Material
 from ._result import Compared, Parameter, Result
@@ -69,7 +69,7 @@ class FitResult(Result):
     def __init__(self, found: Dict[str, Any]) -> None:
         super().__init__(found["result"])
         self.file: str = found["file"]
-        self.covariance: np.ndarray = self.values["covariance"]
+        self.covariance: Floats = self.values["covariance"]
         self.covariance_parameters: List[str] = self.values["covariance_parameters"]
         self.curves: Dict[str, Any] = self.values["curves"]
         self.flags = [Flag(f["name"], f.get("term", 0), f["text"]) for f in self.values["flags"]]
@@ -82,7 +82,11 @@ class FitResult(Result):
         self._no_material: str = found["no_material"]
 
     def _value(self, name: str) -> float:
-        return self.values[self._letter + name + self._suffix]
+        return float(self.values[self._letter + name + self._suffix])
+
+    def _interval(self, key: str) -> Tuple[float, float]:
+        low, high = self.values[key]
+        return float(low), float(high)
 
     def _in_Pa(self, value: float) -> float:
         if self.unit != "Pa":
@@ -111,46 +115,46 @@ class FitResult(Result):
         return self._value("0_se")
 
     @property
-    def E0_interval(self):
-        return self.values[self._letter + "0_interval_95"]
+    def E0_interval(self) -> Tuple[float, float]:
+        return self._interval(self._letter + "0_interval_95")
 
     @property
-    def E_inf_interval(self):
-        return self.values[self._letter + "_inf_interval_95"]
+    def E_inf_interval(self) -> Tuple[float, float]:
+        return self._interval(self._letter + "_inf_interval_95")
 
     @property
-    def E0_combined_interval(self):
-        return self.values[self._letter + "0_combined_interval_95"]
+    def E0_combined_interval(self) -> Tuple[float, float]:
+        return self._interval(self._letter + "0_combined_interval_95")
 
-    def _terms(self, key: str) -> np.ndarray:
+    def _terms(self, key: str) -> Floats:
         return np.array([term[key] for term in self.values["terms"]], dtype=float)
 
-    def _intervals(self, key: str) -> np.ndarray:
+    def _intervals(self, key: str) -> Floats:
         rows = [term["interval_95"][key] for term in self.values["terms"]]
         return np.array(rows, dtype=float).reshape(-1, 2)
 
     @property
-    def g(self) -> np.ndarray:
+    def g(self) -> Floats:
         return self._terms("g")
 
     @property
-    def tau_s(self) -> np.ndarray:
+    def tau_s(self) -> Floats:
         return self._terms("tau_s")
 
     @property
-    def moduli(self) -> np.ndarray:
+    def moduli(self) -> Floats:
         return self._terms(self._stem)
 
     @property
-    def g_interval(self) -> np.ndarray:
+    def g_interval(self) -> Floats:
         return self._intervals("g")
 
     @property
-    def tau_interval_s(self) -> np.ndarray:
+    def tau_interval_s(self) -> Floats:
         return self._intervals("tau_s")
 
     @property
-    def moduli_interval(self) -> np.ndarray:
+    def moduli_interval(self) -> Floats:
         return self._intervals(self._stem)
 
     @property
@@ -172,16 +176,16 @@ class FitResult(Result):
         """
         rows = [(self._letter + "0" + self._suffix, self.E0, self.E0_interval),
                 (self._letter + "_inf" + self._suffix, self.E_inf, self.E_inf_interval)]
-        for i, (g, g_95, tau, tau_95) in enumerate(zip(self.g, self.g_interval, self.tau_s, self.tau_interval_s), 1):
-            rows += [(f"g_{i}", float(g), tuple(g_95)), (f"tau_{i}_s", float(tau), tuple(tau_95))]
+        for i, (g, (g_low, g_high), tau, (tau_low, tau_high)) in enumerate(zip(self.g, self.g_interval, self.tau_s, self.tau_interval_s), 1):
+            rows += [(f"g_{i}", float(g), (g_low, g_high)), (f"tau_{i}_s", float(tau), (tau_low, tau_high))]
         return {name: Parameter(name, value, interval) for name, value, interval in rows}
 
     @property
-    def residuals(self) -> np.ndarray:
+    def residuals(self) -> Floats:
         """Measured minus fitted, shape (rows,), in ``curves["unit"]``; of an oscillation of the storage modulus."""
-        return self.curves["measured"] - self.curves["fitted"]
+        return np.asarray(self.curves["measured"] - self.curves["fitted"])
 
-    def to_frame(self):
+    def to_frame(self) -> Any:
         """The curves as a DataFrame of pandas: at, measured, fitted, residual, sigma."""
         columns = {name: values for name, values in self.curves.items() if isinstance(values, np.ndarray)}
         return _show.frame({**columns, "residual": self.residuals})
@@ -194,16 +198,19 @@ class FitResult(Result):
 
     def summary(self) -> str:
         """The text of ``viscard fit``: moduli with intervals, the table of orders, flags."""
-        return self._core.text()
+        return str(self._core.text())
 
-    def plot(self, ax=None, **style):
-        """Data and fit on logarithmic time (or frequency; of an indentation, on linear time). Needs matplotlib.
-        Returns the axes.
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """Data, fit and its 95 % band on logarithmic time (or frequency; of an indentation, on linear time). Needs
+        matplotlib. Returns the axes.
+
+        On axes of its own the residuals stand below, over the standard deviation of the data, and the hold of an
+        indentation is drawn large, however small its relaxation.
 
         Parameters
         ----------
         ax : matplotlib axes
-            Default: new ones.
+            Default: new ones, with the residuals below.
         style : dict
             For both curves, such as ``color="C3"``; `label` names the fit.
 
@@ -211,8 +218,8 @@ class FitResult(Result):
         --------
         >>> import matplotlib; matplotlib.use("agg")
         >>> axes = viscard.fit(viscard.data_file("demo/example_relaxation.csv")).plot()
-        >>> axes.get_xlabel()
-        'time (s)'
+        >>> axes.get_ylabel()
+        'modulus (MPa)'
         """
         from ._plot import plot_fit
 
@@ -253,13 +260,13 @@ class JointFit(Compared):
     True
     """
 
-    def __init__(self, found) -> None:
+    def __init__(self, found: _core.RatioFit) -> None:
         import json
 
         self._core = found
         self.json: Dict[str, Any] = json.loads(found.to_json())
         self.law: str = found.law()
-        self.ratios: np.ndarray = np.array(found.ratios())
+        self.ratios: Floats = np.array(found.ratios())
 
     @_check.arguments
     def material(self, ratio: float, *, may_extrapolate: bool = False) -> Material:
@@ -271,5 +278,17 @@ class JointFit(Compared):
         """Write the joint file, which ``viscard card --ratio`` reads."""
         _core.write_file(os.fspath(path), self._core.to_json(), overwrite)
 
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return (_joint_from_json, (self._core.to_json(),))
+
+    def _repr_html_(self) -> str:
+        return _show.html_table(f"joint fit: {self.law}", ["mixing ratio", "E0_Pa", "E_inf_Pa"],
+                                [(ratio, one.E0_Pa, one.E_inf_Pa) for ratio in self.ratios.tolist()
+                                 for one in [self.material(ratio)]])
+
     def __repr__(self) -> str:
         return f"<viscard.JointFit {self.law}>"
+
+
+def _joint_from_json(text: str) -> JointFit:
+    return JointFit(_core.ratio_fit_from_json(text, "joint fit"))

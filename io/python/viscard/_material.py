@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, Unpack
+from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, Union, Unpack, overload
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from . import _arrays, _check, _core, _show
 from ._card import Card
 from ._options import PredictOptions
 from ._result import Result
-from ._types import Path
+from ._types import Booleans, Floats, Numbers, Path, Progress
 
 
 class Material:
@@ -58,7 +58,7 @@ class Material:
         self._core = _core.material_from_json(json.dumps(text), name or "Material()", plausible)
 
     @classmethod
-    def _of(cls, found) -> "Material":
+    def _of(cls, found: _core.Material) -> "Material":
         material = cls.__new__(cls)
         material._core = found
         return material
@@ -83,7 +83,8 @@ class Material:
     @property
     def json(self) -> Dict[str, Any]:
         """The material file as a dict: terms, uncertainty, window, flags, provenance."""
-        return json.loads(_core.json_from_material(self._core))
+        found: Dict[str, Any] = json.loads(_core.json_from_material(self._core))
+        return found
 
     @property
     def moduli(self) -> Dict[str, Any]:
@@ -93,41 +94,47 @@ class Material:
 
     @property
     def name(self) -> str:
-        return self.json.get("name", "")
+        return str(self.json.get("name", ""))
 
     @property
     def E0_Pa(self) -> float:
-        return self.moduli["E0_Pa"]
+        return float(self.moduli["E0_Pa"])
 
     @property
     def E_inf_Pa(self) -> float:
-        return self.moduli["E_inf_Pa"]
+        return float(self.moduli["E_inf_Pa"])
 
     @property
     def nu(self) -> float:
-        return self.json["nu"]
+        return float(self.json["nu"])
 
     @property
-    def g(self) -> np.ndarray:
+    def g(self) -> Floats:
         """Shares of E0 that relax, shape (terms,)."""
-        return _arrays.column(self.json["terms"], lambda term: term["g"])
+        return _arrays.column(self.json["terms"], lambda term: float(term["g"]))
 
     @property
-    def tau_s(self) -> np.ndarray:
+    def tau_s(self) -> Floats:
         """Relaxation times in s, shape (terms,)."""
-        return _arrays.column(self.json["terms"], lambda term: term["tau_s"])
+        return _arrays.column(self.json["terms"], lambda term: float(term["tau_s"]))
 
-    def _curve(self, kind: str, at, name: str, unit: str, band: bool):
+    def _curve(self, kind: str, at: Any, name: str, unit: str, band: bool) -> Any:
         array = _arrays.arguments(at, name, unit)
         found = _core.curve(self._core, kind, array.ravel(), band)
         value, low, high = [part.reshape(array.shape) if part.size == array.size else None for part in found]
         if not band:
-            return value if array.ndim else float(value)
+            return value if array.ndim or value is None else float(value)
         missing = np.full(array.shape, np.nan)
         return value, missing if low is None else low, missing if high is None else high
 
+    @overload
+    def relaxation(self, time_s: float, *, band: Literal[False] = ...) -> float: ...
+    @overload
+    def relaxation(self, time_s: Numbers, *, band: Literal[False] = ...) -> Floats: ...
+    @overload
+    def relaxation(self, time_s: Union[float, Numbers], *, band: Literal[True]) -> Tuple[Floats, Floats, Floats]: ...
     @_check.arguments
-    def relaxation(self, time_s, *, band: bool = False):
+    def relaxation(self, time_s: Any, *, band: bool = False) -> Any:
         """E(t) in Pa, in the shape of `time_s` (s).
 
         band : bool
@@ -141,8 +148,14 @@ class Material:
         """
         return self._curve("relaxation", time_s, "time_s", "s", band)
 
+    @overload
+    def creep(self, time_s: float, *, band: Literal[False] = ...) -> float: ...
+    @overload
+    def creep(self, time_s: Numbers, *, band: Literal[False] = ...) -> Floats: ...
+    @overload
+    def creep(self, time_s: Union[float, Numbers], *, band: Literal[True]) -> Tuple[Floats, Floats, Floats]: ...
     @_check.arguments
-    def creep(self, time_s, *, band: bool = False):
+    def creep(self, time_s: Any, *, band: bool = False) -> Any:
         """J(t) in 1/Pa, the exact inverse of E(t), in the shape of `time_s` (s).
 
         Examples
@@ -152,8 +165,14 @@ class Material:
         """
         return self._curve("creep", time_s, "time_s", "s", band)
 
+    @overload
+    def storage(self, frequency_Hz: float, *, band: Literal[False] = ...) -> float: ...
+    @overload
+    def storage(self, frequency_Hz: Numbers, *, band: Literal[False] = ...) -> Floats: ...
+    @overload
+    def storage(self, frequency_Hz: Union[float, Numbers], *, band: Literal[True]) -> Tuple[Floats, Floats, Floats]: ...
     @_check.arguments
-    def storage(self, frequency_Hz, *, band: bool = False):
+    def storage(self, frequency_Hz: Any, *, band: bool = False) -> Any:
         """Storage modulus E' in Pa, in the shape of `frequency_Hz` (Hz).
 
         Examples
@@ -163,8 +182,14 @@ class Material:
         """
         return self._curve("storage", frequency_Hz, "frequency_Hz", "Hz", band)
 
+    @overload
+    def loss(self, frequency_Hz: float, *, band: Literal[False] = ...) -> float: ...
+    @overload
+    def loss(self, frequency_Hz: Numbers, *, band: Literal[False] = ...) -> Floats: ...
+    @overload
+    def loss(self, frequency_Hz: Union[float, Numbers], *, band: Literal[True]) -> Tuple[Floats, Floats, Floats]: ...
     @_check.arguments
-    def loss(self, frequency_Hz, *, band: bool = False):
+    def loss(self, frequency_Hz: Any, *, band: bool = False) -> Any:
         """Loss modulus E'' in Pa, in the shape of `frequency_Hz` (Hz).
 
         Examples
@@ -175,7 +200,11 @@ class Material:
         """
         return self._curve("loss", frequency_Hz, "frequency_Hz", "Hz", band)
 
-    def tan_delta(self, frequency_Hz):
+    @overload
+    def tan_delta(self, frequency_Hz: float) -> float: ...
+    @overload
+    def tan_delta(self, frequency_Hz: Numbers) -> Floats: ...
+    def tan_delta(self, frequency_Hz: Any) -> Any:
         """Loss over storage modulus, in the shape of `frequency_Hz` (Hz).
 
         Examples
@@ -186,7 +215,7 @@ class Material:
         """
         return self.loss(frequency_Hz) / self.storage(frequency_Hz)
 
-    def _window(self, at, name: str) -> np.ndarray:
+    def _window(self, at: Any, name: str) -> Floats:
         """Where a curve is drawn: two decades beyond the times of the terms."""
         if at is not None:
             return np.atleast_1d(_arrays.arguments(at, name, name.rsplit("_", 1)[1]))
@@ -195,7 +224,7 @@ class Material:
         return window if name == "time_s" else 1.0 / (2.0 * np.pi * window[::-1])
 
     @_check.arguments
-    def plot(self, kind: str = "relaxation", at=None, *, ax=None):
+    def plot(self, kind: str = "relaxation", at: Optional[Numbers] = None, *, ax: Any = None) -> Any:
         """Draw a curve of the material with its 95 % band. Needs matplotlib. Returns the axes.
 
         Parameters
@@ -255,11 +284,28 @@ class Material:
                  "plausible": plausible}
         return Card(_core.card(self._core, target, units, words))
 
+    @_check.arguments
+    def validate(self, *, max_error: float = 1e-6, progress: Progress = None) -> "Validation":
+        """Run a pillar of the material in relaxation and in creep beside the exact answers, as ``viscard validate`` does.
+
+        Parameters
+        ----------
+        max_error : float
+            Largest relative error allowed.
+        progress : function of (fraction, step)
+
+        Examples
+        --------
+        >>> viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).validate().passed
+        True
+        """
+        return Validation(_core.validate(self._core, float(max_error), progress))
+
     def predict(self, **options: Unpack[PredictOptions]) -> "Prediction":
         """What the material does in a test; the keywords are those of `viscard.predict`."""
         return predict(self, **options)
 
-    def __reduce__(self):
+    def __reduce__(self) -> Tuple[Any, ...]:
         return (_from_json, (_core.json_from_material(self._core),))
 
     def __repr__(self) -> str:
@@ -269,6 +315,40 @@ class Material:
 
 def _from_json(text: str) -> Material:
     return Material._of(_core.material_from_json(text, "material", "on"))
+
+
+class Validation(Result):
+    """A pillar of a material beside the exact answers.
+
+    Attributes
+    ----------
+    passed : bool
+        Both tests are within max_error.
+    relaxation, creep : dict
+        largest_relative_error, at_time_s, solver_error_estimate, steps, and arrays over time_s: stress_Pa (relaxation) or
+        displacement_m (creep), with their exact_ values.
+
+    Examples
+    --------
+    >>> found = viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).validate()
+    >>> found.relaxation["largest_relative_error"] < 1e-6
+    True
+    """
+
+    def __init__(self, core: _core.Result) -> None:
+        super().__init__(core)
+        self.passed: bool = self.values["passed"]
+        self.relaxation: Dict[str, Any] = self.values["relaxation"]
+        self.creep: Dict[str, Any] = self.values["creep"]
+
+    def _repr_html_(self) -> str:
+        rows = [(name, one["largest_relative_error"], one["at_time_s"], one["steps"])
+                for name, one in (("relaxation", self.relaxation), ("creep", self.creep))]
+        title = f"pillar of {self['material']}: " + ("passed" if self.passed else "not passed")
+        return _show.html_table(title, ["test", "largest relative error", "at (s)", "steps"], rows)
+
+    def __repr__(self) -> str:
+        return f"<viscard.Validation of {self['material']}: {'passed' if self.passed else 'not passed'}>"
 
 
 class Prediction(Result):
@@ -296,29 +376,29 @@ class Prediction(Result):
     True
     """
 
-    def __init__(self, core) -> None:
+    def __init__(self, core: _core.Result) -> None:
         super().__init__(core)
         columns = dict(self.values["curve"])
-        self.inside = columns.pop("inside_window")
+        self.inside: Booleans = columns.pop("inside_window")
         self.argument: str = next(iter(columns))
-        self.at = columns.pop(self.argument)
-        self.low = {n[:-7]: values for n, values in columns.items() if n.endswith("_low_95")}
-        self.high = {n[:-8]: values for n, values in columns.items() if n.endswith("_high_95")}
-        self.curves = {n: values for n, values in columns.items() if not n.endswith(("_low_95", "_high_95"))}
+        self.at: Floats = columns.pop(self.argument)
+        self.low: Dict[str, Floats] = {n[:-7]: values for n, values in columns.items() if n.endswith("_low_95")}
+        self.high: Dict[str, Floats] = {n[:-8]: values for n, values in columns.items() if n.endswith("_high_95")}
+        self.curves: Dict[str, Floats] = {n: values for n, values in columns.items() if not n.endswith(("_low_95", "_high_95"))}
         self.agreement: List[Dict[str, Any]] = self.values.get("against", {}).get("quantities", [])
         self.notes: List[str] = self.values["notes"]
 
-    def _columns(self) -> Dict[str, np.ndarray]:
-        columns = {self.argument: self.at, **self.curves}
+    def _columns(self) -> Dict[str, Any]:
+        columns: Dict[str, Any] = {self.argument: self.at, **self.curves}
         columns.update({f"{name}_low_95": values for name, values in self.low.items()})
         columns.update({f"{name}_high_95": values for name, values in self.high.items()})
         return {**columns, "inside_window": self.inside}
 
-    def to_frame(self):
+    def to_frame(self) -> Any:
         """The curves as a DataFrame of pandas, with bands and the window of the fit."""
         return _show.frame(self._columns())
 
-    def plot(self, ax=None):
+    def plot(self, ax: Any = None) -> Any:
         """Draw the curves with their 95 % bands over time or frequency. Needs matplotlib. Returns the axes.
 
         Examples
@@ -342,7 +422,8 @@ class Prediction(Result):
 def predict(material: Union[Material, Path], **options: Unpack[PredictOptions]) -> Prediction:
     """Predict what a material does in a test, with its 95 % band.
 
-    Quantities are texts with a unit ("10 kPa") or numbers in SI; from_ is --from.
+    Quantities are texts with a unit ("10 kPa") or numbers in SI; from_ is --from. `history` and `against` take a path, a
+    dict of arrays by header with unit, a Table or a DataFrame; rows without a number are left out, and the notes count them.
 
     Parameters
     ----------
@@ -355,9 +436,16 @@ def predict(material: Union[Material, Path], **options: Unpack[PredictOptions]) 
     >>> sorted(found.curves)
     ['loss_modulus_Pa', 'storage_modulus_Pa', 'tan_delta']
     """
-    keywords = {name: value for name, value in options.items() if value is not None}
+    keywords: Dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     plausible = options.get("plausible") or "on"
+    tables = {}
+    for name in ("history", "against"):
+        if _arrays.is_table(keywords.get(name)):
+            tables[name] = _arrays.table(keywords[name], name)
+            keywords[name] = name
+        elif name in keywords and not isinstance(keywords[name], (str, os.PathLike)):
+            raise TypeError(f"{name} must be a path or a dict of arrays by header, not {_check.shown(keywords[name])}")
     one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"), plausible=plausible)
     inputs = [os.fspath(path) for path in (material, options.get("history"), options.get("against"))
               if isinstance(path, (str, os.PathLike))]
-    return Prediction(_core.predict(one._core, keywords, inputs))
+    return Prediction(_core.predict(one._core, keywords, tables, inputs))

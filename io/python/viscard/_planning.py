@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, Sequence, Union
+import warnings
+from typing import Any, Dict, List, Sequence, TypedDict, Union, Unpack
 
-from . import _check, _core
-from ._check import OptionalPath, Path
+from . import _arrays, _check, _core
+from ._error import DoubtWarning, Error
+from ._options import FitOptions
+from ._types import OptionalPath, Path, Progress, Texts
 from ._result import Result
+from ._table import Capture
 
 
 class TestCost(Result):
@@ -44,6 +48,95 @@ class TestCost(Result):
         return f"TestCost({len(self.rows)} tests: {self.advice})"
 
 
+class NextTest(TypedDict):
+    """What may be measured next, and how it narrows the 95 % interval of a quantity; of `next_test`.
+
+    Examples
+    --------
+    >>> sorted(viscard.NextTest.__annotations__)
+    ['half_width_95', 'half_width_95_after', 'how', 'minutes', 'quantity', 'what']
+    """
+
+    what: str
+    how: str
+    quantity: str
+    half_width_95: float
+    half_width_95_after: float
+    minutes: float
+
+
+@_check.arguments
+def next_test(capture: Union[Path, Capture], want: Union[str, Sequence[str]], **options: Unpack[FitOptions]) -> List[NextTest]:
+    """What to measure next after a capture: what narrows the widest interval most for a minute at the rig, best first.
+
+    Parameters
+    ----------
+    capture : path or Capture
+    want : str or list of str
+        Quantities with the relative half-width of their 95 % intervals: "E0=5%", "g_2=10%".
+    **options
+
+    Returns
+    -------
+    list of dict
+        what, how (a command, or empty), quantity, half_width_95 now and half_width_95_after (relative), minutes.
+
+    Examples
+    --------
+    >>> capture = viscard.capture("run.viscap", emulate=True, speed=500).read()
+    >>> best = viscard.next_test(capture, "E0=1%")[0]
+    >>> best["half_width_95_after"] < best["half_width_95"]
+    True
+    """
+    words = [want] if isinstance(want, str) else list(want)
+    path = capture.file if isinstance(capture, Capture) else _arrays.path_of(capture, "capture")
+    keywords = {name: value for name, value in options.items() if value is not None}
+    found: List[NextTest] = _core.next_test(path, words, keywords)["measurements"]
+    return found
+
+
+@_check.arguments
+def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell to material", cards: Texts = None,
+           units: str = "mm-t-s", overwrite: bool = False, reproducible: bool = False, plausible: str = "on",
+           progress: Progress = None) -> None:
+    """Write one HTML page about captures, tables and materials, as ``viscard report`` does.
+
+    Warns with DoubtWarning of results on it that are not to be trusted.
+
+    Parameters
+    ----------
+    data : path, Capture, list of these, or dict of these by kind of test
+        Captures and tables (which are fitted), files of materials, of a joint fit and of laws of rubber. A dict by kind is
+        of tests of one material, as in `fit`. The page states the SHA-256 of each, so all are files.
+    out : path
+        The page; an existing file is kept unless `overwrite` is True.
+    title : str
+    cards : str or list of str
+        Targets of cards to show; default: abaqus, ansys, febio and json.
+    units : str
+        Unit system of the cards.
+    reproducible : bool
+        Leave out the date, so that the same input gives the same bytes.
+    plausible : "on" or "off"
+    progress : function of (fraction, step)
+
+    Examples
+    --------
+    >>> viscard.report(viscard.data_file("materials/pdms_1to10_seed.json"), "report.html")
+    >>> open("report.html").read(15)
+    '<!DOCTYPE html>'
+    """
+    given = _arrays.given(data, "data")
+    if given.tables:
+        raise Error("a report is of files, whose SHA-256 it states; save the arrays, or the material of their fit, first", "usage")
+    page = os.fspath(out)
+    if os.path.exists(page) and not overwrite:
+        _core.write_file(page, "", False)  # refuses before the work begins
+    targets = [cards] if isinstance(cards, str) else list(cards or ("abaqus", "ansys", "febio", "json"))
+    for defect in _core.report(given.words, page, title, targets, units, overwrite, reproducible, plausible, progress):
+        warnings.warn(defect, DoubtWarning, stacklevel=3)
+
+
 @_check.arguments
 def cost_of_tests(rig: Path, specimen: Path, want: Union[str, Sequence[str]], *, test: OptionalPath = None,
                   guess: OptionalPath = None, scene: OptionalPath = None,
@@ -74,5 +167,5 @@ def cost_of_tests(rig: Path, specimen: Path, want: Union[str, Sequence[str]], *,
     """
     words = [want] if isinstance(want, str) else list(want)
 
-    optional = [None if one is None else os.fspath(one) for one in (test, guess, scene)]
-    return TestCost(_core.cost_of_tests(os.fspath(rig), os.fspath(specimen), words, *optional, at_most))
+    test_path, guess_path, scene_path = (None if one is None else os.fspath(one) for one in (test, guess, scene))
+    return TestCost(_core.cost_of_tests(os.fspath(rig), os.fspath(specimen), words, test_path, guess_path, scene_path, at_most))

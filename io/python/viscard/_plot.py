@@ -1,12 +1,14 @@
-"""Plots of fits. Matplotlib is imported only here."""
+"""Plots. Matplotlib is imported only here."""
 
 from __future__ import annotations
+
+from typing import Any, Dict, Optional, Tuple
 
 from ._check import shown
 from ._error import Error
 
 
-def _matplotlib():
+def _matplotlib() -> Any:
     try:
         import matplotlib.pyplot
     except ImportError as missing:
@@ -14,7 +16,7 @@ def _matplotlib():
     return matplotlib
 
 
-def _axes(ax):
+def _axes(ax: Any) -> Any:
     plt = _matplotlib().pyplot
     if ax is None:
         return plt.subplots(figsize=(7.0, 4.5), layout="constrained")[1]
@@ -23,7 +25,7 @@ def _axes(ax):
     return ax
 
 
-def _check_style(style):
+def _check_style(style: Dict[str, Any]) -> None:
     """Every style is tried on a line that nobody sees, before anything is drawn."""
     Line2D = _matplotlib().lines.Line2D
     for name, value in style.items():
@@ -38,21 +40,57 @@ def _check_style(style):
             raise Error(f"{name} is {shown(value)}, which matplotlib does not take: {failure}", "usage") from None
 
 
-def _scale(unit: str, largest: float):
+def _scale(unit: str, largest: float) -> Tuple[float, str]:
     """Factor and unit in which values are easy to read."""
-    if unit not in ("Pa", "N"):
+    if unit not in ("Pa", "N", "V", "m", "C", "F"):
         return 1.0, unit
-    steps = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ")]
+    steps = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")]
     for size, prefix in steps:
         if largest >= size:
             return 1.0 / size, prefix + unit
     return 1.0, unit
 
 
-def plot_fit(result, ax, style):
+def _relative_band(result: Any, at: Any, loss: bool) -> Any:
+    """Half of the 95 % band of the fitted curve, relative; None where the fit gives no material, or no curve of it."""
+    kind = {"relaxation": "relaxation", "creep": "creep", "dma": "loss" if loss else "storage"}.get(result["kind"])
+    if kind is None or result._material is None:
+        return None
+    value, low, high = getattr(result._material, kind)(at, band=True)
+    return 0.5 * (high - low) / value
+
+
+def _hold_of(curves: Any) -> Any:
+    """Rows from the largest value to where it has fallen by a fifth: the hold of an indentation, whose relaxation may be
+    too small to be seen beside the ramp."""
+    import numpy as np
+
+    first = int(np.argmax(curves["fitted"]))
+    below = np.flatnonzero(curves["fitted"][first:] < 0.8 * curves["fitted"][first])
+    return slice(first, first + int(below[0]) if below.size else None)
+
+
+def _draw_hold(ax: Any, curves: Any, factor: float, color: Any) -> None:
+    rows = _hold_of(curves)
+    if len(curves["at"][rows]) < 5:
+        return
+    inset = ax.inset_axes([0.42, 0.1, 0.55, 0.45])
+    inset.plot(curves["at"][rows], curves["measured"][rows] * factor, ".", color=color, alpha=0.35, markersize=3)
+    inset.plot(curves["at"][rows], curves["fitted"][rows] * factor, "-", color=color)
+    inset.set_title("hold", fontsize="small")
+    inset.tick_params(labelsize="small")
+
+
+def plot_fit(result: Any, ax: Any, style: Dict[str, Any]) -> Any:
+    """Data, fit and band; on axes of its own also the residuals, and the hold of an indentation."""
     _check_style(style)
-    ax = _axes(ax)
+    is_own = ax is None
     curves = result.curves
+    below = None
+    if is_own:
+        figure = _matplotlib().pyplot.figure(figsize=(7.0, 5.5), layout="constrained")
+        ax, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
+    ax = _axes(ax)
     is_sweep = result["kind"] == "dma"
     at = curves["at"]
     shown = at > 0.0
@@ -61,16 +99,28 @@ def plot_fit(result, ax, style):
     label = style.pop("label", "fit")
     name = {"relaxation": "modulus", "creep": "compliance", "indentation": "force",
             "dma": "storage modulus"}.get(result["kind"], "value")
-    ax.plot(at[shown], curves["measured"][shown] * factor, ".", color=color, alpha=0.35, markersize=5,
-            markeredgewidth=0)
-    ax.plot(at[shown], curves["fitted"][shown] * factor, "-", color=color, label=label, **style)
+
+    def draw(measured: Any, fitted: Any, marker: str, line: str, words: str, is_loss: bool) -> None:
+        ax.plot(at[shown], measured[shown] * factor, marker, color=color, alpha=0.35, markersize=5, markeredgewidth=0 if marker == "." else 1)
+        ax.plot(at[shown], fitted[shown] * factor, line, color=color, label=words, **style)
+        half = _relative_band(result, at[shown], is_loss)
+        if half is not None:
+            ax.fill_between(at[shown], fitted[shown] * factor * (1 - half), fitted[shown] * factor * (1 + half), color=color,
+                            alpha=0.2, linewidth=0)
+
+    draw(curves["measured"], curves["fitted"], ".", "-", label, False)
     if "loss_measured" in curves:
-        ax.plot(at, curves["loss_measured"] * factor, "x", color=color, alpha=0.35, markersize=4)
-        ax.plot(at, curves["loss_fitted"] * factor, "--", color=color, label=f"{label}, loss", **style)
+        draw(curves["loss_measured"], curves["loss_fitted"], "x", "--", f"{label}, loss", True)
         ax.set_yscale("log")
     if result["kind"] != "indentation":  # which has several motions, each with its own beginning
         ax.set_xscale("log")
-    ax.set_xlabel("frequency (Hz)" if is_sweep else "time (s)")
+    elif is_own:
+        _draw_hold(ax, curves, factor, color)
+    if below is not None:
+        below.plot(at[shown], (result.residuals / curves["sigma"])[shown], ".", color=color, markersize=3)
+        below.axhline(0.0, color="0.6", zorder=0)
+        below.set_ylabel("residual (sigma)")
+    (ax if below is None else below).set_xlabel("frequency (Hz)" if is_sweep else "time (s)")
     if result["kind"] == "dma":
         name = "storage and loss modulus"
     ax.set_ylabel(f"{name} ({unit})" if unit else name)
@@ -84,7 +134,7 @@ _NAMES = {"relaxation": "relaxation modulus", "creep": "creep compliance", "stor
           "loss": "loss modulus", "tan_delta": "loss factor"}
 
 
-def _curve(ax, at, values, low, high, name, unit):
+def _curve(ax: Any, at: Any, values: Any, low: Any, high: Any, name: str, unit: str) -> str:
     """A curve with its band, where there is one."""
     import numpy as np
 
@@ -95,7 +145,7 @@ def _curve(ax, at, values, low, high, name, unit):
     return f"{name} ({unit})" if unit else name
 
 
-def plot_material(material, kind, at, ax):
+def plot_material(material: Any, kind: str, at: Any, ax: Any) -> Any:
     if kind not in _NAMES:
         raise Error(f"kind is {kind!r}; use one of {', '.join(_NAMES)}", "usage")
     argument = "time_s" if kind in ("relaxation", "creep") else "frequency_Hz"
@@ -113,8 +163,8 @@ def plot_material(material, kind, at, ax):
     return ax
 
 
-def plot_prediction(found, ax):
-    def unit_of(name):
+def plot_prediction(found: Any, ax: Any) -> Any:
+    def unit_of(name: str) -> str:
         return "1/Pa" if name.endswith("_1_Pa") else "Pa" if name.endswith("_Pa") else ""
 
     ax = _axes(ax)
@@ -136,13 +186,14 @@ def plot_prediction(found, ax):
     return ax
 
 
-def plot_rubber(rubber, ax):
+def plot_rubber(rubber: Any, ax: Any) -> Any:
     import numpy as np
 
     ax = _axes(ax)
     for i, test in enumerate(rubber["tests"]):
         color = ax._get_lines.get_next_color()
-        at = np.linspace(*test["stretch"], 200)
+        low, high = test["stretch"]
+        at = np.linspace(low, high, 200)
         stress = rubber.stress(at, test["deformation"])
         if rubber.terms and rubber.fitted:  # along the test, with its relaxation
             at, stress = rubber.tests[i][0], rubber.fitted[i]
@@ -159,7 +210,137 @@ def plot_rubber(rubber, ax):
     return ax
 
 
-def plot_pressures(values, is_resolved, ax):
+def _words(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def plot_answer(answer: Any, name: Optional[str], ax: Any) -> Any:
+    """A map, a curve, the modes or the results of a scene; by name, or the first that there is."""
+    known = [*answer.maps, *answer.curves, *answer.results]
+    if name is not None and name not in known:
+        raise Error(f"the answer has no '{name}' to draw; it has {', '.join(known) or 'modes only'}", "usage")
+    ax = _axes(ax)
+    drawn: str = name or ([*answer.maps, *answer.curves] or [""])[0]
+    if drawn in answer.maps:
+        _draw_map(ax, answer, drawn)
+    elif drawn in answer.curves:
+        _draw_curve_of_scene(ax, answer.curves[drawn], drawn)
+    elif answer.modes and name is None:
+        _draw_modes(ax, answer.modes)
+    else:
+        _draw_results(ax, answer.results if name is None else {name: answer.results[name]})
+    return ax
+
+
+def _draw_map(ax: Any, answer: Any, name: str) -> None:
+    """Pillars at their places, one colour scale about zero where values have both signs."""
+    import numpy as np
+
+    values = answer.maps[name]["value"]
+    seen = values[np.isfinite(values)]
+    factor, unit = _scale(answer.maps[name]["unit"], float(np.abs(seen).max(initial=0.0)))
+    most = float(np.abs(seen).max(initial=0.0)) * factor
+    limits = {"cmap": "RdBu_r", "vmin": -most, "vmax": most} if seen.size and seen.min() < 0.0 < seen.max() else {}
+    finite = np.isfinite(values).ravel()
+    places = finite if values.size == answer.x_m.size else np.ones(answer.x_m.size, dtype=bool)
+    if places.sum() == seen.size:  # a pillar for each value
+        drawn = ax.scatter(1e6 * answer.x_m[places], 1e6 * answer.y_m[places], c=seen * factor, s=200, **limits)
+        ax.set(xlabel="x (µm)", ylabel="y (µm)")
+    else:
+        drawn = ax.imshow(values * factor, origin="lower", **limits)
+        ax.set(xlabel="column", ylabel="row")
+    ax.figure.colorbar(drawn, ax=ax, label=f"{_words(name)} ({unit})")
+    ax.set_aspect("equal")
+
+
+def _draw_curve_of_scene(ax: Any, curve: Any, name: str) -> None:
+    low, high = curve["value"] - curve["error"], curve["value"] + curve["error"]
+    ax.set_ylabel(_curve(ax, curve["x"], curve["value"], low, high, _words(name), curve["unit"]))
+    ax.set_xlabel({"time_s": "time (s)", "frequency_Hz": "frequency (Hz)"}.get(curve["x_name"], _words(curve["x_name"])))
+    if curve["x_name"] == "frequency_Hz":
+        ax.set_xscale("log")
+        ax.set_yscale("log")
+    ax.grid(True, which="major", alpha=0.3)
+
+
+def _draw_modes(ax: Any, modes: Any) -> None:
+    import numpy as np
+
+    names = [mode["name"] for mode in modes]
+    values = [mode["frequency_Hz"] for mode in modes]
+    factor, prefix = (1e-3, "k") if max(values) >= 1e3 else (1.0, "")
+    ax.errorbar(factor * np.array(values), np.arange(len(modes)),
+                xerr=factor * np.array([mode["error_estimate"] for mode in modes]), fmt="o", capsize=3)
+    ax.set_yticks(range(len(modes)), names)
+    ax.invert_yaxis()
+    ax.set_xlabel(f"frequency ({prefix}Hz)")
+    ax.grid(True, axis="x", alpha=0.3)
+
+
+def _draw_results(ax: Any, results: Any) -> None:
+    """Errors of results of many units, relative: on what the tolerance acts."""
+    names = list(results)
+    shares = [one.error / abs(one.value) if one.value else 0.0 for one in results.values()]
+    ax.barh(range(len(names)), shares)
+    ax.set_yticks(range(len(names)), [f"{_words(name)} {one.value:.4g} {one.unit}" for name, one in results.items()])
+    ax.invert_yaxis()
+    ax.set_xlabel("error estimate, relative")
+
+
+def plot_sweep(sweep: Any, name: str, ax: Any) -> Any:
+    """A result over the parameter with most values, a line for each combination of the others."""
+    import numpy as np
+
+    values = sweep[name]
+    ax = _axes(ax)
+    key = max(sweep.parameters, key=lambda one: len(set(sweep.parameters[one])))
+    others = [one for one in sweep.parameters if one != key]
+    numbers = [_number_of(text) for text in sweep.parameters[key]]
+    is_number = all(one is not None for one in numbers)
+    at = np.array(numbers if is_number else [list(dict.fromkeys(sweep.parameters[key])).index(t) for t in sweep.parameters[key]])
+    factor, unit = _scale(sweep.results[name]["unit"], float(np.nanmax(np.abs(values))))
+    groups: Dict[Tuple[str, ...], Any] = {}
+    for i in range(len(values)):
+        groups.setdefault(tuple(sweep.parameters[one][i] for one in others), []).append(i)
+    for group, rows in groups.items():
+        rows = sorted(rows, key=lambda i: float(at[i]))
+        label = ", ".join(f"{one.rsplit('.', 1)[-1]} {text}" for one, text in zip(others, group))
+        ax.errorbar(at[rows], values[rows] * factor, yerr=np.abs(sweep.results[name]["error"][rows]) * factor, fmt="o-",
+                    markersize=3, capsize=2, label=label or None)
+    if not is_number:
+        ax.set_xticks(range(len(set(sweep.parameters[key]))), list(dict.fromkeys(sweep.parameters[key])))
+    units = {text.partition(" ")[2] for text in sweep.parameters[key]} if is_number else set()
+    ax.set_xlabel(_words(key) + (f" ({units.pop()})" if len(units) == 1 and "" not in units else ""))
+    ax.set_ylabel(f"{_words(name)} ({unit})")
+    ax.grid(True, which="major", alpha=0.3)
+    if others:
+        ax.legend(frameon=False)
+    return ax
+
+
+def _number_of(text: str) -> Optional[float]:
+    """40.0 of "40 um"."""
+    try:
+        return float(text.split()[0])
+    except (ValueError, IndexError):
+        return None
+
+
+def plot_cost(cost: Any, ax: Any) -> Any:
+    """Error over processor time, and the front that no other row is below."""
+    import numpy as np
+
+    ax = _axes(ax)
+    ax.plot(cost.cpu_s, cost.error, ".", color="0.6", label="all")
+    order = np.argsort(cost.cpu_s[cost.pareto])
+    ax.plot(cost.cpu_s[cost.pareto][order], cost.error[cost.pareto][order], "o-", label="best")
+    ax.set(xscale="log", yscale="log", xlabel="processor time (s)", ylabel="error, relative")
+    ax.grid(True, which="major", alpha=0.3)
+    ax.legend(frameon=False)
+    return ax
+
+
+def plot_pressures(values: Any, is_resolved: Any, ax: Any) -> Any:
     import numpy as np
 
     ax = _axes(ax)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json as _json
 from functools import cached_property
-from typing import Any, Dict, NamedTuple, Tuple
+from typing import Any, Dict, Iterator, NamedTuple, Tuple
 
 
 class Parameter(NamedTuple):
@@ -43,9 +43,9 @@ class Compared:
     json: Any
 
     def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
+        if not isinstance(other, Compared) or type(other) is not type(self):
             return NotImplemented
-        return self.json == other.json  # type: ignore[attr-defined]
+        return bool(self.json == other.json)
 
     def __hash__(self) -> int:
         return hash(_json.dumps(self.json, sort_keys=True))
@@ -64,16 +64,18 @@ class Result(Compared):
         The same with arrays of numpy and intervals as (low, high); a number that does not exist is NaN.
     """
 
-    def __init__(self, core) -> None:
+    def __init__(self, core: Any) -> None:
         self._core = core
 
     @cached_property
     def json(self) -> Dict[str, Any]:
-        return self._core.json()
+        found: Dict[str, Any] = self._core.json()
+        return found
 
     @cached_property
     def values(self) -> Dict[str, Any]:
-        return self._core.values()
+        found: Dict[str, Any] = self._core.values()
+        return found
 
     def __getitem__(self, key: str) -> Any:
         return self.json[key]
@@ -100,7 +102,7 @@ class Result(Compared):
         return at
 
 
-def _places(values, key):
+def _places(values: Dict[str, Any], key: str) -> Iterator[Any]:
     """The values of a key: at the top, or else in objects below."""
     if key in values:
         yield values[key]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from . import _arrays, _check, _core
-from ._check import Path
+from . import _arrays, _check, _core, _show
+from ._types import Floats, Numbers, Path
 from ._error import Error
 from ._fit_result import Flag
 from ._result import Compared, Parameter
@@ -110,8 +110,8 @@ class RubberFit(Compared):
     True
     """
 
-    def __init__(self, text: str, name: str, summary: str, tests: "list[Tuple[np.ndarray, np.ndarray]]",
-                 times: "Sequence[np.ndarray]" = (), fitted: "Sequence[np.ndarray]" = ()) -> None:
+    def __init__(self, text: str, name: str, summary: str, tests: "list[Tuple[Floats, Floats]]",
+                 times: "Sequence[Floats]" = (), fitted: "Sequence[Floats]" = ()) -> None:
         self._text, self._name, self._summary = text, name, summary
         self.json: Dict[str, Any] = json.loads(text)
         inputs = [test["file"] for test in self.json["tests"]]
@@ -127,10 +127,10 @@ class RubberFit(Compared):
         self.E_inf_interval = _arrays.pair(chosen.get("E_inf_interval_95", chosen["E0_interval_95"]))
         self.terms = [RubberTerm(one["g"], _arrays.pair(one["g_interval_95"]), one["tau_s"],
                                  _arrays.pair(one["tau_s_interval_95"])) for one in chosen.get("terms", [])]
-        self.series_covariance: np.ndarray = np.array(chosen.get("series_covariance", []), dtype=float)
+        self.series_covariance: Floats = np.array(chosen.get("series_covariance", []), dtype=float)
         self.parameters = {one["name"]: Parameter(one["name"], one["value"], _arrays.pair(one["interval_95"]))
                            for one in chosen["parameters"]}
-        self.covariance: np.ndarray = np.array(chosen["covariance"], dtype=float)
+        self.covariance: Floats = np.array(chosen["covariance"], dtype=float)
         self.flags: List[Flag] = [Flag(f["name"], f.get("term", 0), f["text"])
                                   for f in chosen["flags"] + self.json["flags"]]
         self.is_trustworthy: bool = self.json["trustworthy"]
@@ -149,7 +149,7 @@ class RubberFit(Compared):
         return cls(text, name, "", [])
 
     @property
-    def _law(self):
+    def _law(self) -> _core.Rubber:
         """The compiled law; refused if a fit that is not to be trusted has no stiffness at rest."""
         return _core.rubber_from_json(self._text, self._name)
 
@@ -157,7 +157,7 @@ class RubberFit(Compared):
         return self.json[key]
 
     @_check.arguments
-    def stress(self, stretch, deformation: str = "uniaxial", *, time_s=None) -> np.ndarray:
+    def stress(self, stretch: Union[float, Numbers], deformation: str = "uniaxial", *, time_s: Optional[Numbers] = None) -> Floats:
         """Nominal stress in Pa (force over area at rest) at these stretches, shape of `stretch`.
 
         Without `time_s` it is that of the law at once. With `time_s` the stretches are a history, linear
@@ -225,11 +225,17 @@ class RubberFit(Compared):
         """The text of ``viscard fit``: tests, laws, parameters, flags. Of a loaded law: one line."""
         return self._summary or repr(self)
 
-    def plot(self, ax=None):
+    def plot(self, ax: Any = None) -> Any:
         """Nominal stress against stretch: the readings and the law. Needs matplotlib. Returns the axes."""
         from ._plot import plot_rubber
 
         return plot_rubber(self, ax)
+
+    def _repr_html_(self) -> str:
+        rows = [("E0_Pa", self.E0_Pa, self.E0_interval)] + [tuple(one) for one in self.parameters.values()]
+        notes = [] if self.is_trustworthy else ["not to be trusted"]
+        return _show.html_table(f"{self._name}: {self.law}", ["", "value", "95 %"], rows,
+                                notes + [f"{flag.name}: {flag.text}" for flag in self.flags])
 
     def __repr__(self) -> str:
         low, high = self.E0_interval

@@ -6,24 +6,50 @@ import os
 import re
 import tempfile
 from collections.abc import Mapping
-from typing import Any, Optional, Union
+from typing import Any, Callable, Dict, List, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 
 from . import _arrays, _check, _core
 from ._answer import Answer, Cost, Plan
-from ._check import OptionalPath, Progress, Scene
+from ._types import Floats, Numbers, OptionalPath, Progress, Scene
+
+_T = TypeVar("_T")
 from ._error import Error
 from ._material import Material
 
 
+# Keys that name a table, in whose place arrays may stand; "file" is one in [shape].
+_TABLES = ("voltages", "positions", "file")
+
+
+def _new_file(folder: str, ending: str) -> str:
+    return os.path.join(folder, f"{len(os.listdir(folder))}.{ending}")
+
+
+def _history(table: Dict[str, Floats]) -> List[Tuple[float, float]]:
+    """Pairs of time and value of a history, {"time_s": t, "pressure_Pa": p}; both in SI, as their names must state."""
+    values = [name for name in table if name != "time_s"]
+    if "time_s" not in table or len(values) != 1 or not re.search("_(Pa|N|m|V|m_s2)$", values[0]):
+        raise Error("a history has the columns time_s and one more in SI, such as pressure_Pa, force_N, displacement_m or "
+                    f"voltage_V; this has {', '.join(table)}", "input")
+    return list(zip(table["time_s"].tolist(), table[values[0]].tolist()))
+
+
 def _toml(value: Any, key: str, folder: str) -> str:
-    """A value of a scene as TOML. A Material becomes a file in `folder`."""
+    """A value of a scene as TOML. A Material, and arrays in the place of a table, become files in `folder`."""
     if isinstance(value, Material):
-        number = len(os.listdir(folder))
-        file = os.path.join(folder, f"{number}.json")
+        file = _new_file(folder, "json")
         value.save(file)
         return _toml({"file": file}, key, folder)
+    if key == "history" and _arrays.is_table(value):
+        return _toml(_history(_arrays.table(value, key)), key, folder)
+    if key in _TABLES and _arrays.is_table(value):
+        file = _new_file(folder, "csv")
+        columns = _arrays.table(value, key)
+        np.savetxt(file, np.column_stack(list(columns.values())), delimiter=",", header=",".join(columns), comments="",
+                   fmt="%.17g")
+        return _toml(file, key, folder)
     if isinstance(value, Mapping):
         inside = ", ".join(f"{_key(k)} = {_toml(v, str(k), folder)}" for k, v in value.items() if v is not None)
         return "{ " + inside + " }"
@@ -38,6 +64,8 @@ def _toml(value: Any, key: str, folder: str) -> str:
     if isinstance(value, (str, os.PathLike)):
         text = os.fspath(value).replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
         return f'"{text}"'
+    if hasattr(value, "__array__") and np.asarray(value).dtype.kind != "U":  # of numpy or pandas
+        return _toml(_arrays.numbers(value, key).tolist(), key, folder)
     if isinstance(value, (list, tuple, np.ndarray)):
         return "[" + ", ".join(_toml(v, key, folder) for v in value) + "]"
     raise TypeError(f"{key} is a {type(value).__name__}; a scene holds texts, numbers, lists, dicts and Materials")
@@ -59,7 +87,7 @@ def _scene_toml(scene: "Mapping[str, Any]", folder: str) -> str:
     return "\n".join(plain + tables) + "\n"
 
 
-def _with_scene(scene, folder, work):
+def _with_scene(scene: Scene, folder: OptionalPath, work: Callable[[Optional[str], str], _T]) -> _T:
     """Calls work(text, path) with text None for a file."""
     if not isinstance(scene, Mapping):
         if folder is not None:
@@ -86,8 +114,10 @@ def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False,
     Parameters
     ----------
     scene : path or dict
-        A scene file, or its contents: texts with units, numbers in SI, lists, dicts, and `Material` objects among
-        the materials.
+        A scene file, or its contents: texts with units, numbers in SI, lists, arrays, dicts, and `Material` objects among
+        the materials. A history may be an array of shape (rows, 2) or a table, ``{"time_s": t, "pressure_Pa": p}``;
+        arrays by header may stand in the place of other tables, ``{"x [um]": x, "y [um]": y}`` of positions. Numbers
+        that are missing or infinite are refused, because what acts on a pillar is chosen and not measured.
     tol : float
         Relative error allowed, instead of the scene's.
     fields : bool
@@ -128,7 +158,7 @@ def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False,
 
 
 @_check.arguments
-def forces_from_voltages(scene: Scene, voltages, *, noise: Optional[float] = None, tol: Optional[float] = None, folder: OptionalPath = None,
+def forces_from_voltages(scene: Scene, voltages: Numbers, *, noise: Optional[float] = None, tol: Optional[float] = None, folder: OptionalPath = None,
                          progress: Progress = None) -> Answer:
     """Forces in three directions on the pillars of an array, from the voltages of the quarters of their electrodes.
 
@@ -175,7 +205,8 @@ def forces_from_voltages(scene: Scene, voltages, *, noise: Optional[float] = Non
     for key in ("analysis", "quadrants"):
         if not isinstance(scene.get(key, {}), Mapping):
             raise TypeError(f"{key} must be a dict, not {_check.shown(scene[key])}")
-    analysis = {key: value for key, value in dict(scene.get("analysis", {})).items() if key != "load"}
+    parts: Mapping[str, Any] = scene
+    analysis = {key: value for key, value in dict(parts.get("analysis", {})).items() if key != "load"}
     with tempfile.TemporaryDirectory(prefix="viscard-") as own:
         table = os.path.join(own, "voltages.csv")
         with open(table, "w", encoding="utf-8") as file:
@@ -183,7 +214,7 @@ def forces_from_voltages(scene: Scene, voltages, *, noise: Optional[float] = Non
             for row, column in np.ndindex(values.shape[:2]):
                 if np.isfinite(values[row, column]).all():
                     file.write(f"{row + 1},{column + 1}," + ",".join(repr(float(v)) for v in values[row, column]) + "\n")
-        quadrants = {**scene.get("quadrants", {}), "voltages": table}
+        quadrants: Dict[str, Any] = {**parts.get("quadrants", {}), "voltages": table}
         if noise is not None:
             quadrants["noise"] = float(noise)
         whole = {key: value for key, value in scene.items() if key not in ("shape", "want")}
@@ -193,6 +224,36 @@ def forces_from_voltages(scene: Scene, voltages, *, noise: Optional[float] = Non
         except Error as error:  # of a file that nobody has seen
             text, message, where = (part.replace(table, "voltages") for part in (str(error), error.message, error.where))
             raise Error(text, error.code, message, where, error.hint) from None
+
+
+@_check.arguments
+def check_scene(scene: Scene, *, svg: OptionalPath = None, folder: OptionalPath = None, plausible: str = "on",
+                overwrite: bool = False) -> str:
+    """Check a scene without solving it, as ``viscard scene check`` does. Returns what it is of:
+    "pillar", "row", "array" or "layer".
+
+    Parameters
+    ----------
+    scene, folder, plausible
+        As in `simulate`.
+    svg : path
+        Where to draw the geometry; an existing file is kept unless `overwrite` is True.
+
+    Raises
+    ------
+    Error
+        With the line of the file, for what is missing or contradicts itself.
+
+    Examples
+    --------
+    >>> viscard.check_scene(viscard.data_file("scenes/pillar_sensor.toml"), svg="sensor.svg")
+    'pillar'
+    """
+    name = "scene" if isinstance(scene, Mapping) else os.path.basename(os.fspath(scene))
+    found = _with_scene(scene, folder, lambda text, path: _core.check_scene(text, path, name, plausible))
+    if svg is not None:
+        _core.write_file(os.fspath(svg), found["svg"], overwrite)
+    return str(found["kind"])
 
 
 @_check.arguments

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from typing import Any, Dict, Iterable, Sequence
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -33,10 +33,10 @@ def html_table(title: str, heads: Sequence[str], rows: Iterable[Sequence[Any]], 
     return text
 
 
-def html_columns(title: str, columns: Dict[str, np.ndarray], notes: Sequence[str] = (), most: int = 12) -> str:
+def html_columns(title: str, columns: Mapping[str, np.ndarray[Any, Any]], notes: Sequence[str] = (), most: int = 12) -> str:
     """The first and last rows of columns."""
     n = len(next(iter(columns.values())))
-    rows = list(range(n)) if n <= most else [*range(most // 2), None, *range(n - most // 2, n)]
+    rows: List[Optional[int]] = list(range(n)) if n <= most else [*range(most // 2), None, *range(n - most // 2, n)]
     cells = [["..."] * len(columns) if row is None else [values[row] for values in columns.values()] for row in rows]
     return html_table(title, list(columns), cells, notes)
 

@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import re
 import tempfile
 import warnings
-from typing import Any, Dict, List, Optional, Sequence, Union
+from collections.abc import Mapping
+from typing import Any, Dict, Iterator, List, Optional, Sequence, TypedDict, Union
 
 import numpy as np
 
-from . import _check, _core
+from . import _arrays, _check, _core, _show
 from ._arrays import path_of
-from ._check import OptionalPath, Path, Progress
+from ._types import Floats, HasValues, Integers, OptionalPath, Path, Progress, Scene
 from ._error import DoubtWarning, Error
+from ._scene import _scene_toml, _toml
+
+
+class Results(TypedDict):
+    """A result at all points of a sweep."""
+
+    unit: str
+    value: Floats
+    error: Floats
 
 
 class Sweep:
@@ -45,8 +57,8 @@ class Sweep:
 
     def __init__(self, found: Dict[str, Any]) -> None:
         self.parameters: Dict[str, List[str]] = found["parameters"]
-        self.results: Dict[str, Dict[str, Any]] = found["results"]
-        self.point: np.ndarray = found["point"]
+        self.results: Dict[str, Results] = found["results"]
+        self.point: Integers = found["point"]
         self.failures: List[str] = found["failures"]
         self.n_points: int = found["n_points"]
         self.n_answered: int = found["n_answered"]
@@ -56,10 +68,38 @@ class Sweep:
         if self.n_failed > 0:
             warnings.warn(f"{self.n_failed} points failed and have no answer: {found['first_failure']}", DoubtWarning, stacklevel=4)
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Floats:
         if name not in self.results:
             raise KeyError(f"the answers have no '{name}'; they have {', '.join(self.results) or 'no results'}")
         return self.results[name]["value"]
+
+    def to_frame(self) -> Any:
+        """A row for each point: parameters as texts, results, and their errors as NAME_error, for pandas."""
+        errors = {f"{name}_error": one["error"] for name, one in self.results.items()}
+        return _show.frame({**self.parameters, **{name: one["value"] for name, one in self.results.items()}, **errors})
+
+    def plot(self, name: Optional[str] = None, ax: Any = None) -> Any:
+        """Draw a result over the parameter that has most values, with a line for each value of the others. Needs
+        matplotlib. Returns the axes.
+
+        Examples
+        --------
+        >>> import matplotlib; matplotlib.use("agg")
+        >>> sweep = viscard.sweep(viscard.data_file("scenes/pillar_press.toml"),
+        ...                       over={"geometry.diameter": ["36 um", "40 um"]})
+        >>> sweep.plot("top_force").get_xlabel()
+        'geometry.diameter (um)'
+        """
+        from ._plot import plot_sweep
+
+        if not self.results:
+            raise Error("no point of the sweep has an answer; failures states why", "input")
+        return plot_sweep(self, next(iter(self.results)) if name is None else name, ax)
+
+    def _repr_html_(self) -> str:
+        columns: Dict[str, Any] = {name: np.array(texts) for name, texts in self.parameters.items()}
+        columns.update((f"{name} ({one['unit']})", one["value"]) for name, one in self.results.items())
+        return _show.html_columns(f"sweep: {len(self)} of {self.n_points} points", columns, sorted({f for f in self.failures if f}))
 
     def __len__(self) -> int:
         return len(self.point)
@@ -70,8 +110,51 @@ class Sweep:
         return f"<viscard.Sweep over {', '.join(self.parameters)}: {len(self)} of {self.n_points} points{doubt}>"
 
 
+def _study_toml(over: HasValues, scene_file: str) -> str:
+    """The study file of these values of keys of a scene."""
+    is_rows = not isinstance(over, dict)
+    lines = [f"scene = {_toml(scene_file, 'scene', '')}", f"rows = {'true' if is_rows else 'false'}"]
+    for key in over.keys():
+        values = over[key]
+        if isinstance(values, (list, tuple)) and any(isinstance(one, str) for one in values):
+            texts = [one if isinstance(one, str) else repr(_arrays.number(one, key)) for one in values]
+        else:
+            texts = [repr(_arrays.number(one, key)) for one in _arrays.numbers(values, key).ravel()]
+        if not texts:
+            raise Error(f"over has no values of {key}", "usage")
+        lines += ["[[parameter]]", f"key = {_toml(key, key, '')}", f"values = {_toml(texts, key, '')}"]
+    return "\n".join(lines) + "\n"
+
+
+@contextlib.contextmanager
+def _study_file(study: Scene, over: Optional[HasValues]) -> Iterator[str]:
+    """The path of a study: the one given, or one that is made of a scene and the values of its keys."""
+    if over is None:
+        if isinstance(study, Mapping):
+            raise Error("a scene that is a dict needs over, such as over={'geometry.diameter': [36e-6, 40e-6]}", "usage")
+        yield os.fspath(study)
+        return
+    if not hasattr(over, "keys"):
+        raise TypeError(f"over must be a dict of values by key of the scene, or a DataFrame, not {_check.shown(over)}")
+    with tempfile.TemporaryDirectory(prefix="viscard-") as own:
+        scene_file = os.path.abspath(study) if not isinstance(study, Mapping) else "scene.toml"
+        if isinstance(study, Mapping):
+            text = _scene_toml(study, own).replace(own + os.sep, "")  # the same text whatever the folder
+            with open(os.path.join(own, scene_file), "w", encoding="utf-8") as file:
+                file.write(text)
+        name = os.path.join(own, "study.toml")
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(_study_toml(over, scene_file))
+        try:
+            yield name
+        except Error as error:  # of files that nobody has seen
+            text, message, where = (re.sub(re.escape(own) + r"/(study|scene)\.toml(:\d+)?", r"\1", part)
+                                    for part in (str(error), error.message, error.where))
+            raise Error(text, error.code, message, where, error.hint) from None
+
+
 @_check.arguments
-def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None, merge: Union[Path, Sequence[Path], None] = None,
+def sweep(study: Scene, out: OptionalPath = None, *, over: Optional[HasValues] = None, shard: Optional[str] = None, merge: Union[Path, Sequence[Path], None] = None,
           plausible: str = "on", accept_unrecorded: bool = False, retry_failed: bool = False,
           progress: Progress = None) -> Sweep:
     """Answer a scene at many values of its parameters, on all cores, as ``viscard sweep`` does.
@@ -80,8 +163,12 @@ def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None,
 
     Parameters
     ----------
-    study : path
-        A study file; `data_file("studies/pillar.toml")` is a commented example.
+    study : path or dict
+        A study file; `data_file("studies/pillar.toml")` is a commented example. With `over`, the scene: a path or a dict
+        as in `simulate`, whose files are named by whole paths.
+    over : dict of lists or arrays, or DataFrame
+        Values by key of the scene: numbers in SI, or texts with a unit. A dict combines all of them, the first key
+        slowest; a DataFrame is a table of points, one a row. Missing values are refused.
     out : path
         SQLite file that keeps each point as it ends, so that the same call continues a sweep that was interrupted. ``viscard
         sweep`` continues it too. Default: nothing is kept.
@@ -103,8 +190,11 @@ def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None,
     >>> rest = viscard.sweep(viscard.data_file("studies/pillar.toml"), "pillar.sqlite")
     >>> first.n_answered, rest.n_answered, len(rest)
     (3, 6, 9)
+    >>> import numpy as np
+    >>> scene = viscard.data_file("scenes/pillar_press.toml")
+    >>> viscard.sweep(scene, over={"geometry.diameter": np.array([36e-6, 44e-6])})["top_force"].shape
+    (2,)
     """
-    path = os.fspath(study)
     if merge is not None and not isinstance(merge, (str, os.PathLike, list, tuple)):
         raise TypeError(f"merge must be a path or a list of paths, not {_check.shown(merge)}")
     parts = [] if merge is None else list(merge) if isinstance(merge, (list, tuple)) else [merge]
@@ -112,8 +202,6 @@ def sweep(study: Path, out: OptionalPath = None, *, shard: Optional[str] = None,
     file = None if out is None else os.fspath(out)
     if file is None and parts:
         raise Error("merge needs out, the file that takes the points over", "usage")
-    if file is not None:
-        return Sweep(_core.sweep(path, file, shard, parts, plausible, accept_unrecorded, retry_failed, progress))
-    with tempfile.TemporaryDirectory(prefix="viscard-", ignore_cleanup_errors=True) as own:
-        return Sweep(_core.sweep(path, os.path.join(own, "points.sqlite"), shard, parts, plausible, accept_unrecorded,
+    with _study_file(study, over) as path, tempfile.TemporaryDirectory(prefix="viscard-", ignore_cleanup_errors=True) as own:
+        return Sweep(_core.sweep(path, file or os.path.join(own, "points.sqlite"), shard, parts, plausible, accept_unrecorded,
                                  retry_failed, progress))

@@ -3,15 +3,64 @@
 from __future__ import annotations
 
 import os
-from typing import Iterator, Mapping
+from typing import Any, Dict, Iterator, List, Literal, Mapping, Optional, Tuple, TypedDict, Union, overload
 
 import numpy as np
 
-from . import _check, _core
-from ._check import Path, Texts
+from . import _check, _core, _show
+from ._types import Booleans, Floats, Integers, Path, Texts
 
 
-class Table(Mapping):
+class TableColumn(TypedDict):
+    """A column as its file writes it."""
+
+    header: str
+    name: str
+    unit: str
+    values: Floats
+    text: Optional[List[str]]
+
+
+class Load(TypedDict):
+    """Readings of the load cell."""
+
+    index: Integers
+    time_s: Floats
+    device_time_s: Floats
+    counts: Floats
+    volts_V: Floats
+    force_N: Floats
+    is_saturated: Booleans
+    is_glitch: Booleans
+
+
+class StageRecord(TypedDict):
+    """Positions that the stage reported."""
+
+    time_s: Floats
+    position_m: Floats
+    state: List[str]
+
+
+class Moves(TypedDict):
+    """Moves that were commanded."""
+
+    time_s: Floats
+    from_m: Floats
+    to_m: Floats
+    speed_m_s: Floats
+    acceleration_m_s2: Floats
+    purpose: List[str]
+
+
+class Temperatures(TypedDict):
+    """Readings of the thermometer."""
+
+    time_s: Floats
+    temperature_C: Floats
+
+
+class Table(Mapping[str, Union[Floats, List[str]]]):
     """A table of a file. ``table["force_N"]`` is a quantity in SI; the file may have other headers and units.
 
     It is a mapping of quantity to array of shape (rows,), float64; a cell that is no number is NaN.
@@ -36,14 +85,18 @@ class Table(Mapping):
     True
     """
 
-    def __init__(self, found: dict) -> None:
+    def __init__(self, found: Dict[str, Any]) -> None:
         self.file: str = found["file"]
         self.maker: str = found["maker"]
-        self.columns: "list[dict]" = found["columns"]
-        self.preamble: "list[str]" = found["preamble"]
-        self._quantities: "dict[str, np.ndarray]" = found["quantities"]
+        self.columns: List[TableColumn] = found["columns"]
+        self.preamble: List[str] = found["preamble"]
+        self._quantities: Dict[str, Any] = found["quantities"]
 
-    def __getitem__(self, quantity: str) -> np.ndarray:
+    @overload
+    def __getitem__(self, quantity: Literal["segment", "specimen"]) -> List[str]: ...  # type: ignore[misc]
+    @overload
+    def __getitem__(self, quantity: str) -> Floats: ...
+    def __getitem__(self, quantity: str) -> Any:
         if quantity not in self._quantities:
             raise KeyError(f"{self.file} has no {quantity}; it has {', '.join(self) or 'none that is known'}; "
                            "name its column with read_table(path, column='NAME=HEADER')")
@@ -54,6 +107,15 @@ class Table(Mapping):
 
     def __len__(self) -> int:
         return len(self._quantities)
+
+    def _repr_html_(self) -> str:
+        columns = {f"{one['name']} ({one['unit']})" if one["unit"] else one["header"]:
+                   np.array(one["text"]) if one["text"] is not None else one["values"] for one in self.columns}
+        return _show.html_columns(self.file, columns, [f"read as {', '.join(self)}"]) if columns else _show.html_table(self.file, [], [])
+
+    def to_frame(self) -> Any:
+        """The quantities in SI as a DataFrame of pandas."""
+        return _show.frame(self._quantities)
 
     def __repr__(self) -> str:
         n_rows = len(self.columns[0]["values"]) if self.columns else 0
@@ -114,13 +176,45 @@ class Capture:
     ['depth_m', 'force_N', 'position_m', 'segment', 'time_s', 'volts_V']
     """
 
-    def __init__(self, found: dict) -> None:
+    file: str
+    status: str
+    started_at: str
+    program: str
+    command: str
+    specimen_id: str
+    mixing_ratio: float
+    load: Load
+    stage: StageRecord
+    moves: Moves
+    temperature: Temperatures
+    events: List[Tuple[float, str, str, str]]
+    notes: List[str]
+    unverified: bool
+
+    def __init__(self, found: Dict[str, Any]) -> None:
         for name, value in found.items():
             setattr(self, name, value)
 
     def table(self) -> Table:
         """Force and depth on the clock that the fit uses, as ``viscard export`` writes them."""
         return Table(_core.table_of_capture(self.file, self.unverified))
+
+    @_check.arguments
+    def save(self, path: Path, *, overwrite: bool = False) -> None:
+        """Write every sample as CSV, as ``viscard export`` does; an existing file is kept unless `overwrite` is True.
+
+        Examples
+        --------
+        >>> viscard.capture("run.viscap", emulate=True, speed=500).read().save("run.csv")
+        >>> viscard.fit("run.csv", specimen=viscard.data_file("demo/03_pdms_1to10.toml")).unit
+        'Pa'
+        """
+        _core.write_file(os.fspath(path), _core.csv_of_capture(self.file, self.unverified), overwrite)
+
+    def _repr_html_(self) -> str:
+        rows = [("status", self.status), ("started", self.started_at), ("specimen", self.specimen_id),
+                ("readings", len(self.load["time_s"])), ("moves", len(self.moves["time_s"])), ("events", len(self.events))]
+        return _show.html_table(self.file, ["", ""], rows, self.notes)
 
     def __repr__(self) -> str:
         return f"<viscard.Capture {self.file}: {self.status}, {len(self.load['time_s'])} readings>"

@@ -48,6 +48,9 @@ WRONG_TYPES = [
     (lambda **k: viscard.cost(PRESS, **k), "budget", (True, [1], None), "a text or a number"),
     (lambda **k: viscard.forces_from_voltages(ARRAY, np.zeros((1, 2, 4)), **k), "noise", NO_NUMBER, "a number"),
     (viscard.sweep, "study", NO_PATH, "a path"),
+    (lambda **k: viscard.predict(viscard.Material(1e6, 0.4), **k), "against", NO_PATH, "a path"),
+    (lambda **k: viscard.next_test(want="E0=1%", **k), "capture", NO_PATH, "a path"),
+    (lambda **k: viscard.sweep("a.toml", **k), "over", (3, [1]), "a dict of values"),
     (lambda **k: viscard.sweep("a.toml", "a.sqlite", **k), "merge", NO_PATH[:2], "a path or a list of paths"),
     (lambda **k: viscard.design("a.toml", {}, **k), "search_time", (True, [1], None), "a text or a number"),
     (viscard.design, "lattice", (True, [1]), "a text or a number"),
@@ -198,7 +201,7 @@ def test_every_argument_is_checked():
             if not inspect.isfunction(call):
                 continue
             keys = set(inspect.signature(call).parameters) - {"self", "cls"} - own
-            assert not keys or hasattr(call, "__wrapped__") or name in ("Answer", "Plan", "Table"), (name, call.__name__, keys)
+            assert not keys or hasattr(call, "__wrapped__") or name in ("Answer", "Plan", "Sweep", "Table"), (name, call.__name__, keys)
 
 
 def test_arrays_without_a_name_are_shown_the_dict():
@@ -207,5 +210,5 @@ def test_arrays_without_a_name_are_shown_the_dict():
         viscard.fit(time_s, modulus_Pa)
     with pytest.raises(TypeError, match=r"takes 1 value without a name; write the others as NAME=VALUE"):
         viscard.fit(EXAMPLE, "return")
-    with pytest.raises(TypeError, match=r"a Capture or a list of paths, not b'run.csv'"):
+    with pytest.raises(TypeError, match=r"a Capture or a list of these, not b'run.csv'"):
         viscard.fit(b"run.csv")

@@ -1,0 +1,75 @@
+"""What other commands do, from Python: beside the command line."""
+import json
+import subprocess
+
+import numpy as np
+import pytest
+
+import viscard
+
+SEED = "data/materials/pdms_1to10_seed.json"
+
+
+def printed(program, *words):
+    found = subprocess.run([program, *words], capture_output=True, text=True)
+    assert found.returncode == 0, found.stderr
+    return found.stdout
+
+
+def test_validate_is_the_command(program):
+    found = viscard.Material.load(SEED).validate()
+    of_command = json.loads(printed(program, "validate", SEED, "--json"))
+    assert found.passed and found.json["unknowns"] == of_command["unknowns"]
+    assert {key: found.json[key] for key in ("creep", "relaxation", "max_error")} == {
+        key: of_command[key] for key in ("creep", "relaxation", "max_error")}
+    off = found.relaxation["stress_Pa"] / found.relaxation["exact_stress_Pa"] - 1
+    assert np.abs(off).max() == pytest.approx(found.relaxation["largest_relative_error"])
+    assert not viscard.Material.load(SEED).validate(max_error=1e-15).passed
+    with pytest.raises(viscard.Error, match="max_error is 0; it must be positive"):
+        viscard.Material.load(SEED).validate(max_error=0)
+
+
+def test_export_is_the_command(program, run, tmp_path):
+    viscard.read_capture(run).save(tmp_path / "run.csv")
+    assert (tmp_path / "run.csv").read_text() == printed(program, "export", run)
+    with pytest.raises(viscard.Error) as refused:
+        viscard.read_capture(run).save(tmp_path / "run.csv")
+    assert refused.value.code == "exists"
+
+
+def test_a_scene_is_checked_without_being_solved(program, tmp_path):
+    scene = "data/scenes/pillar_sensor.toml"
+    assert viscard.check_scene(scene, svg=tmp_path / "python.svg") == "pillar"
+    printed(program, "scene", "check", scene, "--svg", str(tmp_path / "command.svg"))
+    assert (tmp_path / "python.svg").read_text() == (tmp_path / "command.svg").read_text()
+    pillar = {"geometry": {"diameter": "40 um", "length": "120 um"}, "materials": {"pillar": {"E": "1 MPa", "nu": 0.3}}}
+    assert viscard.check_scene({**pillar, "analysis": {"kind": "static", "load": {"pressure": "1 kPa", "on": "top"}}}) == "pillar"
+    with pytest.raises(viscard.Error, match="needs the density"):
+        viscard.check_scene({**pillar, "analysis": {"kind": "modal"}})
+
+
+def test_what_to_measure_next_is_the_command(program, run):
+    found = viscard.next_test(run, ["E0=1%"])
+    of_command = json.loads(printed(program, "fit", run, "--want", "E0=1%", "--json"))["next"]["measurements"]
+    assert [one["what"] for one in found] == [one["what"] for one in of_command]
+    assert found[0]["half_width_95_after"] == of_command[0]["half_width_95_after"] < found[0]["half_width_95"]
+    assert viscard.next_test(viscard.read_capture(run), "E0=1%") == found
+    with pytest.raises(viscard.Error, match="E0"):
+        viscard.next_test(run, "E0")
+
+
+def test_the_report_is_the_command(program, run, tmp_path):
+    viscard.report([run, SEED], tmp_path / "python.html", title="A & B", cards="febio", reproducible=True)
+    printed(program, "report", run, SEED, "--out", str(tmp_path / "command.html"), "--title", "A & B", "--card", "febio",
+            "--reproducible")
+    pages = [(tmp_path / name).read_text().splitlines() for name in ("python.html", "command.html")]
+    differ = [one for one, other in zip(*pages) if one != other]
+    assert len(pages[0]) == len(pages[1]) and all("sha256" in line or "report" in line for line in differ)  # by whom
+    with pytest.raises(viscard.Error) as refused:
+        viscard.report(SEED, tmp_path / "python.html")
+    assert refused.value.code == "exists"
+    with pytest.raises(viscard.Error, match="'abacus'"):
+        viscard.report(SEED, tmp_path / "other.html", cards="abacus")
+    with pytest.raises(viscard.Error, match="save the arrays"):
+        viscard.report({"time_s": [1.0, 2.0], "modulus_Pa": [2.0, 1.0]}, tmp_path / "other.html")
+    assert not (tmp_path / "other.html").exists()
