@@ -35,7 +35,7 @@ def run_examples():
             continue
         example = json.loads(output(name, "--help", "--json"))["example"]
         words = [VISCARD, *shlex.split(example)[1:]]
-        if name == "serve":  # until Ctrl-C
+        if name in ("serve", "desk"):  # until Ctrl-C
             page = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             page.stdout.readline()
             page.send_signal(signal.SIGINT)
