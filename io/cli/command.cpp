@@ -3,6 +3,7 @@
 #include "io/basics/failure_text.h"
 #include "io/basics/inputs.h"
 #include "io/basics/words.h"
+#include "io/basics/words_file.h"
 #include "io/cli/card/card_words.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/help/documents.h"
@@ -37,6 +38,7 @@ std::string overview(const Streams& streams) {
           ", without a rig and without data:\n"
           "  viscard demo --out demo  runs all steps on an emulated rig and writes a page\n"
           "  viscard help fit         explains a command, with an example that works as printed\n"
+          "\n@FILE among the words stands for the words in that file, one a line.\n"
           "\nExample: viscard demo --out demo\n";
   return fitted(text, streams.columns);
 }
@@ -61,7 +63,8 @@ CommandDocuments ask_documents() {
   return documents;
 }
 
-int dispatch(const Words& words, Streams& streams) {
+int dispatch(const Words& typed, Streams& streams) {
+  const Words words = with_words_of_files(typed);
   if (words.empty()) {
     streams.err << overview(streams);
     return kBadWords;

@@ -85,7 +85,7 @@ void add_quantities(const CsvTable& table, const FitRequest& request,
     column.is_used = k < used.size();
     column.factor = use->factor;
     column.offset = use->offset;
-    column.guessed = guess_of(*use, names[k]);
+    if (column.is_used) column.guessed = guess_of(*use, names[k]);
   }
 }
 

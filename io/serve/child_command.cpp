@@ -1,6 +1,5 @@
 #include "io/serve/child_command.h"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -18,17 +17,27 @@ namespace {
 
 using ChildClock = std::chrono::steady_clock;
 
-// What a child prints goes into memory, and no pipe can fill up.
-class OutputInMemory {
+// What a child reads and prints lies in memory, and no pipe can fill up.
+class TextInMemory {
  public:
-  explicit OutputInMemory(const char* name) : fd_(::memfd_create(name, MFD_CLOEXEC)) {
+  explicit TextInMemory(const char* name) : fd_(::memfd_create(name, MFD_CLOEXEC)) {
     if (fd_ < 0) throw std::runtime_error("this computer has no memory left to start a command");
   }
-  ~OutputInMemory() { ::close(fd_); }
-  OutputInMemory(const OutputInMemory&) = delete;
-  OutputInMemory& operator=(const OutputInMemory&) = delete;
+  ~TextInMemory() { ::close(fd_); }
+  TextInMemory(const TextInMemory&) = delete;
+  TextInMemory& operator=(const TextInMemory&) = delete;
 
   int fd() const { return fd_; }
+  void fill(const std::string& text) const {
+    std::size_t done = 0;
+    while (done < text.size()) {
+      const ssize_t count =
+          ::pwrite(fd_, text.data() + done, text.size() - done, static_cast<off_t>(done));
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) throw std::runtime_error("this computer has no memory left for a command");
+      done += static_cast<std::size_t>(count);
+    }
+  }
   std::string text() const {
     std::string all;
     char bytes[65536];
@@ -51,7 +60,7 @@ void limit(__rlimit_resource what, std::size_t value) {
 
 // Runs in the child and never returns. Only calls that a process may make which had several threads.
 [[noreturn]] void become(char* const* words, const char* program, const char* folder,
-                         const ChildLimits& limits, int out, int err, pid_t parent) {
+                         const ChildLimits& limits, int in, int out, int err, pid_t parent) {
   ::setpgid(0, 0);  // Ctrl-C is for the parent
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(126);  // it has ended already
@@ -59,7 +68,7 @@ void limit(__rlimit_resource what, std::size_t value) {
     ::signal(number, SIG_DFL);
   }
   if (::chdir(folder) != 0) ::_exit(126);
-  ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+  ::dup2(in, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
   ::close_range(3, ~0U, 0);
@@ -87,8 +96,9 @@ std::string signal_text(int number, const ChildLimits& limits) {
 
 ChildEnd run_child(const std::string& program, const std::vector<std::string>& words,
                    const std::filesystem::path& folder, const ChildLimits& limits,
-                   const std::atomic<bool>& is_closing) {
-  const OutputInMemory out("viscard-out"), err("viscard-err");
+                   const std::atomic<bool>& is_closing, const std::string& input) {
+  const TextInMemory in("viscard-in"), out("viscard-out"), err("viscard-err");
+  in.fill(input);
   std::string name = "viscard";
   std::vector<std::string> kept = words;
   std::vector<char*> arguments{name.data()};
@@ -97,7 +107,8 @@ ChildEnd run_child(const std::string& program, const std::vector<std::string>& w
   const pid_t self = ::getpid(), child = ::fork();
   if (child < 0) throw std::runtime_error("this computer has no process left for a command");
   if (child == 0) {
-    become(arguments.data(), program.c_str(), folder.c_str(), limits, out.fd(), err.fd(), self);
+    become(arguments.data(), program.c_str(), folder.c_str(), limits, in.fd(), out.fd(), err.fd(),
+           self);
   }
   const auto end = ChildClock::now() + limits.clock;
   int status = 0;

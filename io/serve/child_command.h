@@ -25,10 +25,10 @@ struct ChildEnd {
   std::string trouble;  // why it did not exit: "took more than 120 s ..."; empty: it exited
 };
 
-// Runs `program WORDS...` in this folder and returns when it has ended. A table that kills or exhausts it ends
-// nothing else. `is_closing` ends it. Throws std::runtime_error if no process can be started.
+// Runs `program WORDS...` in this folder, with this text to read at /dev/stdin, and returns when it has ended. A
+// table that kills or exhausts it ends nothing else. `is_closing` ends it. Throws std::runtime_error if no process can be started.
 ChildEnd run_child(const std::string& program, const std::vector<std::string>& words,
                    const std::filesystem::path& folder, const ChildLimits& limits,
-                   const std::atomic<bool>& is_closing);
+                   const std::atomic<bool>& is_closing, const std::string& input = "");
 
 }  // namespace viscard

@@ -3,9 +3,11 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/words.h"
 #include "io/flow/words/fit_words.h"
+#include "io/flow/words/predict_words.h"
 #include "io/materials/material_file.h"
 #include "io/serve/api_error.h"
 #include "io/serve/series_json.h"
+#include "io/tables/column_names.h"
 
 #include <nlohmann/json.hpp>
 
@@ -42,7 +44,9 @@ void add_value(const std::string& name, const Json& value, Texts& words) {
     throw ApiError(400, "bad-value", "'" + name + "' must be a text, or true for a switch");
   }
   const auto text = value.get<std::string>();
-  if (text.size() > kLongestValue || text.find('\0') != std::string::npos) {
+  const bool has_control = std::any_of(text.begin(), text.end(),
+                                       [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  if (text.size() > kLongestValue || has_control) {
     throw ApiError(400, "bad-value", "the value of '" + name + "' is no value of an option");
   }
   if (!text.empty()) words.push_back("--" + name + "=" + text);
@@ -79,6 +83,35 @@ Texts fit_words_of(const Json& request) {
     const Option* option = list.find(name);
     return option != nullptr && is_offered(*option);
   });
+}
+
+// {"terms": "3"} of the words --terms=3, as the page has it; words of options that it does not set are left out.
+Json options_of_words(const Texts& words) {
+  FitWords unused;
+  const OptionList list = options_of(unused);
+  Json options = Json::object();
+  for (const std::string& word : words) {
+    const std::size_t sign = word.find('=');
+    const std::string name = word.starts_with("--") ? word.substr(2, sign - 2) : "";
+    const Option* option = list.find(name);
+    if (option == nullptr || !is_offered(*option)) continue;
+    if (is_switch(*option)) {
+      options[name] = true;
+    } else if (sign == std::string::npos) {
+      continue;
+    } else if (is_list(*option)) {
+      options[name].push_back(word.substr(sign + 1));
+    } else {
+      options[name] = word.substr(sign + 1);
+    }
+  }
+  return options;
+}
+
+// The options of a request, or without any those that are kept beside the table.
+Texts fit_words_of(const Json& request, const std::string& table, const DeskFolder& folder) {
+  if (request.contains("options")) return fit_words_of(request);
+  return fit_words_of({{"options", options_of_words(folder.kept_words(table))}});
 }
 
 // A name that no command takes for an option, or for KIND=FILE.
@@ -134,7 +167,7 @@ Json DeskApi::state() const {
           {"tables", std::move(tables)},           {"are_more", is_full}};
 }
 
-Json DeskApi::result_of(const Texts& words) {
+Json DeskApi::result_of(const Texts& words, const std::string& input) {
   {
     std::unique_lock<std::mutex> lock(mutex_);
     one_has_ended_.wait(lock, [&] { return is_closing_ || n_running_ < kMostRunning; });
@@ -146,7 +179,7 @@ Json DeskApi::result_of(const Texts& words) {
   Texts all = words;
   all.emplace_back("--json");
   try {
-    end = run_child(options_.program, all, folder_.path(), options_.limits, is_closing_);
+    end = run_child(options_.program, all, folder_.path(), options_.limits, is_closing_, input);
   } catch (...) {
     failure = std::current_exception();
   }
@@ -188,7 +221,8 @@ Json DeskApi::choices() {
   return {{"targets", list.at("targets")},
           {"units", list.at("units")},
           {"options", std::move(options)},
-          {"card_options", card_options_offered()}};
+          {"quantities", column_names()},
+          {"predict", result_of({"predict", "--help"}).at("options")}};
 }
 
 Json DeskApi::drop(const std::string& name, const std::string& bytes) {
@@ -199,14 +233,27 @@ Json DeskApi::drop(const std::string& name, const std::string& bytes) {
 Json DeskApi::table(const Json& request) {
   const std::string table = text_at(request, "table");
   folder_.require_table(table);
-  const Texts words = command_words("fit", table, fit_words_of(request), {"--show-table"});
-  return answered(words, result_of(words));
+  const Texts options = fit_words_of(request, table, folder_);
+  if (request.contains("options")) {
+    const std::lock_guard<std::mutex> lock(writing_);
+    folder_.keep_words(table, options);
+  }
+  const Texts words = command_words("fit", table, options, {"--show-table"});
+  Json answer = answered(words, Json());
+  answer["options"] = options_of_words(options);
+  try {
+    answer["result"] = result_of(words);
+  } catch (const ApiError&
+               error) {  // the page shows the options in any case, so that they can be changed
+    answer["trouble"] = error.what();
+  }
+  return answer;
 }
 
 Json DeskApi::fit(const Json& request) {
   const std::string table = text_at(request, "table");
   folder_.require_table(table);
-  const Texts options = fit_words_of(request);
+  const Texts options = fit_words_of(request, table, folder_);
   const Json result = result_of(command_words("fit", table, options, {"--curves"}));
   return answered(command_words("fit", table, options), result);
 }
@@ -231,7 +278,7 @@ std::string DeskApi::write_material(const std::string& table, const Texts& optio
 Json DeskApi::card(const Json& request) {
   const std::string table = text_at(request, "table");
   folder_.require_table(table);
-  const Texts options = fit_words_of(request);
+  const Texts options = fit_words_of(request, table, folder_);
   if (!request.contains("card")) throw ApiError(400, "bad-value", "the request needs 'card'");
   const Texts of_card = words_of(request, "card", [](const std::string& name) {
     const Texts& more = card_options_offered();
@@ -243,6 +290,40 @@ Json DeskApi::card(const Json& request) {
   Json answer = answered(words, result_of(words));
   answer["material"] = material;
   answer["fit_command"] = typed(command_words("fit", table, options, {"--out=" + material}));
+  return answer;
+}
+
+Json DeskApi::predict(const Json& request) {
+  const std::string table = text_at(request, "table");
+  folder_.require_table(table);
+  PredictWords unused;
+  const OptionList list = options_of(unused);
+  Texts of_test = words_of(request, "predict", [&](const std::string& name) {
+    const Option* option = list.find(name);
+    return option != nullptr && !option->is_file;
+  });
+  if (request.contains("against")) {
+    const std::string against = text_at(request, "against");
+    folder_.require_table(against);
+    of_test.push_back("--against=" + against);
+  }
+  const std::string material = write_material(table, fit_words_of(request, table, folder_));
+  const Texts words = command_words("predict", material, of_test);
+  Json answer = answered(words, result_of(words));
+  answer["material"] = material;
+  return answer;
+}
+
+Json DeskApi::check(const Json& request) {
+  Texts words{"card", "--check=/dev/stdin"};
+  for (const char* name : {"for", "units"}) {
+    if (request.contains(name)) add_value(name, request.at(name), words);
+  }
+  Json answer = answered(words, result_of(words, text_at(request, "card")));
+  // As a person types it, with a file.
+  words.front() = "card";
+  words[1] = "--check=CARD";
+  answer["command"] = typed(words);
   return answer;
 }
 

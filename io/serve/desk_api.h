@@ -36,20 +36,25 @@ class DeskApi {
   // What the page offers: the options of fit, and the targets and units of cards.
   Json choices();
   Json drop(const std::string& name, const std::string& bytes);
-  // {"table", "options"}: viscard fit --show-table.
+  // {"table", "options"}: viscard fit --show-table, and keeps the options beside the table. Without "options" those that
+  // are kept hold; the answer names them.
   Json table(const Json& request);
   // {"table", "options"}: viscard fit, with the curves.
   Json fit(const Json& request);
   // {"table", "options", "card"}: writes the material of the fit beside the table, under a name that is free or that of
   // the same fit, and then viscard card.
   Json card(const Json& request);
+  // {"table", "options", "predict"}: likewise, and then viscard predict.
+  Json predict(const Json& request);
+  // {"card", "for"}: viscard card --check of this text.
+  Json check(const Json& request);
 
   // Ends the commands that are running; no further one begins.
   void close();
 
  private:
   // The object that a command prints. Throws ApiError 422 if it prints none or one of an error.
-  Json result_of(const std::vector<std::string>& words);
+  Json result_of(const std::vector<std::string>& words, const std::string& input = "");
   std::string write_material(const std::string& table, const std::vector<std::string>& words);
 
   DeskOptions options_;

@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/words_file.h"
 #include "io/serve/api_error.h"
 
 #include <unistd.h>
@@ -23,6 +24,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongestFileName = 100;  // bytes
 
 constexpr std::size_t kBeginning_B = 16 * 1024;  // that tells the kind of a file
+
+constexpr const char* kKeptEnding = ".options";
+constexpr const char* kKeptHead = "# Options kept by viscard desk";
 
 // Endings of files that hold tables although their contents do not look like one at once.
 constexpr const char* kTableEndings[] = {".csv", ".tsv",  ".txt", ".dat", ".asc", ".xlsx", ".mat",
@@ -176,6 +180,32 @@ std::string DeskFolder::drop(const std::string& name, const std::string& bytes) 
       if (tries >= 20 || !fs::exists(fs::symlink_status(path))) throw;
     }
   }
+}
+
+std::vector<std::string> DeskFolder::kept_words(const std::string& table) const {
+  const fs::path file = path_ / (table + kKeptEnding);
+  if (!fs::exists(file)) return {};
+  return words_of_file(file);
+}
+
+void DeskFolder::keep_words(const std::string& table, const std::vector<std::string>& words) const {
+  const fs::path file = path_ / (table + kKeptEnding);
+  const bool is_there = fs::exists(fs::symlink_status(file));
+  if (is_there && !read_own_file(file).starts_with(kKeptHead)) {
+    throw ApiError(409, "exists",
+                   file.filename().string() +
+                       " was not written by the desk, so it is not replaced. Rename it, and what "
+                       "you choose is kept");
+  }
+  if (words.empty()) {
+    std::error_code ignored;
+    if (is_there) fs::remove(file, ignored);
+    return;
+  }
+  std::string text = std::string(kKeptHead) + " for " + table + ", one a line: viscard fit " +
+                     table + " @" + file.filename().string() + "\n";
+  for (const std::string& word : words) text += word + "\n";
+  write_file(file, text, is_there);
 }
 
 }  // namespace viscard

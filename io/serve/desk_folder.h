@@ -36,6 +36,12 @@ class DeskFolder {
   // name. Throws ApiError 400 for a name that no file of a table may have, 409 if the folder is full.
   std::string drop(const std::string& name, const std::string& bytes) const;
 
+  // The words of a command that are kept beside a table, in NAME.options, one a line; @NAME.options stands for them on a
+  // command line. None: there is no such file.
+  std::vector<std::string> kept_words(const std::string& table) const;
+  // Keeps them; without words the file is removed. Throws ApiError 409 if a file of that name is not of the desk.
+  void keep_words(const std::string& table, const std::vector<std::string>& words) const;
+
  private:
   std::filesystem::path path_;
 };

@@ -17,6 +17,8 @@ class DeskServer::Impl {
     server_.add_order("/api/desk/table", [this](const Json& r) { return api_.table(r); });
     server_.add_order("/api/desk/fit", [this](const Json& r) { return api_.fit(r); });
     server_.add_order("/api/desk/card", [this](const Json& r) { return api_.card(r); });
+    server_.add_order("/api/desk/predict", [this](const Json& r) { return api_.predict(r); });
+    server_.add_order("/api/desk/check", [this](const Json& r) { return api_.check(r); });
     server_.add_drop("/api/desk/drop", kLargestDrop_B,
                      [this](const std::string& name, const std::string& bytes) {
                        return api_.drop(name, bytes);

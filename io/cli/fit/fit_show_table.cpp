@@ -20,7 +20,9 @@ void print_table(const TableView& view, std::ostream& out) {
   } else {
     out << "kind of test: " << view.kind;
     if (!view.modulus_kind.empty()) {
-      out << "; moduli of " << view.modulus_kind << " (" << view.modulus_kind_from << ")";
+      out << "; moduli of " << view.modulus_kind
+          << (view.modulus_kind_from == "assumed" ? " (assumed)"
+                                                  : " (by " + view.modulus_kind_from + ")");
     }
     out << "\n";
   }

@@ -8,6 +8,12 @@ const charts = new Set();
 // The page has legends of its own, and this one sets styles that the content security policy forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
+// A number of an axis: no more digits than there is room for.
+function shortNumber(value) {
+  const text = String(Number(value.toPrecision(4)));
+  return (text.length <= 7 ? text : value.toExponential(1)).replace("-", "−");
+}
+
 // One chart. options: labels of the columns, colors by name, right: label of the column on the right
 // axis, titles: {xlabel, ylabel, y2label}, limits: [{value, text, color}], range() of the left axis, window()
 // of the time, onWindow([from, to]) when that changes, readout(row), points, band, logs() = {x, y}: which axes are
@@ -57,7 +63,8 @@ export class Chart {
     const left = this.options.range ? this.options.range() : null;
     const most = this.options.right ? Math.max(...this.data.map((row) => row[2])) : 0;
     const scale = left && most > 0 ? 2 * most / left[1] : 0;
-    const label = { axisLabelWidth: 54, drawGrid: true };
+    const label = { axisLabelWidth: 54, drawGrid: true,
+                    ...(this.options.logs ? { axisLabelFormatter: (y) => shortNumber(y) } : {}) };
     const logs = this.options.logs ? this.options.logs() : { x: false, y: false };
     return {
       axes: {
@@ -82,7 +89,8 @@ export class Chart {
     });
     this.graph = new Dygraph(this.node, this.data, {
       labels, series, legend: "never", rightGap: 12,
-      xRangePad: this.options.logs && this.options.logs().x ? 0 : 4,  // it would reach below zero connectSeparatedPoints: true,
+      xRangePad: this.options.logs && this.options.logs().x ? 0 : 4,  // it would reach below zero
+      connectSeparatedPoints: true,
       gridLineColor: color("line"), axisLineColor: color("line"), axisLabelFontSize: 13,
       digitsAfterDecimal: 4, xLabelHeight: 16, yLabelWidth: 16, ...titles, ...this.ranges(),
       ...(onWindow ? { drawCallback: (graph) => onWindow(graph.xAxisRange()) } : {}),

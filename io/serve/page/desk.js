@@ -1,16 +1,20 @@
 // Puts the parts of the desk together. All that is made lies in the folder; the page holds what is chosen for each table.
 import { ask, drop, order, Unreachable } from "./api.js";
 import { chosenCard, showCard, showCardState, startCard } from "./desk_card.js";
-import { forgetOrders, redrawFit, showFit, showFitState } from "./desk_fit.js";
-import { pythonOf, showFields, showSame, startOptions } from "./desk_options.js";
-import { showTable, showTableError } from "./desk_table.js";
+import { checkCard, startCheck } from "./desk_check.js";
+import { alsoCompare, compare, showCompareTables, startCompare } from "./desk_compare.js";
+import { forgetOrders, redrawFit, showFit, showFitState, shownRange } from "./desk_fit.js";
+import { keywordOf, pythonOf, showFields, showSame, startOptions } from "./desk_options.js";
+import { chosenPrediction, showOtherTables, showPrediction, showPredictState, startPredict } from "./desk_predict.js";
+import { showTable, showTableError, startTable } from "./desk_table.js";
 import { element, make, sentence, show, showText } from "./format.js";
 
-const kSteps = ["table", "fit", "card"];
+const kSteps = ["table", "fit", "card", "predict", "compare", "check"];
 const kLook_ms = 3000;
 
 let state = null, table = null, choices = {}, view = "table", asked = 0;
-const chosen = () => (choices[table] ??= {});
+let before = [];  // options of this table, for undo
+const chosen = () => choices[table] ?? {};
 
 function showLink(error) {
   const isLost = error instanceof Unreachable || (error && error.code === "wrong-token");
@@ -43,6 +47,9 @@ function showTables() {
   show(element("no-tables"), state.tables.length === 0);
   showText(element("folder-trouble"), sentence(state.folder_trouble));
   element("folder").textContent = state.folder;
+  const names = state.tables.map((one) => one.name);
+  showCompareTables(names);
+  showOtherTables(names);
 }
 
 async function refresh() {
@@ -61,35 +68,37 @@ function showView(name) {
   }
   if (name === "fit") redrawFit();
   if (name === "card") makeCard();
+  if (name === "predict") predict();
+  if (name === "compare") compare();
 }
 
+// Of a table that is opened for the first time, the options that are kept beside it hold.
 function request() {
-  return { table, options: chosen() };
+  return choices[table] === undefined ? { table } : { table, options: chosen() };
 }
 
 function readAndFit() {
   showFitState("Fitting …", "");
   return latest(async (isNow) => {
-    const read = order("/api/desk/table", request());
-    const fitted = order("/api/desk/fit", request());
-    fitted.catch(() => {});  // it is awaited below, after the table
-    try {
-      const answer = await read;
-      if (!isNow()) return;
-      showTable(answer.result);
-      showFields(answer.result, chosen());
-    } catch (error) {
-      if (isNow()) showTableError(error.message);
-    }
-    const { command, result } = await fitted;
+    const answer = await order("/api/desk/table", request());
+    if (!isNow()) return;
+    choices[table] = answer.options;
+    if (answer.result) showTable(answer.result, chosen().column ?? []);
+    else showTableError(answer.trouble);
+    showFields(answer.result ?? { kind: "", modulus_kind: "" }, chosen());
+    showUndo();
+    const { command, result } = await order("/api/desk/fit", request());
     if (!isNow()) return;
     showFit(result, chosen().terms, (terms) => setOption("terms", terms));
     showSame(element("fit-same"), command, pythonOf(table, chosen()));
     if (view === "card") makeCard();
+    if (view === "predict") predict();
+    if (view === "compare") compare();
   }, (text) => { showFitState(text, "alert"); element("fit-same").replaceChildren(); });
 }
 
 function makeCard() {
+  if (table === null) return showCardState("Choose a table first.", "note");
   showCardState("Writing …", "");
   element("card-same").replaceChildren();
   return latest(async (isNow) => {
@@ -102,25 +111,55 @@ function makeCard() {
   }, (text) => showCardState(text, "alert"));
 }
 
-function setOption(name, value) {
-  if (value === undefined) delete chosen()[name];
-  else chosen()[name] = value;
-  if (name !== "terms") forgetOrders();
+function predict() {
+  if (table === null) return showPredictState("Choose a table first.", "note");
+  showPredictState("Predicting …", "");
+  return latest(async (isNow) => {
+    const answer = await order("/api/desk/predict", { ...request(), ...chosenPrediction() });
+    if (!isNow()) return;
+    showPrediction(answer);
+    const { predict: words, against } = chosenPrediction();
+    const keywords = Object.entries({ ...words, ...(against ? { against } : {}) }).filter(([, value]) => value !== "")
+      .map(([name, value]) => `, ${keywordOf(name)}=${JSON.stringify(value)}`).join("");
+    showSame(element("predict-same"), answer.command, `${pythonOf(table, chosen())}\nprint(viscard.predict(result.material${keywords}))`);
+  }, (text) => showPredictState(text, "alert"));
+}
+
+// Options that are set to undefined are taken away.
+function setOptions(changes) {
+  before.push({ ...chosen() });
+  choices[table] = Object.fromEntries(Object.entries({ ...chosen(), ...changes }).filter(([, value]) => value !== undefined));
+  if (!("terms" in changes)) forgetOrders();
   return readAndFit();
+}
+const setOption = (name, value) => setOptions({ [name]: value });
+
+function showUndo() {
+  element("undo").disabled = before.length === 0;
+  element("fit-all").disabled = chosen().from === undefined && chosen().to === undefined;
+}
+
+function undo() {
+  if (before.length === 0) return;
+  choices[table] = before.pop();
+  forgetOrders();
+  readAndFit();
 }
 
 function open(name) {
   table = name;
+  before = [];
   forgetOrders();
+  alsoCompare(name);
   showTables();
   element("table-name").textContent = name;
-  show(element("work"), true);
-  if (view === "card") showView("fit");
+  if (view !== "table" && view !== "fit") showView("fit");
   return readAndFit();
 }
 
 async function take(files) {
   showText(element("drop-error"), "");
+  if (view === "check" && files.length === 1) return checkCard(await files[0].text());
   let last = null;
   for (const file of files) {
     try {
@@ -164,6 +203,17 @@ async function start() {
   const described = await ask("/api/desk/choices");
   startOptions(described.options, setOption);
   startCard(described, makeCard);
+  startTable(described, (words) => setOption("column", words));
+  startPredict(described, predict);
+  startCompare({ optionsOf: (name) => choices[name] });
+  startCheck(described);
+  element("undo").addEventListener("click", undo);
+  element("fit-range").addEventListener("click", () => { const [from, to] = shownRange(); setOptions({ from, to }); });
+  element("fit-all").addEventListener("click", () => setOptions({ from: undefined, to: undefined }));
+  addEventListener("keydown", (event) => {
+    const isTyping = event.target.matches("input:not([type=checkbox]):not([type=radio]), textarea");
+    if (event.key === "z" && (event.ctrlKey || event.metaKey) && !isTyping) { event.preventDefault(); undo(); }
+  });
   await refresh();
   showLink(null);
   setInterval(() => refresh().then(() => showLink(null)).catch(showLink), kLook_ms);

@@ -7,7 +7,13 @@ const kMostPoints = 3000;
 const isLog = (id) => element(id).checked;
 const logs = () => ({ x: isLog("log-x"), y: isLog("log-y") });
 
-let fit = null, fitChart = null, residualChart = null;
+let fit = null, fitChart = null, residualChart = null, window_s = null;
+
+// Less is shown than was fitted.
+const isZoomed = () => Boolean(fitChart?.graph?.isZoomed("x"));
+
+// The part of the time that the chart shows, as values of --from and --to.
+export const shownRange = () => window_s.map((t) => `${Number(Math.max(t, 0).toPrecision(4))} s`);
 
 // Charts know their columns from the beginning, so each fit has new ones.
 function drawCharts() {
@@ -26,7 +32,7 @@ function drawCharts() {
     labels: [argument, ...names], colors: names.map((name) => (name.endsWith("data") ? "measured" : "fit")),
     points: names.filter((name) => name.endsWith("data")), logs,
     titles: { xlabel: axisOf(argument).label, ylabel: several ? `modulus (${axis.unit})` : axis.label },
-    onWindow: (range) => residualChart && residualChart.showWindow(range),
+    onWindow: (range) => { residualChart?.showWindow(range); window_s = range; element("fit-range").disabled = argument !== "time_s" || !isZoomed(); },
     readout: (x, i) => {
       const row = x === null ? null : fitChart.data[i];
       element("fit-readout").textContent = !row ? ""
@@ -80,9 +86,9 @@ export function showFit(result, chosenTerms, onTerms) {
   if (chosenTerms === undefined || orders.length === 0) orders = fit.orders;
   fit = { ...fit, orders };
   const status = element("fit-status");
-  status.className = fit.trustworthy ? "good" : "note";
-  showText(status, fit.trustworthy ? "The fit describes the data."
-    : "Do not trust this fit before you have read what the words in the frame say.");
+  status.className = !fit.trustworthy ? "alert" : fit.flags.length > 0 ? "note" : "good";
+  showText(status, !fit.trustworthy ? "Do not trust this fit before you have opened the words beside the numbers."
+    : fit.flags.length > 0 ? "The fit may be used; the words beside the numbers open what to keep in mind." : "The fit describes the data.");
   showModuli(element("moduli"), fit);
   element("fit-note").textContent = `${fit.n_samples} samples, ${fit.n_left_out ?? 0} rows left out. Intervals cover the scatter`
     + (fit.systematic_relative ? `; geometry and frame add ${significant(100 * fit.systematic_relative, 2)} % to E0.` : ".");

@@ -86,11 +86,13 @@ export function numberFrom(text) {
   return tidy === "" ? NaN : Number(tidy);
 }
 
-const kUnits = { N_m: "N/m", "1_Pa": "1/Pa" };
+const kUnits = { N_m: "N/m" };
 // "storage_modulus_Pa" -> how it is shown: "storage modulus (MPa)" and its factor. largest: of the values.
 export function axisOf(name, largest = 0) {
   const found = /^(.*?)_(1_Pa|N_m|Pa|N|s|Hz)$/.exec(name);
   if (!found) return { label: name.replaceAll("_", " "), factor: 1, unit: "" };
-  const { factor, unit } = found[2] === "Pa" && largest > 0 ? modulusUnit(largest) : { factor: 1, unit: kUnits[found[2]] ?? found[2] };
+  const scale = largest > 0 ? modulusUnit(found[2] === "1_Pa" ? 1 / largest : largest) : { factor: 1, unit: "Pa" };
+  const { factor, unit } = found[2] === "Pa" ? scale
+    : found[2] === "1_Pa" ? { factor: 1 / scale.factor, unit: `1/${scale.unit}` } : { factor: 1, unit: kUnits[found[2]] ?? found[2] };
   return { label: `${found[1].replaceAll("_", " ")} (${unit})`, factor, unit };
 }

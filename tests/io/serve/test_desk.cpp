@@ -211,7 +211,8 @@ TEST_CASE("a command in a process of its own is ended by its limits and by the e
   CHECK(contains(run("while :; do :; done", {.processor_s = 1}, no).trouble, "processor time"));
   CHECK(contains(run("sleep 100", {.clock = std::chrono::seconds(1)}, no).trouble, "1 s"));
   CHECK(contains(run("sleep 100", {}, yes).trouble, "this program ends"));
-  CHECK(run("cat", {}, no).status == 0);  // nothing can be typed into it
+  CHECK(run("cat", {}, no).out.empty());
+  CHECK(run_child("/bin/cat", {"/dev/stdin", "/dev/stdin"}, "/", {}, no, "text").out == "texttext");
   CHECK(run_child("/nowhere/viscard", {}, "/", {}, no).status == 127);
   CHECK(contains(run("exec yes", {.file_B = 1u << 20}, no).trouble, "wrote more than 1 MiB"));
 }
@@ -247,6 +248,81 @@ TEST_CASE("the desk has the guard of viscard serve, and takes large files from i
   CHECK(desk.order("fit", {{"table", std::string(100'000, 'x')}}).status != 200);
   CHECK(desk.ask("/rig.html").status == 404);
   CHECK(contains(desk.client().Get("/")->body, "viscard desk"));
+}
+
+TEST_CASE("what was chosen is kept beside the table, for the desk and for the command line",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a b.csv", ServedDesk::example());
+  const Json first = desk.order("table", {{"table", "a b.csv"}}).json;
+  CHECK(first.at("options").empty());
+  const Json options = {
+      {"terms", "1"}, {"no-drift", true}, {"column", {"time_s=1", "modulus_Pa=2 [kPa]"}}};
+  const Json chosen = desk.order("table", {{"table", "a b.csv"}, {"options", options}}).json;
+  INFO(chosen.dump());
+  CHECK(chosen.at("options") == options);
+  CHECK(chosen.at("result").at("columns").at(1).at("factor") == 1e3);
+  CHECK(desk.order("table", {{"table", "a b.csv"}}).json.at("options") == options);
+  CHECK(desk.ask("/api/desk").json.at("tables").size() == 1);
+  const std::string kept = "@" + (desk.folder() / "a b.csv.options").string();
+  const auto typed = run_command({"fit", (desk.folder() / "a b.csv").string(), kept, "--json"});
+  const Json shown = desk.order("fit", {{"table", "a b.csv"}}).json.at("result");
+  CHECK(Json::parse(typed.out).at("E0_Pa") == shown.at("E0_Pa"));
+  CHECK(shown.at("n_terms") == 1);
+  desk.order("table", {{"table", "a b.csv"}, {"options", Json::object()}});
+  CHECK(names_in(desk.folder()) == std::set<std::string>{"a b.csv"});
+  write_file(desk.folder() / "a b.csv.options", "mine\n", false);
+  CHECK(desk.order("table", {{"table", "a b.csv"}, {"options", options}}).status == 409);
+  CHECK(read_file(desk.folder() / "a b.csv.options") == "mine\n");
+}
+
+TEST_CASE("a wrong option is told with the table, so that it can be changed", "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  const Json options = {{"column", {"modulus_Pa=nothing"}}};
+  const ApiAnswer answer = desk.order("table", {{"table", "a.csv"}, {"options", options}});
+  INFO(answer.json.dump());
+  CHECK(answer.status == 200);
+  CHECK(answer.json.at("options") == options);
+  for (const char* bad : {"a\nb", "a\x01", "--out=x\n"}) {
+    CHECK(desk.order("table", {{"table", "a.csv"}, {"options", {{"terms", bad}}}}).status == 400);
+  }
+}
+
+TEST_CASE("the desk predicts by the material of a table and compares with another table",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  const ApiAnswer creep =
+      desk.order("predict", {{"table", "a.csv"}, {"predict", {{"test", "creep"}}}});
+  INFO(creep.json.dump());
+  REQUIRE(creep.status == 200);
+  CHECK(creep.json.at("command") == "viscard predict a.json --test=creep");
+  CHECK(creep.json.at("result").at("curve").contains("time_s"));
+  const ApiAnswer against = desk.order(
+      "predict", {{"table", "a.csv"}, {"predict", Json::object()}, {"against", "a.csv"}});
+  CHECK(against.json.at("result").at("against").at("quantities").at(0).at("rms_relative") < 1e-3);
+  CHECK(desk.order("predict", {{"table", "a.csv"}, {"against", "../a.csv"}}).status == 404);
+  CHECK(desk.order("predict", {{"table", "a.csv"}, {"predict", {{"out", "x"}}}}).status == 400);
+  CHECK(desk.order("predict", {{"table", "a.csv"}, {"predict", {{"history", "x"}}}}).status == 400);
+}
+
+TEST_CASE("the desk reads a pasted card back and tells its mistakes", "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  const std::string card =
+      desk.order("card", {{"table", "a.csv"}, {"card", {{"for", "abaqus"}, {"units", "SI"}}}})
+          .json.at("result")
+          .at("card");
+  const Json checked = desk.order("check", {{"card", card}}).json;
+  INFO(checked.dump());
+  CHECK(checked.at("result").at("target") == "abaqus");
+  CHECK(checked.at("result").at("agrees") == true);
+  CHECK(checked.at("result").at("material").at("terms").size() == 2);
+  CHECK(desk.order("check", {{"card", "*ELASTIC\nnonsense\n"}, {"for", "abaqus"}}).status == 422);
+  CHECK(desk.order("check", {{"card", ""}}).status == 422);
+  CHECK(desk.order("check", {{"card", card}, {"for", "../x"}}).status == 422);
+  CHECK(names_in(desk.folder()) == std::set<std::string>{"a.csv", "a.json"});
 }
 
 TEST_CASE("desk refuses words that make no sense", "[serve][cli][desk]") {

@@ -137,5 +137,82 @@ TEST_CASE("a newcomer comes from a dropped table to the card in at most six clic
   CHECK(browser.errors().empty());
 }
 
+// Sets a field as a person does, who then leaves it.
+void set_field(Browser& browser, const std::string& selector, const std::string& value) {
+  browser.run("const s = document.querySelector('" + selector +
+              "'); s.value = " + nlohmann::json(value).dump() +
+              "; s.dispatchEvent(new Event('input', {bubbles: true})); s.dispatchEvent(new "
+              "Event('change', {bubbles: true}))");
+}
+
+bool shows(Browser& browser, const std::string& selector, const std::string& text) {
+  return browser.wait_until(
+      "const e = document.querySelector('" + selector +
+          "'); return !!e && e.getClientRects().length > 0 && e.textContent.includes(" +
+          nlohmann::json(text).dump() + ")",
+      30);
+}
+
+TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card is checked",
+          "[desk][slow]") {
+  if (has_no_browser()) return;
+  ServedDesk desk;
+  ScratchFolder scratch;
+  const std::string example = ServedDesk::example();
+  desk.drop("a.csv", "time,E" + example.substr(example.find("\n0.01,")));  // without units
+  desk.drop("b.csv", example);
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 800, false, false);
+  browser.open(desk.server().address());
+  browser.click("#tables li:first-child button");
+  REQUIRE(shows(browser, "#rows thead", "no unit is stated"));
+  picture_of_desk(browser, "desk_guess");
+  set_field(browser, "#rows thead th:nth-child(3) input", "MPa");
+  REQUIRE(shows(browser, "#rows thead", "modulus_Pa × 1000000"));
+  CHECK(std::filesystem::exists(desk.folder() / "a.csv.options"));
+  browser.click("#tab-fit");
+  REQUIRE(shows(browser, "#moduli", "1.88 MPa"));
+  browser.click("#orders button:nth-of-type(3)");  // one term
+  REQUIRE(
+      browser.wait_until("return document.querySelectorAll('#moduli tbody tr').length === 4", 20));
+  CHECK(shows(browser, "#fit-same", "--terms=1"));
+  browser.press_key("z");  // alone it does nothing
+  browser.click("#tab-table");
+  browser.click("#undo");
+  browser.click("#tab-fit");
+  REQUIRE(
+      browser.wait_until("return document.querySelectorAll('#moduli tbody tr').length === 6", 20));
+  browser.click("#tab-predict");
+  REQUIRE(browser.wait_until(has_line("#predict-chart", "fit"), 30));
+  set_field(browser, "#predict-test", "relaxation");
+  set_field(browser, "#predict-against", "b.csv");
+  REQUIRE(shows(browser, "#predict-status", "of b.csv"));
+  picture_of_desk(browser, "desk_predict");
+  browser.click("#tab-compare");
+  browser.click("#compare-tables label:nth-child(2) input");
+  REQUIRE(browser.wait_until(has_line("#compare-chart", "series-2"), 30));
+  CHECK(shows(browser, "#compare-moduli", "b.csv"));
+  picture_of_desk(browser, "desk_compare");
+  const auto card = desk.order("card", {{"table", "b.csv"}, {"card", {{"for", "abaqus"}}}});
+  browser.click("#tab-check");
+  set_field(browser, "#check-text", card.json.at("result").at("card"));
+  REQUIRE(shows(browser, "#check-status", "No mistake"));
+  set_field(browser, "#check-text",
+            "*MATERIAL, NAME=x\n*ELASTIC, MODULI=INSTANTANEOUS\n1.88e6, abc\n");
+  set_field(browser, "#check-target", "abaqus");
+  REQUIRE(browser.wait_until("return document.querySelectorAll('#check-lines .wrong').length === 1",
+                             30));
+  picture_of_desk(browser, "desk_check");
+  // All fields have names for those who hear the page.
+  CHECK(
+      browser.run(
+          "return [...document.querySelectorAll('input, select, textarea, button')].filter(e => "
+          "!(e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim())).length") ==
+      0);
+  const nlohmann::json errors = browser.errors();
+  INFO(errors.dump());
+  for (const auto& error : errors) CHECK(contains(error.get<std::string>(), "422"));
+}
+
 }  // namespace
 }  // namespace viscard

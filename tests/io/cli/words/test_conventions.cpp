@@ -1,6 +1,8 @@
+#include "io/basics/atomic_file.h"
 #include "io/cli/words/command_line.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -194,6 +196,17 @@ TEST_CASE("a command that fails prints no result on stdout, and with --json at m
 TEST_CASE("command lines are recorded quoted for a shell", "[cli]") {
   CHECK(quoted_command_line("fit", {"a b.csv", "--column", "time_s=Time (s)", "it's", ""}) ==
         "viscard fit 'a b.csv' --column 'time_s=Time (s)' 'it'\\''s' ''");
+}
+
+TEST_CASE("a word @FILE stands for the words in that file, one a line", "[cli]") {
+  const test::ScratchFolder scratch;
+  const std::string kept = "@" + (scratch / "a.options").string();
+  const std::string table = VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv";
+  write_file(scratch / "a.options", "# of a table\n--terms=1\n\n--column=time_s=t [s]\r\n", false);
+  const auto typed = run_command({"fit", table, "--terms=1", "--column=time_s=t [s]"});
+  CHECK(typed.status == kDone);
+  CHECK(run_command({"fit", table, kept}).out == typed.out);
+  CHECK(run_command({"fit", table, "@" + (scratch / "none").string()}).status == kFailed);
 }
 
 TEST_CASE("an output that cannot be written is a failure of the program", "[cli]") {
