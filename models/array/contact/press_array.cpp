@@ -111,7 +111,9 @@ void depth_of_force(const std::function<double(double)>& force_N_at, const Depth
 
 PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,
                               const std::vector<TopContact>& classes, const RigidShape& shape,
-                              double force_N, TopBond bond) {
+                              double force_N, TopBond bond, std::optional<double> near_m) {
+  constexpr double kOfForce = 1e-12;
+  constexpr double kAround = 0.01;  // of the way from the first touch
   require(force_N > 0.0, "the force on a shape must be positive");
   const double low_m = first_touch_m(pillars, classes, shape);
   require(std::isfinite(low_m), "there is no pillar under the shape");
@@ -122,12 +124,19 @@ PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,
   }
   PressedArray array;
   std::vector<Eigen::MatrixXd> last;
-  depth_of_force(
-      [&](double depth_m) {
-        array = press_to_depth(pillars, classes, shape, depth_m, bond, &last);
-        return array.force_N;
-      },
-      {.low_m = low_m, .guess_m = low_m + step_m, .force_N = force_N});
+  const auto force_at = [&](double depth_m) {
+    array = press_to_depth(pillars, classes, shape, depth_m, bond, &last);
+    return array.force_N;
+  };
+  DepthSearch search{
+      .low_m = low_m, .guess_m = low_m + step_m, .force_N = force_N, .accuracy = kOfForce};
+  if (near_m && *near_m > low_m) {
+    const double around_m = kAround * (*near_m - low_m);
+    const bool is_below = force_at(*near_m - around_m) < force_N;
+    search.guess_m = *near_m + (is_below ? around_m : -around_m);
+    if (is_below) search.low_m = *near_m - around_m;
+  }
+  depth_of_force(force_at, search);
   return array;
 }
 

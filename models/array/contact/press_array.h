@@ -4,6 +4,7 @@
 #include "models/array/contact/top_contact.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -35,10 +36,12 @@ PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
                             std::vector<Eigen::MatrixXd>* last = nullptr);
 
 // The depth at which the shape bears the force, to rounding: the force grows with the depth. Throws
-// std::invalid_argument unless the force is positive and there is a pillar under the shape.
+// std::invalid_argument unless the force is positive and there is a pillar under the shape. `near_m`: a depth that is
+// about right, as from a coarser grid.
 PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,
                               const std::vector<TopContact>& classes, const RigidShape& shape,
-                              double force_N, TopBond bond = TopBond::kPushed);
+                              double force_N, TopBond bond = TopBond::kPushed,
+                              std::optional<double> near_m = {});
 
 // A search for the depth of a force, from a depth at which it is less.
 struct DepthSearch {

@@ -3,6 +3,7 @@
 #include "models/array/contact/cut_top.h"
 #include "models/array/contact/point_waves.h"
 #include "models/maths/dense.h"
+#include "models/maths/tall_products.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,9 @@ double inner(const PointVectors& a, const PointVectors& b) {
 }  // namespace
 
 StickingTop::StickingTop(StickingCompliance compliance)
-    : compliance_(std::move(compliance)), waves_(unit_waves(compliance_.angles)) {
+    : compliance_(std::move(compliance)),
+      waves_(unit_waves(compliance_.angles)),
+      waves_across_(waves_.transpose()) {
   const Eigen::Index n = rings();
   for (std::size_t m = 0; m < compliance_.harmonic_m_N.size(); ++m) {
     Eigen::MatrixXd block =
@@ -61,28 +64,25 @@ StickingTop::StickingTop(StickingCompliance compliance)
 // Of each harmonic, (r cos, theta sin, down cos) and (r sin, -theta cos, down sin).
 PointVectors StickingTop::in_harmonics(const PointVectors& values, const Blocks& blocks) const {
   const Eigen::Index n = rings();
-  PointVectors by_wave = values * waves_;
-  by_wave.col(0) = (blocks[0] * by_wave.col(0)).eval();
+  PointVectors by_wave = transposed_product(values.transpose(), waves_);
+  by_wave.col(0) = transposed_product(blocks[0], by_wave.leftCols(1));
   for (std::size_t m = 1; m < blocks.size(); ++m) {
     const auto cosine = 2 * static_cast<Eigen::Index>(m) - 1, sine = cosine + 1;
     if (sine >= by_wave.cols()) {
-      by_wave.col(cosine) = (blocks[m] * by_wave.col(cosine)).eval();
+      by_wave.col(cosine) = transposed_product(blocks[m], by_wave.middleCols(cosine, 1));
       continue;
     }
     Eigen::MatrixXd pair(3 * n, 2);
     pair << by_wave.col(cosine), by_wave.col(sine);
     pair.block(n, 0, n, 1) = by_wave.block(n, sine, n, 1);
     pair.block(n, 1, n, 1) = -by_wave.block(n, cosine, n, 1);
-    // Column by column: a product with two columns would first copy the block.
-    Eigen::MatrixXd answer(3 * n, 2);
-    for (Eigen::Index side = 0; side < 2; ++side)
-      answer.col(side).noalias() = blocks[m] * pair.col(side);
+    const Eigen::MatrixXd answer = transposed_product(blocks[m], pair);  // blocks are symmetric
     by_wave.col(cosine) = answer.col(0);
     by_wave.col(sine) = answer.col(1);
     by_wave.block(n, sine, n, 1) = answer.block(n, 0, n, 1);
     by_wave.block(n, cosine, n, 1) = -answer.block(n, 1, n, 1);
   }
-  return by_wave * waves_.transpose();
+  return transposed_product(by_wave.transpose(), waves_across_);
 }
 
 PointVectors StickingTop::motion(const PointVectors& forces_N) const {

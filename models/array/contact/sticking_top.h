@@ -52,6 +52,7 @@ class StickingTop {
   Blocks on_waves_m_N_, inverse_N_m_;
   Eigen::VectorXd point_stiffness_N_m_;  // by ring, downward, of a point while all others are held
   Eigen::MatrixXd waves_;                // orthonormal cosines and sines: angles x angles
+  Eigen::MatrixXd waves_across_;         // its transpose
 };
 
 }  // namespace viscard

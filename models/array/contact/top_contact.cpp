@@ -6,6 +6,7 @@
 #include "models/array/contact/sticking_top.h"
 #include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"
+#include "models/maths/tall_products.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,17 +37,18 @@ double dot(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 }  // namespace
 
 TopContact::TopContact(TopCompliance compliance)
-    : compliance_(std::move(compliance)), waves_(unit_waves(compliance_.angles)) {
+    : compliance_(std::move(compliance)),
+      waves_(unit_waves(compliance_.angles)),
+      waves_across_(waves_.transpose()) {
   const int angles = compliance_.angles;
   for (const Eigen::MatrixXd& block : compliance_.harmonic_m_N) {
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(block.rows(), block.cols());
     stiffness_N_m_.push_back(Cholesky(block).solve(identity));
   }
-  for (int column = 0; column < angles; ++column) harmonic_of_.push_back((column + 1) / 2);
   radius_m_ = compliance_.radius_m.back();
   point_stiffness_N_m_ = Eigen::VectorXd::Zero(compliance_.ring_area_m2.size());
   for (int column = 0; column < angles; ++column) {
-    const int m = harmonic_of_[static_cast<std::size_t>(column)];
+    const int m = (column + 1) / 2;
     point_stiffness_N_m_ += std::pow(waves_(0, column), 2) / ((m == 0 ? 1.0 : 0.5) * angles) *
                             stiffness_N_m_[static_cast<std::size_t>(m)].diagonal();
   }
@@ -57,29 +59,29 @@ TopContact::TopContact(TopCompliance compliance, std::shared_ptr<const StickingT
   sticking_ = std::move(sticking);
 }
 
-// The compliance is a circulant over the angles: its eigenvalue is angles S_0 or angles/2 S_m.
+// The compliance is a circulant over the angles: its eigenvalue is angles S_0 or angles/2 S_m. S_m is symmetric, and a
+// cosine and its sine share it.
 Eigen::MatrixXd TopContact::in_harmonics(const Eigen::MatrixXd& values,
-                                         const std::vector<Eigen::MatrixXd>& blocks) const {
-  Eigen::MatrixXd by_wave = values * waves_;
-  for (Eigen::Index column = 0; column < by_wave.cols(); ++column) {
-    const auto m = static_cast<std::size_t>(harmonic_of_[static_cast<std::size_t>(column)]);
-    by_wave.col(column) = (blocks[m] * by_wave.col(column)).eval();
+                                         const std::vector<Eigen::MatrixXd>& blocks,
+                                         double factor_of_0, double factor) const {
+  Eigen::MatrixXd by_wave = transposed_product(values.transpose(), waves_);
+  by_wave.col(0) = factor_of_0 * transposed_product(blocks[0], by_wave.leftCols(1));
+  for (std::size_t m = 1; m < blocks.size(); ++m) {
+    const auto first = 2 * static_cast<Eigen::Index>(m) - 1;
+    const Eigen::Index count = std::min<Eigen::Index>(2, by_wave.cols() - first);
+    by_wave.middleCols(first, count) =
+        factor * transposed_product(blocks[m], by_wave.middleCols(first, count));
   }
-  return by_wave;
+  return transposed_product(by_wave.transpose(), waves_across_);
 }
 
 Eigen::MatrixXd TopContact::motion(const Eigen::MatrixXd& forces_N) const {
-  Eigen::MatrixXd by_wave = in_harmonics(forces_N, compliance_.harmonic_m_N);
-  by_wave *= 0.5 * compliance_.angles;
-  by_wave.col(0) *= 2.0;
-  return by_wave * waves_.transpose();
+  return in_harmonics(forces_N, compliance_.harmonic_m_N, compliance_.angles,
+                      0.5 * compliance_.angles);
 }
 
 Eigen::MatrixXd TopContact::forces(const Eigen::MatrixXd& motion_m) const {
-  Eigen::MatrixXd by_wave = in_harmonics(motion_m, stiffness_N_m_);
-  by_wave /= 0.5 * compliance_.angles;
-  by_wave.col(0) /= 2.0;
-  return by_wave * waves_.transpose();
+  return in_harmonics(motion_m, stiffness_N_m_, 1.0 / compliance_.angles, 2.0 / compliance_.angles);
 }
 
 // Conjugate gradients on the points that touch, with the stiffness of a top that is held everywhere as preconditioner.

@@ -61,12 +61,13 @@ class TopContact {
             const Eigen::MatrixXd& softness_m_N, double accuracy, Eigen::MatrixXd& f) const;
   void add_resultants(const Eigen::MatrixXd& forces_N, TopPressure& pressure) const;
   Eigen::MatrixXd in_harmonics(const Eigen::MatrixXd& values,
-                               const std::vector<Eigen::MatrixXd>& blocks) const;
+                               const std::vector<Eigen::MatrixXd>& blocks, double factor_of_0,
+                               double factor) const;
 
   TopCompliance compliance_;
   std::vector<Eigen::MatrixXd> stiffness_N_m_;  // inverse of each S_m
   Eigen::MatrixXd waves_;                       // orthonormal cosines and sines: angles x angles
-  std::vector<int> harmonic_of_;                // of each column of waves_
+  Eigen::MatrixXd waves_across_;                // its transpose
   Eigen::VectorXd point_stiffness_N_m_;         // by ring, of a point while all others are held
   double radius_m_ = 0.0;
   std::shared_ptr<const StickingTop> sticking_;  // or nothing

@@ -102,18 +102,23 @@ class Presser {
     return std::make_shared<const StickingTop>(std::move(top));
   }
 
-  SpaceContact on(int grid) const { return pressed(classes_on(grid), *scene_->press); }
+  SpaceContact on(int grid, std::optional<double> near_m = {}) const {
+    return pressed(classes_on(grid), *scene_->press, near_m);
+  }
 
-  SpaceContact pressed(const std::vector<TopContact>& classes, const ShapePress& press) const {
+  // `near_m` as for press_with_force().
+  SpaceContact pressed(const std::vector<TopContact>& classes, const ShapePress& press,
+                       std::optional<double> near_m = {}) const {
     const TopBond bond = scene_->feels_contact ? TopBond::kPushed : TopBond::kFollows;
     if (on_base_) {
       return contact_of(press.force_N > 0.0 ? on_base_->with_force(classes, press.force_N)
                                             : on_base_->to_depth(classes, press.depth_m));
     }
     if (press.work_of_adhesion_J_m2 > 0.0 && scene_->feels_contact) return held(classes, press);
-    return contact_of(press.force_N > 0.0
-                          ? press_with_force(pillars_, classes, press.shape, press.force_N, bond)
-                          : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond));
+    return contact_of(
+        press.force_N > 0.0
+            ? press_with_force(pillars_, classes, press.shape, press.force_N, bond, near_m)
+            : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond));
   }
 
   // With adhesion.
@@ -285,7 +290,7 @@ SpaceContact contact_within(const SpaceScene& scene, double tolerance) {
   Presser presser(scene);
   SpaceContact contact = presser.on(0);
   for (int grid = 1; grid < grids_of(scene); ++grid) {
-    SpaceContact finer = presser.on(grid);
+    SpaceContact finer = presser.on(grid, contact.pressed.depth_m);
     compare(contact, finer);
     keep_share(contact, finer);
     contact = std::move(finer);
