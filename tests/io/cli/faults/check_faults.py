@@ -246,7 +246,7 @@ class Study:
         for number in range(self.tries):
             report = home / "report"
             report.mkdir()
-            room_kB = used_kB + 4 * number + 60
+            room_kB = used_kB + 4 * number + 8
             script = (f"mount -t tmpfs -o size={room_kB}k none '{home}/tried' && cp -r '{clean}/.' '{home}/tried' && "
                       f"cd '{home}/tried' && '{self.viscard}' \"$@\" >'{report}/out' 2>'{report}/err'; "
                       f"echo $? >'{report}/status'; cp -r '{home}/tried/.' '{report}/left'")
