@@ -86,7 +86,8 @@ class Pressures:
     @_check.arguments
     def plot(self, frame: int = 0, ax=None):
         """The pressures of a frame as a map, crossed out where none is resolved; returns the axes of matplotlib."""
-        whole = _arrays.whole(frame, "frame", 0)
+        last = 0 if self.pressure_Pa.ndim == 2 else len(self.pressure_Pa) - 1
+        whole = _arrays.whole(frame, "frame", 0, last)
         values = self.pressure_Pa if self.pressure_Pa.ndim == 2 else self.pressure_Pa[whole]
         return plot_pressures(values, self.is_resolved, ax)
 
