@@ -61,13 +61,17 @@ def _relative_band(result: Any, at: Any, loss: bool) -> Any:
 
 
 def _hold_of(curves: Any) -> Any:
-    """Rows from the largest value to where it has fallen by a fifth: the hold of an indentation, whose relaxation may be
-    too small to be seen beside the ramp."""
+    """Rows from the largest value to where it falls suddenly, because the punch is lifted: the hold of an indentation,
+    whose relaxation may be too small to be seen beside the ramp. A relaxation falls ever more slowly."""
     import numpy as np
 
     first = int(np.argmax(curves["fitted"]))
-    below = np.flatnonzero(curves["fitted"][first:] < 0.8 * curves["fitted"][first])
-    return slice(first, first + int(below[0]) if below.size else None)
+    values, times = curves["fitted"][first:], curves["at"][first:]
+    fall = -np.diff(values)
+    rate = fall / np.maximum(np.diff(times), 1e-300)
+    is_lift = (fall[1:] > 0.01 * values[0]) & (rate[1:] > 3.0 * rate[:-1])
+    lift = np.flatnonzero(is_lift)
+    return slice(first, first + int(lift[0]) + 2 if lift.size else None)
 
 
 def _draw_hold(ax: Any, curves: Any, factor: float, color: Any) -> None:
