@@ -8,10 +8,11 @@ from typing import Any, Dict, List, Optional
 import numpy as np
 
 from . import _arrays, _check, _core
-from ._check import OptionalPath, Scene, shown
+from ._check import shown
 from ._error import Error
 from ._plot import plot_pressures
 from ._scene import _with_scene
+from ._types import Numbers, OptionalPath, Scene
 
 
 def _bare(scene: Any) -> Any:
@@ -84,7 +85,7 @@ class Pressures:
         return np.abs(self.pressure_Pa) <= self.pressure_half_width_Pa
 
     @_check.arguments
-    def plot(self, frame: int = 0, ax=None):
+    def plot(self, frame: int = 0, ax: Any = None) -> Any:
         """The pressures of a frame as a map, crossed out where none is resolved; returns the axes of matplotlib."""
         last = 0 if self.pressure_Pa.ndim == 2 else len(self.pressure_Pa) - 1
         whole = _arrays.whole(frame, "frame", 0, last)
@@ -149,7 +150,7 @@ class PressureReader:
     """
 
     @_check.arguments
-    def __init__(self, scene: Scene, voltages, *, noise: Optional[float] = None, gain_spread: float = 0.0, shear: float = 0.0,
+    def __init__(self, scene: Scene, voltages: Numbers, *, noise: Optional[float] = None, gain_spread: float = 0.0, shear: float = 0.0,
                  penalty: Optional[str] = None, weight: Optional[float] = None, reading: str = "mean",
                  folder: OptionalPath = None) -> None:
         if penalty not in (None, "size", "slope"):
@@ -165,7 +166,7 @@ class PressureReader:
         self.notes: List[str] = _notes(self._facts)
 
     @_check.arguments
-    def read(self, voltages) -> Pressures:
+    def read(self, voltages: Numbers) -> Pressures:
         """Pressures of one frame or of several, shaped as the examples.
 
         Examples
@@ -189,7 +190,7 @@ class PressureReader:
 
 
 @_check.arguments
-def pressures_from_voltages(scene: Scene, voltages, *, noise: Optional[float] = None, gain_spread: float = 0.0, shear: float = 0.0,
+def pressures_from_voltages(scene: Scene, voltages: Numbers, *, noise: Optional[float] = None, gain_spread: float = 0.0, shear: float = 0.0,
                             penalty: Optional[str] = None, weight: Optional[float] = None, reading: str = "mean",
                             folder: OptionalPath = None) -> Pressures:
     """Pressures on the pillars of an array from frames of the voltages of any electrodes, with 95 % intervals.
