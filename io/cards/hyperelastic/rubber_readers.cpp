@@ -145,6 +145,10 @@ std::map<std::string, TableOfMapdl> mapdl_tables(const std::string& text) {
     if (command == "TB" && row.size() > 1) {
       table = &tables[upper(row[1]).substr(0, 4)];
       table->option = row.size() > 5 ? upper(row[5]) : "";
+      // MAPDL reads four letters.
+      for (const char* known : {"OGDEN", "MOONEY", "BOYCE"}) {
+        if (table->option.substr(0, 4) == std::string(known).substr(0, 4)) table->option = known;
+      }
       table->line = line;
       const bool has_count = row.size() > 4 && !row[4].empty();
       table->n_points = has_count ? cell_integer(row, 4, line, "NPTS") : 0;

@@ -365,12 +365,12 @@ TEST_CASE(
     const char *target, *from, *to, *says;
   };
   // D = 2/K = 0.00666..., nu of K = 300 MPa and G = 0.21 or 0.126 MPa, the density in t/mm3.
-  for (const Edit& edit : {Edit{"febio", "<k>300</k>", "<k>450</k>", "1.5 times"},
-                           Edit{"abaqus", "0.00666666666666", "0.01666666666666", "0.4 times"},
-                           Edit{"openradioss", "0.499650", "0.499450", "0.63"},
-                           Edit{"lsdyna", ".49979", ".49959", "0.51"},
-                           Edit{"abaqus", "1.1e-09", "1.3e-09", "1.18182 times"},
-                           Edit{"lsdyna", "1.1E-9", "1.2E-9", "1.09091 times"}}) {
+  for (const Edit& edit :
+       {Edit{"febio", "<k>300</k>", "<k>450</k>", "1.5 times"},
+        Edit{"abaqus", "0.00666666666666", "0.01666666666666", "0.4 times"},
+        Edit{"openradioss", "499650", "499450", "0.63"}, Edit{"lsdyna", ".49979", ".49959", "0.51"},
+        Edit{"abaqus", "1.1e-09", "1.3e-09", "1.18182 times"},
+        Edit{"lsdyna", "1.1E-9", "1.2E-9", "1.09091 times"}}) {
     CAPTURE(edit.target, edit.from);
     const std::string right = card_or_nothing(rubber, edit.target, "mm-t-s");
     CAPTURE(right);

@@ -310,6 +310,7 @@ TEST_CASE("rubber proofs: FEBio's and MTest's own runs of a card show every cons
                             const std::string& target) {
     const std::string program = stand_in(folder.path(), target == "febio" ? "febio4" : "mtest");
     HyperelasticFile file = law_file(rubber);
+    file.bulk_Pa = read_rubber_card(card_of(rubber, target), target, "mm-t-s").bulk_Pa;
     const FoundSolver found = find_solver(solver_for("", target), program);
     return prove_rubber_card(card, target, read_rubber_card(card, target, "mm-t-s"), &file, "",
                              found);

@@ -176,6 +176,7 @@ WantedRubber wanted_of(const ReadRubber& read, const HyperelasticFile* file,
   if (file != nullptr) {
     out.law = file->law;
     out.terms = file->terms;
+    if (file->bulk_Pa) out.bulk_Pa = *file->bulk_Pa;
     if (!elastic_only.empty()) {
       out.law = law_without_terms(file->law, file->terms, elastic_only);
       out.terms.clear();
