@@ -165,7 +165,7 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   browser.set_window(1280, 800, false, false);
   browser.open(desk.server().address());
   browser.click("#tables li:first-child button");
-  REQUIRE(shows(browser, "#rows thead", "no unit is stated"));
+  REQUIRE(shows(browser, "#rows thead", "No unit is stated"));
   picture_of_desk(browser, "desk_guess");
   set_field(browser, "#rows thead th:nth-child(3) input", "MPa");
   REQUIRE(shows(browser, "#rows thead", "modulus_Pa × 1000000"));
