@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <string>
 
@@ -12,6 +13,12 @@ struct CostClock {
   std::function<double()> cpu_s;  // of all threads of this process
 };
 CostClock process_clock();
+
+// Ends work for which there is no time left. No error of the work, so that nobody takes it for one.
+class OutOfTime : public std::exception {
+ public:
+  const char* what() const noexcept override { return "the time for it is over"; }
+};
 
 // What a study ran on.
 struct CostMachine {

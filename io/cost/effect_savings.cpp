@@ -1,6 +1,7 @@
 #include "io/cost/effect_savings.h"
 
 #include "io/cost/study_trials.h"
+#include "models/maths/may_stop.h"
 
 #include <algorithm>
 
@@ -8,7 +9,6 @@ namespace viscard {
 namespace {
 
 constexpr double kLong_s = 0.5;
-constexpr double kLimit_s = 4.0;  // of processor time for all
 
 struct TimedRun {
   double cpu_s = 0.0;
@@ -30,25 +30,33 @@ TimedRun timed(const CostTrial& trial, const CostClock& clock) {
 
 }  // namespace
 
-std::vector<EffectSaving> effect_savings(const Scene& scene, const CostClock& clock) {
+std::vector<EffectSaving> effect_savings(const Scene& scene, double limit_s,
+                                         const CostClock& clock) {
   const double start_s = clock.cpu_s();
-  std::vector<CostTrial> trials = effect_trials_on(scene, 2, 1);
-  if (trials.size() < 2) return {};
-  TimedRun with = timed(trials.front(), clock);
-  if (with.cpu_s < kLong_s / 10.0) {  // degree 4 takes about ten times as long as degree 2
-    trials = effect_trials_on(scene, 4, 2);
-    with = timed(trials.front(), clock);
-  }
+  const auto left_s = [&] { return limit_s - (clock.cpu_s() - start_s); };
+  const StopCheck stop([&] {
+    if (left_s() < 0.0) throw OutOfTime();
+  });
   std::vector<EffectSaving> savings;
-  for (std::size_t i = 1; i < trials.size(); ++i) {
-    if (clock.cpu_s() - start_s + with.cpu_s > kLimit_s) break;
-    const TimedRun without = timed(trials[i], clock);
-    savings.push_back({.effect = trials[i].effects,
-                       .discretisation = trials[i].discretisation,
-                       .unknowns = with.unknowns,
-                       .unknowns_without = without.unknowns,
-                       .cpu_s = with.cpu_s,
-                       .cpu_s_without = without.cpu_s});
+  try {
+    std::vector<CostTrial> trials = effect_trials_on(scene, 2, 1);
+    if (trials.size() < 2) return {};
+    TimedRun with = timed(trials.front(), clock);
+    if (with.cpu_s < kLong_s / 10.0) {  // degree 4 takes about ten times as long as degree 2
+      trials = effect_trials_on(scene, 4, 2);
+      with = timed(trials.front(), clock);
+    }
+    for (std::size_t i = 1; i < trials.size(); ++i) {
+      if (left_s() < with.cpu_s) break;
+      const TimedRun without = timed(trials[i], clock);
+      savings.push_back({.effect = trials[i].effects,
+                         .discretisation = trials[i].discretisation,
+                         .unknowns = with.unknowns,
+                         .unknowns_without = without.unknowns,
+                         .cpu_s = with.cpu_s,
+                         .cpu_s_without = without.cpu_s});
+    }
+  } catch (const OutOfTime&) {  // those before stand
   }
   return savings;
 }

@@ -30,9 +30,9 @@ struct ShownPlan {
 void show_keys(ResultVisitor& v, const ShownPlan& plan);
 
 // Solves the scene once with all effects and once without each that the plan may leave out, on a
-// graded mesh of degree 4, or of degree 2 if that takes more than half a second; no more of them than four
-// seconds of processor time allow. Empty if there is no choice.
-std::vector<EffectSaving> effect_savings(const Scene& scene,
+// graded mesh of degree 4, or of degree 2 if that takes more than half a second; what this much processor
+// time does not allow is left out. Empty if there is no choice.
+std::vector<EffectSaving> effect_savings(const Scene& scene, double limit_s = 4.0,
                                          const CostClock& clock = process_clock());
 
 }  // namespace viscard

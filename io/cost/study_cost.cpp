@@ -2,6 +2,7 @@
 
 #include "io/cost/cost_model.h"
 #include "io/cost/study_trials.h"
+#include "models/maths/may_stop.h"
 
 #include <fmt/format.h>
 
@@ -68,6 +69,8 @@ constexpr double kQuick_s = 0.3;  // rows that take less time are repeated
 constexpr std::size_t kShown = 3;
 constexpr double kShown_s = 0.1;
 constexpr double kReferenceShare = 0.5;  // of the budget, at most
+// What runs when the budget is over is ended this much later, so that quick rows are shown.
+constexpr double kOver = 0.08, kOver_s = 0.3;
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -89,7 +92,15 @@ class CostRunner {
         start_cpu_s_(options.clock.cpu_s()) {}
 
   double spent_s() const { return options_.clock.wall_s() - start_wall_s_; }
-  double left_s() const { return options_.budget_s - spent_s(); }
+  // Of the wall time, and of the processor time at the share that the machine gives.
+  double left_s() const {
+    double left = options_.budget_s - spent_s();
+    if (options_.cpu_budget_s) {
+      const double cpu_s = *options_.cpu_budget_s - (options_.clock.cpu_s() - start_cpu_s_);
+      left = std::min(left, cpu_s / std::clamp(share(), 1e-3, 1.0));
+    }
+    return left;
+  }
   // Processor time of this program over the wall time since the start.
   double share() const {
     const double wall_s = spent_s();
@@ -104,6 +115,11 @@ class CostRunner {
   const CostModel& model() const { return model_; }
 
   const std::vector<FailedRow>& failed() const { return failed_; }
+  // Whether this trial was ended because its time was over.
+  bool was_ended(const CostTrial& trial) const {
+    const std::string name = trial.discretisation + ", " + trial.effects;
+    return std::find(ended_.begin(), ended_.end(), name) != ended_.end();
+  }
 
   // Runs once or, if that was quick, a few times. Keeps the reason of a mesh that has no answer.
   std::optional<Ran> run(const CostTrial& trial, int repeats) {
@@ -112,8 +128,14 @@ class CostRunner {
                         trial.discretisation);
     }
     ++done_;
+    const StopCheck stop([this] {
+      if (left_s() < -std::max(kOver * options_.budget_s, kOver_s)) throw OutOfTime();
+    });
     try {
       return run_to_end(trial, repeats);
+    } catch (const OutOfTime&) {
+      ended_.push_back(trial.discretisation + ", " + trial.effects);
+      return std::nullopt;
     } catch (const std::runtime_error& error) {
       failed_.push_back({trial.discretisation, trial.effects, error.what()});
       return std::nullopt;
@@ -151,6 +173,7 @@ class CostRunner {
   double start_wall_s_, start_cpu_s_;
   CostModel model_;
   std::vector<FailedRow> failed_;
+  std::vector<std::string> ended_;
 };
 
 // The finest reference that half of the budget allows, and one of a lower degree to estimate its
@@ -173,10 +196,13 @@ References references_within(double share_s, const std::vector<CostTrial>& ladde
   const double stop_s = runner.spent_s() + share_s;
   std::size_t at = 0;
   std::optional<Ran> first_answer = runner.run(ladder.front(), 1);
-  while (!first_answer && ++at < ladder.size()) first_answer = runner.run(ladder[at], 1);
+  while (!first_answer && runner.left_s() > 0.0 && ++at < ladder.size())
+    first_answer = runner.run(ladder[at], 1);
   if (!first_answer) {
-    throw std::runtime_error("no mesh of the reference has an answer: " +
-                             runner.failed().back().reason);
+    throw std::runtime_error("no mesh of the reference has an answer" +
+                             (runner.failed().empty()
+                                  ? std::string(" within the budget; --budget gives more time")
+                                  : ": " + runner.failed().back().reason));
   }
   References found{std::move(*first_answer), std::nullopt, ""};
   std::string failure = runner.failed().empty() ? "" : runner.failed().back().reason;
@@ -192,7 +218,7 @@ References references_within(double share_s, const std::vector<CostTrial>& ladde
     if (next == at) break;
     std::optional<Ran> finer = runner.run(ladder[next], 1);
     if (!finer) {
-      failure = runner.failed().back().reason;
+      if (!runner.failed().empty()) failure = runner.failed().back().reason;
       end = next;
       continue;
     }
@@ -259,7 +285,7 @@ CostStudy study_of(const CostTrials& trials, const CostOptions& options) {
     if (fits || is_shown) run_row(i, fits ? options.repeats : 1);
   }
   for (std::size_t i = 0; i < ran.size(); ++i) {
-    if (!was_tried[i]) {
+    if (!was_tried[i] || runner.was_ended(trials.rows[i])) {
       study.predicted.push_back(predicted(trials.rows[i], runner.model()));
       continue;
     }

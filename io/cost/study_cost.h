@@ -80,6 +80,7 @@ void show_keys(ResultVisitor& v, const CostStudy& study);
 // How long a study may take.
 struct CostOptions {
   double budget_s = 60.0;                                    // of wall time
+  std::optional<double> cpu_budget_s = {};                   // of processor time as well
   int repeats = 3;                                           // of rows that take less than 0.3 s
   std::function<void(double, const std::string&)> progress;  // fraction, row; may be empty
   CostClock clock = process_clock();
@@ -97,11 +98,11 @@ struct LinearFactor {
 // Empty if no row reaches the error or fewer than two h1 rows have errors that fall with the mesh.
 std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error);
 
-// Ends within the budget plus one row: a row, or a finer reference, only starts if the model of
-// cost predicts that it ends in time. One row of linear elements and the coarsest reference always
-// run, and so do three cheap rows that take less than 0.1 s each. A mesh without an answer does not end
+// Ends within the budgets: a row, or a finer reference, only starts if the model of cost predicts that it
+// ends in time, and what takes longer is ended and counts as predicted. One row of linear elements and the
+// coarsest reference start in any case, and so do three cheap rows that take less than 0.1 s each. A mesh without an answer does not end
 // the study. Throws what simulate() throws for a scene that contradicts itself, and std::runtime_error if no
-// reference, or no row, has an answer.
+// reference, or no row, has an answer within the budgets.
 CostStudy study_cost(const Scene& scene, const CostOptions& options);
 CostStudy study_of(const CostTrials& trials, const CostOptions& options);
 

@@ -21,6 +21,7 @@ namespace {
 struct CostWords {
   std::optional<std::string> scene;
   double budget_s = 60.0;
+  std::optional<double> cpu_budget_s;
   CostOfTestsWords tests;
   StudyFiles files;
 };
@@ -39,6 +40,9 @@ CommandSyntax cost_syntax(CostWords& words) {
   syntax.options.add("budget", &words.budget_s, "wall time to spend, such as 60s or 5min")
       .of("s")
       .by_default("60s");
+  syntax.options
+      .add("cpu-budget", &words.cpu_budget_s, "processor time to spend at most, such as 30s")
+      .of("s");
   syntax.options.group("Tests at a rig");
   add_test_options(syntax.options, words.tests);
   syntax.options.group("Output");
@@ -63,8 +67,11 @@ int run_cost(const Words& words, Streams& streams) {
   }
   if (!asked.scene) throw UsageError(std::string("no scene given; usage: ") + syntax.usage);
   const std::string path = *asked.scene;
-  CostOptions options{.budget_s = asked.budget_s};
+  CostOptions options{.budget_s = asked.budget_s, .cpu_budget_s = asked.cpu_budget_s};
   if (!(options.budget_s > 0.0)) throw UsageError("--budget must be positive, such as 60s");
+  if (options.cpu_budget_s && !(*options.cpu_budget_s > 0.0)) {
+    throw UsageError("--cpu-budget must be positive, such as 30s");
+  }
   const SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
   streams.accepts_implausible |= file.accepts_implausible;
   const Scene scene = file.scene;

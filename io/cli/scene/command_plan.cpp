@@ -117,10 +117,13 @@ int run_plan(const Words& words, Streams& streams) {
   streams.accepts_implausible |= file.accepts_implausible;
   Scene scene = file.scene;
   apply_tolerance(tolerance, scene);
+  constexpr double kLimit_s = 4.0;  // of processor time
+  const CostClock clock = process_clock();
+  const double start_s = clock.cpu_s();
   const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
   std::vector<EffectSaving> savings;
   try {
-    savings = effect_savings(scene);
+    savings = effect_savings(scene, kLimit_s - (clock.cpu_s() - start_s));
   } catch (const std::runtime_error& e) {  // the plan itself solves nothing and stands
     streams.err << "viscard plan: no savings are shown, because the scene has no answer on a "
                    "coarse mesh, and "

@@ -237,7 +237,7 @@ ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Dis
                           : is_cut         ? film_end(-t, beyond_load_m, t)
                                            : MeshMark{-t};
   mesh.film_z = heights.between({bottom, {0.0, true}});
-  const std::vector<MeshMark> shaft = {{0.0, true}, {g.length_m, false}};
+  const std::vector<MeshMark> shaft = {{0.0, true}, {g.length_m, d.grades_top, (d.layers - 1) / 2}};
   mesh.pillar_z = d.uniform_m > 0.0 ? heights.between(shaft)
                                     : breaks_between(shaft, 2.0 * R, 4.0 * R / d.shaft_elements,
                                                      d.layers, d.ratio);

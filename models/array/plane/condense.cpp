@@ -1,4 +1,5 @@
 #include "models/array/plane/plane_system.h"
+#include "models/maths/usable_memory.h"
 #include "models/pillar/system/supernodal_factor.h"
 
 #include <stdexcept>
@@ -32,6 +33,10 @@ Eigen::MatrixXd condensed(const SymmetricSparse& A, const std::vector<int>& kept
   const Split split = split_of(static_cast<int>(A.rows()), kept);
   const auto n_kept = static_cast<Eigen::Index>(kept.size());
   const Eigen::Index width = n_kept + F.cols();
+  constexpr double kCopies = 3.0;  // of the columns that are eliminated
+  require_memory(static_cast<double>(A.rows()),
+                 8.0 * static_cast<double>(width) *
+                     (static_cast<double>(width) + kCopies * static_cast<double>(split.inside)));
   Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(width, width);
   corner.bottomRightCorner(F.cols(), F.cols()) = B;
   Eigen::MatrixXd beside = Eigen::MatrixXd::Zero(split.inside, width);

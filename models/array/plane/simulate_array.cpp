@@ -47,7 +47,8 @@ std::vector<Discretisation> array_meshes(const ArrayScene& scene) {
        {std::pair{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 5}}) {
     all.push_back({.degree = degree,
                    .layers = scene.electrodes.is_equipotential ? degree : layers,
-                   .shaft_elements = analysis_of(scene).has_inertia ? 2 : 1});
+                   .shaft_elements = analysis_of(scene).has_inertia ? 2 : 1,
+                   .grades_top = scene.load == ArrayLoad::kShear && !scene.press});
   }
   return all;
 }

@@ -1,6 +1,7 @@
 #include "models/maths/require.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/slender_rounding.h"
 #include "models/pillar/body/nearby_pillar.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/body/section_grid.h"
@@ -30,6 +31,13 @@ double fall_under_thin_rim(const Flare& tip) {
 }
 
 void run_buckling(const PillarScene& scene, SceneAnswer& answer) {
+  const int layers = answer.discretisation.layers;
+  avoid_rounding(scene, answer.discretisation);
+  // The load goes as the square of the first lateral frequency.
+  const double rim =
+      answer.discretisation.layers < layers
+          ? 2.0 * rim_share(scene, answer.discretisation, answer.discretisation.layers)
+          : 0.0;
   const PillarModel axial = model_of(scene, Motion::kLongitudinal, answer.discretisation);
   const PillarModel lateral = model_of(scene, Motion::kLateral, answer.discretisation);
   count_unknowns(lateral, answer);
@@ -45,7 +53,7 @@ void run_buckling(const PillarScene& scene, SceneAnswer& answer) {
   constexpr double kSecondOrder = 0.3;
   answer.results.push_back({"buckling_pressure", found.pressure_Pa, "Pa"});
   answer.results.back().unresolved =
-      kSecondOrder * std::abs(found.rim_share) + fall_under_thin_rim(scene.geometry.tip);
+      kSecondOrder * std::abs(found.rim_share) + fall_under_thin_rim(scene.geometry.tip) + rim;
 }
 
 // The axial model, whose stress is that of a neighbour to first order, and the shape of the lateral one.

@@ -132,8 +132,8 @@ Motion harmonic_motion(const PillarScene& scene) {
   return is_lateral(scene) ? lateral_motion(scene) : axial_motion(scene);
 }
 
-bool is_solved_one_by_one(const PillarScene& scene, const SceneBody& body) {
-  return harmonic_drive(scene).frequencies_Hz.size() <= kMostDirect && !body.system.incompressible;
+bool is_solved_one_by_one(const PillarScene& scene) {
+  return harmonic_drive(scene).frequencies_Hz.size() <= kMostDirect;
 }
 
 std::vector<double> angular_frequencies(const PillarScene& scene) {
@@ -173,7 +173,7 @@ ReducedBody reduced_for(const PillarScene& scene, const SceneBody& body) {
   if (const NearbyPillar* nearby = nearby_of(scene, harmonic_motion(scene), is_electric)) {
     return restricted_to(body.system, nearby->reduced().basis);
   }
-  if (is_solved_one_by_one(scene, body)) {
+  if (is_solved_one_by_one(scene)) {
     return reduce_at(body.system, loads_of(scene, body), angular_frequencies(scene));
   }
   const DynamicRange range{.lowest_rad_s = kTwoPi * harmonic_drive(scene).frequencies_Hz.front(),
@@ -213,7 +213,7 @@ void run_harmonic(const PillarScene& scene, SceneAnswer& answer) {
   const bool is_base = load_place(scene) == LoadPlace::kBase;
   const std::string first = is_base ? "transmissibility" : "top_displacement";
   add_sweep(first, is_base ? "1" : "m", f, sweeps[0], answer);
-  if (!is_solved_one_by_one(scene, body)) add_peaks(scene, response, first, sweeps[0], answer);
+  if (!is_solved_one_by_one(scene)) add_peaks(scene, response, first, sweeps[0], answer);
   note_poles(scene, sweeps[0], answer);
   if (sweeps.size() < 2) return;
   add_sweep(body.outputs[1].name, body.outputs[1].unit, f, sweeps[1], answer);
@@ -234,7 +234,7 @@ NearbyPillars harmonic_nearby(const PillarScene& scene, const Discretisation& me
   scratch.discretisation = mesh;
   const SceneBody body = harmonic_body(scene, scratch);
   NearbyPillars nearby;
-  if (!is_solved_one_by_one(scene, body) || !scene.fixed_bottom) return nearby;
+  if (!is_solved_one_by_one(scene) || !scene.fixed_bottom) return nearby;
   std::vector<Eigen::VectorXd> outputs;
   for (std::size_t i = 1; i < body.outputs.size(); ++i) outputs.push_back(body.outputs[i].row);
   const ReducedBody reduced =

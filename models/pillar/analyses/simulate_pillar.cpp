@@ -63,11 +63,14 @@ SceneAnswer simulate_pillar(const PillarScene& scene) {
   const Analysis& analysis = analysis_of(scene);
   const bool weighs_stress =
       analysis.weighs_stress || (analysis.weighs_pressure && pressure_Pa(scene) != 0.0);
-  const std::vector<Discretisation> meshes =
-      scene.discretisation ? refinements_to(*scene.discretisation)
-      : weighs_stress      ? stressed_mesh_sequence(scene.geometry)
-      : is_large(scene)    ? large_mesh_sequence(scene.geometry)
-                           : mesh_sequence(scene.geometry);
+  std::vector<Discretisation> meshes = scene.discretisation ? refinements_to(*scene.discretisation)
+                                       : weighs_stress      ? stressed_mesh_sequence(scene.geometry)
+                                       : is_large(scene)    ? large_mesh_sequence(scene.geometry)
+                                                            : mesh_sequence(scene.geometry);
+  // A shear ends at the rim of the top, where the free side bears none: the stress is logarithmic in the
+  // distance, as that of a pressure on a top that turns.
+  const bool is_sheared = is_lateral(scene) && load_place(scene) == LoadPlace::kTop;
+  for (Discretisation& mesh : meshes) mesh.grades_top |= is_sheared && !scene.discretisation;
   const double share_left = weighs_stress               ? kShareLeftOfStress
                             : has_electrode_edge(scene) ? kShareLeftOfElectrodeEdge
                                                         : ErrorControl::kShareLeft;

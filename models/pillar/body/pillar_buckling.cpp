@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,17 +18,18 @@ namespace {
 // Therefore this many modes above a shift are searched for the one that bends the whole pillar.
 constexpr int kMostModes = 8;
 
-// p of the shape's own quotient v'K v = -p v'K_sigma v; 0 if the stress stiffens this shape. The energy
-// v'K v comes from strains: in the matrix a large bulk modulus times thin elements cancels, which at nu =
-// 0.499999 leaves 0.1 % of rounding on 5 layers and 1 % on 6. At nu = 0.5 the matrix has no such modulus.
+// v'K v of a shape, from strains: in the matrix a large bulk modulus times thin elements cancels, which at
+// nu = 0.499999 leaves 0.1 % of rounding on 5 layers and 1 % on 6, and the energy of bending is small
+// beside the entries.
+double energy_of(const PillarModel& lateral, const Eigen::VectorXd& shape) {
+  return shape.dot(lateral.stiffness_times(shape, shape));
+}
+
+// p of the shape's own quotient v'K v = -p v'K_sigma v; 0 if the stress stiffens this shape.
 double quotient_Pa(const PillarModel& lateral, const SymmetricSparse& stress,
                    const Eigen::VectorXd& shape) {
   const double softened = -shape.dot(times(stress, shape));
-  if (!(softened > 0.0)) return 0.0;
-  const bool is_incompressible = std::isinf(lateral.medium(kPillarRegion).bulk_Pa);
-  return shape.dot(is_incompressible ? times(lateral.stiffness(), shape)
-                                     : lateral.stiffness_times(shape, shape)) /
-         softened;
+  return softened > 0.0 ? energy_of(lateral, shape) / softened : 0.0;
 }
 
 // The pencil K + p K_sigma of a lateral model, and the criterion for a mode of the whole pillar.
@@ -87,14 +89,18 @@ Buckling buckling_above(const BucklingPencil& pencil, double shift_Pa, int count
 double iterated_buckling_Pa(const BucklingPencil& pencil, Eigen::VectorXd& shape,
                             StiffnessFactor& factor) {
   constexpr int kSteps = 8;
-  constexpr double kCloseEnough = 1e-5;  // of the last step; the next error is its cube
+  constexpr double kCloseEnough = 1e-5;  // of the last step; the next error is far smaller
+  // Exactly at the load the matrix is singular; the nearer, the more its rounding weighs in a slender body.
+  const double short_of = pencil.lateral.loses_digits() ? 0.9 : 1.0 - 1e-4;
   double pressure_Pa = quotient_Pa(pencil.lateral, pencil.stress, shape);
   for (int i = 0; i < kSteps && pressure_Pa > 0.0; ++i) {
+    const SymmetricSparse softening = short_of * pressure_Pa * pencil.stress;
     SymmetricSparse shifted = pencil.stiffness;
-    shifted.coeffs() += pressure_Pa * pencil.stress.coeffs();
+    shifted.coeffs() += softening.coeffs();
     pencil.lateral.factor(shifted, factor);
-    shape = factor.solve(times(pencil.stiffness, shape));
-    shape /= std::sqrt(shape.dot(times(pencil.stiffness, shape)));
+    factor.refine_by(product_of(pencil.lateral, &softening));
+    shape = factor.solve(pencil.lateral.stiffness_times(shape, shape));
+    shape /= std::sqrt(energy_of(pencil.lateral, shape));
     const double next_Pa = quotient_Pa(pencil.lateral, pencil.stress, shape);
     const bool is_close = std::abs(next_Pa - pressure_Pa) <= kCloseEnough * pressure_Pa;
     pressure_Pa = next_Pa;
@@ -103,16 +109,28 @@ double iterated_buckling_Pa(const BucklingPencil& pencil, Eigen::VectorXd& shape
   return 0.0;
 }
 
-// Leaves the pressure unset if no mode of the whole pillar is found. The modes below it are searched
-// only in a small space: local modes at the rim lie so close together that hundreds of vectors would
-// be needed, and the iteration from the bent pillar passes by them with a few factorisations.
+// Leaves the pressure unset if no mode of the whole pillar is found. The iteration from the bent pillar
+// passes by local modes at the rim, which lie so close together that hundreds of vectors would be needed;
+// without it the modes are searched, first in a small space.
 Buckling search_buckling(const PillarModel& lateral, const SymmetricSparse& stress_per_Pa,
                          int count) {
   BucklingPencil pencil{lateral, lateral.stiffness(), stress_per_Pa, unit_top_force(lateral)};
   StiffnessFactor factor;
-  lateral.factor(pencil.stiffness, factor);
+  const auto factor_unloaded = [&] {
+    lateral.factor(pencil.stiffness, factor);
+    factor.refine_by(product_of(lateral));
+  };
+  factor_unloaded();
   const Eigen::VectorXd bent = factor.solve(pencil.side);
   pencil.side_compliance = pencil.side.dot(bent);
+  Buckling result{.shape = bent};
+  // At nu = 0.5 the penalised matrix buckles below the body, and the iteration may go to and fro.
+  const bool is_incompressible = std::isinf(lateral.medium(kPillarRegion).bulk_Pa);
+  if (count == 1 && !is_incompressible) {
+    result.pressure_Pa = iterated_buckling_Pa(pencil, result.shape, factor);
+    if (result.pressure_Pa > 0.0) return result;
+    factor_unloaded();
+  }
   const LinearMap B = [&](const Eigen::VectorXd& x) { return times(pencil.stiffness, x); };
   const PencilMap op = [&](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
     return factor.solve(-times(pencil.stress, x));
@@ -121,11 +139,13 @@ Buckling search_buckling(const PillarModel& lateral, const SymmetricSparse& stre
   // rounding noise in the residual.
   const EigenPairs pairs = largest_eigenpairs(op, B, lateral.system().size(), count,
                                               {.tolerance = 1e-6, .is_quick = count == 1});
-  Buckling result = found_among(pairs, pencil, 0.0, [](double value) { return 1.0 / value; });
+  result = found_among(pairs, pencil, 0.0, [](double value) { return 1.0 / value; });
   if (result.pressure_Pa > 0.0) return result;
-  result.shape = bent;
-  result.pressure_Pa = iterated_buckling_Pa(pencil, result.shape, factor);
-  if (result.pressure_Pa > 0.0) return result;
+  if (count > 1 || is_incompressible) {
+    result.shape = bent;
+    result.pressure_Pa = iterated_buckling_Pa(pencil, result.shape, factor);
+    if (result.pressure_Pa > 0.0) return result;
+  }
   // The Rayleigh quotient of the pillar bent by a side force lies above its buckling pressure. A
   // search that starts a little below the quotient avoids local modes far below it.
   const double bent_Pa = quotient_Pa(lateral, stress_per_Pa, bent);
@@ -176,7 +196,29 @@ SymmetricSparse stress_below_buckling(const PillarModel& lateral, const StressSt
                        found.pressure_Pa);
 }
 
-std::string why_none_is_found(const PillarGeometry& pillar) {
+// Where the pillar would buckle on a rigid base, over the modulus of its film (Euler).
+double strain_of_film(const PillarModel& lateral) {
+  if (!lateral.geometry().film) return 0.0;
+  const Medium& pillar = lateral.medium(kPillarRegion);
+  const double slenderness = lateral.geometry().length_m / lateral.geometry().diameter_m;
+  const double euler_Pa = std::pow(std::numbers::pi / (8.0 * slenderness), 2) * 2.0 *
+                          (1.0 + pillar.poisson_ratio) * pillar.shear_Pa *
+                          (lateral.options().rigid_top ? 4.0 : 1.0);
+  return euler_Pa / lateral.mean_modulus_Pa(kFilmRegion);
+}
+
+std::string why_none_is_found(const PillarModel& lateral) {
+  const PillarGeometry& pillar = lateral.geometry();
+  constexpr double kGivesWay = 0.03;
+  const double film_strain = strain_of_film(lateral);
+  if (film_strain > kGivesWay) {
+    return "the film gives way before the pillar buckles: a load at which the pillar would buckle "
+           "on a "
+           "rigid base compresses the film by about " +
+           text_of(100.0 * film_strain, 2) +
+           " %, and the stress at the rim of the bond makes the film itself unstable. Linear "
+           "buckling does not describe that; take a stiffer film or a more slender pillar";
+  }
   constexpr double kStubby = 1.0;  // length over diameter
   const double slenderness = pillar.length_m / pillar.diameter_m;
   const bool has_wide_tip = pillar.tip.width_m > 0.0;
@@ -196,7 +238,7 @@ std::string why_none_is_found(const PillarGeometry& pillar) {
 Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
   Buckling found = own_buckling(lateral, stress_stiffness_by_place(axial, lateral), count);
   if (found.pressure_Pa > 0.0) return found;
-  throw std::runtime_error(why_none_is_found(lateral.geometry()));
+  throw std::runtime_error(why_none_is_found(lateral));
 }
 
 SymmetricSparse stiffness_by_pressure(const PillarModel& axial, const PillarModel& model,

@@ -108,6 +108,9 @@ class PillarModel {
   // The factored stiffness, or what stands for it close to a nearby pillar.
   StiffnessFactor factored() const;
   const PillarModel* nearby() const { return nearby_; }
+  // Whether rounding of the matrix's entries counts beside the energy of bending, which falls as the square
+  // of the slenderness, or beside that of the shear of a nearly incompressible body.
+  bool loses_digits() const;
   // Stiffness times u without the matrix; at nu = 0.5 the pressures are those of the source.
   Eigen::VectorXd stiffness_times(const Eigen::VectorXd& u, const Eigen::VectorXd& source) const;
   // Mass times u without the matrix, kg times the unit of u.

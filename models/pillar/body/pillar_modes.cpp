@@ -95,21 +95,36 @@ class WithoutRigidMotion {
 // The pencil K, M of a model, searched from a shift upward: pairs of largest 1/(omega^2 + shift).
 class ModeSearch {
  public:
-  ModeSearch(const PillarModel& model, const SymmetricSparse& stiffness)
-      : model_(model), stiffness_(stiffness), mass_(model.mass()), elastic_(model, mass_) {
+  ModeSearch(const PillarModel& model, const SymmetricSparse& stiffness,
+             StiffnessFactor::Product product)
+      : model_(model),
+        stiffness_(stiffness),
+        product_(std::move(product)),
+        mass_(model.mass()),
+        elastic_(model, mass_) {
     mass_.prune(0.0);  // has the pattern of the stiffness, with zeros where fields do not couple
   }
 
   // `stiffening`: of the penalty at nu = 0.5. It leaves the modes as they are, but those of the
   // penalised matrix, which left_below() counts, come nearer to them.
   void start_at(double shift_1_s2, double stiffening = 1.0) {
-    if (shift_1_s2 == 0.0) {
-      model_.factor(stiffness_, factor_);
-      return;
-    }
     SymmetricSparse shifted = stiffness_;
-    shifted.coeffs() += shift_1_s2 * model_.mass().coeffs();
+    if (shift_1_s2 != 0.0) shifted.coeffs() += shift_1_s2 * model_.mass().coeffs();
     model_.factor(shifted, factor_, stiffening);
+    if (!product_) return;
+    const bool is_incompressible =
+        std::isinf(model_.medium(kPillarRegion).bulk_Pa) && !model_.is_plane_stress();
+    const double scale = is_incompressible ? stiffening : 1.0;  // others have no penalty
+    factor_.refine_by(
+        [this, shift_1_s2, scale](const Eigen::VectorXd& u, const Eigen::VectorXd& source) {
+          Eigen::VectorXd force = product_(u, scale * source);
+          if (shift_1_s2 != 0.0) force += shift_1_s2 * times(mass_, u);
+          return force;
+        });
+  }
+  // The square of the angular frequency of a shape of unit mass norm, 1/s^2, whose pair gives `of_pair`.
+  double square_of(const Eigen::VectorXd& shape, double of_pair) const {
+    return product_ ? shape.dot(product_(shape, shape)) : of_pair;
   }
   // From the last start upward; 0 vectors: what converges in a small space.
   EigenPairs find(int count, int largest_space) const {
@@ -135,6 +150,7 @@ class ModeSearch {
  private:
   const PillarModel& model_;
   const SymmetricSparse& stiffness_;
+  StiffnessFactor::Product product_;  // of the stiffness, if its entries keep too few digits
   SymmetricSparse mass_;
   WithoutRigidMotion elastic_;
   StiffnessFactor factor_;
@@ -145,8 +161,9 @@ class ModeSearch {
 // Spectrum slicing: Parlett, The Symmetric Eigenvalue Problem (1998), ch. 3.
 class SlicedModes {
  public:
-  SlicedModes(const PillarModel& model, const SymmetricSparse& stiffness, int count)
-      : search_(model, stiffness),
+  SlicedModes(const PillarModel& model, const SymmetricSparse& stiffness, int count,
+              StiffnessFactor::Product product)
+      : search_(model, stiffness, std::move(product)),
         wanted_(static_cast<std::size_t>(count)),
         shift_1_s2_(model.options().fixed_bottom ? 0.0 : free_shift_1_s2(model)) {
     search_.start_at(shift_1_s2_);
@@ -185,7 +202,8 @@ class SlicedModes {
   int left() const { return static_cast<int>(wanted_ - found_.size()); }
   void keep(const EigenPairs& pairs) {
     for (int i = 0; i < pairs.leading; ++i) {
-      found_.emplace_back(1.0 / pairs.values[i] - shift_1_s2_, pairs.vectors.col(i));
+      const double of_pair = 1.0 / pairs.values[i] - shift_1_s2_;
+      found_.emplace_back(search_.square_of(pairs.vectors.col(i), of_pair), pairs.vectors.col(i));
     }
   }
   // Starts again just below the first mode that has not converged, and drops the modes found above
@@ -217,26 +235,36 @@ class SlicedModes {
 };
 
 std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse& stiffness,
-                                 int count) {
-  return SlicedModes(model, stiffness, count).modes();
+                                 int count, StiffnessFactor::Product product = {}) {
+  return SlicedModes(model, stiffness, count, std::move(product)).modes();
 }
 
 }  // namespace
 
+StiffnessFactor::Product product_of(const PillarModel& model, const SymmetricSparse* stress) {
+  if (!model.loses_digits()) return {};
+  return [&model, stress](const Eigen::VectorXd& u, const Eigen::VectorXd& source) {
+    Eigen::VectorXd force = model.stiffness_times(u, source);
+    if (stress != nullptr) force += times(*stress, u);
+    return force;
+  };
+}
+
 std::vector<PillarMode> lowest_modes(const PillarModel& model, int count) {
-  return modes_of(model, model.stiffness(), count);
+  return modes_of(model, model.stiffness(), count, product_of(model));
 }
 
 std::vector<PillarMode> lowest_modes(const PillarModel& model, const SymmetricSparse& stiffness,
-                                     int count) {
-  return modes_of(model, stiffness, count);
+                                     int count, StiffnessFactor::Product product) {
+  return modes_of(model, stiffness, count, std::move(product));
 }
 
 std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& model,
                                              double pressure_Pa, int count) {
-  SymmetricSparse stiffness = stiffness_by_pressure(axial, model, pressure_Pa);
-  stiffness.coeffs() += model.stiffness().coeffs();
-  return modes_of(model, stiffness, count);
+  const SymmetricSparse stress = stiffness_by_pressure(axial, model, pressure_Pa);
+  SymmetricSparse stiffness = model.stiffness();
+  stiffness.coeffs() += stress.coeffs();
+  return modes_of(model, stiffness, count, product_of(model, &stress));
 }
 
 }  // namespace viscard

@@ -24,9 +24,15 @@ double free_shift_1_s2(const PillarModel& model);
 // modes are its elastic ones, orthogonal to the rigid motions. Each mode of a harmonic m >= 1
 // represents two. Throws std::runtime_error if the iteration does not converge.
 std::vector<PillarMode> lowest_modes(const PillarModel& model, int count);
-// The same with another stiffness of the model: relaxed, or with that of a stress.
+// The same with another stiffness of the model: relaxed, or with that of a stress; `product` gives its
+// products with more digits than its entries have, or is empty.
 std::vector<PillarMode> lowest_modes(const PillarModel& model, const SymmetricSparse& stiffness,
-                                     int count);
+                                     int count, StiffnessFactor::Product product = {});
+
+// The product of a model's stiffness, and of that of a stress (or null), from strains. Empty where the
+// entries of the matrix serve as well. Both must outlive it.
+StiffnessFactor::Product product_of(const PillarModel& model,
+                                    const SymmetricSparse* stress = nullptr);
 
 // Pressure on the top at which the straight pillar buckles sideways (linear buckling with the full
 // stress field of the loaded pillar, dead load):

@@ -41,12 +41,30 @@ SymmetricSparse PillarModel::stiffness() const {
   return stiffness_of(all_regions());
 }
 
+bool PillarModel::loses_digits() const {
+  constexpr double kSlender = 12.0;   // length over diameter
+  constexpr double kStiffBulk = 1e3;  // over the shear modulus: nu = 0.4995
+  const Motion motion = options_.motion;
+  const bool bends = motion == Motion::kLateral || motion == Motion::kPlaneAntisymmetric;
+  const Medium& pillar = media_[kPillarRegion];
+  return (bends && geometry_.length_m > kSlender * geometry_.diameter_m) ||
+         (pillar.is_isotropic && std::isfinite(pillar.bulk_Pa) && !is_plane_stress() &&
+          pillar.bulk_Pa > kStiffBulk * pillar.shear_Pa);
+}
+
 Eigen::VectorXd PillarModel::stiffness_times(const Eigen::VectorXd& u,
                                              const Eigen::VectorXd& source) const {
   const StiffnessParts parts = stiffness_parts(all_regions());
   Eigen::VectorXd product =
       system_->form_times(system_->kinematics().strain_and_field(), parts.forms, u);
-  if (parts.condenses()) product += system_->volume_form_times(parts.bulk_Pa, true, source);
+  if (!parts.condenses()) return product;
+  // A source of pressures is the pillar's; a film has its own volume.
+  std::vector<double> of_film = parts.bulk_Pa;
+  of_film[kPillarRegion] = 0.0;
+  std::vector<double> of_pillar(parts.bulk_Pa.size(), 0.0);
+  of_pillar[kPillarRegion] = parts.bulk_Pa[kPillarRegion];
+  product += system_->volume_form_times(of_pillar, true, source);
+  if (of_film.back() > 0.0) product += system_->volume_form_times(of_film, true, u);
   return product;
 }
 
@@ -98,6 +116,11 @@ StiffnessFactor PillarModel::factored() const {
                          });
   } else {
     factor(stiffness(), factored);
+    if (loses_digits()) {
+      factored.refine_by([this](const Eigen::VectorXd& u, const Eigen::VectorXd& source) {
+        return stiffness_times(u, source);
+      });
+    }
   }
   return factored;
 }

@@ -139,7 +139,7 @@ Breaks graded_mesh_breaks(const PillarGeometry& g, const Discretisation& d) {
 void grade_toward_top(const Discretisation& d, std::vector<double>& z) {
   const double top_m = z.back();
   z.pop_back();
-  append_breaks(z, graded_breaks(z.back(), top_m, (d.layers + 1) / 2, d.ratio, true));
+  append_breaks(z, graded_breaks(z.back(), top_m, 1 + d.layers / 2, d.ratio, true));
 }
 
 }  // namespace

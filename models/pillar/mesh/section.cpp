@@ -1,6 +1,7 @@
 #include "models/pillar/mesh/section.h"
 
 #include "models/maths/require.h"
+#include "models/maths/usable_memory.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -13,11 +14,29 @@ double middle(const LineMesh& line, int element) {
   return line.breaks()[static_cast<std::size_t>(element)] + 0.5 * line.length(element);
 }
 
+// Refuses a mesh whose nodes, with one matrix of one field, need more memory than there is.
+void require_room(const LineMesh& x, const LineMesh& z,
+                  const std::function<int(double, double)>& region_at) {
+  constexpr double kFew = 1e5;  // elements
+  if (1.0 * x.element_count() * z.element_count() < kFew) return;
+  double elements = 0.0;
+  for (int row = 0; row < z.element_count(); ++row) {
+    for (int column = 0; column < x.element_count(); ++column) {
+      elements += region_at(middle(x, column), middle(z, row)) == Section::kEmpty ? 0.0 : 1.0;
+    }
+  }
+  const double p = x.degree();
+  const double nodes = elements * p * p;
+  constexpr double kNode_B = 64.0, kEntry_B = 12.0;
+  require_memory(nodes, nodes * (kNode_B + 0.5 * (p + 2.0) * (p + 2.0) * kEntry_B));
+}
+
 }  // namespace
 
 Section::Section(LineMesh x, LineMesh z, const std::function<int(double, double)>& region_at)
     : x_(std::move(x)), z_(std::move(z)) {
   require(x_.degree() == z_.degree(), "both directions of a section must have one element degree");
+  require_room(x_, z_, region_at);
   const int p = degree();
   node_.assign(
       static_cast<std::size_t>(x_.node_count()) * static_cast<std::size_t>(z_.node_count()), -1);

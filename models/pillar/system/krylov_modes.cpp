@@ -81,8 +81,12 @@ class LanczosSearch {
     Lanczos lanczos({op_, B_.B, B_.size, scale_}, B_, count,
                     std::clamp(space, count + 1, static_cast<int>(B_.size)));
     lanczos.init(image_.data());
-    lanczos.compute(Spectra::SortRule::LargestAlge, checks, tolerance,
-                    Spectra::SortRule::LargestAlge);
+    try {
+      lanczos.compute(Spectra::SortRule::LargestAlge, checks, tolerance,
+                      Spectra::SortRule::LargestAlge);
+    } catch (const std::exception&) {  // a product that is not finite, or no inner product
+      return {Eigen::VectorXd::Zero(count), {}, false};
+    }
     if (lanczos.info() != Spectra::CompInfo::Successful) {
       return leading_pairs(scale_ * lanczos.rough_values(), lanczos.eigenvectors(), tolerance);
     }
@@ -151,8 +155,11 @@ EigenPairs largest_eigenpairs(const PencilMap& op, const LinearMap& B, int size,
   EigenPairs pairs = search.in_space(2 * count + 4, 6, count, options.tolerance);
   if (pairs.converged || options.is_quick) return pairs;
   const int largest = options.largest_space;
-  pairs = search.in_space(largest, 1, count, options.tolerance);
-  if (pairs.converged) return pairs;
+  // A space costs as many products as it has vectors, whether it needs them or not.
+  for (const int space : {largest / 6, largest / 3, largest}) {
+    pairs = search.in_space(space, 1, count, options.tolerance);
+    if (pairs.converged) return pairs;
+  }
   pairs = search.in_space(largest, 1, count, kSettledResidual);
   if (pairs.converged) {
     const EigenPairs before = search.in_space(largest - largest / 4, 1, count, kSettledResidual);

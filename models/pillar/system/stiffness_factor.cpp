@@ -78,6 +78,28 @@ void StiffnessFactor::factor(const SymmetricSparse& matrix) {
 Eigen::VectorXd StiffnessFactor::solve(const Eigen::VectorXd& right_side,
                                        Eigen::VectorXd* pressure_source) const {
   if (known_ != nullptr) return solve_nearby(right_side, pressure_source);
+  if (!product_) return solve_once(right_side, pressure_source);
+  constexpr int kCorrections = 8;
+  constexpr double kEnough = 1e-9;  // of the solution; what is left is smaller
+  Eigen::VectorXd source;
+  Eigen::VectorXd u = solve_once(right_side, &source);
+  double last = u.norm();
+  for (int i = 0; i < kCorrections; ++i) {
+    Eigen::VectorXd more;
+    const Eigen::VectorXd change = solve_once(right_side - product_(u, source), &more);
+    const double size = change.norm();
+    if (!(size < 0.5 * last)) break;  // rounding of the products, or a matrix without meaning
+    u += change;
+    source += more;
+    last = size;
+    if (size <= kEnough * u.norm()) break;
+  }
+  if (pressure_source != nullptr) *pressure_source = source;
+  return u;
+}
+
+Eigen::VectorXd StiffnessFactor::solve_once(const Eigen::VectorXd& right_side,
+                                            Eigen::VectorXd* pressure_source) const {
   Eigen::VectorXd u = ldlt_.solve(right_side);
   if (penalty_.size() == 0 && pressure_source == nullptr) return u;
   Eigen::VectorXd added = Eigen::VectorXd::Zero(u.size());

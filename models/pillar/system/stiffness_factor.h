@@ -32,6 +32,11 @@ class StiffnessFactor {
   // first order in the difference and costs one solution with the known factors (NearbySolutions).
   // `known` must outlive this.
   void approximate(const NearbySolutions& known, Product product);
+  // After factor(): solve() corrects its solutions by their rest under a product that keeps more digits than
+  // the entries of the matrix (strains of a motion that is nearly rigid), until the corrections end. Where
+  // the matrix is right to a share q, each correction gains a factor 1/q.
+  // Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), ch. 12.
+  void refine_by(Product product) { product_ = std::move(product); }
 
   // With a constraint, `pressure_source` (if given) receives the w whose penalty force C w equals
   // the force of the pressures; the pressures are the penalty modulus times the projected div w.
@@ -45,13 +50,15 @@ class StiffnessFactor {
  private:
   Eigen::VectorXd solve_nearby(const Eigen::VectorXd& right_side,
                                Eigen::VectorXd* pressure_source) const;
+  Eigen::VectorXd solve_once(const Eigen::VectorXd& right_side,
+                             Eigen::VectorXd* pressure_source) const;
   void constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& source) const;
 
   SupernodalFactor ldlt_;
   bool is_analysed_ = false;
   SymmetricSparse penalty_;  // empty: no constraint
   const NearbySolutions* known_ = nullptr;
-  Product product_;  // with known_
+  Product product_;  // with known_, or to refine by
 };
 
 // A factored matrix K0 and some of its solutions, from which those of a matrix K close to it follow: with

@@ -1,5 +1,7 @@
 #include "models/pillar/system/supernodal_factor.h"
 
+#include "models/maths/may_stop.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,16 +14,17 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 // L D L^T of the leading `count` columns of a front in place, without pivoting; the other columns
 // become the update (Schur complement). Returns false if a pivot is zero or not finite.
-bool eliminate(Eigen::Ref<Eigen::MatrixXd> front, Eigen::Index count,
-               Eigen::Ref<Eigen::VectorXd> d) {
+template <typename Scalar>
+bool eliminate(Eigen::Ref<typename BlockFactor<Scalar>::Matrix> front, Eigen::Index count,
+               Eigen::Ref<typename BlockFactor<Scalar>::Vector> d) {
   constexpr Eigen::Index kPanel = 16;
   const Eigen::Index n = front.rows();
-  Eigen::MatrixXd scaled;
+  typename BlockFactor<Scalar>::Matrix scaled;
   for (Eigen::Index start = 0; start < count; start += kPanel) {
     const Eigen::Index width = std::min(kPanel, count - start);
     for (Eigen::Index j = start; j < start + width; ++j) {
-      const double pivot = front(j, j);
-      if (pivot == 0.0 || !std::isfinite(pivot)) return false;
+      const Scalar pivot = front(j, j);
+      if (pivot == 0.0 || !std::isfinite(std::abs(pivot))) return false;
       d[j] = pivot;
       const Eigen::Index below = n - j - 1;
       front.col(j).tail(below) /= pivot;
@@ -33,26 +36,27 @@ bool eliminate(Eigen::Ref<Eigen::MatrixXd> front, Eigen::Index count,
     if (rest == 0) continue;
     const auto panel = front.block(start + width, start, rest, width);
     scaled.noalias() = panel * d.segment(start, width).asDiagonal();
-    front.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>() -=
+    front.bottomRightCorner(rest, rest).template triangularView<Eigen::Lower>() -=
         scaled * panel.transpose();
   }
   return true;
 }
 
 // Adds the lower triangle of a child's update to the front of its parent.
-void add_update(const Eigen::MatrixXd& update, const std::vector<int>& to,
-                Eigen::Map<Eigen::MatrixXd>& front) {
+template <typename Matrix>
+void add_update(const Matrix& update, const std::vector<int>& to, Eigen::Map<Matrix>& front) {
   const auto n = static_cast<Eigen::Index>(to.size());
   for (Eigen::Index j = 0; j < n; ++j) {
-    const double* from = update.data() + j * n;
-    double* column = front.data() + to[static_cast<std::size_t>(j)] * front.rows();
+    const auto* from = update.data() + j * n;
+    auto* column = front.data() + to[static_cast<std::size_t>(j)] * front.rows();
     for (Eigen::Index i = j; i < n; ++i) column[to[static_cast<std::size_t>(i)]] += from[i];
   }
 }
 
 }  // namespace
 
-void SupernodalFactor::analyse(const Sparse& lower) {
+template <typename Scalar>
+void BlockFactor<Scalar>::analyse(const Sparse& lower) {
   BlockOrder order = block_order(lower);
   position_ = std::move(order.position);
   blocks_.clear();
@@ -65,7 +69,8 @@ void SupernodalFactor::analyse(const Sparse& lower) {
   place_entries(lower);
 }
 
-void SupernodalFactor::find_parents() {
+template <typename Scalar>
+void BlockFactor<Scalar>::find_parents() {
   for (Block& block : blocks_) {
     if (block.rows.empty()) continue;
     // Blocks are sorted by column: the parent is the block that holds the first row.
@@ -86,7 +91,8 @@ void SupernodalFactor::find_parents() {
   }
 }
 
-void SupernodalFactor::place_entries(const Sparse& lower) {
+template <typename Scalar>
+void BlockFactor<Scalar>::place_entries(const Sparse& lower) {
   const int n = static_cast<int>(lower.outerSize());
   const int* starts = lower.outerIndexPtr();
   const int* rows = lower.innerIndexPtr();
@@ -135,15 +141,17 @@ void SupernodalFactor::place_entries(const Sparse& lower) {
   }
 }
 
-bool SupernodalFactor::factor(const Sparse& lower) {
+template <typename Scalar>
+bool BlockFactor<Scalar>::factor(const Eigen::SparseMatrix<Scalar>& lower) {
   pivots_.resize(lower.rows());
-  std::vector<Eigen::MatrixXd> updates(blocks_.size());  // of each block, for its parent
+  std::vector<Matrix> updates(blocks_.size());  // of each block, for its parent
   std::vector<std::vector<std::size_t>> children(blocks_.size());
-  std::vector<double> memory(static_cast<std::size_t>(largest_front_ * largest_front_));
+  std::vector<Scalar> memory(static_cast<std::size_t>(largest_front_ * largest_front_));
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    may_stop();
     Block& block = blocks_[b];
     const Eigen::Index below = block.height() - block.count;
-    Eigen::Map<Eigen::MatrixXd> front(memory.data(), block.height(), block.height());
+    Eigen::Map<Matrix> front(memory.data(), block.height(), block.height());
     front.setZero();
     const auto first = first_entry_.begin() + block.first;
     for (std::size_t i = *first; i < *(first + block.count); ++i) {
@@ -153,7 +161,8 @@ bool SupernodalFactor::factor(const Sparse& lower) {
       add_update(updates[child], blocks_[child].to_parent, front);
       updates[child].resize(0, 0);
     }
-    if (!eliminate(front, block.count, pivots_.segment(block.first, block.count))) return false;
+    if (!eliminate<Scalar>(front, block.count, pivots_.segment(block.first, block.count)))
+      return false;
     block.L = front.leftCols(block.count);
     if (block.parent >= 0) {
       updates[b] = front.bottomRightCorner(below, below);
@@ -163,13 +172,15 @@ bool SupernodalFactor::factor(const Sparse& lower) {
   return true;
 }
 
-Eigen::VectorXd SupernodalFactor::solve(const Eigen::VectorXd& right_side) const {
-  Eigen::VectorXd x(right_side.size());
+template <typename Scalar>
+auto BlockFactor<Scalar>::solve(const Vector& right_side) const -> Vector {
+  may_stop();
+  Vector x(right_side.size());
   x(position_) = right_side;
-  Eigen::VectorXd outside;
+  Vector outside;
   for (const Block& block : blocks_) {
     auto own = x.segment(block.first, block.count);
-    block.L.topRows(block.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
+    block.L.topRows(block.count).template triangularView<Eigen::UnitLower>().solveInPlace(own);
     outside.noalias() = block.L.bottomRows(block.L.rows() - block.count) * own;
     x(block.rows) -= outside;
   }
@@ -178,28 +189,36 @@ Eigen::VectorXd SupernodalFactor::solve(const Eigen::VectorXd& right_side) const
     auto own = x.segment(block->first, block->count);
     outside = x(block->rows);
     own.noalias() -= block->L.bottomRows(outside.size()).transpose() * outside;
-    block->L.topRows(block->count).transpose().triangularView<Eigen::UnitUpper>().solveInPlace(own);
+    block->L.topRows(block->count)
+        .transpose()
+        .template triangularView<Eigen::UnitUpper>()
+        .solveInPlace(own);
   }
   return x(position_);
 }
 
-Eigen::MatrixXd SupernodalFactor::forward(const Eigen::MatrixXd& right_sides) const {
-  Eigen::MatrixXd x(right_sides.rows(), right_sides.cols());
+template <typename Scalar>
+auto BlockFactor<Scalar>::forward(const Matrix& right_sides) const -> Matrix {
+  Matrix x(right_sides.rows(), right_sides.cols());
   x(position_, Eigen::all) = right_sides;
-  Eigen::MatrixXd outside;
+  Matrix outside;
   for (const Block& block : blocks_) {
     auto own = x.middleRows(block.first, block.count);
-    block.L.topRows(block.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
+    block.L.topRows(block.count).template triangularView<Eigen::UnitLower>().solveInPlace(own);
     outside.noalias() = block.L.bottomRows(block.L.rows() - block.count) * own;
     x(block.rows, Eigen::all) -= outside;
   }
   return x;
 }
 
-Eigen::Index SupernodalFactor::entries() const {
+template <typename Scalar>
+Eigen::Index BlockFactor<Scalar>::entries() const {
   Eigen::Index count = 0;
   for (const Block& block : blocks_) count += block.L.size();
   return count;
 }
+
+template class BlockFactor<double>;
+template class BlockFactor<std::complex<double>>;
 
 }  // namespace viscard

@@ -13,8 +13,7 @@ namespace viscard {
 // Source: Christensen, Theory of Viscoelasticity (1982), ch. 2.
 
 // Sparse elimination of the whole body, tens of ms per frequency: for few frequencies, and as a
-// check. Throws std::invalid_argument for an incompressible body (its pressures are separate
-// unknowns; reduce it first) and std::runtime_error exactly on an undamped pole.
+// check. Throws std::runtime_error exactly on an undamped pole.
 Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::VectorXd& load,
                                 double omega_rad_s);
 // The same for several loads with one elimination.

@@ -78,8 +78,7 @@ ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
 
 // Reduction with inertia for a few frequencies only. The basis holds the solutions of the whole
 // body there, by elimination, and the small body then reproduces them exactly. Use it for
-// frequencies so high that a basis for all frequencies up to them would be too large. Throws
-// std::invalid_argument for an incompressible body.
+// frequencies so high that a basis for all frequencies up to them would be too large.
 ReducedBody reduce_at(const ViscoelasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
                       const std::vector<double>& omega_rad_s);
 

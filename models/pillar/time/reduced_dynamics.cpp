@@ -168,7 +168,7 @@ ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
   for (const Eigen::VectorXd& load : loads) {
     chains.push_back({span.instantaneous().solve(load)});
   }
-  int answers_left = shape_relaxes(system, range) && !system.incompressible ? kMostAnswers : 0;
+  int answers_left = shape_relaxes(system, range) ? kMostAnswers : 0;
   Verdict verdict;
   bool grows = true;
   double last_error = std::numeric_limits<double>::infinity();

@@ -50,6 +50,13 @@ void ReducedSpan::factor(double shear, double bulk, StiffnessFactor& factored) c
   SymmetricSparse stiffness = stiffness_at(body_, shear, bulk);
   if (shift_1_s2_ > 0.0) stiffness.coeffs() += shift_1_s2_ * body_.mass.coeffs();
   factored.factor(stiffness);
+  const StiffnessFactor::Product product = product_at(body_, shear, bulk);
+  if (!product) return;
+  factored.refine_by([this, product](const Eigen::VectorXd& u, const Eigen::VectorXd& source) {
+    Eigen::VectorXd force = product(u, source);
+    if (shift_1_s2_ > 0.0) force += shift_1_s2_ * times(body_.mass, u);
+    return force;
+  });
 }
 
 Eigen::VectorXd ReducedSpan::elastic_times(const Eigen::VectorXd& v) const {
@@ -58,8 +65,8 @@ Eigen::VectorXd ReducedSpan::elastic_times(const Eigen::VectorXd& v) const {
 }
 
 double ReducedSpan::energy_norm(const Eigen::VectorXd& v) const {
-  Eigen::VectorXd force = elastic_times(v) + times(body_.shear, v);
-  if (!body_.incompressible) force += times(body_.bulk, v);
+  Eigen::VectorXd force = elastic_times(v) + shear_times(body_, v);
+  if (!body_.incompressible) force += bulk_times(body_, v);
   if (shift_1_s2_ > 0.0) force += shift_1_s2_ * times(body_.mass, v);
   return std::sqrt(std::max(v.dot(force), 0.0));
 }
@@ -95,8 +102,8 @@ bool ReducedSpan::add(Eigen::VectorXd v) {
   for (int pass = 0; pass < 2; ++pass) v -= projected(v);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(v.size());
   // An incompressible body's volume does not change.
-  Images images{elastic_times(v), times(body_.shear, v),
-                body_.incompressible ? none : times(body_.bulk, v),
+  Images images{elastic_times(v), shear_times(body_, v),
+                body_.incompressible ? none : bulk_times(body_, v),
                 has_mass() ? times(body_.mass, v) : none};
   Eigen::VectorXd force = images.elastic + images.shear + images.bulk;
   if (shift_1_s2_ > 0.0) force += shift_1_s2_ * images.mass;

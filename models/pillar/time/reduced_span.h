@@ -20,6 +20,8 @@ class ReducedSpan {
  public:
   // The body must outlive the span.
   explicit ReducedSpan(const ViscoelasticSystem& body);
+  ReducedSpan(const ReducedSpan&) = delete;  // its factor refers to it
+  ReducedSpan& operator=(const ReducedSpan&) = delete;
 
   // Factors the body's stiffness at relative moduli.
   void factor(double shear, double bulk, StiffnessFactor& factored) const;

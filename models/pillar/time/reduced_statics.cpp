@@ -136,7 +136,7 @@ class QuasiStaticBasis {
   void add_pair(const VectorXd& motion, const VectorXd& force, EnergyPairs& pairs) const {
     append_to(pairs.motion, motion);
     append_to(pairs.force, body_.incompressible
-                               ? times(body_.elastic, motion) + times(body_.shear, motion)
+                               ? times(body_.elastic, motion) + shear_times(body_, motion)
                                : force);
   }
 

@@ -43,7 +43,8 @@ class RelaxedSearch {
         body_(std::move(body)),
         tolerance_(tolerance),
         known_(std::min(count + kSpare, model.system().size() - rigid_count())),
-        instantaneous_(lowest_modes(model, stiffness_at(body_, 1.0, 1.0), known_)),
+        instantaneous_(lowest_modes(model, stiffness_at(body_, 1.0, 1.0), known_,
+                                    product_at(body_, 1.0, 1.0))),
         lifted_(lifted_body()),
         span_(regular_body()) {
     for (const PillarMode& mode : instantaneous_) add(mode.shape);
@@ -97,7 +98,10 @@ class RelaxedSearch {
   void add_modes_at(double omega_rad_s) {
     const RelativeModuli m = storage_at(body_.terms, omega_rad_s);
     const SymmetricSparse stiffness = stiffness_at(body_, m.shear.real(), m.bulk.real());
-    for (const PillarMode& mode : lowest_modes(model_, stiffness, known_)) add(mode.shape);
+    for (const PillarMode& mode : lowest_modes(model_, stiffness, known_,
+                                               product_at(body_, m.shear.real(), m.bulk.real()))) {
+      add(mode.shape);
+    }
   }
   // Frequency of a mode if only the storage moduli act, rad/s; 0: none. Sets its vector, and the
   // share of the spectrum that separates it from the directions missing in the basis.
@@ -152,7 +156,7 @@ class RelaxedSearch {
     for (int pass = 0; pass < 2; ++pass) {
       Eigen::VectorXd source;
       span_.instantaneous().solve(r, &source);
-      r -= times(body_.bulk, source);
+      r -= bulk_times(body_, source);
     }
     return r;
   }

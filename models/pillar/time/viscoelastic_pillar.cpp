@@ -10,7 +10,6 @@ ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material&
   const DiscreteSystem& discrete = model.system();
   const DerivedModuli moduli = derived_moduli(material);
   const std::vector<OperatorRow>& strain = discrete.kinematics().strain;
-  const SymmetricSparse whole = model.stiffness();
   ViscoelasticSystem system;
   system.terms = material.terms;
   if (model.is_plane_stress() && material.nu < 0.5) {
@@ -21,7 +20,8 @@ ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material&
     system.shear = discrete.form(strain, {plane_stress_moduli(c_Pa), {}});
     system.bulk = discrete.zero();
   } else if (model.is_plane_stress()) {
-    system.shear = whole;  // incompressible: only the shear modulus is left in plane stress
+    system.shear =
+        model.stiffness();  // incompressible: only the shear modulus is left in plane stress
     require(!model.geometry().film,
             "an incompressible strip in plane stress cannot stand on a film; use plane strain");
     system.bulk = discrete.zero();
@@ -29,12 +29,19 @@ ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material&
     system.incompressible = material.nu == 0.5;
     system.shear = discrete.form(strain, {moduli.G0_Pa * deviatoric_form(), {}});
     const double bulk_Pa = system.incompressible ? kPenaltyOverShear * moduli.G0_Pa : moduli.K0_Pa;
-    system.bulk = discrete.volume_form({bulk_Pa, 0.0}, material.nu >= kNearlyIncompressible);
+    const bool condenses = material.nu >= kNearlyIncompressible;
+    system.bulk = discrete.volume_form({bulk_Pa, 0.0}, condenses);
+    if (model.loses_digits()) {
+      system.by_shear = [&discrete, G_Pa = moduli.G0_Pa](const Eigen::VectorXd& u) {
+        return discrete.form_times(discrete.kinematics().strain, {G_Pa * deviatoric_form(), {}}, u);
+      };
+      system.by_bulk = [&discrete, bulk_Pa, condenses](const Eigen::VectorXd& u) {
+        return discrete.volume_form_times({bulk_Pa, 0.0}, condenses, u);
+      };
+    }
   }
   system.elastic = discrete.zero();
-  if (model.geometry().film) {
-    system.elastic.coeffs() = whole.coeffs() - system.shear.coeffs() - system.bulk.coeffs();
-  }
+  if (model.geometry().film) system.elastic = model.stiffness_of(kFilmRegion);
   if (with_mass) system.mass = model.mass();
   return system;
 }

@@ -17,6 +17,24 @@ SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_fact
   return matrix;
 }
 
+Eigen::VectorXd shear_times(const ViscoelasticSystem& system, const Eigen::VectorXd& u) {
+  return system.by_shear ? system.by_shear(u) : times(system.shear, u);
+}
+
+Eigen::VectorXd bulk_times(const ViscoelasticSystem& system, const Eigen::VectorXd& u) {
+  return system.by_bulk ? system.by_bulk(u) : times(system.bulk, u);
+}
+
+StiffnessFactor::Product product_at(const ViscoelasticSystem& system, double shear_factor,
+                                    double bulk_factor) {
+  if (!system.by_shear) return {};
+  const double bulk = system.incompressible ? 1.0 : bulk_factor;
+  return [&system, shear_factor, bulk](const Eigen::VectorXd& u, const Eigen::VectorXd& source) {
+    return Eigen::VectorXd(times(system.elastic, u) + shear_factor * shear_times(system, u) +
+                           bulk * bulk_times(system, source));
+  };
+}
+
 ViscoelasticStepper::ViscoelasticStepper(const ViscoelasticSystem& system, int order)
     : system_(&system), matrix_(system.shear), order_(order) {
   require_value(order >= 1 && order <= 5, "order of the time steps", order, "", "from 1 to 5");

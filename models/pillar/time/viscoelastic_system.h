@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <vector>
 
 namespace viscard {
@@ -25,11 +26,21 @@ struct ViscoelasticSystem {
   Eigen::MatrixXd rigid;
   // The multiple of the mass that makes the stiffness of such a body regular.
   double free_shift_1_s2 = 0.0;
+  // Products of `shear` and `bulk` that keep more digits than the entries; empty where these serve as well.
+  std::function<Eigen::VectorXd(const Eigen::VectorXd&)> by_shear, by_bulk;
 };
+
+// shear u and bulk u.
+Eigen::VectorXd shear_times(const ViscoelasticSystem& system, const Eigen::VectorXd& u);
+Eigen::VectorXd bulk_times(const ViscoelasticSystem& system, const Eigen::VectorXd& u);
 
 // elastic + shear_factor shear + bulk_factor bulk; an incompressible body's penalty keeps factor 1.
 SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_factor,
                              double bulk_factor);
+// Its product, with the bulk part of a source of pressures, where the entries keep too few digits; else
+// empty. The system must outlive it.
+StiffnessFactor::Product product_at(const ViscoelasticSystem& system, double shear_factor,
+                                    double bulk_factor);
 
 // What a step prescribes.
 enum class Control { kForce, kDisplacement };

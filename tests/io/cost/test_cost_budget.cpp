@@ -5,6 +5,7 @@
 #include "io/cost/study_cost.h"
 #include "io/cost/study_trials.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/may_stop.h"
 
 #include <catch2/catch.hpp>
 
@@ -135,6 +136,29 @@ TEST_CASE("a cost study ends within its budget plus one row", "[io][scene]") {
   CHECK(study.rows.size() + study.predicted.size() == trials.rows.size());
   CHECK(std::any_of(study.rows.begin(), study.rows.end(),
                     [](const CostRow& row) { return row.discretisation.rfind("h1", 0) == 0; }));
+}
+
+// A row that was predicted to take a tenth of a second, and would take hours.
+TEST_CASE("a row that is not done when the budget is over is ended", "[io][scene]") {
+  Hours hours;
+  CostTrials trials = trials_of_law(hours, 1.0);
+  trials.rows[3].run = [&hours]() -> SceneAnswer {
+    for (int step = 0; step < 10000; ++step) {
+      hours.wall_s += 1.0;
+      hours.cpu_s += 1.0;
+      may_stop();
+    }
+    return answer_with(1e-6, 2500.0);
+  };
+  CostOptions options{.budget_s = 100.0, .clock = hours.clock()};
+  const bool of_processor = GENERATE(false, true);
+  if (of_processor) options = {.budget_s = 1e4, .cpu_budget_s = 100.0, .clock = hours.clock()};
+  const CostStudy study = study_of(trials, options);
+  CHECK(hours.wall_s <= (of_processor ? 1000.0 : 110.0));
+  CHECK(study.failed.empty());
+  CHECK(std::any_of(study.predicted.begin(), study.predicted.end(), [&](const PredictedRow& row) {
+    return row.discretisation == trials.rows[3].discretisation;
+  }));
 }
 
 TEST_CASE("rows that are left out are predicted from those that ran", "[io][scene]") {
