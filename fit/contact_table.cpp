@@ -53,11 +53,12 @@ void check_frame(const Column& force_N, const Column& depth_m, double stiffness_
   const double moved_m = std::max(*deepest, *deepest - *deepest_low);
   const double frame_m = rise_N / stiffness_N_m;
   if (!(frame_m >= moved_m)) return;
-  throw std::runtime_error("a frame of " + text_of(stiffness_N_m, 4) + " N/m yields by " +
-                           text_of(1e3 * frame_m, 4) + " mm at " + text_of(rise_N, 4) +
-                           " N, but the position changes by " + text_of(1e3 * moved_m, 4) +
-                           " mm only. Is the unit of the frame's stiffness right? State it, such as "
-                           "--frame-stiffness \"10 N/mm\"");
+  throw std::runtime_error(
+      "a frame of " + text_of(stiffness_N_m, 4) + " N/m yields by " + text_of(1e3 * frame_m, 4) +
+      " mm at " + text_of(rise_N, 4) + " N, but the position changes by " +
+      text_of(1e3 * moved_m, 4) +
+      " mm only. Is the unit of the frame's stiffness right? State it, such as "
+      "--frame-stiffness \"10 N/mm\"");
 }
 
 void find_first_contact(ContactTable& table) {

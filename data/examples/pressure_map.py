@@ -9,6 +9,7 @@ Replace `recorded` by your own frames: an array (frames, rows, columns) of V, Na
 import pathlib
 import sys
 import time
+from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
 
@@ -18,8 +19,8 @@ NOISE_V, GAIN_SPREAD = 2e-4, 0.01
 DEPTHS = ("0.5 um", "1 um", "1.5 um")
 
 
-def array_of(depth=None):
-    scene = {
+def array_of(depth: Optional[str] = None) -> Dict[str, Any]:
+    scene: Dict[str, Any] = {
         "tolerance": 2e-3,
         "geometry": {"kind": "array", "model": "space", "rows": 40, "columns": 40, "lattice": "square", "spacing": "60 um",
                      "diameter": "40 um", "length": "120 um",
@@ -34,23 +35,23 @@ def array_of(depth=None):
     return scene
 
 
-def recorded():
+def recorded() -> Tuple["np.ndarray[Any, Any]", "np.ndarray[Any, Any]"]:
     """Frames of voltages, and the pressures that made them."""
     random = np.random.default_rng(3)
     gains = random.normal(1.0, GAIN_SPREAD, (40, 40))
-    voltages, pressures = [], []
+    frames, pressures = [], []
     for depth in DEPTHS:
         answer = viscard.simulate(array_of(depth))
         clean_V = answer.maps["mean_voltage"]["value"]
-        voltages.append(gains * clean_V + random.normal(0.0, NOISE_V, clean_V.shape))
+        frames.append(gains * clean_V + random.normal(0.0, NOISE_V, clean_V.shape))
         pressures.append(answer.maps["pillar_force"]["value"] / (np.pi * 20e-6**2))
-    voltages = np.array(voltages)
+    voltages = np.array(frames)
     for row, column in random.integers(0, 40, (8, 2)):
         voltages[:, row, column] = np.nan
     return voltages, np.array(pressures)
 
 
-def main():
+def main() -> None:
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "pressure_map")
     folder.mkdir(parents=True, exist_ok=True)
     voltages, made_Pa = recorded()

@@ -116,7 +116,9 @@ Definitions definitions_in(const std::string& source_text) {
     // Loops with clones for processors cannot stand in an unnamed namespace (models/maths/wide_loops.h).
     if (statement.text.find("VISCARD_WIDE_LOOP") != std::string::npos) continue;
     if (statement.text.find("PYBIND11_MODULE") != std::string::npos) continue;  // Python finds it
-    const std::string name = called_name(statement.text);
+    // BlockFactor<Scalar>::factor() is a member of BlockFactor.
+    static const std::regex kArguments(R"((\w)<\w+>::)");
+    const std::string name = called_name(std::regex_replace(statement.text, kArguments, "$1::"));
     const std::size_t scope = name.find("::");
     if (scope == std::string::npos) {
       if (!name.empty()) found.functions.insert(name);

@@ -82,8 +82,10 @@ const XmlElement& viscoelastic_in(const std::vector<const XmlElement*>& all, Rea
     if (found == nullptr) {
       found = one;
     } else {
-      card.add("second-element",
-               at_line(one->place(), "a second viscoelastic <material>; keep one, or choose one by --material-name"));
+      card.add(
+          "second-element",
+          at_line(one->place(),
+                  "a second viscoelastic <material>; keep one, or choose one by --material-name"));
     }
   }
   if (found != nullptr) return *found;

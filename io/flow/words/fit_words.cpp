@@ -206,7 +206,8 @@ TableChoice table_choice(const FitWords& words) {
 SpecimenSize specimen_size(const FitWords& words) {
   SpecimenSize size;
   size.gauge_length_m =
-      quantity(words, &FitWords::gauge_length, "gauge-length", quantities::kThickness).value_or(0.0);
+      quantity(words, &FitWords::gauge_length, "gauge-length", quantities::kThickness)
+          .value_or(0.0);
   size.area_m2 = quantity(words, &FitWords::area, "area", "m2").value_or(0.0);
   if (words.gauge_length && !(size.gauge_length_m > 0.0)) {
     throw OptionError("--gauge-length must be positive, such as \"25 mm\"");

@@ -12,7 +12,7 @@ from ._check import shown
 from ._error import Error
 from ._plot import plot_pressures
 from ._scene import _with_scene
-from ._types import Numbers, OptionalPath, Scene
+from ._types import Booleans, Floats, Numbers, OptionalPath, Scene
 
 
 def _bare(scene: Any) -> Any:
@@ -23,7 +23,7 @@ def _bare(scene: Any) -> Any:
     return {**kept, "analysis": {"kind": "static", "load": {"pressure": "1 Pa", "on": "top"}}}
 
 
-def _frames(voltages: Any) -> np.ndarray:
+def _frames(voltages: Any) -> Floats:
     values = _arrays.numbers(voltages, "voltages")
     if np.isinf(values).any():
         raise Error("voltages hold infinite values; write NaN where an electrode is dead", "input")
@@ -63,26 +63,28 @@ class Pressures:
     'discrepancy'
     """
 
-    def __init__(self, loads: np.ndarray, half_widths: np.ndarray, facts: Dict[str, Any], is_single: bool) -> None:
-        def of(values: np.ndarray, load: int) -> Optional[np.ndarray]:
-            if load >= values.shape[-1]:
-                return None
+    def __init__(self, loads: Floats, half_widths: Floats, facts: Dict[str, Any], is_single: bool) -> None:
+        def one(values: Floats, load: int) -> Floats:
             return values[0, ..., load] if is_single else values[..., load]
 
-        self.pressure_Pa, self.pressure_half_width_Pa = of(loads, 0), of(half_widths, 0)
+        def of(values: Floats, load: int) -> Optional[Floats]:
+            return one(values, load) if load < values.shape[-1] else None
+
+        self.pressure_Pa, self.pressure_half_width_Pa = one(loads, 0), one(half_widths, 0)
         self.shear_x_Pa, self.shear_x_half_width_Pa = of(loads, 1), of(half_widths, 1)
         self.shear_y_Pa, self.shear_y_half_width_Pa = of(loads, 2), of(half_widths, 2)
-        self.is_resolved: np.ndarray = facts["is_resolved"][..., 0]
-        self.resolution_m: np.ndarray = facts["resolution_m"][..., 0]
-        self.own_share: np.ndarray = facts["own_share"][..., 0]
+        self.is_resolved: Booleans = facts["is_resolved"][..., 0]
+        self.resolution_m: Floats = facts["resolution_m"][..., 0]
+        self.own_share: Floats = facts["own_share"][..., 0]
         self.condition: float = facts["condition"]
         self.regularisation: Dict[str, Any] = dict(facts["regularisation"])
         self.notes: List[str] = _notes(facts)
 
     @property
-    def is_below_noise(self) -> np.ndarray:
+    def is_below_noise(self) -> Booleans:
         """Whether the interval of a pressure holds 0."""
-        return np.abs(self.pressure_Pa) <= self.pressure_half_width_Pa
+        below: Booleans = np.abs(self.pressure_Pa) <= self.pressure_half_width_Pa
+        return below
 
     @_check.arguments
     def plot(self, frame: int = 0, ax: Any = None) -> Any:

@@ -21,8 +21,9 @@ namespace viscard {
 template <typename Scalar>
 class BlockFactor {
  public:
-  using Vector = Eigen::Vector<Scalar, Eigen::Dynamic>;
-  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Vector<Scalar, Eigen::Dynamic>;  // of unknowns
+  using Matrix =
+      Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;  // a column for each right-hand side
 
   // Chooses the order and the blocks from the pattern of the lower triangle.
   void analyse(const Eigen::SparseMatrix<double>& lower);
@@ -61,7 +62,7 @@ class BlockFactor {
   Vector pivots_;
 };
 
-using SupernodalFactor = BlockFactor<double>;
-using ComplexSupernodalFactor = BlockFactor<std::complex<double>>;
+using SupernodalFactor = BlockFactor<double>;                       // of statics and modes
+using ComplexSupernodalFactor = BlockFactor<std::complex<double>>;  // of single frequencies
 
 }  // namespace viscard

@@ -38,7 +38,7 @@ Eigen::VectorXd bulk_times(const ViscoelasticSystem& system, const Eigen::Vector
 SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_factor,
                              double bulk_factor);
 // Its product, with the bulk part of a source of pressures, where the entries keep too few digits; else
-// empty. The system must outlive it.
+// empty. shear_factor, bulk_factor: plain numbers, as in stiffness_at(). The system must outlive it.
 StiffnessFactor::Product product_at(const ViscoelasticSystem& system, double shear_factor,
                                     double bulk_factor);
 

@@ -72,7 +72,7 @@ TEST_CASE("a table of no known test is shown with the reason, and not refused", 
   CHECK(run_command({"fit", (scratch / "none.csv").string(), "--show-table"}).status == kFailed);
 }
 
-TEST_CASE("--curves adds data and fit to the object, as --csv writes them", "[cli][fit]") {
+TEST_CASE("fit --curves adds data and fit to the object, as --csv writes them", "[cli][fit]") {
   const std::string file = VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv";
   const json plain = json::parse(run_command({"fit", file, "--json"}).out);
   const json with = json::parse(run_command({"fit", file, "--json", "--curves"}).out);

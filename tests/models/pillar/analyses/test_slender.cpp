@@ -72,9 +72,9 @@ TEST_CASE("modes and buckling of pillars of 200 and 400 diameters are a beam's t
     scene.drive = BucklingDrive{.plate_on_top = has_plate};
     const SceneResult load = simulate_pillar(scene).results.front();
     const TopEnd end = has_plate ? TopEnd::kSlides : TopEnd::kFree;
-    CAPTURE(load.value, euler_pressure_Pa(scene, end));
+    CAPTURE(load.value, engesser_pressure_Pa(scene, end));
     CHECK(load.error_estimate <= 1e-4 * load.value);
-    CHECK(load.value == Approx(euler_pressure_Pa(scene, end)).epsilon(5e-5 + 2.0 * of_foot));
+    CHECK(load.value == Approx(engesser_pressure_Pa(scene, end)).epsilon(5e-5 + 2.0 * of_foot));
   }
 }
 
