@@ -371,7 +371,6 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
   RubberCheck check{.read = read_rubber_card(text, options.target, options.units)};
   check.findings = check.read.findings;
   check.tolerance = options.tolerance.value_or(1e-6);
-  if (const auto soft = soft_volume(text, check.read)) check.findings.push_back(*soft);
   const RubberParts found{check.read.law, check.read.terms, check.read.bulk_Pa,
                           check.read.density_kg_m3, check.read.poisson};
   if (file != nullptr) {
@@ -398,6 +397,8 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
     const auto differ = header_findings(text, found, expected);
     check.findings.insert(check.findings.end(), differ.begin(), differ.end());
   }
+  // Behind what may explain it.
+  if (const auto soft = soft_volume(text, check.read)) check.findings.push_back(*soft);
   const std::string stated = stated_card_sum(text);
   if (check.findings.empty() && !stated.empty() && stated != card_sum(text)) {
     check.findings.push_back({"card-edited",
