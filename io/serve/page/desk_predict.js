@@ -45,7 +45,8 @@ function draw() {
   if (!curve) return;
   const names = Object.keys(curve), argument = names[0];
   const isBand = (name) => /_(low|high)_95$/.test(name);
-  const shown = names.slice(1).filter((name) => name !== "inside_window");
+  // The band first, so that the prediction lies on it.
+  const shown = names.slice(1).filter((name) => name !== "inside_window").sort((a, b) => isBand(b) - isBand(a));
   const logs = () => ({ x: element("predict-log-x").checked, y: element("predict-log-y").checked });
   const main = shown.filter((name) => !isBand(name));
   const largest = shown.flatMap((name) => curve[name]).reduce((most, y) => Math.max(most, Math.abs(y ?? 0)), 0);
