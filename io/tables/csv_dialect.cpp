@@ -248,10 +248,12 @@ Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& n
   std::vector<std::string_view> cells;
   for (const TextLine& line : sample) {
     split_cells(line, dialect.separator, cells);
+    bool has_group = false, has_point_number = false;  // in this line
     for (const std::string_view cell : cells) {
       const bool has_comma = cell.find(',') != std::string_view::npos;
       const bool has_point = cell.find('.') != std::string_view::npos;
       if (has_comma && has_groups_of_three(cell)) {
+        has_group = true;
         if (grouped == nullptr) {
           grouped = &line;
           example = std::string(cell);
@@ -260,11 +262,15 @@ Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& n
       } else if (has_comma && number_from_cell(cell, {dialect.separator, true, false})) {
         with_comma = &line;
       }
-      if (has_point && number_from_cell(cell, {dialect.separator, false, true})) with_point = &line;
+      if (has_point && number_from_cell(cell, {dialect.separator, false, true})) {
+        with_point = &line;
+        has_point_number = true;
+      }
     }
+    // A point in the same row; one in a note above would say nothing of the rows.
+    is_certain = is_certain || (has_group && has_point_number);
   }
-  const bool has_thousands =
-      grouped != nullptr && with_comma == nullptr && (is_certain || with_point != nullptr);
+  const bool has_thousands = grouped != nullptr && with_comma == nullptr && is_certain;
   if (grouped != nullptr && !has_thousands) {
     // Where commas separate the cells, nothing else than the quotes says what the comma in "1,498" is.
     if (with_comma == nullptr && with_point == nullptr && dialect.separator == ',') {

@@ -5,8 +5,7 @@
 #include "io/capture/capture_check.h"
 #include "io/capture/capture_export.h"
 #include "io/capture/capture_file.h"
-
-#include <unistd.h>
+#include "tests/fuzz/fuzz_folder.h"
 
 #include <cstdint>
 #include <cstdlib>
@@ -17,15 +16,6 @@ namespace {
 
 using namespace viscard;
 
-std::filesystem::path folder() {
-  static const std::filesystem::path path = [] {
-    std::string name = (std::filesystem::temp_directory_path() / "viscard-fuzz-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) std::abort();
-    return std::filesystem::path(name);
-  }();
-  return path;
-}
-
 const std::string& whole_capture() {
   static const std::string bytes = [] {
     CapturedRun about;
@@ -35,7 +25,7 @@ const std::string& whole_capture() {
     about.specimen.id = "fuzz";
     about.specimen.modulus_guess_Pa = 1e6;
     about.specimen.contact.punch_radius_m = 2e-3;
-    const auto path = folder() / "whole.viscap";
+    const auto path = fuzz_folder() / "whole.viscap";
     CaptureWriter writer(path, about);
     for (int i = 0; i < 300; ++i) writer.append(LoadSample{.index = i, .counts = 1.0 * i});
     writer.append(RawBytes{Device::kStage, false, 0.0, std::string(9000, 'x')});
@@ -60,7 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     if (data[0] % 4 == 0) bytes.resize(bytes.size() * data[0] / 256);
   }
-  const auto path = folder() / "fuzz.viscap";
+  const auto path = fuzz_folder() / "fuzz.viscap";
   write_file(path, bytes, true);
   try {
     (void)csv_from_capture(read_capture(path));

@@ -13,8 +13,8 @@
 #include "io/materials/material_file.h"
 #include "io/scenes/pillar_positions.h"
 #include "io/tables/csv_table.h"
+#include "tests/fuzz/fuzz_folder.h"
 
-#include <unistd.h>
 #include <zip.h>
 
 #include <array>
@@ -29,15 +29,6 @@
 namespace {
 
 using namespace viscard;
-
-std::filesystem::path folder() {
-  static const std::filesystem::path path = [] {
-    std::string name = (std::filesystem::temp_directory_path() / "viscard-fuzz-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) std::abort();
-    return std::filesystem::path(name);
-  }();
-  return path;
-}
 
 // A workbook of one sheet; replaced names the part that holds bytes instead of what belongs there.
 void write_workbook(const std::filesystem::path& path, std::size_t replaced,
@@ -76,19 +67,19 @@ std::string overwritten(std::string whole, const std::string& bytes) {
 const Study& study() {
   static const Study one = [] {
     std::filesystem::copy_file(VISCARD_FUZZ_DATA "/scenes/pillar_press.toml",
-                               folder() / "scene.toml");
-    write_file(folder() / "study.toml",
+                               fuzz_folder() / "scene.toml");
+    write_file(fuzz_folder() / "study.toml",
                "scene = \"scene.toml\"\n[[parameter]]\nkey = \"geometry.diameter\"\nvalues = [\"20 "
                "um\", \"30 um\"]\n",
                true);
-    return read_study(folder() / "study.toml");
+    return read_study(fuzz_folder() / "study.toml");
   }();
   return one;
 }
 
 const std::string& whole_store() {
   static const std::string bytes = [] {
-    const auto path = folder() / "whole.sqlite";
+    const auto path = fuzz_folder() / "whole.sqlite";
     {
       StudyStore store(path, study());
       store.add(StudyPoint{.point = 0,
@@ -103,7 +94,7 @@ const std::string& whole_store() {
 }
 
 void read_store(const std::string& bytes) {
-  const auto path = folder() / "fuzz.sqlite";
+  const auto path = fuzz_folder() / "fuzz.sqlite";
   write_file(path, overwritten(whole_store(), bytes), true);
   StudyStore store(path, study());
   (void)store.done();
@@ -118,8 +109,8 @@ struct Kind {
 template <class Read>
 std::function<void(const std::string&)> as_file(const char* name, Read read) {
   return [name, read](const std::string& bytes) {
-    write_file(folder() / name, bytes, true);
-    (void)read(folder() / name);
+    write_file(fuzz_folder() / name, bytes, true);
+    (void)read(fuzz_folder() / name);
   };
 }
 
@@ -127,10 +118,10 @@ const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
       {"workbook",
        [](const std::string& bytes) {
-         write_workbook(folder() / "fuzz.xlsx",
+         write_workbook(fuzz_folder() / "fuzz.xlsx",
                         bytes.empty() ? 0 : static_cast<std::uint8_t>(bytes[0]),
                         bytes.substr(bytes.empty() ? 0 : 1));
-         (void)read_csv(folder() / "fuzz.xlsx");
+         (void)read_csv(fuzz_folder() / "fuzz.xlsx");
        }},
       {"npy", as_file("fuzz.npy", [](const auto& path) { return read_csv(path); })},
       {"mat", as_file("fuzz.mat", [](const auto& path) { return read_csv(path); })},
@@ -151,8 +142,8 @@ const std::vector<Kind>& kinds() {
        [](const std::string& bytes) {
          static const std::string whole =
              read_file(VISCARD_FUZZ_DATA "/materials/pdms_1to10_seed.json");
-         write_file(folder() / "fuzz.json", overwritten(whole, bytes), true);
-         (void)read_material(folder() / "fuzz.json");
+         write_file(fuzz_folder() / "fuzz.json", overwritten(whole, bytes), true);
+         (void)read_material(fuzz_folder() / "fuzz.json");
        }},
   };
   return all;

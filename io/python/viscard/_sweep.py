@@ -139,7 +139,7 @@ def _study_file(study: Scene, over: Optional[HasValues]) -> Iterator[str]:
     with tempfile.TemporaryDirectory(prefix="viscard-") as own:
         scene_file = os.path.abspath(study) if not isinstance(study, Mapping) else "scene.toml"
         if isinstance(study, Mapping):
-            text = _scene_toml(study, own).replace(own + os.sep, "")  # the same text whatever the folder
+            text = _scene_toml(study, own).replace(own + os.sep, "")  # the same text in every folder
             with open(os.path.join(own, scene_file), "w", encoding="utf-8") as file:
                 file.write(text)
         name = os.path.join(own, "study.toml")

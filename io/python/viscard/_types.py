@@ -46,7 +46,7 @@ class HasValues(Protocol):
     def __getitem__(self, key: str, /) -> Union[HasArray, Sequence[float], Sequence[str]]: ...
 
 
-# Whatever holds a table: a path, arrays, a Table.
+# What holds a table: a path, arrays, a Table.
 TableLike = Union[str, os.PathLike[str], HasColumns]
 OptionalTable = Union[TableLike, None]
 Source = Union[TableLike, "Capture"]

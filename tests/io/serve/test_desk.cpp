@@ -276,7 +276,7 @@ TEST_CASE("what was chosen is kept beside the table, for the desk and for the co
   CHECK(read_file(desk.folder() / "a b.csv.options") == "mine\n");
 }
 
-TEST_CASE("a wrong option is told with the table, so that it can be changed", "[serve][desk]") {
+TEST_CASE("a wrong option is reported beside the table, so that it can be changed", "[serve][desk]") {
   ServedDesk desk;
   desk.drop("a.csv", ServedDesk::example());
   const Json options = {{"column", {"modulus_Pa=nothing"}}};

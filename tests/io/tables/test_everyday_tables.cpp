@@ -336,6 +336,11 @@ TEST_CASE("numbers with thousands, quoted decimal commas and Fortran's exponents
   CHECK(column_SI(read("t E\n0 1.4989965D+06\n1 9.98d2\n"), "modulus_Pa") == expected);
   CHECK(column_SI(read("t,E\n\"0,1\",\"1,25\"\n\"1,2\",\"1,5\"\n"), "modulus_Pa") ==
         Numbers{1.25, 1.5});
+  CHECK(column_SI(read("t,E\n0.5,\"1,498\"\n1.5,\"1,500\"\n"), "modulus_Pa") ==
+        Numbers{1498.0, 1500.0});
+  // A point in a note does not make thousands of decimal commas.
+  CHECK(contains(error_text([] { read("Version;3.5\nt;E\n1,000;1,498\n2,000;1,500\n"); }),
+                 "use the same decimal sign"));
   // A note with a comma does not change the decimal sign of the table.
   CHECK(column_SI(read("Rate,\"1,5\"\nt,E\n0.5,2.5\n1.5,3.5\n"), "modulus_Pa") ==
         Numbers{2.5, 3.5});

@@ -246,7 +246,7 @@ TEST_CASE("a shear that nobody measures widens the intervals of its neighbours",
     return half[40];
   };
   // 3.02 % of a neighbour's shear along x and 1.42 % along y read as pressure, from both sides; the diagonal ones
-  // .23 %, and what the others add is below .1 %.
+  // 0.23 %, and what the others add is below 0.1 %.
   const double of_shear =
       1.959964 * 1000.0 *
       std::sqrt(2.0 * (0.0302 * 0.0302 + 0.0142 * 0.0142) + 4.0 * 0.0023 * 0.0023);
