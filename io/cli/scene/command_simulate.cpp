@@ -89,14 +89,21 @@ std::string stem_of(const std::string& path) {
   return std::filesystem::path(path).stem().string();
 }
 
-// Answers the other scene, to its own tolerance unless the command states one, and draws both.
-void compare_with(const SimulateWords& words, const SceneFile& file, Plausible judged,
-                  const SweepOutput& output, ShownAnswer& shown, Streams& streams) {
+// The scene of --compare, if there is one, before any work: to its own tolerance unless the command states one.
+std::optional<SceneFile> other_scene(const SimulateWords& words, const SceneFile& file,
+                                     Plausible judged) {
+  if (!words.compare) return std::nullopt;
   SceneFile other = read_scene(*words.compare, judged);
-  streams.accepts_implausible |= other.accepts_implausible;
   if (!file.sweep.is_empty() || !other.sweep.is_empty())
     throw UsageError("--compare is for single answers; omit [sweep] in both scenes");
   apply_tolerance(words.tolerance, other.scene);
+  return other;
+}
+
+// Answers the other scene and draws both.
+void compare_with(const SimulateWords& words, const SceneFile& file, SceneFile& other,
+                  const SweepOutput& output, ShownAnswer& shown, Streams& streams) {
+  streams.accepts_implausible |= other.accepts_implausible;
   SceneAnswer answer = answer_of(other.scene, *words.compare, streams);
   keep_wanted(common(other.scene).wanted, answer);
   shown.compared =
@@ -154,6 +161,8 @@ int run_simulate(const Words& words, Streams& streams) {
   SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
   streams.accepts_implausible |= file.accepts_implausible;
   apply_tolerance(asked.tolerance, file.scene);
+  std::optional<SceneFile> other =
+      other_scene(asked, file, given_plausible(syntax, Plausible::kScene));
   const bool is_sweep = !file.sweep.is_empty();
   const std::string folder = asked.out.value_or("");
   const SweepOutput output{folder, quoted_command_line("simulate", words), asked.overwrite};
@@ -165,8 +174,7 @@ int run_simulate(const Words& words, Streams& streams) {
   if (file.accepts_implausible) answer.notes.emplace_back(kPlausibleOffText);
   shown.printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
-  if (asked.compare)
-    compare_with(asked, file, given_plausible(syntax, Plausible::kScene), output, shown, streams);
+  if (other) compare_with(asked, file, *other, output, shown, streams);
   shown.uncertainty = uncertainty_of(asked, file, answer, streams);
   if (!folder.empty()) {
     shown.command = output.command;
