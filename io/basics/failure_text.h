@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -15,6 +17,14 @@ inline std::string failure_text(const std::exception& error, const std::string& 
   if (!is_memory) return error.what();
   return "memory does not suffice for " + task +
          "; check sizes and their units, or ask for less accuracy, fewer points or fewer terms";
+}
+
+// Throws std::bad_alloc if so much memory is not to be had now. Ask it before a call of a library that ends the
+// process when memory ends within it (UDUNITS asserts, scanners made by flex exit).
+inline void require_spare_memory(std::size_t size_B) {
+  void* const spare = std::malloc(size_B);
+  if (spare == nullptr) throw std::bad_alloc();
+  std::free(spare);
 }
 
 }  // namespace viscard

@@ -80,10 +80,12 @@ bool is_recording_inputs() {
   return !recorders().empty();
 }
 
-std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded) {
+std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded,
+                             const std::string& table) {
   nlohmann::ordered_json json = {{"schema", "viscard-inputs/1"},
                                  {"created_by", "viscard " VISCARD_VERSION},
                                  {"is_recorded", is_recorded},
+                                 {"table_sha256", sha256_of_text(table)},
                                  {"files", nlohmann::ordered_json::array()}};
   for (const InputFile& file : files) {
     json["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});

@@ -41,8 +41,10 @@ void record_input(const std::filesystem::path& path, const std::string& contents
 // Whether there is any recorder.
 bool is_recording_inputs();
 
-// The object {"schema": "viscard-inputs/1", "created_by", "is_recorded", "files": [{"path", "sha256"}]}
-// that lies beside a table. is_recorded false: of some rows the inputs are not known.
-std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded);
+// The object {"schema": "viscard-inputs/1", "created_by", "is_recorded", "table_sha256", "files": [{"path",
+// "sha256"}]} that lies beside a table. is_recorded false: of some rows the inputs are not known. The sum of
+// the table shows which table it belongs to.
+std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded,
+                             const std::string& table);
 
 }  // namespace viscard

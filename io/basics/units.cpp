@@ -1,5 +1,6 @@
 #include "io/basics/units.h"
 
+#include "io/basics/failure_text.h"
 #include "models/maths/text_of_number.h"
 
 #include <locale.h>
@@ -7,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -42,18 +45,28 @@ class UnitsGuard {
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
+// UDUNITS ends the process if memory ends within it.
+constexpr std::size_t kDatabase_B = std::size_t{4} << 20;
+constexpr std::size_t kParse_B = std::size_t{64} << 10;
+
 // The database, read once (about 5 ms) for the first unit. Call it while holding a UnitsGuard.
 ut_system* unit_system() {
-  static const std::unique_ptr<ut_system, decltype(&ut_free_system)> system = [] {
+  using System = std::unique_ptr<ut_system, decltype(&ut_free_system)>;
+  static const System system = [] {
+    require_spare_memory(kDatabase_B);
     ut_set_error_message_handler(&ut_ignore);
-    return std::unique_ptr<ut_system, decltype(&ut_free_system)>(ut_read_xml(nullptr),
-                                                                 &ut_free_system);
+    errno = 0;
+    System read(ut_read_xml(nullptr), &ut_free_system);
+    if (read) return read;
+    const bool is_missing = errno == 0 || errno == ENOENT;
+    const std::string reason = is_missing ? "" : std::string(" (") + std::strerror(errno) + ")";
+    throw std::runtime_error("the UDUNITS database cannot be read" + reason +
+                             (is_missing || errno == EACCES
+                                  ? "; install the package libudunits2-data (or set "
+                                    "UDUNITS2_XML_PATH to its udunits2.xml)"
+                                  : "; the machine, and not the file, stands in the way: close "
+                                    "other programs or raise the limit, and try again"));
   }();
-  if (!system) {
-    throw std::runtime_error(
-        "the UDUNITS database cannot be read; install the package libudunits2-data (or set "
-        "UDUNITS2_XML_PATH to its udunits2.xml)");
-  }
   return system.get();
 }
 
@@ -141,6 +154,7 @@ bool is_no_unit(std::string_view text) {
 Unit parse(std::string_view text, bool is_temperature) {
   if (text.find('\0') != std::string_view::npos || text.size() > 100) return {nullptr, &ut_free};
   const std::string words = with_known_words(text, is_temperature);
+  require_spare_memory(kParse_B);
   return {ut_parse(unit_system(), words.c_str(), UT_UTF8), &ut_free};
 }
 

@@ -1,3 +1,4 @@
+#include "io/basics/failure_text.h"
 #include "io/cli/command.h"
 #include "io/cli/words/terminal.h"
 #include "models/maths/kept_memory.h"
@@ -5,9 +6,22 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <iostream>
+#include <new>
+
+// The least memory that any command needs.
+constexpr std::size_t kLeast_B = std::size_t{8} << 20;
 
 int main(int argc, char** argv) {
+  try {
+    viscard::require_spare_memory(kLeast_B);
+  } catch (const std::bad_alloc&) {
+    std::fputs(
+        "viscard: memory does not suffice to start; close other programs or raise the limit\n",
+        stderr);
+    return viscard::kFailed;
+  }
   viscard::keep_freed_memory();
   ::signal(SIGXFSZ,
            SIG_IGN);  // writes beyond a file size limit then fail like writes to a full disk

@@ -167,9 +167,10 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
         program.run({study, shard, store, [&](double done) { progress.show(done, ""); }, judged});
   }
   if (asked.csv) {
-    write_file(*asked.csv, csv_from_study(store, study), asked.overwrite);
+    const std::string table = csv_from_study(store, study);
     write_file(*asked.csv + ".inputs.json",
-               json_from_inputs(study.inputs, store.has_recorded_inputs()), asked.overwrite);
+               json_from_inputs(study.inputs, store.has_recorded_inputs(), table), asked.overwrite);
+    write_file(*asked.csv, table, asked.overwrite);
   }
   const auto n_done = static_cast<std::int64_t>(store.done().size());
   const JsonHead head{"viscard-sweep/1", {path}};

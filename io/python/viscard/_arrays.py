@@ -31,12 +31,20 @@ def whole(value: Any, name: str, least: int, most: int = 2**31 - 1) -> Optional[
     return number
 
 
+def _as_float(value: Any) -> float:
+    """Infinite for a whole number beyond the range of float."""
+    try:
+        return float(value)
+    except OverflowError:
+        return float("inf")
+
+
 def number(value: Any, name: str) -> float:
     """A finite number."""
     if not is_number(value):
         raise TypeError(f"{name} must be a number, not {shown(value)}")
-    if not np.isfinite(float(value)):
-        raise Error(f"{name} is {value}; it must be a finite number", "input")
+    if not np.isfinite(_as_float(value)):
+        raise Error(f"{name} is {shown(value)}; it must be a finite number", "input")
     return float(value)
 
 
@@ -59,7 +67,7 @@ def _with_gaps(values: Any) -> Any:
     array = np.asarray(values)
     if array.dtype.kind != "O" or not all(_is_missing(one) or is_number(one) for one in array.flat):
         return array
-    return np.array([np.nan if _is_missing(one) else float(one) for one in array.flat]).reshape(array.shape)
+    return np.array([np.nan if _is_missing(one) else _as_float(one) for one in array.flat]).reshape(array.shape)
 
 
 def numbers(values: Any, name: str, shape: Optional[Tuple[int, ...]] = None) -> Floats:

@@ -101,6 +101,17 @@ def value(name: str, given: Any, hint: Any) -> None:
             raise Error(f"{name} is {shown(number)}; it must be a finite number", "usage")
 
 
+def texts(name: str, given: Any) -> None:
+    """Raises Error for a text or a path that no file and no message can hold: with a NUL, or not to be written in UTF-8."""
+    if isinstance(given, (list, tuple)):
+        for one in given:
+            texts(name, one)
+    elif isinstance(given, (str, os.PathLike)):
+        text = os.fspath(given)
+        if "\0" in text or any("\ud800" <= letter <= "\udfff" for letter in text):
+            raise Error(f"{name} is {shown(text)}; a text holds no NUL, and nothing that UTF-8 cannot write", "usage")
+
+
 def _no_such_keyword(function: str, name: str, known: "List[str]") -> str:
     import difflib  # only here, so that import viscard stays short
     near = difflib.get_close_matches(name, [one for one in known if one != "self"], 1)
@@ -157,6 +168,7 @@ def arguments(function: _Function) -> _Function:
         if unknown:
             raise TypeError(_no_such_keyword(function.__qualname__, unknown[0], positional))
         for name, one in [*zip(positional, given), *keywords.items()]:
+            texts(name, one)
             hint = hints().get(name if name in positional else str(others))
             if hint is not None:
                 value(name, one, hint)

@@ -212,3 +212,16 @@ def test_arrays_without_a_name_are_shown_the_dict():
         viscard.fit(EXAMPLE, "return")
     with pytest.raises(TypeError, match=r"a Capture or a list of these, not b'run.csv'"):
         viscard.fit(b"run.csv")
+
+
+@pytest.mark.parametrize("text", ["\0", "a\0b", "\ud800"])
+def test_text_that_no_file_and_no_message_can_hold_is_refused_with_its_keyword(text):
+    for call in (lambda: viscard.check_scene(text), lambda: viscard.read_table(text), lambda: viscard.fit(text),
+                 lambda: viscard.simulate(viscard.data_file("scenes/pillar_press.toml"), plausible=text)):
+        with pytest.raises(viscard.Error, match="holds no NUL"):
+            call()
+
+
+def test_a_whole_number_beyond_all_floats_is_no_number_of_a_row():
+    with pytest.raises(viscard.Error, match="only 2 of"):
+        viscard.fit({"time_s": [1.0, 2.0, 10**400], "modulus_Pa": [3e6, 2e6, 1e6]})

@@ -10,7 +10,8 @@ Each command runs in a folder of its own with inputs of all kinds, under one fau
   lost     an output of before is damaged, half an output has its name, or the command does not work afterwards
   silent   another answer, exit status 0 and no word
   crash    ended by a signal other than ours, or by an exception without words
---few takes three tries a fault and 40 flips a kind. Exit status 1 when anything is lost, silent or crashed.
+--few takes three tries a fault and 40 flips a kind; a command of more than two seconds gets a quarter of the tries.
+Exit status 1 when anything is lost, silent or crashed.
 """
 import argparse
 import collections
@@ -32,11 +33,12 @@ KINDS = ("clean", "noted", "refused", "lost", "silent", "crash")
 FEW = 3
 TIMED = ("cost",)  # commands that measure times
 
-Command = collections.namedtuple("Command", "name words outputs resume")
+Command = collections.namedtuple("Command", "name words outputs resume first", defaults=(None, None))
 
 
 def commands():
-    """Writing commands: words, the outputs that they name, and how a cut run goes on (none: the same words again)."""
+    """Writing commands: words, the outputs that they name, how a cut run goes on (none: the same words again), and what
+    runs once before them."""
     rows = [
         ("fit", "fit example_relaxation.csv --terms 2 --force --out out.json --csv out.csv", "out.json out.csv"),
         ("fit, picture", "fit creep.csv --terms 2 --force --svg out.svg", "out.svg"),
@@ -54,10 +56,14 @@ def commands():
         ("cost", "cost scenes/pillar_modal.toml --budget 1s --force --out out", "out/*"),
         ("report", "report material.json --reproducible --force --out out.html", "out.html"),
         ("export", "export run.viscap --force --out out.csv", "out.csv"),
+        ("design", "design --force --out out", "out/*"),
         ("sweep", "sweep studies/pillar.toml --force --out out.sqlite --csv out.csv", "out.csv"),
     ]
     for name, words, outputs in rows:
-        yield Command(name, words.split(), outputs.split(), None)
+        yield Command(name, words.split(), outputs.split())
+    if shutil.which("ccx"):
+        yield Command("card --prove", "card --prove proven.inp --force --out out.proof.json".split(), ["out.proof.json"],
+                      first="card material.json --for calculix --units mm-t-s --out proven.inp".split())
     capture = ("capture --emulate --speed 500 --seed 3 --rig rig.toml --test test.toml --specimen "
                "03_pdms_1to10.toml --out run2.viscap")
     yield Command("capture", capture.split(), ["run2.viscap"], "export run2.viscap --force --out out.csv".split())
@@ -81,6 +87,7 @@ class Result(collections.namedtuple("Result", "status out err")):
 class Study:
     def __init__(self, viscard, source, tries):
         self.viscard, self.source, self.tries = viscard, source, tries
+        self.least_B = self.least_memory()
         self.table = collections.defaultdict(collections.Counter)
         self.examples = []
 
@@ -99,6 +106,19 @@ class Study:
             out, err = process.communicate()
             status = -signal.SIGALRM
         return Result(status, out.decode(errors="replace"), err.decode(errors="replace"))
+
+    def least_memory(self):
+        """Address space in which the program starts at all: below it the loader of libraries fails, not the program."""
+        low, high = 1 << 20, 1 << 30
+        while high - low > 1 << 16:
+            middle = (low + high) // 2
+            starts = self.run(["help"], None, limiter(resource.RLIMIT_AS, middle)).status == 0
+            low, high = (low, middle) if starts else (middle, high)
+        return high
+
+    def memory_limit(self):
+        """Half of the limits lie just above what the program needs to start."""
+        return limiter(resource.RLIMIT_AS, self.least_B + random.randint(0, random.choice((6, 120)) << 20))
 
     def count(self, row, column, kind, detail=""):
         self.table[row][column, kind] += 1
@@ -176,8 +196,11 @@ class Study:
         started = time.monotonic()
         if command.resume:
             return self.try_capture(command, home, clean)
+        if command.first and self.run(command.first, clean).status != 0:
+            raise SystemExit(f"{' '.join(command.first)} fails without a fault")
         before, same = self.reference(command, clean)
         took_s = (time.monotonic() - started) / 2
+        tries = max(FEW, self.tries // 4) if took_s > 2 else self.tries
 
         def attempt(column, words=None, limit=None, act=None, prepare=None, ours=()):
             folder = home / "tried"
@@ -191,12 +214,12 @@ class Study:
             shutil.rmtree(folder)
 
         largest = max(len(content) for content in before.values())
-        for number in range(self.tries):
+        for number in range(tries):
             attempt("kill", act=killer(random.uniform(0, 1.1 * took_s)), ours=(signal.SIGKILL,))
             attempt("stop", act=killer(random.uniform(0, 1.1 * took_s), signal.SIGTERM), ours=(signal.SIGTERM,))
-            attempt("file size", limit=limiter(resource.RLIMIT_FSIZE, int(largest * number / self.tries)))
+            attempt("file size", limit=limiter(resource.RLIMIT_FSIZE, int(largest * number / tries)))
             attempt("descriptors", limit=limiter(resource.RLIMIT_NOFILE, 3 + number))
-            attempt("memory", limit=limiter(resource.RLIMIT_AS, random.randint(20, 200) << 20))
+            attempt("memory", limit=self.memory_limit())
             inputs = [word for word in command.words[1:] if (clean / word).is_file() and not word.startswith("out")]
             inputs += [word.split("=")[1] for word in command.words if "=" in word]
             gone = random.choice(inputs)
@@ -233,7 +256,7 @@ class Study:
             attempt("stop", act=killer(random.uniform(0, 1.1 * took_s), signal.SIGTERM), ours=(signal.SIGTERM,))
             attempt("file size", limit=limiter(resource.RLIMIT_FSIZE, int(size * number / self.tries)))
             attempt("descriptors", limit=limiter(resource.RLIMIT_NOFILE, 3 + number))
-            attempt("memory", limit=limiter(resource.RLIMIT_AS, random.randint(20, 200) << 20))
+            attempt("memory", limit=self.memory_limit())
         shutil.rmtree(clean)
 
     def try_full_disk(self, command, home):
@@ -242,6 +265,8 @@ class Study:
             return
         clean = home / "clean"
         make_folder(self.source, clean)
+        if command.first:
+            self.run(command.first, clean)
         before, same = self.reference(command, clean)
         used_kB = int(subprocess.run(["du", "-sk", clean], capture_output=True, text=True).stdout.split()[0])
         for number in range(self.tries):

@@ -271,6 +271,7 @@ TEST_CASE("the table of a sweep has the sums of its inputs beside it", "[cli][sc
   const auto json = nlohmann::json::parse(read_file(table + ".inputs.json"));
   CHECK(json["schema"] == "viscard-inputs/1");
   CHECK(json["is_recorded"] == true);
+  CHECK(json["table_sha256"] == sha256_of_file(table));
   std::map<std::string, std::string> sums;
   for (const auto& file : json["files"]) sums[file["path"]] = file["sha256"];
   CHECK(sums.size() == 4);
