@@ -1,5 +1,6 @@
 #include "fit/assembly/assemble_result.h"
 
+#include "fit/assembly/continuous_spectrum.h"
 #include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/flags.h"
 #include "fit/intervals/level_noise.h"
@@ -118,6 +119,17 @@ void add_profiles(const SpectralModel& model, const SpectralFit& fit,
   }
 }
 
+// Whether the coefficients and times of a state are those of the material.
+bool is_own_series(const SpectralModel& model, const SpectralFit& fit,
+                   const SeriesFromState& series_from_state) {
+  if (is_creep(model)) return false;
+  const PronySeries series = series_from_state(fit.state);
+  const bool has_equilibrium =
+      model.n_common() > 0 && model.common()[0].name.rfind("E_inf", 0) == 0;
+  return static_cast<Eigen::Index>(series.terms.size()) == fit.state.n_terms() &&
+         (!has_equilibrium || series.equilibrium_modulus_Pa == fit.state.coefficients[0]);
+}
+
 void take_level_noise(const SpectralModel& model, SpectralFit& fit) {
   const LevelNoise level = level_noise(model, fit.state, fit.noise.inflation());
   fit.row_scale = level.row_scale;
@@ -211,6 +223,9 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
           {.n_resamples = fit.options.n_bootstrap, .inflation = fit.noise.inflation()}, result);
     }
     carry_order_doubt(model, fit, series_from_state, result);
+    if (fit.options.with_spectrum && is_own_series(model, fit, series_from_state)) {
+      result.spectrum = continuous_spectrum(model, fit);
+    }
   }
   result.flags.insert(result.flags.end(), fit.notes.begin(), fit.notes.end());
   result.orders = fit.scores.rows;

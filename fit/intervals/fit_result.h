@@ -129,6 +129,18 @@ struct ProfileCurve {
   Interval interval_95;
 };
 
+// The relaxation spectrum H(tau) = dE/d ln tau without a number of terms (fit/assembly/continuous_spectrum.h).
+struct SpectrumRow {
+  double tau_s = 0.0;
+  double H_Pa = 0.0;  // mean over half a decade around tau
+  Interval H_95;
+};
+struct ContinuousSpectrum {
+  double from_s = 0.0, to_s = 0.0;  // the times that it covers
+  std::vector<SpectrumRow> rows;    // ascending tau
+  Interval E0_95, E_inf_95;         // what all spectra over these times allow
+};
+
 // One of several tests that were fitted together.
 struct FittedTest {
   std::string name;  // "relaxation", or "relaxation 2" if there are several
@@ -212,7 +224,9 @@ struct FitResult {
   // False: not converged, saturated, gap in the ramp ... (the flags name the cause).
   bool is_trustworthy = true;
   std::vector<ProfileCurve> profiles;  // if FitOptions::with_profiles
-  int n_bootstrap = 0;                 // resamples for the intervals; 0: from the covariance
+  // If FitOptions::with_spectrum, where the series is one of relaxation with times of its own.
+  std::optional<ContinuousSpectrum> spectrum;
+  int n_bootstrap = 0;  // resamples for the intervals; 0: from the covariance
   FitCurves curves;
   std::vector<FittedTest> tests;         // of kSeveral
   std::shared_ptr<const KeptRows> kept;  // if FitOptions::keep_rows

@@ -178,6 +178,21 @@ void show_keys(ResultVisitor& v, const ProfileCurve& profile) {
   v("interval_95", profile.interval_95, "the interval, [low, high]");
 }
 
+void show_keys(ResultVisitor& v, const ContinuousSpectrum& spectrum) {
+  v("from_s", spectrum.from_s, "shortest relaxation time of the spectrum");
+  v("to_s", spectrum.to_s, "longest one");
+  v("E0_interval_95", spectrum.E0_95,
+    "what all spectra over these times allow for E0, [low, high]");
+  v("E_inf_interval_95", spectrum.E_inf_95, "likewise for E_inf, [low, high]; 0 of a liquid");
+  v.list("rows", "H(tau) = dE/d ln tau, shortest time first", spectrum.rows,
+         [&](const SpectrumRow& row) {
+           v("tau_s", row.tau_s, "relaxation time");
+           v("H", row.H_Pa,
+             "mean of the smoothest spectrum over half a decade, in the unit of the modulus");
+           v("H_interval_95", row.H_95, "what all spectra allow for that mean, [low, high]");
+         });
+}
+
 void show_keys(ResultVisitor& v, const FittedLaw& law) {
   v("name", law.name, "its name");
   v("n_parameters", law.n_parameters, "their number");

@@ -27,6 +27,7 @@ void show_rig(ResultVisitor& v, const FitResult& fit);
 void show_keys(ResultVisitor& v, const FittedTest& test, const std::string& file);
 void show_keys(ResultVisitor& v, const FittedLaw& law);
 void show_keys(ResultVisitor& v, const ProfileCurve& profile);
+void show_keys(ResultVisitor& v, const ContinuousSpectrum& spectrum);
 void show_keys(ResultVisitor& v, const NoiseEstimate& noise);
 // Only for values in memory.
 void show_arrays(ResultVisitor& v, const FitResult& fit);

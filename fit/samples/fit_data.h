@@ -119,6 +119,7 @@ struct FitOptions {
   bool with_curves = true;                      // fill FitResult::curves
   // Profile likelihoods replace the intervals of E_inf and of the times.
   bool with_profiles = false;
+  bool with_spectrum = false;                           // fill FitResult::spectrum
   bool keep_rows = false;                               // fill FitResult::kept
   bool with_laws = false;                               // fill FitResult::laws
   VerticalShift vertical_shift = VerticalShift::kAuto;  // kAuto: if BIC prefers them clearly

@@ -64,6 +64,7 @@ void show_wanted(ResultVisitor& v, const FittedFile& fitted) {
   v.when(fit.n_bootstrap > 0, [&] { v("n_bootstrap", fit.n_bootstrap, "resamples"); });
   v.when(!fit.profiles.empty(),
          [&] { v("profiles", fit.profiles, "profile likelihoods, with --profiles"); });
+  v("spectrum", fit.spectrum, "the continuous relaxation spectrum, with --spectrum");
   v("shift", fitted.master, "the master curve of several temperatures");
   v("fractional_zener", fitted.fractional, "the fractional Zener model beside the series");
   v.when(!fit.laws.empty(),

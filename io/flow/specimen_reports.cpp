@@ -80,6 +80,7 @@ FittedFile fit_for_page(const std::string& path, const ReportRequest& wanted) {
   constexpr std::size_t kFewTerms = 6;
   FitRequest request;
   request.plausible = wanted.plausible;
+  request.options.with_spectrum = true;
   request.accepts_unverified = wanted.accepts_unverified;
   FittedFile fitted = fit_file(path, request);
   if (fitted.result.terms.size() > kFewTerms) return fitted;

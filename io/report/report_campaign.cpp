@@ -205,4 +205,39 @@ std::optional<Plot> profile_plot(const FitResult& fit) {
   return plot;
 }
 
+std::optional<PlotPanel> spectrum_panel(const FitResult& fit) {
+  if (!fit.spectrum || fit.spectrum->rows.empty()) return std::nullopt;
+  const std::vector<SpectrumRow>& rows = fit.spectrum->rows;
+  std::vector<double> high;
+  for (const SpectrumRow& row : rows) high.push_back(row.H_95.high);
+  std::vector<double> sorted = high;
+  std::sort(sorted.begin(), sorted.end());
+  const double largest = sorted.back();
+  // Spectra of glasses fall by decades.
+  constexpr double kDecades = 100.0, kFloor = 1e-3;
+  const bool is_log =
+      largest > kDecades * sorted[sorted.size() / 2] && sorted[sorted.size() / 4] > 0.0;
+  const ShownUnit unit = shown_unit(fit.is_stiffness ? "N/m" : "Pa", high);
+  PlotPanel panel;
+  panel.title = "Continuous spectrum";
+  panel.x = {.label = "relaxation time τ (s)", .is_log = true};
+  panel.y = {.label = fmt::format("H(τ) ({})", unit.text), .is_log = is_log};
+  if (!is_log) panel.y.min = 0.0;
+  PlotSeries band{.mark = Mark::kBand, .label = "95 %, all spectra", .ink = Ink::kSky};
+  PlotSeries line{.label = "smoothest spectrum", .ink = Ink::kBlue};
+  const double floor = is_log ? kFloor * sorted[sorted.size() / 2] : 0.0;
+  for (const SpectrumRow& row : rows) {
+    band.x.push_back(row.tau_s);
+    band.y_low.push_back(unit.per_si * std::max(row.H_95.low, floor));
+    band.y_high.push_back(unit.per_si * std::max(row.H_95.high, floor));
+    line.x.push_back(row.tau_s);
+    line.y.push_back(unit.per_si * std::max(row.H_Pa, floor));
+  }
+  panel.series = {band, line};
+  for (std::size_t i = 0; i < fit.terms.size(); ++i) {
+    panel.notes.push_back({fit.terms[i].tau_s, fmt::format("τ{}", i + 1)});
+  }
+  return panel;
+}
+
 }  // namespace viscard

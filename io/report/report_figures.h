@@ -83,4 +83,7 @@ void show_two_sigma(PlotPanel& panel);
 // panel each. Nothing if the fit has none.
 std::optional<Plot> profile_plot(const FitResult& fit);
 
+// The continuous spectrum with its band, and where the times of the series lie. Nothing if the fit has none.
+std::optional<PlotPanel> spectrum_panel(const FitResult& fit);
+
 }  // namespace viscard

@@ -256,6 +256,25 @@ void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEsti
             std::string(specimen.run ? " The times are those of specimen and frame in series."
                                      : ""));
   }
+  if (const auto spectrum = specimen.fit ? spectrum_panel(*specimen.fit) : std::nullopt) {
+    page.add_figure(
+        Plot{.title = "Continuous spectrum",
+             .description = "The smoothest relaxation spectrum that the data allow, with the band "
+                            "of all spectra.",
+             .panels = {*spectrum},
+             .height_px = 320},
+        "spectrum",
+        fmt::format("The relaxation spectrum H(τ) = dE/d ln τ without a number of terms: the "
+                    "smoothest one that the "
+                    "data allow, and the band of the mean over half a decade of all of them. "
+                    "Lines: the times of the "
+                    "series. Over these times, all spectra allow E0 from {:.5g} to {:.5g} {} and "
+                    "E∞ from {:.5g} to {:.5g} {}.",
+                    specimen.fit->spectrum->E0_95.low, specimen.fit->spectrum->E0_95.high,
+                    specimen.fit->is_stiffness ? "N/m" : "Pa", specimen.fit->spectrum->E_inf_95.low,
+                    specimen.fit->spectrum->E_inf_95.high,
+                    specimen.fit->is_stiffness ? "N/m" : "Pa"));
+  }
   if (has_orders) {
     page.add_table(
         orders_table(*specimen.fit),

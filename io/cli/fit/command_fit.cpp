@@ -234,7 +234,11 @@ void write_curves(const FitCommand& asked, const std::vector<FileOutcome>& outco
   }
   if (!asked.svg) return;
   const FittedFile& fitted = *outcomes.front().fitted;
-  const auto plot = fit_plot(fitted.result, fitted.master.has_value());
+  auto plot = fit_plot(fitted.result, fitted.master.has_value());
+  if (const auto spectrum = spectrum_panel(fitted.result); plot && spectrum) {
+    plot->panels.push_back(*spectrum);
+    plot->height_px += 300;
+  }
   if (!plot) throw std::runtime_error(fitted.path + ": has too few rows to draw");
   write_file(*asked.svg, svg_from_plot(*plot, "fit"), asked.overwrite);
 }

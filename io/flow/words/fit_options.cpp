@@ -44,6 +44,8 @@ void add_noise(OptionList& list, FitWords& words) {
   list.add("full-data", &words.full_data, "fit every sample instead of averages in log time");
   list.add("profiles", &words.profiles,
            "asymmetric intervals of E_inf and times from profile likelihoods");
+  list.add("spectrum", &words.spectrum,
+           "the continuous spectrum H(tau) beside the series, with what the data leave open");
   list.add("bootstrap", &words.bootstrap,
            "intervals from this many resamples of blocks of residuals");
 }

@@ -19,6 +19,7 @@ std::vector<Given> options_of_single_tests(const FitWords& words) {
           {"bound", !words.bound.empty()},
           {"constraints", words.constraints.has_value()},
           {"profiles", words.profiles},
+          {"spectrum", words.spectrum},
           {"bootstrap", words.bootstrap.has_value()},
           {"allow-negative", words.allow_negative},
           {"model", words.model.has_value()},

@@ -267,6 +267,25 @@ void print_moduli(const FittedFile& fitted, std::ostream& out) {
 }
 
 // Noise, drift and temperature of the record.
+void print_spectrum(const FittedFile& fitted, std::ostream& out) {
+  const ContinuousSpectrum& spectrum = *fitted.result.spectrum;
+  const Shown shown = shown_modulus(fitted);
+  const char* letter = fitted.has_no_depth ? "F" : fitted.result.is_stiffness ? "K" : "E";
+  out << fmt::format(
+      "\n  continuous spectrum over {:.3g} s to {:.3g} s; all of them allow {}0 {} {}",
+      spectrum.from_s, spectrum.to_s, letter, range(spectrum.E0_95, shown.factor, 6), shown.unit);
+  if (spectrum.E_inf_95.high > 0.0) {
+    out << fmt::format(", {}_inf {} {}", letter, range(spectrum.E_inf_95, shown.factor, 6),
+                       shown.unit);
+  }
+  out << fmt::format("\n  {:>12}   {:>12}   95 %, mean over half a decade\n", "tau (s)",
+                     "H (" + shown.unit + ")");
+  for (const SpectrumRow& row : spectrum.rows) {
+    out << fmt::format("  {:>12.4g}   {:>12.4g}   {}\n", row.tau_s, row.H_Pa * shown.factor,
+                       range(row.H_95, shown.factor, 4));
+  }
+}
+
 void print_conditions(const FittedFile& fitted, std::ostream& out) {
   const FitResult& fit = fitted.result;
   const std::string sigma_unit = fit.kind == FitKind::kDma ? "(relative)" : fitted.fitted_unit;
@@ -297,6 +316,7 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   if (fitted.fractional) print_fractional(*fitted.fractional, out);
   if (!fit.tests.empty()) print_tests(fitted, out);
   print_orders(fit, fitted.fitted_unit, out);
+  if (fit.spectrum) print_spectrum(fitted, out);
   if (!fit.laws.empty()) print_laws(fitted, out);
   if (!fit.flags.empty()) out << "\n";
   for (const MaterialFlag& flag : fit.flags) {

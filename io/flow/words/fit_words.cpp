@@ -102,6 +102,7 @@ FitOptions options_from(const FitWords& words) {
   if (words.drift) options.drift = TableDrift::kFitted;
   if (words.no_drift) options.drift = TableDrift::kNone;
   options.with_profiles = words.profiles;
+  options.with_spectrum = words.spectrum;
   if (words.bootstrap) {
     options.n_bootstrap = *words.bootstrap;
     constexpr int kFewest = 20;  // fewer give no 95 % percentiles

@@ -19,7 +19,7 @@ struct FitWords {
   Text kind, noise, model, constraints, vertical_shift;
   std::optional<int> terms, max_terms, bootstrap;
   bool liquid = false, solid = false, allow_negative = false, drift = false, no_drift = false;
-  bool full_data = false, profiles = false, diagnose = false;
+  bool full_data = false, profiles = false, spectrum = false, diagnose = false;
   std::vector<std::string> fix, bound;
   // What the data are.
   std::vector<std::string> column, segment;

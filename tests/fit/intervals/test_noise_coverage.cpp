@@ -60,6 +60,7 @@ std::vector<double> with_noise(std::vector<double> values, const Noise& noise,
 FitOptions without_curves() {
   FitOptions options;
   options.with_curves = false;
+  options.with_spectrum = true;
   return options;
 }
 
@@ -134,13 +135,16 @@ PronySeries glass() {
 struct Coverage {
   double E0 = 0.0, E_inf = 0.0, moduli = 0.0, times = 0.0, trusted = 0.0, width = 0.0;
   double pooled = 0.0;  // of all intervals
+  // Of the bounds over all spectra (continuous_spectrum.h); -1: the kind of test has none.
+  double E0_of_all = -1.0, E_inf_of_all = -1.0, width_of_all = 0.0;
 };
 
 Coverage coverage_of(const CoverageRow& row, int runs) {
   Coverage share;
   const double E0 = instantaneous_modulus_Pa(row.truth);
   double n_trusted = 0.0, n_same = 0.0;
-  std::vector<double> widths;
+  std::vector<double> widths, widths_of_all;
+  double n_spectra = 0.0, E0_of_all = 0.0, E_inf_of_all = 0.0;
   for (int run = 1; run <= runs; ++run) {
     std::mt19937_64 random(static_cast<std::uint64_t>(run));
     const FitResult fit = row.fit ? row.fit(row, random) : fit_of_relaxation(row, random);
@@ -151,6 +155,13 @@ Coverage coverage_of(const CoverageRow& row, int runs) {
     if (row.truth.equilibrium_modulus_Pa > 0.0)
       widths.push_back((fit.E_inf_interval_95.high - fit.E_inf_interval_95.low) /
                        row.truth.equilibrium_modulus_Pa);
+    if (fit.spectrum) {
+      n_spectra += 1.0;
+      E0_of_all += holds(fit.spectrum->E0_95, E0) ? 1.0 : 0.0;
+      E_inf_of_all += holds(fit.spectrum->E_inf_95, row.truth.equilibrium_modulus_Pa) ? 1.0 : 0.0;
+      widths_of_all.push_back((fit.spectrum->E_inf_95.high - fit.spectrum->E_inf_95.low) /
+                              std::max(row.truth.equilibrium_modulus_Pa, 1e-300));
+    }
     if (!row.with_terms || fit.terms.size() != row.truth.terms.size()) continue;
     n_same += static_cast<double>(fit.terms.size());
     for (std::size_t i = 0; i < fit.terms.size(); ++i) {
@@ -168,6 +179,12 @@ Coverage coverage_of(const CoverageRow& row, int runs) {
   share.times /= std::max(1.0, n_same);
   std::sort(widths.begin(), widths.end());
   share.width = widths.empty() ? 0.0 : widths[widths.size() / 2];
+  if (n_spectra > 0.0) {
+    share.E0_of_all = E0_of_all / n_spectra;
+    share.E_inf_of_all = E_inf_of_all / n_spectra;
+    std::sort(widths_of_all.begin(), widths_of_all.end());
+    share.width_of_all = widths_of_all[widths_of_all.size() / 2];
+  }
   return share;
 }
 
@@ -242,8 +259,10 @@ TEST_CASE("intervals of all kinds of test hold under absolute, proportional and 
   const char* const fewer = std::getenv("VISCARD_COVERAGE_RUNS");
   const int runs = fewer != nullptr ? std::max(1, std::atoi(fewer)) : 300;
   std::printf(
-      "| test and noise | E0 | E_inf | E_i | tau_i | pooled | trusted | width of E_inf |\n"
-      "|---|---|---|---|---|---|---|---|\n");
+      "| test and noise | E0 | E_inf | E_i | tau_i | pooled | trusted | width of E_inf | E0, all "
+      "spectra | "
+      "E_inf, all spectra | its width |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const CoverageRow& row : rows) {
     const Coverage share = coverage_of(row, runs);
     const bool is_solid = row.truth.equilibrium_modulus_Pa > 0.0;
@@ -252,8 +271,14 @@ TEST_CASE("intervals of all kinds of test hold under absolute, proportional and 
     if (row.with_terms) std::printf(" %.0f | %.0f |", 100.0 * share.moduli, 100.0 * share.times);
     if (!row.with_terms) std::printf(" - | - |");
     std::printf(" %.1f | %.0f |", 100.0 * share.pooled, 100.0 * share.trusted);
-    if (is_solid) std::printf(" %.3g %% |\n", 100.0 * share.width);
-    if (!is_solid) std::printf(" - |\n");
+    std::printf(" %s |", is_solid ? (text_of(100.0 * share.width, 3) + " %").c_str() : "-");
+    const bool has_spectra = share.E0_of_all >= 0.0;
+    std::printf(" %s |", has_spectra ? text_of(100.0 * share.E0_of_all, 3).c_str() : "-");
+    std::printf(" %s |",
+                has_spectra && is_solid ? text_of(100.0 * share.E_inf_of_all, 3).c_str() : "-");
+    std::printf(" %s |\n", has_spectra && is_solid
+                               ? (text_of(100.0 * share.width_of_all, 3) + " %").c_str()
+                               : "-");
     CAPTURE(row.name);
     CHECK(share.trusted >= 0.9);
     CHECK(share.pooled >= 0.92);
