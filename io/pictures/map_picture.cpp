@@ -21,18 +21,20 @@ constexpr int kColours = 129;   // of cells, which are drawn colour by colour; o
 
 // The values that the ends of the bar stand for.
 struct MapRange {
-  double low = 0.0, high = 0.0;
+  double low = 0.0, high = 0.0;  // low at the bottom of the bar
   bool is_signed = false;
-  double share(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
+  double share(double value) const { return high != low ? (value - low) / (high - low) : 0.5; }
 };
 MapRange map_range_of(const SceneMap& map) {
   const auto [low, high] = std::minmax_element(map.value.begin(), map.value.end());
   MapRange range{*low, *high};
-  // Both signs are shown if the smaller side is at least a tenth of the larger one.
-  constexpr double kMatters = 0.1;
+  // Both signs have colours of their own unless one of them is next to nothing.
+  constexpr double kNothing = 1e-3;
   const double size = largest_size(map.value);
-  range.is_signed = *low<-kMatters * size&& * high> kMatters * size;
+  range.is_signed = *low<-kNothing * size&& * high> kNothing * size;
   if (range.is_signed) range.low = -size, range.high = size;
+  // The lightest colour is that of the largest size, of either sign.
+  if (!range.is_signed && *high < kNothing * size) std::swap(range.low, range.high);
   return range;
 }
 
@@ -236,7 +238,8 @@ class MapDrawing {
   void draw_bar() {
     const BarUnit unit = bar_unit(map_.unit, largest_size(map_.value));
     std::vector<ColourTick> ticks;
-    for (const double tick : round_ticks(unit.per_si * range_.low, unit.per_si * range_.high)) {
+    for (const double tick : round_ticks(unit.per_si * std::min(range_.low, range_.high),
+                                         unit.per_si * std::max(range_.low, range_.high))) {
       ticks.push_back({range_.share(tick / unit.per_si), fmt::format("{:.6g}", tick)});
     }
     const double bar_px = kMapWidth_px - kMapRight_px + 40.0;

@@ -129,6 +129,22 @@ std::string scale_bar(const Range& range, const Shown& shown, double length_px) 
                      unit.text);
 }
 
+// The round length (1, 2 or 5 times a power of ten) that is a sixth to a third of the width as drawn.
+std::string length_bar(double scale_px_m, double width_m, double bottom_px) {
+  const double decade = std::pow(10.0, std::floor(std::log10(width_m / 3.0)));
+  double length_m = decade;
+  for (const double digit : {2.0, 5.0}) {
+    if (digit * decade <= width_m / 3.0) length_m = digit * decade;
+  }
+  const BarUnit unit = bar_unit("m", length_m * (1.0 + 1e-9));
+  const double right_px = kSectionWidth_px - 24.0, left_px = right_px - scale_px_m * length_m;
+  return fmt::format(
+      "<path d=\"M{0:.1f} {1:.1f}v6h{2:.1f}v-6\" fill=\"none\" stroke=\"#444\"/>\n"
+      "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#444\">{5:.3g} {6}</text>\n",
+      left_px, bottom_px - 10.0, scale_px_m * length_m, right_px, bottom_px - 14.0,
+      unit.per_si * length_m, unit.text);
+}
+
 std::string svg_of(const Shown& shown) {
   double low_x = HUGE_VAL, high_x = -HUGE_VAL, low_z = HUGE_VAL, high_z = -HUGE_VAL;
   for (const auto& quad : shown.quads) {
@@ -167,7 +183,8 @@ std::string svg_of(const Shown& shown) {
       "<text x=\"12\" y=\"24\" font-size=\"15\">{2}</text>\n{3}{4}"
       "<text x=\"12\" y=\"{5:.0f}\" fill=\"#444\">{6}</text>\n</svg>\n",
       kSectionWidth_px, height_px, escaped_markup(shown.title), body,
-      scale_bar(range, shown, bar_px), height_px - 14.0, escaped_markup(shown.note));
+      scale_bar(range, shown, bar_px) + length_bar(scale, high_x - low_x, height_px),
+      height_px - 14.0, escaped_markup(shown.note));
 }
 
 }  // namespace
@@ -187,12 +204,16 @@ double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t
   return field.value[point][0] * std::cos(grid.harmonic * theta);
 }
 
-std::vector<std::pair<std::string, std::string>> pictures_from_grid(const SectionGrid& grid) {
+std::vector<std::pair<std::string, std::string>> pictures_from_grid(
+    const SectionGrid& grid, const std::map<std::string, std::string>& captions) {
   std::vector<std::pair<std::string, std::string>> pictures;
   for (const SectionField& field : grid.fields) {
     const bool is_numbered = field.unit == "1";  // a mode, named after its family already
-    pictures.emplace_back(is_numbered ? field.name : grid.name + "_" + field.name,
-                          svg_of(shown_of(grid, field)));
+    Shown shown = shown_of(grid, field);
+    if (const auto caption = captions.find(field.name); caption != captions.end()) {
+      shown.title += ": " + caption->second;
+    }
+    pictures.emplace_back(is_numbered ? field.name : grid.name + "_" + field.name, svg_of(shown));
   }
   return pictures;
 }

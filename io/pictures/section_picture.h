@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +20,10 @@ double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t
 
 // Pictures of a solution in the section along the axis, name and SVG: of every displacement the
 // deformed body, coloured by its magnitude and exaggerated by a factor that the picture prints; of
-// every scalar the body coloured by it. A potential is drawn over the film alone.
-std::vector<std::pair<std::string, std::string>> pictures_from_grid(const SectionGrid& grid);
+// every scalar the body coloured by it. A potential is drawn over the film alone. A bar shows a length of the body.
+//   captions: words for fields by their name, such as the frequency of a mode
+std::vector<std::pair<std::string, std::string>> pictures_from_grid(
+    const SectionGrid& grid, const std::map<std::string, std::string>& captions = {});
 
 // A solution as an unstructured grid in VTK's XML format (.vtu, ASCII), which ParaView opens: a
 // round pillar as hexahedra turned about the axis, a strip as quadrilaterals of both halves.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <tuple>
 
@@ -191,6 +192,14 @@ void draw_touch(const SceneAnswer& answer, Pictures& pictures) {
 
 }  // namespace
 
+std::vector<double> unwrapped(std::vector<double> phase_rad) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  for (std::size_t i = 1; i < phase_rad.size(); ++i) {
+    phase_rad[i] -= kTurn * std::round((phase_rad[i] - phase_rad[i - 1]) / kTurn);
+  }
+  return phase_rad;
+}
+
 Pictures pictures_of(const SceneAnswer& answer) {
   Pictures pictures;
   for (const SceneCurve& curve : answer.curves) {
@@ -203,7 +212,9 @@ Pictures pictures_of(const SceneAnswer& answer) {
     const SceneCurve* phase = find(answer, stem + "_phase");
     if (phase != nullptr && curve.name.ends_with("_magnitude")) {
       plot.panels.front().shares_x_with_below = true;
-      plot.panels.push_back(panel_of(*phase));
+      SceneCurve steady = *phase;
+      steady.value = unwrapped(steady.value);
+      plot.panels.push_back(panel_of(steady));
       plot.height_px = 560;
     }
     if (!draw(curve.name, plot, "curve", pictures)) return {};

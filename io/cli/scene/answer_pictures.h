@@ -38,6 +38,9 @@ Pictures pictures_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoi
 // True if the largest magnitude is over 30 times the smallest that is not zero: a logarithmic axis.
 bool spans_decades(const std::vector<double>& values);
 
+// A phase in rad without the jumps of a whole turn that come from the range of an angle.
+std::vector<double> unwrapped(std::vector<double> phase_rad);
+
 // Draws a picture with this id in its SVG; false if gnuplot is not installed.
 bool draw(const std::string& name, const Plot& plot, const char* id, Pictures& pictures);
 

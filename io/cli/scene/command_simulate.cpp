@@ -14,12 +14,15 @@
 #include "io/pictures/row_picture.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/text_of_number.h"
 #include "models/scene/common/effect_estimate.h"
 #include "models/scene/simulate.h"
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <ostream>
+#include <string>
 
 namespace viscard {
 namespace {
@@ -32,16 +35,29 @@ SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   return simulate_file(scene, path);
 }
 
+// Words for the pictures of modes by the name of the mode, "lateral_2".
+std::map<std::string, std::string> captions_of(const SceneAnswer& answer, const std::string& path) {
+  const std::string scene = std::filesystem::path(path).stem().string();
+  std::map<std::string, std::string> captions;
+  std::map<std::string, int> number;
+  for (const SceneMode& mode : answer.modes) {
+    captions[mode.family + "_" + std::to_string(++number[mode.family])] =
+        text_with_error(mode.frequency_Hz, mode.error_estimate) + " Hz (" + scene + ")";
+  }
+  return captions;
+}
+
 // Pictures and ParaView files of the solution on the mesh that met the tolerance, and results over
 // the numbers of the pillars.
-void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutput& output,
-                 Streams& streams) {
+void write_looks(const Scene& scene, const SceneAnswer& answer, const std::string& path,
+                 const SweepOutput& output, Streams& streams) {
   Progress progress(streams, "simulate");
   progress.announce(1.0, "pictures");
   const std::filesystem::path in = output.folder;
   for (const SectionGrid& grid : solution_fields(scene, answer.discretisation)) {
     write_file(in / (grid.name + ".vtu"), vtu_from_grid(grid), output.overwrite);
-    write_pictures(pictures_from_grid(grid), output.folder, output.overwrite);
+    write_pictures(pictures_from_grid(grid, captions_of(answer, path)), output.folder,
+                   output.overwrite);
   }
   if (const RowShapes shapes = mode_shapes(scene, answer.discretisation); !shapes.modes.empty()) {
     write_file(in / "mode_shapes.csv", csv_of_shapes(shapes, answer.modes, output.command),
@@ -181,7 +197,7 @@ int run_simulate(const Words& words, Streams& streams) {
     shown.accepts_implausible = streams.accepts_implausible;
     write_files(shown, folder, output.overwrite);
     shown.command.clear();
-    if (!is_sweep) write_looks(file.scene, answer, output, streams);
+    if (!is_sweep) write_looks(file.scene, answer, path, output, streams);
     if (shown.uncertainty)
       write_uncertainty(*shown.uncertainty, folder, output.command, output.overwrite);
   }

@@ -266,3 +266,12 @@ TEST_CASE("a map has a disc for each pillar, or cells if there are many", "[io][
   CHECK(count_of(cells, "<path shape-rendering") == 2);  // one for each colour
   CHECK(count_of(cells, "M") == 30);                     // a run for each row
 }
+
+TEST_CASE("a drawn phase goes on beyond half a turn", "[io]") {
+  constexpr double kPi = 3.14159265358979;
+  const std::vector<double> steady = unwrapped({0.0, -3.0, 3.0, 2.0, -2.5, -3.1, 3.1});
+  const std::vector<double> expected{0.0,  -3.0, 3.0 - 2.0 * kPi, 2.0 - 2.0 * kPi,
+                                     -2.5, -3.1, 3.1 - 2.0 * kPi};
+  REQUIRE(steady.size() == expected.size());
+  for (std::size_t i = 0; i < steady.size(); ++i) CHECK(steady[i] == Approx(expected[i]));
+}

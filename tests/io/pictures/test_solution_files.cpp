@@ -196,9 +196,13 @@ TEST_CASE("every field has a picture with its name, scale and unit", "[pillar][i
   CHECK_THAT(pictures[1].second, Catch::Contains(">kPa</text>"));  // plain numbers beside the bar
   CHECK_THAT(pictures[2].second, Catch::Contains(">mV</text>"));
   CHECK_THAT(pictures[0].second, Catch::Contains("displacement drawn"));
+  const auto named = pictures_from_grid(grid, {{"potential_V", "under 1 mN"}});
+  CHECK_THAT(named[2].second, Catch::Contains(">static potential: under 1 mN</text>"));
   for (const auto& [name, svg] : pictures) {
     CHECK(svg.find("nan") == std::string::npos);
     CHECK(svg.find("<polygon") != std::string::npos);
+    CHECK_THAT(svg,
+               Catch::Matches("(.|\n)*text-anchor=\"end\" fill=\"#444\">[125]0* µm</text>(.|\n)*"));
   }
 }
 
