@@ -1,12 +1,15 @@
+#include "fit/samples/median.h"
 #include "io/flow/fit_table.h"
 #include "io/flow/plausible_record.h"
 #include "io/tables/column_names.h"
 #include "io/tables/column_proposal.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -52,6 +55,59 @@ void refuse_curve(const CsvTable& table, const FitRequest& request) {
       columns_with_values(table));
 }
 
+// Largest less smallest value, over the larger of both sizes.
+double relative_range(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) return 0.0;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return (*high - *low) / std::max(std::abs(*low), std::abs(*high));
+}
+
+// A sweep of the strain amplitude at one frequency has no relaxation times. What it shows is where the material stops
+// being linear: where the storage modulus has left its plateau by 5 % (Mezger, The Rheology Handbook, ch. 8.3).
+void refuse_strain_sweep(const CsvTable& table, const FitRequest& request) {
+  constexpr double kPlateau = 3.0, kAway = 0.05, kSweeps = 3.0, kSameFrequency = 0.01;
+  const auto column = [&](const char* name) {
+    return find_column(table, name, request.columns)
+               ? column_with_gaps_SI(table, name, request.columns)
+               : std::vector<double>{};
+  };
+  const std::vector<double> strain = column("strain"), storage = column("storage_modulus_Pa");
+  std::vector<std::pair<double, double>> rows;
+  for (std::size_t i = 0; i < std::min(strain.size(), storage.size()); ++i) {
+    if (strain[i] > 0.0 && storage[i] > 0.0) rows.emplace_back(strain[i], storage[i]);
+  }
+  constexpr std::size_t kFewest = 4;
+  if (rows.size() < kFewest || relative_range(column("frequency_Hz")) > kSameFrequency) return;
+  std::sort(rows.begin(), rows.end());
+  const double least = rows.front().first, most = rows.back().first;
+  if (most < kSweeps * least) return;
+  std::vector<double> plateau;
+  for (const auto& [at, value] : rows) {
+    if (at <= kPlateau * least || plateau.size() < kFewest / 2) plateau.push_back(value);
+  }
+  const double level_Pa = median(plateau);
+  const auto is_away = [&](const auto& row) {
+    return std::abs(row.second / level_Pa - 1.0) > kAway;
+  };
+  const auto last_near =
+      std::find_if_not(rows.rbegin(), rows.rend(), is_away).base();  // all from here on are away
+  const std::string unit =
+      " % (the storage modulus is within 5 % of " + text_of(level_Pa, 3) + " Pa)";
+  const std::string range =
+      last_near == rows.end()
+          ? "it is linear up to the largest strain, " + text_of(100.0 * most, 3) + unit
+          : "it is linear up to a strain of " +
+                text_of(100.0 * (last_near == rows.begin() ? least : std::prev(last_near)->first),
+                        3) +
+                unit;
+  throw std::runtime_error(
+      table.file + ": a sweep of the strain amplitude at one frequency, from " +
+      text_of(100.0 * least, 3) + " to " + text_of(100.0 * most, 3) +
+      " %, has no relaxation times to fit; " + range +
+      ". Fit a sweep of the frequency within that range, or a relaxation test");
+}
+
 // For how many rows one column rests while the other moves on: within one per cent of its largest value, over a
 // twentieth of the rows.
 std::size_t rows_driven_by(const std::vector<double>& cause, const std::vector<double>& effect) {
@@ -71,14 +127,6 @@ std::size_t rows_driven_by(const std::vector<double>& cause, const std::vector<d
     if (rests && std::abs(effect[i + stride] - effect[i]) > moved) ++count;
   }
   return count;
-}
-
-// Largest less smallest value, over the larger of both sizes.
-double relative_range(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return std::isnan(value); });
-  if (values.empty()) return 0.0;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return (*high - *low) / std::max(std::abs(*low), std::abs(*high));
 }
 
 // In creep the strain moves on while the stress rests; in relaxation it is the other way round.
@@ -139,6 +187,7 @@ void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitRes
 }
 
 FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
+  if (!request.kind || *request.kind == FitKind::kDma) refuse_strain_sweep(table, request);
   if (request.kind) return *request.kind;
   const auto has = [&](const char* name) {
     return find_column(table, name, request.columns).has_value();

@@ -220,6 +220,7 @@ std::optional<PlotPanel> spectrum_panel(const FitResult& fit) {
   const ShownUnit unit = shown_unit(fit.is_stiffness ? "N/m" : "Pa", high);
   PlotPanel panel;
   panel.title = "Continuous spectrum";
+  panel.height_share = 2.0;
   panel.x = {.label = "relaxation time τ (s)", .is_log = true};
   panel.y = {.label = fmt::format("H(τ) ({})", unit.text), .is_log = is_log};
   if (!is_log) panel.y.min = 0.0;

@@ -5,6 +5,7 @@
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/words/fit_text.h"
 #include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 
@@ -87,9 +88,7 @@ void print(const RatioFit& fit, std::ostream& out) {
         has_known_spread(fit.best, 0) ? "a new specimen" : "the one specimen (scatter unknown)",
         at.uncertainty->E0_Pa_95.low, at.uncertainty->E0_Pa_95.high);
   }
-  for (const MaterialFlag& flag : fit.flags) {
-    out << "  ! " << flag.name << ": " << flag.text << "\n";
-  }
+  print_flags(fit.flags, out);
 }
 
 }  // namespace

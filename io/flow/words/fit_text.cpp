@@ -319,8 +319,25 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   if (fit.spectrum) print_spectrum(fitted, out);
   if (!fit.laws.empty()) print_laws(fitted, out);
   if (!fit.flags.empty()) out << "\n";
-  for (const MaterialFlag& flag : fit.flags) {
-    out << "  ! " << flag.name << ": " << flag.text << "\n";
+  print_flags(fit.flags, out);
+}
+
+void print_flags(const std::vector<MaterialFlag>& flags, std::ostream& out) {
+  std::vector<const MaterialFlag*> firsts;  // of each name and term or, of many terms, of each name
+  for (const MaterialFlag& flag : flags) {
+    const bool is_known = std::any_of(firsts.begin(), firsts.end(), [&](const MaterialFlag* one) {
+      return one->name == flag.name && (one->text == flag.text || (one->term > 0 && flag.term > 0));
+    });
+    if (is_known) continue;
+    firsts.push_back(&flag);
+    std::string others;
+    for (const MaterialFlag& other : flags) {
+      if (&other == &flag || other.name != flag.name || other.term == 0 || flag.term == 0) continue;
+      others += (others.empty() ? "" : ", ") + std::to_string(other.term);
+    }
+    out << "  ! " << flag.name << ": " << flag.text;
+    if (!others.empty()) out << "; likewise term " << others;
+    out << "\n";
   }
 }
 

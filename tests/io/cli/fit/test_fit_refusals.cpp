@@ -188,3 +188,38 @@ TEST_CASE("a stress without its strain is no modulus, and an extension needs the
   REQUIRE(ran.status == 0);
   CHECK(nlohmann::json::parse(ran.out)["E0_Pa"].get<double>() == Approx(1.5e6).epsilon(1e-3));
 }
+
+TEST_CASE("a sweep of the strain amplitude is refused with its linear range", "[cli]") {
+  const TableFolder folder;
+  // G' = 10 kPa/(1 + (gamma/30 %)^1.5) is 5 % low at 4.2 %.
+  const auto sweep = [](bool has_frequency, double from_percent, double to_percent) {
+    std::ostringstream text;
+    text << "Strain [%],Storage modulus G' [Pa],Loss modulus G'' [Pa]"
+         << (has_frequency ? ",Frequency [Hz]" : "") << "\n";
+    for (double strain = from_percent; strain <= to_percent; strain *= 1.2) {
+      const double storage_Pa = 1e4 / (1.0 + std::pow(strain / 30.0, 1.5));
+      text << strain << "," << storage_Pa << "," << 0.1 * storage_Pa << (has_frequency ? ",1" : "")
+           << "\n";
+    }
+    return text.str();
+  };
+  for (const bool has_frequency : {false, true}) {
+    const std::string file = folder.write("amplitude.csv", sweep(has_frequency, 0.01, 120.0));
+    for (const auto& words :
+         std::vector<std::vector<std::string>>{{"fit", file}, {"fit", file, "--kind", "dma"}}) {
+      const CommandOutcome ran = run_command(words);
+      CAPTURE(ran.err);
+      CHECK(ran.status == kFailed);
+      CHECK_THAT(ran.err,
+                 Contains("a sweep of the strain amplitude at one frequency, from 0.01 to"));
+      const std::size_t at = ran.err.find("linear up to a strain of ");
+      REQUIRE(at != std::string::npos);
+      const double end_percent = std::stod(ran.err.substr(at + 25));
+      CHECK(end_percent > 4.2 / 1.2);
+      CHECK(end_percent < 4.2 * 1.01);
+    }
+  }
+  const CommandOutcome flat =
+      run_command({"fit", folder.write("flat.csv", sweep(true, 0.01, 1.0))});
+  CHECK_THAT(flat.err, Contains("linear up to the largest strain"));
+}

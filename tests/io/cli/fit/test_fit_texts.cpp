@@ -88,3 +88,16 @@ TEST_CASE("a memory of the noise beyond the record is not printed in percent", "
         "the noise of the record has a memory longer than the record, so that not even one value "
         "is independent");
 }
+
+TEST_CASE("what several terms share is one line that names the others", "[cli]") {
+  std::ostringstream out;
+  print_flags({{"modulus-may-be-zero", 1, "term 1: the interval contains zero"},
+               {"slow-noise", 0, "the noise is slow"},
+               {"modulus-may-be-zero", 4, "term 4: the interval contains zero"},
+               {"modulus-may-be-zero", 7, "term 7: the interval contains zero"},
+               {"slow-noise", 0, "the noise is slow"}},
+              out);
+  CHECK(out.str() ==
+        "  ! modulus-may-be-zero: term 1: the interval contains zero; likewise term 4, 7\n"
+        "  ! slow-noise: the noise is slow\n");
+}
