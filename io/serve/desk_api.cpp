@@ -1,6 +1,7 @@
 #include "io/serve/desk_api.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/data_folder.h"
 #include "io/basics/words.h"
 #include "io/flow/words/fit_words.h"
 #include "io/flow/words/predict_words.h"
@@ -10,8 +11,11 @@
 #include "io/tables/column_names.h"
 
 #include <nlohmann/json.hpp>
+#include <stdlib.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <functional>
 #include <utility>
@@ -151,6 +155,66 @@ bool is_material_of(const std::filesystem::path& path, const std::string& comman
   }
 }
 
+constexpr std::size_t kLongestScene_B = std::size_t{1} << 20;
+
+// Name and first line of the scenes that come with viscard.
+Json example_scenes() {
+  Json examples = Json::array();
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::directory_iterator entry(data_folder() / "scenes", error), end;
+       !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() == ".toml") files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const std::filesystem::path& file : files) {
+    const std::string text = read_own_file(file);
+    const std::string first = text.substr(0, text.find('\n'));
+    examples.push_back({{"name", file.filename().string()},
+                        {"what", first.substr(std::min<std::size_t>(2, first.size()))}});
+  }
+  return examples;
+}
+
+// A folder of a command's outputs, for one request.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "viscard-desk-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error(name + ": cannot create a folder: " + std::strerror(errno));
+    }
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// The pictures below a folder, by name, as many as a page can show.
+Json pictures_in(const std::filesystem::path& folder) {
+  constexpr std::size_t kMost = 12, kLargest_B = std::size_t{4} << 20;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".svg" && entry.file_size() <= kLargest_B)
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  Json pictures = Json::array();
+  for (const std::filesystem::path& file : files) {
+    if (pictures.size() == kMost) break;
+    pictures.push_back({{"name", file.stem().string()}, {"svg", read_own_file(file)}});
+  }
+  return pictures;
+}
+
 }  // namespace
 
 DeskApi::DeskApi(DeskOptions options) : options_(std::move(options)), folder_(options_.folder) {}
@@ -162,9 +226,13 @@ Json DeskApi::state() const {
         {{"name", table.name}, {"bytes", table.bytes}, {"is_capture", table.is_capture}});
   }
   const bool is_full = tables.size() == kMostDeskFiles;
-  return {{"program", "viscard " VISCARD_VERSION}, {"folder", folder_.path().string()},
-          {"folder_trouble", folder_.trouble()},   {"largest_drop_B", kLargestDrop_B},
-          {"tables", std::move(tables)},           {"are_more", is_full}};
+  return {{"program", "viscard " VISCARD_VERSION},
+          {"folder", folder_.path().string()},
+          {"folder_trouble", folder_.trouble()},
+          {"largest_drop_B", kLargestDrop_B},
+          {"tables", std::move(tables)},
+          {"scenes", folder_.scenes()},
+          {"are_more", is_full}};
 }
 
 Json DeskApi::result_of(const Texts& words, const std::string& input) {
@@ -222,7 +290,8 @@ Json DeskApi::choices() {
           {"units", list.at("units")},
           {"options", std::move(options)},
           {"quantities", column_names()},
-          {"predict", result_of({"predict", "--help"}).at("options")}};
+          {"predict", result_of({"predict", "--help"}).at("options")},
+          {"examples", example_scenes()}};
 }
 
 Json DeskApi::drop(const std::string& name, const std::string& bytes) {
@@ -325,6 +394,90 @@ Json DeskApi::check(const Json& request) {
   words[1] = "--check=CARD";
   answer["command"] = typed(words);
   return answer;
+}
+
+Json DeskApi::open_scene(const Json& request) {
+  if (!request.contains("example")) {
+    std::string name = text_at(request, "scene");
+    folder_.require_scene(name);
+    if (request.contains("text")) {
+      const std::string text = text_at(request, "text");
+      if (text.size() > kLongestScene_B) {
+        throw ApiError(400, "bad-value", "a scene has at most 1 MiB of text");
+      }
+      const std::lock_guard<std::mutex> lock(writing_);
+      name = folder_.keep_scene(name, text);
+    }
+    return {{"scene", name}, {"text", read_own_file(folder_.path() / name)}};
+  }
+  const std::string example = text_at(request, "example");
+  const Json known = example_scenes();
+  const bool is_known = std::any_of(known.begin(), known.end(),
+                                    [&](const Json& one) { return one["name"] == example; });
+  if (!is_known)
+    throw ApiError(404, "no-such-file", "no example '" + example + "' comes with viscard");
+  const std::filesystem::path data = data_folder();
+  std::string text = read_own_file(data / "scenes" / example);
+  // The files that it names stay where they are.
+  const std::string up = "\"../", there = "\"" + data.string() + "/";
+  for (std::size_t at = text.find(up); at != std::string::npos;
+       at = text.find(up, at + there.size())) {
+    text.replace(at, up.size(), there);
+  }
+  const std::lock_guard<std::mutex> lock(writing_);
+  text = kSceneHead + (", of the example " + example) + "\n" + text;
+  return {{"scene", folder_.keep_new(example, text)}, {"text", text}};
+}
+
+Json DeskApi::scene(const Json& request) {
+  const std::string name = text_at(request, "scene"), what = text_at(request, "what");
+  folder_.require_scene(name);
+  Texts more;
+  if (what != "drawing" && request.contains("tol")) add_value("tol", request.at("tol"), more);
+  if (what == "plan") {
+    const Texts words = command_words("plan", name, more);
+    return answered(words, result_of(words));
+  }
+  if (what == "cost") {
+    const Texts words = command_words("cost", name, {}, {"--budget=10s"});
+    return answered(words, result_of(words));
+  }
+  const ScratchFolder scratch;
+  const std::string out = (scratch.path() / "out").string();
+  Texts words = what == "drawing" ? Texts{"scene", "check", word_of_file(name)}
+                                  : command_words("simulate", name, more);
+  if (what != "drawing" && what != "answer") {
+    throw ApiError(400, "bad-value", "'what' is drawing, plan, cost or answer");
+  }
+  const std::string shown = typed(words);
+  words.push_back(what == "drawing" ? "--svg=" + out + ".svg" : "--out=" + out);
+  Json answer{
+      {"command", shown}, {"result", result_of(words)}, {"pictures", pictures_in(scratch.path())}};
+  return answer;
+}
+
+Json DeskApi::report(const Json& request) {
+  if (!request.contains("tables") || !request.at("tables").is_array() ||
+      request.at("tables").empty()) {
+    throw ApiError(400, "bad-value", "the report needs tables; choose at least one");
+  }
+  Texts words{"report"};
+  for (const Json& one : request.at("tables")) {
+    if (!one.is_string()) throw ApiError(400, "bad-value", "'tables' are names of files");
+    folder_.require_table(one.get<std::string>());
+    words.push_back(word_of_file(one.get<std::string>()));
+  }
+  if (request.contains("title")) add_value("title", request.at("title"), words);
+  const ScratchFolder scratch;
+  const std::filesystem::path page = scratch.path() / "report.html";
+  const std::string shown = typed(words);
+  words.push_back("--out=" + page.string());
+  const Json result = result_of(words);
+  const std::string html = read_own_file(page);
+  const std::lock_guard<std::mutex> lock(writing_);
+  const std::string name = folder_.keep_new("report.html", html);
+  return {
+      {"command", shown + " --out " + name}, {"result", result}, {"name", name}, {"html", html}};
 }
 
 void DeskApi::close() {

@@ -49,6 +49,15 @@ class DeskApi {
   // {"card", "for"}: viscard card --check of this text.
   Json check(const Json& request);
 
+  // {"example"}: writes a copy of a scene that comes with viscard into the folder. {"scene"}: one of the folder. {"scene",
+  // "text"}: keeps the text. Each answers {"scene": its name, "text"}.
+  Json open_scene(const Json& request);
+  // {"scene", "what", "tol"}: what is "drawing", "plan", "cost" or "answer". A drawing and an answer have "pictures", {"name",
+  // "svg"}.
+  Json scene(const Json& request);
+  // {"tables": [...], "title"}: viscard report into a file of the folder; answers its "name" and "html".
+  Json report(const Json& request);
+
   // Ends the commands that are running; no further one begins.
   void close();
 

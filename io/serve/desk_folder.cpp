@@ -67,6 +67,27 @@ fs::path free_path(const fs::path& first) {
   return path;
 }
 
+// All that are not hidden, by name.
+std::vector<fs::path> files_of(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    const std::string name = entry->path().filename().string();
+    if (name.front() != '.' && entry->is_regular_file(ignored)) files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// True for a file of the folder itself. Only the name decides: a path would have to be the last part of itself.
+bool is_file_of(const fs::path& folder, const std::string& name) {
+  std::error_code ignored;
+  return !name.empty() && name.front() != '.' && fs::path(name).filename() == name &&
+         name.find('\0') == std::string::npos && fs::is_regular_file(folder / name, ignored);
+}
+
 }  // namespace
 
 std::string plain_file_name(const std::string& name) {
@@ -113,16 +134,7 @@ std::string DeskFolder::trouble() const {
 
 std::vector<DeskTable> DeskFolder::tables() const {
   std::vector<DeskTable> tables;
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (fs::directory_iterator entry(path_, error), end; !error && entry != end;
-       entry.increment(error)) {
-    std::error_code ignored;
-    const std::string name = entry->path().filename().string();
-    if (name.front() != '.' && entry->is_regular_file(ignored)) files.push_back(entry->path());
-  }
-  std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) {
+  for (const fs::path& file : files_of(path_)) {
     if (tables.size() == kMostDeskFiles) break;
     const FileKind kind = kind_of_beginning(file);
     if (!is_table(file, kind)) continue;
@@ -134,14 +146,8 @@ std::vector<DeskTable> DeskFolder::tables() const {
 }
 
 void DeskFolder::require_table(const std::string& name) const {
-  // Only the name decides: a path would have to be the last part of itself.
   const fs::path file = path_ / name;
-  std::error_code ignored;
-  const bool is_there = !name.empty() && name.front() != '.' && fs::path(name).filename() == name &&
-                        name.find('\0') == std::string::npos &&
-                        fs::is_regular_file(file, ignored) &&
-                        is_table(file, kind_of_beginning(file));
-  if (is_there) return;
+  if (is_file_of(path_, name) && is_table(file, kind_of_beginning(file))) return;
   throw ApiError(404, "no-such-file",
                  "there is no table '" + name + "' in " + path_.string() +
                      ". Choose one of the list, or drop it");
@@ -154,11 +160,15 @@ std::string DeskFolder::drop(const std::string& name, const std::string& bytes) 
   }
   if (bytes.empty()) throw ApiError(400, "bad-value", plain + " is empty; choose another file");
   const FileKind kind = kind_of_file(std::string_view(bytes).substr(0, kBeginning_B));
-  if (!is_table(plain, kind)) {
+  if (!is_table(plain, kind) && kind != FileKind::kScene) {
     throw ApiError(422, "input",
                    plain + " is " + file_kind_in_words(kind) +
-                       "; the desk takes tables and captures. " + use_of_file_kind(kind));
+                       "; the desk takes tables, captures and scenes. " + use_of_file_kind(kind));
   }
+  return keep_new(plain, bytes);
+}
+
+std::string DeskFolder::keep_new(const std::string& name, const std::string& bytes) const {
   std::error_code ignored;
   std::size_t count = 0;
   for (fs::directory_iterator entry(path_, ignored), end; !ignored && entry != end;
@@ -172,7 +182,7 @@ std::string DeskFolder::drop(const std::string& name, const std::string& bytes) 
   }
   // Another page may take the name meanwhile; then the next one.
   for (int tries = 0;; ++tries) {
-    const fs::path path = free_path(path_ / plain);
+    const fs::path path = free_path(path_ / name);
     try {
       write_file(path, bytes, false);
       return path.filename().string();
@@ -180,6 +190,31 @@ std::string DeskFolder::drop(const std::string& name, const std::string& bytes) 
       if (tries >= 20 || !fs::exists(fs::symlink_status(path))) throw;
     }
   }
+}
+
+std::vector<std::string> DeskFolder::scenes() const {
+  std::vector<std::string> names;
+  for (const fs::path& file : files_of(path_)) {
+    if (names.size() == kMostDeskFiles) break;
+    if (kind_of_beginning(file) == FileKind::kScene) names.push_back(file.filename().string());
+  }
+  return names;
+}
+
+void DeskFolder::require_scene(const std::string& name) const {
+  if (is_file_of(path_, name) && kind_of_beginning(path_ / name) == FileKind::kScene) return;
+  throw ApiError(404, "no-such-file",
+                 "there is no scene '" + name + "' in " + path_.string() +
+                     ". Choose one of the list, or begin with an example");
+}
+
+std::string DeskFolder::keep_scene(const std::string& name, const std::string& text) const {
+  require_scene(name);
+  const bool has_head = text.starts_with(kSceneHead);
+  const std::string all = has_head ? text : std::string(kSceneHead) + ", of " + name + "\n" + text;
+  if (!read_own_file(path_ / name).starts_with(kSceneHead)) return keep_new(name, all);
+  write_file(path_ / name, all, true);
+  return name;
 }
 
 std::vector<std::string> DeskFolder::kept_words(const std::string& table) const {

@@ -10,6 +10,8 @@ namespace viscard {
 // What may lie in the folder of a desk.
 inline constexpr std::size_t kLargestDrop_B = std::size_t{64} << 20;
 inline constexpr std::size_t kMostDeskFiles = 500;
+// The first line of a scene that the desk wrote and may write again begins so.
+inline constexpr const char* kSceneHead = "# Scene kept by viscard desk";
 
 // A table or capture of the folder.
 struct DeskTable {
@@ -35,6 +37,15 @@ class DeskFolder {
   // Writes a file under the last part of this name, or, if that is taken, under a numbered one, and returns the
   // name. Throws ApiError 400 for a name that no file of a table may have, 409 if the folder is full.
   std::string drop(const std::string& name, const std::string& bytes) const;
+
+  // Scene files of the folder, by name.
+  std::vector<std::string> scenes() const;
+  // Throws ApiError 404 unless it is one of scenes().
+  void require_scene(const std::string& name) const;
+  // Writes a file under this name or, if that is taken, under a numbered one, and returns the name.
+  std::string keep_new(const std::string& name, const std::string& bytes) const;
+  // Keeps the text of a scene: in its own file if the desk wrote that, else in a new one. Returns the name.
+  std::string keep_scene(const std::string& name, const std::string& text) const;
 
   // The words of a command that are kept beside a table, in NAME.options, one a line; @NAME.options stands for them on a
   // command line. None: there is no such file.

@@ -19,6 +19,9 @@ class DeskServer::Impl {
     server_.add_order("/api/desk/card", [this](const Json& r) { return api_.card(r); });
     server_.add_order("/api/desk/predict", [this](const Json& r) { return api_.predict(r); });
     server_.add_order("/api/desk/check", [this](const Json& r) { return api_.check(r); });
+    server_.add_order("/api/desk/scene/open", [this](const Json& r) { return api_.open_scene(r); });
+    server_.add_order("/api/desk/scene", [this](const Json& r) { return api_.scene(r); });
+    server_.add_order("/api/desk/report", [this](const Json& r) { return api_.report(r); });
     server_.add_drop("/api/desk/drop", kLargestDrop_B,
                      [this](const std::string& name, const std::string& bytes) {
                        return api_.drop(name, bytes);

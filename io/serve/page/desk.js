@@ -6,10 +6,12 @@ import { alsoCompare, compare, showCompareTables, startCompare } from "./desk_co
 import { forgetOrders, redrawFit, showFit, showFitState, shownRange } from "./desk_fit.js";
 import { keywordOf, pythonOf, showFields, showSame, startOptions } from "./desk_options.js";
 import { chosenPrediction, showOtherTables, showPrediction, showPredictState, startPredict } from "./desk_predict.js";
+import { showReportTables, startReport } from "./desk_report.js";
+import { showScenes, startScene } from "./desk_scene.js";
 import { showTable, showTableError, startTable } from "./desk_table.js";
 import { element, make, sentence, show, showText } from "./format.js";
 
-const kSteps = ["table", "fit", "card", "predict", "compare", "check"];
+const kSteps = ["table", "fit", "card", "predict", "compare", "check", "scene", "report"];
 const kLook_ms = 3000;
 
 let state = null, table = null, choices = {}, view = "table", asked = 0;
@@ -50,6 +52,8 @@ function showTables() {
   const names = state.tables.map((one) => one.name);
   showCompareTables(names);
   showOtherTables(names);
+  showReportTables(names, table);
+  showScenes(state.scenes);
 }
 
 async function refresh() {
@@ -207,6 +211,8 @@ async function start() {
   startPredict(described, predict);
   startCompare({ optionsOf: (name) => choices[name] });
   startCheck(described);
+  startScene(described, refresh);
+  startReport();
   element("undo").addEventListener("click", undo);
   element("fit-range").addEventListener("click", () => { const [from, to] = shownRange(); setOptions({ from, to }); });
   element("fit-all").addEventListener("click", () => setOptions({ from: undefined, to: undefined }));

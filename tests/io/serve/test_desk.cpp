@@ -123,7 +123,7 @@ TEST_CASE("a dropped file is written into the folder only, and replaces nothing"
   CHECK(desk.drop("empty.csv", "").status == 400);
   const ApiAnswer scene = desk.drop("scene.toml", "[pillar]\nradius = \"1 um\"\n");
   CHECK(scene.status == 422);
-  CHECK(contains(message_of(scene), "the desk takes tables and captures"));
+  CHECK(contains(message_of(scene), "the desk takes tables, captures and scenes"));
   CHECK(names_in(desk.folder().parent_path()) == std::set<std::string>{"tables"});
   CHECK(desk.ask("/api/desk").json.at("tables").size() == 11);
 }
@@ -276,7 +276,8 @@ TEST_CASE("what was chosen is kept beside the table, for the desk and for the co
   CHECK(read_file(desk.folder() / "a b.csv.options") == "mine\n");
 }
 
-TEST_CASE("a wrong option is reported beside the table, so that it can be changed", "[serve][desk]") {
+TEST_CASE("a wrong option is reported beside the table, so that it can be changed",
+          "[serve][desk]") {
   ServedDesk desk;
   desk.drop("a.csv", ServedDesk::example());
   const Json options = {{"column", {"modulus_Pa=nothing"}}};
@@ -323,6 +324,77 @@ TEST_CASE("the desk reads a pasted card back and tells its mistakes", "[serve][d
   CHECK(desk.order("check", {{"card", ""}}).status == 422);
   CHECK(desk.order("check", {{"card", card}, {"for", "../x"}}).status == 422);
   CHECK(names_in(desk.folder()) == std::set<std::string>{"a.csv", "a.json"});
+}
+
+TEST_CASE(
+    "a scene begins with an example, is kept when it is changed, and is drawn, planned and solved",
+    "[serve][desk]") {
+  ServedDesk desk;
+  const Json choices = desk.ask("/api/desk/choices").json;
+  const Json& examples = choices.at("examples");
+  CHECK(std::any_of(examples.begin(), examples.end(),
+                    [](const Json& one) { return one.at("name") == "pillar_press.toml"; }));
+  const ApiAnswer opened = desk.order("scene/open", {{"example", "pillar_press.toml"}});
+  INFO(opened.json.dump());
+  REQUIRE(opened.status == 200);
+  CHECK(opened.json.at("scene") == "pillar_press.toml");
+  const auto text = opened.json.at("text").get<std::string>();
+  CHECK(desk.ask("/api/desk").json.at("scenes") == Json::array({"pillar_press.toml"}));
+  CHECK(desk.ask("/api/desk").json.at("tables").empty());
+
+  // Of the desk: the same file. Of somebody else: a new one.
+  const Json changed{{"scene", "pillar_press.toml"}, {"text", text + "\n# changed\n"}};
+  CHECK(desk.order("scene/open", changed).json.at("scene") == "pillar_press.toml");
+  CHECK(contains(read_file(desk.folder() / "pillar_press.toml"), "# changed"));
+  const std::string own = text.substr(text.find('\n') + 1);
+  write_file(desk.folder() / "own.toml", own, false);
+  const Json other =
+      desk.order("scene/open", {{"scene", "own.toml"}, {"text", own + "\n# mine\n"}}).json;
+  CHECK(other.at("scene") == "own.2.toml");
+  CHECK(read_file(desk.folder() / "own.toml") == own);
+
+  const auto about = [&](const char* what) {
+    return desk.order("scene", {{"scene", "pillar_press.toml"}, {"what", what}, {"tol", "1e-3"}})
+        .json;
+  };
+  const Json drawn = about("drawing");
+  INFO(drawn.dump());
+  CHECK(contains(drawn.at("pictures").at(0).at("svg"), "<svg"));
+  CHECK(drawn.at("command") == "viscard scene check pillar_press.toml");
+  CHECK_FALSE(about("plan").at("result").at("effects").empty());
+  const Json solved = about("answer");
+  CHECK(solved.at("command") == "viscard simulate pillar_press.toml --tol=1e-3");
+  CHECK(solved.at("result").at("results").at("electrode_voltage").at("value").get<double>() ==
+        Approx(0.02853).epsilon(1e-3));
+  CHECK(solved.at("pictures").size() >= 3);
+  CHECK(names_in(desk.folder()) ==
+        std::set<std::string>{"own.2.toml", "own.toml", "pillar_press.toml"});
+
+  CHECK(desk.order("scene", {{"scene", "../pillar_press.toml"}, {"what", "plan"}}).status == 404);
+  CHECK(desk.order("scene/open", {{"example", "../materials/pdms_1to10_seed.json"}}).status == 404);
+  CHECK(desk.order("scene", {{"scene", "own.toml"}, {"what", "all"}}).status == 400);
+  write_file(desk.folder() / "bad.toml", "[geometry]\nkind = \"pillar\"\ndiametre = \"1 um\"\n",
+             false);
+  const ApiAnswer bad = desk.order("scene", {{"scene", "bad.toml"}, {"what", "drawing"}});
+  CHECK(bad.status == 422);
+  CHECK(contains(message_of(bad), "diametre"));
+}
+
+TEST_CASE("the desk writes a report under a name that is free", "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  write_file(desk.folder() / "report.html", "mine", false);
+  const ApiAnswer made =
+      desk.order("report", {{"tables", Json::array({"a.csv"})}, {"title", "Silicone"}});
+  INFO(made.json.dump().substr(0, 500));
+  REQUIRE(made.status == 200);
+  CHECK(made.json.at("name") == "report.2.html");
+  CHECK(contains(made.json.at("command"),
+                 "viscard report a.csv --title=Silicone --out report.2.html"));
+  CHECK(contains(read_file(desk.folder() / "report.2.html"), "Silicone"));
+  CHECK(read_file(desk.folder() / "report.html") == "mine");
+  CHECK(desk.order("report", {{"tables", Json::array()}}).status == 400);
+  CHECK(desk.order("report", {{"tables", Json::array({"../a.csv"})}}).status == 404);
 }
 
 TEST_CASE("desk refuses words that make no sense", "[serve][cli][desk]") {

@@ -215,5 +215,51 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   for (const auto& error : errors) CHECK(contains(error.get<std::string>(), "422"));
 }
 
+TEST_CASE("the voltage of a pillar with what its accuracy costs, and a report", "[desk][slow]") {
+  if (has_no_browser()) return;
+  ServedDesk desk;
+  ScratchFolder scratch;
+  desk.drop("a.csv", ServedDesk::example());
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 800, false, false);
+  browser.open(desk.server().address());
+  Person person(browser);
+  REQUIRE(browser.wait_until("return document.querySelectorAll('#tables li').length === 1", 20));
+  person.click("#tab-scene");
+  REQUIRE(browser.wait_until("return document.querySelectorAll('#scene-example option').length > 5",
+                             20));
+  person.choose("#scene-example", "pillar_press.toml");
+  REQUIRE(browser.wait_until("return document.querySelectorAll('#scene-pictures img').length === 1",
+                             30));
+  REQUIRE(shows(browser, "#scene-effects", "film compliance"));
+  picture_of_desk(browser, "desk_scene");
+  person.click("#scene-cost");
+  REQUIRE(browser.wait_until("return document.querySelectorAll('#scene-choices button').length > 2",
+                             60));
+  picture_of_desk(browser, "desk_cost");
+  browser.click("#scene-choices button:last-child");
+  REQUIRE(shows(browser, "#scene-results", "electrode voltage"));
+  CHECK(shows(browser, "#scene-results", "±"));
+  CHECK(browser.wait_until("return document.querySelectorAll('#scene-pictures img').length >= 3",
+                           10));
+  CHECK(person.n_clicks <= 5);
+  picture_of_desk(browser, "desk_answer");
+  set_field(browser, "#scene-text",
+            browser.run("return document.getElementById('scene-text').value").get<std::string>() +
+                "\n# changed\n");
+  browser.click("#scene-keep");
+  CHECK(browser.wait_until("return document.getElementById('scene-keep').disabled", 20));
+  CHECK(contains(read_file(desk.folder() / "pillar_press.toml"), "# changed"));
+  browser.click("#tables li:first-child button");
+  browser.click("#tab-report");
+  browser.click("#report-make");
+  REQUIRE(shows(browser, "#report-status", "Written as report.html"));
+  picture_of_desk(browser, "desk_report");
+  CHECK(std::filesystem::exists(desk.folder() / "report.html"));
+  const nlohmann::json errors = browser.errors();
+  INFO(errors.dump());
+  CHECK(errors.empty());
+}
+
 }  // namespace
 }  // namespace viscard

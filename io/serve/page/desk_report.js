@@ -1,0 +1,42 @@
+// One page to hand on about the chosen tables.
+import { order } from "./api.js";
+import { showSame } from "./desk_options.js";
+import { element, make, sentence, show, showText } from "./format.js";
+
+let chosen = new Set(), made = null;
+
+export function startReport() {
+  element("report-make").addEventListener("click", makeReport);
+  element("report-download").addEventListener("click", () => {
+    const link = make("a", { href: URL.createObjectURL(new Blob([made.html], { type: "text/html" })), download: made.name });
+    link.click();
+    URL.revokeObjectURL(link.href);
+  });
+}
+
+export function showReportTables(names, open) {
+  chosen = new Set([...chosen].filter((name) => names.includes(name)));
+  if (chosen.size === 0 && open !== null) chosen.add(open);
+  element("report-tables").replaceChildren(...names.map((name) => {
+    const box = make("input", { type: "checkbox" });
+    box.checked = chosen.has(name);
+    box.addEventListener("change", () => { if (box.checked) chosen.add(name); else chosen.delete(name); });
+    return make("label", {}, box, name);
+  }));
+}
+
+async function makeReport() {
+  const tell = (text, kind) => { element("report-status").className = kind; showText(element("report-status"), text); };
+  show(element("report-link"), false);
+  tell("Writing …", "");
+  try {
+    const title = element("report-title").value.trim();
+    made = await order("/api/desk/report", { tables: [...chosen], ...(title ? { title } : {}) });
+    tell(`Written as ${made.name} in the folder.`, "good");
+    show(element("report-link"), true);
+    const files = [...chosen].map((name) => JSON.stringify(name)).join(", ");
+    showSame(element("report-same"), made.command, `import viscard\nviscard.report([${files}], ${JSON.stringify(made.name)}${title ? `, title=${JSON.stringify(title)}` : ""})`);
+  } catch (error) {
+    tell(sentence(error.message), "alert");
+  }
+}
