@@ -36,8 +36,8 @@ scenes of pillar sensors with error estimates.")
 debian_package(runtime viscard science "soft polymers from a load cell to a validated simulation"
   "${about}\n.\nThis package has the program, its man pages, a demo and example scenes, and\na page for each part with equations, file formats and recipes.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-# Every page of results has plots, which gnuplot draws.
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "gnuplot-nox | gnuplot-x11 | gnuplot-qt")
+# Plots are drawn by gnuplot; fits, cards and scenes need none.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot-x11 | gnuplot-qt")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "paraview")
 
 debian_package(development libviscard-dev libdevel "library of viscard for C++ programs"
