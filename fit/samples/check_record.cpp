@@ -1,5 +1,6 @@
 #include "fit/samples/check_record.h"
 
+#include "fit/samples/jumped_rows.h"
 #include "fit/samples/reading_noise.h"
 #include "models/maths/text_of_number.h"
 
@@ -12,11 +13,7 @@ namespace {
 constexpr std::size_t kFewestChecked = 10;
 constexpr double kSureDeviations = 8.0;  // of the noise: never by chance, not in a million rows
 
-// Rows begin to end - 1 of one value.
-struct EqualRun {
-  std::size_t begin = 0, end = 0;
-  std::size_t length() const { return end - begin; }
-};
+using EqualRun = RowRun;  // of one value
 
 // Runs of at least two equal values, and single zeros.
 std::vector<EqualRun> runs_of_equal(std::span<const double> values) {
@@ -90,16 +87,17 @@ class Dropouts {
     if (!other.empty()) other_range_ = extent_of_values(other);
   }
 
-  bool is_dropout(const EqualRun& run) const {
+  // before_row: the last row before the run that is none of a dropout.
+  bool is_dropout(const EqualRun& run, std::size_t before_row) const {
     if (run.begin == 0) return false;
     const bool is_end = run.end == value_.size();
     constexpr std::size_t kFewestAtEnd = 2, kFewestOther = 3;
     if (is_end && run.length() < (is_zero(run) ? kFewestAtEnd : kFewestOther)) return false;
-    const double before = value_[run.begin - 1] - at(run);
+    const double before = value_[before_row] - at(run);
     const double after = is_end ? before : value_[run.end] - at(run);
     if (!(before * after > 0.0)) return false;
     const double gap = std::min(std::abs(before), std::abs(after));
-    const double size = std::max({std::abs(value_[run.begin - 1]), std::abs(at(run)),
+    const double size = std::max({std::abs(value_[before_row]), std::abs(at(run)),
                                   is_end ? 0.0 : std::abs(value_[run.end])});
     constexpr double kShare = 0.05;
     if (gap < std::max(kShare * size, least_)) return false;
@@ -110,6 +108,20 @@ class Dropouts {
     }
     if (kind_ != RecordKind::kHistory) return true;
     return other_rests(run) || all_drops(run);
+  }
+
+  // The other column goes on as before at both edges of the run.
+  bool other_rests(const RowRun& run) const {
+    constexpr double kShare = 0.05, kTimes = 3.0;
+    if (other_.empty()) return true;
+    const auto step = [&](std::size_t i) {  // into row i
+      return i > 0 && i < other_.size() ? std::abs(other_[i] - other_[i - 1]) : 0.0;
+    };
+    const auto is_calm = [&](std::size_t i) {
+      return step(i) <=
+             std::max(kShare * other_range_, kTimes * std::min(step(i - 1), step(i + 1)));
+    };
+    return is_calm(run.begin) && (run.end == value_.size() || is_calm(run.end));
   }
 
  private:
@@ -128,19 +140,6 @@ class Dropouts {
     if (kind_ == RecordKind::kRelaxation && is_inside) return true;
     const double step = value_[static_cast<std::size_t>(far)] - value_[static_cast<std::size_t>(i)];
     return std::abs(gap) > times * std::abs(step);
-  }
-
-  // The other column goes on as before at both edges of the run.
-  bool other_rests(const EqualRun& run) const {
-    constexpr double kShare = 0.05, kTimes = 3.0;
-    const auto step = [&](std::size_t i) {  // into row i
-      return i > 0 && i < other_.size() ? std::abs(other_[i] - other_[i - 1]) : 0.0;
-    };
-    const auto is_calm = [&](std::size_t i) {
-      return step(i) <=
-             std::max(kShare * other_range_, kTimes * std::min(step(i - 1), step(i + 1)));
-    };
-    return is_calm(run.begin) && (run.end == value_.size() || is_calm(run.end));
   }
 
   // Both columns fall to a constant at once, and return to where they were: the logger lost the rows.
@@ -176,8 +175,12 @@ std::vector<EqualRun> dropouts(RecordKind kind, std::span<const double> value,
                                std::span<const double> other, const std::vector<EqualRun>& runs) {
   const Dropouts judge(kind, value, other);
   std::vector<EqualRun> found;
-  std::copy_if(runs.begin(), runs.end(), std::back_inserter(found),
-               [&](const EqualRun& run) { return judge.is_dropout(run); });
+  for (const EqualRun& run : runs) {
+    const bool follows = !found.empty() && found.back().end == run.begin && found.back().begin > 0;
+    const std::size_t before_row =
+        follows ? found.back().begin - 1 : std::max<std::size_t>(run.begin, 1) - 1;
+    if (judge.is_dropout(run, before_row)) found.push_back(run);
+  }
   return found;
 }
 
@@ -336,6 +339,37 @@ void check_values(RecordKind kind, CleanViews& clean, RecordNotes& notes) {
   if (!lost.empty()) {
     findings.drop("dropout", "dropouts-left-out", rows_in(lost), dropout_text(value(), lost));
   }
+  const Dropouts beside(kind, value(), other(2));
+  // Where the depth or the strain goes back, or is that out of contact, the value has a reason to change.
+  const auto goes_back = [&](const RowRun& run) {
+    if (!is_history) return false;
+    const auto cause = other(2);
+    const double before = cause[run.begin - 1], sign = before > 0.0 ? 1.0 : -1.0;
+    const double at = value()[run.begin - 1];
+    const bool is_loaded = before * at > 0.0 && std::abs(before) > 0.1 * extent_of_values(cause) &&
+                           std::abs(at) > 0.1 * extent_of_values(value());
+    if (!is_loaded) return true;
+    return std::any_of(cause.begin() + static_cast<std::ptrdiff_t>(run.begin),
+                       cause.begin() + static_cast<std::ptrdiff_t>(run.end),
+                       [&](double one) { return sign * one < 0.9 * sign * before; });
+  };
+  const auto rests = [&](const RowRun& run) { return beside.other_rests(run) && !goes_back(run); };
+  const std::vector<RowRun> jumped = jumped_blocks(value(), rests);
+  const std::optional<std::size_t> lost_at = lost_from(value(), rests);
+  const std::string from = lost_at ? text_of(value()[*lost_at - 1], 3) : "";
+  std::vector<std::size_t> gone = rows_in(jumped);
+  if (lost_at) {
+    std::erase_if(gone, [&](std::size_t i) { return i >= *lost_at; });
+    for (std::size_t i = *lost_at; i < value().size(); ++i) gone.push_back(i);
+  }
+  findings.drop(
+      "dropout", "dropouts-left-out", gone,
+      jumped.empty()
+          ? "from there on the value lies about zero, to which it falls from " + from +
+                " within one row: the load or the contact was lost"
+          : std::string("they jump away from the rows before and after, and back, within one row") +
+                (lost_at ? "; at the end the load is lost" : "") +
+                " (a loose plug, or an overflow)");
   if (is_history) {
     const std::vector<EqualRun> lost_cause =
         dropouts(kind, other(2), value(), runs_of_equal(other(2)));

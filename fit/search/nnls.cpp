@@ -97,6 +97,71 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
   return x.cwiseQuotient(scale);
 }
 
+Eigen::VectorXd nonnegative_by_qr(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
+                                  const std::vector<bool>& is_free) {
+  const Index count = columns.cols();
+  Eigen::VectorXd scale = columns.colwise().norm().transpose();
+  for (Index j = 0; j < count; ++j) {
+    if (!(scale[j] > 0.0)) scale[j] = 1.0;
+  }
+  const Eigen::MatrixXd a = columns * scale.cwiseInverse().asDiagonal();
+  const double tolerance = 1e-12 * std::max(data.norm(), 1e-300);
+  std::vector<bool> in_use = is_free;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(count);
+  const auto trial_of = [&](const std::vector<Index>& list) {
+    return PivotedQr(a(Eigen::all, list)).solve(data);
+  };
+  // False if the column that was just added does not become positive: rounding alone called for it.
+  const auto settle = [&](Index added) {
+    for (int step = 0; step < 3 * static_cast<int>(count) + 10; ++step) {
+      const std::vector<Index> list = chosen(in_use);
+      if (list.empty()) return true;
+      const Eigen::VectorXd trial = trial_of(list);
+      double share = 1.0;
+      Index blocking = -1;
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        const Index j = list[i];
+        const double target = trial[static_cast<Index>(i)];
+        if (is_free[static_cast<std::size_t>(j)] || target > 0.0) continue;
+        if (j == added && step == 0) return false;
+        const double limit = x[j] > 0.0 ? x[j] / (x[j] - target) : 0.0;
+        if (blocking < 0 || limit < share) {
+          share = limit;
+          blocking = j;
+        }
+      }
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        x[list[i]] += share * (trial[static_cast<Index>(i)] - x[list[i]]);
+      }
+      if (blocking < 0) return true;
+      x[blocking] = 0.0;
+      in_use[static_cast<std::size_t>(blocking)] = false;
+    }
+    return true;
+  };
+  settle(-1);
+  std::vector<bool> is_refused(in_use.size(), false);
+  for (int outer = 0; outer < 3 * static_cast<int>(count) + 10; ++outer) {
+    const Eigen::VectorXd gradient = a.transpose() * (data - a * x);
+    Index best = -1;
+    for (Index j = 0; j < count; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      if (in_use[k] || is_refused[k]) continue;
+      if (gradient[j] > tolerance && (best < 0 || gradient[j] > gradient[best])) best = j;
+    }
+    if (best < 0) break;
+    const auto k = static_cast<std::size_t>(best);
+    in_use[k] = true;
+    if (settle(best)) {
+      std::fill(is_refused.begin(), is_refused.end(), false);
+    } else {
+      in_use[k] = false;
+      is_refused[k] = true;
+    }
+  }
+  return x.cwiseQuotient(scale);
+}
+
 bool SignedLeastSquares::solve(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
                                const std::vector<bool>& is_free) {
   const std::vector<Index> list = chosen(in_use_);

@@ -17,6 +17,11 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
                                                   const Eigen::VectorXd& right,
                                                   const std::vector<bool>& is_free);
 
+// The same from A itself by QR of the columns in use (Lawson & Hanson, Algorithm NNLS 23.10): for columns that are
+// nearly dependent, where the normal equations lose the minimum.
+Eigen::VectorXd nonnegative_by_qr(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
+                                  const std::vector<bool>& is_free);
+
 // The same solved from A by QR of scaled columns, to full accuracy. Columns held at zero get zeros.
 class SignedLeastSquares {
  public:

@@ -97,6 +97,12 @@ void refuse_modulus(double E0_Pa, const CsvTable* table, const ColumnMap& column
 std::optional<MaterialFlag> assumed_units(const CsvTable& table, const ColumnMap& columns,
                                           const std::vector<std::string>& names) {
   std::string headers, units, example, weight;
+  // A table with our own names ("time_s") has a strain that is a plain number.
+  const bool has_own_names = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    const auto use = find_column(table, name, columns);
+    return !use || table.columns[use->index].header == name;
+  });
+  std::string strain;
   for (const std::string& name : names) {
     const auto use = find_column(table, name, columns);
     if (use && use->is_weight) {
@@ -104,16 +110,25 @@ std::optional<MaterialFlag> assumed_units(const CsvTable& table, const ColumnMap
                "' is in a unit of mass and was read as its weight, 9.80665 N for 1 kg; write gf or "
                "kgf if it is";
     }
+    if (use && name == "strain" && !use->is_unit_stated && !has_own_names &&
+        table.columns[use->index].derived_from.empty()) {
+      strain =
+          "'" + table.columns[use->index].header +
+          "' states no unit and was read as a plain number (0.05 is 5 %); write 'strain (-)' or "
+          "'strain (%)'";
+    }
     if (!use || !use->is_unit_assumed) continue;
     const std::string& header = table.columns[use->index].header;
     const std::string unit = column_kind(name).unit.si;
     headers += (headers.empty() ? "'" : ", '") + header + "'";
     units += (units.empty() ? "" : ", ") + unit;
     const std::string other = unit == "1/Pa"                 ? "1/MPa"
+                              : unit == "rad"                ? "deg"
                               : unit == "Pa" || unit == "Hz" ? "k" + unit
                                                              : "m" + unit;
     example = header + " (" + other + ")";
   }
+  if (!strain.empty()) weight = strain + (weight.empty() ? "" : "; " + weight);
   if (headers.empty() && weight.empty()) return std::nullopt;
   if (headers.empty()) return MaterialFlag{"unit-assumed", 0, weight};
   if (!weight.empty()) weight = "; " + weight;

@@ -173,7 +173,8 @@ std::vector<std::string> columns_of_kind(FitKind kind, const CsvTable& table,
     case FitKind::kCreep:
       return {"time_s", first_of({"compliance_1_Pa", "stress_Pa"}), "strain"};
     case FitKind::kDma:
-      return {"frequency_Hz", "storage_modulus_Pa", "loss_modulus_Pa"};
+      return {"frequency_Hz", "storage_modulus_Pa", "loss_modulus_Pa", "phase_rad",
+              "complex_modulus_Pa"};
     case FitKind::kSeveral:
       break;
   }

@@ -36,7 +36,7 @@ bool take_mark(std::string_view& text, char mark) {
 }
 
 // Days since 1970-01-01; nothing if the text does not begin with a date.
-std::optional<double> take_date(std::string_view& text) {
+std::optional<double> take_date(std::string_view& text, DateOrder order) {
   std::string_view rest = text;
   const auto first = take_number(rest, 4);
   if (!first || rest.empty()) return std::nullopt;
@@ -51,8 +51,7 @@ std::optional<double> take_date(std::string_view& text) {
   int year = begins_with_year ? *first : *third, month = *second;
   int day = begins_with_year ? *third : *first;
   if (year < 100) year += 2000;
-  // 5/13/2024: month first. Which of two small numbers is the month does not change differences in a day.
-  if (!begins_with_year && month > 12) std::swap(month, day);
+  if (!begins_with_year && order == DateOrder::kMonthFirst) std::swap(month, day);
   const std::chrono::year_month_day date{std::chrono::year(year),
                                          std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
@@ -83,17 +82,75 @@ bool has_hours_and_minutes(const std::string& header) {
   return text.find("hh:mm") != std::string::npos || text.find("h:m") != std::string::npos;
 }
 
-void read_column(CsvColumn& column, CsvTable& table) {
+// The times of all cells, NaN of gaps; empty if one is no time.
+std::vector<ClockTime> times_of(const std::vector<std::string>& cells, DateOrder order) {
+  constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
   std::vector<ClockTime> times;
+  for (const std::string& cell : cells) {
+    const auto time =
+        is_gap(cell) ? std::optional(ClockTime{kGap, 0.0, false, 0}) : clock_time_from(cell, order);
+    if (!time) return {};
+    times.push_back(*time);
+  }
+  return times;
+}
+
+double span_s(const std::vector<ClockTime>& times) {
+  double low_s = std::numeric_limits<double>::infinity(), high_s = -low_s;
+  for (const ClockTime& time : times) {
+    if (std::isnan(time.seconds)) continue;
+    low_s = std::min(low_s, time.seconds);
+    high_s = std::max(high_s, time.seconds);
+  }
+  return high_s - low_s;
+}
+
+// In the order of dates that all rows can have and, of two, that in which the record is shorter: with the other
+// one each new day begins another month.
+std::vector<ClockTime> times_of(const CsvColumn& column, CsvTable& table) {
+  std::vector<ClockTime> times = times_of(column.text, DateOrder::kDayFirst);
+  std::vector<ClockTime> other = times_of(column.text, DateOrder::kMonthFirst);
+  const bool is_month_first = times.empty() || (!other.empty() && span_s(other) < span_s(times));
+  if (!other.empty() && is_month_first) {
+    times = std::move(other);
+    table.notes.push_back("the dates of '" + column.header + "' were read with the month first");
+  }
+  return times;
+}
+
+// Days of a spreadsheet become seconds.
+void read_serial_days(CsvColumn& column, CsvTable& table) {
+  constexpr double kFrom = 36526.0, kTo = 73050.0;  // 2000 to 2099
+  constexpr double kLongest = 60.0, kShortest_s = 1e-4, kClock_s = 1e-4;
+  constexpr std::size_t kFewest = 4;
+  std::vector<double>& values = column.values;
+  if (!column.unit.empty() || values.size() < kFewest) return;
+  const bool is_in_range = values.front() >= kFrom && values.back() <= kTo &&
+                           values.back() - values.front() < kLongest &&
+                           std::is_sorted(values.begin(), values.end());
+  if (!is_in_range ||
+      std::any_of(values.begin(), values.end(), [](double x) { return std::isnan(x); }))
+    return;
+  const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
+  if (!(step > 0.0) || step >= kShortest_s || values.front() == std::floor(values.front())) return;
+  const double first = values.front();
+  for (double& value : values) value = kClock_s * std::round(kDay_s * (value - first) / kClock_s);
+  column.zero_unsure_s = 0.5 * kDay_s * step;
+  for (double& value : values) value += column.zero_unsure_s;
+  column.unit = "s";
+  table.notes.push_back(
+      "'" + column.header +
+      "' holds the days of a spreadsheet and became seconds; they begin half a step after t = 0; "
+      "--time-zero S sets another begin");
+}
+
+void read_column(CsvColumn& column, CsvTable& table) {
+  std::vector<ClockTime> times = times_of(column, table);
   const double gap = std::numeric_limits<double>::quiet_NaN();
   bool has_date = false, has_one = false;
-  for (const std::string& cell : column.text) {
-    const auto time =
-        is_gap(cell) ? std::optional(ClockTime{gap, 0.0, false, 0}) : clock_time_from(cell);
-    if (!time) return;
-    times.push_back(*time);
-    has_date = has_date || time->has_date;
-    has_one = has_one || time->n_fields > 0;
+  for (const ClockTime& time : times) {
+    has_date = has_date || time.has_date;
+    has_one = has_one || time.n_fields > 0;
   }
   if (!has_one) return;
   const double per_field = has_hours_and_minutes(column.header) ? kMinute_s : 1.0;
@@ -142,10 +199,10 @@ void read_column(CsvColumn& column, CsvTable& table) {
 
 }  // namespace
 
-std::optional<ClockTime> clock_time_from(std::string_view cell) {
+std::optional<ClockTime> clock_time_from(std::string_view cell, DateOrder order) {
   ClockTime time;
   std::string_view text = trimmed(cell);
-  if (const auto days = take_date(text)) {
+  if (const auto days = take_date(text, order)) {
     time.has_date = true;
     time.seconds = kDay_s * *days;
   }
@@ -181,7 +238,7 @@ std::optional<ClockTime> clock_time_from(std::string_view cell) {
 
 void read_clock_times(CsvTable& table) {
   for (CsvColumn& column : table.columns) {
-    if (!column.text.empty()) read_column(column, table);
+    column.text.empty() ? read_serial_days(column, table) : read_column(column, table);
   }
 }
 

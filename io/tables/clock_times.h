@@ -17,9 +17,14 @@ struct ClockTime {
   bool has_date = false;
   int n_fields = 0;  // of the time: 2 or 3
 };
-std::optional<ClockTime> clock_time_from(std::string_view cell);
+// What the first of two small numbers of a date is: "05/01/2024".
+enum class DateOrder { kDayFirst, kMonthFirst };
+std::optional<ClockTime> clock_time_from(std::string_view cell,
+                                         DateOrder order = DateOrder::kDayFirst);
 
-// Turns columns of clock times into seconds. A column with dates, or that begins later than it is long
+// Turns columns of clock times into seconds. Where days and months can be told apart in no row, the order whose
+// times go on most evenly is taken. Days since 1899-12-30, as spreadsheets count them (45413.50000116), are
+// recognised in a column without unit whose steps would be shorter than 0.1 ms. A column with dates, or that begins later than it is long
 // (the time of day), begins half a step after 0, because the load came before its first row; the table's notes
 // say so. Times of day may pass midnight.
 void read_clock_times(CsvTable& table);

@@ -501,3 +501,38 @@ TEST_CASE("intervals of moduli do not reach below zero", "[fit]") {
     for (const FittedTerm& term : fit.terms) CHECK(term.modulus_Pa_95.low >= 0.0);
   }
 }
+
+TEST_CASE(
+    "blocks that jump away and back, and a load that is lost, are left out whatever their scatter",
+    "[fit]") {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const auto value_of = [](double t) {
+    return 1e6 + 0.3e6 * std::exp(-t / 3.0) + 0.2e6 * std::exp(-t / 30.0);
+  };
+  const auto damaged = [&](std::size_t from, std::size_t count, double level) {
+    RelaxationData data;
+    for (std::size_t i = 0; i < 2000; ++i) {
+      data.time_s.push_back(0.1 * static_cast<double>(i + 1));
+      const bool is_bad = i >= from && i < from + count;
+      data.value.push_back((is_bad ? level : value_of(data.time_s.back())) + 1e3 * normal(random));
+    }
+    return data;
+  };
+  for (const double level : {0.0, 3e6, -2e6, 5e4}) {
+    for (const std::size_t count : {2, 5, 20, 100, 400}) {
+      const std::size_t from = 30 + random() % 1500;
+      CAPTURE(level, count, from);
+      const CheckedRecord found = checked(damaged(from, count, level));
+      REQUIRE(found.notes.left_out.size() == 1);
+      CHECK(found.notes.left_out[0].second == count);
+      CHECK(std::string(found.notes.left_out[0].first) == "dropout");
+    }
+  }
+  for (const std::size_t count : {2, 10, 500}) {
+    CAPTURE(count);
+    const CheckedRecord found = checked(damaged(2000 - count, count, 0.0));
+    REQUIRE(found.notes.left_out.size() == 1);
+    CHECK(found.notes.left_out[0].second == count);
+  }
+}
