@@ -1,9 +1,9 @@
 #include "io/scenes/raw_drive.h"
 #include "io/scenes/scene_words.h"
 #include "io/scenes/shape_section.h"
+#include "models/answer/drive_parts.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/array/plane/simulate_array.h"
-#include "models/scene/common/drive_parts.h"
 #include "models/scene/effects.h"
 #include "models/scene/plan.h"
 

@@ -1,8 +1,8 @@
 #include "io/scenes/raw_drive.h"
 #include "io/scenes/scene_words.h"
+#include "models/answer/drive_parts.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/scene/common/drive_parts.h"
 
 #include <cmath>
 #include <numbers>

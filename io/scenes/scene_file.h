@@ -1,8 +1,8 @@
 #pragma once
 
 #include "io/config/config_fields.h"
+#include "models/answer/scene_mistake.h"
 #include "models/material/material_causes.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/scene.h"
 
 #include <filesystem>

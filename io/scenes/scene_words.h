@@ -6,9 +6,9 @@
 #include "io/materials/hyperelastic_file.h"
 #include "io/materials/piezo_file.h"
 #include "io/scenes/scene_file.h"
+#include "models/answer/effect_estimate.h"
+#include "models/answer/scene_mistake.h"
 #include "models/material/material.h"
-#include "models/pillar/mesh/scene_mistake.h"
-#include "models/scene/common/effect_estimate.h"
 
 #include <filesystem>
 #include <functional>

@@ -2,7 +2,7 @@
 
 #include "io/scenes/pillar_positions.h"
 #include "io/scenes/scene_words.h"
-#include "models/pillar/mesh/scene_mistake.h"
+#include "models/answer/scene_mistake.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
 #include "io/scenes/touch_section.h"
 
 #include "io/scenes/scene_words.h"
+#include "models/answer/scene_mistake.h"
 #include "models/array/space/touch_steps.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <utility>
 

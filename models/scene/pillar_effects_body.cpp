@@ -1,7 +1,7 @@
+#include "models/answer/drive_parts.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/large_strain.h"
-#include "models/scene/common/drive_parts.h"
 #include "models/scene/scene_effects.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "models/answer/effect_estimate.h"
 #include "models/array/plane/array_scene.h"
 #include "models/array/space/space_scene.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/scene/common/effect_estimate.h"
 
 namespace viscard {
 

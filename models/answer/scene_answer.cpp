@@ -1,4 +1,4 @@
-#include "models/scene/common/scene_answer.h"
+#include "models/answer/scene_answer.h"
 
 #include <algorithm>
 #include <cmath>

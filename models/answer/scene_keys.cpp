@@ -1,5 +1,5 @@
+#include "models/answer/scene_answer.h"
 #include "models/maths/result_visitor.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <algorithm>
 #include <limits>
