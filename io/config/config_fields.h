@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,7 +33,10 @@ struct QuantityField {
   double written_per_value = 1.0;  // 2 for a radius that is written as a diameter
   const char* word = nullptr;      // a word that a file may use for word_value: "rigid"
   double word_value = 0.0;         // in SI
+  bool is_exact = false;           // a setting or a requested point: has no uncertainty
 };
+// "a positive number with a unit of m".
+std::string text_of(const QuantityField& field);
 
 // A text; the example stands in messages.
 struct TextField {
@@ -39,19 +45,49 @@ struct TextField {
   bool is_required = false;
 };
 
-// Reads or writes the fields of a struct.
+// The words that a key may have, and what they mean.
+template <typename Value>
+using WordTable = std::map<std::string, Value>;
+
+// Reads or writes the fields of a struct, or lists their keys.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
   // How numbers are judged, also those of files that the fields name.
   virtual Plausible judged() const { return Plausible::kOff; }
+  // Whether values are taken from a file. finish() is called once all keys of the file are read and known:
+  // to fill what several keys decide, and to refuse what contradicts itself.
+  virtual bool reads() const { return false; }
+  virtual void after_all_keys(const std::function<void()>& /*finish*/) {}
   // key = "40 um"; the value is in the SI unit of the field.
   virtual void quantity(const QuantityField& field, double& value) = 0;
   // key = "words".
   virtual void text(const TextField& field, std::string& value) = 0;
+  // key = "word", one of those known; an empty value: not given.
+  virtual void word(const TextField& field, const std::vector<std::string>& known,
+                    std::string& value) = 0;
+  // The same for a value with a word; those without one, as the default may be, are not written.
+  template <typename Value>
+  void choice(const TextField& field, const WordTable<std::type_identity_t<Value>>& words,
+              Value& value);
+  template <typename Value>
+  void choice(const TextField& field, const WordTable<std::type_identity_t<Value>>& words,
+              std::optional<Value>& value);
+  // key = "word", with which a file may say what holds anyway.
+  void only(const char* key, const char* known) {
+    std::string value = known;
+    word({key, known}, {known}, value);
+  }
   // key = 3, from low to high.
   virtual void integer(const char* key, std::int64_t low, std::int64_t high,
                        std::int64_t& value) = 0;
+  // The same for a member of any whole type.
+  template <typename Integer>
+  void integer(const char* key, std::int64_t low, std::int64_t high, Integer& value) {
+    auto wide = static_cast<std::int64_t>(value);
+    integer(key, low, high, wide);
+    value = static_cast<Integer>(wide);
+  }
   // key = true.
   virtual void boolean(const char* key, bool& value) = 0;
   // key = ["a", "b"].
@@ -74,6 +110,29 @@ class FieldVisitor {
                     const std::function<void(std::size_t)>& resize,
                     const std::function<void(FieldVisitor&, std::size_t)>& body) = 0;
 };
+
+template <typename Value>
+void FieldVisitor::choice(const TextField& field,
+                          const WordTable<std::type_identity_t<Value>>& words, Value& value) {
+  std::optional<Value> chosen = value;
+  choice(field, words, chosen);
+  if (chosen) value = *chosen;
+}
+
+template <typename Value>
+void FieldVisitor::choice(const TextField& field,
+                          const WordTable<std::type_identity_t<Value>>& words,
+                          std::optional<Value>& value) {
+  std::vector<std::string> known;
+  std::string chosen;
+  for (const auto& [name, meaning] : words) {
+    known.push_back(name);
+    if (value && meaning == *value) chosen = name;
+  }
+  const std::string before = chosen;
+  word(field, known, chosen);
+  if (chosen != before) value = words.at(chosen);
+}
 
 // Shows all fields of a struct to a visitor.
 using ShowFields = std::function<void(FieldVisitor&)>;
@@ -99,8 +158,18 @@ struct ReadRules {
 bool read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
                       const ReadRules& rules = {});
 
-// The fields as TOML, with their units.
-std::string toml_from_fields(const ShowFields& show);
+// The fields as TOML, in SI. Empty: texts, lists and sections without content.
+enum class Empty { kWritten, kLeftOut };
+std::string toml_from_fields(const ShowFields& show, Empty empty = Empty::kWritten);
+
+// A key that a file may have, and what it may hold: "a positive number with a unit of m".
+struct FieldKey {
+  std::string key;  // "geometry.diameter", "shape.at.2"
+  std::string holds;
+};
+// All keys, those of sections too, and the entries that lists of values have. A list of sections has one entry at
+// least: "geometry.classes.1.diameter".
+std::vector<FieldKey> keys_of_fields(const ShowFields& show);
 
 // Returns the line (from 1) of a key such as "geometry.film.radius" in a TOML text, or that of the
 // innermost table around it if the key is missing, or 0 if the text is not TOML. An entry of a list

@@ -6,20 +6,9 @@
 #include "models/experiment/specimen.h"
 #include "models/experiment/test_plan.h"
 
-#include <cstdint>
-
 namespace viscard {
 
 // The fields of each configuration struct, for reading and writing alike.
-
-// Shows an integer member of any type; values outside [low, high] are refused on reading.
-template <typename Integer>
-void show_integer(FieldVisitor& fields, const char* key, std::int64_t low, std::int64_t high,
-                  Integer& value) {
-  auto wide = static_cast<std::int64_t>(value);
-  fields.integer(key, low, high, wide);
-  value = static_cast<Integer>(wide);
-}
 
 void show_rig(FieldVisitor& fields, RigConfig& rig);
 void show_test(FieldVisitor& fields, TestPlan& plan);

@@ -24,27 +24,27 @@ bool is_day(const std::string& text) {
 void show_stage(FieldVisitor& fields, StageConfig& stage) {
   fields.text({"driver", "grbl"}, stage.driver);
   fields.text({"port", "/dev/serial/by-id/usb-..."}, stage.port);
-  show_integer(fields, "baud", 300, 4'000'000, stage.baud);
+  fields.integer("baud", 300, 4'000'000, stage.baud);
   std::string axis(1, stage.axis);
   fields.text({"axis", "Z"}, axis);
   if (axis.size() != 1) {
     throw std::runtime_error("stage.axis is '" + axis + "'; expected one letter, such as \"Z\"");
   }
   stage.axis = axis.front();
-  show_integer(fields, "toward_specimen", -1, 1, stage.toward_specimen);
+  fields.integer("toward_specimen", -1, 1, stage.toward_specimen);
   fields.quantity({"travel", quantities::kTravel, kPositive}, stage.travel_m);
   fields.quantity({"backlash", "m", kNotNegative}, stage.backlash_m);
   fields.quantity({"depth_relative_u", "1", kNotNegative}, stage.depth_relative_u);
   fields.boolean("home", stage.home);
   fields.quantity({"microstep", "m", kNotNegative}, stage.microstep_m);
-  show_integer(fields, "device", 1, 99, stage.device);
-  show_integer(fields, "axis_number", 1, 9, stage.axis_number);
+  fields.integer("device", 1, 99, stage.device);
+  fields.integer("axis_number", 1, 9, stage.axis_number);
 }
 
 void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
   fields.text({"driver", "hx711"}, cell.driver);
   fields.text({"port", "/dev/serial/by-id/usb-..."}, cell.port);
-  show_integer(fields, "baud", 300, 4'000'000, cell.baud);
+  fields.integer("baud", 300, 4'000'000, cell.baud);
   fields.text({"line_format", "auto"}, cell.line_format);
   fields.quantity({"expected_rate", quantities::kRate, kPositive}, cell.expected_rate_Hz);
   fields.quantity({"volts_per_count", "V"}, cell.volts_per_count);
@@ -68,7 +68,7 @@ void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
 void show_thermometer(FieldVisitor& fields, ThermometerConfig& thermometer) {
   fields.text({"driver", "text"}, thermometer.driver);
   fields.text({"port", "/dev/serial/by-id/usb-..."}, thermometer.port);
-  show_integer(fields, "baud", 300, 4'000'000, thermometer.baud);
+  fields.integer("baud", 300, 4'000'000, thermometer.baud);
   fields.text({"framing", "8N1"}, thermometer.framing);
   fields.text({"query", "MEAS:TEMP?"}, thermometer.query);
   fields.quantity({"period", quantities::kPeriod, kPositive}, thermometer.period_s);

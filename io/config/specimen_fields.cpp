@@ -93,7 +93,7 @@ void show_specimen(FieldVisitor& fields, Specimen& specimen) {
 }
 
 void show_truth(FieldVisitor& fields, EmulatedTruth& truth) {
-  show_integer(fields, "seed", 0, std::numeric_limits<std::int64_t>::max(), truth.seed);
+  fields.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), truth.seed);
   fields.section("contact", [&](FieldVisitor& inner) { show_contact(inner, truth.contact); });
   fields.section("material",
                  [&](FieldVisitor& inner) { show_truth_material(inner, truth.material); });

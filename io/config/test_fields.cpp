@@ -27,7 +27,7 @@ void show_protocols(FieldVisitor& fields, TestPlan& plan) {
     inner.quantity({"depth_limit", quantities::kDepth, kNotNegative}, plan.creep.depth_limit_m);
   });
   fields.section("cycles", [&](FieldVisitor& inner) {
-    show_integer(inner, "count", 1, 100000, plan.cycles.count);
+    inner.integer("count", 1, 100000, plan.cycles.count);
     inner.quantity({"depth", quantities::kDepth, kNotNegative, plan.protocol == "cycles"},
                    plan.cycles.depth_m);
     inner.quantity({"duration", quantities::kRamp, kPositive}, plan.cycles.ramp_s);
@@ -36,13 +36,13 @@ void show_protocols(FieldVisitor& fields, TestPlan& plan) {
     inner.quantity({"unload_to_fraction", "1", kFraction}, plan.cycles.unload_to_fraction);
   });
   fields.section("compliance", [&](FieldVisitor& inner) {
-    show_integer(inner, "steps", 3, 1000, plan.compliance.steps);
+    inner.integer("steps", 3, 1000, plan.compliance.steps);
     inner.quantity({"force", quantities::kBenchForce, kNotNegative, plan.protocol == "compliance"},
                    plan.compliance.force_N);
     inner.quantity({"hold", quantities::kHold, kPositive}, plan.compliance.hold_s);
   });
   fields.section("staircase", [&](FieldVisitor& inner) {
-    show_integer(inner, "steps", 1, 10000, plan.staircase.steps);
+    inner.integer("steps", 1, 10000, plan.staircase.steps);
     inner.quantity({"depth", quantities::kDepth, kNotNegative, plan.protocol == "staircase"},
                    plan.staircase.depth_m);
     inner.quantity({"duration", quantities::kRamp, kPositive}, plan.staircase.step_s);

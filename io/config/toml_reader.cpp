@@ -15,12 +15,6 @@
 namespace viscard {
 namespace {
 
-const char* text_of(Range range) {
-  constexpr const char* kTexts[] = {"a finite number", "a positive number",
-                                    "a number that is not negative", "a number from 0 to 1"};
-  return kTexts[static_cast<std::size_t>(range)];
-}
-
 bool is_in(Range range, double value) {
   if (!std::isfinite(value) || range == Range::kAny) return std::isfinite(value);
   if (range == Range::kPositive) return value > 0.0;
@@ -29,13 +23,20 @@ bool is_in(Range range, double value) {
 
 class TomlReader final : public FieldVisitor {
  public:
-  TomlReader(const toml::table& table, std::string file, std::string prefix, const ReadRules& rules)
-      : table_(table), file_(std::move(file)), prefix_(std::move(prefix)), rules_(rules) {}
+  TomlReader(const toml::table& table, std::string file, std::string prefix, const ReadRules& rules,
+             std::vector<std::function<void()>>& finishes)
+      : table_(table),
+        file_(std::move(file)),
+        prefix_(std::move(prefix)),
+        rules_(rules),
+        finishes_(finishes) {}
 
   Plausible judged() const override { return rules_.plausible; }
+  bool reads() const override { return true; }
+  void after_all_keys(const std::function<void()>& finish) override { finishes_.push_back(finish); }
 
   void quantity(const QuantityField& field, double& value) override {
-    const toml::node* node = find(field.key, field.is_required, expected(field));
+    const toml::node* node = find(field.key, field.is_required, text_of(field));
     if (node != nullptr) value = quantity_at(*node, field, "");
   }
 
@@ -52,6 +53,19 @@ class TomlReader final : public FieldVisitor {
     } else {
       fail(*node, field.key, "expected " + what);
     }
+  }
+
+  void word(const TextField& field, const std::vector<std::string>& known,
+            std::string& value) override {
+    std::string given;
+    text(field, given);
+    if (table_.get(field.key) == nullptr) return;
+    if (std::find(known.begin(), known.end(), given) == known.end()) {
+      throw std::runtime_error(where(*table_.get(field.key)) + prefix_ + field.key +
+                               ": cannot be '" + given + "'" + did_you_mean(given, known) +
+                               " There are: " + listed(known));
+    }
+    value = given;
   }
 
   void integer(const char* key, std::int64_t low, std::int64_t high, std::int64_t& value) override {
@@ -97,7 +111,7 @@ class TomlReader final : public FieldVisitor {
   }
 
   void quantities(const QuantityField& field, std::vector<double>& values) override {
-    read_list(field.key, field.is_required, "a list, each entry " + expected(field), values,
+    read_list(field.key, field.is_required, "a list, each entry " + text_of(field), values,
               [&](const toml::node& entry, const std::string& place) {
                 return quantity_at(entry, field, place);
               });
@@ -110,7 +124,7 @@ class TomlReader final : public FieldVisitor {
       fail(*node, key, std::string("expected a section [") + prefix_ + key + "]");
     }
     TomlReader inner(node != nullptr ? *node->as_table() : kEmpty, file_, prefix_ + key + ".",
-                     rules_);
+                     rules_, finishes_);
     body(inner);
     inner.refuse_unknown_keys();
   }
@@ -136,7 +150,8 @@ class TomlReader final : public FieldVisitor {
     for (std::size_t i = 0; i < entries->size(); ++i) {
       const toml::table* entry = entries->get(i)->as_table();
       if (entry == nullptr) fail(*entries->get(i), key, "expected a list of tables");
-      TomlReader inner(*entry, file_, prefix_ + key + "[" + std::to_string(i + 1) + "].", rules_);
+      TomlReader inner(*entry, file_, prefix_ + key + "[" + std::to_string(i + 1) + "].", rules_,
+                       finishes_);
       body(inner, i);
       inner.refuse_unknown_keys();
     }
@@ -177,7 +192,8 @@ class TomlReader final : public FieldVisitor {
       if (field.word != nullptr && *text == field.word) return field.word_value;
       try {
         if (const auto uncertain = uncertain_from_text(*text, field.unit.si)) {
-          written = chosen({prefix_ + field.key + place, *text, field.unit.si, *uncertain});
+          written = chosen({prefix_ + field.key + place, *text, field.unit.si, *uncertain},
+                           field.is_exact);
         } else {
           written = quantity_from_text(*text, field.unit.si);
         }
@@ -185,11 +201,12 @@ class TomlReader final : public FieldVisitor {
         fail(node, field.key, error.what());
       }
     } else {
-      fail(node, field.key, "expected " + expected(field));
+      fail(node, field.key, "expected " + text_of(field));
     }
     if (!is_in(field.range, written)) {
       fail(node, field.key,
-           "is " + text_from_number(written) + "; expected " + text_of(field.range));
+           "is " + text_from_number(written) + "; expected " +
+               text_of(QuantityField{.key = field.key, .range = field.range}));
     }
     if (field.unit.quantity == nullptr) return written / field.written_per_value;
     // Above a metre a length has to state its unit: without one it was most likely forgotten.
@@ -205,18 +222,13 @@ class TomlReader final : public FieldVisitor {
     return written / field.written_per_value;
   }
 
-  double chosen(const UncertainField& field) const {
-    if (!rules_.choose) {
-      throw std::invalid_argument("is read exactly here; leave out what stands behind +-");
+  double chosen(const UncertainField& field, bool is_exact) const {
+    if (is_exact || !rules_.choose) {
+      throw std::invalid_argument(
+          std::string(rules_.choose ? "has no uncertainty" : "is read exactly here") +
+          "; leave out what stands behind +-");
     }
     return rules_.choose(field);
-  }
-
-  static std::string expected(const QuantityField& field) {
-    std::string what = text_of(field.range);
-    if (std::string(field.unit.si) != "1") what += std::string(" with a unit of ") + field.unit.si;
-    if (field.word != nullptr) what += std::string(", or \"") + field.word + "\"";
-    return what;
   }
 
   const toml::node* find(const char* key, bool is_required, const std::string& what) {
@@ -256,6 +268,7 @@ class TomlReader final : public FieldVisitor {
   std::string file_;
   std::string prefix_;  // "stage."
   const ReadRules& rules_;
+  std::vector<std::function<void()>>& finishes_;
   std::vector<std::string> known_;
   bool has_plausible_ = false;  // was read before the fields
   std::string missing_;         // message about the first required key that is missing
@@ -267,11 +280,13 @@ bool read_toml_fields(const std::string& text, const std::string& name, const Sh
                       const ReadRules& rules) {
   const toml::table table = table_from_toml(text, name);
   ReadRules of_file = rules;
-  TomlReader reader(table, name, "", of_file);
+  std::vector<std::function<void()>> finishes;
+  TomlReader reader(table, name, "", of_file, finishes);
   const bool accepts_any = reader.accepts_any();
   if (accepts_any) of_file.plausible = Plausible::kOff;
   show(reader);
   reader.refuse_unknown_keys();
+  for (const auto& finish : finishes) finish();
   return accepts_any;
 }
 

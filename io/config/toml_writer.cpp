@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace viscard {
 namespace {
 
@@ -32,11 +35,12 @@ std::string number(double value) {
 
 class TomlWriter final : public FieldVisitor {
  public:
-  explicit TomlWriter(std::string prefix) : prefix_(std::move(prefix)) {}
+  TomlWriter(std::string prefix, Empty empty) : prefix_(std::move(prefix)), empty_(empty) {}
 
   void quantity(const QuantityField& field, double& value) override {
     // A positive number that was not given; no reader would take it.
     if (field.range == Range::kPositive && !field.is_required && value == 0.0) return;
+    if (std::isnan(value)) return;  // not given
     if (field.word != nullptr && value == field.word_value) {
       line(field.key, in_quotes(field.word));
     } else {
@@ -44,10 +48,14 @@ class TomlWriter final : public FieldVisitor {
     }
   }
   void text(const TextField& field, std::string& value) override {
+    if (value.empty() && empty_ == Empty::kLeftOut) return;
     line(field.key, in_quotes(value));
   }
-  void integer(const char* key, std::int64_t, std::int64_t, std::int64_t& value) override {
-    line(key, std::to_string(value));
+  void word(const TextField& field, const std::vector<std::string>&, std::string& value) override {
+    if (!value.empty()) text(field, value);
+  }
+  void integer(const char* key, std::int64_t low, std::int64_t, std::int64_t& value) override {
+    if (value >= low) line(key, std::to_string(value));
   }
   void boolean(const char* key, bool& value) override { line(key, value ? "true" : "false"); }
 
@@ -66,14 +74,18 @@ class TomlWriter final : public FieldVisitor {
   }
 
   void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
-    TomlWriter inner(prefix_ + key + ".");
+    TomlWriter inner(prefix_ + key + ".", empty_);
     body(inner);
+    if (inner.lines_.empty() && empty_ == Empty::kLeftOut) {
+      sections_ += inner.sections_;
+      return;
+    }
     sections_ += "\n[" + prefix_ + key + "]\n" + inner.all();
   }
   void list(const char* key, std::size_t size, const std::function<void(std::size_t)>&,
             const std::function<void(FieldVisitor&, std::size_t)>& body) override {
     for (std::size_t i = 0; i < size; ++i) {
-      TomlWriter inner(prefix_ + key + ".");
+      TomlWriter inner(prefix_ + key + ".", empty_);
       body(inner, i);
       sections_ += "\n[[" + prefix_ + key + "]]\n" + inner.all();
     }
@@ -88,22 +100,101 @@ class TomlWriter final : public FieldVisitor {
   }
   template <typename Values, typename TextOf>
   void list_line(const char* key, const Values& values, const TextOf& text_of) {
+    if (values.empty() && empty_ == Empty::kLeftOut) return;
     std::vector<std::string> texts;
     for (const auto& value : values) texts.push_back(text_of(value));
     line(key, "[" + listed(texts) + "]");
   }
 
   std::string prefix_;
+  Empty empty_;
   std::string lines_;
   std::string sections_;
 };
 
+// Every key with what it may hold.
+class KeyLister final : public FieldVisitor {
+ public:
+  KeyLister(std::string prefix, std::vector<FieldKey>& keys)
+      : prefix_(std::move(prefix)), keys_(keys) {}
+
+  void quantity(const QuantityField& field, double&) override { add(field.key, text_of(field)); }
+  void text(const TextField& field, std::string&) override {
+    add(field.key, std::string("a text, such as \"") + field.example + "\"");
+  }
+  void word(const TextField& field, const std::vector<std::string>& known, std::string&) override {
+    add(field.key, "one of: " + listed(known));
+  }
+  void integer(const char* key, std::int64_t low, std::int64_t high, std::int64_t&) override {
+    add(key, fmt::format("a whole number from {} to {}", low, high));
+  }
+  void boolean(const char* key, bool&) override { add(key, "true or false"); }
+  void texts(const TextField& field, std::vector<std::string>& values) override {
+    add(field.key, std::string("a list of texts, such as [\"") + field.example + "\"]");
+    add_entries(field.key, values.size(), "an entry of the list");
+  }
+  void quantities(const QuantityField& field, std::vector<double>& values) override {
+    add(field.key, "a list, each entry " + text_of(field));
+    add_entries(field.key, values.size(), text_of(field));
+  }
+  void quantity_pairs(const char* key, QuantityOrUnit first, QuantityOrUnit second,
+                      std::vector<std::pair<double, double>>& values) override {
+    add(key,
+        fmt::format("a list of pairs, {} and {}", text_of({key, first}), text_of({key, second})));
+    for (std::size_t i = 1; i <= values.size(); ++i) {
+      const std::string entry = std::string(key) + "." + std::to_string(i);
+      add(entry + ".1", text_of({key, first}));
+      add(entry + ".2", text_of({key, second}));
+    }
+  }
+  void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
+    KeyLister inner(prefix_ + key + ".", keys_);
+    body(inner);
+  }
+  void list(const char* key, std::size_t size, const std::function<void(std::size_t)>& resize,
+            const std::function<void(FieldVisitor&, std::size_t)>& body) override {
+    if (size == 0) resize(1);
+    for (std::size_t i = 0; i < std::max<std::size_t>(size, 1); ++i) {
+      KeyLister inner(prefix_ + key + "." + std::to_string(i + 1) + ".", keys_);
+      body(inner, i);
+    }
+    if (size == 0) resize(0);
+  }
+
+ private:
+  void add(const std::string& key, const std::string& holds) {
+    keys_.push_back({prefix_ + key, holds});
+  }
+  void add_entries(const char* key, std::size_t size, const std::string& holds) {
+    for (std::size_t i = 1; i <= size; ++i) add(std::string(key) + "." + std::to_string(i), holds);
+  }
+
+  std::string prefix_;
+  std::vector<FieldKey>& keys_;
+};
+
 }  // namespace
 
-std::string toml_from_fields(const ShowFields& show) {
-  TomlWriter writer("");
+std::string text_of(const QuantityField& field) {
+  constexpr const char* kRanges[] = {"a finite number", "a positive number",
+                                     "a number that is not negative", "a number from 0 to 1"};
+  std::string what = kRanges[static_cast<std::size_t>(field.range)];
+  if (std::string(field.unit.si) != "1") what += std::string(" with a unit of ") + field.unit.si;
+  if (field.word != nullptr) what += std::string(", or \"") + field.word + "\"";
+  return what;
+}
+
+std::string toml_from_fields(const ShowFields& show, Empty empty) {
+  TomlWriter writer("", empty);
   show(writer);
   return writer.all();
+}
+
+std::vector<FieldKey> keys_of_fields(const ShowFields& show) {
+  std::vector<FieldKey> keys;
+  KeyLister lister("", keys);
+  show(lister);
+  return keys;
 }
 
 }  // namespace viscard

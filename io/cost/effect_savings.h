@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/cost/cost_clock.h"
-#include "models/scene/common/scene_answer.h"
+#include "models/answer/scene_answer.h"
 #include "models/scene/scene.h"
 
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/pillar/mesh/pillar_mesh.h"
-#include "models/scene/common/scene_answer.h"
 #include "models/scene/scene.h"
 
 #include <functional>

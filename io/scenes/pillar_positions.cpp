@@ -3,7 +3,7 @@
 #include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/tables/csv_table.h"
-#include "models/pillar/mesh/scene_mistake.h"
+#include "models/answer/scene_mistake.h"
 
 #include <algorithm>
 #include <cctype>

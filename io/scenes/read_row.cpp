@@ -1,150 +1,97 @@
-#include "io/scenes/raw_drive.h"
-#include "io/scenes/scene_words.h"
-#include "io/scenes/shape_section.h"
+#include "io/scenes/scene_drive.h"
+#include "io/scenes/scene_fields.h"
+#include "models/answer/drive_parts.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/array/plane/simulate_array.h"
-#include "models/scene/common/drive_parts.h"
-#include "models/scene/effects.h"
 #include "models/scene/plan.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace viscard {
 namespace {
 
-constexpr double kAllPillars = -1.0;  // the file names no single ones
-
-// The values of the file before they are checked.
-struct RawArray {
-  double tolerance = 1e-3;
-  std::string kind = "array", model = "plane-stress";
-  ArrayGeometry geometry;
-  std::int64_t count = 8;
-  std::string film_material, film_bottom = "fixed", film_ends = "free", poling = "+z";
-  std::string electrode_face = "bottom", electrode_kind = "sampled";
-  ArrayElectrodes electrodes;
-  RawMaterial pillar, film;
-  std::string analysis = "static", load_on, direction = "axial";
-  double pressure_Pa = 0.0, shear_Pa = 0.0;
-  std::vector<double> pillars = {kAllPillars};
-  RawDrive times{.modes = 3};
-  RawShape shape;
-  double surface_energy_J_m2 = 0.02;
-  std::map<std::string, std::string> effects;
-  std::vector<std::string> quantities;
-  ArraySweep sweep;
-  std::vector<PrintedValue> printed;
-};
-
-QuantityField length(const char* key, bool is_required = false) {
-  return {.key = key, .unit = "m", .range = Range::kPositive, .is_required = is_required};
-}
-
-void show_geometry(FieldVisitor& v, RawArray& s) {
-  ArrayGeometry& g = s.geometry;
-  v.text({"kind", "array"}, s.kind);
-  v.text({"model", "plane-stress"}, s.model);
-  v.integer("count", 1, 4096, s.count);
-  v.quantity(length("spacing"), g.spacing_m);
-  v.quantity(length("diameter", true), g.diameter_m);
-  v.quantity(length("length", true), g.length_m);
+void show_geometry(FieldVisitor& v, SceneFile& file, ArrayScene& scene) {
+  ArrayGeometry& g = scene.geometry;
+  v.only("kind", ArrayScene::kKind);
+  v.choice({"model", "plane-stress"},
+           {{"plane-stress", PlaneState::kStress}, {"plane-strain", PlaneState::kStrain}},
+           scene.plane);
+  v.integer("count", 1, 4096, g.count);
+  v.quantity(length_key("spacing"), g.spacing_m);
+  v.quantity(length_key("diameter", true), g.diameter_m);
+  v.quantity(length_key("length", true), g.length_m);
   v.section("film", [&](FieldVisitor& f) {
-    f.quantity(length("thickness", true), g.film_thickness_m);
-    f.text({"ends", "free"}, s.film_ends);
+    f.quantity(length_key("thickness", true), g.film_thickness_m);
+    f.choice({"ends", "free"}, {{"free", FilmEnds::kFree}, {"mirror", FilmEnds::kMirror}}, g.ends);
     f.quantity({.key = "edge", .unit = "m", .range = Range::kNotNegative}, g.film_edge_m);
-    f.text({"material", "pvdf", true}, s.film_material);
-    f.text({"bottom", "fixed"}, s.film_bottom);
+    show_film_material(f, file);
+    f.only("bottom", "fixed");
   });
   v.section("electrode", [&](FieldVisitor& e) {
-    e.text({"face", "bottom"}, s.electrode_face);
-    e.text({"kind", "sampled"}, s.electrode_kind);
-    e.quantity(length("radius"), s.electrodes.half_width_m);
+    e.choice({"face", "bottom"}, grounded_by_electrode_face(), scene.electrodes.grounded);
+    e.choice({"kind", "sampled"}, {{"equipotential", true}, {"sampled", false}},
+             scene.electrodes.is_equipotential);
+    e.quantity(length_key("radius"), scene.electrodes.half_width_m);
   });
-  v.text({"poling", "+z"}, s.poling);
+  show_poling(v, file);
 }
 
-void show_array(FieldVisitor& v, RawArray& s) {
-  v.quantity({.key = "tolerance", .range = Range::kPositive}, s.tolerance);
-  v.section("geometry", [&](FieldVisitor& g) { show_geometry(g, s); });
-  v.section("materials", [&](FieldVisitor& m) {
-    m.section("pillar", [&](FieldVisitor& one) { show_material(one, s.pillar); });
-    m.section(s.film_material.c_str(), [&](FieldVisitor& one) { show_material(one, s.film); });
-    m.quantity({.key = "surface_energy", .unit = "J/m2", .range = Range::kPositive},
-               s.surface_energy_J_m2);
-  });
-  v.section("analysis", [&](FieldVisitor& a) {
-    a.text({"kind", "static"}, s.analysis);
-    a.integer("modes", 1, 12, s.times.modes);
-    show_times(a, "Pa", s.times);
-    a.section("load", [&](FieldVisitor& l) {
-      l.quantity({.key = "pressure", .unit = "Pa"}, s.pressure_Pa);
-      l.quantity({.key = "shear", .unit = "Pa"}, s.shear_Pa);
-      l.text({"on", "top"}, s.load_on);
-      l.text({"direction", "axial"}, s.direction);
-      l.quantities({.key = "pillars", .range = Range::kPositive}, s.pillars);
-    });
-  });
-  v.section("shape", [&](FieldVisitor& one) { show_shape(one, s.shape); });
-  v.section("sweep", [&](FieldVisitor& w) {
-    w.quantities(length("diameter"), s.sweep.diameter_m);
-    w.quantities(length("spacing"), s.sweep.spacing_m);
-    w.quantities(length("thickness"), s.sweep.thickness_m);
-    w.quantity({.key = "length_over_diameter", .range = Range::kPositive},
-               s.sweep.length_over_diameter);
-    w.quantity({.key = "limit_percent", .range = Range::kPositive}, s.sweep.limit_percent);
-  });
-  v.section("effects", [&](FieldVisitor& e) {
-    for (const Effect& effect : effects()) e.text({effect.name, "auto"}, s.effects[effect.name]);
-  });
-  v.section("want", [&](FieldVisitor& w) {
-    w.texts({"quantities", "centre_voltage"}, s.quantities);
-  });
-  show_printed(v, s.printed);
+void show_sweep(FieldVisitor& v, ArraySweep& sweep) {
+  const auto values = [](const char* key) {
+    QuantityField field = length_key(key);
+    field.is_exact = true;
+    return field;
+  };
+  v.quantities(values("diameter"), sweep.diameter_m);
+  v.quantities(values("spacing"), sweep.spacing_m);
+  v.quantities(values("thickness"), sweep.thickness_m);
+  v.quantity({.key = "length_over_diameter", .range = Range::kPositive, .is_exact = true},
+             sweep.length_over_diameter);
+  v.quantity({.key = "limit_percent", .range = Range::kPositive, .is_exact = true},
+             sweep.limit_percent);
 }
 
-Medium film_of(const RawArray& raw, const std::filesystem::path& folder) {
-  const Medium film = film_medium("materials." + raw.film_material, raw.film, folder).medium;
-  const bool is_reversed =
-      choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}});
-  return is_reversed ? with_reversed_poling(film) : film;
-}
+constexpr double kAllPillars = -1.0;  // the file names no single ones
 
-void fill_load(const RawArray& raw, ArrayScene& scene) {
+// What stands in analysis.load of a row.
+struct RowLoadKeys {
+  double pressure_Pa = 0.0, shear_Pa = 0.0;
+  bool has_place = false, is_lateral = false;
+  std::vector<double> pillars;
+};
+
+void fill_load(const RowLoadKeys& keys, ArrayScene& scene) {
   const bool is_in_history = has_part(
       scene.drive, [](const auto& d) requires requires { d.history; } {});
-  const bool has_load = raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0 || is_in_history;
-  if (has_load && raw.load_on.empty()) {
+  const bool has_load = keys.pressure_Pa != 0.0 || keys.shear_Pa != 0.0 || is_in_history;
+  if (has_load && !keys.has_place) {
     throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
   }
-  if (!raw.load_on.empty()) choice<bool>("analysis.load.on", raw.load_on, {{"top", true}});
-  if (raw.pressure_Pa != 0.0 && raw.shear_Pa != 0.0) {
+  if (keys.pressure_Pa != 0.0 && keys.shear_Pa != 0.0) {
     throw SceneMistake("analysis.load", "has both a pressure and a shear; give one of them");
   }
-  const bool is_shear =
-      raw.shear_Pa != 0.0 ||
-      choice<bool>("analysis.load.direction", raw.direction, {{"axial", false}, {"lateral", true}});
-  if (raw.pressure_Pa != 0.0 && is_shear) {
+  const bool is_shear = keys.shear_Pa != 0.0 || keys.is_lateral;
+  if (keys.pressure_Pa != 0.0 && is_shear) {
     throw SceneMistake("analysis.load.direction", "a pressure is axial; give a shear instead");
   }
-  if (is_in_history && (raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0)) {
+  if (is_in_history && (keys.pressure_Pa != 0.0 || keys.shear_Pa != 0.0)) {
     throw SceneMistake("analysis.load", std::string("the pressure or shear of a ") +
                                             analysis_of(scene).name +
                                             " analysis is its history or pulse; say "
                                             "only on and direction = \"axial\" or \"lateral\"");
   }
   scene.load = is_shear ? ArrayLoad::kShear : ArrayLoad::kPressure;
-  scene.load_Pa = raw.shear_Pa != 0.0 ? raw.shear_Pa : raw.pressure_Pa;
-  if (raw.pillars == std::vector<double>{kAllPillars}) return;
-  if (raw.pillars.empty()) {
+  scene.load_Pa = keys.shear_Pa != 0.0 ? keys.shear_Pa : keys.pressure_Pa;
+  if (keys.pillars == std::vector<double>{kAllPillars}) return;
+  if (keys.pillars.empty()) {
     throw SceneMistake("analysis.load.pillars",
                        "names no pillar; give their numbers, such as [4], or leave it out to load "
                        "all of them");
   }
-  for (const double number : raw.pillars) {
+  for (const double number : keys.pillars) {
     if (number != std::floor(number) || number > 4096.0) {
       throw SceneMistake("analysis.load.pillars", "are numbers of pillars, such as [4]");
     }
@@ -152,38 +99,22 @@ void fill_load(const RawArray& raw, ArrayScene& scene) {
   }
 }
 
-ArrayScene scene_from(const RawArray& raw, const std::filesystem::path& folder) {
-  ArrayScene scene;
-  scene.tolerance = raw.tolerance;
-  scene.geometry = raw.geometry;
-  scene.geometry.count = static_cast<int>(raw.count);
-  scene.geometry.ends =
-      choice<FilmEnds>("geometry.film.ends", raw.film_ends,
-                       {{"free", FilmEnds::kFree}, {"mirror", FilmEnds::kMirror}});
-  scene.plane = choice<PlaneState>(
-      "geometry.model", raw.model,
-      {{"plane-stress", PlaneState::kStress}, {"plane-strain", PlaneState::kStrain}});
-  choice<bool>("geometry.film.bottom", raw.film_bottom, {{"fixed", true}});
-  scene.electrodes = raw.electrodes;
-  scene.electrodes.grounded =
-      choice<FilmFace>("geometry.electrode.face", raw.electrode_face,
-                       {{"bottom", FilmFace::kTop}, {"top", FilmFace::kBottom}});
-  scene.electrodes.is_equipotential = choice<bool>("geometry.electrode.kind", raw.electrode_kind,
-                                                   {{"equipotential", true}, {"sampled", false}});
-  scene.pillar = pillar_material(raw.pillar, folder);
-  scene.film = film_of(raw, folder);
-  std::map<std::string, RowDrive> drives;
-  for (const ArrayAnalysis& analysis : array_analyses()) drives[analysis.name] = analysis.drive;
-  scene.drive = choice<RowDrive>("analysis.kind", raw.analysis, drives);
-  scene.wanted = raw.quantities;
-  scene.surface_energy_J_m2 = raw.surface_energy_J_m2;
-  scene.effects = choices_of(raw.effects);
-  fill_drive(raw.times, scene);
-  fill_load(raw, scene);
-  const ArrayGeometry& g = scene.geometry;
-  const double half_m = place_m(g, g.count - 1) + 0.5 * g.diameter_m + g.film_edge_m;
-  scene.press = press_from(raw.shape, folder, {-half_m, half_m, 0.0, 0.0});
-  return scene;
+void show_load(FieldVisitor& v, ArrayScene& scene) {
+  const auto keys = std::make_shared<RowLoadKeys>();
+  keys->is_lateral = scene.load == ArrayLoad::kShear;
+  (keys->is_lateral ? keys->shear_Pa : keys->pressure_Pa) = scene.load_Pa;
+  keys->pillars.assign(scene.loaded.begin(), scene.loaded.end());
+  if (v.reads()) keys->pillars = {kAllPillars};
+  std::string on = v.reads() ? "" : "top";
+  v.section("load", [&](FieldVisitor& l) {
+    l.quantity({.key = "pressure", .unit = "Pa"}, keys->pressure_Pa);
+    l.quantity({.key = "shear", .unit = "Pa"}, keys->shear_Pa);
+    l.word({"on", "top"}, {"top"}, on);
+    l.choice({"direction", "axial"}, {{"axial", false}, {"lateral", true}}, keys->is_lateral);
+    l.quantities({.key = "pillars", .range = Range::kPositive}, keys->pillars);
+  });
+  keys->has_place = !on.empty();
+  v.after_all_keys([&scene, keys] { fill_load(*keys, scene); });
 }
 
 // "centre_voltage_4" asks for pillar 4 alone.
@@ -225,16 +156,61 @@ void check_sweep(const ArraySweep& sweep, const ArrayScene& scene) {
 
 }  // namespace
 
-void read_row(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file) {
-  RawArray raw;
-  read([&](FieldVisitor& v) { show_array(v, raw); });
-  file.sweep = raw.sweep;
-  file.printed = raw.printed;
-  const ArrayScene scene = scene_from(raw, folder);
-  file.scene = scene;
-  check_sweep(file.sweep, scene);
-  for (const SweepPoint& point : points_of(scene, file.sweep)) plan_effects(point.scene);
-  check_wanted(scene);
+void show_fields(FieldVisitor& v, SceneFile& file, ArrayScene& scene) {
+  v.section("geometry", [&](FieldVisitor& g) { show_geometry(g, file, scene); });
+  show_materials(v, "pillar", file, [&](FieldVisitor& m) {
+    m.quantity({.key = "surface_energy", .unit = "J/m2", .range = Range::kPositive},
+               scene.surface_energy_J_m2);
+  });
+  v.after_all_keys([&file, &scene] { scene.film = film_of(file); });
+  v.section("analysis", [&](FieldVisitor& a) {
+    show_analysis(a, scene);
+    show_load(a, scene);
+  });
+  const auto touchable = [&scene] {
+    const ArrayGeometry& g = scene.geometry;
+    const double half_m = place_m(g, g.count - 1) + 0.5 * g.diameter_m + g.film_edge_m;
+    return RoughExtent{-half_m, half_m, 0.0, 0.0};
+  };
+  show_shape(v, file, scene.press ? &*scene.press : nullptr, touchable,
+             [&scene](const ShapePress& press) { scene.press = press; });
+  v.section("sweep", [&](FieldVisitor& w) { show_sweep(w, file.sweep); });
+  show_common(v, "centre_voltage", file);
+  v.after_all_keys([&file, &scene] {
+    check_sweep(file.sweep, scene);
+    for (const SweepPoint& point : points_of(scene, file.sweep)) plan_effects(point.scene);
+    check_wanted(scene);
+  });
+}
+
+std::vector<SweepPoint> points_of(const ArrayScene& scene, const ArraySweep& sweep) {
+  const ArrayGeometry& own = scene.geometry;
+  const auto values = [](const std::vector<double>& list, double single) {
+    return list.empty() ? std::vector<double>{single} : list;
+  };
+  std::vector<SweepPoint> points;
+  for (const double diameter_m : values(sweep.diameter_m, own.diameter_m)) {
+    for (const double thickness_m : values(sweep.thickness_m, own.film_thickness_m)) {
+      for (const double spacing_m : values(sweep.spacing_m, own.spacing_m)) {
+        SweepPoint point{scene, ""};
+        ArrayGeometry& g = point.scene.geometry;
+        g.diameter_m = diameter_m;
+        g.film_thickness_m = thickness_m;
+        g.spacing_m = spacing_m;
+        if (sweep.length_over_diameter > 0.0) g.length_m = sweep.length_over_diameter * diameter_m;
+        const auto name = [&](const char* what, const std::vector<double>& list, double value_m) {
+          if (list.empty()) return;
+          point.label +=
+              fmt::format("{}{} {:.6g} um", point.label.empty() ? "" : ", ", what, value_m * 1e6);
+        };
+        name("diameter", sweep.diameter_m, diameter_m);
+        name("thickness", sweep.thickness_m, thickness_m);
+        name("spacing", sweep.spacing_m, spacing_m);
+        points.push_back(std::move(point));
+      }
+    }
+  }
+  return points;
 }
 
 }  // namespace viscard

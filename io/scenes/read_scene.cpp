@@ -3,8 +3,8 @@
 #include "io/config/toml_text.h"
 #include "io/materials/hyperelastic_file.h"
 #include "io/materials/material_file.h"
+#include "io/scenes/scene_fields.h"
 #include "io/scenes/scene_file.h"
-#include "io/scenes/scene_words.h"
 #include "models/material/ratio_causes.h"
 
 #include <toml++/toml.h>
@@ -15,17 +15,6 @@
 
 namespace viscard {
 namespace {
-
-using SceneReader = void (*)(const FieldReader& read, const std::filesystem::path& folder,
-                             SceneFile& file);
-
-// By geometry.kind.
-const std::map<std::string, SceneReader>& readers() {
-  static const std::map<std::string, SceneReader> kReaders = {{PillarScene::kKind, read_pillar},
-                                                              {ArrayScene::kKind, read_row},
-                                                              {LayerScene::kKind, read_layer}};
-  return kReaders;
-}
 
 // An array in the plane shares its kind with rows; the model distinguishes them.
 bool is_in_space(const toml::node_view<const toml::node>& geometry, const std::string& kind) {
@@ -40,9 +29,9 @@ bool is_in_space(const toml::node_view<const toml::node>& geometry, const std::s
   return false;
 }
 
-// geometry.kind decides how the rest is read. A file that is not TOML goes to the reader of
-// pillars, which reports what is wrong with it.
-SceneReader reader_for(const std::string& text, const std::filesystem::path& path) {
+// geometry.kind decides which keys there are. A file that is not TOML counts as one of a pillar, whose reader
+// reports what is wrong with it.
+Scene empty_scene(const std::string& text, const std::filesystem::path& path) {
   std::string kind;
   bool is_space = false;
   try {
@@ -52,38 +41,35 @@ SceneReader reader_for(const std::string& text, const std::filesystem::path& pat
     kind = geometry["kind"].value_or(std::string(has_count ? "" : PillarScene::kKind));
     is_space = is_in_space(geometry, kind);
   } catch (const toml::parse_error&) {
-    return read_pillar;
+    return PillarScene();
   }
   if (kind.empty()) {
     throw SceneMistake("geometry",
                        "has the count or spacing of a row of pillars; say kind = "
                        "\"array\", or leave them out for a single one");
   }
-  if (is_space) return read_space;
-  return choice<SceneReader>("geometry.kind", kind, readers());
+  if (is_space) return SpaceScene();
+  return choice<Scene>("geometry.kind", kind,
+                       {{PillarScene::kKind, PillarScene()},
+                        {ArrayScene::kKind, ArrayScene()},
+                        {LayerScene::kKind, LayerScene()}});
 }
 
-// Settings of the computation, and requested points, are exact.
-void refuse_uncertain(const std::string& key) {
-  for (const char* const exact : {"tolerance", "discretisation.", "sweep.", "analysis.frequencies",
-                                  "analysis.end_time", "materials.pillar.ratio"}) {
-    if (key.rfind(exact, 0) != 0) continue;
-    throw std::invalid_argument("has no uncertainty; leave out what stands behind +-");
-  }
+void show_scene(FieldVisitor& v, SceneFile& file) {
+  std::visit([&](auto& scene) { show_fields(v, file, scene); }, file.scene);
 }
 
 // Why the material of the pillars is not known exactly. A joint fit states more than its material.
-MaterialCauses material_causes(const std::string& text, const std::filesystem::path& path,
-                               const Scene& scene) {
-  const toml::table table = parsed_toml(text, path.string());
-  const char* const key = std::holds_alternative<LayerScene>(scene) ? "layer" : "pillar";
-  const toml::node_view<const toml::node> material = table["materials"][key];
-  const auto ratio = material["ratio"].value<double>();
-  const auto file = material["file"].value<std::string>();
-  if (!file) return causes_of(common(scene).pillar);
-  const std::filesystem::path named = path.parent_path() / *file;
-  if (ratio) return causes_at_ratio(read_ratio_fit(named, Plausible::kOff), *ratio);
-  if (!looks_like_hyperelastic_file(named)) return causes_of(common(scene).pillar);
+MaterialCauses material_causes(const SceneFile& file) {
+  const bool is_layer = std::holds_alternative<LayerScene>(file.scene);
+  const NamedMaterial& material = file.sources.materials.at(is_layer ? "layer" : "pillar");
+  const std::filesystem::path named = file.sources.folder / material.file;
+  if (!material.file.empty() && material.ratio > 0.0) {
+    return causes_at_ratio(read_ratio_fit(named, Plausible::kOff), material.ratio);
+  }
+  if (material.file.empty() || !looks_like_hyperelastic_file(named)) {
+    return causes_of(common(file.scene).pillar);
+  }
   return {
       .causes = {},
       .left_out =
@@ -105,9 +91,8 @@ SceneFile read_scene(const std::filesystem::path& path, Plausible judged) {
 
 SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path,
                           const std::map<std::string, double>& values, Plausible judged) {
-  SceneFile file;
+  SceneFile file{.sources = {.folder = path.parent_path()}};
   const ChooseValue choose = [&](const UncertainField& field) {
-    refuse_uncertain(field.key);
     const auto is_it = [&](const UncertainField& one) { return one.key == field.key; };
     if (std::none_of(file.uncertain.begin(), file.uncertain.end(), is_it)) {
       file.uncertain.push_back(field);
@@ -115,22 +100,48 @@ SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& 
     const auto given = values.find(field.key);
     return given == values.end() ? field.number.value : given->second;
   };
-  const FieldReader read = [&](const std::function<void(FieldVisitor&)>& show) {
-    file.accepts_implausible =
-        read_toml_fields(text, path.string(), show, {.plausible = judged, .choose = choose}) ||
-        judged == Plausible::kOff;
-  };
   try {
-    read_as(FileKind::kScene, text, path.string(),
-            [&] { reader_for(text, path)(read, path.parent_path(), file); });
+    read_as(FileKind::kScene, text, path.string(), [&] {
+      file.scene = empty_scene(text, path);
+      const auto show = [&](FieldVisitor& v) { show_scene(v, file); };
+      file.accepts_implausible =
+          read_toml_fields(text, path.string(), show, {.plausible = judged, .choose = choose}) ||
+          judged == Plausible::kOff;
+    });
     // Those who give values know the causes already.
-    if (values.empty()) file.material_causes = material_causes(text, path, file.scene);
+    if (values.empty()) file.material_causes = material_causes(file);
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(with_line(text, path, mistake));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   }
   return file;
+}
+
+std::string toml_of(SceneFile file) {
+  return toml_from_fields([&](FieldVisitor& v) { show_scene(v, file); }, Empty::kLeftOut);
+}
+
+std::vector<FieldKey> keys_of(SceneFile file) {
+  return keys_of_fields([&](FieldVisitor& v) { show_scene(v, file); });
+}
+
+std::string table_of_scene_keys() {
+  const std::pair<const char*, Scene> kKinds[] = {
+      {"One pillar", PillarScene()},
+      {"A row of pillars, geometry.kind = \"array\"", ArrayScene()},
+      {"An array in the plane, geometry.kind = \"array\" and model = \"space\"", SpaceScene()},
+      {"A layer, geometry.kind = \"layer\"", LayerScene()}};
+  std::string text =
+      "# Keys of scene files\n\nA film's material stands under [materials] with the name that "
+      "geometry.film.material gives, here pvdf.\n";
+  for (const auto& [kind, scene] : kKinds) {
+    text += std::string("\n## ") + kind + "\n\n| key | holds |\n|---|---|\n";
+    for (const FieldKey& one : keys_of({.scene = scene, .sources = {.film = "pvdf"}})) {
+      text += "| `" + one.key + "` | " + one.holds + " |\n";
+    }
+  }
+  return text;
 }
 
 std::string text_with_line(const std::filesystem::path& path, const SceneMistake& mistake) {

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "io/config/config_fields.h"
+#include "models/answer/scene_mistake.h"
+#include "models/array/contact/rough_surface.h"
 #include "models/material/material_causes.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/scene.h"
 
 #include <filesystem>
@@ -30,6 +31,28 @@ struct PrintedValue {
   std::string note;   // why our value differs
 };
 
+// A material as a scene names it: a file, or an elastic one in place. A joint fit needs a mixing ratio.
+struct NamedMaterial {
+  std::string file;
+  double ratio = 0.0;
+  double E_Pa = 0.0, nu = 0.0, rho_kg_m3 = 0.0;
+  Plausible judged = Plausible::kScene;  // the numbers of the file
+};
+
+// What a scene file names, and a scene holds only in its result.
+struct SceneSources {
+  std::filesystem::path folder;                    // in which files are looked for
+  std::map<std::string, NamedMaterial> materials;  // by their names under [materials]
+  std::string film;                                // name of its material
+  bool film_is_reversed = false;                   // poling = "-z"
+  bool film_is_directional = true;
+  std::vector<std::string> of_classes;  // names of materials; empty: that of the usual pillars
+  SpaceLattice lattice = SpaceLattice::kSquare;
+  double spacing_m = 0.0;                    // of a lattice
+  std::string positions, heights, voltages;  // tables
+  RoughSurface rough;
+};
+
 // What stands in a scene file.
 struct SceneFile {
   Scene scene;                            // every uncertain quantity at its value
@@ -37,7 +60,8 @@ struct SceneFile {
   MaterialCauses material_causes;         // what the file of the pillars' material states
   ArraySweep sweep;                       // of rows of pillars; otherwise empty
   std::vector<PrintedValue> printed;      // [[printed]]
-  bool accepts_implausible = false;       // the file, or who read it, says plausible = "off"
+  SceneSources sources;
+  bool accepts_implausible = false;  // the file, or who read it, says plausible = "off"
 };
 
 // Scene files are TOML; data/scenes/ holds commented examples. Material files are looked for in the
@@ -49,6 +73,15 @@ SceneFile read_scene(const std::filesystem::path& path, Plausible judged = Plaus
 SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path,
                           const std::map<std::string, double>& values = {},
                           Plausible judged = Plausible::kScene);
+
+// The scene as TOML, which reads as the same scene.
+std::string toml_of(SceneFile file);
+// The keys that a scene of this kind may have, with what they may hold, and the entries of the lists that this one has:
+// "geometry.film.thickness", "shape.at.2".
+std::vector<FieldKey> keys_of(SceneFile file);
+
+// The keys of scenes of every kind as tables in Markdown.
+std::string table_of_scene_keys();
 
 // One combination; `label` names what varies: "diameter 40 um, spacing 60 um".
 struct SweepPoint {

@@ -1,8 +1,5 @@
-#include "io/scenes/shape_section.h"
-
 #include "io/scenes/pillar_positions.h"
-#include "io/scenes/scene_words.h"
-#include "models/pillar/mesh/scene_mistake.h"
+#include "io/scenes/scene_fields.h"
 
 #include <cmath>
 #include <numbers>
@@ -11,7 +8,38 @@
 namespace viscard {
 namespace {
 
-constexpr const char* kRough = "rough";
+// A rough surface is a table that is drawn.
+struct KindOfShape {
+  ShapeKind kind = ShapeKind::kPlane;
+  bool is_rough = false;
+  bool operator==(const KindOfShape&) const = default;  // the same word
+};
+
+const WordTable<KindOfShape>& kinds_of_shape() {
+  static const WordTable<KindOfShape> kWords = {
+      {"plane", {ShapeKind::kPlane}},   {"cylinder", {ShapeKind::kCylinder}},
+      {"sphere", {ShapeKind::kSphere}}, {"paraboloid", {ShapeKind::kParaboloid}},
+      {"wedge", {ShapeKind::kWedge}},   {"edge", {ShapeKind::kEdge}},
+      {"table", {ShapeKind::kTable}},   {"rough", {ShapeKind::kTable, true}}};
+  return kWords;
+}
+
+// What stands in [shape]. press holds the keys that it has as they stand; its point, tilt and slope follow from the others.
+struct ShapeKeys {
+  std::optional<KindOfShape> kind;
+  ShapePress press;
+  double angle_rad = 0.0;
+  std::vector<double> at_m, tilt_rad;
+};
+
+ShapeKeys keys_of(const ShapePress& press) {
+  const RigidShape& shape = press.shape;
+  ShapeKeys keys{.kind = KindOfShape{shape.kind, shape.table.is_random}, .press = press};
+  if (shape.kind == ShapeKind::kWedge) keys.angle_rad = std::atan(shape.slope);
+  keys.at_m = {shape.x_m, shape.y_m};
+  keys.tilt_rad = {std::atan(shape.tilt_x), std::atan(shape.tilt_y)};
+  return keys;
+}
 
 bool is_round(ShapeKind kind) {
   return kind == ShapeKind::kCylinder || kind == ShapeKind::kSphere ||
@@ -27,43 +55,41 @@ std::pair<double, double> pair_of(const char* key, const std::vector<double>& va
 }
 
 // Keys that another kind of shape has.
-void refuse_strangers(const RawShape& raw, ShapeKind kind) {
-  if (raw.radius_m > 0.0 && !is_round(kind)) {
+void refuse_strangers(const ShapeKeys& keys, const SceneSources& sources) {
+  const ShapeKind kind = keys.kind->kind;
+  if (keys.press.shape.radius_m > 0.0 && !is_round(kind)) {
     throw SceneMistake("shape.radius", "belongs to a cylinder, a sphere or a paraboloid");
   }
-  if (raw.angle_rad != 0.0 && kind != ShapeKind::kWedge) {
+  if (keys.angle_rad != 0.0 && kind != ShapeKind::kWedge) {
     throw SceneMistake("shape.angle",
                        "is the slope of a wedge's flanks; a shape is inclined by tilt");
   }
   const bool has_direction =
       kind == ShapeKind::kCylinder || kind == ShapeKind::kWedge || kind == ShapeKind::kEdge;
-  if (raw.direction_rad != 0.0 && !has_direction) {
+  if (keys.press.shape.direction_rad != 0.0 && !has_direction) {
     throw SceneMistake("shape.direction", "belongs to a cylinder, a wedge or an edge");
   }
-  const bool has_roughness = raw.rms_m > 0.0 || raw.correlation_length_m > 0.0 || raw.seed != 0;
-  if (has_roughness && raw.kind != kRough) {
-    throw SceneMistake(raw.rms_m > 0.0                  ? "shape.rms"
-                       : raw.correlation_length_m > 0.0 ? "shape.correlation_length"
-                                                        : "shape.seed",
+  const RoughSurface& rough = sources.rough;
+  const bool has_roughness =
+      rough.rms_m > 0.0 || rough.correlation_length_m > 0.0 || rough.seed != 0;
+  if (has_roughness && !keys.kind->is_rough) {
+    throw SceneMistake(rough.rms_m > 0.0                  ? "shape.rms"
+                       : rough.correlation_length_m > 0.0 ? "shape.correlation_length"
+                                                          : "shape.seed",
                        "belongs to kind = \"rough\"");
   }
-  if (!raw.file.empty() && raw.kind == kRough) {
-    throw SceneMistake("shape.file", "belongs to kind = \"table\"");
-  }
-  if (!raw.file.empty() && kind != ShapeKind::kTable) {
+  if (!sources.heights.empty() && (keys.kind->is_rough || kind != ShapeKind::kTable)) {
     throw SceneMistake("shape.file", "belongs to kind = \"table\"");
   }
 }
 
 // Random heights stand in for a table, around the point `at`.
-void fill_rough(const RawShape& raw, const RoughExtent& touchable, RigidShape& shape) {
-  if (!(raw.rms_m > 0.0) || !(raw.correlation_length_m > 0.0)) {
+void fill_rough(const RoughSurface& surface, const RoughExtent& touchable, RigidShape& shape) {
+  if (!(surface.rms_m > 0.0) || !(surface.correlation_length_m > 0.0)) {
     throw SceneMistake("shape",
                        "is rough, which needs rms and correlation_length, such as rms = "
                        "\"0.25 um\", correlation_length = \"75 um\"");
   }
-  const RoughSurface surface{raw.rms_m, raw.correlation_length_m,
-                             static_cast<std::uint64_t>(raw.seed)};
   const RoughExtent around{touchable.low_x_m - shape.x_m, touchable.high_x_m - shape.x_m,
                            touchable.low_y_m - shape.y_m, touchable.high_y_m - shape.y_m};
   if (rough_places(surface, around) > kMostRoughPlaces) {
@@ -74,90 +100,90 @@ void fill_rough(const RawShape& raw, const RoughExtent& touchable, RigidShape& s
   shape.table = rough_heights(surface, around);
 }
 
-void fill_kind(const RawShape& raw, const std::filesystem::path& folder,
-               const RoughExtent& touchable, RigidShape& shape) {
-  refuse_strangers(raw, shape.kind);
-  if (is_round(shape.kind) && !(raw.radius_m > 0.0)) {
+void fill_kind(const ShapeKeys& keys, const SceneFile& file,
+               const std::function<RoughExtent()>& touchable, RigidShape& shape) {
+  shape.kind = keys.kind->kind;
+  refuse_strangers(keys, file.sources);
+  if (is_round(shape.kind) && !(shape.radius_m > 0.0)) {
     throw SceneMistake("shape", "needs a radius, such as radius = \"100 mm\"");
   }
-  shape.radius_m = raw.radius_m;
   if (shape.kind == ShapeKind::kWedge) {
-    if (raw.angle_rad == 0.0) {
+    if (keys.angle_rad == 0.0) {
       throw SceneMistake("shape", "needs the angle of its flanks, such as angle = \"5 degree\"");
     }
-    if (!(raw.angle_rad < 0.25 * std::numbers::pi)) {
+    if (!(keys.angle_rad < 0.25 * std::numbers::pi)) {
       throw SceneMistake("shape.angle", "is 45 degrees or more; tops are taken to be nearly level");
     }
-    shape.slope = std::tan(raw.angle_rad);
+    shape.slope = std::tan(keys.angle_rad);
   }
-  if (raw.kind == kRough) return fill_rough(raw, touchable, shape);
+  if (keys.kind->is_rough) return fill_rough(file.sources.rough, touchable(), shape);
   if (shape.kind != ShapeKind::kTable) return;
-  if (raw.file.empty()) {
+  const std::string& heights = file.sources.heights;
+  if (heights.empty()) {
     throw SceneMistake("shape", "needs file = \"heights.csv\" with columns x, y and z");
   }
-  shape.table = read_heights(named_file("shape.file", folder, raw.file, FileKind::kTable));
+  shape.table = read_heights(named_file("shape.file", file, heights, FileKind::kTable));
 }
 
-}  // namespace
-
-void show_shape(FieldVisitor& v, RawShape& s) {
-  v.text({"kind", "sphere"}, s.kind);
-  v.quantity({.key = "radius", .unit = quantities::kShapeRadius, .range = Range::kPositive},
-             s.radius_m);
-  v.quantity({.key = "depth", .unit = "m"}, s.depth_m);
-  v.quantity({.key = "force", .unit = "N", .range = Range::kPositive}, s.force_N);
-  v.text({"friction", "none"}, s.friction);
-  v.quantities({.key = "at", .unit = "m"}, s.at_m);
-  v.quantities({.key = "tilt", .unit = "rad"}, s.tilt_rad);
-  v.quantity({.key = "direction", .unit = "rad"}, s.direction_rad);
-  v.quantity({.key = "angle", .unit = "rad", .range = Range::kPositive}, s.angle_rad);
-  v.text({"file", "heights.csv"}, s.file);
-  v.quantity({.key = "rms", .unit = "m", .range = Range::kPositive}, s.rms_m);
-  v.quantity({.key = "correlation_length", .unit = "m", .range = Range::kPositive},
-             s.correlation_length_m);
-  v.integer("seed", 0, 1'000'000'000, s.seed);
-  v.quantity({.key = "work_of_adhesion", .unit = "J/m2", .range = Range::kPositive},
-             s.work_of_adhesion_J_m2);
-  v.quantities({.key = "before", .unit = "m"}, s.before_m);
-}
-
-std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem::path& folder,
-                                     const RoughExtent& touchable) {
-  const bool is_empty = raw.depth_m == 0.0 && raw.force_N == 0.0 && raw.radius_m == 0.0;
-  if (raw.kind.empty() && is_empty) return {};
-  ShapePress press;
+ShapePress press_from(const ShapeKeys& keys, const SceneFile& file,
+                      const std::function<RoughExtent()>& touchable) {
+  if (!keys.kind) {
+    throw SceneMistake("shape", "needs its kind, such as kind = \"sphere\"");
+  }
+  ShapePress press = keys.press;
   RigidShape& shape = press.shape;
-  shape.kind = choice<ShapeKind>("shape.kind", raw.kind,
-                                 {{"plane", ShapeKind::kPlane},
-                                  {"cylinder", ShapeKind::kCylinder},
-                                  {"sphere", ShapeKind::kSphere},
-                                  {"paraboloid", ShapeKind::kParaboloid},
-                                  {"wedge", ShapeKind::kWedge},
-                                  {"edge", ShapeKind::kEdge},
-                                  {"table", ShapeKind::kTable},
-                                  {kRough, ShapeKind::kTable}});
-  press.friction = choice<Friction>("shape.friction", raw.friction,
-                                    {{"none", Friction::kNone}, {"stick", Friction::kStick}});
-  std::tie(shape.x_m, shape.y_m) = pair_of("at", raw.at_m);
-  fill_kind(raw, folder, touchable, shape);
-  const auto [tilt_x, tilt_y] = pair_of("tilt", raw.tilt_rad);
+  std::tie(shape.x_m, shape.y_m) = pair_of("at", keys.at_m);
+  fill_kind(keys, file, touchable, shape);
+  const auto [tilt_x, tilt_y] = pair_of("tilt", keys.tilt_rad);
   constexpr double kSteepest = 0.25 * std::numbers::pi;
   if (std::abs(tilt_x) > kSteepest || std::abs(tilt_y) > kSteepest) {
     throw SceneMistake("shape.tilt", "is more than 45 degrees; tops are taken to be nearly level");
   }
   shape.tilt_x = std::tan(tilt_x);
   shape.tilt_y = std::tan(tilt_y);
-  shape.direction_rad = raw.direction_rad;
-  if (raw.depth_m < 0.0 && raw.before_m.empty()) {
+  if (press.depth_m < 0.0 && press.before_m.empty()) {
     throw SceneMistake("shape.depth",
                        "must be positive: above the tops a shape touches nothing, unless it was "
                        "deeper before and adhesion holds it (shape.before, work_of_adhesion)");
   }
-  press.depth_m = raw.depth_m;
-  press.work_of_adhesion_J_m2 = raw.work_of_adhesion_J_m2;
-  press.before_m = raw.before_m;
-  press.force_N = raw.force_N;
   return press;
+}
+
+}  // namespace
+
+void show_shape(FieldVisitor& v, SceneFile& file, const ShapePress* now,
+                const std::function<RoughExtent()>& touchable,
+                const std::function<void(const ShapePress&)>& place) {
+  const auto keys = std::make_shared<ShapeKeys>(now == nullptr ? ShapeKeys{} : keys_of(*now));
+  ShapePress& press = keys->press;
+  RoughSurface& rough = file.sources.rough;
+  v.section("shape", [&](FieldVisitor& s) {
+    s.choice({"kind", "sphere"}, kinds_of_shape(), keys->kind);
+    s.quantity({.key = "radius", .unit = quantities::kShapeRadius, .range = Range::kPositive},
+               press.shape.radius_m);
+    s.quantity({.key = "depth", .unit = "m"}, press.depth_m);
+    s.quantity({.key = "force", .unit = "N", .range = Range::kPositive}, press.force_N);
+    s.choice({"friction", "none"}, {{"none", Friction::kNone}, {"stick", Friction::kStick}},
+             press.friction);
+    s.quantities({.key = "at", .unit = "m"}, keys->at_m);
+    s.quantities({.key = "tilt", .unit = "rad"}, keys->tilt_rad);
+    s.quantity({.key = "direction", .unit = "rad"}, press.shape.direction_rad);
+    s.quantity({.key = "angle", .unit = "rad", .range = Range::kPositive}, keys->angle_rad);
+    s.text({"file", "heights.csv"}, file.sources.heights);
+    s.quantity({.key = "rms", .unit = "m", .range = Range::kPositive}, rough.rms_m);
+    s.quantity({.key = "correlation_length", .unit = "m", .range = Range::kPositive},
+               rough.correlation_length_m);
+    s.integer("seed", 0, 1'000'000'000, rough.seed);
+    s.quantity({.key = "work_of_adhesion", .unit = "J/m2", .range = Range::kPositive},
+               press.work_of_adhesion_J_m2);
+    s.quantities({.key = "before", .unit = "m"}, press.before_m);
+  });
+  v.after_all_keys([&file, keys, touchable, place] {
+    const ShapePress& given = keys->press;
+    const bool is_empty =
+        given.depth_m == 0.0 && given.force_N == 0.0 && given.shape.radius_m == 0.0;
+    if (keys->kind || !is_empty) place(press_from(*keys, file, touchable));
+  });
 }
 
 }  // namespace viscard

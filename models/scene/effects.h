@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/scene/common/effect_estimate.h"
+#include "models/answer/effect_estimate.h"
 #include "models/scene/scene.h"
 
 #include <tuple>

@@ -1,6 +1,6 @@
 #include "models/scene/plan.h"
 
-#include "models/scene/common/effect_estimate.h"
+#include "models/answer/effect_estimate.h"
 #include "models/scene/effects.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/scene/common/scene_answer.h"
+#include "models/answer/scene_answer.h"
 #include "models/scene/scene.h"
 
 #include <vector>

@@ -1,17 +1,16 @@
 #pragma once
 
+#include "models/answer/effect_estimate.h"
 #include "models/array/plane/array_scene.h"
 #include "models/array/space/space_scene.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/scene/common/effect_estimate.h"
 
 namespace viscard {
 
 // The effects of each kind of scene: the estimate of leaving one out, and how a scene becomes one
 // that never had it. Those of one line are in effects.cpp.
 
-// One pillar: effects in the film and its electrodes (pillar_effects_film.cpp), and of the body
-// (pillar_effects_body.cpp).
+// One pillar: effects in the film and its electrodes, and of the body.
 EffectEstimate film_compliance_estimate(const PillarScene& scene);
 void leave_out_film(PillarScene& scene);
 EffectEstimate piezo_coupling_estimate(const PillarScene& scene);

@@ -1,5 +1,6 @@
 #include "models/scene/simulate.h"
 
+#include "models/answer/effect_estimate.h"
 #include "models/array/layer/simulate_layer.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/array/space/simulate_space.h"
@@ -7,7 +8,6 @@
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/large_strain.h"
 #include "models/pillar/analyses/simulate_pillar.h"
-#include "models/scene/common/effect_estimate.h"
 #include "models/scene/plan.h"
 
 #include <algorithm>

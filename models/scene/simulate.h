@@ -1,8 +1,8 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/array/plane/row_shapes.h"
 #include "models/pillar/body/section_grid.h"
-#include "models/scene/common/scene_answer.h"
 #include "models/scene/scene.h"
 
 #include <functional>

@@ -5,6 +5,7 @@
 #include "io/cli/words/help_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/flow/command_error.h"
+#include "io/scenes/scene_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -62,7 +63,7 @@ std::vector<DescribedResult> common_results() {
            }}}};
 }
 
-// A file for each schema, and keys.md and keys.txt about all of them.
+// A file for each schema, keys.md and keys.txt about all of them, and scenes.md about scene files.
 void write_schemas(const std::filesystem::path& folder, const CommandDocuments& documents) {
   std::filesystem::create_directories(folder);
   std::vector<DescribedResult> results;
@@ -75,6 +76,7 @@ void write_schemas(const std::filesystem::path& folder, const CommandDocuments& 
   }
   write_file(folder / "keys.md", table_of_keys(results), true);
   write_file(folder / "keys.txt", list_of_keys(results), true);
+  write_file(folder / "scenes.md", table_of_scene_keys(), true);
 }
 
 }  // namespace
@@ -92,8 +94,8 @@ int run_help(const Words& words, Streams& streams, const Words& names,
   syntax.positional.add("what", &what, "its subcommand");
   syntax.options.add("man", &is_page, "print the manual page, for man -l -");
   syntax.options.add("schemas", &schemas,
-                     "folder to write JSON Schemas of what --json prints into, with a table of all "
-                     "keys");
+                     "folder to write JSON Schemas of what --json prints into, with tables of all "
+                     "keys, also those of scene files");
   syntax.may_exist = {"schemas"};
   syntax.results = common_results();
   if (!parse_words(syntax, words, streams)) return kDone;

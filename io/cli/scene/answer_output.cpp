@@ -5,8 +5,8 @@
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/map_output.h"
 #include "io/cli/words/json_output.h"
+#include "models/answer/effect_estimate.h"
 #include "models/maths/text_of_number.h"
-#include "models/scene/common/effect_estimate.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include "io/flow/scenes/compared_answers.h"
 #include "io/flow/scenes/scene_uncertainty.h"
 #include "io/scenes/scene_file.h"
+#include "models/answer/scene_answer.h"
 #include "models/array/plane/row_shapes.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <optional>
 #include <ostream>

@@ -3,7 +3,7 @@
 #include "io/flow/scenes/array_sweep.h"
 #include "io/flow/scenes/compared_answers.h"
 #include "io/plots/plot.h"
-#include "models/scene/common/scene_answer.h"
+#include "models/answer/scene_answer.h"
 #include "models/sensor/sensor_design.h"
 
 #include <map>

@@ -14,8 +14,8 @@
 #include "io/pictures/row_picture.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
+#include "models/answer/effect_estimate.h"
 #include "models/maths/text_of_number.h"
-#include "models/scene/common/effect_estimate.h"
 #include "models/scene/simulate.h"
 
 #include <chrono>

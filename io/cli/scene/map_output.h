@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/cli/scene/answer_pictures.h"
-#include "models/scene/common/scene_answer.h"
+#include "models/answer/scene_answer.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include "io/cli/words/streams.h"
 #include "io/scenes/scene_file.h"
-#include "models/scene/common/scene_answer.h"
+#include "models/answer/scene_answer.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/scenes/scene_file.h"
-#include "models/scene/common/scene_answer.h"
+#include "models/answer/scene_answer.h"
 
 #include <functional>
 #include <string>

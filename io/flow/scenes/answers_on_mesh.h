@@ -2,7 +2,7 @@
 
 #include "io/flow/scenes/named_values.h"
 #include "io/flow/scenes/uncertain_scene.h"
-#include "models/scene/common/scene_answer.h"
+#include "models/answer/scene_answer.h"
 
 #include <Eigen/Core>
 

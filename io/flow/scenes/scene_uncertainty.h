@@ -1,8 +1,8 @@
 #pragma once
 
 #include "io/flow/scenes/uncertain_scene.h"
+#include "models/answer/scene_answer.h"
 #include "models/maths/interval.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <cstddef>
 #include <functional>

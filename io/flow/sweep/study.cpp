@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/number_text.h"
+#include "io/basics/words.h"
 #include "io/config/config_fields.h"
 #include "io/config/toml_text.h"
 #include "io/scenes/scene_file.h"
@@ -11,8 +12,10 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -149,9 +152,25 @@ void put(toml::node& in, const std::string& part, const Value& value, const std:
   list.replace(list.cbegin() + static_cast<std::ptrdiff_t>(*entry), value);
 }
 
+// "; did you mean 'geometry.diameter'?" if scenes of this kind have no such key.
+std::string meant_key(const std::string& scene, const std::filesystem::path& path,
+                      const std::string& key) {
+  try {
+    std::vector<std::string> known;
+    for (const FieldKey& one : keys_of(scene_from_toml(scene, path, {}, Plausible::kOff))) {
+      known.push_back(one.key);
+    }
+    const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
+    return is_known ? "; give it in the scene, too" : did_you_mean(key, known);
+  } catch (const std::exception&) {  // the scene alone cannot be read
+    return "; give it in the scene, too";
+  }
+}
+
 // Sets a key such as "geometry.film.thickness", or an entry of a list, such as "shape.at.2" and
 // "analysis.history.1.2".
-void set_key(toml::table& root, const std::string& key, const std::string& value) {
+void set_key(toml::table& root, const std::string& key, const std::string& value,
+             const std::function<std::string()>& what_next) {
   toml::node* node = &root;
   std::size_t begin = 0;
   for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin)) {
@@ -164,7 +183,7 @@ void set_key(toml::table& root, const std::string& key, const std::string& value
     }
     if (inner == nullptr || !(inner->is_table() || inner->is_array())) {
       throw std::runtime_error("the scene has no section or list '" + key.substr(0, dot) +
-                               "' for the parameter '" + key + "'; give it in the scene, too");
+                               "' for the parameter '" + key + "'" + what_next());
     }
     node = inner;
     begin = dot + 1;
@@ -286,7 +305,9 @@ std::string scene_text_with(const Study& study, const StudyValues& values) {
 std::string scene_text_with(const std::string& scene, const std::filesystem::path& path,
                             const StudyValues& values) {
   toml::table table = table_from_toml(scene, path.string());
-  for (const auto& [key, value] : values) set_key(table, key, value);
+  for (const auto& [key, value] : values) {
+    set_key(table, key, value, [&, &name = key] { return meant_key(scene, path, name); });
+  }
   std::ostringstream text;
   text << table << "\n";
   return text.str();

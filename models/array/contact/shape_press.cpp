@@ -1,6 +1,6 @@
 #include "models/array/contact/shape_press.h"
 
-#include "models/pillar/mesh/scene_mistake.h"
+#include "models/answer/scene_mistake.h"
 
 #include <cmath>
 

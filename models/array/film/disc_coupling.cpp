@@ -1,9 +1,9 @@
 #include "models/array/film/disc_coupling.h"
 
+#include "models/answer/scene_mistake.h"
 #include "models/array/film/film_table.h"
 #include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

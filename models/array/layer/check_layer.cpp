@@ -1,7 +1,7 @@
+#include "models/answer/scene_mistake.h"
 #include "models/array/film/disc_coupling.h"
 #include "models/array/layer/layer_scene.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <cmath>
 #include <string>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/array/layer/layer_contact.h"
 #include "models/array/layer/layer_scene.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "models/answer/scene_common.h"
 #include "models/array/layer/layer_contact.h"
 #include "models/array/space/space_array.h"
 #include "models/array/space/space_scene.h"
-#include "models/scene/common/scene_common.h"
 
 #include <utility>
 #include <vector>

@@ -1,11 +1,11 @@
 #include "models/array/layer/simulate_layer.h"
 
+#include "models/answer/error_control.h"
+#include "models/answer/scene_mistake.h"
 #include "models/array/layer/layer_readings.h"
 #include "models/array/layer/layer_transfer.h"
 #include "models/array/layer/layer_window.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
-#include "models/scene/common/error_control.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
+#include "models/answer/scene_mistake.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "models/array/plane/array_scene.h"
 
-#include "models/scene/common/drive_parts.h"
+#include "models/answer/drive_parts.h"
 
 namespace viscard {
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "models/answer/scene_common.h"
 #include "models/array/contact/shape_press.h"
 #include "models/array/plane/array_statics.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/load_history.h"
-#include "models/scene/common/scene_common.h"
 
 #include <optional>
 #include <variant>

@@ -1,9 +1,9 @@
+#include "models/answer/scene_mistake.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/array/plane/pressed_row.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

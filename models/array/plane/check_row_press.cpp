@@ -1,7 +1,7 @@
+#include "models/answer/scene_mistake.h"
 #include "models/array/contact/press_notes.h"
 #include "models/array/plane/pressed_row.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

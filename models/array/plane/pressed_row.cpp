@@ -1,7 +1,7 @@
 #include "models/array/plane/pressed_row.h"
 
+#include "models/answer/error_control.h"
 #include "models/array/plane/array_analysis.h"
-#include "models/scene/common/error_control.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // The row under its shape as independent columns, before anything is solved.
+#include "models/answer/scene_mistake.h"
 #include "models/array/contact/pull_off.h"
 #include "models/array/plane/row_contact.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "models/array/plane/simulate_array.h"
 
+#include "models/answer/error_control.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/array/plane/pressed_row.h"
 #include "models/pillar/analyses/simulate_pillar.h"
-#include "models/scene/common/error_control.h"
 
 #include <algorithm>
 #include <cmath>

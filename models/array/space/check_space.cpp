@@ -1,3 +1,4 @@
+#include "models/answer/scene_mistake.h"
 #include "models/array/contact/press_notes.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
@@ -6,7 +7,6 @@
 #include "models/maths/neighbours.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

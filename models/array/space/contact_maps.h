@@ -1,7 +1,7 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/array/space/space_contact.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <string>
 #include <vector>

@@ -1,10 +1,10 @@
 // The array under its shape as independent columns, an estimate before anything is solved; and forces on tops as loads.
+#include "models/answer/scene_mistake.h"
 #include "models/array/contact/pull_off.h"
 #include "models/array/contact/round_tip.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/space_maps.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <array>

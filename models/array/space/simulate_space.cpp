@@ -1,12 +1,12 @@
 #include "models/array/space/simulate_space.h"
 
+#include "models/answer/error_control.h"
+#include "models/answer/scene_mistake.h"
 #include "models/array/space/contact_maps.h"
 #include "models/array/space/space_maps.h"
 #include "models/array/space/touch_curves.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/mesh/scene_mistake.h"
-#include "models/scene/common/error_control.h"
 
 #include <algorithm>
 #include <cmath>

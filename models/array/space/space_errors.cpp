@@ -1,11 +1,11 @@
 // Errors of an array in the plane that do not depend on the accuracy level.
+#include "models/answer/scene_mistake.h"
 #include "models/array/film/disc_charge.h"
 #include "models/array/space/potential_spectrum.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_maps.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

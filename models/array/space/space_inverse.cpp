@@ -1,9 +1,9 @@
 // From the voltages of an array back to the loads on its tops: what models/array/inverse needs to know of a scene.
 #include "models/array/space/space_inverse.h"
 
+#include "models/answer/scene_mistake.h"
 #include "models/array/space/simulate_space.h"
 #include "models/maths/neighbours.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

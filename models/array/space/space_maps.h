@@ -1,8 +1,8 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/array/space/space_array.h"
 #include "models/array/space/space_scene.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <cstddef>
 #include <string>

@@ -1,10 +1,10 @@
 // Forces of the pillars from the voltages of the quarters of their electrodes (models/array/quadrants).
+#include "models/answer/scene_mistake.h"
 #include "models/array/quadrants/sensed_array.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_maps.h"
 #include "models/maths/near_sums.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <array>

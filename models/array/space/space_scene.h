@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/answer/scene_common.h"
 #include "models/array/contact/shape_press.h"
 #include "models/array/quadrants/quadrant_gains.h"
 #include "models/array/sensing/heat_response.h"
@@ -7,7 +8,6 @@
 #include "models/array/space/space_array.h"
 #include "models/array/space/touch_drive.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/scene/common/scene_common.h"
 
 #include <cstddef>
 #include <optional>

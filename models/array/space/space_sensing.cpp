@@ -1,9 +1,9 @@
 // Heat and noise of one pillar's electrode (models/array/sensing).
+#include "models/answer/scene_mistake.h"
 #include "models/array/film/disc_charge.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_maps.h"
 #include "models/maths/dense.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // Time steps of a touch, and checks of its history.
 #include "models/array/space/touch_steps.h"
 
+#include "models/answer/scene_mistake.h"
 #include "models/material/hereditary.h"
 #include "models/material/load_history.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "models/answer/effect_estimate.h"
+#include "models/answer/error_control.h"
+#include "models/answer/scene_answer.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/section_grid.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/scene/common/effect_estimate.h"
-#include "models/scene/common/error_control.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <memory>
 #include <string>

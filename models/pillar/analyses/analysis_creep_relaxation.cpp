@@ -1,10 +1,10 @@
 // Creep and relaxation: a history of pressure or shortening, without inertia.
+#include "models/answer/scene_mistake.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/scene_body.h"
 #include "models/pillar/body/pillar_model.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/pillar/time/model_reduction.h"
 
 #include <algorithm>

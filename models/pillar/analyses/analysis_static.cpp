@@ -1,3 +1,4 @@
+#include "models/answer/scene_mistake.h"
 #include "models/maths/gauss_legendre.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
@@ -6,7 +7,6 @@
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/section_grid.h"
 #include "models/pillar/body/solution_rest.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

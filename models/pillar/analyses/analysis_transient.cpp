@@ -1,3 +1,4 @@
+#include "models/answer/scene_mistake.h"
 #include "models/maths/dense.h"
 #include "models/maths/require.h"
 #include "models/pillar/analyses/analysis.h"
@@ -5,7 +6,6 @@
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/analyses/top_load.h"
 #include "models/pillar/body/pillar_model.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/pillar/time/modal_response.h"
 #include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/motion_peak.h"

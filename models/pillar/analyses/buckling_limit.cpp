@@ -1,10 +1,10 @@
 #include "models/pillar/analyses/buckling_limit.h"
 
+#include "models/answer/scene_mistake.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/mesh/pillar_mesh.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

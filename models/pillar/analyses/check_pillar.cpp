@@ -1,8 +1,8 @@
+#include "models/answer/scene_mistake.h"
 #include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/simulate_pillar.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <cmath>
 #include <string>

@@ -1,9 +1,9 @@
 #include "models/pillar/analyses/creep_buckling.h"
 
+#include "models/answer/scene_mistake.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

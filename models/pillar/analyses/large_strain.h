@@ -1,8 +1,8 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/pillar/body/section_grid.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <string>
 #include <vector>

@@ -1,9 +1,9 @@
 #include "models/pillar/analyses/pressed_modes.h"
 
+#include "models/answer/error_control.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/scene/common/error_control.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/viscoelastic_system.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <Eigen/Core>
 

@@ -1,10 +1,10 @@
+#include "models/answer/scene_mistake.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/top_load.h"
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/section_grid.h"
 #include "models/pillar/body/solution_rest.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 namespace viscard {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <functional>
 #include <optional>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/scene/common/scene_answer.h"
 
 namespace viscard {
 

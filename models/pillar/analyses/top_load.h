@@ -1,10 +1,10 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/pillar/body/directional_film.h"
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/body/section_grid.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/scene/common/scene_answer.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 #include "models/pillar/analyses/wave_mesh.h"
 
+#include "models/answer/scene_mistake.h"
 #include "models/material/material.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

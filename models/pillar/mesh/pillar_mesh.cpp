@@ -1,8 +1,8 @@
 #include "models/pillar/mesh/pillar_mesh.h"
 
+#include "models/answer/scene_mistake.h"
 #include "models/maths/require.h"
 #include "models/pillar/mesh/film_mesh.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

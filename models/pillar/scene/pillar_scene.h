@@ -1,11 +1,11 @@
 #pragma once
 
+#include "models/answer/scene_common.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 #include "models/pillar/body/nearby_pillar.h"
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/scene/pillar_drives.h"
 #include "models/pillar/time/readout.h"
-#include "models/scene/common/scene_common.h"
 
 #include <memory>
 #include <optional>

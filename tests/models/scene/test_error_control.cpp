@@ -1,5 +1,5 @@
 // Meshes that are taken until the estimate of an error is within the tolerance.
-#include "models/scene/common/error_control.h"
+#include "models/answer/error_control.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // What disturbs the reading of a pillar's electrode.
+#include "models/answer/scene_mistake.h"
 #include "models/array/sensing/heat_response.h"
 #include "models/array/sensing/thermal_noise.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 #include "tests/models/array/space/film_of_the_thesis.h"

@@ -1,9 +1,9 @@
 // Arrays in the plane where an answer could be surer than it is: electrodes that touch, charges that are left out, a film
 // that ends, and pillars that buckle.
+#include "models/answer/scene_mistake.h"
 #include "models/array/film/disc_coupling.h"
 #include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/simulate.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 

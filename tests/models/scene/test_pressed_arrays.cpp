@@ -1,9 +1,9 @@
 // Arrays in the plane under a rigid shape, as scenes: forces, voltages, plan and notes.
+#include "models/answer/scene_mistake.h"
 #include "models/array/space/foot_motion.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/touch_steps.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 #include "tests/models/array/space/film_of_the_thesis.h"

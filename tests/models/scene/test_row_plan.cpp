@@ -1,6 +1,6 @@
+#include "models/answer/scene_mistake.h"
 #include "models/array/plane/row_contact.h"
 #include "models/array/plane/simulate_array.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 #include "tests/models/array/plane/pressed_rows.h"

@@ -1,6 +1,6 @@
 // Scenes that find forces from the voltages of quarters.
+#include "models/answer/scene_mistake.h"
 #include "models/array/sensing/thermal_noise.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 #include "tests/models/array/space/film_of_the_thesis.h"

@@ -1,6 +1,6 @@
 // Arrays in the plane as scenes: maps, results, plan and refusals.
+#include "models/answer/scene_mistake.h"
 #include "models/array/space/simulate_space.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/simulate.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 

@@ -1,5 +1,5 @@
 // Arrays in the plane whose tops stick to the shape: forces in three directions, notes and refusals.
-#include "models/pillar/mesh/scene_mistake.h"
+#include "models/answer/scene_mistake.h"
 #include "tests/models/scene/touches.h"
 
 #include <catch2/catch.hpp>

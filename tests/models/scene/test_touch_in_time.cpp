@@ -1,10 +1,10 @@
 // Shapes that press on arrays of pillars that relax, in time.
+#include "models/answer/scene_mistake.h"
 #include "models/array/film/disc_charge.h"
 #include "models/array/space/potential_spectrum.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/touch_course.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 #include "tests/models/scene/touches.h"

@@ -2,6 +2,7 @@
 #include "io/flow/sweep/run_study.h"
 #include "io/scenes/scene_file.h"
 #include "tests/io/scenes/scene_text.h"
+#include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
 
 #include <nlohmann/json.hpp>
@@ -105,6 +106,18 @@ TEST_CASE("a parameter may be an entry of a list of the scene", "[cli][scene][sw
   CHECK_THROWS_WITH(with("shape.at.x", "1 um"), Catch::Contains("counted from 1"));
   CHECK_THROWS_WITH(with("shape.before.1", "1 um"), Catch::Contains("no section or list"));
   CHECK_THROWS_WITH(with("analysis.history.5.1", "1 s"), Catch::Contains("no section or list"));
+}
+
+TEST_CASE("a parameter in a section that the scene lacks is told which key was meant",
+          "[cli][scene][sweep]") {
+  const auto error = [](const char* key) {
+    const std::string scene =
+        "[geometry]\ndiameter = \"40 um\"\nlength = \"120 um\"\n[analysis]\nkind = \"modal\"\n"
+        "[materials]\npillar = { E = \"1.8 MPa\", nu = 0.33, rho = \"965 kg/m3\" }\n";
+    return test::error_text([&] { scene_text_with(scene, "scene.toml", {{key, "1"}}); });
+  };
+  CHECK(error("geometri.diameter").find("did you mean 'geometry.diameter'?") != std::string::npos);
+  CHECK(error("readout.resistance").find("give it in the scene, too") != std::string::npos);
 }
 
 TEST_CASE("a sweep that is killed five times ends with each point once", "[cli][scene][sweep]") {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/array/layer/layer_scene.h"
-#include "models/scene/common/scene_answer.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Answers of a bulk layer on the film under a rigid shape: their errors, their symmetries, and what is refused.
+#include "models/answer/scene_mistake.h"
 #include "models/array/layer/layer_contact.h"
 #include "models/array/layer/simulate_layer.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/array/layer/layer_scenes.h"
 
 #include <catch2/catch.hpp>

@@ -1,9 +1,9 @@
 // A bulk layer on the film under a rigid shape, against closed forms, integral equations and an
 // independent program.
+#include "models/answer/scene_mistake.h"
 #include "models/array/layer/layer_contact.h"
 #include "models/array/layer/simulate_layer.h"
 #include "models/maths/grid_convolution.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/array/layer/layer_scenes.h"
 
 #include <catch2/catch.hpp>

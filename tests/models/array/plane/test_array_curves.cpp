@@ -1,5 +1,5 @@
+#include "models/answer/error_control.h"
 #include "models/array/plane/simulate_array.h"
-#include "models/scene/common/error_control.h"
 #include "tests/models/array/plane/seed_array.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
+#include "models/answer/scene_mistake.h"
 #include "models/array/plane/array_scene.h"
 #include "models/array/plane/simulate_array.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/array/plane/seed_array.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // Rows of strips under rigid shapes: forces, moments and voltages beside another program's.
+#include "models/answer/scene_mistake.h"
 #include "models/array/plane/pressed_row.h"
 #include "models/array/plane/simulate_array.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/array/plane/pressed_rows.h"
 
 #include <catch2/catch.hpp>

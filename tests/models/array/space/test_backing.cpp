@@ -1,9 +1,9 @@
 // A film on an elastic half-space: what it reads, how it moves under all pillars, contact on it.
+#include "models/answer/scene_mistake.h"
 #include "models/array/film/film_table.h"
 #include "models/array/space/foot_motion.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
+#include "models/answer/scene_mistake.h"
 #include "models/array/space/space_array.h"
 #include "models/array/space/space_maps.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 
 #include <catch2/catch.hpp>

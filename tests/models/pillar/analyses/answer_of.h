@@ -1,7 +1,7 @@
 #pragma once
 
 // The value, result or curve of an answer with this name. Throws std::runtime_error if there is none.
-#include "models/scene/common/scene_answer.h"
+#include "models/answer/scene_answer.h"
 
 #include <stdexcept>
 #include <string>

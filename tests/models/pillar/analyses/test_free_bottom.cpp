@@ -1,8 +1,8 @@
 // Free bodies: their elastic modes, the motion by a voltage, and the scenes that are refused.
+#include "models/answer/scene_mistake.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "tests/models/pillar/analyses/answer_of.h"
 #include "tests/models/pillar/drive_as.h"

@@ -1,8 +1,8 @@
 // Free bodies under a load on the top that oscillates or changes in time: closed forms of rods that only
 // their mass holds.
+#include "models/answer/scene_mistake.h"
 #include "models/material/material.h"
 #include "models/pillar/analyses/simulate_pillar.h"
-#include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/pillar/analyses/answer_of.h"
 #include "tests/models/pillar/drive_as.h"
 

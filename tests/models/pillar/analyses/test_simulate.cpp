@@ -1,6 +1,6 @@
+#include "models/answer/error_control.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/scene/common/error_control.h"
 #include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>

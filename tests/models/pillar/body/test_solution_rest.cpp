@@ -1,7 +1,7 @@
 // What the highest polynomials of a solution say of its error, beside the true error.
+#include "models/answer/error_control.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/solution_rest.h"
-#include "models/scene/common/error_control.h"
 
 #include <catch2/catch.hpp>
 

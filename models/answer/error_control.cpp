@@ -1,4 +1,4 @@
-#include "models/scene/common/error_control.h"
+#include "models/answer/error_control.h"
 
 #include "models/maths/text_of_number.h"
 

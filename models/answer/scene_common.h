@@ -1,7 +1,7 @@
 #pragma once
 
+#include "models/answer/effect_estimate.h"
 #include "models/material/material.h"
-#include "models/scene/common/effect_estimate.h"
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
+#include "models/answer/effect_estimate.h"
+#include "models/answer/scene_mistake.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
-#include "models/scene/common/effect_estimate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/pillar/mesh/pillar_mesh.h"
+#include "models/answer/discretisation.h"
 
 #include <complex>
 #include <cstddef>

@@ -1,7 +1,7 @@
-#include "models/scene/common/scene_common.h"
+#include "models/answer/scene_common.h"
 
+#include "models/answer/scene_mistake.h"
 #include "models/maths/text_of_number.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,243 @@
+#include "io/scenes/scene_fields.h"
+
+#include "io/basics/named_file.h"
+#include "io/materials/material_file.h"
+#include "models/material/liquid.h"
+#include "models/pillar/system/rotated_medium.h"
+#include "models/scene/effects.h"
+
+#include <algorithm>
+
+namespace viscard {
+
+QuantityField length_key(const char* key, bool is_required) {
+  return {.key = key, .unit = "m", .range = Range::kPositive, .is_required = is_required};
+}
+
+namespace {
+
+void show_effects(FieldVisitor& v, EffectChoices& choices) {
+  static const WordTable<EffectChoice> kWords = {
+      {"auto", EffectChoice::kAuto}, {"on", EffectChoice::kOn}, {"off", EffectChoice::kOff}};
+  for (const Effect& effect : effects()) {
+    const auto known = choices.find(effect.name);
+    std::optional<EffectChoice> chosen;
+    if (known != choices.end()) chosen = known->second;
+    v.choice({effect.name, "auto"}, kWords, chosen);
+    if (chosen) choices[effect.name] = *chosen;
+  }
+}
+
+void show_material(FieldVisitor& v, NamedMaterial& m) {
+  m.judged = v.judged();
+  v.text({"file", "pdms_1to10_seed.json"}, m.file);
+  v.quantity({.key = "ratio", .range = Range::kPositive, .is_exact = true}, m.ratio);
+  v.quantity({.key = "E", .unit = quantities::kModulus, .range = Range::kPositive}, m.E_Pa);
+  v.quantity({.key = "nu", .unit = quantities::kPoissonRatio}, m.nu);
+  v.quantity({.key = "rho", .unit = "kg/m3", .range = Range::kPositive}, m.rho_kg_m3);
+}
+
+const NamedMaterial& named(const SceneFile& file, const std::string& name) {
+  static const NamedMaterial kNone;
+  const auto found = file.sources.materials.find(name);
+  return found == file.sources.materials.end() ? kNone : found->second;
+}
+
+}  // namespace
+
+void show_common(FieldVisitor& v, const char* wanted_example, SceneFile& file) {
+  SceneCommon& scene = common(file.scene);
+  v.quantity({.key = "tolerance", .range = Range::kPositive, .is_exact = true}, scene.tolerance);
+  v.section("effects", [&](FieldVisitor& e) { show_effects(e, scene.effects); });
+  v.section("want", [&](FieldVisitor& w) {
+    w.texts({"quantities", wanted_example}, scene.wanted);
+  });
+  std::vector<PrintedValue>& printed = file.printed;
+  v.list(
+      "printed", printed.size(), [&](std::size_t n) { printed.resize(n); },
+      [&](FieldVisitor& p, std::size_t i) {
+        p.text({"name", "lateral 1", true}, printed[i].name);
+        p.text({"value", "16103 Hz", true}, printed[i].value);
+        p.text({"note", "the mesh of the source is coarse"}, printed[i].note);
+      });
+}
+
+void show_materials(FieldVisitor& v, const char* body, SceneFile& file,
+                    const std::function<void(FieldVisitor&)>& others) {
+  SceneSources& sources = file.sources;
+  std::vector<std::string> names = sources.of_classes;
+  names.insert(names.begin(), {body, sources.film});
+  v.section("materials", [&](FieldVisitor& m) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i].empty() ||
+          std::find(names.begin(), names.begin() + i, names[i]) != names.begin() + i)
+        continue;
+      m.section(names[i].c_str(),
+                [&](FieldVisitor& one) { show_material(one, sources.materials[names[i]]); });
+    }
+    if (others) others(m);
+  });
+  v.after_all_keys([&file, body] { common(file.scene).pillar = pillar_material(file, body); });
+}
+
+void show_film_material(FieldVisitor& v, SceneFile& file) {
+  v.text({"material", "pvdf", true}, file.sources.film);
+}
+
+void show_poling(FieldVisitor& v, SceneFile& file) {
+  v.choice({"poling", "+z"}, {{"+z", false}, {"-z", true}}, file.sources.film_is_reversed);
+}
+
+Medium film_of(const SceneFile& file) {
+  const Medium film = film_medium(file, file.sources.film).medium;
+  return file.sources.film_is_reversed ? with_reversed_poling(film) : film;
+}
+
+const WordTable<FilmFace>& grounded_by_electrode_face() {
+  static const WordTable<FilmFace> kWords = {{"bottom", FilmFace::kTop},
+                                             {"top", FilmFace::kBottom}};
+  return kWords;
+}
+
+void show_electrode(FieldVisitor& v, FilmFace& grounded, SpaceElectrode& electrode,
+                    double& radius_m) {
+  bool quadrants = electrode == SpaceElectrode::kQuadrants;
+  if (quadrants) electrode = SpaceElectrode::kSampled;
+  v.choice({"face", "bottom"}, grounded_by_electrode_face(), grounded);
+  v.choice(
+      {"kind", "sampled"},
+      {{"sampled", SpaceElectrode::kSampled}, {"equipotential", SpaceElectrode::kEquipotential}},
+      electrode);
+  v.quantity(length_key("radius"), radius_m);
+  v.boolean("quadrants", quadrants);
+  if (!quadrants) return;
+  v.after_all_keys([is_one = electrode == SpaceElectrode::kEquipotential] {
+    if (!is_one) return;
+    throw SceneMistake("geometry.electrode.kind",
+                       "quadrants are read on a charge-free face; say kind = \"sampled\", or leave "
+                       "quadrants out");
+  });
+  electrode = SpaceElectrode::kQuadrants;
+}
+
+namespace {
+
+// Names under which people ask for the largest stress at the rim of the bond. There is none: it is
+// infinite in an elastic body (Williams, J. Appl. Mech. 19 (1952) 526).
+bool is_peak_stress(const std::string& name) {
+  return name.find("peak_stress") != std::string::npos || name == "base_stress_max";
+}
+
+}  // namespace
+
+void check_wanted(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
+  for (const std::string& name : wanted) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (is_peak_stress(name)) {
+      throw SceneMistake("want.quantities",
+                         "the peak stress at the rim of the bond is infinite in an elastic body (a "
+                         "clamped corner): it grows with every refinement. Ask for "
+                         "base_stress_rim_mean, the mean over the outermost tenth of the radius, "
+                         "or for base_stress_at_half_radius");
+    }
+    throw SceneMistake("want.quantities", "this analysis has no '" + name + "'" +
+                                              did_you_mean(name, known) +
+                                              " It has: " + listed(known));
+  }
+}
+
+std::filesystem::path named_file(const std::string& key, const SceneFile& file,
+                                 const std::string& name, FileKind wanted) {
+  const std::filesystem::path& folder = file.sources.folder;
+  const std::string fault = fault_of_named_file(folder, name, wanted);
+  if (!fault.empty()) throw SceneMistake(key, fault);
+  return folder / name;
+}
+
+MediumFile film_medium(const SceneFile& file, const std::string& name) {
+  const NamedMaterial& raw = named(file, name);
+  const std::string key = "materials." + name;
+  if (!raw.file.empty()) {
+    return read_medium(named_file(key + ".file", file, raw.file, FileKind::kMedium), raw.judged);
+  }
+  if (!(raw.E_Pa > 0.0)) throw SceneMistake(key, "needs E (and nu, rho) or a file");
+  try {
+    return {.medium = isotropic_medium(raw.E_Pa, raw.nu, raw.rho_kg_m3)};
+  } catch (const std::invalid_argument& error) {
+    throw SceneMistake(key, error.what());
+  }
+}
+
+std::optional<HyperelasticFile> pillar_rubber(const SceneFile& file, const std::string& name) {
+  const NamedMaterial& raw = named(file, name);
+  const std::string key = "materials." + name;
+  if (raw.file.empty()) return std::nullopt;
+  const auto path = named_file(key + ".file", file, raw.file, FileKind::kMaterial);
+  if (!looks_like_hyperelastic_file(path)) return std::nullopt;
+  HyperelasticFile rubber = read_hyperelastic(path, raw.judged);
+  if (!rubber.is_trustworthy) {
+    const std::string why = rubber.defects.empty() ? "" : " (" + rubber.defects.front() + ")";
+    throw SceneMistake(key + ".file", "the law of rubber in '" + raw.file +
+                                          "' is not to be trusted" + why +
+                                          "; fit another law, or more tests");
+  }
+  if (raw.E_Pa > 0.0 || raw.ratio > 0.0) {
+    throw SceneMistake(key, "the modulus comes from the law of rubber; leave out E and ratio");
+  }
+  if (!(raw.nu > 0.0)) {
+    throw SceneMistake(key,
+                       "a law of rubber needs nu beside its file, such as nu = 0.499 (0.5: "
+                       "incompressible), and rho where vibration counts");
+  }
+  return rubber;
+}
+
+namespace {
+
+// Rubber at small strain. The terms take a share of all stress: nu stays in time, as in a fit of E(t).
+Material linear_part(const HyperelasticFile& rubber, const NamedMaterial& raw) {
+  Material material;
+  material.E0_Pa = rubber.E0_Pa;
+  material.nu = raw.nu;
+  material.rho_kg_m3 = raw.rho_kg_m3;
+  for (const RubberTerm& term : rubber.terms) {
+    material.terms.push_back({.g = term.g, .k = term.g, .tau_s = term.tau_s});
+  }
+  return material;
+}
+
+}  // namespace
+
+Material pillar_material(const SceneFile& file, const std::string& name) {
+  const NamedMaterial& raw = named(file, name);
+  const std::string key = "materials." + name;
+  if (!raw.file.empty()) {
+    const auto path = named_file(key + ".file", file, raw.file, FileKind::kMaterial);
+    if (const auto rubber = pillar_rubber(file, name)) {
+      Material material = linear_part(*rubber, raw);
+      refuse_liquid(material, raw.file);
+      return material;
+    }
+    const bool is_joint = looks_like_ratio_file(path);
+    if (is_joint != (raw.ratio > 0.0)) {
+      throw SceneMistake(key, is_joint
+                                  ? "the file is a joint fit over mixing ratios; name one, such as "
+                                    "ratio = 10 (parts of base to one of curing agent)"
+                                  : "the file holds one material, so ratio has no meaning");
+    }
+    Material material = is_joint ? material_at_ratio(read_ratio_fit(path, raw.judged), raw.ratio)
+                                 : read_material(path, raw.judged).material;
+    refuse_liquid(material, raw.file);
+    return material;
+  }
+  if (!(raw.E_Pa > 0.0)) {
+    throw SceneMistake(key, "needs E (and nu, rho) or a file");
+  }
+  Material material;
+  material.E0_Pa = raw.E_Pa;
+  material.nu = raw.nu;
+  material.rho_kg_m3 = raw.rho_kg_m3;
+  return material;
+}
+
+}  // namespace viscard
