@@ -95,11 +95,21 @@ Eigen::VectorXd ReducedSpan::projected(const Eigen::VectorXd& v) const {
   return basis_ * products;
 }
 
+// Where little of a vector is left, what rounding changed of the volume of an incompressible body counts: the
+// next motion (in the energy) that keeps the volume.
+Eigen::VectorXd ReducedSpan::keeping_volume(const Eigen::VectorXd& v) const {
+  Eigen::VectorXd force = elastic_times(v) + shear_times(body_, v) + bulk_times(body_, v);
+  if (shift_1_s2_ > 0.0) force += shift_1_s2_ * times(body_.mass, v);
+  return instantaneous_.solve(force);
+}
+
 bool ReducedSpan::add(Eigen::VectorXd v) {
+  constexpr double kKeepsVolume = 0.1;
   if (count() == basis_.rows()) return false;
   const double before = energy_norm(v);
   // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9).
   for (int pass = 0; pass < 2; ++pass) v -= projected(v);
+  if (body_.incompressible && energy_norm(v) < kKeepsVolume * before) v = keeping_volume(v);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(v.size());
   // An incompressible body's volume does not change.
   Images images{elastic_times(v), shear_times(body_, v),
@@ -161,6 +171,15 @@ Eigen::VectorXcd ReducedSpan::image_of(std::complex<double> shear, std::complex<
   };
   Eigen::VectorXcd sum = shear * whole(shear_) + bulk * whole(bulk_) - omega2 * whole(mass_);
   return sum + whole(elastic_);
+}
+
+Eigen::VectorXd ReducedSpan::without_pressures(Eigen::VectorXd residual) const {
+  for (int pass = 0; body_.incompressible && pass < 2; ++pass) {
+    Eigen::VectorXd source;
+    instantaneous_.solve(residual, &source);
+    residual -= bulk_times(body_, source);
+  }
+  return residual;
 }
 
 double ReducedSpan::dual_norm(const Eigen::VectorXd& residual) const {
