@@ -79,6 +79,7 @@ class ReducedSpan {
   double shift_1_s2_;  // multiple of the mass in the energy
   StiffnessFactor instantaneous_;
   Eigen::MatrixXd basis_, elastic_, shear_, bulk_, mass_;  // unknowns x count()
+  Eigen::MatrixXd force_;  // their sum in the energy, times the basis
   // basis' times the matrices above, count() x count().
   Eigen::MatrixXd small_elastic_, small_shear_, small_bulk_, small_mass_;
 };
