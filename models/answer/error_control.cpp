@@ -131,13 +131,17 @@ double remaining(double change, double before) {
   return change * (ratio < 10.0 / 11.0 ? ratio / (1.0 - ratio) : 10.0);
 }
 
+// Error over the change to a mesh that has a sixth of it or less.
+constexpr double kMissed = 1.2;
+
 // From this degree on the error of steps and bases no longer depends on the mesh.
 constexpr int kNoLongerCoarse = 5;
 
 // Estimates of all numbers from the changes since the mesh before; name of the worst.
 class ChangeTracker {
  public:
-  explicit ChangeTracker(double share_left) : share_left_(share_left) {}
+  explicit ChangeTracker(const ErrorControl& control)
+      : share_left_(control.share_left), is_measured_(control.is_last_measured) {}
 
   // Sets the errors of `answer` and its largest relative one.
   void compare(SceneAnswer& answer) {
@@ -151,7 +155,7 @@ class ChangeTracker {
     last_layers_ = answer.discretisation.layers;
     answer.largest_relative_error = comparable ? 0.0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; comparable && i < numbers.size(); ++i) {
-      change[i] = std::abs(numbers[i].value - last_[i]);
+      change[i] = (is_measured_ ? kMissed : 1.0) * std::abs(numbers[i].value - last_[i]);
     }
     spread_over_curves(parts, change);
     const std::vector<double> seen = change;
@@ -164,8 +168,9 @@ class ChangeTracker {
         change[i] = std::max(left_over, left * last_floor_[i]);
       }
       const double unresolved = numbers[i].unresolved * std::abs(numbers[i].value);
-      *numbers[i].error = std::max(change[i], unresolved) + numbers[i].left_out +
-                          answer.step_error * numbers[i].size;
+      const double on_mesh = is_measured_ && comparable ? change[i] + last_unresolved_[i]
+                                                        : std::max(change[i], unresolved);
+      *numbers[i].error = on_mesh + numbers[i].left_out + answer.step_error * numbers[i].size;
     }
     raise_to_curves(parts);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -178,7 +183,11 @@ class ChangeTracker {
     if (!comparable) change.clear();
     remember(seen, change, gained_layer ? left : 0.0);
     last_.clear();
-    for (const Number& number : numbers) last_.push_back(number.value);
+    last_unresolved_.clear();
+    for (const Number& number : numbers) {
+      last_.push_back(number.value);
+      last_unresolved_.push_back(number.unresolved * std::abs(number.value));
+    }
   }
   bool compared_twice() const { return compared_twice_; }
   const std::string& worst() const { return worst_; }
@@ -198,10 +207,12 @@ class ChangeTracker {
   }
 
   double share_left_;
-  std::vector<double> last_;           // numbers
-  std::vector<double> last_change_;    // of the numbers, or the estimate without a new layer
-  std::vector<double> last_estimate_;  // of their errors
-  std::vector<double> last_floor_;     // of which a share remains at least
+  bool is_measured_;                     // by a finer mesh: the change, and what that one lacks
+  std::vector<double> last_unresolved_;  // in the unit
+  std::vector<double> last_;             // numbers
+  std::vector<double> last_change_;      // of the numbers, or the estimate without a new layer
+  std::vector<double> last_estimate_;    // of their errors
+  std::vector<double> last_floor_;       // of which a share remains at least
   std::string worst_;
   int last_layers_ = 0;
   bool compared_twice_ = false;
@@ -210,7 +221,7 @@ class ChangeTracker {
 }  // namespace
 
 SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_on) {
-  ChangeTracker tracker(control.share_left);
+  ChangeTracker tracker(control);
   SceneAnswer answer;
   double done = 0.0;
   for (const Discretisation& mesh : control.meshes) {
@@ -225,7 +236,9 @@ SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_
     } catch (const MeshTooCoarse&) {
       if (&mesh == &control.meshes.back()) throw;
     }
-    if (tracker.compared_twice() && answer.largest_relative_error <= control.tolerance) {
+    const bool is_judged =
+        tracker.compared_twice() || (control.is_last_measured && &mesh == &control.meshes.back());
+    if (is_judged && answer.largest_relative_error <= control.tolerance) {
       return answer;
     }
     const bool stays = mesh.degree >= kNoLongerCoarse && !control.step_error_falls;

@@ -27,6 +27,8 @@ struct ErrorControl {
   double share_left = kShareLeft;
   // The answer's own step error falls from mesh to mesh, too: finer ones are tried although it is large.
   bool step_error_falls = false;
+  // The last mesh is the one that counts, and the one before it is so much finer that the change is its error.
+  bool is_last_measured = false;
 
   static constexpr double kShareLeft = 0.1;
 };

@@ -1,5 +1,7 @@
 #include "models/array/plane/array_analysis.h"
 
+#include "models/maths/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -47,7 +49,19 @@ double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double
   const double speed_m_s = std::sqrt(scene.film.stiffness_Pa(4, 4) / scene.film.rho_kg_m3);
   const double ratio = frequency_Hz * 4.0 * scene.geometry.film_thickness_m / speed_m_s;
   const bool is_voltage = transfer.voltages() > 0 && asks_for_voltages(scene);
-  return ratio * ratio * (is_voltage ? 1.0 : transfer.film_share());
+  const double error = ratio * ratio * (is_voltage ? 1.0 : transfer.film_share());
+  refuse_moving_film(scene, error, "the answer at " + text_of(frequency_Hz, 4) + " Hz",
+                     "lower frequencies or longer pulses");
+  return error;
+}
+
+void refuse_moving_film(const ArrayScene& scene, double error, const std::string& what,
+                        const std::string& instead) {
+  if (error <= scene.tolerance) return;
+  throw std::runtime_error("the film's own inertia, which rows leave out, may change " + what +
+                           " by a share of " + text_of(error, 2) + ", more than the tolerance of " +
+                           text_of(scene.tolerance, 2) + "; ask for a larger tolerance or " +
+                           instead + ", or for one pillar on its film (kind = \"pillar\")");
 }
 
 std::vector<int> loaded_of(const ArrayScene& scene) {

@@ -55,7 +55,11 @@ int modes_for(const ArrayScene& scene, const Discretisation& mesh, double highes
 
 // Relative error of a film without inertia: (f/f_film)^2 of its motion, f_film = c_s/(4 t) (eq.
 // A2). It applies to a voltage in full, to the displacement of a top only in the film's share.
+// Refused above the tolerance.
 double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double frequency_Hz);
+// Throws with what the film's inertia may change and the way out; no mesh reduces that error.
+void refuse_moving_film(const ArrayScene& scene, double error, const std::string& what,
+                        const std::string& instead);
 
 std::vector<int> loaded_of(const ArrayScene& scene);  // 0-based
 std::string name_of(const ArrayScene& scene, Eigen::Index output);

@@ -36,16 +36,8 @@ SceneAnswer run_row_modal(const ArrayScene& scene, const Discretisation& mesh) {
   return answer;
 }
 
-// Modes of a row neglect the film's own inertia; no mesh reduces that error.
 void refuse_film_modes(const ArrayScene& scene, const SceneAnswer& answer) {
-  if (answer.step_error <= scene.tolerance) return;
-  throw std::runtime_error(
-      "the film's own inertia, which the modes of a row leave out, may change the frequencies by a "
-      "share of " +
-      text_of(answer.step_error, 2) + ", more than the tolerance of " +
-      text_of(scene.tolerance, 2) +
-      "; ask for a larger tolerance or fewer modes, or for one pillar "
-      "on its film (kind = \"pillar\")");
+  refuse_moving_film(scene, answer.step_error, "the frequencies", "fewer modes");
 }
 
 PillarDrive row_modal_alone(const ArrayScene& scene) {

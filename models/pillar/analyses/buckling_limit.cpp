@@ -15,12 +15,16 @@
 namespace viscard {
 namespace {
 
-// Infinite for a pillar so stubby that it buckles only locally, at the rim of its bond.
-double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral) {
+// Infinite for a pillar so stubby that it buckles only locally, at the rim of its bond. A longer one buckles by the
+// beam's formula at the latest.
+double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral, double beam_Pa) {
+  constexpr double kLong = 10.0;  // length over diameter
   try {
     return buckling(axial, lateral).pressure_Pa;
   } catch (const std::runtime_error&) {
-    return std::numeric_limits<double>::infinity();
+    const PillarGeometry& pillar = axial.geometry();
+    return pillar.length_m > kLong * pillar.diameter_m ? beam_Pa
+                                                       : std::numeric_limits<double>::infinity();
   }
 }
 
@@ -29,6 +33,15 @@ double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral
 enum class LimitMesh { kCoarse = 1, kFine = 3 };
 constexpr double kCoarseLimit = 0.02;
 
+// Whether Engesser's formula, for a clamped foot, is closer than a coarse mesh. The contraction that the bond
+// hinders takes 0.1 diameters off the length, twice as much of the load relative to it.
+bool is_beam(const PillarScene& scene) {
+  constexpr double kSlender = 100.0;  // length over diameter
+  constexpr double kTurns = 0.01;     // of the bending
+  return scene.geometry.length_m > kSlender * scene.geometry.diameter_m &&
+         scene.geometry.tip.width_m == 0.0 && (!scene.film || film_shares(scene).bending < kTurns);
+}
+
 // Pressure at which the pillar buckles with a free top or under a plate that slides, and how far it is then shortened.
 struct BucklingLimit {
   double pressure_Pa = 0.0;
@@ -36,27 +49,30 @@ struct BucklingLimit {
 };
 BucklingLimit buckling_limit(const PillarScene& scene, bool has_plate,
                              LimitMesh on = LimitMesh::kCoarse) {
+  const double beam_Pa = engesser_pressure_Pa(scene, has_plate ? TopEnd::kSlides : TopEnd::kFree);
+  if (is_beam(scene)) return {beam_Pa, beam_Pa / scene.pillar.E0_Pa * scene.geometry.length_m};
   const Discretisation mesh = stressed_mesh_sequence(scene.geometry)[static_cast<std::size_t>(on)];
   const PillarModel axial(scene.geometry, mesh, media_of(scene),
                           {.motion = Motion::kLongitudinal, .rigid_top = has_plate});
   const PillarModel lateral(scene.geometry, mesh, media_of(scene),
                             {.motion = Motion::kLateral, .rigid_top = has_plate});
-  const double pressure_Pa = buckling_pressure_Pa(axial, lateral);
+  const double pressure_Pa = buckling_pressure_Pa(axial, lateral, beam_Pa);
   if (!has_plate) return {pressure_Pa};
   return {pressure_Pa,
           axial.mean_top_displacement_m(axial.solve(axial.top_traction())) * pressure_Pa};
 }
 
 // A plate holds the top upright, so that the pillar buckles between the two.
-std::string beyond_buckling_under_plate(const PillarScene& scene) {
+BucklingShare share_under_plate(const PillarScene& scene) {
   const double moved_m = *displacement_m(scene);
   const double rough_m = engesser_pressure_Pa(scene) / scene.pillar.E0_Pa * scene.geometry.length_m;
-  if (-moved_m < 0.5 * rough_m) return "";
+  if (-moved_m < 0.5 * rough_m) return {};
   const double most_m = scene.plane ? rough_m : buckling_limit(scene, true).shortening_m;
-  if (-moved_m < most_m) return "";
-  return "a displacement of " + micrometres(moved_m, 5) + " is beyond about " +
-         micrometres(-most_m, 3) +
-         ", where the pillar buckles between its foot and the plate on its top";
+  const double share = -moved_m / most_m;
+  if (share < 1.0) return {share};
+  return {share, "a displacement of " + micrometres(moved_m, 5) + " is beyond about " +
+                     micrometres(-most_m, 3) +
+                     ", where the pillar buckles between its foot and the plate on its top"};
 }
 
 }  // namespace
@@ -120,20 +136,21 @@ double pillar_buckling_pressure_Pa(const PillarScene& scene, TopEnd end) {
   return buckling_limit(scene, end == TopEnd::kSlides).pressure_Pa;
 }
 
-std::string beyond_buckling(const PillarScene& scene) {
+BucklingShare buckling_share(const PillarScene& scene) {
   const Analysis& analysis = analysis_of(scene);
-  if (analysis.push_Pa == nullptr || is_lateral(scene) || !scene.fixed_bottom) return "";
-  if (moves_top(scene)) return beyond_buckling_under_plate(scene);
+  if (analysis.push_Pa == nullptr || is_lateral(scene) || !scene.fixed_bottom) return {};
+  if (moves_top(scene)) return share_under_plate(scene);
   const double largest_Pa = analysis.push_Pa(scene);
-  if (largest_Pa < rough_buckling_pressure_Pa(scene)) return "";
+  if (largest_Pa < rough_buckling_pressure_Pa(scene)) return {};
   double critical_Pa = pillar_buckling_pressure_Pa(scene);
   if (!scene.plane && std::abs(largest_Pa - critical_Pa) < kCoarseLimit * critical_Pa) {
     critical_Pa = buckling_limit(scene, false, LimitMesh::kFine).pressure_Pa;
   }
-  if (largest_Pa < critical_Pa) return "";
-  return "a pressure of " + text_of(largest_Pa, 5) +
-         " Pa is beyond the buckling pressure of about " + text_of(critical_Pa, 5) +
-         " Pa: the straight pillar buckles sideways";
+  const double share = largest_Pa / critical_Pa;
+  if (share < 1.0) return {share};
+  return {share, "a pressure of " + text_of(largest_Pa, 5) +
+                     " Pa is beyond the buckling pressure of about " + text_of(critical_Pa, 5) +
+                     " Pa: the straight pillar buckles sideways"};
 }
 
 bool holds_straight(const PillarScene& scene) {
@@ -141,10 +158,11 @@ bool holds_straight(const PillarScene& scene) {
   return forced != scene.effects.end() && forced->second == EffectChoice::kOff;
 }
 
-void refuse_beyond_buckling(const PillarScene& scene) {
-  if (holds_straight(scene)) return;
-  const std::string why = beyond_buckling(scene);
-  if (why.empty()) return;
+double refuse_beyond_buckling(const PillarScene& scene) {
+  if (holds_straight(scene)) return 0.0;
+  const BucklingShare share = buckling_share(scene);
+  const std::string& why = share.beyond;
+  if (why.empty()) return share.of_limit;
   throw SceneMistake(has_history(scene) ? "analysis.history"
                      : moves_top(scene) ? "analysis.load.displacement"
                                         : "analysis.load",

@@ -37,16 +37,20 @@ PillarScene long_term_scene(const PillarScene& scene);
 // counts as E u/L. An analysis that finds a pressure itself counts with that pressure.
 double largest_pressure_Pa(const PillarScene& scene);
 
-// A clause with the load and the buckling pressure that it exceeds; "" if the straight pillar bears
-// the load. If Euler's formula comes near the load, the limit is the pillar's own buckling pressure
-// on a coarse mesh; for a strip it is Engesser's formula (eq. E6).
-std::string beyond_buckling(const PillarScene& scene);
+// The load over that at which the straight pillar buckles, 0 far below it; from 1 on with a clause that names both. If
+// Euler's formula comes near the load, the limit is the pillar's own buckling pressure on a coarse mesh; for a strip,
+// and for a long pillar whose foot does not turn, it is Engesser's formula (eq. E6).
+struct BucklingShare {
+  double of_limit = 0.0;
+  std::string beyond;
+};
+BucklingShare buckling_share(const PillarScene& scene);
 
 // True if the scene forces geometric_stiffness off, and so declares that its pillar stays straight.
 bool holds_straight(const PillarScene& scene);
 
 // Throws SceneMistake if the load lies beyond buckling, where the straight shape is not a valid
-// answer, unless the scene holds the pillar straight.
-void refuse_beyond_buckling(const PillarScene& scene);
+// answer, unless the scene holds the pillar straight. Returns the share of the load, 0 if it is held.
+double refuse_beyond_buckling(const PillarScene& scene);
 
 }  // namespace viscard

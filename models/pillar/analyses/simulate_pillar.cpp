@@ -1,5 +1,6 @@
 #include "models/pillar/analyses/simulate_pillar.h"
 
+#include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/large_strain.h"
@@ -23,6 +24,15 @@ bool has_electrode_edge(const PillarScene& scene) {
   if (!scene.electrodes) return false;
   const double edge_m = scene.electrodes->electrode_radius_m;
   return edge_m > 0.0 && edge_m < scene.geometry.film->radius_m * (1.0 - kSameLength);
+}
+
+// A load P multiplies the bow that a pillar has by 1/(1 - P/P_cr). Source: Timoshenko & Gere, Theory of Elastic
+// Stability (1961), 1.12.
+constexpr double kNearBuckling = 0.5;
+std::string growth_of_bow(double share) {
+  return "the load is " + text_of(100.0 * share, 3) +
+         " % of that at which the pillar buckles: a bow that it has is about " +
+         text_of(1.0 / (1.0 - share), 2) + " times as large under it";
 }
 
 }  // namespace
@@ -59,14 +69,15 @@ FirstOrderAnswers first_order_answers(const PillarScene& scene, const Discretisa
 
 SceneAnswer simulate_pillar(const PillarScene& scene) {
   validate(scene);
-  refuse_beyond_buckling(scene);
+  const double share_of_buckling = refuse_beyond_buckling(scene);
   const Analysis& analysis = analysis_of(scene);
   const bool weighs_stress =
       analysis.weighs_stress || (analysis.weighs_pressure && pressure_Pa(scene) != 0.0);
-  std::vector<Discretisation> meshes = scene.discretisation ? refinements_to(*scene.discretisation)
-                                       : weighs_stress      ? stressed_mesh_sequence(scene.geometry)
-                                       : is_large(scene)    ? large_mesh_sequence(scene.geometry)
-                                                            : mesh_sequence(scene.geometry);
+  std::vector<Discretisation> meshes = scene.discretisation
+                                           ? finer_and(*scene.discretisation, scene.geometry)
+                                       : weighs_stress   ? stressed_mesh_sequence(scene.geometry)
+                                       : is_large(scene) ? large_mesh_sequence(scene.geometry)
+                                                         : mesh_sequence(scene.geometry);
   // A shear ends at the rim of the top, where the free side bears none: the stress is logarithmic in the
   // distance, as that of a pressure on a top that turns.
   const bool is_sheared = is_lateral(scene) && load_place(scene) == LoadPlace::kTop;
@@ -75,10 +86,15 @@ SceneAnswer simulate_pillar(const PillarScene& scene) {
                             : has_electrode_edge(scene) ? kShareLeftOfElectrodeEdge
                                                         : ErrorControl::kShareLeft;
   SceneAnswer answer =
-      answer_within({scene.tolerance, meshes, scene.progress, share_left},
+      answer_within({.tolerance = scene.tolerance,
+                     .meshes = meshes,
+                     .progress = scene.progress,
+                     .share_left = share_left,
+                     .is_last_measured = scene.discretisation.has_value()},
                     [&](const Discretisation& mesh) { return pillar_answer_on(scene, mesh); });
   add_film_direction(scene, answer);
-  const std::string why = holds_straight(scene) ? beyond_buckling(scene) : "";
+  if (share_of_buckling > kNearBuckling) answer.notes.push_back(growth_of_bow(share_of_buckling));
+  const std::string why = holds_straight(scene) ? buckling_share(scene).beyond : "";
   if (!why.empty()) {
     answer.notes.push_back(why + ", unless it is held straight, as the scene declares");
   }

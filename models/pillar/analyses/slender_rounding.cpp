@@ -103,8 +103,9 @@ double avoid_rounding(const PillarScene& scene, Discretisation& mesh) {
     throw std::runtime_error(
         "rounding in a pillar " + text_of(slenderness_of(scene), 4) +
         " diameters long leaves a relative error of about " + text_of(rounding, 2) +
-        " in the first lateral frequency; ask for a tolerance of " + text_of(allowed, 2) +
-        " or larger, or take the frequency of a beam (Euler-Bernoulli)");
+        " in bending; " +
+        (allowed < 1.0 ? "ask for a tolerance of " + text_of(allowed, 2) + " or larger, or " : "") +
+        "take the frequency or the load of a beam (Euler)");
   }
   return rounding;
 }

@@ -48,18 +48,16 @@ std::vector<Discretisation> large_mesh_sequence(const PillarGeometry& geometry) 
   return meshes_of(geometry, {{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 3}});
 }
 
-std::vector<Discretisation> refinements_to(const Discretisation& finest) {
-  std::vector<Discretisation> meshes;
-  for (int coarser = 2; coarser >= 0; --coarser) {
-    Discretisation mesh = finest;
-    if (finest.uniform_m > 0.0) {
-      mesh.uniform_m *= std::pow(2.0, coarser);
-    } else {
-      mesh.degree -= coarser;
-    }
-    meshes.push_back(mesh);
+std::vector<Discretisation> finer_and(const Discretisation& named, const PillarGeometry& geometry) {
+  constexpr int kHighest = 12;
+  Discretisation finer = named;
+  if (named.uniform_m > 0.0) {
+    finer = mesh_sequence(geometry)[5];
+  } else {
+    finer.degree = std::max(named.degree, std::min(named.degree + 2, kHighest));
+    ++finer.layers;
   }
-  return meshes;
+  return {finer, named};
 }
 
 }  // namespace viscard

@@ -47,8 +47,8 @@ std::vector<Discretisation> stressed_mesh_sequence(const PillarGeometry& geometr
 // out by its singular strain long before the pillar as a whole is strained.
 std::vector<Discretisation> large_mesh_sequence(const PillarGeometry& geometry);
 
-// Three meshes that end with the given one. On uniform meshes each halves the elements of the one
-// before; on graded ones each has one degree more, and `finest` must have degree 3 or more.
-std::vector<Discretisation> refinements_to(const Discretisation& finest);
+// A mesh that measures the error of one that is named, and that one: with two degrees and a layer more; of equal elements,
+// a graded one.
+std::vector<Discretisation> finer_and(const Discretisation& named, const PillarGeometry& geometry);
 
 }  // namespace viscard

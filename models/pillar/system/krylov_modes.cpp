@@ -48,9 +48,11 @@ struct ScaledOperator {
   Eigen::Index size;
   double scale;
   Eigen::Index rows() const { return size; }
+  // Spectra would iterate for ever on numbers that are not finite (a length by B that rounding makes negative).
   void perform_op(const double* in, double* out) const {
     const Eigen::VectorXd x = ConstMap(in, size);
     Map(out, size) = op(x, B(x)) / scale;
+    if (!ConstMap(out, size).allFinite()) throw std::runtime_error("not finite");
   }
 };
 
@@ -80,8 +82,8 @@ class LanczosSearch {
   EigenPairs in_space(int space, int checks, int count, double tolerance) const {
     Lanczos lanczos({op_, B_.B, B_.size, scale_}, B_, count,
                     std::clamp(space, count + 1, static_cast<int>(B_.size)));
-    lanczos.init(image_.data());
     try {
+      lanczos.init(image_.data());
       lanczos.compute(Spectra::SortRule::LargestAlge, checks, tolerance,
                       Spectra::SortRule::LargestAlge);
     } catch (const std::exception&) {  // a product that is not finite, or no inner product

@@ -16,7 +16,11 @@ void border(Eigen::MatrixXd& small, const Eigen::MatrixXd& basis, const Eigen::M
             Eigen::Index uncoupled) {
   const Eigen::Index n = basis.cols();
   small.conservativeResize(n, n);
-  small.col(n - 1) = basis.transpose() * image.col(n - 1);
+  if (image.col(n - 1).isZero(0.0)) {
+    small.col(n - 1).setZero();
+  } else {
+    small.col(n - 1) = basis.transpose() * image.col(n - 1);
+  }
   small.col(n - 1).head(uncoupled).setZero();
   small.row(n - 1) = small.col(n - 1).transpose();
 }
@@ -39,7 +43,7 @@ ReducedSpan::ReducedSpan(const ViscoelasticSystem& body)
       has_elastic_(body.elastic.coeffs().cwiseAbs().sum() > 0.0),
       shift_1_s2_(body.rigid.cols() > 0 ? body.free_shift_1_s2 : 0.0) {
   factor(1.0, 1.0, instantaneous_);
-  for (Eigen::MatrixXd* m : {&basis_, &elastic_, &shear_, &bulk_, &mass_}) {
+  for (Eigen::MatrixXd* m : {&basis_, &elastic_, &shear_, &bulk_, &mass_, &force_}) {
     m->resize(body.shear.rows(), 0);
   }
   add_rigid_motions();
@@ -64,9 +68,10 @@ Eigen::VectorXd ReducedSpan::elastic_times(const Eigen::VectorXd& v) const {
   return Eigen::VectorXd::Zero(v.size());
 }
 
+// By the entries, which is enough to compare sizes.
 double ReducedSpan::energy_norm(const Eigen::VectorXd& v) const {
-  Eigen::VectorXd force = elastic_times(v) + shear_times(body_, v);
-  if (!body_.incompressible) force += bulk_times(body_, v);
+  Eigen::VectorXd force = elastic_times(v) + times(body_.shear, v);
+  if (!body_.incompressible) force += times(body_.bulk, v);
   if (shift_1_s2_ > 0.0) force += shift_1_s2_ * times(body_.mass, v);
   return std::sqrt(std::max(v.dot(force), 0.0));
 }
@@ -88,18 +93,24 @@ Eigen::VectorXd ReducedSpan::balanced(const Eigen::VectorXd& load) const {
 }
 
 Eigen::VectorXd ReducedSpan::projected(const Eigen::VectorXd& v) const {
-  Eigen::VectorXd products = elastic_.transpose() * v;
-  products += shear_.transpose() * v;
-  products += bulk_.transpose() * v;
-  if (shift_1_s2_ > 0.0) products += shift_1_s2_ * (mass_.transpose() * v);
-  return basis_ * products;
+  return basis_ * (force_.transpose() * v);
+}
+
+// Where little of a vector is left, what rounding changed of the volume of an incompressible body counts: the
+// next motion (in the energy) that keeps the volume.
+Eigen::VectorXd ReducedSpan::keeping_volume(const Eigen::VectorXd& v) const {
+  Eigen::VectorXd force = elastic_times(v) + shear_times(body_, v) + bulk_times(body_, v);
+  if (shift_1_s2_ > 0.0) force += shift_1_s2_ * times(body_.mass, v);
+  return instantaneous_.solve(force);
 }
 
 bool ReducedSpan::add(Eigen::VectorXd v) {
+  constexpr double kKeepsVolume = 0.1;
   if (count() == basis_.rows()) return false;
   const double before = energy_norm(v);
   // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9).
   for (int pass = 0; pass < 2; ++pass) v -= projected(v);
+  if (body_.incompressible && energy_norm(v) < kKeepsVolume * before) v = keeping_volume(v);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(v.size());
   // An incompressible body's volume does not change.
   Images images{elastic_times(v), shear_times(body_, v),
@@ -130,6 +141,7 @@ void ReducedSpan::append(const Eigen::VectorXd& v, const Images& images) {
   add_column(shear_, images.shear);
   add_column(bulk_, images.bulk);
   add_column(mass_, images.mass);
+  add_column(force_, images.elastic + images.shear + images.bulk + shift_1_s2_ * images.mass);
   const Eigen::Index uncoupled = count() > rigid_count() ? rigid_count() : 0;
   border(small_elastic_, basis_, elastic_, uncoupled);
   border(small_shear_, basis_, shear_, uncoupled);
@@ -161,6 +173,15 @@ Eigen::VectorXcd ReducedSpan::image_of(std::complex<double> shear, std::complex<
   };
   Eigen::VectorXcd sum = shear * whole(shear_) + bulk * whole(bulk_) - omega2 * whole(mass_);
   return sum + whole(elastic_);
+}
+
+Eigen::VectorXd ReducedSpan::without_pressures(Eigen::VectorXd residual) const {
+  for (int pass = 0; body_.incompressible && pass < 2; ++pass) {
+    Eigen::VectorXd source;
+    instantaneous_.solve(residual, &source);
+    residual -= bulk_times(body_, source);
+  }
+  return residual;
 }
 
 double ReducedSpan::dual_norm(const Eigen::VectorXd& residual) const {

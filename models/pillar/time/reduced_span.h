@@ -55,6 +55,9 @@ class ReducedSpan {
   const Eigen::MatrixXd& small_shear() const { return small_shear_; }
   const Eigen::MatrixXd& small_bulk() const { return small_bulk_; }
 
+  // The pressures of an incompressible body balance most of a residual without moving anything. They are
+  // removed first, so that the rest keeps its digits.
+  Eigen::VectorXd without_pressures(Eigen::VectorXd residual) const;
   // Norm of a residual in the inverse of the instantaneous stiffness.
   double dual_norm(const Eigen::VectorXd& residual) const;
 
@@ -66,6 +69,7 @@ class ReducedSpan {
     Eigen::VectorXd elastic, shear, bulk, mass;
   };
   double energy_norm(const Eigen::VectorXd& v) const;
+  Eigen::VectorXd keeping_volume(const Eigen::VectorXd& v) const;
   void append(const Eigen::VectorXd& v, const Images& images);
   void add_rigid_motions();
   Eigen::VectorXd elastic_times(const Eigen::VectorXd& v) const;
@@ -75,6 +79,7 @@ class ReducedSpan {
   double shift_1_s2_;  // multiple of the mass in the energy
   StiffnessFactor instantaneous_;
   Eigen::MatrixXd basis_, elastic_, shear_, bulk_, mass_;  // unknowns x count()
+  Eigen::MatrixXd force_;  // their sum in the energy, times the basis
   // basis' times the matrices above, count() x count().
   Eigen::MatrixXd small_elastic_, small_shear_, small_bulk_, small_mass_;
 };

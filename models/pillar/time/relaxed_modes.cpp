@@ -47,7 +47,7 @@ class RelaxedSearch {
                                     product_at(body_, 1.0, 1.0))),
         lifted_(lifted_body()),
         span_(regular_body()) {
-    for (const PillarMode& mode : instantaneous_) add(mode.shape);
+    for (const PillarMode& mode : instantaneous_) span_.add(mode.shape);
   }
 
   // Adds the modes at the storage moduli of this frequency and of the mode with that number. The
@@ -88,19 +88,12 @@ class RelaxedSearch {
   double quick_error(const Pair& pair) const;
 
  private:
-  // A vector's contribution to the basis may be so small that its rounding changes the volume of an
-  // incompressible body. It is therefore projected (in the energy) on motions that keep the volume.
-  bool add(Eigen::VectorXd v) {
-    if (!body_.incompressible) return span_.add(std::move(v));
-    if (span_.count() > 0) v -= span_.projected(v);
-    return span_.add(span_.instantaneous().solve(times(stiffness_at(regular_body(), 1.0, 1.0), v)));
-  }
   void add_modes_at(double omega_rad_s) {
     const RelativeModuli m = storage_at(body_.terms, omega_rad_s);
     const SymmetricSparse stiffness = stiffness_at(body_, m.shear.real(), m.bulk.real());
     for (const PillarMode& mode : lowest_modes(model_, stiffness, known_,
                                                product_at(body_, m.shear.real(), m.bulk.real()))) {
-      add(mode.shape);
+      span_.add(mode.shape);
     }
   }
   // Frequency of a mode if only the storage moduli act, rad/s; 0: none. Sets its vector, and the
@@ -145,19 +138,8 @@ class RelaxedSearch {
   Eigen::VectorXcd residual_of(const Pair& pair) const {
     const RelativeModuli m = relative_moduli(body_.terms, pair.s);
     Eigen::VectorXcd r = span_.image_of(m.shear, m.bulk, shift_1_s2_ - pair.s * pair.s, pair.y);
-    if (!body_.incompressible) return r;
-    r.real() = without_pressures(r.real());
-    r.imag() = without_pressures(r.imag());
-    return r;
-  }
-  // The pressures of an incompressible body balance most of a residual without moving anything.
-  // They are removed first, so that the rest keeps its digits.
-  Eigen::VectorXd without_pressures(Eigen::VectorXd r) const {
-    for (int pass = 0; pass < 2; ++pass) {
-      Eigen::VectorXd source;
-      span_.instantaneous().solve(r, &source);
-      r -= bulk_times(body_, source);
-    }
+    r.real() = span_.without_pressures(r.real());
+    r.imag() = span_.without_pressures(r.imag());
     return r;
   }
   // Error of s from r' P^-1 r of its residual: T'(s) weighs the change of s.
@@ -234,8 +216,8 @@ double RelaxedSearch::refine(Pair& pair) {
     const Eigen::VectorXd imaginary = factor.solve(Eigen::VectorXd(r.imag()));
     error = error_from(pair, std::abs(r.real().dot(real) + r.imag().dot(imaginary)));
     if (error <= tolerance_) return error;
-    const bool grew = add(real);
-    if (!(add(imaginary) || grew)) return error;
+    const bool grew = span_.add(real);
+    if (!(span_.add(imaginary) || grew)) return error;
     Eigen::VectorXcd longer = Eigen::VectorXcd::Zero(span_.count());
     longer.head(pair.y.size()) = pair.y;
     pair.y = longer;

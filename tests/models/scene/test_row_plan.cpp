@@ -185,6 +185,16 @@ TEST_CASE("modes of a row are refused with the reason if the film would vibrate 
   CHECK_NOTHROW(simulate(scene));
 }
 
+TEST_CASE("oscillations of a row are refused with the reason if the film would vibrate too",
+          "[array][plan]") {
+  ArrayScene scene = seed_scene();
+  scene.geometry.count = 2;
+  scene.geometry.film_thickness_m = 60e-6;
+  scene.film = isotropic_medium(10.0 * scene.pillar.E0_Pa, 0.3, 8000.0);
+  scene.drive = RowHarmonic{{1e5}};
+  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("film's own inertia"));
+}
+
 TEST_CASE("pillars long enough to stick to their neighbours are reported", "[array][plan]") {
   ArrayScene scene = seed_scene();
   scene.geometry.diameter_m = 10e-6;

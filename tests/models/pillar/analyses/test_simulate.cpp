@@ -94,6 +94,26 @@ TEST_CASE("modal answers lie within their error estimates", "[pillar]") {
   }
 }
 
+TEST_CASE("the error of a mesh that is named is its own", "[pillar]") {
+  PillarScene scene = pillar_scene();
+  scene.drive = ModalDrive{.modes = 2};
+  const SceneAnswer exact = pillar_answer_on(scene, {.degree = 9, .layers = 5});
+  scene.tolerance = 0.5;
+  scene.discretisation = GENERATE(
+      Discretisation{.degree = 4, .layers = 2}, Discretisation{.degree = 3, .layers = 1},
+      Discretisation{.degree = 7, .layers = 3}, Discretisation{.degree = 1, .uniform_m = 5e-6},
+      Discretisation{.degree = 2, .uniform_m = 10e-6});
+  const SceneAnswer answer = simulate_pillar(scene);
+  CAPTURE(answer.discretisation.degree, answer.discretisation.layers);
+  for (std::size_t i = 0; i < exact.modes.size(); ++i) {
+    const SceneMode& mode = answer.modes[i];
+    const double error_Hz = std::abs(mode.frequency_Hz - exact.modes[i].frequency_Hz);
+    CAPTURE(mode.family, error_Hz, mode.error_estimate);
+    CHECK(error_Hz <= mode.error_estimate + 1e-7 * mode.frequency_Hz);
+    CHECK(mode.error_estimate <= 3.0 * error_Hz + 1e-6 * mode.frequency_Hz);
+  }
+}
+
 TEST_CASE("a smaller tolerance needs no fewer unknowns", "[pillar]") {
   PillarScene scene = pillar_scene();
   scene.tolerance = 1e-1;
@@ -108,6 +128,19 @@ TEST_CASE("a load beyond buckling is refused with the buckling pressure", "[pill
   CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("buckling pressure"));
   test::as<StaticDrive>(scene).pressure_Pa = 2.8e4;
   CHECK_NOTHROW(simulate_pillar(scene));
+}
+
+TEST_CASE("near buckling the growth of a bow is stated", "[pillar]") {
+  PillarScene scene = pillar_scene();
+  scene.tolerance = 1e-2;
+  scene.drive = BucklingDrive{};
+  const double critical_Pa = simulate_pillar(scene).results.front().value;
+  scene.drive = StaticDrive{.pressure_Pa = 0.4 * critical_Pa};
+  CHECK(simulate_pillar(scene).notes.empty());
+  scene.drive = StaticDrive{.pressure_Pa = 0.75 * critical_Pa};
+  const SceneAnswer answer = simulate_pillar(scene);
+  REQUIRE(answer.notes.size() == 1);
+  CHECK_THAT(answer.notes.front(), Catch::Contains("a bow") && Catch::Contains(" 4 times"));
 }
 
 TEST_CASE("modes under a pressure near buckling are judged by the pillar, not by a coarse mesh",

@@ -78,6 +78,18 @@ TEST_CASE("modes and buckling of pillars of 200 and 400 diameters are a beam's t
   }
 }
 
+TEST_CASE("a pillar 3000 diameters long is pressed up to a beam's buckling load",
+          "[pillar][stability]") {
+  PillarScene scene = slender_scene(3000.0);
+  const double euler_Pa = std::pow(std::numbers::pi / 3000.0, 2) * 1.8e6 / 64.0;
+  scene.drive = StaticDrive{.pressure_Pa = 0.98 * euler_Pa};
+  const SceneAnswer answer = simulate_pillar(scene);
+  const double shortened_m = 0.98 * euler_Pa / 1.8e6 * scene.geometry.length_m;
+  CHECK(answer.results.front().value == Approx(-shortened_m).epsilon(1e-3));
+  scene.drive = StaticDrive{.pressure_Pa = 1.02 * euler_Pa};
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("buckling"));
+}
+
 TEST_CASE("a pillar too slender for any correction is refused with a way out",
           "[pillar][stability]") {
   PillarScene scene = slender_scene(3e4);

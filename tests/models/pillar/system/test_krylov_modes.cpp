@@ -86,6 +86,12 @@ TEST_CASE("equal modes are found at least once, and every mode found is one of t
   CHECK((gram - Eigen::MatrixXd::Identity(3, 3)).cwiseAbs().maxCoeff() < 1e-12);
 }
 
+TEST_CASE("a search among numbers that are not finite ends", "[pillar]") {
+  Diagonal body = string_like(300);
+  body.value[17] = std::nan("");
+  CHECK_FALSE(body.largest(3, {}).converged);
+}
+
 TEST_CASE("a small system gives all its modes, and a small space stops with too few", "[pillar]") {
   const Diagonal small = string_like(7);
   const EigenPairs all = small.largest(7, {});
