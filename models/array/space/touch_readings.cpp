@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -146,8 +147,8 @@ std::string place_ending(const SpacePillar& one) {
   return "_" + std::to_string(one.row) + "_" + std::to_string(one.column);
 }
 
-// The pillars that the scene names, or else the one that bears most at the end.
 std::vector<std::size_t> followed_pillars(const SpaceScene& scene, const TouchCourse& course) {
+  constexpr std::size_t kSmallArray = 100;
   std::vector<std::size_t> pillars;
   for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
     const std::string ending = place_ending(scene.pillars[i]);
@@ -158,6 +159,10 @@ std::vector<std::size_t> followed_pillars(const SpaceScene& scene, const TouchCo
         })) {
       pillars.push_back(i);
     }
+  }
+  if (pillars.empty() && scene.touch->is_path() && scene.pillars.size() <= kSmallArray) {
+    pillars.resize(scene.pillars.size());
+    std::iota(pillars.begin(), pillars.end(), std::size_t{0});
   }
   if (!pillars.empty()) return pillars;
   const std::vector<TopPressure>& tops = course.shown.pressed.tops;
