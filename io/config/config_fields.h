@@ -37,6 +37,7 @@ struct TextField {
   const char* key;
   const char* example;
   bool is_required = false;
+  bool may_be_number = false;  // without quotes; the text is then that of the number
 };
 
 // Reads or writes the fields of a struct.

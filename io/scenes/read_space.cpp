@@ -131,7 +131,7 @@ void show_space(FieldVisitor& v, RawSpace& s) {
       l.quantity_pairs("pillars", "1", "1", s.loaded);
     });
   });
-  v.section("shape", [&](FieldVisitor& one) { show_shape(one, s.shape); });
+  v.section("shape", [&](FieldVisitor& one) { show_shape(one, s.shape, true); });
   v.section("readout", [&](FieldVisitor& r) { show_readout(r, s.drive); });
   v.section("heat", [&](FieldVisitor& h) { show_heat(h, s.sensing); });
   v.section("quadrants", [&](FieldVisitor& q) { show_quadrants(q, s.of_quarters); });
@@ -288,7 +288,7 @@ SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) 
   scene.press = press_from(raw.shape, folder, {film.left_m, film.right_m, film.low_m, film.high_m});
   fill_sensing(raw.sensing, raw.drive, scene);
   fill_quadrants(raw.of_quarters, folder, scene);
-  fill_touch(raw.analysis, raw.drive, scene);
+  fill_touch(raw.analysis, raw.drive, raw.shape, scene);
   scene.effects = choices_of(raw.effects);
   scene.wanted = raw.quantities;
   return scene;

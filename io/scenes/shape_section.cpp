@@ -1,9 +1,12 @@
 #include "io/scenes/shape_section.h"
 
+#include "io/config/quantity_text.h"
 #include "io/scenes/pillar_positions.h"
 #include "io/scenes/scene_words.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -55,6 +58,39 @@ void refuse_strangers(const RawShape& raw, ShapeKind kind) {
   }
 }
 
+// A word, or a number for a shape that moves.
+void fill_friction(const RawShape& raw, ShapePress& press) {
+  const bool is_word =
+      raw.friction.empty() || std::isalpha(static_cast<unsigned char>(raw.friction.front())) != 0;
+  if (is_word) {
+    press.friction = choice<Friction>("shape.friction", raw.friction,
+                                      {{"none", Friction::kNone}, {"stick", Friction::kStick}});
+    return;
+  }
+  at_key("shape.friction",
+         [&] { press.friction_coefficient = quantity_from_text(raw.friction, "1"); });
+  if (!(press.friction_coefficient >= 0.0) || !std::isfinite(press.friction_coefficient)) {
+    throw SceneMistake("shape.friction",
+                       "must be \"none\", \"stick\" or a number that is not "
+                       "negative, such as 0.3");
+  }
+  if (press.friction_coefficient > 0.0) press.friction = Friction::kCoulomb;
+}
+
+// What the shape may touch as seen from its point `at`, all along a path.
+RoughExtent touchable_along(const std::vector<RawStop>& path, const RoughExtent& touchable) {
+  RoughExtent all = touchable;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const RawStop& stop = path[i];
+    const RoughExtent here{touchable.low_x_m - stop.x_m, touchable.high_x_m - stop.x_m,
+                           touchable.low_y_m - stop.y_m, touchable.high_y_m - stop.y_m};
+    if (i == 0) all = here;
+    all = {std::min(all.low_x_m, here.low_x_m), std::max(all.high_x_m, here.high_x_m),
+           std::min(all.low_y_m, here.low_y_m), std::max(all.high_y_m, here.high_y_m)};
+  }
+  return all;
+}
+
 // Random heights stand in for a table, around the point `at`.
 void fill_rough(const RawShape& raw, const RoughExtent& touchable, RigidShape& shape) {
   if (!(raw.rms_m > 0.0) || !(raw.correlation_length_m > 0.0)) {
@@ -100,13 +136,13 @@ void fill_kind(const RawShape& raw, const std::filesystem::path& folder,
 
 }  // namespace
 
-void show_shape(FieldVisitor& v, RawShape& s) {
+void show_shape(FieldVisitor& v, RawShape& s, bool may_move) {
   v.text({"kind", "sphere"}, s.kind);
   v.quantity({.key = "radius", .unit = quantities::kShapeRadius, .range = Range::kPositive},
              s.radius_m);
   v.quantity({.key = "depth", .unit = "m"}, s.depth_m);
   v.quantity({.key = "force", .unit = "N", .range = Range::kPositive}, s.force_N);
-  v.text({"friction", "none"}, s.friction);
+  v.text({.key = "friction", .example = "none", .may_be_number = true}, s.friction);
   v.quantities({.key = "at", .unit = "m"}, s.at_m);
   v.quantities({.key = "tilt", .unit = "rad"}, s.tilt_rad);
   v.quantity({.key = "direction", .unit = "rad"}, s.direction_rad);
@@ -119,6 +155,18 @@ void show_shape(FieldVisitor& v, RawShape& s) {
   v.quantity({.key = "work_of_adhesion", .unit = "J/m2", .range = Range::kPositive},
              s.work_of_adhesion_J_m2);
   v.quantities({.key = "before", .unit = "m"}, s.before_m);
+  if (!may_move) return;
+  v.list(
+      "path", s.path.size(), [&](std::size_t n) { s.path.resize(n); },
+      [&](FieldVisitor& p, std::size_t i) {
+        RawStop& stop = s.path[i];
+        p.quantity({.key = "time", .unit = "s", .range = Range::kNotNegative, .is_required = true},
+                   stop.time_s);
+        p.quantity({.key = "x", .unit = "m"}, stop.x_m);
+        p.quantity({.key = "y", .unit = "m"}, stop.y_m);
+        p.quantity({.key = "depth", .unit = "m"}, stop.depth_m);
+        p.quantity({.key = "force", .unit = "N"}, stop.force_N);
+      });
 }
 
 std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem::path& folder,
@@ -136,10 +184,9 @@ std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem:
                                   {"edge", ShapeKind::kEdge},
                                   {"table", ShapeKind::kTable},
                                   {kRough, ShapeKind::kTable}});
-  press.friction = choice<Friction>("shape.friction", raw.friction,
-                                    {{"none", Friction::kNone}, {"stick", Friction::kStick}});
+  fill_friction(raw, press);
   std::tie(shape.x_m, shape.y_m) = pair_of("at", raw.at_m);
-  fill_kind(raw, folder, touchable, shape);
+  fill_kind(raw, folder, touchable_along(raw.path, touchable), shape);
   const auto [tilt_x, tilt_y] = pair_of("tilt", raw.tilt_rad);
   constexpr double kSteepest = 0.25 * std::numbers::pi;
   if (std::abs(tilt_x) > kSteepest || std::abs(tilt_y) > kSteepest) {

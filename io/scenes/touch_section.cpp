@@ -4,6 +4,8 @@
 #include "models/array/space/touch_steps.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
+#include <cmath>
+#include <string>
 #include <utility>
 
 namespace viscard {
@@ -44,6 +46,43 @@ void check_kind(const std::string& kind, const SpaceScene& scene) {
                      "\"creep\"");
 }
 
+SpaceTouch touch_along(const RawShape& shape) {
+  SpaceTouch touch;
+  touch.is_creep = !std::isnan(shape.path.front().force_N);
+  for (std::size_t i = 0; i < shape.path.size(); ++i) {
+    const RawStop& stop = shape.path[i];
+    const bool has_depth = !std::isnan(stop.depth_m), has_force = !std::isnan(stop.force_N);
+    if (has_depth == has_force || has_force != touch.is_creep) {
+      throw SceneMistake("shape.path." + std::to_string(i + 1),
+                         "needs a depth or a force, and the same one in all entries, such as { "
+                         "time = \"1 s\", x = \"50 um\", y = \"0 um\", depth = \"2 um\" }");
+    }
+    touch.history.push_back({stop.time_s, touch.is_creep ? stop.force_N : stop.depth_m});
+    touch.place_m.emplace_back(stop.x_m, stop.y_m);
+  }
+  return touch;
+}
+
+// What a path says itself.
+void refuse_beside_path(const std::string& kind, const RawDrive& raw, const RawShape& shape) {
+  const char* key = !raw.history.empty()      ? "analysis.history"
+                    : shape.depth_m != 0.0    ? "shape.depth"
+                    : shape.force_N != 0.0    ? "shape.force"
+                    : !shape.at_m.empty()     ? "shape.at"
+                    : !shape.before_m.empty() ? "shape.before"
+                                              : nullptr;
+  if (key != nullptr) {
+    throw SceneMistake(key,
+                       "cannot stand beside shape.path, which has the times, places and "
+                       "depths or forces");
+  }
+  const bool is_creep = !std::isnan(shape.path.front().force_N);
+  if (kind == "static" || kind == (is_creep ? "creep" : "relaxation")) return;
+  throw SceneMistake("analysis.kind", "cannot be '" + kind +
+                                          "' beside shape.path; leave it out, or say "
+                                          "\"relaxation\" for depths and \"creep\" for forces");
+}
+
 }  // namespace
 
 Readout readout_from(const RawDrive& raw, const SpaceScene& scene) {
@@ -63,13 +102,25 @@ void show_touch_history(FieldVisitor& v, const std::string& kind, RawDrive& driv
   v.quantity_pairs("history", "s", kind == "creep" ? "N" : "m", drive.history);
 }
 
-void fill_touch(const std::string& kind, const RawDrive& raw, SpaceScene& scene) {
-  if (kind == "static") {
+void fill_touch(const std::string& kind, const RawDrive& raw, const RawShape& shape,
+                SpaceScene& scene) {
+  const bool is_path = !shape.path.empty();
+  if (is_path) {
+    if (!scene.press) throw SceneMistake("shape", "has a path, but no kind, such as \"sphere\"");
+    refuse_beside_path(kind, raw, shape);
+  } else if (kind == "static") {
     refuse_at_rest(raw, scene);
     return;
+  } else {
+    check_kind(kind, scene);
   }
-  check_kind(kind, scene);
-  SpaceTouch touch{.is_creep = kind == "creep", .history = history_of(raw), .readout = {}};
+  SpaceTouch touch;
+  if (is_path) {
+    touch = touch_along(shape);
+  } else {
+    touch.is_creep = kind == "creep";
+    touch.history = history_of(raw);
+  }
   if (!raw.readout.empty()) touch.readout = readout_from(raw, scene);
   press_in_time(scene, std::move(touch));
 }

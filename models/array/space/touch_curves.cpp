@@ -202,12 +202,19 @@ void finish_curves(const SpaceScene& scene, const TouchCourse& course, double re
   const SpaceResponse response(array, accuracy);
   const std::vector<PillarCurve> changes =
       curves_of(scene, response, course, course.change_Pa, true);
+  std::vector<std::size_t> read;
+  for (const PillarCurve& one : changes) {
+    if (one.map == kTouchReading && scene.feels_neighbours) read.push_back(one.pillar);
+  }
+  std::vector<double> influences;
+  if (!read.empty()) influences = influence_of_neighbours(scene, read);
+  auto influence = influences.begin();
   for (std::size_t c = 0; c < changes.size(); ++c) {
     SceneCurve& curve = answer.curves[c];
     const bool is_reading = changes[c].map == kTouchReading;
     double share = relative + course.stiffness_error;
     if (is_reading && scene.feels_neighbours) {
-      share += std::pow(influence_of_neighbours(scene, changes[c].pillar), 2);
+      share += std::pow(*influence++, 2);
     }
     for (std::size_t k = 0; k < curve.error.size(); ++k) {
       curve.error[k] += share * curve.allowed[k] + std::abs(changes[c].value[k]);

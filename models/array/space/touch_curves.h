@@ -52,7 +52,8 @@ std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse&
                                    const TouchCourse& course, const std::vector<TopLoads>& loads_Pa,
                                    bool is_size);
 
-// Sum of p12/p11 over the neighbours of an electrode (eq. S16).
-double influence_of_neighbours(const SpaceScene& scene, std::size_t pillar);
+// Sums of p12/p11 over the neighbours of each electrode (eq. S16).
+std::vector<double> influence_of_neighbours(const SpaceScene& scene,
+                                            const std::vector<std::size_t>& pillars);
 
 }  // namespace viscard
