@@ -43,6 +43,7 @@ struct TextField {
   const char* key;
   const char* example;
   bool is_required = false;
+  bool may_be_number = false;  // without quotes; the text is then that of the number
 };
 
 // The words that a key may have, and what they mean.

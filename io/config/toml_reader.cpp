@@ -46,6 +46,8 @@ class TomlReader final : public FieldVisitor {
     if (node == nullptr) return;
     if (const auto text = node->value_exact<std::string>()) {
       value = *text;
+    } else if (field.may_be_number && node->is_number()) {
+      value = text_from_number(*node->value<double>());
     } else if (node->is_date() || node->is_date_time()) {  // a date needs no quotes in TOML
       std::ostringstream date;
       node->is_date() ? date << *node->as_date() : date << *node->as_date_time();

@@ -215,6 +215,7 @@ void show_load(FieldVisitor& v, SpaceScene& scene) {
 std::optional<ShapePress> press_in_file(const SpaceScene& scene) {
   std::optional<ShapePress> press = scene.press;
   if (press && scene.touch) press->depth_m = press->force_N = 0.0;
+  if (press && scene.touch && scene.touch->is_path()) press->shape.x_m = press->shape.y_m = 0.0;
   return press;
 }
 
@@ -244,8 +245,9 @@ void show_fields(FieldVisitor& v, SceneFile& file, SpaceScene& scene) {
     return RoughExtent{film.left_m, film.right_m, film.low_m, film.high_m};
   };
   const std::optional<ShapePress> press = press_in_file(scene);
-  show_shape(v, file, press ? &*press : nullptr, touchable,
-             [&scene](const ShapePress& one) { scene.press = one; });
+  show_shape(
+      v, file, press ? &*press : nullptr, touchable,
+      [&scene](const ShapePress& one) { scene.press = one; }, touch->path);
   show_heat(v, scene);
   show_quadrants(v, file, scene);
   show_noise(v, scene);

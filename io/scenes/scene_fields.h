@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -43,11 +44,20 @@ void show_film_material(FieldVisitor& film_table, SceneFile& file);
 void show_poling(FieldVisitor& geometry_table, SceneFile& file);
 Medium film_of(const SceneFile& file);
 
+// An entry of shape.path. NaN: not given.
+struct PathStop {
+  double time_s = 0.0, x_m = 0.0, y_m = 0.0;
+  double depth_m = std::numeric_limits<double>::quiet_NaN();
+  double force_N = std::numeric_limits<double>::quiet_NaN();
+};
+using ShapePath = std::vector<PathStop>;
+
 // [shape]. `now`: what is written; null: no shape. `place` gets a shape that is read; it acts on what is touchable, over
-// which a rough surface, without end, is drawn.
+// which a rough surface, without end, is drawn. `path`: of a shape that may move, written and read; null: it may not.
 void show_shape(FieldVisitor& v, SceneFile& file, const ShapePress* now,
                 const std::function<RoughExtent()>& touchable,
-                const std::function<void(const ShapePress&)>& place);
+                const std::function<void(const ShapePress&)>& place,
+                const std::shared_ptr<ShapePath>& path = nullptr);
 
 // The face that is grounded, by that of the electrode.
 const WordTable<FilmFace>& grounded_by_electrode_face();

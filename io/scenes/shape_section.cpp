@@ -1,7 +1,11 @@
+#include "io/config/quantity_text.h"
 #include "io/scenes/pillar_positions.h"
 #include "io/scenes/scene_fields.h"
+#include "models/maths/text_of_number.h"
 
+#include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numbers>
 #include <tuple>
 
@@ -28,6 +32,7 @@ const WordTable<KindOfShape>& kinds_of_shape() {
 struct ShapeKeys {
   std::optional<KindOfShape> kind;
   ShapePress press;
+  std::string friction = "none";
   double angle_rad = 0.0;
   std::vector<double> at_m, tilt_rad;
 };
@@ -36,6 +41,11 @@ ShapeKeys keys_of(const ShapePress& press) {
   const RigidShape& shape = press.shape;
   ShapeKeys keys{.kind = KindOfShape{shape.kind, shape.table.is_random}, .press = press};
   if (shape.kind == ShapeKind::kWedge) keys.angle_rad = std::atan(shape.slope);
+  const double share = press.friction_coefficient;
+  keys.friction = press.friction == Friction::kNone ? "none"
+                  : press.friction == Friction::kStick || !std::isfinite(share)
+                      ? "stick"
+                      : text_of(share, 17);
   keys.at_m = {shape.x_m, shape.y_m};
   keys.tilt_rad = {std::atan(shape.tilt_x), std::atan(shape.tilt_y)};
   return keys;
@@ -81,6 +91,41 @@ void refuse_strangers(const ShapeKeys& keys, const SceneSources& sources) {
   if (!sources.heights.empty() && (keys.kind->is_rough || kind != ShapeKind::kTable)) {
     throw SceneMistake("shape.file", "belongs to kind = \"table\"");
   }
+}
+
+// A word, or a number for a shape that moves.
+void fill_friction(const std::string& friction, ShapePress& press) {
+  press.friction = Friction::kNone;
+  if (friction.empty() || friction == "none") return;
+  if (friction == "stick") {
+    press.friction = Friction::kStick;
+    return;
+  }
+  constexpr const char* kRight =
+      "must be \"none\", \"stick\" or a number that is not negative, such as 0.3";
+  try {
+    press.friction_coefficient = quantity_from_text(friction, "1");
+  } catch (const std::exception&) {
+    throw SceneMistake("shape.friction", "is '" + friction + "'; it " + kRight);
+  }
+  if (!(press.friction_coefficient >= 0.0) || !std::isfinite(press.friction_coefficient)) {
+    throw SceneMistake("shape.friction", kRight);
+  }
+  if (press.friction_coefficient > 0.0) press.friction = Friction::kCoulomb;
+}
+
+// What the shape may touch as seen from its point `at`, all along a path.
+RoughExtent touchable_along(const ShapePath* path, const RoughExtent& touchable) {
+  RoughExtent all = touchable;
+  for (std::size_t i = 0; path != nullptr && i < path->size(); ++i) {
+    const PathStop& stop = (*path)[i];
+    const RoughExtent here{touchable.low_x_m - stop.x_m, touchable.high_x_m - stop.x_m,
+                           touchable.low_y_m - stop.y_m, touchable.high_y_m - stop.y_m};
+    if (i == 0) all = here;
+    all = {std::min(all.low_x_m, here.low_x_m), std::max(all.high_x_m, here.high_x_m),
+           std::min(all.low_y_m, here.low_y_m), std::max(all.high_y_m, here.high_y_m)};
+  }
+  return all;
 }
 
 // Random heights stand in for a table, around the point `at`.
@@ -132,6 +177,7 @@ ShapePress press_from(const ShapeKeys& keys, const SceneFile& file,
   }
   ShapePress press = keys.press;
   RigidShape& shape = press.shape;
+  fill_friction(keys.friction, press);
   std::tie(shape.x_m, shape.y_m) = pair_of("at", keys.at_m);
   fill_kind(keys, file, touchable, shape);
   const auto [tilt_x, tilt_y] = pair_of("tilt", keys.tilt_rad);
@@ -153,7 +199,8 @@ ShapePress press_from(const ShapeKeys& keys, const SceneFile& file,
 
 void show_shape(FieldVisitor& v, SceneFile& file, const ShapePress* now,
                 const std::function<RoughExtent()>& touchable,
-                const std::function<void(const ShapePress&)>& place) {
+                const std::function<void(const ShapePress&)>& place,
+                const std::shared_ptr<ShapePath>& path) {
   const auto keys = std::make_shared<ShapeKeys>(now == nullptr ? ShapeKeys{} : keys_of(*now));
   ShapePress& press = keys->press;
   RoughSurface& rough = file.sources.rough;
@@ -163,8 +210,7 @@ void show_shape(FieldVisitor& v, SceneFile& file, const ShapePress* now,
                press.shape.radius_m);
     s.quantity({.key = "depth", .unit = "m"}, press.depth_m);
     s.quantity({.key = "force", .unit = "N", .range = Range::kPositive}, press.force_N);
-    s.choice({"friction", "none"}, {{"none", Friction::kNone}, {"stick", Friction::kStick}},
-             press.friction);
+    s.text({.key = "friction", .example = "none", .may_be_number = true}, keys->friction);
     s.quantities({.key = "at", .unit = "m"}, keys->at_m);
     s.quantities({.key = "tilt", .unit = "rad"}, keys->tilt_rad);
     s.quantity({.key = "direction", .unit = "rad"}, press.shape.direction_rad);
@@ -177,13 +223,28 @@ void show_shape(FieldVisitor& v, SceneFile& file, const ShapePress* now,
     s.quantity({.key = "work_of_adhesion", .unit = "J/m2", .range = Range::kPositive},
                press.work_of_adhesion_J_m2);
     s.quantities({.key = "before", .unit = "m"}, press.before_m);
+    if (!path) return;
+    s.list(
+        "path", path->size(), [&](std::size_t n) { path->resize(n); },
+        [&](FieldVisitor& p, std::size_t i) {
+          PathStop& stop = (*path)[i];
+          p.quantity(
+              {.key = "time", .unit = "s", .range = Range::kNotNegative, .is_required = true},
+              stop.time_s);
+          p.quantity({.key = "x", .unit = "m"}, stop.x_m);
+          p.quantity({.key = "y", .unit = "m"}, stop.y_m);
+          p.quantity({.key = "depth", .unit = "m"}, stop.depth_m);
+          p.quantity({.key = "force", .unit = "N"}, stop.force_N);
+        });
   });
-  v.after_all_keys([&file, keys, touchable, place] {
-    const ShapePress& given = keys->press;
-    const bool is_empty =
-        given.depth_m == 0.0 && given.force_N == 0.0 && given.shape.radius_m == 0.0;
-    if (keys->kind || !is_empty) place(press_from(*keys, file, touchable));
-  });
+  v.after_all_keys(
+      [&file, keys,
+       touchable = [touchable, path] { return touchable_along(path.get(), touchable()); }, place] {
+        const ShapePress& given = keys->press;
+        const bool is_empty =
+            given.depth_m == 0.0 && given.force_N == 0.0 && given.shape.radius_m == 0.0;
+        if (keys->kind || !is_empty) place(press_from(*keys, file, touchable));
+      });
 }
 
 }  // namespace viscard

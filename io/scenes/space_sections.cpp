@@ -88,6 +88,46 @@ void check_kind(const std::string& kind, const SpaceScene& scene) {
                      "\"creep\"");
 }
 
+SpaceTouch touch_along(const ShapePath& path) {
+  SpaceTouch touch;
+  touch.is_creep = !std::isnan(path.front().force_N);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const PathStop& stop = path[i];
+    const bool has_depth = !std::isnan(stop.depth_m), has_force = !std::isnan(stop.force_N);
+    if (has_depth == has_force || has_force != touch.is_creep) {
+      throw SceneMistake("shape.path." + std::to_string(i + 1),
+                         "needs a depth or a force, and the same one in all entries, such as { "
+                         "time = \"1 s\", x = \"50 um\", y = \"0 um\", depth = \"2 um\" }");
+    }
+    touch.history.push_back({stop.time_s, touch.is_creep ? stop.force_N : stop.depth_m});
+    touch.place_m.emplace_back(stop.x_m, stop.y_m);
+  }
+  return touch;
+}
+
+// What a path says itself.
+void refuse_beside_path(const TouchKeys& touch, const SpaceScene& scene) {
+  if (!scene.press) throw SceneMistake("shape", "has a path, but no kind, such as \"sphere\"");
+  const ShapePress& press = *scene.press;
+  const bool is_moved = press.shape.x_m != 0.0 || press.shape.y_m != 0.0;
+  const char* key = !touch.history.empty()    ? "analysis.history"
+                    : press.depth_m != 0.0    ? "shape.depth"
+                    : press.force_N != 0.0    ? "shape.force"
+                    : is_moved                ? "shape.at"
+                    : !press.before_m.empty() ? "shape.before"
+                                              : nullptr;
+  if (key != nullptr) {
+    throw SceneMistake(key,
+                       "cannot stand beside shape.path, which has the times, places and "
+                       "depths or forces");
+  }
+  const bool is_creep = !std::isnan(touch.path->front().force_N);
+  if (touch.kind == "static" || touch.kind == (is_creep ? "creep" : "relaxation")) return;
+  throw SceneMistake("analysis.kind", "cannot be '" + touch.kind +
+                                          "' beside shape.path; leave it out, or say "
+                                          "\"relaxation\" for depths and \"creep\" for forces");
+}
+
 std::optional<int> small_number(const std::string& text) {
   const bool is_number =
       !text.empty() && text.size() < 7 && text.find_first_not_of("0123456789") == std::string::npos;
@@ -164,8 +204,16 @@ void show_quadrants(FieldVisitor& v, SceneFile& file, SpaceScene& scene) {
 std::shared_ptr<TouchKeys> show_touch(FieldVisitor& v, const SpaceScene& scene) {
   const auto keys = std::make_shared<TouchKeys>();
   if (scene.touch) {
-    keys->kind = scene.touch->is_creep ? "creep" : "relaxation";
-    keys->history = pairs_of(scene.touch->history);
+    const SpaceTouch& touch = *scene.touch;
+    keys->kind = touch.is_creep ? "creep" : "relaxation";
+    if (!touch.is_path()) keys->history = pairs_of(touch.history);
+    for (std::size_t i = 0; i < touch.place_m.size(); ++i) {
+      PathStop stop{.time_s = touch.history[i].time_s,
+                    .x_m = touch.place_m[i].first,
+                    .y_m = touch.place_m[i].second};
+      (touch.is_creep ? stop.force_N : stop.depth_m) = touch.history[i].value;
+      keys->path->push_back(stop);
+    }
   }
   v.text({"kind", "static"}, keys->kind);
   v.quantity_pairs("history", "s", keys->kind == "creep" ? "N" : "m", keys->history);
@@ -180,11 +228,18 @@ void show_reading(FieldVisitor& v, SpaceScene& scene, const std::shared_ptr<Touc
     std::optional<Readout> readout;
     if (keys->kind) readout = readout_of(*keys, scene.film);
     if (scene.noise) scene.noise_readout = readout;
+    if (!touch->path->empty()) {
+      refuse_beside_path(*touch, scene);
+      SpaceTouch along = touch_along(*touch->path);
+      along.readout = readout;
+      return press_in_time(scene, std::move(along));
+    }
     if (touch->kind == "static") return refuse_at_rest(*touch, *keys, scene);
     check_kind(touch->kind, scene);
-    press_in_time(scene, {.is_creep = touch->kind == "creep",
-                          .history = history_of(touch->history),
-                          .readout = readout});
+    SpaceTouch in_time{.is_creep = touch->kind == "creep"};
+    in_time.history = history_of(touch->history);
+    in_time.readout = readout;
+    press_in_time(scene, std::move(in_time));
   });
 }
 

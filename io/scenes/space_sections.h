@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/scenes/scene_drive.h"
+#include "io/scenes/scene_fields.h"
 #include "io/scenes/scene_file.h"
 
 #include <memory>
@@ -19,6 +20,7 @@ void show_quadrants(FieldVisitor& v, SceneFile& file, SpaceScene& scene);
 struct TouchKeys {
   std::string kind = "static";
   Pairs history;
+  std::shared_ptr<ShapePath> path = std::make_shared<ShapePath>();  // shape.path, instead of both
 };
 std::shared_ptr<TouchKeys> show_touch(FieldVisitor& analysis_table, const SpaceScene& scene);
 // [readout] of the touch or of [noise]. To be shown behind all that it acts on.

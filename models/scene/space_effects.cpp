@@ -73,6 +73,10 @@ EffectEstimate relaxation_estimate(const SpaceScene& scene) {
   if (!is_viscoelastic(scene)) return {.reason = "the material is elastic"};
   if (scene.touch) {
     const double share = relaxed_share(scene);
+    if (scene.touch->is_path()) {
+      return {EffectRole::kNeeded, share, "relaxed share at the end", share,
+              "tops are dragged and left while they relax"};
+    }
     return {EffectRole::kOptional, share, "relaxed share at the end", share,
             scene.touch->is_creep ? "the shape sinks in under its force"
                                   : "the force under the shape falls"};

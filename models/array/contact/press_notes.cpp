@@ -46,6 +46,14 @@ void note_sideways(const PressState& state, std::vector<std::string>& notes) {
                   micrometres(2.0 * worst.limit, 4) + "; contact of their sides is not followed");
 }
 
+void note_lean(const PressState& state, std::vector<std::string>& notes) {
+  const AtLimit& worst = state.lean;
+  if (!(worst.value > worst.limit)) return;
+  notes.push_back("large rotation: pillar " + worst.place + " leans by " +
+                  text_of(100.0 * worst.value, 3) +
+                  " % of its length where it is dragged; the answer is that of small rotations");
+}
+
 void note_pull(const PressState& state, std::vector<std::string>& notes) {
   const AtLimit& worst = state.pull;
   if (!(worst.value > worst.limit)) return;
@@ -80,6 +88,7 @@ std::vector<std::string> press_notes(const PressState& state) {
   note_strain(state, notes);
   note_slope(state, notes);
   note_sideways(state, notes);
+  note_lean(state, notes);
   note_pull(state, notes);
   note_held(state, notes);
   return notes;

@@ -34,6 +34,7 @@ struct PressState {
   AtLimit shortening, stretch;                    // strains along the pillar
   AtLimit slope;                                  // of the shape over a touched top
   AtLimit sideways;                               // of a top, m, over half of the smallest gap
+  AtLimit lean;                                   // of a dragged top, over the length
   AtLimit pull;                                   // over the pull-off force
   double work_J_m2 = 0.0;                         // behind that force
   bool adheres = false;
@@ -43,6 +44,8 @@ struct PressState {
 // Largest strain and slope that a linear answer stands for.
 constexpr double kLargestStrain = 0.05;
 constexpr double kLargestSlope = 0.2;
+// Largest lean of a dragged top over its foot, in lengths of the pillar.
+constexpr double kLargestLean = 0.05;
 
 // Sentences for the answer.
 std::vector<std::string> press_notes(const PressState& state);

@@ -16,18 +16,39 @@ constexpr double kForceIsMet = 1e-9;  // relative
 RelaxingTops::RelaxingTops(const std::vector<TouchedPillar>& pillars,
                            std::vector<TopContact> classes, const RigidShape& shape,
                            std::size_t terms)
-    : classes_(std::move(classes)) {
+    : shape_(&shape), classes_(std::move(classes)) {
   for (const TouchedPillar& one : pillars) {
     Top top;
     top.contact = &classes_[static_cast<std::size_t>(one.of_class)];
-    TopContact::PointOverlap points = top.contact->overlaps([&](double x_m, double y_m) {
-      return one.above_m - height_m(shape, one.x_m + x_m, one.y_m + y_m);
-    });
-    top.reach_m = std::move(points.overlap_m);
-    top.softness_m_N = std::move(points.softness_m_N);
-    top.largest_reach_m = top.reach_m.maxCoeff();
+    top.place = one;
+    find_reach(top);
     top.branch_m.resize(terms);
     tops_.push_back(std::move(top));
+  }
+}
+
+// A shape that moved by (x, y) reaches what it reached before at a pillar that stands at less by (x, y).
+void RelaxingTops::find_reach(Top& top) const {
+  const double x0_m = top.place.x_m - moved_x_m_, y0_m = top.place.y_m - moved_y_m_;
+  TopContact::PointOverlap points = top.contact->overlaps([&](double x_m, double y_m) {
+    return top.place.above_m - height_m(*shape_, x0_m + x_m, y0_m + y_m);
+  });
+  top.reach_m = std::move(points.overlap_m);
+  top.softness_m_N = std::move(points.softness_m_N);
+  top.largest_reach_m = top.reach_m.maxCoeff();
+}
+
+// Tops that are far out of reach need no search of their points.
+void RelaxingTops::move_shape(double x_m, double y_m) {
+  constexpr double kFar = 0.1;  // of a top's radius
+  moved_x_m_ = x_m - shape_->x_m;
+  moved_y_m_ = y_m - shape_->y_m;
+  for (Top& top : tops_) {
+    const double R_m = top.contact->radius_m();
+    top.largest_reach_m = top.place.above_m - least_height_m(*shape_, top.place.x_m - moved_x_m_,
+                                                             top.place.y_m - moved_y_m_, R_m);
+    top.reach_m.resize(0, 0);
+    if (top.is_touched || top.largest_reach_m + last_m_ > -kFar * R_m) find_reach(top);
   }
 }
 
@@ -78,6 +99,7 @@ void RelaxingTops::press(Top& top, double depth_m) const {
     top.force_N.resize(0, 0);
     return;
   }
+  if (top.reach_m.size() == 0) find_reach(top);
   Eigen::MatrixXd overlap_m = now_ * (top.reach_m.array() + depth_m).matrix();
   if (top.is_touched) overlap_m += top.carried_m;
   top.force_N = top.contact->pushing_forces(overlap_m, top.force_N, top.softness_m_N);
@@ -102,6 +124,7 @@ PressedArray RelaxingTops::pressed_at(double depth_m) {
 void RelaxingTops::accept(const RelaxationStep& step) {
   is_first_ = false;
   for (Top& top : tops_) {
+    set_opening(top);
     if (top.force_N.size() == 0) continue;
     Eigen::MatrixXd motion_m = top.contact->motion(top.force_N);
     if (!top.is_touched) {
@@ -116,6 +139,15 @@ void RelaxingTops::accept(const RelaxationStep& step) {
     }
     top.motion_m = std::move(motion_m);
   }
+}
+
+// Against a top that is left alone in the step and moves to -carried/now.
+void RelaxingTops::set_opening(Top& top) const {
+  double overlap_m = top.largest_reach_m + last_m_;
+  if (top.is_touched) overlap_m = (top.reach_m + top.carried_m / now_).maxCoeff() + last_m_;
+  top.touched_part =
+      overlap_m > 0.0 && top.opening_m > 0.0 ? overlap_m / (overlap_m + top.opening_m) : 1.0;
+  top.opening_m = std::max(-overlap_m, 0.0);
 }
 
 // Where the shape leaves a top alone, it moves to -carried/now.

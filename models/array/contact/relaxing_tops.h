@@ -21,7 +21,7 @@ struct RelaxationStep {
 // A top forgets nothing: where the shape leaves it, it goes on moving towards its rest (eq. T6).
 class RelaxingTops {
  public:
-  // Branches of all steps: `terms` of them.
+  // Branches of all steps: `terms` of them. The shape must outlive the tops.
   RelaxingTops(const std::vector<TouchedPillar>& pillars, std::vector<TopContact> classes,
                const RigidShape& shape, std::size_t terms);
 
@@ -29,12 +29,21 @@ class RelaxingTops {
   PressedArray to_depth(const RelaxationStep& step, double depth_m);
   PressedArray with_force(const RelaxationStep& step, double force_N, double first_guess_m);
 
+  // Where the point (x, y) of the shape is at the end of the steps that follow.
+  void move_shape(double x_m, double y_m);
+  // The part of the last step in which the shape touched a top that it touches at the end, with a
+  // gap that is linear in time before it.
+  double touched_part(std::size_t pillar) const { return tops_[pillar].touched_part; }
+
  private:
   struct Top {
     const TopContact* contact = nullptr;
+    TouchedPillar place;
     Eigen::MatrixXd reach_m;  // of the surface at depth 0 below the top at rest, rings x angles
     Eigen::MatrixXd softness_m_N;  // of points that the surface covers in part, or empty
-    double largest_reach_m = 0.0;
+    double largest_reach_m = 0.0;  // at most; reach_m is empty if it is not needed
+    double opening_m = 0.0;        // the least gap at the end of the last step
+    double touched_part = 1.0;
     bool is_touched = false;  // in any step up to now; the rest is empty before
     Eigen::MatrixXd motion_m;
     std::vector<Eigen::MatrixXd> branch_m;
@@ -42,12 +51,16 @@ class RelaxingTops {
     Eigen::MatrixXd carried_m, force_N;
   };
 
+  void find_reach(Top& top) const;
   void begin(const RelaxationStep& step);
   PressedArray pressed_at(double depth_m);
   void accept(const RelaxationStep& step);
   double resting_m() const;  // the depth at which the shape only just touches
   void press(Top& top, double depth_m) const;
+  void set_opening(Top& top) const;
 
+  const RigidShape* shape_;
+  double moved_x_m_ = 0.0, moved_y_m_ = 0.0;
   std::vector<TopContact> classes_;
   std::vector<Top> tops_;
   double now_ = 1.0;

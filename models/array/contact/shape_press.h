@@ -9,7 +9,8 @@ namespace viscard {
 // Between shape and tops.
 enum class Friction {
   kNone,
-  kStick  // what touches does not slide
+  kStick,   // what touches does not slide
+  kCoulomb  // of a shape that moves: tops stick until their shear reaches a share of their force
 };
 
 // A rigid shape that presses on the tops: its point (x, y) to a depth below the tops of the usual
@@ -19,6 +20,7 @@ struct ShapePress {
   double depth_m = 0.0;
   double force_N = 0.0;
   Friction friction = Friction::kNone;
+  double friction_coefficient = 0.0;   // of kCoulomb; infinite: tops never slide
   double work_of_adhesion_J_m2 = 0.0;  // between shape and tops; 0: tops are not held
   std::vector<double> before_m;        // depths that the shape went through before, in turn
 };

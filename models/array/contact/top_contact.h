@@ -32,6 +32,7 @@ class TopContact {
   TopPressure follow(const Overlap& overlap) const;
 
   const TopCompliance& compliance() const { return compliance_; }
+  double radius_m() const { return radius_m_; }
   // Motion of the points under forces on them, rings x angles (eq. T1); and the forces that give it.
   Eigen::MatrixXd motion(const Eigen::MatrixXd& forces_N) const;
   Eigen::MatrixXd forces(const Eigen::MatrixXd& motion_m) const;

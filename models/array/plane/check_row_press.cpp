@@ -40,6 +40,11 @@ void check_row_press(const ArrayScene& scene) {
   const ShapePress& press = *scene.press;
   at_key("shape", [&] { validate(press.shape); });
   check_adhesion(press);
+  if (press.friction == Friction::kCoulomb) {
+    throw SceneMistake("shape.friction",
+                       "lets tops slide, which is answered for arrays (kind = \"array\" with rows "
+                       "and columns) under a shape that moves; say \"none\" or \"stick\"");
+  }
   const double length_m = scene.geometry.length_m;
   check_press_place(press, "a force per metre across the row, such as force = \"5 N\"", length_m);
   const RowFoundation pressed = row_foundation(scene);

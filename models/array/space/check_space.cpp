@@ -75,6 +75,15 @@ void check_adhesion(const SpaceScene& scene) {
 void check_friction(const SpaceScene& scene) {
   const ShapePress& press = *scene.press;
   if (press.friction == Friction::kNone) return;
+  if (press.friction == Friction::kCoulomb) {
+    if (!(press.friction_coefficient > 0.0)) {
+      throw SceneMistake("shape.friction", "must be a positive number, \"none\" or \"stick\"");
+    }
+    if (scene.touch && scene.touch->is_path() && press.work_of_adhesion_J_m2 == 0.0) return;
+    throw SceneMistake("shape.friction",
+                       "lets tops slide, which needs a shape that moves, and no adhesion; give "
+                       "shape.path, or say friction = \"none\" or \"stick\"");
+  }
   const auto refuse = [](const std::string& beside) {
     throw SceneMistake("shape.friction", "sticks, which is not answered " + beside +
                                              "; say friction = \"none\", or remove the other");

@@ -69,6 +69,9 @@ std::vector<std::string> contact_notes(const SpaceScene& scene, const SpaceConta
     state.shortening.consider(place, strain, kLargestStrain);
     state.stretch.consider(place, -strain, kLargestStrain);
     state.sideways.consider(place, contact.sideways_m[i], half_gap_m);
+    if (press.friction == Friction::kCoulomb) {
+      state.lean.consider(place, contact.sideways_m[i] / classes[of].length_m, kLargestLean);
+    }
     state.pull.consider(place, -contact.pressed.tops[i].force_N, limit.pull_off_N);
     if (contact.pressed.tops[i].share > 0.0) {
       const double slope =

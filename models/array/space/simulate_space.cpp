@@ -149,7 +149,10 @@ constexpr double kMostOfContact = 0.7;
 
 void refuse_coarse_tops(const SpaceScene& scene, double error) {
   if (error <= kMostOfContact * scene.tolerance) return;
-  throw std::runtime_error("the finest grid of the tops leaves a relative error of about " +
+  const std::string what = scene.touch && scene.touch->is_path()
+                               ? "grid of the tops and the finest steps of the path leave"
+                               : "grid of the tops leaves";
+  throw std::runtime_error("the finest " + what + " a relative error of about " +
                            text_of(error, 2) +
                            " in the forces and moments, where a top is touched in part; ask for a "
                            "tolerance of " +
@@ -169,10 +172,20 @@ TouchCourse settled_course(const SpaceScene& scene) {
   return course;
 }
 
-std::string note_of_shrinking(const TouchCourse& course) {
+std::string note_of_course(const SpaceScene& scene, const TouchCourse& course) {
+  const std::string at_s = text_of(course.time_s[course.shown_at], 4) + " s";
+  if (scene.touch->is_path()) {
+    return "the shape moves: maps and single values are those at " + at_s +
+           ", the end of its path, or the largest force if less than half of it is left there; "
+           "slip is that up to the end" +
+           (course.slip_m.empty() ? ""
+                                  : ". Tops turn freely while they are dragged; a slender pillar "
+                                    "whose top stays level under the shape is up to four times as "
+                                    "stiff sideways");
+  }
   return "contact shrinks in this touch, which is followed step by step; maps and single values "
          "are those of the largest force, at " +
-         text_of(course.time_s[course.shown_at], 4) + " s";
+         at_s;
 }
 
 SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
@@ -180,6 +193,7 @@ SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh)
   SceneAnswer answer =
       voltages_on(scene, course.shown.loads_Pa, mesh, electrode_coupling(scene), &course);
   add_contact(scene, course.shown, answer);
+  add_slip(scene, course, answer);
   set_results(scene, answer);
   for (SceneCurve& curve : answer.curves) curve.error.assign(curve.x.size(), 0.0);
   finish_curves(scene, course, 0.0, answer);
@@ -228,7 +242,11 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   const TopLoads loads_Pa = contact       ? contact->loads_Pa
                             : is_measured ? measured_loads_Pa(scene)
                                           : loads_of(scene);
-  if (contact || is_measured) set_edge_errors(scene, loads_Pa, parts);
+  const bool is_path = scene.touch && scene.touch->is_path();
+  if (contact || is_measured) {
+    set_edge_errors(scene, is_path ? largest_loads(*course, scene.pillars.size()) : loads_Pa,
+                    parts);
+  }
   const double constant = refuse_if_large(scene, parts);
   double of_contact = contact ? contact_error(*contact) : 0.0;
   if (course) of_contact = std::max(of_contact, course->relative_error);
@@ -261,6 +279,7 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   }
   answer.largest_relative_error += constant + of_contact + backing.edge;
   if (contact) add_contact(scene, *contact, answer);
+  if (course) add_slip(scene, *course, answer);
   add_rounding(answer);
   if (senses_forces(scene)) add_reading_noise(scene, answer);
   set_results(scene, answer);
@@ -268,7 +287,7 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   add_heat_and_noise(scene, answer);
   if (senses_forces(scene)) finish_sensed(scene, answer);
   if (contact) answer.notes = contact_notes(scene, course ? course->largest : *contact);
-  if (course && course->has_shrunk) answer.notes.push_back(note_of_shrinking(*course));
+  if (course && course->has_shrunk) answer.notes.push_back(note_of_course(scene, *course));
   if (senses_forces(scene))
     std::ranges::move(sensed_notes(scene), std::back_inserter(answer.notes));
   add_stretching_note(scene, backing, answer);

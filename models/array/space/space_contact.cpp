@@ -91,7 +91,7 @@ class Presser {
 
   // Of a class of tops that sticks, else nothing.
   std::shared_ptr<const StickingTop> sticking_on(std::size_t of_class, int grid) const {
-    if (scene_->press->friction == Friction::kNone) return nullptr;
+    if (scene_->press->friction != Friction::kStick) return nullptr;
     const PillarClass& one = array_.classes[of_class];
     StickingCompliance top =
         sticking_compliance(one.geometry, one.medium, kGrids.at(static_cast<std::size_t>(grid)));
@@ -152,6 +152,12 @@ class Presser {
     std::vector<TouchedPillar> some;
     for (const std::size_t pillar : which) some.push_back(pillars_[pillar]);
     return {some, classes, scene_->press->shape, scene_->pillar.terms.size()};
+  }
+
+  // Their tops turn freely while they are dragged.
+  SlidingTop dragged(std::size_t pillar) const {
+    const auto of_class = static_cast<std::size_t>(pillars_[pillar].of_class);
+    return {1.0 / sheared_[of_class].first, scene_->pillar.terms.size()};
   }
 
  private:
@@ -276,6 +282,12 @@ SpaceContact SpaceTops::at_depth(double depth_m) const {
 
 RelaxingTops SpaceTops::relaxing(const std::vector<std::size_t>& pillars) const {
   return parts_->presser->relaxing(parts_->classes, pillars);
+}
+
+std::vector<SlidingTop> SpaceTops::dragged(const std::vector<std::size_t>& pillars) const {
+  std::vector<SlidingTop> tops;
+  for (const std::size_t pillar : pillars) tops.push_back(parts_->presser->dragged(pillar));
+  return tops;
 }
 
 SpaceContact SpaceTops::contact_of(const PressedArray& some,

@@ -2,6 +2,7 @@
 
 #include "models/array/contact/press_array.h"
 #include "models/array/contact/relaxing_tops.h"
+#include "models/array/contact/sliding_top.h"
 #include "models/array/space/space_scene.h"
 
 #include <cstddef>
@@ -47,6 +48,7 @@ class SpaceTops {
   SpaceContact at_rest() const;                 // under the shape as the scene has it
   SpaceContact at_depth(double depth_m) const;  // elastic
   RelaxingTops relaxing(const std::vector<std::size_t>& pillars) const;
+  std::vector<SlidingTop> dragged(const std::vector<std::size_t>& pillars) const;
   // Loads of all pillars; pillars that are not named bear nothing.
   SpaceContact contact_of(const PressedArray& some, const std::vector<std::size_t>& pillars) const;
 

@@ -53,7 +53,17 @@ void add_step_change(const std::vector<TouchSample>& samples, const GridCourse& 
     const std::size_t last = samples[k].is_new ? k + 1 : k;
     TopLoads change = TopLoads::Zero(fine.loads_Pa[k].rows(), kTopLoads);
     double depth_m = 0.0, force_N = 0.0;
+    if (!fine.slip_m.empty()) {
+      course.slip_change_m.emplace_back(Eigen::VectorXd::Zero(fine.slip_m[k].size()));
+      course.sliding_change.push_back(0);
+    }
     for (const std::size_t at : {first, last}) {
+      if (!fine.slip_m.empty()) {
+        Eigen::VectorXd& slip = course.slip_change_m.back();
+        slip = slip.cwiseMax((fine.slip_m[at] - coarse.slip_m[twin[at]]).cwiseAbs());
+        course.sliding_change.back() = std::max(
+            course.sliding_change.back(), std::abs(fine.sliding[at] - coarse.sliding[twin[at]]));
+      }
       change = change.cwiseMax((fine.loads_Pa[at] - coarse.loads_Pa[twin[at]]).cwiseAbs());
       depth_m = std::max(depth_m, std::abs(fine.depth_m[at] - coarse.depth_m[twin[at]]));
       force_N = std::max(force_N, std::abs(fine.force_N[at] - coarse.force_N[twin[at]]));
@@ -70,6 +80,9 @@ void add_grid_change(const GridCourse& coarse, const GridCourse& fine, TouchCour
     course.depth_change_m[k] += std::abs(fine.depth_m[k] - coarse.depth_m[k]);
     course.force_change_N[k] += std::abs(fine.force_N[k] - coarse.force_N[k]);
     course.contact_change.push_back(std::abs(fine.contacts[k] - coarse.contacts[k]));
+    if (fine.slip_m.empty()) continue;
+    course.slip_change_m[k] += (fine.slip_m[k] - coarse.slip_m[k]).cwiseAbs();
+    course.sliding_change[k] += std::abs(fine.sliding[k] - coarse.sliding[k]);
   }
 }
 
@@ -96,7 +109,7 @@ void set_shown(const SpaceScene& scene, const GridCourse& coarse, TouchCourse& c
 // By correspondence as long as no contact shrinks, otherwise step by step.
 class Courses {
  public:
-  explicit Courses(const SpaceScene& scene) : scene_(&scene) {}
+  explicit Courses(const SpaceScene& scene) : scene_(&scene), has_shrunk_(scene.touch->is_path()) {}
 
   GridCourse on(const SpaceTops& tops, const std::vector<TouchSample>& samples,
                 const std::vector<std::size_t>& touched, int steps) {
@@ -112,7 +125,7 @@ class Courses {
 
  private:
   const SpaceScene* scene_;
-  bool has_shrunk_ = false;
+  bool has_shrunk_;  // or the shape moves
 };
 
 void set_times(const std::vector<TouchSample>& samples, TouchCourse& course) {
@@ -141,6 +154,8 @@ TouchCourse touch_course(const SpaceScene& scene, double tolerance) {
     course.change_Pa.clear();
     course.depth_change_m.clear();
     course.force_change_N.clear();
+    course.slip_change_m.clear();
+    course.sliding_change.clear();
     add_step_change(samples, coarse, fine, course);
     const double change =
         largest_of(course.change_Pa) / std::max(largest_of(fine.loads_Pa), kNoLoad_Pa);
@@ -159,12 +174,20 @@ TouchCourse touch_course(const SpaceScene& scene, double tolerance) {
   course.force_N = std::move(fine.force_N);
   course.contacts = std::move(fine.contacts);
   course.loads_Pa = std::move(fine.loads_Pa);
+  course.slip_m = std::move(fine.slip_m);
+  course.sliding = std::move(fine.sliding);
   course.shown_at = fine.shown_at;
   course.has_shrunk = courses.has_shrunk();
   course.shown = std::move(fine.shown);
   course.largest = std::move(fine.largest);
   set_shown(scene, of_grid, course);
   return course;
+}
+
+TopLoads largest_loads(const TouchCourse& course, std::size_t pillars) {
+  TopLoads largest = course.loads_Pa.front().cwiseAbs();
+  for (const TopLoads& loads : course.loads_Pa) largest = largest.cwiseMax(loads.cwiseAbs());
+  return all_loads(course, largest, pillars);
 }
 
 TopLoads all_loads(const TouchCourse& course, const TopLoads& of_touched, std::size_t pillars) {

@@ -26,6 +26,9 @@ struct TouchCourse {
   std::vector<TopLoads> change_Pa;
   std::vector<double> depth_change_m, force_change_N;
   std::vector<int> contact_change;
+  // Of a shape that moves with friction, as in GridCourse, with their changes.
+  std::vector<Eigen::VectorXd> slip_m, slip_change_m;
+  std::vector<int> sliding, sliding_change;
   double stiffness_error = 0.0;  // relative, of all loads
   // Largest change of a load relative to the largest load, and the part above.
   double relative_error = 0.0;
@@ -38,6 +41,9 @@ struct TouchCourse {
 // Refines the grids of the tops and the time steps until the loads change by less than the
 // tolerance.
 TouchCourse touch_course(const SpaceScene& scene, double tolerance);
+
+// The largest size of each load at any time, all pillars.
+TopLoads largest_loads(const TouchCourse& course, std::size_t pillars);
 
 // The loads of one time, all pillars.
 TopLoads all_loads(const TouchCourse& course, const TopLoads& of_touched, std::size_t pillars);

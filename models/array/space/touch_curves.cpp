@@ -44,6 +44,91 @@ std::vector<double> plus_share(std::vector<double> change, double relative,
   return change;
 }
 
+// One quantity of a touched top at a time, and its change; `row` among those that are touched.
+struct TopCurve {
+  const char* name;
+  const char* unit;
+  double (*value)(const TouchCourse&, std::size_t at, Eigen::Index row, double area_m2);
+  double (*change)(const TouchCourse&, std::size_t at, Eigen::Index row, double area_m2);
+};
+
+template <TopLoad kLoad>
+TopCurve load_curve(const char* name) {
+  return {name, "N",
+          [](const TouchCourse& course, std::size_t at, Eigen::Index row, double area_m2) {
+            return area_m2 * course.loads_Pa[at](row, static_cast<int>(kLoad));
+          },
+          [](const TouchCourse& course, std::size_t at, Eigen::Index row, double area_m2) {
+            return area_m2 * course.change_Pa[at](row, static_cast<int>(kLoad));
+          }};
+}
+
+std::vector<TopCurve> top_curves(const TouchCourse& course) {
+  std::vector<TopCurve> curves = {load_curve<TopLoad::kPressure>("pillar_force")};
+  if (course.slip_m.empty()) return curves;
+  curves.push_back(load_curve<TopLoad::kShearX>("shear_force_x"));
+  curves.push_back(load_curve<TopLoad::kShearY>("shear_force_y"));
+  curves.push_back({"slip", "m",
+                    [](const TouchCourse& one, std::size_t at, Eigen::Index row, double) {
+                      return one.slip_m[at][row];
+                    },
+                    [](const TouchCourse& one, std::size_t at, Eigen::Index row, double) {
+                      return one.slip_change_m[at][row];
+                    }});
+  return curves;
+}
+
+// Where the pillar is among those that are touched, or -1.
+Eigen::Index row_of(const TouchCourse& course, std::size_t pillar) {
+  const auto found = std::lower_bound(course.touched.begin(), course.touched.end(), pillar);
+  const bool is_touched = found != course.touched.end() && *found == pillar;
+  return is_touched ? static_cast<Eigen::Index>(found - course.touched.begin()) : -1;
+}
+
+void add_top_curve(const SpaceScene& scene, const TouchCourse& course, const TopCurve& one,
+                   SceneAnswer& answer) {
+  for (const std::size_t pillar : followed_pillars(scene, course)) {
+    const Eigen::Index row = row_of(course, pillar);
+    const double d_m = class_of(scene, scene.pillars[pillar]).diameter_m;
+    const double area_m2 = 0.25 * std::numbers::pi * d_m * d_m;
+    std::vector<double> values, changes;
+    for (std::size_t k = 0; k < course.time_s.size(); ++k) {
+      values.push_back(row >= 0 ? one.value(course, k, row, area_m2) : 0.0);
+      changes.push_back(row >= 0 ? std::abs(one.change(course, k, row, area_m2)) : 0.0);
+    }
+    changes = plus_share(std::move(changes), course.stiffness_error, values);
+    answer.curves.push_back(shape_curve(course, one.name + place_ending(scene.pillars[pillar]),
+                                        one.unit, std::move(values), std::move(changes)));
+  }
+}
+
+// How many tops slide and stick, and the largest slip.
+void add_slip_curves(const SpaceScene& scene, const TouchCourse& course, SceneAnswer& answer) {
+  std::vector<double> sticking, slip_m, change, slip_change_m;
+  for (std::size_t k = 0; k < course.slip_m.size(); ++k) {
+    sticking.push_back(course.contacts[k] - course.sliding[k]);
+    change.push_back(course.contact_change[k] + course.sliding_change[k]);
+    const bool any = course.slip_m[k].size() > 0;
+    slip_m.push_back(any ? course.slip_m[k].maxCoeff() : 0.0);
+    slip_change_m.push_back(any ? course.slip_change_m[k].maxCoeff() : 0.0);
+  }
+  if (slip_m.empty()) return;
+  if (asks_for(scene, "sliding_tops")) {
+    answer.curves.push_back(
+        shape_curve(course, "sliding_tops", "1", {course.sliding.begin(), course.sliding.end()},
+                    {course.sliding_change.begin(), course.sliding_change.end()}));
+  }
+  if (asks_for(scene, "sticking_tops")) {
+    answer.curves.push_back(
+        shape_curve(course, "sticking_tops", "1", std::move(sticking), std::move(change)));
+  }
+  if (!asks_for(scene, "largest_slip")) return;
+  slip_change_m = plus_share(std::move(slip_change_m), course.stiffness_error, slip_m);
+  answer.results.push_back({"largest_slip", slip_m.back(), "m", slip_change_m.back(), 0.0, false});
+  answer.curves.push_back(
+      shape_curve(course, "largest_slip", "m", std::move(slip_m), std::move(slip_change_m)));
+}
+
 void add_shape_curves(const SpaceScene& scene, const TouchCourse& course, SceneAnswer& answer) {
   const double of_force = scene.touch->is_creep ? 0.0 : course.stiffness_error;
   const double of_depth = scene.touch->is_creep ? course.stiffness_error : 0.0;
@@ -63,31 +148,35 @@ void add_shape_curves(const SpaceScene& scene, const TouchCourse& course, SceneA
         shape_curve(course, "contacts", "1", {course.contacts.begin(), course.contacts.end()},
                     {course.contact_change.begin(), course.contact_change.end()}));
   }
-  if (!asks_for_map(scene, "pillar_force")) return;
-  for (const std::size_t pillar : followed_pillars(scene, course)) {
-    const auto found = std::lower_bound(course.touched.begin(), course.touched.end(), pillar);
-    const bool is_touched = found != course.touched.end() && *found == pillar;
-    const auto row = static_cast<Eigen::Index>(found - course.touched.begin());
-    const double d_m = class_of(scene, scene.pillars[pillar]).diameter_m;
-    const double area_m2 = 0.25 * std::numbers::pi * d_m * d_m;
-    constexpr int kColumn = static_cast<int>(TopLoad::kPressure);
-    std::vector<double> force_N, change_N;
-    for (std::size_t k = 0; k < course.time_s.size(); ++k) {
-      force_N.push_back(is_touched ? area_m2 * course.loads_Pa[k](row, kColumn) : 0.0);
-      change_N.push_back(is_touched ? area_m2 * course.change_Pa[k](row, kColumn) : 0.0);
-    }
-    change_N = plus_share(std::move(change_N), course.stiffness_error, force_N);
-    answer.curves.push_back(shape_curve(course,
-                                        "pillar_force" + place_ending(scene.pillars[pillar]), "N",
-                                        std::move(force_N), std::move(change_N)));
+  for (const TopCurve& one : top_curves(course)) {
+    if (asks_for_map(scene, one.name)) add_top_curve(scene, course, one, answer);
   }
+  add_slip_curves(scene, course, answer);
 }
 
 }  // namespace
 
 std::vector<std::string> touch_results(const SpaceScene& scene) {
-  if (!scene.touch || !scene.touch->readout) return {};
-  return {kTouchReading};
+  std::vector<std::string> names;
+  if (scene.touch && scene.touch->readout) names.emplace_back(kTouchReading);
+  if (scene.touch && scene.press->friction == Friction::kCoulomb) {
+    names.insert(names.end(), {"slip", "largest_slip", "sliding_tops", "sticking_tops"});
+  }
+  return names;
+}
+
+void add_slip(const SpaceScene& scene, const TouchCourse& course, SceneAnswer& answer) {
+  if (course.slip_m.empty() || !asks_for_map(scene, "slip")) return;
+  SceneMap map{.name = "slip", .unit = "m", .is_watched = false};
+  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+    const Eigen::Index row = row_of(course, i);
+    const double slip_m = row >= 0 ? course.slip_m.back()[row] : 0.0;
+    const double change_m = row >= 0 ? course.slip_change_m.back()[row] : 0.0;
+    map.pillar.push_back(i);
+    map.value.push_back(slip_m);
+    map.error.push_back(change_m + course.stiffness_error * slip_m);
+  }
+  answer.maps.push_back(std::move(map));
 }
 
 void add_voltage_curves(const SpaceScene& scene, const SpaceResponse& response,
@@ -113,12 +202,19 @@ void finish_curves(const SpaceScene& scene, const TouchCourse& course, double re
   const SpaceResponse response(array, accuracy);
   const std::vector<PillarCurve> changes =
       curves_of(scene, response, course, course.change_Pa, true);
+  std::vector<std::size_t> read;
+  for (const PillarCurve& one : changes) {
+    if (one.map == kTouchReading && scene.feels_neighbours) read.push_back(one.pillar);
+  }
+  std::vector<double> influences;
+  if (!read.empty()) influences = influence_of_neighbours(scene, read);
+  auto influence = influences.begin();
   for (std::size_t c = 0; c < changes.size(); ++c) {
     SceneCurve& curve = answer.curves[c];
     const bool is_reading = changes[c].map == kTouchReading;
     double share = relative + course.stiffness_error;
     if (is_reading && scene.feels_neighbours) {
-      share += std::pow(influence_of_neighbours(scene, changes[c].pillar), 2);
+      share += std::pow(*influence++, 2);
     }
     for (std::size_t k = 0; k < curve.error.size(); ++k) {
       curve.error[k] += share * curve.allowed[k] + std::abs(changes[c].value[k]);

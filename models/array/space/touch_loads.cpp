@@ -150,6 +150,83 @@ SpaceContact relaxed_state(const SpaceScene& scene, const SpaceContact& elastic,
   return state;
 }
 
+// The tops that a shape may reach on its path, also between two samples of it; under a force, which may creep to any
+// depth, all that it passes over.
+std::vector<std::size_t> reached_on_path(const SpaceScene& scene,
+                                         const std::vector<TouchSample>& samples) {
+  const std::vector<SpaceClass> classes = classes_of(scene);
+  RigidShape shape = scene.press->shape;
+  std::vector<bool> is_reached(scene.pillars.size(), false);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const TouchSample& now = samples[k];
+    const TouchSample& before = samples[k == 0 ? 0 : k - 1];
+    shape.x_m = 0.5 * (now.x_m + before.x_m);
+    shape.y_m = 0.5 * (now.y_m + before.y_m);
+    const double half_m = 0.5 * std::hypot(now.x_m - before.x_m, now.y_m - before.y_m);
+    const double depth_m = scene.touch->is_creep ? HUGE_VAL : std::max(now.value, before.value);
+    for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+      const SpacePillar& one = scene.pillars[i];
+      const SpaceClass& kind = classes[static_cast<std::size_t>(one.of_class)];
+      is_reached[i] =
+          is_reached[i] || least_height_m(shape, one.x_m, one.y_m, 0.5 * kind.diameter_m + half_m) <
+                               depth_m + kind.length_m - scene.length_m;
+    }
+  }
+  std::vector<std::size_t> reached;
+  for (std::size_t i = 0; i < is_reached.size(); ++i) {
+    if (is_reached[i]) reached.push_back(i);
+  }
+  return reached;
+}
+
+// Tops that a moving shape drags along, with the shears that follow from its way and the forces that press on them.
+class DraggedTops {
+ public:
+  DraggedTops(const SpaceScene& scene, const SpaceTops& tops,
+              const std::vector<std::size_t>& touched)
+      : scene_(&scene), tops_(tops.dragged(touched)), furthest_m_(tops_.size(), 0.0) {}
+
+  // Adds the shears at the end of a step to the tops of `now`.
+  void move(const TouchSample& from, const TouchSample& to, const RelaxingTops& relaxing,
+            PressedArray& now) {
+    const double dt_s = to.time_s - from.time_s;
+    const std::vector<MaterialTerm>& terms = scene_->pillar.terms;
+    const Eigen::Vector2d way_m(to.x_m - from.x_m, to.y_m - from.y_m);
+    const RelaxationStep whole = relaxation_step(terms, dt_s);
+    sliding_ = 0;
+    for (std::size_t i = 0; i < tops_.size(); ++i) {
+      TopPressure& top = now.tops[i];
+      const double part = top.force_N > 0.0 ? relaxing.touched_part(i) : 0.0;
+      if (part < 1.0)
+        tops_[i].leave(part > 0.0 ? relaxation_step(terms, (1.0 - part) * dt_s) : whole);
+      if (part > 0.0) {
+        tops_[i].drag(part < 1.0 ? relaxation_step(terms, part * dt_s) : whole, part * way_m,
+                      scene_->press->friction_coefficient * top.force_N);
+      }
+      top.shear_x_N = tops_[i].force_N().x();
+      top.shear_y_N = tops_[i].force_N().y();
+      furthest_m_[i] = std::max(furthest_m_[i], tops_[i].motion_m().norm());
+      sliding_ += tops_[i].slides() ? 1 : 0;
+    }
+  }
+
+  void add_to(GridCourse& course) const {
+    course.sliding.push_back(sliding_);
+    course.slip_m.emplace_back(static_cast<Eigen::Index>(tops_.size()));
+    for (std::size_t i = 0; i < tops_.size(); ++i) {
+      course.slip_m.back()[static_cast<Eigen::Index>(i)] = tops_[i].slip_m();
+    }
+  }
+  // How far each top was from its foot at most.
+  double furthest_m(std::size_t i) const { return furthest_m_[i]; }
+
+ private:
+  const SpaceScene* scene_;
+  std::vector<SlidingTop> tops_;
+  std::vector<double> furthest_m_;
+  int sliding_ = 0;
+};
+
 }  // namespace
 
 double area_of(const SpaceScene& scene, std::size_t pillar) {
@@ -159,6 +236,7 @@ double area_of(const SpaceScene& scene, std::size_t pillar) {
 
 std::vector<std::size_t> touched_in(const SpaceScene& scene, const SpaceTops& tops,
                                     const std::vector<TouchSample>& samples) {
+  if (scene.touch->is_path()) return reached_on_path(scene, samples);
   const double largest =
       scene.touch->is_creep ? bound_on_elastic(scene, samples) : largest_value(samples);
   const SpaceContact deepest = elastic_state(scene, tops, largest);
@@ -197,24 +275,39 @@ GridCourse stepped_course(const SpaceScene& scene, const SpaceTops& tops,
                           const std::vector<TouchSample>& samples,
                           const std::vector<std::size_t>& touched) {
   RelaxingTops relaxing = tops.relaxing(touched);
+  DraggedTops dragged(scene, tops, touched);
   const double guess_m = foundation_press(scene).depth_m;
+  const bool is_path = scene.touch->is_path();
+  const bool drags = is_path && scene.press->friction == Friction::kCoulomb;
   GridCourse course;
-  PressedArray shown;
+  PressedArray largest;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const RelaxationStep step = relaxation_step(
-        scene.pillar.terms, k == 0 ? 0.0 : samples[k].time_s - samples[k - 1].time_s);
+    const TouchSample& before = samples[k == 0 ? 0 : k - 1];
+    const RelaxationStep step =
+        relaxation_step(scene.pillar.terms, samples[k].time_s - before.time_s);
+    if (is_path) relaxing.move_shape(samples[k].x_m, samples[k].y_m);
     PressedArray now = scene.touch->is_creep ? relaxing.with_force(step, samples[k].value, guess_m)
                                              : relaxing.to_depth(step, samples[k].value);
+    if (drags) {
+      dragged.move(before, samples[k], relaxing, now);
+      dragged.add_to(course);
+    }
     course.depth_m.push_back(now.depth_m);
     course.force_N.push_back(now.force_N);
     course.contacts.push_back(now.contacts);
     course.loads_Pa.push_back(loads_of_tops(scene, now.tops, touched));
-    if (now.force_N >= (1.0 - 1e-6) * shown.force_N) {
-      course.shown_at = k;
-      shown = std::move(now);
-    }
+    const bool is_largest = now.force_N >= (1.0 - 1e-6) * largest.force_N;
+    const bool is_end = is_path && k + 1 == samples.size() && now.force_N > 0.5 * largest.force_N;
+    if (is_largest || is_end) course.shown_at = k;
+    if (is_end) course.shown = tops.contact_of(now, touched);
+    if (is_largest) largest = std::move(now);
   }
-  course.shown = course.largest = tops.contact_of(shown, touched);
+  course.largest = tops.contact_of(largest, touched);
+  if (course.shown.pressed.tops.empty()) course.shown = course.largest;
+  for (std::size_t i = 0; drags && i < touched.size(); ++i) {
+    double& sideways_m = course.largest.sideways_m[touched[i]];
+    sideways_m = std::max(sideways_m, dragged.furthest_m(i));
+  }
   return course;
 }
 

@@ -15,7 +15,11 @@ struct GridCourse {
   std::vector<double> depth_m, force_N;  // by sample
   std::vector<int> contacts;
   std::vector<TopLoads> loads_Pa;  // of the touched pillars
-  // For maps: the end of a contact that grows, otherwise the largest force.
+  // Of a shape that moves with friction: how far it has slid over the touched pillars, and the tops over which it slides.
+  std::vector<Eigen::VectorXd> slip_m;
+  std::vector<int> sliding;
+  // For maps: the end of a contact that grows, otherwise the largest force; of a path its end, if at least half of the
+  // largest force is left there.
   std::size_t shown_at = 0;
   SpaceContact shown;
   SpaceContact largest;  // for notes; without relaxation if the contact grows

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -17,15 +18,26 @@ namespace {
 // Readings of single pillars under loads in time: rows are times.
 class Voltages {
  public:
-  Voltages(const SpaceScene& scene, const SpaceResponse& response, const TouchCourse& course)
-      : scene_(&scene), response_(&response), course_(&course) {}
+  Voltages(const SpaceScene& scene, const SpaceResponse& response, const TouchCourse& course,
+           const std::vector<TopLoads>& loads_Pa, bool is_size)
+      : scene_(&scene),
+        response_(&response),
+        course_(&course),
+        loads_Pa_(&loads_Pa),
+        is_size_(is_size) {}
 
-  Eigen::MatrixXd of(std::size_t pillar, const std::vector<TopLoads>& loads_Pa,
-                     bool is_size = false) const {
+  // Kept: a pillar is asked for by all its neighbours.
+  const Eigen::MatrixXd& of(std::size_t pillar) {
+    const auto found = known_.find(pillar);
+    return found != known_.end() ? found->second : known_[pillar] = computed(pillar);
+  }
+
+ private:
+  Eigen::MatrixXd computed(std::size_t pillar) const {
     const SpacePillar& one = scene_->pillars[pillar];
     const auto readings = static_cast<Eigen::Index>(reading_names(scene_->electrode).size());
     Eigen::MatrixXd voltages =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(loads_Pa.size()), readings);
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(loads_Pa_->size()), readings);
     const Eigen::MatrixXd by_electrodes = response_->added_by_electrodes(pillar);
     for (std::size_t j = 0; j < course_->touched.size(); ++j) {
       const SpacePillar& other = scene_->pillars[course_->touched[j]];
@@ -35,19 +47,21 @@ class Voltages {
       if (by_electrodes.size() > 0) {
         kernel.row(0) += by_electrodes.row(static_cast<Eigen::Index>(course_->touched[j]));
       }
-      if (is_size) kernel = kernel.cwiseAbs().eval();
-      for (std::size_t k = 0; k < loads_Pa.size(); ++k) {
+      if (is_size_) kernel = kernel.cwiseAbs().eval();
+      for (std::size_t k = 0; k < loads_Pa_->size(); ++k) {
         voltages.row(static_cast<Eigen::Index>(k)) +=
-            (kernel * loads_Pa[k].row(static_cast<Eigen::Index>(j)).transpose()).transpose();
+            (kernel * (*loads_Pa_)[k].row(static_cast<Eigen::Index>(j)).transpose()).transpose();
       }
     }
     return voltages;
   }
 
- private:
   const SpaceScene* scene_;
   const SpaceResponse* response_;
   const TouchCourse* course_;
+  const std::vector<TopLoads>* loads_Pa_;
+  bool is_size_;
+  std::map<std::size_t, Eigen::MatrixXd> known_;
 };
 
 // Mutual influence of electrodes near one of them, p12/p11 by distance (eq. S16).
@@ -146,8 +160,8 @@ std::string place_ending(const SpacePillar& one) {
   return "_" + std::to_string(one.row) + "_" + std::to_string(one.column);
 }
 
-// The pillars that the scene names, or else the one that bears most at the end.
 std::vector<std::size_t> followed_pillars(const SpaceScene& scene, const TouchCourse& course) {
+  constexpr std::size_t kSmallArray = 100;
   std::vector<std::size_t> pillars;
   for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
     const std::string ending = place_ending(scene.pillars[i]);
@@ -158,6 +172,10 @@ std::vector<std::size_t> followed_pillars(const SpaceScene& scene, const TouchCo
         })) {
       pillars.push_back(i);
     }
+  }
+  if (pillars.empty() && scene.touch->is_path() && scene.pillars.size() <= kSmallArray) {
+    pillars.resize(scene.pillars.size());
+    std::iota(pillars.begin(), pillars.end(), std::size_t{0});
   }
   if (!pillars.empty()) return pillars;
   const std::vector<TopPressure>& tops = course.shown.pressed.tops;
@@ -170,14 +188,14 @@ std::vector<std::size_t> followed_pillars(const SpaceScene& scene, const TouchCo
 std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse& response,
                                    const TouchCourse& course, const std::vector<TopLoads>& loads_Pa,
                                    bool is_size) {
-  const Voltages voltages(scene, response, course);
+  Voltages voltages(scene, response, course, loads_Pa, is_size);
   const std::vector<std::string> names = reading_names(scene.electrode);
   const bool is_read = scene.touch->readout && asks_for_map(scene, kTouchReading);
   std::optional<Influence> influence;
   if (is_read) influence.emplace(scene, array_of(scene));
   std::vector<PillarCurve> curves;
   for (const std::size_t pillar : followed_pillars(scene, course)) {
-    const Eigen::MatrixXd own_V = voltages.of(pillar, loads_Pa, is_size);
+    const Eigen::MatrixXd own_V = voltages.of(pillar);
     const auto column = [](const Eigen::MatrixXd& all, Eigen::Index c) {
       return std::vector<double>(all.col(c).begin(), all.col(c).end());
     };
@@ -189,7 +207,7 @@ std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse&
     if (!is_read) continue;
     Eigen::VectorXd mixed_V = Eigen::VectorXd::Zero(own_V.rows());
     influence->visit(pillar, [&](std::size_t other, double share) {
-      if (scene.feels_neighbours) mixed_V += share * voltages.of(other, loads_Pa, is_size).col(0);
+      if (scene.feels_neighbours) mixed_V += share * voltages.of(other).col(0);
     });
     const ReadoutFilter filter = readout_filter(*scene.touch->readout, response.capacitance_F());
     PillarCurve reading{kTouchReading, pillar, {}, {}};
@@ -206,10 +224,15 @@ std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse&
   return curves;
 }
 
-double influence_of_neighbours(const SpaceScene& scene, std::size_t pillar) {
-  double sum = 0.0;
-  Influence(scene, array_of(scene)).visit(pillar, [&](std::size_t, double share) { sum += share; });
-  return sum;
+std::vector<double> influence_of_neighbours(const SpaceScene& scene,
+                                            const std::vector<std::size_t>& pillars) {
+  std::vector<double> sums;
+  Influence influence(scene, array_of(scene));
+  for (const std::size_t pillar : pillars) {
+    double& sum = sums.emplace_back(0.0);
+    influence.visit(pillar, [&](std::size_t, double share) { sum += share; });
+  }
+  return sums;
 }
 
 }  // namespace viscard

@@ -2,14 +2,17 @@
 #include "models/array/space/touch_steps.h"
 
 #include "models/answer/scene_mistake.h"
+#include "models/array/space/space_contact.h"
 #include "models/material/hereditary.h"
 #include "models/material/load_history.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace viscard {
@@ -39,21 +42,53 @@ double first_block_s(const SpaceScene& scene) {
   return std::max(0.25 * fastest_s, 1e-9 * scene.touch->history.back().time_s);
 }
 
-void add_segment(const HistoryPoint& from, const HistoryPoint& to, double first_s, int steps,
+// Lengths of blocks, s.
+struct Blocks {
+  double first_s = 0.0, longest_s = HUGE_VAL;
+};
+
+void add_segment(const TouchSample& from, const TouchSample& to, const Blocks& blocks, int steps,
                  std::vector<TouchSample>& samples) {
   const double length_s = to.time_s - from.time_s;
   double start_s = 0.0;
-  for (double end_s = std::min(first_s, length_s); start_s < length_s;
-       end_s = 2.0 * end_s < length_s ? 2.0 * end_s : length_s) {
+  for (double end_s = std::min({blocks.first_s, blocks.longest_s, length_s}); start_s < length_s;) {
     for (int i = 1; i <= steps; ++i) {
       const double at_s = start_s + (end_s - start_s) * i / steps;
-      const double value = from.value + (to.value - from.value) * at_s / length_s;
-      const bool is_last = end_s == length_s && i == steps;
-      samples.push_back(
-          {is_last ? to.time_s : from.time_s + at_s, is_last ? to.value : value, 0.0, i % 2 == 1});
+      const auto between = [&](double a, double b) { return a + (b - a) * at_s / length_s; };
+      TouchSample sample = to;
+      if (end_s < length_s || i < steps) {
+        sample = {from.time_s + at_s, between(from.value, to.value), 0.0,
+                  i % 2 == 1,         between(from.x_m, to.x_m),     between(from.y_m, to.y_m)};
+      }
+      samples.push_back(sample);
     }
     start_s = end_s;
+    const double next_s = std::min(2.0 * end_s, end_s + blocks.longest_s);
+    end_s = next_s < length_s ? next_s : length_s;
   }
+}
+
+// The points of a history with their places, the first after whatever it begins with at once.
+std::vector<TouchSample> corners_of(const SpaceTouch& touch) {
+  std::vector<TouchSample> corners;
+  for (std::size_t i = 0; i < touch.history.size(); ++i) {
+    TouchSample corner{touch.history[i].time_s, touch.history[i].value};
+    if (touch.is_path()) std::tie(corner.x_m, corner.y_m) = touch.place_m[i];
+    corners.push_back(corner);
+  }
+  return corners;
+}
+
+double way_m(const TouchSample& from, const TouchSample& to) {
+  return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+}
+
+double smallest_top_m(const SpaceScene& scene) {
+  double smallest_m = HUGE_VAL;
+  for (const SpaceClass& one : classes_of(scene)) {
+    smallest_m = std::min(smallest_m, one.diameter_m);
+  }
+  return smallest_m;
 }
 
 // Elastic pillars reach the same depth under the force int j(t - s) dF(s), where j is the relative
@@ -92,7 +127,50 @@ void check_materials(const SpaceScene& scene) {
   }
 }
 
-void check_history(const std::vector<HistoryPoint>& points) {
+void check_path(const SpaceScene& scene) {
+  constexpr double kMostTops = 1e4;
+  const SpaceTouch& touch = *scene.touch;
+  if (touch.place_m.size() != touch.history.size()) {
+    throw SceneMistake("shape.path", "needs a place for each time");
+  }
+  const std::vector<TouchSample> corners = corners_of(touch);
+  double length_m = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const TouchSample& one = corners[i];
+    const std::string key = "shape.path." + std::to_string(i + 1);
+    if (!std::isfinite(one.time_s + one.value + one.x_m + one.y_m)) {
+      throw SceneMistake(key, "has a value that is not a number");
+    }
+    if (touch.is_creep && one.value < 0.0) throw SceneMistake(key, "a shape does not pull");
+    largest = std::max(largest, one.value);
+    if (i == 0) continue;
+    if (one.time_s < corners[i - 1].time_s) {
+      throw SceneMistake(key + ".time", "is earlier than that of the entry before");
+    }
+    const double way = way_m(corners[i - 1], one);
+    if (one.time_s == corners[i - 1].time_s && way > 0.0) {
+      throw SceneMistake(key,
+                         "is at the time of the entry before, but elsewhere; a shape takes "
+                         "time to move (its depth or force may jump)");
+    }
+    length_m += way;
+  }
+  if (corners.size() < 2 || corners.front().time_s != 0.0 || !(corners.back().time_s > 0.0)) {
+    throw SceneMistake("shape.path",
+                       "needs at least two entries, the first at 0 s, the last later");
+  }
+  if (!(largest > 0.0)) {
+    throw SceneMistake("shape.path", "nothing happens: no depth or force is above zero");
+  }
+  if (length_m > kMostTops * smallest_top_m(scene)) {
+    throw SceneMistake("shape.path", "is " + text_of(length_m, 3) +
+                                         " m long, more than 10000 widths of a top; shorten it");
+  }
+}
+
+void check_history(const SpaceScene& scene) {
+  if (scene.touch->is_path()) return check_path(scene);
+  const std::vector<HistoryPoint>& points = scene.touch->history;
   validate(points);
   if (points.size() < 2 || points.front().time_s != 0.0 || !(points.back().time_s > 0.0)) {
     throw SceneMistake("analysis.history",
@@ -117,19 +195,43 @@ void check_readout(const SpaceScene& scene) {
                      "... }");
 }
 
+// Where the columns of the array bear most.
+void set_worst_place(SpaceScene& scene, const std::vector<TouchSample>& samples,
+                     const std::function<void(double)>& press_as) {
+  RigidShape& shape = scene.press->shape;
+  const TouchSample* worst = &samples.front();
+  double most_Pa = 0.0;
+  for (const TouchSample& sample : samples) {
+    if (!(sample.elastic > 0.0)) continue;
+    std::tie(shape.x_m, shape.y_m) = std::pair(sample.x_m, sample.y_m);
+    press_as(sample.elastic);
+    const double pressure_Pa = foundation_press(scene).largest_Pa;
+    if (!(pressure_Pa > most_Pa)) continue;
+    most_Pa = pressure_Pa;
+    worst = &sample;
+  }
+  std::tie(shape.x_m, shape.y_m) = std::pair(worst->x_m, worst->y_m);
+}
+
 }  // namespace
 
 std::vector<TouchSample> touch_samples(const SpaceScene& scene, int steps) {
-  const std::vector<HistoryPoint>& points = scene.touch->history;
-  const double first_s = first_block_s(scene);
-  std::vector<TouchSample> samples = {{points.front().time_s}};
-  if (points.front().value != 0.0) samples.push_back({points.front().time_s, points.front().value});
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].time_s == points[i - 1].time_s) {
-      samples.push_back({points[i].time_s, points[i].value});
-    } else {
-      add_segment(points[i - 1], points[i], first_s, steps, samples);
+  const std::vector<TouchSample> corners = corners_of(*scene.touch);
+  const double first_s = first_block_s(scene), top_m = smallest_top_m(scene);
+  std::vector<TouchSample> samples = {corners.front()};
+  if (corners.front().value > 0.0) {
+    samples.front().value = 0.0;
+    samples.push_back(corners.front());
+  }
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const double length_s = corners[i].time_s - corners[i - 1].time_s;
+    if (length_s == 0.0) {
+      samples.push_back(corners[i]);
+      continue;
     }
+    const double moved_m = way_m(corners[i - 1], corners[i]);
+    const double longest_s = moved_m > 0.0 ? length_s * top_m / moved_m : HUGE_VAL;
+    add_segment(corners[i - 1], corners[i], {first_s, longest_s}, steps, samples);
   }
   set_elastic(scene, samples);
   return samples;
@@ -212,16 +314,25 @@ double change_of_reading(const SpaceScene& scene, const std::vector<TouchSample>
 
 void press_in_time(SpaceScene& scene, SpaceTouch touch) {
   scene.touch = std::move(touch);
-  check_history(scene.touch->history);
+  ShapePress& press = *scene.press;
+  if (scene.touch->is_path() && press.friction == Friction::kStick) {
+    press.friction = Friction::kCoulomb;
+    press.friction_coefficient = HUGE_VAL;
+  }
+  check_history(scene);
   if (scene.touch->readout) at_key("readout", [&] { validate(*scene.touch->readout); });
-  const double largest = largest_value(touch_samples(scene, 2));
-  scene.press->depth_m = scene.touch->is_creep ? 0.0 : largest;
-  scene.press->force_N = scene.touch->is_creep ? largest : 0.0;
+  const std::vector<TouchSample> samples = touch_samples(scene, 2);
+  const auto press_as = [&](double value) {
+    press.depth_m = scene.touch->is_creep ? 0.0 : value;
+    press.force_N = scene.touch->is_creep ? value : 0.0;
+  };
+  if (scene.touch->is_path()) set_worst_place(scene, samples, press_as);
+  press_as(largest_value(samples));
 }
 
 void check_touch(const SpaceScene& scene) {
   if (!scene.touch) return;
-  check_history(scene.touch->history);
+  check_history(scene);
   check_materials(scene);
   if (scene.touch->readout) check_readout(scene);
 }

@@ -7,11 +7,11 @@
 
 namespace viscard {
 
-// Sets the history of a scene's shape, and its deepest state as the depth or force of the shape, to
-// which estimates refer. In creep that is the force that presses elastic pillars to the same depth.
+// Sets the history of a scene's shape, and its deepest state as the depth or force of the shape, at the place of its path
+// where it presses most, to which estimates refer. In creep that is the force that presses elastic pillars to the same depth.
 void press_in_time(SpaceScene& scene, SpaceTouch touch);
 
-// Throws SceneMistake for a history that does not start at 0 s, for pillars that do not relax alike, and
+// Throws SceneMistake for a history or path that does not start at 0 s, for pillars that do not relax alike, and
 // for a readout without electrodes.
 void check_touch(const SpaceScene& scene);
 
@@ -26,10 +26,12 @@ struct TouchSample {
   double value = 0.0;    // of the history, m or N
   double elastic = 0.0;  // depth, or the force that presses elastic pillars as deep (eq. S15)
   bool is_new = false;   // halves a step of the samples with half as many steps
+  double x_m = 0.0, y_m = 0.0;  // of the shape
 };
 
 // Blocks that double in length after each corner of the history, from a quarter of the fastest time of the
-// material and the readout on, with the same number of steps each. A jump has two samples.
+// material and the readout on, with the same number of steps each. A jump has two samples. In no block does the shape
+// move further than the smallest top is wide.
 std::vector<TouchSample> touch_samples(const SpaceScene& scene, int steps);
 
 // True if the contact grows or stays from sample to sample, judged by the shape alone.

@@ -146,6 +146,36 @@ TEST_CASE("mistakes in a shape name the key and the way out", "[cli][scene][arra
           "no pillar under the shape");
 }
 
+TEST_CASE("a shape of a scene file moves along its path", "[cli][scene][array]") {
+  const std::string sphere = "kind = \"sphere\"\nradius = \"100 mm\"\n";
+  const auto along = [](const std::string& of_last) {
+    return "path = [{ time = \"0 s\", x = \"-20 um\", depth = \"1 um\" }, { time = \"0.1 s\", " +
+           of_last + " }]\n";
+  };
+  const std::string moves = along("x = \"20 um\", depth = \"1 um\"");
+  const Json dragged = answer_of(sphere + "friction = 0.1\n" + moves);
+  const double normal_N = result_of(dragged, "pillar_force_2_2");
+  CHECK(normal_N == Approx(19.0468 * (1e-6 - 6e-10 / 200e-3)).epsilon(1e-3));
+  CHECK(result_of(dragged, "shear_force_x_2_2") == Approx(0.1 * normal_N).epsilon(1e-6));
+  CHECK(result_of(dragged, "largest_slip") == Approx(result_of(dragged, "slip_largest")));
+  const double lean_m = 0.1 * normal_N / 0.377686;
+  CHECK(result_of(dragged, "slip_2_2") == Approx(40e-6 - lean_m).epsilon(2e-2));
+  const Json held = answer_of(sphere + "friction = \"stick\"\n" + moves);
+  CHECK(result_of(held, "slip_2_2") == 0.0);
+  CHECK(result_of(held, "shear_force_x_2_2") == Approx(0.377686 * 40e-6).epsilon(1e-3));
+  const Json free = answer_of(sphere + "friction = 0\n" + moves);
+  CHECK(result_of(free, "pillar_force_2_2") == Approx(normal_N).epsilon(1e-6));
+  CHECK_FALSE(free.at("results").contains("shear_force_x_2_2"));
+
+  CHECK_THAT(refusal_of(sphere + "friction = 0.1\ndepth = \"1 um\"\n"),
+             Catch::Contains("shape.friction") && Catch::Contains("shape.path"));
+  CHECK_THAT(refusal_of(sphere + "depth = \"1 um\"\n" + moves), Catch::Contains("shape.depth"));
+  CHECK_THAT(refusal_of(sphere + "at = [\"1 um\", \"0 um\"]\n" + moves),
+             Catch::Contains("shape.at"));
+  CHECK_THAT(refusal_of(sphere + along("force = \"1 mN\"")), Catch::Contains("shape.path.2"));
+  CHECK_THAT(refusal_of(sphere + "friction = -0.1\n" + moves), Catch::Contains("shape.friction"));
+}
+
 TEST_CASE("a rough surface is the same for the same seed", "[cli][scene][array]") {
   const auto rough = [](int seed, const std::string& rest = "") {
     return "kind = \"rough\"\nrms = \"0.25 um\"\ncorrelation_length = \"75 um\"\ndepth = \"3 um\"\n"
