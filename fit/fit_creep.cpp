@@ -167,7 +167,7 @@ FitResult fit_stress_history(const CreepData& data, const FitOptions& options) {
         "creep under a stress that changes cannot be fitted together with other tests; fit it "
         "alone, or choose the rows of one constant stress with --from and --to");
   }
-  const std::optional<TimeRounding> rounding = time_rounding(data.time_s);
+  const std::optional<TimeRounding> rounding = time_rounding(data.time_s, data.n_missing);
   const bool is_spread = rounding && !rounding->time_s.empty();
   CheckedRecord record(
       {is_spread ? rounding->time_s : data.time_s, data.compliance_1_Pa, data.stress_Pa},
@@ -223,7 +223,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     keep_intervals_positive(options, result);
     return result;
   }
-  const std::optional<TimeRounding> rounding = time_rounding(data.time_s);
+  const std::optional<TimeRounding> rounding = time_rounding(data.time_s, data.n_missing);
   const bool is_spread = rounding && !rounding->time_s.empty();
   CheckedRecord record({is_spread ? rounding->time_s : data.time_s, data.compliance_1_Pa},
                        kLeastRows, RecordKind::kCreep);

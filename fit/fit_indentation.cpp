@@ -200,7 +200,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
 
 // A table whose export may have rounded the times.
 FitResult fit_depth_table(const IndentationData& data, const FitOptions& options) {
-  const std::optional<TimeRounding> rounding = time_rounding(data.time_s);
+  const std::optional<TimeRounding> rounding = time_rounding(data.time_s, data.n_missing);
   const auto fit_with = [&](const std::vector<double>& time_s) {
     if (time_s.empty()) return fit_measured_depth(data, options);
     IndentationData spread = data;

@@ -224,7 +224,7 @@ void check_step_values(std::span<const double> time_s, std::span<const double> v
 
 FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) {
   const bool is_step = data.strain.empty();
-  const std::optional<TimeRounding> rounding = time_rounding(data.time_s);
+  const std::optional<TimeRounding> rounding = time_rounding(data.time_s, data.n_missing);
   const bool is_spread = rounding && !rounding->time_s.empty();
   std::vector<std::span<const double>> columns{is_spread ? rounding->time_s : data.time_s,
                                                data.value};

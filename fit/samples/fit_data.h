@@ -28,6 +28,7 @@ struct RelaxationData {
   std::string unit = "Pa";     // of value, for the words of flags
   bool is_zero_known = false;  // the load was at t = 0 for certain: the times are not questioned
   double zero_unsure_s = 0.0;  // t = 0 was assumed, and may be wrong by this
+  std::size_t n_missing = 0;   // rows of the table between these that are left out already
 };
 
 // Flat-punch indentation, F(t) = c int E(t-s) d(depth)/ds ds + offset + drift t (fit/README.md, eq.
@@ -54,6 +55,7 @@ struct IndentationData {
   std::string force_doubt;        // why the calibration is a doubt for that force, or ""
 
   std::optional<PunchContact> contact;
+  std::size_t n_missing = 0;    // as in RelaxationData
   std::size_t n_saturated = 0;  // already left out
   std::size_t n_glitch = 0;
 };
@@ -65,8 +67,9 @@ struct CreepData {
   std::vector<double> compliance_1_Pa;  // or the strain
   bool is_zero_known = false;           // as in RelaxationData
   double zero_unsure_s = 0.0;
-  std::vector<double> stress_Pa = {};  // empty: ideal step
-};
+  std::vector<double> stress_Pa = {std::size_t n_missing = 0;  // as in RelaxationData
+};                                                             // empty: ideal step
+};                                                             // namespace viscard
 
 // Storage and loss modulus, fitted together with relative weights; loss_Pa empty: the storage modulus alone.
 struct DmaData {

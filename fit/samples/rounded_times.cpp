@@ -49,7 +49,7 @@ std::vector<double> steps_between(std::span<const double> time_s, double step_s)
 }
 
 // True for distances as rounding makes them from nearly even ones, or for shared times.
-bool are_rounded(const std::vector<double>& steps) {
+bool are_rounded(const std::vector<double>& steps, std::size_t n_missing) {
   constexpr double kLeastShare = 0.05, kMostShare = 0.95, kLongest = 4.0;
   constexpr std::size_t kFewest = 6;
   std::size_t n_zero = 0, n_short = 0, n_changes = 0;
@@ -62,7 +62,7 @@ bool are_rounded(const std::vector<double>& steps) {
       std::max(kFewest, static_cast<std::size_t>(kLeastShare * static_cast<double>(steps.size())));
   if (n_zero >= least) return true;
   // One missing row makes two changes.
-  const bool is_mixed = n_changes >= 2 * least;
+  const bool is_mixed = n_changes >= 2 * (least + n_missing);
   return is_mixed && static_cast<double>(n_short) > kMostShare * static_cast<double>(steps.size());
 }
 
@@ -83,7 +83,7 @@ double shortest_if_uneven(std::span<const double> time_s) {
 
 }  // namespace
 
-std::optional<double> rounding_step_s(std::span<const double> time_s) {
+std::optional<double> rounding_step_s(std::span<const double> time_s, std::size_t n_missing) {
   constexpr std::size_t kFewestRows = 20;
   if (time_s.size() < kFewestRows) return std::nullopt;
   const double least_s = shortest_if_uneven(time_s);
@@ -91,7 +91,7 @@ std::optional<double> rounding_step_s(std::span<const double> time_s) {
   for (const double part : {1.0, 2.0, 3.0}) {
     const std::vector<double> steps = steps_between(time_s, least_s / part);
     if (steps.empty()) continue;
-    return are_rounded(steps) ? std::optional(least_s / part) : std::nullopt;
+    return are_rounded(steps, n_missing) ? std::optional(least_s / part) : std::nullopt;
   }
   return std::nullopt;
 }
@@ -157,7 +157,7 @@ std::optional<TimeRounding> shared_times(std::span<const double> time_s) {
 }
 
 // The step of even times in which rows are missing at equal distances, one at a time.
-std::optional<double> step_of_regular_gaps(std::span<const double> time_s) {
+std::optional<double> step_of_regular_gaps(std::span<const double> time_s, std::size_t n_missing) {
   constexpr std::size_t kFewestGaps = 8;  // as regular by chance once in four hundred records
   const double step_s = shortest_if_uneven(time_s);
   if (!(step_s > 0.0)) return std::nullopt;
@@ -168,25 +168,25 @@ std::optional<double> step_of_regular_gaps(std::span<const double> time_s) {
     if (step < 1.0 || step > 2.0) return std::nullopt;
     n_gaps += step > 1.0 ? 1 : 0;
   }
-  if (n_gaps < kFewestGaps || !straight_line(time_s, step_s)) return std::nullopt;
+  if (n_gaps < kFewestGaps + n_missing || !straight_line(time_s, step_s)) return std::nullopt;
   return step_s;
 }
 
 }  // namespace
 
-std::optional<TimeRounding> time_rounding(std::span<const double> time_s) {
+std::optional<TimeRounding> time_rounding(std::span<const double> time_s, std::size_t n_missing) {
   constexpr std::size_t kFewestRows = 12;
   if (time_s.size() < kFewestRows) return std::nullopt;
   if (time_s[0] == time_s[1] || time_s[1] == time_s[2]) {
     if (auto shared = shared_times(time_s)) return shared;
   }
-  if (const std::optional<double> step_s = rounding_step_s(time_s)) {
+  if (const std::optional<double> step_s = rounding_step_s(time_s, n_missing)) {
     if (auto even_s = straight_line(time_s, *step_s)) {
       return spread_times(time_s, std::move(*even_s), *step_s);
     }
     return TimeRounding{*step_s, 0.5 * *step_s, {}};
   }
-  const std::optional<double> gaps_s = step_of_regular_gaps(time_s);
+  const std::optional<double> gaps_s = step_of_regular_gaps(time_s, n_missing);
   return gaps_s ? std::optional(TimeRounding{*gaps_s, *gaps_s, {}}) : std::nullopt;
 }
 

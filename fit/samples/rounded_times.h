@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,11 +21,13 @@ struct TimeRounding {
 // straight line. Others that rounding_step_s() recognises stand as they are. So do even times that lack a row
 // at equal distances: their export cut them off to a step a little shorter than that of the sampling, or rows
 // are missing, which makes them unsure by a whole step.
-std::optional<TimeRounding> time_rounding(std::span<const double> time_s);
+//   n_missing: rows that are known to be missing
+std::optional<TimeRounding> time_rounding(std::span<const double> time_s,
+                                          std::size_t n_missing = 0);
 
 // The step to which times were rounded, if that shows: all times lie on a grid no finer than a third
 // of the shortest distance of two rows, and rows of about equal distances stand now one, now two
 // steps apart, or share a time. Nothing for even times, also if rows are missing here and there.
-std::optional<double> rounding_step_s(std::span<const double> time_s);
+std::optional<double> rounding_step_s(std::span<const double> time_s, std::size_t n_missing = 0);
 
 }  // namespace viscard

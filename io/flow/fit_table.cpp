@@ -123,10 +123,18 @@ bool has_stress_history(const CsvTable& table, const FitRequest& request) {
   return !stress_Pa.empty() && *high - *low > kConstant * std::max(std::abs(*low), std::abs(*high));
 }
 
+// Rows between the first and the last that are not among those of the table any more.
+std::size_t missing_rows(const CsvTable& table) {
+  if (table.lines.empty()) return 0;
+  const std::size_t span = table.lines[table.lines.size() - 1] - table.lines.front() + 1;
+  return span - std::min(span, table.lines.size());
+}
+
 FitResult fit_stress_history(const CsvTable& table, const FitRequest& request) {
   CreepData data{.time_s = time_of(table, request),
                  .compliance_1_Pa = column_SI(table, "strain", request.columns)};
   data.stress_Pa = moduli_of(table, "stress_Pa", request);
+  data.n_missing = missing_rows(table);
   return fit_creep(data, request.options);
 }
 
@@ -178,6 +186,7 @@ FitResult fit_force_table(const CsvTable& table, const FitRequest& request) {
   if (!has_geometry) data.unit = request.depth_m ? "N/m" : "N";
   data.is_zero_known = request.time_zero_s.has_value();
   data.zero_unsure_s = zero_unsure_s(table, request);
+  data.n_missing = missing_rows(table);
   for (double& value : data.value) value /= per;
   FitResult result = fit_relaxation(data, request.options);
   result.is_stiffness = !has_geometry;
@@ -209,6 +218,7 @@ FitResult fit_relaxation_table(const CsvTable& table, const FitRequest& request)
   data.time_s = time_of(table, request);
   data.is_zero_known = request.time_zero_s.has_value();
   data.zero_unsure_s = zero_unsure_s(table, request);
+  data.n_missing = missing_rows(table);
   const bool has_modulus = find_column(table, "modulus_Pa", request.columns).has_value();
   if (!has_modulus && !find_column(table, "strain", request.columns)) {
     refuse_stress_alone(table, request);
@@ -229,6 +239,7 @@ FitResult fit_indentation_table(const CsvTable& table, const FitRequest& request
   data.force_N = column_SI(table, "force_N", request.columns);
   data.depth_m = column_SI(table, "depth_m", request.columns);
   data.frame_stiffness_N_m = request.frame_stiffness_N_m;
+  data.n_missing = missing_rows(table);
   if (request.specimen) data.contact = request.specimen->contact;
   return fit_indentation(data, request.options);
 }

@@ -85,6 +85,22 @@ std::string remedy_for_modulus(const CsvTable& table, const ColumnMap& columns, 
 
 void refuse_modulus(double E0_Pa, const CsvTable* table, const ColumnMap& columns,
                     Plausible judged) {
+  if (E0_Pa == 0.0 && table != nullptr && find_column(*table, "stress_Pa", columns) &&
+      find_column(*table, "strain", columns)) {
+    const std::vector<double> stress = column_with_gaps_SI(*table, "stress_Pa", columns);
+    const std::vector<double> strain = column_with_gaps_SI(*table, "strain", columns);
+    double product = 0.0;
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+      if (std::isfinite(stress[i] * strain[i])) product += stress[i] * strain[i];
+    }
+    if (product < 0.0) {
+      throw BadNumber(
+          table->file +
+          ": stress and strain have opposite signs, which no material has; turn one of them, as in "
+          "--column \"stress_Pa=-" +
+          table->columns[find_column(*table, "stress_Pa", columns)->index].header + "\"");
+    }
+  }
   const auto doubt = doubt_about(quantities::kModulus, E0_Pa, judged);
   if (!doubt) return;
   const std::string remedy = table != nullptr

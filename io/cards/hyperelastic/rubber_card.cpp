@@ -101,9 +101,12 @@ std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm
   const RubberTarget& target = rubber_target(options.target);
   const RubberNumbers numbers = numbers_of(law, terms, target, options);
   if (target.laws.of(law.form).empty()) {
-    throw std::invalid_argument(
-        target.name + " has no " + name_of(law.form) +
-        " law; fit another with viscard fit --model, such as mooney-rivlin or yeoh");
+    std::string others;
+    for (const HyperelasticForm form : hyperelastic_forms()) {
+      if (!target.laws.of(form).empty()) others += (others.empty() ? "" : ", ") + name_of(form);
+    }
+    throw std::invalid_argument(target.name + " has no " + name_of(law.form) +
+                                " law; fit one that it has with viscard fit --model: " + others);
   }
   require(!target.needs_density || numbers.density > 0.0,
           target.name + " needs a density: --density \"1.1 g/cm3\"");

@@ -22,7 +22,7 @@ _COLUMN = re.compile(r'write --column (?:"([^"]*)"|([^\s;]+))')
 _TEXT = re.compile(r'--([a-z]+(?:-[a-z]+)*) (?=")')
 
 
-def _in_python(text: str) -> str:
+def in_python(text: str) -> str:
     """The same words with keywords (max_terms) in the place of options (--max-terms)."""
     text = text.replace("--plausible off", 'plausible="off"')
     text = _COLUMN.sub(lambda match: f'write column="{match.group(1) or match.group(2)}"', text)
@@ -60,11 +60,11 @@ class Error(RuntimeError):
 
     def __init__(self, text: str, code: str = "failed", message: "str | None" = None,
                  where: str = "", hint: str = "") -> None:
-        super().__init__(_in_python(text))
+        super().__init__(in_python(text))
         self.code = code
-        self.message = _in_python(text if message is None else message)
-        self.where = _in_python(where)
-        self.hint = _in_python(hint)
+        self.message = in_python(text if message is None else message)
+        self.where = in_python(where)
+        self.hint = in_python(hint)
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return (Error, (str(self), self.code, self.message, self.where, self.hint))

@@ -7,7 +7,7 @@ import warnings
 from typing import TYPE_CHECKING, Any, Dict, List, Literal, Sequence, Union, Unpack, overload
 
 from . import _arrays, _check, _core
-from ._error import DoubtWarning, Error
+from ._error import DoubtWarning, Error, in_python
 from ._fit_result import FitResult, JointFit
 from ._options import FitOptions, JointOptions
 from ._types import Progress, RubberTests, Source, Tests
@@ -25,7 +25,7 @@ def _file_of(word: str) -> str:
 def _warn(result: Union[FitResult, RubberFit], name: str) -> None:
     if result.is_trustworthy:
         return
-    causes = "; ".join(flag.text for flag in result.flags) or "no flag names the cause"
+    causes = "; ".join(in_python(flag.text) for flag in result.flags) or "no flag names the cause"
     warnings.warn(f"{name}: the result is not to be trusted: {causes}", DoubtWarning, stacklevel=5)
 
 

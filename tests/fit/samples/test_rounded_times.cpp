@@ -231,3 +231,23 @@ TEST_CASE("a zero of time that was assumed widens E0 of relaxation and of creep"
   CHECK(holds(fit_relaxation(data).E0_interval_95, 2.0));
   CHECK(holds(fit_creep(creep, {}).E0_interval_95, 2.0));
 }
+
+TEST_CASE("rows that are known to be missing are no rounding of the others", "[fit]") {
+  std::vector<double> time_s;
+  std::size_t n_missing = 0;
+  for (int i = 1; i <= 2000; ++i) {
+    if (i % 97 == 6) {
+      ++n_missing;
+    } else {
+      time_s.push_back(0.1 * i);
+    }
+  }
+  CHECK(time_rounding(time_s));
+  CHECK_FALSE(time_rounding(time_s, n_missing));
+  // Times cut off to 0.1 s at 7 Hz are rounded, whatever is missing.
+  std::vector<double> cut_s;
+  for (int i = 0; i < 600; ++i) {
+    if (i % 97 != 6) cut_s.push_back(0.1 * std::floor(i / 0.7 + 1e-9));
+  }
+  CHECK(time_rounding(cut_s, 7));
+}
