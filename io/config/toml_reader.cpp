@@ -63,9 +63,8 @@ class TomlReader final : public FieldVisitor {
     text(field, given);
     if (table_.get(field.key) == nullptr) return;
     if (std::find(known.begin(), known.end(), given) == known.end()) {
-      throw std::runtime_error(where(*table_.get(field.key)) + prefix_ + field.key +
-                               ": cannot be '" + given + "'" + did_you_mean(given, known) +
-                               " There are: " + listed(known));
+      throw BadNumber(where(*table_.get(field.key)) + prefix_ + field.key + ": cannot be '" +
+                      given + "'" + did_you_mean(given, known) + " There are: " + listed(known));
     }
     value = given;
   }

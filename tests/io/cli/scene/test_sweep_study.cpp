@@ -408,3 +408,18 @@ TEST_CASE("a store that is deleted or moved while points are answered is noticed
   CHECK(says(why.get(), "was moved to "));
   CHECK_THROWS_WITH(store.add(StudyPoint{}), Catch::Contains("while its points were answered"));
 }
+
+TEST_CASE("a word that a study misspells is refused before the first point",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string study = read_file(files.study);
+  write_file(
+      files.study,
+      study + "\n[[parameter]]\nkey = \"analysis.kind\"\nvalues = [\"static\", \"statik\"]\n",
+      true);
+  const CommandOutcome outcome = files.sweep({"--out", files.store});
+  INFO(outcome.err);
+  CHECK(outcome.status == 1);
+  CHECK(says(outcome.err, "cannot be \"statik\""));
+  CHECK_FALSE(std::filesystem::exists(files.store));
+}
