@@ -202,6 +202,30 @@ bool is_log_sampled(std::span<const double> time_s) {
   return usual_step_s(last) > usual_step_s(first) * (1.0 + kShare * (grown - 1.0));
 }
 
+// True if sampling in log time began at another instant than t = 0: its steps grow with the time since then, and the
+// line of the steps over the time is zero there.
+bool is_log_from_later(std::span<const double> time_s) {
+  constexpr double kFactor = 4.0, kLater = 0.3;
+  constexpr std::size_t kFewest = 8;
+  const double to_s = std::min(time_s.back(), kFactor * time_s.front());
+  std::size_t n = 0;
+  double mean_s = 0.0, mean_step_s = 0.0;
+  for (; n + 1 < time_s.size() && time_s[n + 1] <= to_s; ++n) {
+    mean_s += time_s[n];
+    mean_step_s += time_s[n + 1] - time_s[n];
+  }
+  if (n < kFewest) return false;
+  mean_s /= static_cast<double>(n);
+  mean_step_s /= static_cast<double>(n);
+  double square = 0.0, product = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    square += (time_s[i] - mean_s) * (time_s[i] - mean_s);
+    product += (time_s[i] - mean_s) * (time_s[i + 1] - time_s[i] - mean_step_s);
+  }
+  if (!(square > 0.0) || !(product > 0.0)) return false;
+  return mean_s - mean_step_s * square / product > kLater * time_s.front();
+}
+
 void set_time_zero(double zero_s, CleanViews& clean) {
   const auto time_s = clean.column(0);
   std::vector<double> shifted(time_s.begin(), time_s.end());
@@ -315,7 +339,8 @@ void check_clock(CleanViews& clean, RecordNotes& notes) {
     set_time_zero(first_s - 0.5 * step_s, clean);
     return;
   }
-  if (first_s < kManySteps * step_s || is_log_sampled(time_s)) return;
+  if (first_s < kManySteps * step_s) return;
+  if (is_log_sampled(time_s) && !is_log_from_later(time_s)) return;
   notes.late_s = first_s;
   notes.late_step_s = step_s;
   if (first_s >= length_s) count_from_first(clean, notes);

@@ -536,3 +536,25 @@ TEST_CASE(
     CHECK(found.notes.left_out[0].second == count);
   }
 }
+
+TEST_CASE("sampling in log time that began after t = 0 is a late clock, and a cropped one is not",
+          "[fit]") {
+  const auto found = [](double from_s, double offset_s) {
+    RelaxationData data;
+    for (double t = from_s; t < 200.0; t *= 1.04) {
+      data.time_s.push_back(t + offset_s);
+      data.value.push_back(1e6 + 0.5e6 * std::exp(-t / 3.0));
+    }
+    CheckedRecord record({data.time_s, data.value}, 6, RecordKind::kRelaxation);
+    check_clock(record.clean, record.notes);
+    return record.notes.late_s;
+  };
+  CHECK_FALSE(found(0.1, 0.0));
+  CHECK_FALSE(found(1.1, 0.0));
+  CHECK_FALSE(found(20.0, 0.0));
+  for (const double offset_s : {1.0, 5.0}) {
+    const auto late_s = found(0.1, offset_s);
+    REQUIRE(late_s);
+    CHECK(*late_s == Approx(0.1 + offset_s));
+  }
+}
