@@ -67,9 +67,9 @@ struct CreepData {
   std::vector<double> compliance_1_Pa;  // or the strain
   bool is_zero_known = false;           // as in RelaxationData
   double zero_unsure_s = 0.0;
-  std::vector<double> stress_Pa = {std::size_t n_missing = 0;  // as in RelaxationData
-};                                                             // empty: ideal step
-};                                                             // namespace viscard
+  std::vector<double> stress_Pa = {};  // empty: ideal step
+  std::size_t n_missing = 0;           // as in RelaxationData
+};
 
 // Storage and loss modulus, fitted together with relative weights; loss_Pa empty: the storage modulus alone.
 struct DmaData {
