@@ -17,10 +17,12 @@ struct FoundGrid {
   SpaceTops fine, coarse;
 };
 FoundGrid grid_for(const SpaceScene& scene, double tolerance) {
+  // Many places of a path cost more than a finer grid is worth.
+  const int grids = scene.touch->is_path() ? kContactGrids - 1 : kContactGrids;
   const SpaceTops first(scene, 0);
   FoundGrid found{first.on_grid(1), first};
   SpaceContact coarse = found.coarse.at_rest();
-  for (int grid = 1; grid < kContactGrids; ++grid) {
+  for (int grid = 1; grid < grids; ++grid) {
     if (grid > 1) {
       found.coarse = found.fine;
       found.fine = found.fine.on_grid(grid);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 #include <utility>
 
 namespace viscard {
@@ -50,21 +52,34 @@ struct TopCurve {
   const char* unit;
   double (*value)(const TouchCourse&, std::size_t at, Eigen::Index row, double area_m2);
   double (*change)(const TouchCourse&, std::size_t at, Eigen::Index row, double area_m2);
+  bool turns = true;  // from one step to the next, where a top begins to slide or to touch
 };
 
+// What half as many steps miss where they have no sample: there a curve is a straight line to them.
+void add_missed_turns(const TouchCourse& course, const std::vector<double>& values,
+                      std::vector<double>& changes) {
+  for (std::size_t k = 1; k + 1 < values.size(); ++k) {
+    if (!course.is_new[k]) continue;
+    const double part =
+        (course.time_s[k] - course.time_s[k - 1]) / (course.time_s[k + 1] - course.time_s[k - 1]);
+    changes[k] += std::abs(values[k] - values[k - 1] - part * (values[k + 1] - values[k - 1]));
+  }
+}
+
 template <TopLoad kLoad>
-TopCurve load_curve(const char* name) {
+TopCurve load_curve(const char* name, bool turns = true) {
   return {name, "N",
           [](const TouchCourse& course, std::size_t at, Eigen::Index row, double area_m2) {
             return area_m2 * course.loads_Pa[at](row, static_cast<int>(kLoad));
           },
           [](const TouchCourse& course, std::size_t at, Eigen::Index row, double area_m2) {
             return area_m2 * course.change_Pa[at](row, static_cast<int>(kLoad));
-          }};
+          },
+          turns};
 }
 
 std::vector<TopCurve> top_curves(const TouchCourse& course) {
-  std::vector<TopCurve> curves = {load_curve<TopLoad::kPressure>("pillar_force")};
+  std::vector<TopCurve> curves = {load_curve<TopLoad::kPressure>("pillar_force", false)};
   if (course.slip_m.empty()) return curves;
   curves.push_back(load_curve<TopLoad::kShearX>("shear_force_x"));
   curves.push_back(load_curve<TopLoad::kShearY>("shear_force_y"));
@@ -97,6 +112,7 @@ void add_top_curve(const SpaceScene& scene, const TouchCourse& course, const Top
       changes.push_back(row >= 0 ? std::abs(one.change(course, k, row, area_m2)) : 0.0);
     }
     changes = plus_share(std::move(changes), course.stiffness_error, values);
+    if (one.turns) add_missed_turns(course, values, changes);
     answer.curves.push_back(shape_curve(course, one.name + place_ending(scene.pillars[pillar]),
                                         one.unit, std::move(values), std::move(changes)));
   }
@@ -181,7 +197,14 @@ void add_slip(const SpaceScene& scene, const TouchCourse& course, SceneAnswer& a
 
 void add_voltage_curves(const SpaceScene& scene, const SpaceResponse& response,
                         const TouchCourse& course, SceneAnswer& answer) {
-  for (PillarCurve& one : curves_of(scene, response, course, course.loads_Pa, false)) {
+  std::vector<PillarCurve> curves = curves_of(scene, response, course, course.loads_Pa, false);
+  // All pillars of a path are read, also those that it hardly touches.
+  std::map<std::string, double> largest_V;
+  for (const PillarCurve& one : curves) {
+    double& size_V = largest_V[one.map];
+    size_V = std::max(size_V, scene.touch->is_path() ? largest_size(one.value) : 0.0);
+  }
+  for (PillarCurve& one : curves) {
     SceneCurve curve{.name = one.map + place_ending(scene.pillars[one.pillar]),
                      .unit = "V",
                      .x = course.time_s,
@@ -189,7 +212,8 @@ void add_voltage_curves(const SpaceScene& scene, const SpaceResponse& response,
     curve.left_out = std::move(one.step_change);
     // If the curves of two meshes cross, their difference is no error estimate.
     curve.span = course.time_s.back();
-    curve.allowed.assign(curve.x.size(), size_in_map(answer, one.map, curve.value));
+    curve.allowed.assign(curve.x.size(),
+                         std::max(largest_V[one.map], size_in_map(answer, one.map, curve.value)));
     answer.curves.push_back(std::move(curve));
   }
 }
