@@ -19,6 +19,26 @@ inline std::string failure_text(const std::exception& error, const std::string& 
          "; check sizes and their units, or ask for less accuracy, fewer points or fewer terms";
 }
 
+// A message in which every word of more than 300 bytes is cut: somebody's value may be megabytes long.
+inline std::string shortened(const std::string& text) {
+  constexpr std::size_t kLongest = 300, kKept = 60;
+  std::string out;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = text.find(' ', begin);
+    end = end == std::string::npos ? text.size() : end + 1;
+    if (end - begin <= kLongest) {
+      out.append(text, begin, end - begin);
+    } else {
+      std::size_t kept = begin + kKept;
+      while (kept > begin && (static_cast<unsigned char>(text[kept]) & 0xc0U) == 0x80U) --kept;
+      out.append(text, begin, kept - begin);
+      out += "... (" + std::to_string(end - kept) + " more bytes) ";
+    }
+    begin = end;
+  }
+  return out;
+}
+
 // Throws std::bad_alloc if so much memory is not to be had now. Ask it before a call of a library that ends the
 // process when memory ends within it (UDUNITS asserts, scanners made by flex exit).
 inline void require_spare_memory(std::size_t size_B) {

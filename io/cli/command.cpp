@@ -151,14 +151,14 @@ int with_exit_status(const char* program, const Words& words, Streams& streams,
       }
     });
   } catch (const UsageError& error) {
-    streams.err << who << error.what() << "\n";
+    streams.err << who << shortened(error.what()) << "\n";
     return kBadWords;
   } catch (const std::filesystem::filesystem_error& error) {
     streams.err << who << "'" << error.path1().string() << "': " << error.code().message()
                 << "; choose another place\n";
     return kFailed;
   } catch (const std::exception& error) {
-    streams.err << who << error.what() << "\n";
+    streams.err << who << shortened(error.what()) << "\n";
     return kFailed;
   }
 }

@@ -98,8 +98,9 @@ std::string code_of(const std::exception& error) {
 
 }  // namespace
 
-CommandError command_error(const std::string& code, const std::string& text,
+CommandError command_error(const std::string& code, const std::string& whole_text,
                            const std::string& where) {
+  const std::string text = shortened(whole_text);
   CommandError error{code, text, where, ""};
   const std::size_t cut = begin_of_hint(text);
   if (cut != std::string::npos) {

@@ -36,9 +36,9 @@ void translate(
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const OptionError& error) {
-    raise(command_error("usage", error.what()), error.what());
+    raise(command_error("usage", shortened(error.what())), shortened(error.what()));
   } catch (const std::exception& error) {
-    raise(command_error(error), failure_text(error, "this call"));
+    raise(command_error(error), shortened(failure_text(error, "this call")));
   }
 }
 

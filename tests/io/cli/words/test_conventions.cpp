@@ -216,5 +216,16 @@ TEST_CASE("an output that cannot be written is a failure of the program", "[cli]
   CHECK(WEXITSTATUS(status) == kFailed);
 }
 
+TEST_CASE("a message does not repeat megabytes of what somebody wrote", "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string file = (folder / "long.toml").string();
+  write_file(file, "tolerance = \"" + std::string(1'000'000, 'x') + "\"\n", false);
+  const test::CommandOutcome plain = run_command({"simulate", file});
+  CHECK(plain.status == 1);
+  CHECK(plain.err.size() < 1500);
+  CHECK_THAT(plain.err, Catch::Contains("tolerance") && Catch::Contains("more bytes"));
+  CHECK(run_command({"simulate", file, "--json"}).out.size() < 4000);
+}
+
 }  // namespace
 }  // namespace viscard
