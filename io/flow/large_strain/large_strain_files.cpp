@@ -38,7 +38,8 @@ std::optional<LargeStrainFile> large_strain_file(const std::string& word) {
 // Flags what is doubtful about a fitted law, or throws for one that no rubber has.
 void judge_rubber(const std::vector<CsvTable>& tables, const LargeStrainRequest& request,
                   LargeStrainResult& result) {
-  static const std::vector<std::string> kColumns{"nominal_stress_Pa", "stress_Pa", "time_s", "strain"};
+  static const std::vector<std::string> kColumns{"nominal_stress_Pa", "stress_Pa", "time_s",
+                                                 "strain"};
   for (const CsvTable& table : tables) {
     for (const std::string& note : table.notes) {
       result.notes.push_back({"as-read", 0, table.file + ": " + note});

@@ -400,14 +400,19 @@ TEST_CASE("tables in older encodings are read by the names that they hold", "[io
 }  // namespace
 }  // namespace viscard
 
-TEST_CASE("dates are read in the order in which the record goes on, and days of a spreadsheet become seconds", "[io]") {
+TEST_CASE(
+    "dates are read in the order in which the record goes on, and days of a spreadsheet become "
+    "seconds",
+    "[io]") {
   // From 23:50 on 1 May to 00:10 on 2 May, in steps of a minute.
   const auto rows = [](bool is_month_first) {
     std::string text = "Time,E(t) (MPa)\n";
     for (int minute = 0; minute < 20; ++minute) {
       const int day = minute < 10 ? 1 : 2;
-      const std::string clock = (minute < 10 ? "23:5" : "00:0") + std::to_string(minute % 10) + ":00";
-      const std::string date = is_month_first ? "05/0" + std::to_string(day) : "0" + std::to_string(day) + "/05";
+      const std::string clock =
+          (minute < 10 ? "23:5" : "00:0") + std::to_string(minute % 10) + ":00";
+      const std::string date =
+          is_month_first ? "05/0" + std::to_string(day) : "0" + std::to_string(day) + "/05";
       text += date + "/2024 " + clock + "," + std::to_string(2.0 - 0.01 * minute) + "\n";
     }
     return text;
@@ -417,9 +422,9 @@ TEST_CASE("dates are read in the order in which the record goes on, and days of 
     const CsvTable table = csv_from_text(rows(is_month_first), "a.csv");
     REQUIRE(table.columns[0].values.size() == 20);
     CHECK(table.columns[0].values.back() - table.columns[0].values.front() == Approx(19.0 * 60.0));
-    const bool is_noted = std::any_of(table.notes.begin(), table.notes.end(), [](const std::string& note) {
-      return note.find("month first") != std::string::npos;
-    });
+    const bool is_noted = std::any_of(
+        table.notes.begin(), table.notes.end(),
+        [](const std::string& note) { return note.find("month first") != std::string::npos; });
     CHECK(is_noted == is_month_first);
   }
   std::string days = "Time,E(t) (MPa)\n";
@@ -431,5 +436,6 @@ TEST_CASE("dates are read in the order in which the record goes on, and days of 
   const CsvTable table = csv_from_text(days, "a.csv");
   CHECK(table.columns[0].unit == "s");
   CHECK(table.columns[0].values.front() == Approx(0.05).margin(1e-3));
-  CHECK(table.columns[0].values.back() - table.columns[0].values.front() == Approx(1.9).margin(2e-3));
+  CHECK(table.columns[0].values.back() - table.columns[0].values.front() ==
+        Approx(1.9).margin(2e-3));
 }

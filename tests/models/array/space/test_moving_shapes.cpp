@@ -1,7 +1,7 @@
 // Shapes that move over arrays: forces, shears and slips beside springs that are stepped one by one.
+#include "models/answer/scene_mistake.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/touch_steps.h"
-#include "models/answer/scene_mistake.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 
 #include <catch2/catch.hpp>
