@@ -190,6 +190,15 @@ void draw_touch(const SceneAnswer& answer, Pictures& pictures) {
   draw("touch", plot, "touch", pictures);
 }
 
+// "reading_3_4"
+bool is_of_one_pillar(const std::string& curve) {
+  const std::size_t column = curve.rfind('_');
+  const std::size_t row =
+      column == std::string::npos || column == 0 ? column : curve.rfind('_', column - 1);
+  if (row == std::string::npos || column - row < 2 || column + 1 >= curve.size()) return false;
+  return curve.find_first_not_of("0123456789_", row) == std::string::npos;
+}
+
 }  // namespace
 
 std::vector<double> unwrapped(std::vector<double> phase_rad) {
@@ -202,8 +211,14 @@ std::vector<double> unwrapped(std::vector<double> phase_rad) {
 
 Pictures pictures_of(const SceneAnswer& answer) {
   Pictures pictures;
+  // Of many pillars the tables hold each curve; touch.svg shows the largest of them.
+  constexpr std::size_t kMostOfPillars = 16;
+  std::size_t n_of_pillars = 0;
+  for (const SceneCurve& curve : answer.curves)
+    n_of_pillars += is_of_one_pillar(curve.name) ? 1 : 0;
   for (const SceneCurve& curve : answer.curves) {
     if (is_part(curve.name) || curve.x.size() < 2) continue;
+    if (n_of_pillars > kMostOfPillars && is_of_one_pillar(curve.name)) continue;
     Plot plot;
     plot.title = label_of(curve, curve.unit);
     plot.description = plot.title + " against " + curve.x_name;
