@@ -49,6 +49,7 @@ struct Blocks {
 
 void add_segment(const TouchSample& from, const TouchSample& to, const Blocks& blocks, int steps,
                  std::vector<TouchSample>& samples) {
+  constexpr double kRounding = 1e-9;  // of sums of blocks: no block is left for it
   const double length_s = to.time_s - from.time_s;
   double start_s = 0.0;
   for (double end_s = std::min({blocks.first_s, blocks.longest_s, length_s}); start_s < length_s;) {
@@ -64,7 +65,7 @@ void add_segment(const TouchSample& from, const TouchSample& to, const Blocks& b
     }
     start_s = end_s;
     const double next_s = std::min(2.0 * end_s, end_s + blocks.longest_s);
-    end_s = next_s < length_s ? next_s : length_s;
+    end_s = next_s < (1.0 - kRounding) * length_s ? next_s : length_s;
   }
 }
 
