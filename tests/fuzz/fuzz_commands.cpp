@@ -100,7 +100,7 @@ void ask_desk(const std::string& bytes) {
 }
 
 void ask_rig(const std::string& bytes) {
-  static RigApi& api = [] -> RigApi& {
+  static RigApi& api = []() -> RigApi& {
     ServeOptions options;
     options.folder = fuzz_folder() / "series";
     options.is_emulated = true;
