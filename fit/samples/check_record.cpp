@@ -52,8 +52,11 @@ BeforeLoad before_load(std::span<const double> time_s, std::span<const double> v
   constexpr std::size_t kFewestQuiet = 2, kLongestRise = 3, kAfter = 12;
   double largest = std::abs(value[0]);
   std::size_t rise = 1;  // first row that is not quiet
+  // A first reading may lie next to zero by chance.
+  constexpr double kOfAll = 0.01;
+  const double least = kOfAll * *std::max_element(value.begin(), value.end());
   const auto is_loaded = [&](std::size_t i) {
-    return value[i] > 0.0 && value[i] >= kTimes * largest;
+    return value[i] > least && value[i] >= kTimes * largest;
   };
   while (rise < value.size() && !is_loaded(rise)) {
     largest = std::max(largest, std::abs(value[rise]));

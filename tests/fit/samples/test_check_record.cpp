@@ -558,3 +558,22 @@ TEST_CASE("sampling in log time that began after t = 0 is a late clock, and a cr
     CHECK(*late_s == Approx(0.1 + offset_s));
   }
 }
+
+TEST_CASE("rows before the load are recognised if the first of them is next to zero", "[fit]") {
+  std::mt19937_64 random(12);
+  std::normal_distribution<double> normal(0.0, 1e3);
+  for (const double first : {0.0, -0.04, 1e-9}) {
+    RelaxationData data;
+    for (int i = 0; i < 400; ++i) {
+      const double t = 0.1 * (i - 17);
+      data.time_s.push_back(0.1 * i);
+      data.value.push_back((t < 0.0 ? 0.0 : 1e6 + 0.5e6 * std::exp(-t / 3.0)) + normal(random));
+    }
+    data.value[0] = first;
+    CAPTURE(first);
+    const CheckedRecord found = checked(data);
+    REQUIRE(found.notes.left_out.size() == 1);
+    CHECK(std::string(found.notes.left_out[0].first) == "before_load");
+    CHECK(found.notes.left_out[0].second == 17);
+  }
+}
