@@ -91,6 +91,7 @@ bool looks_like_rubber_card(const std::string& text) {
                                                "\"YEOH\"",
                                                "\"ARRUDA-BOYCE\"",
                                                "\"GENT\"",
+                                               "\"OGDENUNCONSTRAINED\"",
                                                "'OGDEN'",
                                                "'YEOH'",
                                                "'ARRUDA-BOYCE'",
@@ -102,9 +103,10 @@ bool looks_like_rubber_card(const std::string& text) {
                                                "DEFAULTFINITESTRAIN"};
   std::string plain = upper(text);
   std::erase_if(plain, [](char c) { return c == ' ' || c == '\t'; });
-  return std::any_of(kWords.begin(), kWords.end(), [&](const std::string& word) {
-    return plain.find(word) != std::string::npos;
-  });
+  const auto has = [&](const std::string& word) { return plain.find(word) != std::string::npos; };
+  // FEBio's Mooney-Rivlin with one constant, in an uncoupled parent, stands for linear materials too.
+  if (has("TYPE=\"VISCOELASTIC\"") && has("\"MOONEY-RIVLIN\"")) return true;
+  return std::any_of(kWords.begin(), kWords.end(), has);
 }
 
 std::string stated_rubber_target(const std::string& text) {

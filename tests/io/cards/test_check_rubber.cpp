@@ -239,6 +239,12 @@ TEST_CASE("rubber cards: what FEBio stops at, and what of a card is not read, is
   CHECK(agrees_in_febio(right, ogden));
   CHECK(mistake_in(changed(right, "uncoupled viscoelastic", "viscoelastic"), ogden, "febio") ==
         "coupled-parent");
+  const std::string mooney =
+      "<material type=\"viscoelastic\"><elastic "
+      "type=\"Mooney-Rivlin\"><c1>1</c1><c2>0</c2></elastic></material>";
+  CHECK(looks_like_rubber_card(mooney));
+  CHECK_FALSE(
+      looks_like_rubber_card(changed(mooney, "\"viscoelastic\"", "\"uncoupled viscoelastic\"")));
   CHECK(mistake_in(changed(right, "  <k>300</k>\n", ""), ogden, "febio") == "missing-bulk-modulus");
   const auto unread = [&](const std::string& text) {
     std::string out;
