@@ -103,6 +103,10 @@ TEST_CASE("a signal ends the solver, the folder and then the program", "[cards][
 TEST_CASE("kill -9 of the program ends its solver, and the next proof removes its folder",
           "[cards][prove]") {
   const ScratchFolder folder;
+  // Another proof that begins meanwhile would remove the folder first.
+  const char* const usual = std::getenv("TMPDIR");
+  const std::string before = usual == nullptr ? "" : usual;
+  setenv("TMPDIR", folder.path().c_str(), 1);
   const auto file = folder / "pid";
   const pid_t child = proving_process(file);
   REQUIRE(wait_until([&] { return std::filesystem::exists(file) && pid_in(file) > 0; }));
@@ -113,6 +117,7 @@ TEST_CASE("kill -9 of the program ends its solver, and the next proof removes it
   CHECK(has_folder_of(child));
   CHECK(run_script("true"));
   CHECK_FALSE(has_folder_of(child));
+  before.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", before.c_str(), 1);
 }
 
 TEST_CASE("a solver sees no more of the environment than it needs", "[cards][prove]") {
