@@ -135,6 +135,7 @@ struct SpectrumRow {
   double H_Pa = 0.0;  // mean over half a decade around tau
   Interval H_95;
 };
+// What the data say of it.
 struct ContinuousSpectrum {
   double from_s = 0.0, to_s = 0.0;  // the times that it covers
   std::vector<SpectrumRow> rows;    // ascending tau

@@ -56,9 +56,10 @@ class FieldVisitor {
   virtual ~FieldVisitor() = default;
   // How numbers are judged, also those of files that the fields name.
   virtual Plausible judged() const { return Plausible::kOff; }
-  // Whether values are taken from a file. finish() is called once all keys of the file are read and known:
-  // to fill what several keys decide, and to refuse what contradicts itself.
+  // Whether values are taken from a file.
   virtual bool reads() const { return false; }
+  // finish() is called once all keys of the file are read and known: to fill what several keys decide, and to refuse
+  // what contradicts itself.
   virtual void after_all_keys(const std::function<void()>& /*finish*/) {}
   // key = "40 um"; the value is in the SI unit of the field.
   virtual void quantity(const QuantityField& field, double& value) = 0;
@@ -71,6 +72,7 @@ class FieldVisitor {
   template <typename Value>
   void choice(const TextField& field, const WordTable<std::type_identity_t<Value>>& words,
               Value& value);
+  // Nothing: not given.
   template <typename Value>
   void choice(const TextField& field, const WordTable<std::type_identity_t<Value>>& words,
               std::optional<Value>& value);

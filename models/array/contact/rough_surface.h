@@ -19,6 +19,7 @@ constexpr int kLinesPerCorrelation = 16;
 // Most places of a table.
 constexpr double kMostRoughPlaces = 4e6;
 
+// What a table spans, m.
 struct RoughExtent {
   double low_x_m = 0.0, high_x_m = 0.0, low_y_m = 0.0, high_y_m = 0.0;
 };
