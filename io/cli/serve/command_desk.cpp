@@ -29,7 +29,8 @@ int run_desk(const Words& words, Streams& streams) {
   CommandSyntax syntax{
       "viscard desk FOLDER [OPTIONS]",
       "Shows a page for tables of any machine: drop a file, see how it is read, fit it, look at "
-      "data, curve and residuals, and take the card of a solver away. FOLDER holds the tables and "
+      "data, curve and residuals, and take the card of a solver away; predict, compare, check a "
+      "card, solve a scene and write a report. FOLDER holds the tables and "
       "what is made of them; it is created if it does not exist, and nothing in it is replaced. "
       "Open the printed address in a browser on this machine. Ctrl-C ends the program.",
       "viscard desk data/demo"};
