@@ -102,7 +102,7 @@ void close_gently(socket_t socket) {
 class ArrivedStream : public httplib::Stream {
  public:
   ArrivedStream(socket_t socket, std::string request, std::chrono::milliseconds answer)
-      : socket_(socket), request_(std::move(request)), deadline_(SteadyClock::now() + answer) {}
+      : socket_(socket), request_(std::move(request)), answer_(answer) {}
 
   bool is_readable() const override { return read_ < request_.size(); }
   bool is_writable() const override { return wait_for_room(); }
@@ -127,9 +127,11 @@ class ArrivedStream : public httplib::Stream {
   socket_t socket() const override { return socket_; }
 
  private:
+  // The time counts from the first byte of the answer on: what is asked may take minutes.
   bool wait_for_room() const {
+    if (!deadline_) deadline_ = SteadyClock::now() + answer_;
     const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - SteadyClock::now());
+        std::chrono::duration_cast<std::chrono::milliseconds>(*deadline_ - SteadyClock::now());
     if (left.count() <= 0) return false;
     pollfd one{socket_, POLLOUT, 0};
     return ::poll(&one, 1, static_cast<int>(left.count())) == 1 && (one.revents & POLLOUT) != 0;
@@ -138,7 +140,8 @@ class ArrivedStream : public httplib::Stream {
   socket_t socket_;
   std::string request_;
   std::size_t read_ = 0;
-  SteadyClock::time_point deadline_;
+  std::chrono::milliseconds answer_;
+  mutable std::optional<SteadyClock::time_point> deadline_;
 };
 
 }  // namespace

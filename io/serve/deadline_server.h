@@ -13,9 +13,10 @@ namespace viscard {
 // What a connection may take.
 struct ConnectionLimits {
   std::chrono::milliseconds arrival{5000};  // until the whole request has arrived, head and body
-  std::chrono::milliseconds answer{10000};  // until the whole answer has been taken
-  std::size_t largest_head = 16 * 1024;     // bytes
-  std::size_t largest_body = 64 * 1024;     // bytes, also of a chunked one
+  std::chrono::milliseconds answer{
+      10000};  // from its first byte until the whole answer has been taken
+  std::size_t largest_head = 16 * 1024;  // bytes
+  std::size_t largest_body = 64 * 1024;  // bytes, also of a chunked one
   std::size_t most_open =
       64;  // connections whose request has not arrived; a further one ends the oldest
   std::size_t n_threads = 8;  // that answer

@@ -1,6 +1,7 @@
 // Who is answered, and what a bad request gets.
 #include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
+#include "io/serve/deadline_server.h"
 #include "io/serve/page_files.h"
 #include "io/serve/request_guard.h"
 #include "tests/io/serve/raw_request.h"
@@ -11,8 +12,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace viscard {
@@ -304,6 +307,24 @@ TEST_CASE("a port that another program has is refused", "[serve]") {
                    RigServer({.folder = scratch.path(), .is_emulated = true, .port = port});
                  }),
                  "Leave --port out"));
+}
+
+TEST_CASE("an answer that takes longer to work out than it may take to send is sent", "[serve]") {
+  ConnectionLimits limits;
+  limits.answer = std::chrono::milliseconds(200);
+  DeadlineServer server(limits, [](const std::string&) { return false; });
+  server.Get("/slow", [](const httplib::Request&, httplib::Response& response) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    response.set_content("worked out", "text/plain");
+  });
+  const int port = server.bind_to_any_port("127.0.0.1");
+  std::thread listening([&] { server.listen_after_bind(); });
+  const std::string answer =
+      test::answer_to_bytes(port, "GET /slow HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+  server.stop();
+  listening.join();
+  CHECK(answer.find("200 OK") != std::string::npos);
+  CHECK(answer.find("worked out") != std::string::npos);
 }
 
 }  // namespace

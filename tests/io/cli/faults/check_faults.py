@@ -222,6 +222,8 @@ class Study:
             attempt("memory", limit=self.memory_limit())
             inputs = [word for word in command.words[1:] if (clean / word).is_file() and not word.startswith("out")]
             inputs += [word.split("=")[1] for word in command.words if "=" in word]
+            if not inputs:
+                continue
             gone = random.choice(inputs)
             attempt("input gone", act=lambda process: (time.sleep(random.uniform(0, took_s)),
                                                        (home / "tried" / gone).unlink()))
