@@ -12,10 +12,10 @@ namespace viscard {
 // with what the data leave open. Nothing where the parameters of the model are not those of the material (creep, a frame
 // in series, moduli of either sign).
 //
-// The family is ALL non-negative spectra on a dense grid of the times that the record can show (12 a decade), with E_inf, offsets
-// and first-order changes of nuisances, whose sum of squares stays within 3.84 variances of that of the fitted series (the best of so free a family fits
-// the noise, too: measured from it, the bounds of E0 would hold in 15 of 20 records of six terms). Its members that
-// make a value c.x smallest and largest bound it: the value of a linear functional of a convex set (Backus & Gilbert,
+// The family is ALL non-negative spectra on a dense grid of the times that the record can show (12 a decade) and the times
+// of the fitted series, with E_inf, offsets and first-order changes of nuisances, whose sum of squares stays within 3.84
+// variances of that of the series. (The best of so free a family fits the noise, too: measured from it, the bounds would
+// be too narrow.) Its members that make a value c.x smallest and largest bound it: the value of a linear functional of a convex set (Backus & Gilbert,
 // Geophys. J. R. Astron. Soc. 16 (1968) 169; Stark, J. Geophys. Res. 97 (1992) 14055). The best member at each value of
 // c.x is one least-squares problem over x >= 0 (nnls.h).
 // - H itself is its smoothest member (least sum of squared second differences: Constable, Parker & Constable, Geophysics

@@ -19,7 +19,7 @@ using RestsBeside = std::function<bool(const RowRun&)>;
 
 // Blocks of at least two rows that jump away and back: by a fifth of the value and a twentieth of the largest one, and
 // by eight standard deviations of the noise beside them, within one row on either side, to where the rows before lead; three rows on either side are calm.
-// No material does that, whatever scatter the block has: a plug was loose, or a converter overflowed. At most a quarter
+// No material does that, with any scatter of the block: a plug was loose, or a converter overflowed. At most a quarter
 // of the rows.
 std::vector<RowRun> jumped_blocks(std::span<const double> values, const RestsBeside& rests);
 

@@ -36,6 +36,28 @@ std::vector<Index> chosen(const std::vector<bool>& in_use) {
   return list;
 }
 
+// Moves x of the columns in use towards their free solution, up to the first bound. Returns the column that
+// reaches it, -1: none.
+Index step_towards(const Eigen::VectorXd& trial, const std::vector<Index>& list,
+                   const std::vector<bool>& is_free, Eigen::VectorXd& x) {
+  double share = 1.0;
+  Index blocking = -1;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Index j = list[i];
+    const double target = trial[static_cast<Index>(i)];
+    if (is_free[static_cast<std::size_t>(j)] || target > 0.0) continue;
+    const double limit = x[j] > 0.0 ? x[j] / (x[j] - target) : 0.0;
+    if (blocking < 0 || limit < share) {
+      share = limit;
+      blocking = j;
+    }
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    x[list[i]] += share * (trial[static_cast<Index>(i)] - x[list[i]]);
+  }
+  return blocking;
+}
+
 }  // namespace
 
 Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
@@ -59,21 +81,7 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
       const std::vector<Index> list = chosen(in_use);
       if (list.empty()) return;
       const Eigen::VectorXd trial = solve_passive(g, b, list);
-      double share = 1.0;
-      Index blocking = -1;
-      for (std::size_t i = 0; i < list.size(); ++i) {
-        const Index j = list[i];
-        const double target = trial[static_cast<Index>(i)];
-        if (is_free[static_cast<std::size_t>(j)] || target > 0.0) continue;
-        const double limit = x[j] > 0.0 ? x[j] / (x[j] - target) : 0.0;
-        if (blocking < 0 || limit < share) {
-          share = limit;
-          blocking = j;
-        }
-      }
-      for (std::size_t i = 0; i < list.size(); ++i) {
-        x[list[i]] += share * (trial[static_cast<Index>(i)] - x[list[i]]);
-      }
+      const Index blocking = step_towards(trial, list, is_free, x);
       if (blocking < 0) return;
       x[blocking] = 0.0;
       in_use[static_cast<std::size_t>(blocking)] = false;
@@ -117,22 +125,10 @@ Eigen::VectorXd nonnegative_by_qr(const Eigen::MatrixXd& columns, const Eigen::V
       const std::vector<Index> list = chosen(in_use);
       if (list.empty()) return true;
       const Eigen::VectorXd trial = trial_of(list);
-      double share = 1.0;
-      Index blocking = -1;
       for (std::size_t i = 0; i < list.size(); ++i) {
-        const Index j = list[i];
-        const double target = trial[static_cast<Index>(i)];
-        if (is_free[static_cast<std::size_t>(j)] || target > 0.0) continue;
-        if (j == added && step == 0) return false;
-        const double limit = x[j] > 0.0 ? x[j] / (x[j] - target) : 0.0;
-        if (blocking < 0 || limit < share) {
-          share = limit;
-          blocking = j;
-        }
+        if (step == 0 && list[i] == added && !(trial[static_cast<Index>(i)] > 0.0)) return false;
       }
-      for (std::size_t i = 0; i < list.size(); ++i) {
-        x[list[i]] += share * (trial[static_cast<Index>(i)] - x[list[i]]);
-      }
+      const Index blocking = step_towards(trial, list, is_free, x);
       if (blocking < 0) return true;
       x[blocking] = 0.0;
       in_use[static_cast<std::size_t>(blocking)] = false;

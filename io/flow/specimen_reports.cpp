@@ -74,17 +74,16 @@ void put_on_one_clock(CapturedRun& run) {
   for (LoadSample& sample : run.load_samples) sample.host_time_s = line.at(*sample.device_time_s);
 }
 
-// Adds profile likelihoods, as `viscard fit FILE --profiles` does, if there are few terms. For many
+// With the continuous spectrum, and with profile likelihoods, as `viscard fit FILE --profiles` has, if there are few terms. For many
 // terms they take long and the figure would be too crowded to read.
 FittedFile fit_for_page(const std::string& path, const ReportRequest& wanted) {
   constexpr std::size_t kFewTerms = 6;
   FitRequest request;
   request.plausible = wanted.plausible;
-  request.options.with_spectrum = true;
   request.accepts_unverified = wanted.accepts_unverified;
-  FittedFile fitted = fit_file(path, request);
-  if (fitted.result.terms.size() > kFewTerms) return fitted;
-  request.options.with_profiles = true;
+  const std::size_t n_terms = fit_file(path, request).result.terms.size();
+  request.options.with_spectrum = true;
+  request.options.with_profiles = n_terms <= kFewTerms;
   return fit_file(path, request);
 }
 

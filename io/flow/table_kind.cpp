@@ -173,8 +173,7 @@ std::vector<std::string> columns_of_kind(FitKind kind, const CsvTable& table,
     case FitKind::kCreep:
       return {"time_s", first_of({"compliance_1_Pa", "stress_Pa"}), "strain"};
     case FitKind::kDma:
-      return {"frequency_Hz", "storage_modulus_Pa", "loss_modulus_Pa", "phase_rad",
-              "complex_modulus_Pa"};
+      return {"frequency_Hz", "storage_modulus_Pa", "loss_modulus_Pa"};
     case FitKind::kSeveral:
       break;
   }
@@ -182,8 +181,15 @@ std::vector<std::string> columns_of_kind(FitKind kind, const CsvTable& table,
 }
 
 void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitResult& result) {
-  const auto flag =
-      assumed_units(table, request.columns, columns_of_kind(result.kind, table, request));
+  std::vector<std::string> names = columns_of_kind(result.kind, table, request);
+  const auto loss = result.kind == FitKind::kDma
+                        ? find_column(table, "loss_modulus_Pa", request.columns)
+                        : std::nullopt;
+  // What the moduli were computed from.
+  if (loss && !table.columns[loss->index].derived_from.empty()) {
+    names.insert(names.end(), {"phase_rad", "complex_modulus_Pa"});
+  }
+  const auto flag = assumed_units(table, request.columns, names);
   if (flag) result.flags.push_back(*flag);
 }
 

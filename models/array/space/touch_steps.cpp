@@ -69,7 +69,7 @@ void add_segment(const TouchSample& from, const TouchSample& to, const Blocks& b
   }
 }
 
-// The points of a history with their places, the first after whatever it begins with at once.
+// The points of a history with their places, the first after the jump with which it begins.
 std::vector<TouchSample> corners_of(const SpaceTouch& touch) {
   std::vector<TouchSample> corners;
   for (std::size_t i = 0; i < touch.history.size(); ++i) {

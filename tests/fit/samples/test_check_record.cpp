@@ -502,9 +502,8 @@ TEST_CASE("intervals of moduli do not reach below zero", "[fit]") {
   }
 }
 
-TEST_CASE(
-    "blocks that jump away and back, and a load that is lost, are left out whatever their scatter",
-    "[fit]") {
+TEST_CASE("blocks that jump away and back, and a load that is lost, are left out with any scatter",
+          "[fit]") {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal(0.0, 1.0);
   const auto value_of = [](double t) {

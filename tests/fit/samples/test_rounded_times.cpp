@@ -244,7 +244,7 @@ TEST_CASE("rows that are known to be missing are no rounding of the others", "[f
   }
   CHECK(time_rounding(time_s));
   CHECK_FALSE(time_rounding(time_s, n_missing));
-  // Times cut off to 0.1 s at 7 Hz are rounded, whatever is missing.
+  // Times cut off to 0.1 s at 7 Hz are rounded, also if rows are missing.
   std::vector<double> cut_s;
   for (int i = 0; i < 600; ++i) {
     if (i % 97 != 6) cut_s.push_back(0.1 * std::floor(i / 0.7 + 1e-9));

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <sstream>
 
 using namespace viscard;
@@ -100,4 +101,31 @@ TEST_CASE("what several terms share is one line that names the others", "[cli]")
   CHECK(out.str() ==
         "  ! modulus-may-be-zero: term 1: the interval contains zero; likewise term 4, 7\n"
         "  ! slow-noise: the noise is slow\n");
+}
+
+TEST_CASE("a strain and a phase without a unit are flagged, where they are used", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream strained, own, phase, moduli;
+  strained << "time (s),stress (kPa),strain\n";
+  own << "time_s,stress_Pa,strain\n";
+  phase << "Frequency (Hz),|E*| (MPa),phase\n";
+  moduli << "Frequency (Hz),E' (MPa),E'' (MPa),phase\n";
+  for (int i = 1; i <= 60; ++i) {
+    const double t = 0.1 * i, stress_Pa = 5e4 + 2e4 * std::exp(-t) + 20.0 * ((7 * i) % 11);
+    strained << t << "," << 1e-3 * stress_Pa << ",0.05\n";
+    own << t << "," << stress_Pa << ",0.05\n";
+    const double x = std::pow(10.0, -2.0 + 0.05 * i), loss = 0.2 * x / (1.0 + x * x);
+    const double storage = 1.0 + 0.2 * x * x / (1.0 + x * x) + 1e-4 * ((7 * i) % 11);
+    phase << x << "," << std::hypot(storage, loss) << "," << std::atan2(loss, storage) << "\n";
+    moduli << x << "," << storage << "," << loss << "," << (i % 3 == 0 ? "" : "1") << "\n";
+  }
+  const auto fitted = [&](const char* name, const std::ostringstream& text) {
+    return run_command({"fit", folder.write(name, text.str())}).out;
+  };
+  CHECK_THAT(fitted("a.csv", strained), Contains("unit-assumed: 'strain' states no unit"));
+  CHECK_THAT(fitted("b.csv", own), !Contains("unit-assumed"));
+  CHECK_THAT(fitted("c.csv", phase), Contains("unit-assumed: the column 'phase' states no unit"));
+  const std::string all =
+      fitted("d.csv", moduli);  // the phase is not used, and its gaps leave no row out
+  CHECK_THAT(all, !Contains("unit-assumed") && Contains("60 samples"));
 }

@@ -108,7 +108,7 @@ TEST_CASE("a parameter may be an entry of a list of the scene", "[cli][scene][sw
   CHECK_THROWS_WITH(with("analysis.history.5.1", "1 s"), Catch::Contains("no section or list"));
 }
 
-TEST_CASE("a parameter in a section that the scene lacks is told which key was meant",
+TEST_CASE("a parameter in a section that the scene lacks is refused with the key that was meant",
           "[cli][scene][sweep]") {
   const auto error = [](const char* key) {
     const std::string scene =
