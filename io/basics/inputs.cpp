@@ -1,6 +1,7 @@
 #include "io/basics/inputs.h"
 
 #include "io/basics/json_string.h"
+#include "io/basics/program.h"
 #include "io/basics/sha256.h"
 
 #include <nlohmann/json.hpp>
@@ -83,7 +84,7 @@ bool is_recording_inputs() {
 std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded,
                              const std::string& table) {
   nlohmann::ordered_json json = {{"schema", "viscard-inputs/1"},
-                                 {"created_by", "viscard " VISCARD_VERSION},
+                                 {"created_by", program_with_version()},
                                  {"is_recorded", is_recorded},
                                  {"table_sha256", sha256_of_text(table)},
                                  {"files", nlohmann::ordered_json::array()}};

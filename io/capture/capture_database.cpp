@@ -1,6 +1,7 @@
 #include "io/capture/capture_database.h"
 
 #include "io/basics/number_text.h"
+#include "io/basics/program.h"
 #include "io/basics/timestamp.h"
 #include "io/config/config_file.h"
 
@@ -104,7 +105,7 @@ void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRu
   run_.emplace(database_.prepare("INSERT OR REPLACE INTO run VALUES(?,?)"));
   checksum_.emplace(database_.prepare("INSERT INTO checksums VALUES(?,?,?,?,?)"));
   set("status", "open");
-  set("program", about.program.empty() ? "viscard " VISCARD_VERSION : about.program);
+  set("program", about.program.empty() ? program_with_version() : about.program);
   set("command", about.command);
   set("started_at", about.started_at.empty() ? now_iso8601() : about.started_at);
   set("start_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));

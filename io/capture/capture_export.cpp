@@ -1,6 +1,7 @@
 #include "io/capture/capture_export.h"
 
 #include "io/basics/number_text.h"
+#include "io/basics/program.h"
 #include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/capture/capture_file.h"
@@ -40,7 +41,7 @@ void append_head(Buffer& out, const CapturedRun& run, const RunTiming& timing, d
   const auto line = [&out](const std::string& text) {
     fmt::format_to(std::back_inserter(out), "# {}\n", utf8_on_one_line(text));
   };
-  line("load-cell samples of a capture, written by viscard " VISCARD_VERSION);
+  line("load-cell samples of a capture, written by " + program_with_version());
   line("captured: " + run.started_at + " by " + run.program + ": " + run.command);
   line("status: " + run.status +
        (run.status == "finished" ? "" : " (not the whole test: everything recorded is below)"));

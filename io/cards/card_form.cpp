@@ -121,8 +121,10 @@ std::vector<HeaderLine> header_lines(const std::string& text, const CardTarget& 
     const std::size_t colon = words.find(": "), equals = words.find(" = ");
     const std::size_t at = std::min(colon, equals);
     const std::size_t begin = at == std::string::npos ? words.size() : words.find(' ', at + 1);
-    out.push_back({line, std::string(trimmed(words.substr(0, at))),
-                   std::string(trimmed(words.substr(begin)))});
+    std::string key(trimmed(words.substr(0, at)));
+    // Commits of one version write the same headers.
+    if (key.rfind("viscard ", 0) == 0) key.erase(std::min(key.find('+'), key.size()));
+    out.push_back({line, key, std::string(trimmed(words.substr(begin)))});
   }
   return out;
 }

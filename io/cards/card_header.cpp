@@ -1,5 +1,6 @@
 #include "io/cards/card_header.h"
 
+#include "io/basics/program.h"
 #include "io/cards/card_sum.h"
 
 #include <fmt/format.h>
@@ -115,7 +116,7 @@ std::vector<std::string> card_header(const Material& material, const CardTarget&
                                      const UnitSystem& units, const CardOptions& options,
                                      const std::vector<FidelityItem>& fidelity) {
   std::vector<std::string> lines;
-  lines.push_back("viscard " VISCARD_VERSION ": " +
+  lines.push_back(program_with_version() + ": " +
                   (material.name.empty() ? "material" : material.name) + " for " + target.code);
   if (!target.cannot_represent.empty()) {
     lines.push_back("CANNOT REPRESENT: " + target.cannot_represent);

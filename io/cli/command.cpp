@@ -2,6 +2,7 @@
 
 #include "io/basics/failure_text.h"
 #include "io/basics/inputs.h"
+#include "io/basics/program.h"
 #include "io/basics/words.h"
 #include "io/basics/words_file.h"
 #include "io/cli/card/card_words.h"
@@ -76,10 +77,13 @@ int dispatch(const Words& typed, Streams& streams) {
   if (words[0] == "--version") {
     if (std::find(words.begin(), words.end(), "--json") != words.end()) {
       print_result(
-          {"viscard-version/1", {}}, [](ResultVisitor& v) { v("program", "viscard", "viscard"); },
+          {"viscard-version/1", {}}, [](ResultVisitor& v) {
+            v("program", "viscard", "viscard");
+            v("source", program_version(), "version and commit of the source");
+          },
           streams);
     } else {
-      streams.out << "viscard " VISCARD_VERSION "\n";
+      streams.out << program_with_version() << "\n";
     }
     return kDone;
   }

@@ -1,6 +1,7 @@
 #include "io/flow/capture_to_file.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/program.h"
 #include "io/capture/capture_lock.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
@@ -19,7 +20,7 @@ CapturedRun about_run(const CaptureRequest& request, const RigConfig& rig) {
   about.rig = rig;
   about.plan = request.setup.plan;
   about.specimen = request.setup.specimen;
-  about.program = "viscard " VISCARD_VERSION;
+  about.program = program_with_version();
   about.command = request.command;
   return about;
 }

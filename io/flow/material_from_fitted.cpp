@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/program.h"
 #include "io/flow/fit_file.h"
 #include "models/maths/text_of_number.h"
 
@@ -73,7 +74,7 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
   } else if (fitted.modulus && fitted.modulus->nu_95) {
     material.provenance.nu_origin = "measured";
   }
-  material.provenance.created_by = "viscard " VISCARD_VERSION;
+  material.provenance.created_by = program_with_version();
   material.provenance.created_at = request.created_at;
   material.provenance.command = request.command;
   std::vector<std::string> files;

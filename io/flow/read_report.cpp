@@ -1,5 +1,6 @@
 #include "io/flow/read_report.h"
 
+#include "io/basics/program.h"
 #include "io/flow/test_words.h"
 #include "io/materials/hyperelastic_file.h"
 #include "io/report/report_rubber.h"
@@ -81,7 +82,7 @@ ReportInput read_report(const ReportRequest& request, const std::string& title,
                         const FlowProgress& progress) {
   ReportInput input;
   input.title = title;
-  input.created_by = "viscard " VISCARD_VERSION;
+  input.created_by = program_with_version();
   input.created_at = request.created_at;
   input.command = request.command;
   input.specimens = read_specimens(request, progress);

@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/data_folder.h"
+#include "io/basics/program.h"
 #include "io/basics/words.h"
 #include "io/flow/words/fit_words.h"
 #include "io/flow/words/predict_words.h"
@@ -226,7 +227,7 @@ Json DeskApi::state() const {
         {{"name", table.name}, {"bytes", table.bytes}, {"is_capture", table.is_capture}});
   }
   const bool is_full = tables.size() == kMostDeskFiles;
-  return {{"program", "viscard " VISCARD_VERSION},
+  return {{"program", program_with_version()},
           {"folder", folder_.path().string()},
           {"folder_trouble", folder_.trouble()},
           {"largest_drop_B", kLargestDrop_B},

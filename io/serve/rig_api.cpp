@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/failure_text.h"
+#include "io/basics/program.h"
 #include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
@@ -110,7 +111,7 @@ CaptureSetup RigApi::setup_of(const std::string& specimen) const {
 }
 
 Json RigApi::state() const {
-  Json json = {{"program", "viscard " VISCARD_VERSION}, {"folder", folder_.path().string()},
+  Json json = {{"program", program_with_version()}, {"folder", folder_.path().string()},
                {"folder_trouble", folder_.trouble()},   {"is_emulated", options_.is_emulated},
                {"clock_speed", options_.speed},         {"job", job_.what()}};
   const bool is_idle = json["job"].get_ref<const std::string&>().empty();

@@ -1,5 +1,6 @@
 #include "io/cards/hyperelastic/rubber_file_card.h"
 
+#include "io/basics/program.h"
 #include "io/cards/card_header.h"
 #include "io/cards/card_sum.h"
 #include "io/cards/hyperelastic/check_rubber.h"
@@ -92,7 +93,7 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
   lines.push_back(unsealed_sum_line());
   if (!options.created_at.empty()) lines.push_back("created " + options.created_at);
   if (!options.command.empty()) lines.push_back("by " + options.command);
-  lines.push_back("viscard " VISCARD_VERSION);
+  lines.push_back(program_with_version());
   return lines;
 }
 

@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
+#include "io/basics/program.h"
 #include "io/basics/sha256.h"
 #include "io/results/result_json.h"
 
@@ -67,7 +68,7 @@ void show_head(ResultVisitor& v, const CertificateRequest& request, const std::s
   v("solver", found.solver.code, "that ran it");
   v("solver_version", found.version, "its version");
   v("solver_program", found.program, "its path");
-  v("created_by", "viscard " VISCARD_VERSION, "version of viscard");
+  v("created_by", program_with_version(), "version of viscard");
   v("created_at", request.created_at, "time");
 }
 

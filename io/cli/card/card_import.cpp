@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/program.h"
 #include "io/basics/sha256.h"
 #include "io/basics/timestamp.h"
 #include "io/basics/words.h"
@@ -67,7 +68,7 @@ ImportedCard import_linear(const std::string& text, const CardWords& words) {
                                 "; no data and no intervals stand behind it"});
   if (has_unread_parts(check.findings))
     material.flags.push_back({"not-all-read", 0, "the card has parts that viscard does not read"});
-  material.provenance.created_by = "viscard " VISCARD_VERSION;
+  material.provenance.created_by = program_with_version();
   if (!words.is_reproducible) {
     material.provenance.created_at = now_iso8601();
     material.provenance.command = words.command_line;

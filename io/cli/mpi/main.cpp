@@ -1,4 +1,5 @@
 // viscard-mpi: a sweep on many machines. Rank 0 reads the words and keeps the answers, the others answer.
+#include "io/basics/program.h"
 #include "io/cli/command.h"
 #include "io/cli/help/documents.h"
 #include "io/cli/mpi/mpi_dispatch.h"
@@ -54,7 +55,7 @@ int run_words(const Words& words, Streams& streams, MpiRanks& ranks, RanksEnd& e
     throw UsageError(std::string("no study given; usage: ") + kUsage);
   }
   if (words[0] == "--version") {
-    streams.out << "viscard-mpi " VISCARD_VERSION "\n";
+    streams.out << "viscard-mpi " << program_version() << "\n";
     return kDone;
   }
   if (words[0] == "--help" || words[0] == "-h") {

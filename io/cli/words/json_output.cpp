@@ -2,6 +2,7 @@
 
 #include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
+#include "io/basics/program.h"
 #include "io/flow/command_error.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ void show_head(ResultVisitor& v, const JsonHead& head) {
 void show_origin(ResultVisitor& v, const std::string& command) {
   v.when(!command.empty(), [&] {
     v("command", command, "in a file: the command line");
-    v("created_by", "viscard " VISCARD_VERSION, "in a file: version of viscard");
+    v("created_by", program_with_version(), "in a file: version of viscard");
   });
 }
 

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/program.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "tests/io/capture/capture_samples.h"
@@ -55,7 +56,7 @@ TEST_CASE("a finished capture reads back as it was written, bit for bit", "[io][
   const CapturedRun run = read_capture(path);
   CHECK(run.status == "finished");
   CHECK(run.command == "viscard capture --emulate");
-  CHECK(run.program == "viscard " VISCARD_VERSION);
+  CHECK(run.program == program_with_version());
   CHECK(run.started_at.size() == 20);  // 2026-11-21T09:14:15Z
   CHECK(toml_from_rig(run.rig) == toml_from_rig(demo_run().rig));
   CHECK(toml_from_test(run.plan) == toml_from_test(demo_run().plan));

@@ -56,10 +56,18 @@ TEST_CASE("without a command the overview goes to stderr and the status is 2", "
 }
 
 TEST_CASE("the version is one line", "[cli]") {
-  CHECK(run_command({"--version"}).out == "viscard " VISCARD_VERSION "\n");
+  // As semver.org 2.0.0, item 10: the commit, or words in its place.
+  const std::string out = run_command({"--version"}).out;
+  const std::string release = "viscard " VISCARD_VERSION "+";
+  REQUIRE(out.rfind(release, 0) == 0);
+  CHECK(out.size() > release.size() + 1);
+  CHECK(out.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz.\n", release.size()) ==
+        std::string::npos);
+  CHECK(is_one_line(out));
   const auto json = nlohmann::json::parse(run_command({"--version", "--json"}).out);
   CHECK(json.at("schema") == "viscard-version/1");
   CHECK(json.at("version") == VISCARD_VERSION);
+  CHECK("viscard " + json.at("source").get<std::string>() + "\n" == out);
 }
 
 TEST_CASE("a misspelt command gives one line with the nearest command, and status 2", "[cli]") {
