@@ -15,6 +15,8 @@ configure_file(${packaging}/installed_texts.cmake.in ${CMAKE_BINARY_DIR}/install
 configure_file(${packaging}/install_documents.cmake.in ${CMAKE_BINARY_DIR}/install_documents.cmake @ONLY)
 install(SCRIPT ${CMAKE_BINARY_DIR}/install_documents.cmake COMPONENT runtime)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES ${packaging}/viscard.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT runtime)
+install(FILES ${packaging}/viscard.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT runtime)
 install(DIRECTORY data/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT runtime)
 install(DIRECTORY ${CMAKE_BINARY_DIR}/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime OPTIONAL
         FILES_MATCHING PATTERN "*.schema.json" PATTERN "keys.md")
