@@ -6,6 +6,7 @@
 #include "io/cards/card_sum.h"
 #include "io/cards/list_differences.h"
 #include "io/cards/material_difference.h"
+#include "io/cards/plausible_card.h"
 #include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
@@ -224,6 +225,17 @@ void compare_with_header(const std::string& text, CardCheck& check) {
        true});
 }
 
+// A unit that another mistake explains is not named twice.
+std::optional<CardFinding> implausible(const std::string& text, const CheckOptions& options,
+                                       const CardCheck& check) {
+  const ReadCard& read = check.read;
+  const bool is_accepted = text.find(kPlausibleOffText) != std::string::npos;
+  if (is_accepted || has_mistake(check.findings)) return std::nullopt;
+  return implausible_finding({read.material.E0_Pa, read.material.rho_kg_m3,
+                              read.understood.numbers_carry_units ? nullptr : &read.units},
+                             options.plausible);
+}
+
 CardCheck check_table(const std::string& text, const CardTarget& target,
                       const CheckOptions& options, const Material* reference) {
   const std::string stated = stated_unit_system(text);
@@ -285,6 +297,7 @@ CardCheck check_plain_card(const std::string& text, const CardTarget& target,
                        check.read.material.nu),
            true});
     }
+    add(implausible(text, options, check), check);
   }
   // "no-solid" is only a consequence of any other mistake.
   const bool has_cause = std::any_of(

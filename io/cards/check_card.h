@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/cards/read_card.h"
+#include "models/quantities/plausible.h"
 
 #include <optional>
 #include <string>
@@ -26,10 +27,12 @@ struct CheckOptions {
   // Of E(t), relative. Default: the larger of 1e-6 and the error that write_card makes when it
   // rounds the reference to the target's columns.
   std::optional<double> tolerance = {};
-  std::optional<FrequencyBand> band = {};  // of a card that does not state its own
+  std::optional<FrequencyBand> band = {};      // of a card that does not state its own
+  Plausible plausible = Plausible::kMeasured;  // of a card alone; kOff accepts any number
 };
 
-// Throws where read_card does. Without a reference it reports only mistakes in the card itself.
+// Throws where read_card does. Without a reference it reports only mistakes in the card itself,
+// among them numbers that no solid has.
 CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
                      const Material* reference);
 

@@ -81,6 +81,8 @@ std::string reason(const std::string& line, const std::string& description) {
   std::string of_value = reason_of_value(std::string(trimmed(text.substr(0, equals))),
                                          trimmed(text.substr(equals + 1)));
   if (!of_value.empty()) return of_value;
+  if (description.find("nested value depth") != std::string::npos)
+    return "lists or tables inside each other are nested deeper than the limit of 256";
   constexpr std::string_view kBegin = "Error while ";
   return description.starts_with(kBegin) ? description.substr(kBegin.size()) : description;
 }

@@ -118,7 +118,13 @@ bool LineReader::next(TextLine& line) {
 void split_cells(const TextLine& line, char separator, std::vector<std::string_view>& cells) {
   cells.clear();
   std::string_view rest = line.text;
+  constexpr std::size_t kMostColumns = 16384;  // those of a sheet in Excel
   while (true) {
+    if (cells.size() == kMostColumns) {
+      throw std::runtime_error("line " + std::to_string(line.number) + ": has more than " +
+                               std::to_string(kMostColumns) +
+                               " columns, the limit; remove those that are no data");
+    }
     while (!rest.empty() && is_blank(rest.front()) && rest.front() != separator) {
       rest.remove_prefix(1);
     }

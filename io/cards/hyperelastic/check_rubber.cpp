@@ -4,6 +4,7 @@
 #include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/hyperelastic/rubber_rows.h"
 #include "io/cards/list_differences.h"
+#include "io/cards/plausible_card.h"
 #include "io/cards/unit_system.h"
 #include "io/materials/material_json.h"
 #include "models/maths/text_of_number.h"
@@ -396,6 +397,11 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
     take_volume(text, file, options, check.read, expected);
     const auto differ = header_findings(text, found, expected);
     check.findings.insert(check.findings.end(), differ.begin(), differ.end());
+    const bool is_judged =
+        check.findings.empty() && text.find(kPlausibleOffText) == std::string::npos;
+    const CardScale scale{youngs_modulus_Pa(found.law), found.density_kg_m3, check.read.units};
+    const auto doubt = implausible_finding(scale, options.plausible);
+    if (is_judged && doubt) check.findings.push_back(*doubt);
   }
   // Behind what may explain it.
   if (const auto soft = soft_volume(text, check.read)) check.findings.push_back(*soft);

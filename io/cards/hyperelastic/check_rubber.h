@@ -26,7 +26,8 @@ struct RubberCheckOptions {
       {};                              // if not given 1e-6, or what the ten columns of lsdyna lose
   std::optional<double> bulk_Pa = {};  // not compared if not given
   std::optional<double> density_kg_m3 = {};
-  std::string elastic_only = {};  // "", "instantaneous", "long-term"
+  Plausible plausible = Plausible::kMeasured;  // of a card alone; kOff accepts any number
+  std::string elastic_only = {};               // "", "instantaneous", "long-term"
 };
 
 // Throws what read_rubber_card() throws. Without a file it reports only what the reader found.

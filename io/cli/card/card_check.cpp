@@ -256,7 +256,10 @@ int check_card_file(const CardWords& words, Streams& streams) {
   CardCheck check = [&] {
     try {
       return check_card(text, card_target(words.target),
-                        {.units = words.units, .tolerance = words.tolerance, .band = words.band},
+                        {.units = words.units,
+                         .tolerance = words.tolerance,
+                         .band = words.band,
+                         .plausible = words.plausible},
                         reference ? &reference->material : nullptr);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(words.check + ": " + error.what());

@@ -57,7 +57,8 @@ ImportedCard import_linear(const std::string& text, const CardWords& words) {
     throw std::runtime_error(words.material + ": a card for " + target.name +
                              " is a table or a reduction, from which no material can be read");
   }
-  const CardCheck check = check_card(text, target, {.units = words.units}, nullptr);
+  const CardCheck check =
+      check_card(text, target, {.units = words.units, .plausible = words.plausible}, nullptr);
   require_right(check.findings, check.read.units_were_stated || !words.units.empty(),
                 words.material);
   Material material = check.read.material;
@@ -78,8 +79,8 @@ ImportedCard import_linear(const std::string& text, const CardWords& words) {
 }
 
 ImportedCard import_rubber(const std::string& text, const CardWords& words) {
-  const RubberCheck check =
-      check_rubber_card(text, nullptr, {.target = words.target, .units = words.units});
+  const RubberCheck check = check_rubber_card(
+      text, nullptr, {.target = words.target, .units = words.units, .plausible = words.plausible});
   const ReadRubber& read = check.read;
   require_right(check.findings, read.units_were_stated || !words.units.empty(), words.material);
   HyperelasticFile file;

@@ -127,6 +127,7 @@ int check_rubber_file(const CardWords& words, Streams& streams) {
                                 .tolerance = words.tolerance,
                                 .bulk_Pa = words.bulk_Pa,
                                 .density_kg_m3 = words.density_kg_m3,
+                                .plausible = words.plausible,
                                 .elastic_only = words.elastic_only});
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(words.check + ": " + error.what());

@@ -311,3 +311,29 @@ TEST_CASE("one digit of a number is named with both values, not as terms that we
     CHECK(check.findings[0].text.find("is 2.404 where 2.403 is expected") != std::string::npos);
   }
 }
+
+TEST_CASE("a card whose numbers no solid has is a mistake that names the units it may be in",
+          "[cards]") {
+  const std::string by_hand =
+      "*MATERIAL, NAME=PDMS\n*DENSITY\n9.65e-10,\n*ELASTIC\n2.2, 0.495\n";  // mm, t, s
+  const CardTarget& target = card_target("abaqus");
+  const CardCheck alone = check_card(by_hand, target, {}, nullptr);
+  REQUIRE(alone.findings.size() == 2);  // the other: the units are not stated
+  CHECK(alone.findings[1].name == "implausible");
+  CHECK(alone.findings[1].text.find("the modulus of the card is 2.2 Pa") != std::string::npos);
+  CHECK(alone.findings[1].text.find("in mm-t-s the modulus is 2.2 MPa and the density 965 kg/m3") !=
+        std::string::npos);
+  CHECK_FALSE(alone.agrees);
+  CHECK(check_card(by_hand, target, {.units = "mm-t-s"}, nullptr).agrees);
+  CHECK(check_card(by_hand, target, {.plausible = Plausible::kOff}, nullptr).agrees);
+  // The modulus alone is plausible in both, the density in one.
+  const CardCheck dense = check_card(replaced(by_hand, "2.2,", "2.2e6,"), target, {}, nullptr);
+  CHECK_FALSE(dense.agrees);
+  CHECK(dense.findings.back().text.find("the density of the card is") != std::string::npos);
+  // Cards as written are plausible in all units.
+  for (const CardTarget& one : card_targets()) {
+    if (one.table_difference != nullptr) continue;
+    CAPTURE(one.name);
+    CHECK(check_card(card_text(one.name.c_str()), one, {}, nullptr).agrees);
+  }
+}

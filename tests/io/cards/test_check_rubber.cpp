@@ -406,3 +406,13 @@ TEST_CASE(
   CHECK_THAT(checked(changed(abaqus, "0.00666666666666", "100.66666666666"), "abaqus", nullptr),
              Contains("soft-volume: ") && Contains("negative"));
 }
+
+TEST_CASE("a card of rubber whose modulus no solid has names the units it may be in", "[cards]") {
+  const std::string by_hand = "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, NEO HOOKE\n0.35, 0.001\n";
+  const RubberCheck alone = check_rubber_card(by_hand, nullptr, {.target = "abaqus"});
+  REQUIRE(!alone.findings.empty());
+  CHECK(alone.findings.back().name == "implausible");
+  CHECK_THAT(alone.findings.back().text, Contains("in mm-t-s the modulus is 2.1 MPa"));
+  CHECK_FALSE(alone.agrees);
+  CHECK(check_rubber_card(by_hand, nullptr, {.target = "abaqus", .units = "mm-t-s"}).agrees);
+}

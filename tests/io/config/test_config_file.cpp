@@ -312,6 +312,9 @@ TEST_CASE("keys without end are refused before the library reads them", "[io][co
   CHECK_THAT(rig_error(dots + " = 1\n"), Contains("rig.toml:1: a key is longer than 32 sections"));
   CHECK_THAT(rig_error("x = { " + dots + " = 1 }\n"), Contains("32 sections"));
   CHECK_THAT(rig_error("x = 1\n[\"a\" . 'b' . " + dots + "]\n"), Contains("32 sections"));
+  CHECK_THAT(
+      rig_error("x = 1\ny = " + std::string(3000, '[') + "1" + std::string(3000, ']') + "\n"),
+      Contains("rig.toml:2: not TOML: lists or tables inside each other are nested deeper"));
   CHECK_THAT(rig_error(std::string(5000, 'k') + " = 1\n"), Contains("1000 characters"));
   CHECK_THAT(rig_error("\"" + std::string(5000, 'k') + "\" = 1\n"), Contains("1000 characters"));
   // Texts, comments and lists of numbers are no keys.

@@ -141,4 +141,14 @@ TEST_CASE("each row knows its line, also across comments and blank lines", "[io]
   CHECK(table.lines.size() == 5);
 }
 
+TEST_CASE("columns without end are refused with the limit", "[io][csv]") {
+  std::string header = "time_s", row = "0";
+  for (int i = 0; i < 20000; ++i) {
+    header += ",c" + std::to_string(i);
+    row += ",1";
+  }
+  CHECK(contains(error_of(header + "\n" + row + "\n" + row + "\n"),
+                 "t.csv: line 1: has more than 16384 columns, the limit"));
+}
+
 }  // namespace viscard
