@@ -1,3 +1,4 @@
+#include "io/flow/calibrate.h"
 #include "io/flow/capture_setup.h"
 #include "io/flow/capture_to_file.h"
 #include "io/flow/rig_keys.h"
@@ -68,10 +69,70 @@ PythonResult capture(const std::string& out, const py::dict& keywords, const py:
   return {"viscard-capture/1", inputs, [shown](ResultVisitor& v) { show_keys(v, shown); }, {}};
 }
 
+CalibrationRequest calibration_request(const std::string& file, const py::dict& keywords,
+                                       Plausible judged) {
+  const auto quantity = [&](const char* name, const char* unit) {
+    return quantity_from(name, keywords[name], unit, judged);
+  };
+  CalibrationRequest request{.where = file + ": "};
+  request.id = keywords["id"].cast<std::string>();
+  request.valid_until = keywords["valid_until"].cast<std::string>();
+  request.capacity_N = quantity("capacity", "N").value_or(0.0);
+  request.span_V = quantity("span", "V");
+  request.nonlinearity = keywords["nonlinearity"].cast<std::optional<double>>();
+  request.gravity_m_s2 = quantity("gravity", "m/s2");
+  request.mass_relative_u = keywords["mass_u"].cast<double>();
+  try {
+    check_request(request);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+  return request;
+}
+
+// tables: arrays by the name that stands for the file, or none.
+py::dict calibrate(const std::string& file, const py::dict& tables, bool is_frame,
+                   const py::dict& keywords) {
+  const Plausible judged = judged_by(keywords["plausible"].cast<std::string>());
+  const auto rig_file = keywords["rig"].cast<std::optional<std::string>>();
+  CalibrationRequest request = calibration_request(file, keywords, judged);
+  const CsvTable table = tables.empty()
+                             ? read_csv(file)
+                             : table_from_arrays(tables[py::str(file)].cast<py::dict>(), file);
+  std::optional<RigConfig> rig;
+  if (rig_file)
+    rig = is_frame ? read_rig(*rig_file, judged) : read_rig_to_calibrate(*rig_file, judged);
+  const RigConfig* of_rig = rig ? &*rig : nullptr;
+  std::vector<std::string> inputs{file};
+  if (rig_file) inputs.push_back(*rig_file);
+  py::dict out;
+  if (is_frame) {
+    const BlockPoints points = block_points_from_table(table);
+    const auto frame = calibrated_frame(points, gain_relative_u(points, of_rig), request);
+    out["result"] = PythonResult{"viscard-calibrate-frame/1",
+                                 inputs,
+                                 [frame](ResultVisitor& v) { show_keys(v, frame, ""); },
+                                 {}};
+    out["record"] = toml_from_calibration(frame.record);
+    return out;
+  }
+  if (rig && request.capacity_N == 0.0) request.capacity_N = rig->calibration.capacity_N;
+  if (!(request.capacity_N > 0.0)) {
+    throw OptionError(
+        "capacity is missing: the rated load of the cell, such as \"250 gf\", or a rig file");
+  }
+  const auto cell = calibrated_cell(readings_from_table(table, request), request, of_rig);
+  out["result"] = PythonResult{
+      "viscard-calibrate/1", inputs, [cell](ResultVisitor& v) { show_keys(v, cell, ""); }, {}};
+  out["record"] = toml_from_calibration(cell.record);
+  return out;
+}
+
 }  // namespace
 
 void add_rig(py::module_& module) {
   module.def("capture", &capture);
+  module.def("calibrate", &calibrate);
 }
 
 }  // namespace viscard::python

@@ -23,6 +23,6 @@ void add_scenes(pybind11::module_& module);     // simulate, plan, cost
 void add_inverse(pybind11::module_& module);    // pressures from voltages
 void add_sweeps(pybind11::module_& module);     // sweep
 void add_designs(pybind11::module_& module);    // design
-void add_rig(pybind11::module_& module);        // capture
+void add_rig(pybind11::module_& module);        // capture, calibrate
 
 }  // namespace viscard::python

@@ -1,15 +1,12 @@
-#include "fit/calibration/fit_frame_stiffness.h"
 #include "io/basics/atomic_file.h"
-#include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/integrity_notes.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/stop_on_signal.h"
-#include "io/tables/column_map.h"
+#include "io/flow/calibrate.h"
 #include "io/tables/csv_table.h"
-#include "models/experiment/calibration_check.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
 #include "rig/run_indentation.h"
@@ -94,11 +91,6 @@ CapturedRun press_block(const CalibrateWords& words, RigConfig rig) {
   return run;
 }
 
-BlockPoints points_from_table(const std::string& path) {
-  const CsvTable table = read_csv(path);
-  return {column_SI(table, "position_m"), column_SI(table, "force_N"), {}};
-}
-
 void wait_for_block(const CalibrateWords& words, Streams& streams) {
   if (words.is_emulated || words.asks_nobody) return;
   streams.err
@@ -109,26 +101,14 @@ void wait_for_block(const CalibrateWords& words, Streams& streams) {
   if (!std::getline(std::cin, answer)) throw std::runtime_error("nothing was measured");
 }
 
-void show_frame(ResultVisitor& v, const FrameStiffnessFit& fit, const CalibrateWords& words) {
-  v("file", words.out_file, "the record that was written");
-  v("id", words.id, "name of the record");
-  v("date", today(), "day of the measurement");
-  v("stiffness_N_m", fit.stiffness_N_m, "of the frame");
-  v("stiffness_relative_u", fit.relative_u, "relative standard uncertainty");
-  v("stiffness_interval_95", Interval{fit.low_N_m, fit.high_N_m},
-    "95 % interval in N/m, [low, high]");
-  v("curvature_m", fit.curvature_m, "largest deviation from a straight line");
-  v("seating_m", fit.seating_m, "depth by which the block settled at first; left out of the fit");
-  v("n_points", fit.n_points, "points of the line");
-}
-
-void print(const FrameStiffnessFit& fit, const CalibrateWords& words, Streams& streams) {
+void print(const FrameCalibration& frame, const CalibrateWords& words, Streams& streams) {
   if (words.as_json) {
     print_result(
         {"viscard-calibrate-frame/1", inputs_of(words)},
-        [&](ResultVisitor& v) { show_frame(v, fit, words); }, streams, -1);
+        [&](ResultVisitor& v) { show_keys(v, frame, words.out_file); }, streams, -1);
     return;
   }
+  const FrameStiffnessFit& fit = frame.fit;
   streams.out << fmt::format("stiffness   {:.4g} N/mm, {:.4g} to {:.4g} (k = 2)\n",
                              fit.stiffness_N_m * 1e-3, fit.low_N_m * 1e-3, fit.high_N_m * 1e-3)
               << (fit.seating_m > 0.0
@@ -138,24 +118,22 @@ void print(const FrameStiffnessFit& fit, const CalibrateWords& words, Streams& s
                       : std::string())
               << fmt::format("curvature   {:.2f} um off the straight line at most, {} points\n",
                              fit.curvature_m * 1e6, fit.n_points)
-              << fmt::format("{}: '{}'\n", words.out_file, words.id);
+              << fmt::format("{}: '{}'\n", words.out_file, frame.record.frame->id);
 }
 
 }  // namespace
 
 DescribedResult result_of_frame() {
   return {"calibrate-frame", "viscard calibrate --compliance", {[](ResultVisitor& v) {
-            show_frame(v, FrameStiffnessFit{}, CalibrateWords{});
+            show_keys(v, FrameCalibration{}, "");
           }}};
 }
 
 int calibrate_frame(const CalibrateWords& words, Streams& streams) {
+  CalibrationRequest request = words.request;
+  if (words.data_file) request.where = *words.data_file + ": ";
   BlockPoints points;
-  double gain_u = 0.0;
-  const auto gain_u_of = [&points](const RigConfig& rig) {
-    const auto largest = std::max_element(points.force_N.begin(), points.force_N.end());
-    return largest == points.force_N.end() ? 0.0 : gain_relative_u(rig.calibration, *largest);
-  };
+  std::optional<RigConfig> rig;  // whose gain is known
   if (words.data_file && looks_like_capture(*words.data_file)) {
     const CapturedRun run =
         read_capture(*words.data_file, {.accepts_damage = words.accepts_unverified});
@@ -163,26 +141,19 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
       streams.err << "viscard: " << *words.data_file << ": " << note.text << "\n";
     }
     points = block_points_from_capture(run);
-    gain_u = gain_u_of(run.rig);
+    rig = run.rig;
   } else if (words.data_file) {
-    points = points_from_table(*words.data_file);
-    if (words.rig_file) gain_u = gain_u_of(read_rig(*words.rig_file, words.plausible));
+    points = block_points_from_table(read_csv(*words.data_file));
+    if (words.rig_file) rig = read_rig(*words.rig_file, words.plausible);
   } else {
-    const RigConfig rig = calibrate_rig(words);
+    rig = calibrate_rig(words);
     wait_for_block(words, streams);
-    points = block_points_from_capture(press_block(words, rig));
-    gain_u = gain_u_of(rig);
+    points = block_points_from_capture(press_block(words, *rig));
   }
-  const FrameStiffnessFit fit = fit_frame_stiffness(points, gain_u);
-  CalibrationRecord record;
-  const FrameConfig frame{fit.stiffness_N_m, fit.relative_u, words.id, today(), {}};
-  if (const std::string fault = frame_fault(frame); !fault.empty()) {
-    throw std::runtime_error((words.data_file ? *words.data_file + ": " : "") + fault +
-                             ". Nothing was written");
-  }
-  record.frame = frame;
-  write_file(words.out_file, toml_from_calibration(record), words.overwrite);
-  print(fit, words, streams);
+  const FrameCalibration frame =
+      calibrated_frame(points, gain_relative_u(points, rig ? &*rig : nullptr), request);
+  write_file(words.out_file, toml_from_calibration(frame.record), words.overwrite);
+  print(frame, words, streams);
   return kDone;
 }
 

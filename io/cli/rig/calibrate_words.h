@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fit/calibration/fit_load_cell.h"
 #include "io/cli/words/streams.h"
 #include "io/config/config_file.h"
+#include "io/flow/calibrate.h"
 #include "io/results/result_schema.h"
 #include "models/experiment/emulated_specimen.h"
 #include "models/experiment/rig_config.h"
@@ -17,7 +17,8 @@ namespace viscard {
 struct CalibrateWords {
   std::optional<std::string> rig_file, data_file, truth_file;
   Plausible plausible = Plausible::kMeasured;
-  std::string out_file, id, valid_until;
+  std::string out_file;
+  CalibrationRequest request;
   bool is_compliance = false;
   bool is_emulated = false;
   bool asks_nobody = false;
@@ -27,12 +28,7 @@ struct CalibrateWords {
   std::string weights;  // "20 g, 50 g"
   std::vector<double> masses_kg;
   int series = 3;
-  double gravity_m_s2 = 9.80665;
-  bool is_gravity_given = false;
-  double mass_relative_u = 1e-4;
   std::optional<double> capacity_N;
-  std::optional<double> span_V;        // of the converter, of either sign
-  std::optional<double> nonlinearity;  // of the cell's data sheet, relative to the capacity
   double settle_s = 1.0;
   double mean_s = 3.0;
   double force_N = 0.0;  // highest force on the block; 0: 70 % of the soft limit

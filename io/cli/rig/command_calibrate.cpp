@@ -1,4 +1,3 @@
-#include "io/basics/timestamp.h"
 #include "io/basics/units.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/rig/rig_commands.h"
@@ -35,22 +34,21 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
   add("compliance", &words.is_compliance, "measure the frame on a rigid block");
   add("weights", &words.weights, "masses to put on, \"20 g, 50 g, 100 g, 200 g\"");
   add("series", &words.series, "number of times to go up and down");
-  add("mass-u", &words.mass_relative_u, "relative standard uncertainty of the masses");
-  add("gravity", &words.gravity_m_s2, "gravity at this place, \"9.8067 m/s2\"")
-      .of("m/s2")
-      .by_default("");
+  add("mass-u", &words.request.mass_relative_u, "relative standard uncertainty of the masses");
+  add("gravity", &words.request.gravity_m_s2, "gravity at this place, \"9.8067 m/s2\"").of("m/s2");
   add("capacity", &words.capacity_N, "rated load of the cell, if there is no rig file").of("N");
-  add("nonlinearity", &words.nonlinearity,
+  add("nonlinearity", &words.request.nonlinearity,
       "of the cell by its data sheet, share of the capacity (0.001)");
-  add("span", &words.span_V, "largest voltage of the converter, if there is no rig file").of("V");
+  add("span", &words.request.span_V, "largest voltage of the converter, if there is no rig file")
+      .of("V");
   add("settle", &words.settle_s, "wait after putting on a weight").of("s").by_default("1 s");
   add("seconds", &words.mean_s, "time of each mean reading").of("s").by_default("3 s");
   add("to", &words.force_N, "highest force on the block (70 % of the soft limit)")
       .of("N")
       .by_default("");
   add("steps", &words.steps, "number of steps of force on the block");
-  add("id", &words.id, "name of the record");
-  add("valid-until", &words.valid_until, "last day of validity (a year from today)");
+  add("id", &words.request.id, "name of the record");
+  add("valid-until", &words.request.valid_until, "last day of validity (a year from today)");
   add("out", &words.out_file, "record to write (*.toml)");
   add("emulate", &words.is_emulated, "calibrate an emulated rig");
   add("truth", &words.truth_file, "truth.toml: what the emulated cell is like");
@@ -79,21 +77,10 @@ std::vector<double> masses_from(const std::string& text) {
 void take_values(const CommandSyntax& syntax, CalibrateWords& words) {
   words.as_json = syntax.as_json;
   words.plausible = given_plausible(syntax);
-  if (words.id.empty()) words.id = (words.is_compliance ? "frame " : "load cell ") + today();
   if (!words.weights.empty()) words.masses_kg = masses_from(words.weights);
-  words.is_gravity_given = is_given(syntax, "gravity");
-}
-
-void check_valid_until(const std::string& day) {
-  const bool is_day = day.size() == 10 && day[4] == '-' && day[7] == '-' &&
-                      day.find_first_not_of("0123456789-") == std::string::npos;
-  if (!day.empty() && !is_day) {
-    throw UsageError("--valid-until '" + day + "' is not a day such as 2027-11-21");
-  }
-  if (!day.empty() && day < today()) {
-    throw UsageError("--valid-until " + day +
-                     " is in the past; the record would be refused at once");
-  }
+  if (words.capacity_N && !(*words.capacity_N > 0.0))
+    throw UsageError("--capacity must be positive");
+  words.request.capacity_N = words.capacity_N.value_or(0.0);
 }
 
 void check_words(const CalibrateWords& words) {
@@ -110,30 +97,17 @@ void check_words(const CalibrateWords& words) {
   if (!(words.mean_s > 0.0) || !(words.settle_s >= 0.0)) {
     throw UsageError("--seconds must be positive and --settle not negative");
   }
-  if (!(words.gravity_m_s2 > 9.7) || !(words.gravity_m_s2 < 9.9)) {
-    throw UsageError(
-        fmt::format("--gravity {} m/s2 does not occur on Earth, where it lies between "
-                    "9.76 and 9.84 m/s2",
-                    words.gravity_m_s2));
-  }
-  if (!(words.mass_relative_u >= 0.0) || !(words.mass_relative_u < 0.1)) {
-    throw UsageError("--mass-u is outside 0 to 0.1");
-  }
-  if (words.capacity_N && !(*words.capacity_N > 0.0)) {
-    throw UsageError("--capacity must be positive");
-  }
-  if (words.span_V && !(*words.span_V > 0.0)) throw UsageError("--span must be positive");
-  if (words.nonlinearity && !(*words.nonlinearity > 0.0 && *words.nonlinearity <= 0.05)) {
-    throw UsageError(
-        "--nonlinearity is outside 0 to 0.05; it is a share of the capacity, 0.0005 for 0.05 %");
-  }
   if (!words.is_emulated && (words.truth_file || words.speed != 1.0)) {
     throw UsageError("--truth and --speed are for an emulated rig: add --emulate");
   }
   if (!(words.speed > 0.0) || words.speed > 500.0) {
     throw UsageError(fmt::format("--speed is {}; it must be above 0 and at most 500", words.speed));
   }
-  check_valid_until(words.valid_until);
+  try {
+    check_request(words.request);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
   refuse_existing(words.out_file, words.overwrite);
 }
 

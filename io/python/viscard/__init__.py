@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from . import _core
 from ._answer import Answer, Cost, Field, Plan, Value
+from ._calibrate import Calibration, calibrate
 from ._capture import CaptureOutcome, capture
 from ._card import Card, card_targets
 from ._data import data_file
@@ -30,10 +31,10 @@ from ._table import Capture, Table, read_capture, read_table
 
 __version__: str = _core.version
 
-__all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "DesignLimits", "Designs", "DoubtWarning", "Error", "Field", "FitResult",
+__all__ = ["Answer", "Calibration", "Capture", "CaptureOutcome", "Card", "Cost", "DesignLimits", "Designs", "DoubtWarning", "Error", "Field", "FitResult",
            "Flag", "JointFit", "Judgement", "Material", "NextTest", "Parameter", "Plan", "Prediction", "PressureReader", "Pressures",
            "RubberCard", "RubberFit", "RubberTerm",
-           "Sweep", "Table", "TestCost", "Validation", "Value", "capture", "card_targets", "check_scene", "cost", "cost_of_tests",
+           "Sweep", "Table", "TestCost", "Validation", "Value", "calibrate", "capture", "card_targets", "check_scene", "cost", "cost_of_tests",
            "data_file", "design", "fit", "forces_from_voltages", "next_test", "plan", "predict", "pressures_from_voltages", "read_capture", "read_table", "report",
            "simulate", "sweep"]
 

@@ -35,6 +35,8 @@ WRONG_TYPES = [
     (lambda **k: MATERIAL.card("abaqus").save("a.inp", **k), "overwrite", NO_FLAG, "True or False"),
     (viscard.Material.load, "path", NO_PATH, "a path"),
     (lambda **k: viscard.predict(MATERIAL, **k), "strain", (True, [1], b"x"), "a text or a number"),
+    (lambda **k: viscard.calibrate({"mass_kg": [0.0], "volts_V": [0.0]}, **k), "mass_u", NO_NUMBER, "a number"),
+    (lambda **k: viscard.calibrate({"mass_kg": [0.0], "volts_V": [0.0]}, **k), "compliance", NO_FLAG, "True or False"),
     (lambda **k: viscard.read_table(EXAMPLE, **k), "sheet", NO_TEXT, "a text"),
     (lambda **k: viscard.read_table(EXAMPLE, **k), "column", (3, [1]), "a text or a list of texts"),
     (lambda **k: viscard.fit(EXAMPLE, **k), "joint", NO_FLAG, "True or False"),

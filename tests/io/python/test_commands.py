@@ -73,3 +73,28 @@ def test_the_report_is_the_command(program, run, tmp_path):
     with pytest.raises(viscard.Error, match="save the arrays"):
         viscard.report({"time_s": [1.0, 2.0], "modulus_Pa": [2.0, 1.0]}, tmp_path / "other.html")
     assert not (tmp_path / "other.html").exists()
+
+
+def test_calibrations_of_readings_are_the_command(program, tmp_path):
+    mass_kg = np.array([0, 0.05, 0.1, 0.2, 0.1, 0.05, 0, 0.05, 0.1, 0.2, 0.1, 0.05, 0])
+    cell = {"mass_kg": mass_kg, "volts_V": 0.014 + 7.1 * mass_kg + 2e-5 * np.cos(np.arange(mass_kg.size))}
+    block = {"position_m": np.linspace(0, 3e-5, 7), "force_N": np.linspace(0, 0.31, 7) + 1e-4 * np.cos(np.arange(7))}
+    for words, data, keywords in ((["--capacity", "250 gf", "--gravity", "9.81 m/s2"], cell,
+                                   {"capacity": "250 gf", "gravity": 9.81}),
+                                  (["--compliance", "--id", "steel"], block, {"compliance": True, "id": "steel"})):
+        table, record = tmp_path / "table.csv", tmp_path / "record.toml"
+        table.write_text(",".join(data) + "\n" + "\n".join(",".join(map(repr, map(float, row))) for row in zip(*data.values())))
+        of_command = json.loads(printed(program, "calibrate", "--data", str(table), "--out", str(record), "--force", "--json", *words))
+        for given in (data, table, viscard.read_table(table)):
+            found = viscard.calibrate(given, **keywords)
+            assert {**found.json, "file": str(record), "inputs": [str(table)]} == of_command
+            assert found.record == record.read_text()
+        with pytest.raises(viscard.Error) as refused:
+            found.save(record)
+        assert refused.value.code == "exists"
+    with pytest.raises(viscard.Error, match="capacity is missing"):
+        viscard.calibrate(cell)
+    with pytest.raises(viscard.Error, match="above the capacity"):
+        viscard.calibrate(cell, capacity="0.1 N")
+    with pytest.raises(viscard.Error, match="gravity 1.6 m/s2 does not occur on Earth"):
+        viscard.calibrate(cell, capacity="250 gf", gravity=1.6)
