@@ -4,7 +4,7 @@ namespace viscard {
 namespace {
 
 constexpr const char* kCommit =
-#include "commit.inc"  // written by each build that finds another commit, commit.cmake
+#include <commit.inc>  // written by each build that finds another commit, commit.cmake
     ;
 
 }  // namespace
