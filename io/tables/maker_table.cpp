@@ -289,7 +289,10 @@ std::optional<ModulusKind> kind_of_instrument(std::string_view text) {
                            "AR2000", "AR 2000", "MCR ", "Kinexus", "HAAKE MARS"}) {
     if (head.find(name) != std::string_view::npos) return ModulusKind::kShear;
   }
-  return std::nullopt;
+  // Headings of Anton Paar's tables without their notes.
+  const auto has = [&](const char* words) { return head.find(words) != std::string_view::npos; };
+  const bool is_rheoplus = has("Meas. Pts.") || (has("Point No.") && has("Damping Factor"));
+  return is_rheoplus ? std::optional(ModulusKind::kShear) : std::nullopt;
 }
 
 std::string maker_of_header(std::string_view line) {

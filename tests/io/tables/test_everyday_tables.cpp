@@ -176,6 +176,17 @@ TEST_CASE("headers in Italian, Spanish, Russian and Japanese are found", "[io][c
   const CsvTable japanese = read("周波数 (Hz),貯蔵弾性率 (MPa),損失弾性率 (MPa)\n1,2,3\n2,3,4\n");
   CHECK(column_SI(japanese, "loss_modulus_Pa") == Numbers{3e6, 4e6});
   CHECK(column_SI(read("時間 (秒),荷重 (N)\n0,1\n1,2\n"), "force_N") == Numbers{1.0, 2.0});
+  const char* relaxation[] = {
+      "Tijd (s);Spanning (kPa);Rek (%)", "Tid (s);Spänning (kPa);Töjning (%)",
+      "Čas (s);Napětí (kPa);Deformace (%)", "Zaman (s);Gerilme (kPa);Gerinim (%)",
+      "시간 (s);응력 (kPa);변형률 (%)"};
+  for (const std::string header : relaxation) {
+    CAPTURE(header);
+    const CsvTable table = read(header + "\n0;1;2\n1;2;2\n");
+    CHECK(column_SI(table, "time_s") == Numbers{0.0, 1.0});
+    CHECK(column_SI(table, "stress_Pa") == Numbers{1e3, 2e3});
+    CHECK(column_SI(table, "strain") == Numbers{0.02, 0.02});
+  }
 }
 
 TEST_CASE("a force in grams or kilograms is read as a weight, and says so", "[io][csv]") {
@@ -234,6 +245,10 @@ TEST_CASE("the kind of modulus comes from headers and formats, and is assumed wh
   CHECK(contains(error_text([&] { kind("f (Hz),E' (Pa),G'' (Pa)"); }), "--modulus-kind"));
   const CsvTable reptate = csv_from_text("gamma=0.5;\n1 2\n2 1\n", "a.gt");
   CHECK(kind_of(reptate).kind == ModulusKind::kShear);
+  const CsvTable bare = read(
+      "Point No.,Angular Frequency,Storage Modulus,Loss Modulus,Damping Factor\n"
+      ",[rad/s],[Pa],[Pa],[1]\n1,1,2,3,1.5\n2,2,3,4,1.3\n");
+  CHECK(bare.modulus_kind == ModulusKind::kShear);
   const CsvTable notes = read("Instrument name,DHR-3 rheometer\nTime (s),Modulus (Pa)\n0,1\n1,2\n");
   CHECK(kind_of(notes).kind == ModulusKind::kShear);
 }
@@ -397,9 +412,6 @@ TEST_CASE("tables in older encodings are read by the names that they hold", "[io
   CHECK(column_SI(german, "depth_m")[1] == Catch::Detail::Approx(2e-6));
 }
 
-}  // namespace
-}  // namespace viscard
-
 TEST_CASE(
     "dates are read in the order in which the record goes on, and days of a spreadsheet become "
     "seconds",
@@ -439,3 +451,6 @@ TEST_CASE(
   CHECK(table.columns[0].values.back() - table.columns[0].values.front() ==
         Approx(1.9).margin(2e-3));
 }
+
+}  // namespace
+}  // namespace viscard
