@@ -8,6 +8,7 @@
 #include "io/flow/words/predict_words.h"
 #include "io/materials/material_file.h"
 #include "io/serve/api_error.h"
+#include "io/serve/desk_words.h"
 #include "io/serve/series_json.h"
 #include "io/tables/column_names.h"
 
@@ -28,14 +29,6 @@ using Json = nlohmann::ordered_json;
 using Texts = std::vector<std::string>;
 
 constexpr int kMostRunning = 3;  // commands at once; a further one waits
-constexpr std::size_t kLongestValue = 200;
-
-// Options of fit that the page may set: those that neither read another file nor belong to several.
-bool is_offered(const Option& option) {
-  static const Texts kOfSeveral{"joint", "own-terms", "specimen-id", "share", "ratio"};
-  return !option.is_file &&
-         std::find(kOfSeveral.begin(), kOfSeveral.end(), option.name) == kOfSeveral.end();
-}
 
 // Options of card that the page may set.
 const Texts& card_options_offered() {
@@ -44,113 +37,19 @@ const Texts& card_options_offered() {
   return kNames;
 }
 
-void add_value(const std::string& name, const Json& value, Texts& words) {
-  if (!value.is_string()) {
-    throw ApiError(400, "bad-value", "'" + name + "' must be a text, or true for a switch");
-  }
-  const auto text = value.get<std::string>();
-  const bool has_control = std::any_of(text.begin(), text.end(),
-                                       [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-  if (text.size() > kLongestValue || has_control) {
-    throw ApiError(400, "bad-value", "the value of '" + name + "' is no value of an option");
-  }
-  if (!text.empty()) words.push_back("--" + name + "=" + text);
-}
-
-// {"terms": "3", "liquid": true, "column": ["a=b"]} as words of a command line.
-Texts words_of(const Json& request, const char* key,
-               const std::function<bool(const std::string&)>& may_set) {
-  Texts words;
-  if (!request.contains(key)) return words;
-  const Json& options = request.at(key);
-  if (!options.is_object()) {
-    throw ApiError(400, "bad-value", std::string("'") + key + "' must be an object");
-  }
-  for (const auto& [name, value] : options.items()) {
-    if (!may_set(name)) {
-      throw ApiError(400, "bad-value", "the page cannot set the option '" + name + "'");
-    }
-    if (value.is_boolean()) {
-      if (value.get<bool>()) words.push_back("--" + name);
-    } else if (value.is_array()) {
-      for (const Json& one : value) add_value(name, one, words);
-    } else {
-      add_value(name, value, words);
-    }
-  }
-  return words;
-}
-
-Texts fit_words_of(const Json& request) {
-  FitWords unused;
-  const OptionList list = options_of(unused);
-  return words_of(request, "options", [&](const std::string& name) {
-    const Option* option = list.find(name);
-    return option != nullptr && is_offered(*option);
-  });
-}
-
-// {"terms": "3"} of the words --terms=3, as the page has it; words of options that it does not set are left out.
-Json options_of_words(const Texts& words) {
-  FitWords unused;
-  const OptionList list = options_of(unused);
-  Json options = Json::object();
-  for (const std::string& word : words) {
-    const std::size_t sign = word.find('=');
-    const std::string name = word.starts_with("--") ? word.substr(2, sign - 2) : "";
-    const Option* option = list.find(name);
-    if (option == nullptr || !is_offered(*option)) continue;
-    if (is_switch(*option)) {
-      options[name] = true;
-    } else if (sign == std::string::npos) {
-      continue;
-    } else if (is_list(*option)) {
-      options[name].push_back(word.substr(sign + 1));
-    } else {
-      options[name] = word.substr(sign + 1);
-    }
-  }
-  return options;
-}
-
-// The options of a request, or without any those that are kept beside the table.
-Texts fit_words_of(const Json& request, const std::string& table, const DeskFolder& folder) {
-  if (request.contains("options")) return fit_words_of(request);
-  return fit_words_of({{"options", options_of_words(folder.kept_words(table))}});
-}
-
-// A name that no command takes for an option, or for KIND=FILE.
-std::string word_of_file(const std::string& name) {
-  const bool is_plain = name.front() != '-' && name.find('=') == std::string::npos;
-  return is_plain ? name : "./" + name;
-}
-
-Texts command_words(const char* command, const std::string& file, const Texts& options,
-                    const Texts& more = {}) {
-  Texts words{command, word_of_file(file)};
-  words.insert(words.end(), options.begin(), options.end());
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-// As a person types it in the folder.
-std::string typed(const Texts& words) {
-  Texts all{"viscard"};
-  all.insert(all.end(), words.begin(), words.end());
-  return quoted_for_shell(all);
-}
-
 Json answered(const Texts& words, Json result) {
   return {{"command", typed(words)}, {"result", std::move(result)}};
 }
 
-// True if this file is the material that the command would write of this table.
+// True if this file is the material that the command would write of tables with these sums.
 bool is_material_of(const std::filesystem::path& path, const std::string& command,
-                    const std::string& table_sha256) {
+                    const Texts& sha256) {
   try {
     const Provenance made = read_material(path).material.provenance;
-    return made.command == command && made.raw_files.size() == 1 &&
-           made.raw_files.front().sha256 == table_sha256;
+    return made.command == command &&
+           std::equal(
+               made.raw_files.begin(), made.raw_files.end(), sha256.begin(), sha256.end(),
+               [](const RawFile& file, const std::string& sum) { return file.sha256 == sum; });
   } catch (const std::exception&) {
     return false;  // another file
   }
@@ -285,7 +184,7 @@ Json DeskApi::choices() {
   const Json described = result_of({"fit", "--help"});
   for (const Json& option : described.at("options")) {
     const Option* one = offered.find(option.at("name").get<std::string>());
-    if (one != nullptr && is_offered(*one)) options.push_back(option);
+    if (one != nullptr && is_offered_by_desk(*one)) options.push_back(option);
   }
   return {{"targets", list.at("targets")},
           {"units", list.at("units")},
@@ -301,16 +200,15 @@ Json DeskApi::drop(const std::string& name, const std::string& bytes) {
 }
 
 Json DeskApi::table(const Json& request) {
-  const std::string table = text_at(request, "table");
-  folder_.require_table(table);
-  const Texts options = fit_words_of(request, table, folder_);
+  const DeskTables tables = tables_of(request, folder_);
+  if (tables.names.size() > 1) throw ApiError(400, "bad-value", "one table is shown");
   if (request.contains("options")) {
     const std::lock_guard<std::mutex> lock(writing_);
-    folder_.keep_words(table, options);
+    folder_.keep_words(tables.names.front(), tables.options);
   }
-  const Texts words = command_words("fit", table, options, {"--show-table"});
+  const Texts words = fit_words(tables, {"--show-table"});
   Json answer = answered(words, Json());
-  answer["options"] = options_of_words(options);
+  answer["options"] = options_of_words(tables.options);
   try {
     answer["result"] = result_of(words);
   } catch (const ApiError&
@@ -321,51 +219,50 @@ Json DeskApi::table(const Json& request) {
 }
 
 Json DeskApi::fit(const Json& request) {
-  const std::string table = text_at(request, "table");
-  folder_.require_table(table);
-  const Texts options = fit_words_of(request, table, folder_);
-  const Json result = result_of(command_words("fit", table, options, {"--curves"}));
-  return answered(command_words("fit", table, options), result);
+  const DeskTables tables = tables_of(request, folder_);
+  // Tests that are fitted together have their curves with them.
+  const bool is_one = tables.names.size() == 1;
+  const Json result = result_of(fit_words(tables, is_one ? Texts{"--curves"} : Texts{}));
+  Json answer = answered(fit_words(tables), result);
+  answer["options"] = options_of_words(tables.options);
+  return answer;
 }
 
-std::string DeskApi::write_material(const std::string& table, const Texts& options) {
+DeskApi::WrittenMaterial DeskApi::write_material(const Json& request) {
+  const DeskTables tables = tables_of(request, folder_);
   const std::lock_guard<std::mutex> lock(writing_);
-  const std::string sum = sha256_of_file(folder_.path() / table);
-  const std::string stem = std::filesystem::path(table).stem().string();
+  Texts sums;
+  for (const std::string& table : tables.names)
+    sums.push_back(sha256_of_file(folder_.path() / table));
   for (int n = 1;; ++n) {
-    const std::string name = stem + (n > 1 ? "." + std::to_string(n) : "") + ".json";
-    const Texts words = command_words("fit", table, options, {"--out=" + name});
+    const std::string name = tables.stem + (n > 1 ? "." + std::to_string(n) : "") + ".json";
+    const Texts words = fit_words(tables, {"--out=" + name});
     const std::filesystem::path path = folder_.path() / name;
     if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
-      if (is_material_of(path, typed(words), sum)) return name;
+      if (is_material_of(path, typed(words), sums)) return {name, typed(words)};
       continue;
     }
     result_of(words);
-    return name;
+    return {name, typed(words)};
   }
 }
 
 Json DeskApi::card(const Json& request) {
-  const std::string table = text_at(request, "table");
-  folder_.require_table(table);
-  const Texts options = fit_words_of(request, table, folder_);
   if (!request.contains("card")) throw ApiError(400, "bad-value", "the request needs 'card'");
   const Texts of_card = words_of(request, "card", [](const std::string& name) {
     const Texts& more = card_options_offered();
     return name == "for" || name == "units" ||
            std::find(more.begin(), more.end(), name) != more.end();
   });
-  const std::string material = write_material(table, options);
-  const Texts words = command_words("card", material, of_card);
+  const WrittenMaterial material = write_material(request);
+  const Texts words = command_words("card", material.name, of_card);
   Json answer = answered(words, result_of(words));
-  answer["material"] = material;
-  answer["fit_command"] = typed(command_words("fit", table, options, {"--out=" + material}));
+  answer["material"] = material.name;
+  answer["fit_command"] = material.command;
   return answer;
 }
 
 Json DeskApi::predict(const Json& request) {
-  const std::string table = text_at(request, "table");
-  folder_.require_table(table);
   PredictWords unused;
   const OptionList list = options_of(unused);
   Texts of_test = words_of(request, "predict", [&](const std::string& name) {
@@ -377,7 +274,7 @@ Json DeskApi::predict(const Json& request) {
     folder_.require_table(against);
     of_test.push_back("--against=" + against);
   }
-  const std::string material = write_material(table, fit_words_of(request, table, folder_));
+  const std::string material = write_material(request).name;
   const Texts words = command_words("predict", material, of_test);
   Json answer = answered(words, result_of(words));
   answer["material"] = material;

@@ -39,7 +39,8 @@ class DeskApi {
   // {"table", "options"}: viscard fit --show-table, and keeps the options beside the table. Without "options" those that
   // are kept hold; the answer names them.
   Json table(const Json& request);
-  // {"table", "options"}: viscard fit, with the curves.
+  // {"table", "options"}: viscard fit, with the curves. In the place of "table", here and below, "tests" of one material:
+  // [{"table", "kind"}, ...].
   Json fit(const Json& request);
   // {"table", "options", "card"}: writes the material of the fit beside the table, under a name that is free or that of
   // the same fit, and then viscard card.
@@ -64,7 +65,11 @@ class DeskApi {
  private:
   // The object that a command prints. Throws ApiError 422 if it prints none or one of an error.
   Json result_of(const std::vector<std::string>& words, const std::string& input = "");
-  std::string write_material(const std::string& table, const std::vector<std::string>& words);
+  struct WrittenMaterial {
+    std::string name, command;
+  };
+  // Of the fit that the request describes.
+  WrittenMaterial write_material(const Json& request);
 
   DeskOptions options_;
   DeskFolder folder_;

@@ -15,6 +15,7 @@ const kSteps = ["table", "fit", "card", "predict", "compare", "check", "scene", 
 const kLook_ms = 3000;
 
 let state = null, table = null, choices = {}, view = "table", asked = 0;
+let together = {};  // tests that are fitted together, by the name that stands for them in the list of tables
 let before = [];  // options of this table, for undo
 const chosen = () => choices[table] ?? {};
 
@@ -41,18 +42,19 @@ async function latest(work, onError) {
 }
 
 function showTables() {
-  element("tables").replaceChildren(...state.tables.map((one) => {
-    const button = make("button", { type: "button", "aria-current": one.name === table ? "true" : undefined }, one.name);
-    button.addEventListener("click", () => open(one.name));
+  const names = state.tables.map((one) => one.name);
+  together = Object.fromEntries(Object.entries(together).filter(([, tests]) => tests.every((test) => names.includes(test.table))));
+  element("tables").replaceChildren(...[...names, ...Object.keys(together)].map((name) => {
+    const button = make("button", { type: "button", "aria-current": name === table ? "true" : undefined }, name);
+    button.addEventListener("click", () => open(name));
     return make("li", {}, button);
   }));
   show(element("no-tables"), state.tables.length === 0);
   showText(element("folder-trouble"), sentence(state.folder_trouble));
   element("folder").textContent = state.folder;
-  const names = state.tables.map((one) => one.name);
   showCompareTables(names);
   showOtherTables(names);
-  showReportTables(names, table);
+  showReportTables(names, together[table] ? null : table);
   showScenes(state.scenes);
 }
 
@@ -78,23 +80,42 @@ function showView(name) {
 
 // Of a table that is opened for the first time, the options that are kept beside it hold.
 function request() {
-  return choices[table] === undefined ? { table } : { table, options: chosen() };
+  const what = together[table] ? { tests: together[table] } : { table };
+  return choices[table] === undefined ? what : { ...what, options: chosen() };
+}
+
+// What viscard.fit() of Python takes: a file, or tests by kind.
+function pythonData() {
+  if (!together[table]) return table;
+  const byKind = {};
+  for (const test of together[table]) (byKind[test.kind] ??= []).push(test.table);
+  return byKind;
+}
+
+async function readTable(isNow) {
+  if (together[table]) {
+    showTableError("");
+    return showFields({ kind: "", modulus_kind: "tension" }, chosen());
+  }
+  const answer = await order("/api/desk/table", request());
+  if (!isNow()) return;
+  choices[table] = answer.options;
+  if (answer.result) showTable(answer.result, chosen().column ?? []);
+  else showTableError(answer.trouble);
+  showFields(answer.result ?? { kind: "", modulus_kind: "" }, chosen());
 }
 
 function readAndFit() {
   showFitState("Fitting …", "");
   return latest(async (isNow) => {
-    const answer = await order("/api/desk/table", request());
+    await readTable(isNow);
     if (!isNow()) return;
-    choices[table] = answer.options;
-    if (answer.result) showTable(answer.result, chosen().column ?? []);
-    else showTableError(answer.trouble);
-    showFields(answer.result ?? { kind: "", modulus_kind: "" }, chosen());
     showUndo();
-    const { command, result } = await order("/api/desk/fit", request());
+    const { command, result, options } = await order("/api/desk/fit", request());
     if (!isNow()) return;
+    choices[table] = options;
     showFit(result, chosen().terms, (terms) => setOption("terms", terms));
-    showSame(element("fit-same"), command, pythonOf(table, chosen()));
+    showSame(element("fit-same"), command, pythonOf(pythonData(), chosen()));
     if (view === "card") makeCard();
     if (view === "predict") predict();
     if (view === "compare") compare();
@@ -111,7 +132,7 @@ function makeCard() {
     showCard(answer);
     const { for: target, units } = chosenCard();
     showSame(element("card-same"), `${answer.fit_command}\n${answer.command}`,
-             `${pythonOf(table, chosen())}\nprint(result.material.card(${JSON.stringify(target)}, ${JSON.stringify(units)}))`);
+             `${pythonOf(pythonData(), chosen())}\nprint(result.material.card(${JSON.stringify(target)}, ${JSON.stringify(units)}))`);
   }, (text) => showCardState(text, "alert"));
 }
 
@@ -125,7 +146,7 @@ function predict() {
     const { predict: words, against } = chosenPrediction();
     const keywords = Object.entries({ ...words, ...(against ? { against } : {}) }).filter(([, value]) => value !== "")
       .map(([name, value]) => `, ${keywordOf(name)}=${JSON.stringify(value)}`).join("");
-    showSame(element("predict-same"), answer.command, `${pythonOf(table, chosen())}\nprint(viscard.predict(result.material${keywords}))`);
+    showSame(element("predict-same"), answer.command, `${pythonOf(pythonData(), chosen())}\nprint(viscard.predict(result.material${keywords}))`);
   }, (text) => showPredictState(text, "alert"));
 }
 
@@ -154,11 +175,19 @@ function open(name) {
   table = name;
   before = [];
   forgetOrders();
-  alsoCompare(name);
+  if (!together[name]) alsoCompare(name);
   showTables();
   element("table-name").textContent = name;
   if (view !== "table" && view !== "fit") showView("fit");
   return readAndFit();
+}
+
+function openTogether(tests) {
+  const name = tests.map((test) => test.table).join(" + ");
+  together[name] = tests;
+  delete choices[name];
+  showView("fit");
+  return open(name);
 }
 
 async function take(files) {
@@ -209,7 +238,7 @@ async function start() {
   startCard(described, makeCard);
   startTable(described, (words) => setOption("column", words));
   startPredict(described, predict);
-  startCompare({ optionsOf: (name) => choices[name] });
+  startCompare({ optionsOf: (name) => choices[name], onTogether: openTogether });
   startCheck(described);
   startScene(described, refresh);
   startReport();

@@ -7,10 +7,11 @@ import { rowsOf } from "./moduli.js";
 const kColors = ["series-1", "series-2", "series-3", "series-4", "series-5", "series-6"];
 const kMost = 6;  // colours that can be told from each other
 
-let chosen = new Set(), fits = {}, chart = null, optionsOf = () => ({}), asked = 0;
+let chosen = new Set(), fits = {}, chart = null, optionsOf = () => ({}), onTogether = () => {}, asked = 0;
 
 export function startCompare(handlers) {
-  ({ optionsOf } = handlers);
+  ({ optionsOf, onTogether } = handlers);
+  element("compare-together").addEventListener("click", () => onTogether(fitted().map((name) => ({ table: name, kind: fits[name].kind }))));
   for (const id of ["compare-log-x", "compare-log-y", "compare-relative"]) element(id).addEventListener("change", draw);
 }
 
@@ -68,6 +69,7 @@ function draw() {
   if (chart) chart.close();
   chart = null;
   const names = fitted();
+  element("compare-together").disabled = names.length < 2;
   show(element("compare-body"), names.length > 0);
   if (names.length === 0) return;
   const kinds = new Set(names.map((name) => `${fits[name].curves.argument} ${fits[name].curves.columns[0].name}`));

@@ -1,6 +1,7 @@
 // The fit of a table: data with curve, residuals, moduli, flags, number of terms.
 import { Chart, thinned } from "./charts.js";
 import { axisOf, element, make, sentence, show, showText, significant } from "./format.js";
+import { showParts, withCurves } from "./desk_tests.js";
 import { showModuli } from "./moduli.js";
 
 const kMostPoints = 3000;
@@ -81,7 +82,7 @@ function showOrders(chosen, onTerms) {
 let orders = [];
 
 export function showFit(result, chosenTerms, onTerms) {
-  fit = result;
+  fit = withCurves(result);
   // With a number of terms given the ladder has that row alone; the earlier one stays.
   if (chosenTerms === undefined || orders.length === 0) orders = fit.orders;
   fit = { ...fit, orders };
@@ -90,6 +91,7 @@ export function showFit(result, chosenTerms, onTerms) {
   showText(status, !fit.trustworthy ? "Do not trust this fit before you have opened the words beside the numbers."
     : fit.flags.length > 0 ? "The fit may be used; the words beside the numbers open what to keep in mind." : "The fit describes the data.");
   showModuli(element("moduli"), fit);
+  showParts(fit);
   element("fit-note").textContent = `${fit.n_samples} samples, ${fit.n_left_out ?? 0} rows left out. Intervals cover the scatter`
     + (fit.systematic_relative ? `; geometry and frame add ${significant(100 * fit.systematic_relative, 2)} % to E0.` : ".");
   showFlags();

@@ -68,15 +68,15 @@ export function showFields(table, chosen) {
 // "from" is a word of Python itself.
 export const keywordOf = (name) => (name === "from" ? "from_" : name.replaceAll("-", "_"));
 
-// The same in Python: keywords of viscard.fit().
-export function pythonOf(file, chosen) {
+// The same in Python: keywords of viscard.fit(). data: a file, or tests by kind.
+export function pythonOf(data, chosen) {
   const words = Object.entries(chosen).map(([name, value]) => {
     const option = options.find((one) => one.name === name);
     const isNumber = option && ["number", "whole number"].includes(option.type);
     const text = value === true ? "True" : isNumber ? String(value) : JSON.stringify(value);
     return `, ${keywordOf(name)}=${text}`;
   });
-  return `import viscard\nresult = viscard.fit(${JSON.stringify(file)}${words.join("")})`;
+  return `import viscard\nresult = viscard.fit(${JSON.stringify(data)}${words.join("")})`;
 }
 
 // Command and Python lines with a button each that copies them.

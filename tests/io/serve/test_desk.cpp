@@ -96,6 +96,42 @@ TEST_CASE("the same fit keeps its material, another one gets a name that is free
   CHECK(names_in(desk.folder()) == std::set<std::string>{"a.csv", "a.json", "a.2.json"});
 }
 
+TEST_CASE("tests of one material are fitted together, and their material is kept",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  desk.drop("b.csv", ServedDesk::example());
+  const Json tests = {{{"table", "a.csv"}, {"kind", "relaxation"}},
+                      {{"table", "b.csv"}, {"kind", "relaxation"}}};
+  const Json fitted = desk.order("fit", {{"tests", tests}}).json;
+  INFO(fitted.dump());
+  CHECK(fitted.at("command") == "viscard fit relaxation=a.csv relaxation=b.csv");
+  CHECK(fitted.at("result").at("tests").size() == 2);
+  CHECK(fitted.at("result").at("tests").at(0).at("residuals").at("fitted").size() > 10);
+  const Json wanted = {{"tests", tests}, {"card", {{"for", "abaqus"}}}};
+  for (int i = 0; i < 2; ++i) {
+    const Json card = desk.order("card", wanted).json;
+    CHECK(card.at("material") == "a+b.json");
+    CHECK(card.at("fit_command") == "viscard fit relaxation=a.csv relaxation=b.csv --out=a+b.json");
+  }
+  CHECK(desk.order("predict", {{"tests", tests}, {"predict", {{"test", "creep"}}}}).status == 200);
+  // Options that are kept beside one of them are those of all, or the request is refused.
+  REQUIRE(desk.order("table", {{"table", "a.csv"}, {"options", {{"terms", "1"}}}}).status == 200);
+  const ApiAnswer differ = desk.order("fit", {{"tests", tests}});
+  CHECK(differ.status == 422);
+  CHECK(contains(message_of(differ), "the options chosen for a.csv and b.csv differ"));
+  CHECK(desk.order("fit", {{"tests", tests}, {"options", Json::object()}}).status == 200);
+  for (const Json& wrong :
+       {Json::array(), Json::array({tests[0]}), Json("a.csv"), Json{tests[0], "b.csv"},
+        Json{tests[0], {{"table", "b.csv"}, {"kind", "--out=x"}}},
+        Json{tests[0], {{"table", "b.csv"}}}}) {
+    CAPTURE(wrong.dump());
+    CHECK(desk.order("fit", {{"tests", wrong}}).status == 400);
+  }
+  const Json gone = {tests[0], {{"table", "../c.csv"}, {"kind", "creep"}}};
+  CHECK(desk.order("fit", {{"tests", gone}}).status == 404);
+}
+
 TEST_CASE("a dropped file is written into the folder only, and replaces nothing", "[serve][desk]") {
   ServedDesk desk;
   const std::string table = ServedDesk::example();

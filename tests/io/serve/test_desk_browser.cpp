@@ -193,6 +193,11 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   REQUIRE(browser.wait_until(has_line("#compare-chart", "series-2"), 30));
   CHECK(shows(browser, "#compare-moduli", "b.csv"));
   picture_of_desk(browser, "desk_compare");
+  browser.click("#compare-together");
+  REQUIRE(shows(browser, "#fit-tests", "b.csv"));
+  CHECK(shows(browser, "#fit-same", "viscard fit relaxation=a.csv relaxation=b.csv"));
+  REQUIRE(browser.wait_until(has_line("#fit-chart", "fit"), 30));
+  picture_of_desk(browser, "desk_together");
   const auto card = desk.order("card", {{"table", "b.csv"}, {"card", {{"for", "abaqus"}}}});
   browser.click("#tab-check");
   set_field(browser, "#check-text", card.json.at("result").at("card"));

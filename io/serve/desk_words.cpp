@@ -1,0 +1,177 @@
+#include "io/serve/desk_words.h"
+
+#include "io/basics/words.h"
+#include "io/flow/words/fit_words.h"
+#include "io/serve/api_error.h"
+#include "io/serve/series_json.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace viscard {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Texts = std::vector<std::string>;
+
+constexpr std::size_t kLongestValue = 200;
+constexpr std::size_t kMostTests = 12;
+constexpr std::size_t kLongestStem = 60;
+
+Texts fit_words_of(const Json& request) {
+  FitWords unused;
+  const OptionList list = options_of(unused);
+  return words_of(request, "options", [&](const std::string& name) {
+    const Option* option = list.find(name);
+    return option != nullptr && is_offered_by_desk(*option);
+  });
+}
+
+Texts kept_options(const std::string& table, const DeskFolder& folder) {
+  return fit_words_of({{"options", options_of_words(folder.kept_words(table))}});
+}
+
+std::string stem_of(const std::string& table) {
+  return std::filesystem::path(table).stem().string();
+}
+
+void add_test(const Json& test, const DeskFolder& folder, DeskTables& out) {
+  if (!test.is_object()) throw ApiError(400, "bad-value", "a test is {\"table\", \"kind\"}");
+  const std::string name = text_at(test, "table"), kind = text_at(test, "kind");
+  folder.require_table(name);
+  const bool is_word = !kind.empty() && std::all_of(kind.begin(), kind.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || c == '-';
+  });
+  if (!is_word) throw ApiError(400, "bad-value", "'" + kind + "' is no kind of test");
+  out.names.push_back(name);
+  out.words.push_back(kind + "=" + name);
+  const std::string stem = out.stem.empty() ? stem_of(name) : out.stem + "+" + stem_of(name);
+  out.stem = stem.substr(0, kLongestStem);
+}
+
+void take_kept_options(const DeskFolder& folder, DeskTables& out) {
+  out.options = kept_options(out.names.front(), folder);
+  for (const std::string& name : out.names) {
+    if (kept_options(name, folder) == out.options) continue;
+    throw ApiError(422, "different-options",
+                   "the options chosen for " + out.names.front() + " and " + name +
+                       " differ, and tests that are fitted together have one set; choose the same "
+                       "for both, or fit them one by one");
+  }
+}
+
+}  // namespace
+
+bool is_offered_by_desk(const Option& option) {
+  static const Texts kOfSeveral{"joint", "own-terms", "specimen-id", "share", "ratio"};
+  return !option.is_file &&
+         std::find(kOfSeveral.begin(), kOfSeveral.end(), option.name) == kOfSeveral.end();
+}
+
+void add_value(const std::string& name, const Json& value, Texts& words) {
+  if (!value.is_string()) {
+    throw ApiError(400, "bad-value", "'" + name + "' must be a text, or true for a switch");
+  }
+  const auto text = value.get<std::string>();
+  const bool has_control = std::any_of(text.begin(), text.end(),
+                                       [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  if (text.size() > kLongestValue || has_control) {
+    throw ApiError(400, "bad-value", "the value of '" + name + "' is no value of an option");
+  }
+  if (!text.empty()) words.push_back("--" + name + "=" + text);
+}
+
+Texts words_of(const Json& request, const char* key,
+               const std::function<bool(const std::string&)>& may_set) {
+  Texts words;
+  if (!request.contains(key)) return words;
+  const Json& options = request.at(key);
+  if (!options.is_object()) {
+    throw ApiError(400, "bad-value", std::string("'") + key + "' must be an object");
+  }
+  for (const auto& [name, value] : options.items()) {
+    if (!may_set(name)) {
+      throw ApiError(400, "bad-value", "the page cannot set the option '" + name + "'");
+    }
+    if (value.is_boolean()) {
+      if (value.get<bool>()) words.push_back("--" + name);
+    } else if (value.is_array()) {
+      for (const Json& one : value) add_value(name, one, words);
+    } else {
+      add_value(name, value, words);
+    }
+  }
+  return words;
+}
+
+Json options_of_words(const Texts& words) {
+  FitWords unused;
+  const OptionList list = options_of(unused);
+  Json options = Json::object();
+  for (const std::string& word : words) {
+    const std::size_t sign = word.find('=');
+    const std::string name = word.starts_with("--") ? word.substr(2, sign - 2) : "";
+    const Option* option = list.find(name);
+    if (option == nullptr || !is_offered_by_desk(*option)) continue;
+    if (is_switch(*option)) {
+      options[name] = true;
+    } else if (sign == std::string::npos) {
+      continue;
+    } else if (is_list(*option)) {
+      options[name].push_back(word.substr(sign + 1));
+    } else {
+      options[name] = word.substr(sign + 1);
+    }
+  }
+  return options;
+}
+
+DeskTables tables_of(const Json& request, const DeskFolder& folder) {
+  DeskTables out;
+  if (request.contains("tests")) {
+    const Json& tests = request.at("tests");
+    if (!tests.is_array() || tests.size() < 2 || tests.size() > kMostTests) {
+      throw ApiError(400, "bad-value",
+                     "'tests' are two to " + std::to_string(kMostTests) + " of one material");
+    }
+    for (const Json& test : tests) add_test(test, folder, out);
+  } else {
+    const std::string name = text_at(request, "table");
+    folder.require_table(name);
+    out = {{name}, {word_of_file(name)}, {}, stem_of(name)};
+  }
+  if (request.contains("options")) {
+    out.options = fit_words_of(request);
+  } else {
+    take_kept_options(folder, out);
+  }
+  return out;
+}
+
+Texts fit_words(const DeskTables& tables, const Texts& more) {
+  Texts words{"fit"};
+  for (const Texts* part : {&tables.words, &tables.options, &more})
+    words.insert(words.end(), part->begin(), part->end());
+  return words;
+}
+
+std::string word_of_file(const std::string& name) {
+  const bool is_plain = name.front() != '-' && name.find('=') == std::string::npos;
+  return is_plain ? name : "./" + name;
+}
+
+Texts command_words(const char* command, const std::string& file, const Texts& options,
+                    const Texts& more) {
+  Texts words{command, word_of_file(file)};
+  words.insert(words.end(), options.begin(), options.end());
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::string typed(const Texts& words) {
+  Texts all{"viscard"};
+  all.insert(all.end(), words.begin(), words.end());
+  return quoted_for_shell(all);
+}
+
+}  // namespace viscard
