@@ -161,6 +161,7 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   const std::string example = ServedDesk::example();
   desk.drop("a.csv", "time,E" + example.substr(example.find("\n0.01,")));  // without units
   desk.drop("b.csv", example);
+  desk.drop("c.csv", example);
   Browser browser(scratch / "profile");
   browser.set_window(1280, 800, false, false);
   browser.open(desk.server().address());
@@ -193,9 +194,12 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   REQUIRE(browser.wait_until(has_line("#compare-chart", "series-2"), 30));
   CHECK(shows(browser, "#compare-moduli", "b.csv"));
   picture_of_desk(browser, "desk_compare");
+  browser.click("#compare-tables label:nth-child(1) input");
+  browser.click("#compare-tables label:nth-child(3) input");
+  REQUIRE(shows(browser, "#compare-moduli", "c.csv"));
   browser.click("#compare-together");
-  REQUIRE(shows(browser, "#fit-tests", "b.csv"));
-  CHECK(shows(browser, "#fit-same", "viscard fit relaxation=a.csv relaxation=b.csv"));
+  REQUIRE(shows(browser, "#fit-tests", "c.csv"));
+  CHECK(shows(browser, "#fit-same", "viscard fit relaxation=b.csv relaxation=c.csv"));
   REQUIRE(browser.wait_until(has_line("#fit-chart", "fit"), 30));
   picture_of_desk(browser, "desk_together");
   const auto card = desk.order("card", {{"table", "b.csv"}, {"card", {{"for", "abaqus"}}}});
