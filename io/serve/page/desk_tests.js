@@ -1,5 +1,5 @@
 // Parts of a fit that only some have: how tests that were fitted together agree, and the shift factors of a master curve.
-import { element, make, show, significant } from "./format.js";
+import { element, fixed, make, show, significant } from "./format.js";
 
 const kQuantities = { relaxation: ["modulus_Pa"], creep: ["compliance_1_Pa"], indentation: ["force_N"],
                       dma: ["storage_modulus_Pa", "loss_modulus_Pa"] };
@@ -17,7 +17,11 @@ export function withCurves(result) {
     ({ name, measured: column(1 + 3 * k), fitted: column(2 + 3 * k), sigma: column(3 + 3 * k) })) } };
 }
 
-const percent = (share, digits = 3) => `${share > 0 ? "+" : ""}${significant(100 * share, digits)} %`;
+// "+2.98 ± 0.06 %": as many decimals as the interval has meaning.
+function percentOf({ relative, interval_95: [low, high] }) {
+  const half = 50 * (high - low), decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(half || 1))));
+  return `${relative > 0 ? "+" : ""}${fixed(100 * relative, decimals)} ± ${fixed(half, decimals)} %`;
+}
 const number = (text) => make("td", { class: "number" }, text);
 const head = (...titles) => make("tr", {}, make("th", { scope: "col" }, titles[0]),
                                  ...titles.slice(1).map((title) => make("th", { scope: "col", class: "number" }, title)));
@@ -31,10 +35,9 @@ function fill(id, isThere, titles, rows) {
 }
 
 export function showParts(fit) {
-  fill("fit-tests", Boolean(fit.tests), ["Test", "Above the others", "95 % interval"], () => fit.tests.map(({ name, file, difference }) =>
+  fill("fit-tests", Boolean(fit.tests), ["Test", "Above the others, 95 %"], () => fit.tests.map(({ name, file, difference }) =>
     make("tr", { class: difference?.disagrees ? "wrong" : undefined }, make("th", { scope: "row", title: name }, file),
-         number(difference ? percent(difference.relative) : "–"),
-         number(difference ? `${percent(difference.interval_95[0])} to ${percent(difference.interval_95[1])}` : "–"))));
+         number(difference ? percentOf(difference) : "–"))));
   const { shift } = fit;
   const freeOf = (temperature) => shift.free_factors.find((one) => one.temperature_C === temperature);
   const log10 = (ln) => significant(ln / Math.LN10, 4);
