@@ -24,6 +24,9 @@ export class Chart {
     this.options = options;
     this.data = [];
     this.graph = null;
+    // Also if the view was hidden or the window another one when the chart was drawn.
+    this.observer = new ResizeObserver(() => this.graph && node.clientHeight > 0 && this.graph.resize());
+    this.observer.observe(node);
     charts.add(this);
   }
 
@@ -43,6 +46,7 @@ export class Chart {
 
   // It is not drawn again.
   close() {
+    this.observer.disconnect();
     if (this.graph) this.graph.destroy();
     this.graph = null;
     charts.delete(this);

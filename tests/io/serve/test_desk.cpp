@@ -116,11 +116,18 @@ TEST_CASE("tests of one material are fitted together, and their material is kept
     CHECK(card.at("fit_command") == "viscard fit relaxation=a.csv relaxation=b.csv --out=a+b.json");
   }
   CHECK(desk.order("predict", {{"tests", tests}, {"predict", {{"test", "creep"}}}}).status == 200);
-  // Options that are kept beside one of them are those of all, or the request is refused.
-  REQUIRE(desk.order("table", {{"table", "a.csv"}, {"options", {{"terms", "1"}}}}).status == 200);
+  // Of the options that are kept beside them those of all hold; they must be read alike.
+  const auto keep = [&](const char* table, const Json& options) {
+    REQUIRE(desk.order("table", {{"table", table}, {"options", options}}).status == 200);
+  };
+  keep("a.csv", {{"terms", "1"}, {"density", "965"}});
+  keep("b.csv", {{"terms", "2"}, {"density", "965"}});
+  CHECK(desk.order("fit", {{"tests", tests}}).json.at("command") ==
+        "viscard fit relaxation=a.csv relaxation=b.csv --density=965");
+  keep("b.csv", {{"modulus-kind", "shear"}});
   const ApiAnswer differ = desk.order("fit", {{"tests", tests}});
   CHECK(differ.status == 422);
-  CHECK(contains(message_of(differ), "the options chosen for a.csv and b.csv differ"));
+  CHECK(contains(message_of(differ), "a.csv and b.csv are not read alike (--modulus-kind=shear)"));
   CHECK(desk.order("fit", {{"tests", tests}, {"options", Json::object()}}).status == 200);
   for (const Json& wrong :
        {Json::array(), Json::array({tests[0]}), Json("a.csv"), Json{tests[0], "b.csv"},
