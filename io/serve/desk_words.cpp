@@ -49,31 +49,35 @@ void add_test(const Json& test, const DeskFolder& folder, DeskTables& out) {
   out.stem = stem.substr(0, kLongestStem);
 }
 
-// Tests that are fitted together have one set of options: those that all share. How a table is read must be the same.
+bool has(const Texts& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// A word of how a table is read that only one of them has; empty if there is none.
+std::string read_otherwise(const Texts& one, const Texts& other) {
+  for (const std::string& word : one) {
+    for (const char* name : {"--column=", "--table=", "--sheet=", "--skip=", "--modulus-kind="}) {
+      if (word.starts_with(name) && !has(other, word)) return word;
+    }
+  }
+  return "";
+}
+
+// Tests that are fitted together have one set of options: those that all share. They must be read alike.
 void take_kept_options(const DeskFolder& folder, DeskTables& out) {
-  out.options = kept_options(out.names.front(), folder);
-  static const Texts kReading{"--column=", "--table=", "--sheet=", "--skip=", "--modulus-kind="};
-  const auto reads = [](const std::string& word) {
-    return std::any_of(kReading.begin(), kReading.end(),
-                       [&](const std::string& name) { return word.starts_with(name); });
-  };
+  const Texts first = kept_options(out.names.front(), folder);
+  out.options = first;
   for (const std::string& name : out.names) {
     const Texts own = kept_options(name, folder);
-    const auto is_missing = [](const Texts& in, const std::string& word) {
-      return std::find(in.begin(), in.end(), word) == in.end();
-    };
-    for (const auto& [these, others] :
-         {std::pair(&own, &out.options), std::pair(&out.options, &own)}) {
-      const auto differing = std::find_if(
-          these->begin(), these->end(),
-          [&](const std::string& word) { return reads(word) && is_missing(*others, word); });
-      if (differing == these->end()) continue;
+    std::string differing = read_otherwise(own, first);
+    if (differing.empty()) differing = read_otherwise(first, own);
+    if (!differing.empty()) {
       throw ApiError(422, "different-options",
-                     out.names.front() + " and " + name + " are not read alike (" + *differing +
+                     out.names.front() + " and " + name + " are not read alike (" + differing +
                          "), and tests that are fitted together are; choose the same for both, or "
                          "fit them one by one");
     }
-    std::erase_if(out.options, [&](const std::string& word) { return is_missing(own, word); });
+    std::erase_if(out.options, [&](const std::string& word) { return !has(own, word); });
   }
 }
 
