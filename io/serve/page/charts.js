@@ -24,8 +24,11 @@ export class Chart {
     this.options = options;
     this.data = [];
     this.graph = null;
-    // Also if the view was hidden or the window another one when the chart was drawn.
-    this.observer = new ResizeObserver(() => this.graph && node.clientHeight > 0 && this.graph.resize());
+    // dygraphs gives what it draws while it is hidden a size of its own for good, so that waits until it is seen.
+    this.observer = new ResizeObserver(() => {
+      if (this.graph && this.isSeen()) this.graph.resize();
+      else this.buildIfSeen();
+    });
     this.observer.observe(node);
     charts.add(this);
   }
@@ -34,14 +37,22 @@ export class Chart {
     this.data = data;
     if (data.length < 2) return;
     if (this.graph) this.graph.updateOptions({ file: data, ...this.ranges() });
-    else this.build();
+    else this.buildIfSeen();
+  }
+
+  isSeen() {
+    return this.node.clientHeight > 0;
+  }
+
+  buildIfSeen() {
+    if (!this.graph && this.data.length >= 2 && this.isSeen()) this.build();
   }
 
   // Draws everything again: another theme, another test.
   rebuild() {
     if (this.graph) this.graph.destroy();
     this.graph = null;
-    if (this.data.length >= 2) this.build();
+    this.buildIfSeen();
   }
 
   // It is not drawn again.

@@ -20,7 +20,8 @@ export function withCurves(result) {
 // "+2.98 ± 0.06 %": as many decimals as the interval has meaning.
 function percentOf({ relative, interval_95: [low, high] }) {
   const half = 50 * (high - low), decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(half || 1))));
-  return `${relative > 0 ? "+" : ""}${fixed(100 * relative, decimals)} ± ${fixed(half, decimals)} %`;
+  const text = fixed(100 * relative, decimals);
+  return `${relative > 0 && Number(text) !== 0 ? "+" : ""}${text} ± ${fixed(half, decimals)} %`;
 }
 const number = (text) => make("td", { class: "number" }, text);
 const head = (...titles) => make("tr", {}, make("th", { scope: "col" }, titles[0]),

@@ -197,10 +197,14 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   browser.click("#compare-tables label:nth-child(1) input");
   browser.click("#compare-tables label:nth-child(3) input");
   REQUIRE(shows(browser, "#compare-moduli", "c.csv"));
+  browser.set_window(1280, 800, true, false);
+  browser.set_window(1280, 800, false, false);
   browser.click("#compare-together");
   REQUIRE(shows(browser, "#fit-tests", "c.csv"));
   CHECK(shows(browser, "#fit-same", "viscard fit relaxation=b.csv relaxation=c.csv"));
   REQUIRE(browser.wait_until(has_line("#fit-chart", "fit"), 30));
+  // Charts that were hidden when the colours changed fit their place.
+  CHECK(browser.run("return document.querySelector('#residual-chart').clientHeight") == 120);
   picture_of_desk(browser, "desk_together");
   const auto card = desk.order("card", {{"table", "b.csv"}, {"card", {{"for", "abaqus"}}}});
   browser.click("#tab-check");
