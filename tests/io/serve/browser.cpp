@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <thread>
 
@@ -206,6 +207,11 @@ void Browser::set_window(int width_px, int height_px, bool is_dark, bool is_phon
   tell("Emulation.setTouchEmulationEnabled", {{"enabled", is_phone}});
   tell("Emulation.setEmulatedMedia",
        {{"features", {{{"name", "prefers-color-scheme"}, {"value", is_dark ? "dark" : "light"}}}}});
+}
+
+nlohmann::json Browser::accessibility_faults() {
+  std::ifstream file(VISCARD_SOURCE_DIR "/tests/io/serve/accessibility.js");
+  return run({std::istreambuf_iterator<char>(file), {}});
 }
 
 void Browser::save_screenshot(const std::filesystem::path& png) {

@@ -36,6 +36,8 @@ class Browser {
   bool wait_until(const std::string& script, double seconds);
 
   void set_window(int width_px, int height_px, bool is_dark, bool is_phone);
+  // Faults of the page as it is shown, by WCAG 2.2 (accessibility.js), as sentences.
+  nlohmann::json accessibility_faults();
   void save_screenshot(const std::filesystem::path& png);
   // Messages of the page's console that report errors.
   nlohmann::json errors();
