@@ -21,10 +21,9 @@ using test::ScratchFolder;
 constexpr const char* kForce =
     "return parseFloat(document.getElementById('run-force').textContent) > ";
 
-// With VISCARD_SCREENSHOTS=FOLDER the test leaves pictures of the page there.
-void picture(Browser& browser, const std::string& name) {
+// The page has no fault of accessibility. With VISCARD_SCREENSHOTS=FOLDER the test leaves pictures of it there.
+void look_at(Browser& browser, const std::string& name) {
   const char* folder = std::getenv("VISCARD_SCREENSHOTS");
-  if (folder == nullptr) return;
   const struct {
     const char* ending;
     int width, height;
@@ -36,6 +35,9 @@ void picture(Browser& browser, const std::string& name) {
   for (const auto& view : views) {
     browser.set_window(view.width, view.height, view.is_dark, view.is_phone);
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    CAPTURE(name, view.ending);
+    CHECK(browser.accessibility_faults() == nlohmann::json::array());
+    if (folder == nullptr) continue;
     browser.save_screenshot(std::filesystem::path(folder) / (name + "_" + view.ending + ".png"));
   }
   browser.set_window(1280, 1000, false, false);
@@ -60,17 +62,17 @@ TEST_CASE("a person starts a run on the page, sees the force rise, and stops it"
   CHECK(browser.run("return location.hash") == "");  // the token does not stay in the address line
   browser.run("document.querySelector('a.skip').click()");  // a hash that is no token
   CHECK(browser.run("return location.hash") == "#content");
-  picture(browser, "1_empty");
+  look_at(browser, "1_empty");
 
   browser.click("#add-submit");
   browser.type("#plan-hold_s", "300");
-  picture(browser, "2_ready");
+  look_at(browser, "2_ready");
   browser.click("#start");
   REQUIRE(browser.wait_until(std::string(kForce) + "0.1", 60));
   REQUIRE(browser.wait_until(std::string(kForce) + "1.0", 60));
   CHECK(browser.is_shown("#stop-gently"));
   CHECK(browser.run("return document.querySelectorAll('#run-chart canvas').length > 0") == true);
-  picture(browser, "3_running");
+  look_at(browser, "3_running");
 
   browser.open("about:blank");  // closing the page stops nothing
   CHECK(server.last_run().is_running);
@@ -79,7 +81,7 @@ TEST_CASE("a person starts a run on the page, sees the force rise, and stops it"
   REQUIRE(browser.wait_until("return !!document.getElementById('outcome-text')", 60));
   CHECK(contains(browser.text("#outcome-text"), "above the contact"));
   CHECK_FALSE(browser.is_shown("#stop-bar"));
-  picture(browser, "4_stopped");
+  look_at(browser, "4_stopped");
   CHECK_FALSE(server.last_run().is_running);
   const CapturedRun run = read_capture(scratch / "series/01_pdms-1to10.viscap");
   CHECK(run.status == "interrupted");
@@ -142,7 +144,7 @@ TEST_CASE("three specimens go through the page one after another, with the fit o
     CHECK(read_capture(scratch / ("series/" + name + ".viscap")).status == "finished");
     CHECK(std::filesystem::exists(scratch / ("series/" + name + ".json")));
   }
-  picture(browser, "5_result");
+  look_at(browser, "5_result");
   // Escape stops a run.
   browser.type("#plan-hold_s", "600");
   browser.click("#start");
