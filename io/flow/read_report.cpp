@@ -1,5 +1,6 @@
 #include "io/flow/read_report.h"
 
+#include "io/basics/data_uri.h"
 #include "io/basics/program.h"
 #include "io/flow/test_words.h"
 #include "io/materials/hyperelastic_file.h"
@@ -82,6 +83,7 @@ ReportInput read_report(const ReportRequest& request, const std::string& title,
                         const FlowProgress& progress) {
   ReportInput input;
   input.title = title;
+  if (!request.logo.empty()) input.logo_uri = data_uri_of_picture(request.logo);
   input.created_by = program_with_version();
   input.created_at = request.created_at;
   input.command = request.command;

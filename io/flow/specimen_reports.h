@@ -20,6 +20,7 @@ struct ReportRequest {
   std::vector<std::string> truth_files;
   std::vector<std::string> card_targets;
   std::string card_units;
+  std::string logo;        // a picture above the heading; empty: none
   std::string created_at;  // ISO 8601
   std::string command;
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value

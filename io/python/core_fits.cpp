@@ -98,9 +98,10 @@ py::dict next_test(const std::string& path, const std::vector<std::string>& want
 // Writes the page about captures, tables and materials. Returns what is not to be trusted on it.
 std::vector<std::string> report(const std::vector<std::string>& files, const std::string& page,
                                 const std::string& title, const std::vector<std::string>& cards,
-                                const std::string& units, bool overwrite, bool reproducible,
-                                const std::string& plausible, const py::object& progress) {
-  ReportRequest request{.files = files, .card_targets = cards, .card_units = units};
+                                const std::string& units, const std::string& logo, bool overwrite,
+                                bool reproducible, const std::string& plausible,
+                                const py::object& progress) {
+  ReportRequest request{.files = files, .card_targets = cards, .card_units = units, .logo = logo};
   request.command = "viscard.report()";
   request.plausible = judged_by(plausible);
   if (!reproducible) request.created_at = now_iso8601();

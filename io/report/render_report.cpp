@@ -71,7 +71,10 @@ std::string html_from_page(const ReportInput& input, const Page& page) {
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       title + "</title>\n<style>" + report_style() + "</style>\n</head>\n<body>\n";
   html +=
-      "<header class=\"top\">\n<p class=\"by\">" + byline(input) + "</p>\n<h1>" + title + "</h1>\n";
+      "<header class=\"top\">\n" +
+      (input.logo_uri.empty() ? ""
+                              : "<img class=\"logo\" alt=\"\" src=\"" + input.logo_uri + "\">\n") +
+      "<p class=\"by\">" + byline(input) + "</p>\n<h1>" + title + "</h1>\n";
   if (!input.introduction.empty()) {
     html += "<p class=\"lead\">" + escaped_markup(input.introduction) + "</p>\n";
   }

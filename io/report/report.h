@@ -84,6 +84,7 @@ struct RubberReport {
 struct ReportInput {
   std::string title;
   std::string introduction;  // one paragraph, may be empty
+  std::string logo_uri;      // data_uri_of_picture(), may be empty
   std::vector<SpecimenReport> specimens;
   std::optional<MixingLaw> law;
   std::vector<RubberReport> rubbers;

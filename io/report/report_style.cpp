@@ -12,6 +12,7 @@ body { margin: 0; color: var(--ink); background: var(--page);
   font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "DejaVu Sans", Arial, sans-serif; }
 main, header.top, footer { max-width: 1104px; margin: 0 auto; padding: 0 32px; }
 header.top { padding-top: 44px; }
+.logo { display: block; max-width: 240px; max-height: 72px; margin-bottom: 14px; }
 footer { padding-top: 8px; padding-bottom: 48px; color: var(--soft); font-size: 14px; }
 h1 { font-size: 30px; line-height: 1.2; margin: 0 0 10px; letter-spacing: -0.01em; }
 h2 { font-size: 21px; margin: 52px 0 10px; padding-top: 14px; border-top: 1px solid var(--line); }

@@ -55,6 +55,9 @@ bool is_material_of(const std::filesystem::path& path, const std::string& comman
   }
 }
 
+// Words for every page of this folder, one a line: --logo=logo.svg.
+constexpr const char* kReportOptions = "report.options";
+
 constexpr std::size_t kLongestScene_B = std::size_t{1} << 20;
 
 // Name and first line of the scenes that come with viscard.
@@ -365,6 +368,8 @@ Json DeskApi::report(const Json& request) {
     folder_.require_table(one.get<std::string>());
     words.push_back(word_of_file(one.get<std::string>()));
   }
+  if (std::filesystem::exists(folder_.path() / kReportOptions))
+    words.push_back(std::string("@") + kReportOptions);
   if (request.contains("title")) add_value("title", request.at("title"), words);
   const ScratchFolder scratch;
   const std::filesystem::path page = scratch.path() / "report.html";

@@ -27,7 +27,7 @@ namespace {
 // The options of `viscard report`.
 struct ReportWords {
   std::vector<std::string> files, truth, cards;
-  std::optional<std::string> out, pictures;
+  std::optional<std::string> out, pictures, logo;
   std::string title = "Soft polymer, from load cell to material", units = "mm-t-s";
   bool is_reproducible = false, overwrite = false, unverified = false;
   Plausible plausible = Plausible::kMeasured;
@@ -49,6 +49,10 @@ CommandSyntax report_syntax(ReportWords& words) {
   OptionList& options = syntax.options;
   options.add("out", &words.out, "the page");
   options.add("title", &words.title, "heading of the page");
+  options.add(
+      "logo", &words.logo,
+      "picture above the heading, PNG, JPEG or SVG (a file of options, @FILE, keeps it for all "
+      "pages)");
   options.add("truth", &words.truth,
               "truth of an emulated specimen; once for each capture, in their order. Default: the "
               "file that capture --emulate wrote beside the capture");
@@ -66,8 +70,9 @@ CommandSyntax report_syntax(ReportWords& words) {
 }
 
 ReportRequest checked_words(const ReportWords& asked, const Words& words) {
-  ReportRequest report{asked.files, {},          {}, asked.truth,
-                       asked.cards, asked.units, "", quoted_command_line("report", words)};
+  ReportRequest report{asked.files, {},          {},
+                       asked.truth, asked.cards, asked.units,
+                       "",          "",          quoted_command_line("report", words)};
   try {
     sort_inputs(report);
   } catch (const std::invalid_argument& error) {
@@ -89,6 +94,7 @@ ReportRequest checked_words(const ReportWords& asked, const Words& words) {
                                  counted(measured_count(report.files), "capture")));
   }
   report.plausible = asked.plausible;
+  report.logo = asked.logo.value_or("");
   report.accepts_unverified = asked.unverified;
   if (!asked.is_reproducible) report.created_at = now_iso8601();
   return report;

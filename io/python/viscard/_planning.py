@@ -97,7 +97,7 @@ def next_test(capture: Union[Path, Capture], want: Union[str, Sequence[str]], **
 
 @_check.arguments
 def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell to material", cards: Texts = None,
-           units: str = "mm-t-s", overwrite: bool = False, reproducible: bool = False, plausible: str = "on",
+           units: str = "mm-t-s", logo: OptionalPath = None, overwrite: bool = False, reproducible: bool = False, plausible: str = "on",
            progress: Progress = None) -> None:
     """Write one HTML page about captures, tables and materials, as ``viscard report`` does.
 
@@ -115,6 +115,8 @@ def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell t
         Targets of cards to show; default: abaqus, ansys, febio and json.
     units : str
         Unit system of the cards.
+    logo : path
+        Picture above the heading (PNG, JPEG or SVG).
     reproducible : bool
         Leave out the date, so that the same input gives the same bytes.
     plausible : "on" or "off"
@@ -133,7 +135,7 @@ def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell t
     if os.path.exists(page) and not overwrite:
         _core.write_file(page, "", False)  # refuses before the work begins
     targets = [cards] if isinstance(cards, str) else list(cards or ("abaqus", "ansys", "febio", "json"))
-    for defect in _core.report(given.words, page, title, targets, units, overwrite, reproducible, plausible, progress):
+    for defect in _core.report(given.words, page, title, targets, units, "" if logo is None else os.fspath(logo), overwrite, reproducible, plausible, progress):
         warnings.warn(defect, DoubtWarning, stacklevel=3)
 
 

@@ -62,6 +62,36 @@ std::string write_material(const test::ScratchFolder& folder) {
 
 }  // namespace
 
+TEST_CASE("a page has the logo of its file of options", "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string material = write_material(folder), page = (folder / "page.html").string();
+  const std::string logo = (folder / "logo.svg").string(),
+                    words = (folder / "house.options").string();
+  const auto report = [&](const std::string& picture) {
+    write_text(logo, picture);
+    write_text(words, "--title=House\n--logo=" + logo + "\n");
+    return run_command({"report", material, "@" + words, "--out", page, "--force"});
+  };
+  const auto made = report("<svg xmlns='http://www.w3.org/2000/svg'/>");
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  // RFC 4648 of the text above, by another program.
+  CHECK(contains(contents_of(page),
+                 "<img class=\"logo\" alt=\"\" src=\"data:image/svg+xml;base64,"
+                 "PHN2ZyB4bWxucz0naHR0cDovL3d3dy53My5vcmcvMjAwMC9zdmcnLz4=\">"));
+  CHECK(contains(contents_of(page), "<h1>House</h1>"));
+  REQUIRE(report("\x89PNG\r\n\x1a\n" + std::string(10, '\0')).status == 0);
+  CHECK(contains(contents_of(page), "data:image/png;base64,iVBORw0KGgoA"));
+  const std::string before = contents_of(page);
+  for (const std::string& wrong : {std::string("no picture"), std::string(),
+                                   "<svg" + std::string(std::size_t{2} << 20, ' ')}) {
+    const auto refused = report(wrong);
+    CHECK(refused.status == 1);
+    CHECK(contains(refused.err, logo));
+    CHECK(contents_of(page) == before);
+  }
+}
+
 TEST_CASE("a capture becomes a page with fit, truth, pillar and cards", "[cli][report]") {
   const test::ScratchFolder folder;
   const std::string capture = (folder / "run.viscap").string();
