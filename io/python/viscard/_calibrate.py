@@ -34,6 +34,7 @@ class Calibration(Result):
         super().__init__(found["result"])
         self.record: str = found["record"]
 
+    @_check.arguments
     def save(self, path: Path, overwrite: bool = False) -> None:
         """Write the record; an existing file is kept unless `overwrite` is True."""
         _core.write_file(os.fspath(path), self.record, overwrite)
