@@ -112,18 +112,19 @@ void show_systematic(ResultVisitor& v, const FitResult& fit, const ModulusNames&
 }
 
 void show_measured_ends(ResultVisitor& v, const FitResult& fit, const ModulusNames& names) {
-  const auto& [letter, stem, unit] = names;
   v.when(fit.first.has_value(), [&] {
     const FirstModulus first = fit.first.value_or(FirstModulus{});
-    v(letter + "_first_sample" + unit, first.modulus_Pa, "relaxation modulus at the first sample");
-    v(letter + "_first_sample_interval_95", first.interval_95, "its 95 % interval, [low, high]");
+    v(names.letter + "_first_sample" + names.unit, first.modulus_Pa,
+      "relaxation modulus at the first sample");
+    v(names.letter + "_first_sample_interval_95", first.interval_95,
+      "its 95 % interval, [low, high]");
     v("first_sample_s", first.time_s, "time of the first sample");
   });
   v.when(fit.highest.has_value(), [&] {
     const HighestStorage highest = fit.highest.value_or(HighestStorage{});
-    v(letter + "_storage_highest" + unit, highest.modulus_Pa,
+    v(names.letter + "_storage_highest" + names.unit, highest.modulus_Pa,
       "storage modulus at the highest frequency");
-    v(letter + "_storage_highest_interval_95", highest.interval_95,
+    v(names.letter + "_storage_highest_interval_95", highest.interval_95,
       "its 95 % interval, [low, high]");
     v("highest_frequency_Hz", highest.frequency_Hz, "highest frequency of an oscillation");
   });
