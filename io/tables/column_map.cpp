@@ -3,6 +3,7 @@
 #include "io/basics/number_text.h"
 #include "io/basics/units.h"
 #include "io/basics/words.h"
+#include "io/tables/column_match.h"
 #include "io/tables/column_names.h"
 #include "io/tables/csv_dialect.h"
 #include "models/maths/text_of_number.h"

@@ -2,6 +2,7 @@
 
 #include "io/basics/number_text.h"
 #include "io/basics/units.h"
+#include "io/tables/column_match.h"
 #include "io/tables/column_names.h"
 #include "io/tables/header_words.h"
 

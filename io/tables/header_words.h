@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/tables/column_names.h"
+#include "io/tables/csv_table.h"
 
 #include <string>
 #include <vector>

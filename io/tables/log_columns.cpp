@@ -1,5 +1,6 @@
 #include "io/tables/log_columns.h"
 
+#include "io/tables/column_match.h"
 #include "io/tables/column_names.h"
 #include "io/tables/csv_header.h"
 

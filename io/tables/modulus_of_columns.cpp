@@ -1,5 +1,6 @@
 #include "io/tables/modulus_of_columns.h"
 
+#include "io/tables/column_match.h"
 #include "io/tables/column_names.h"
 #include "io/tables/header_words.h"
 

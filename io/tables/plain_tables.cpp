@@ -2,6 +2,7 @@
 
 #include "io/basics/units.h"
 #include "io/tables/clock_times.h"
+#include "io/tables/column_match.h"
 #include "io/tables/column_names.h"
 #include "io/tables/csv_dialect.h"
 #include "io/tables/csv_header.h"

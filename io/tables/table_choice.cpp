@@ -1,6 +1,7 @@
 #include "io/tables/table_choice.h"
 
 #include "io/tables/column_map.h"
+#include "io/tables/column_match.h"
 #include "io/tables/column_names.h"
 #include "models/maths/text_of_number.h"
 
