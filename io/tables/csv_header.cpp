@@ -29,6 +29,15 @@ std::string lower_case(const std::string& text) {
       out[i + 1] = static_cast<char>(second);
     };
     if (lead == 0xC3 && next >= 0x80 && next <= 0x9E && next != 0x97) put(lead, next + 0x20);
+    // Latin Extended-A: a small letter follows its capital, which has an even code up to Ķ and from Ŋ to Ŷ, and else
+    // an odd one.
+    const bool is_even = next % 2 == 0;
+    const bool after_even =
+        (lead == 0xC4 && next <= 0xB7) || (lead == 0xC5 && next >= 0x8A && next <= 0xB7);
+    const bool after_odd =
+        (lead == 0xC4 && next >= 0xB9 && next < 0xBF) ||
+        (lead == 0xC5 && ((next >= 0x81 && next <= 0x88) || (next >= 0xB9 && next <= 0xBD)));
+    if ((after_even && is_even) || (after_odd && !is_even)) put(lead, next + 1);
     if (lead == 0xCE && next >= 0x91 && next <= 0x9F) put(lead, next + 0x20);
     if (lead == 0xCE && next >= 0xA0 && next <= 0xA9) put(0xCF, next - 0x20);
     if (lead == 0xD0 && next >= 0x90 && next <= 0x9F) put(lead, next + 0x20);
