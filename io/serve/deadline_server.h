@@ -1,6 +1,8 @@
 #pragma once
 
 #include <httplib.h>
+// <resolv.h> of glibc, which it includes, has a macro of this name, and Eigen a parameter.
+#undef _res
 
 #include <chrono>
 #include <cstddef>

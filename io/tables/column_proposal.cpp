@@ -15,7 +15,7 @@
 namespace viscard {
 namespace {
 
-constexpr std::size_t kMostColumns = 12;
+constexpr std::size_t kMostShown = 12;
 
 // The columns that hold numbers only and do not just count the rows.
 std::vector<std::size_t> number_columns(const CsvTable& table) {
@@ -114,7 +114,7 @@ std::string words_of_sweep(const CsvTable& table, std::vector<std::size_t> colum
 std::string columns_with_values(const CsvTable& table) {
   constexpr std::size_t kValues = 3;
   std::string text;
-  for (std::size_t i = 0; i < std::min(table.columns.size(), kMostColumns); ++i) {
+  for (std::size_t i = 0; i < std::min(table.columns.size(), kMostShown); ++i) {
     const CsvColumn& column = table.columns[i];
     text += (i == 0 ? "" : ", ") + std::to_string(i + 1);
     if (!column.header.empty()) text += " '" + column.header + "'";
@@ -130,8 +130,8 @@ std::string columns_with_values(const CsvTable& table) {
     }
     text += column.values.size() > n ? ", ...)" : ")";
   }
-  if (table.columns.size() > kMostColumns) {
-    text += " and " + std::to_string(table.columns.size() - kMostColumns) + " more";
+  if (table.columns.size() > kMostShown) {
+    text += " and " + std::to_string(table.columns.size() - kMostShown) + " more";
   }
   return text;
 }

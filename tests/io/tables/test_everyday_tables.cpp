@@ -108,14 +108,17 @@ TEST_CASE("rows with gaps in a column that is used are left out and counted", "[
 }
 
 TEST_CASE("clock times become seconds", "[io][csv]") {
-  const auto seconds = [](const char* cell) { return clock_time_from(cell)->seconds; };
+  const auto seconds = [](const char* cell, DateOrder order = DateOrder::kDayFirst) {
+    return clock_time_from(cell, order).value().seconds;
+  };
   CHECK(seconds("01:02:03") == 3723.0);
   CHECK(seconds("02:03") == 123.0);
-  CHECK(clock_time_from("00:00:01,250")->fraction == 0.25);
+  CHECK(clock_time_from("00:00:01,250").value().fraction == 0.25);
   CHECK(seconds("1970-01-02T00:00:01Z") == 86401.0);
   CHECK(seconds("2024-02-29 12:00:00") == 1709208000.0);  // of the command date -u
   CHECK(seconds("29.02.2024 12:00:00") == 1709208000.0);
-  CHECK(seconds("2/29/2024 12:00:00 PM") == 1709208000.0);
+  CHECK(seconds("2/29/2024 12:00:00 PM", DateOrder::kMonthFirst) == 1709208000.0);
+  CHECK_FALSE(clock_time_from("2/29/2024 12:00:00 PM").has_value());
   for (const char* none : {"12", "1.5", "a:b", "12:61:00", "2024-02-30 10:00:00", "12:00:00 x"}) {
     CAPTURE(none);
     CHECK_FALSE(clock_time_from(none).has_value());
