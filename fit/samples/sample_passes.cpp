@@ -16,7 +16,7 @@ VISCARD_WIDE_LOOP double sum_of_samples(const double* values, std::size_t count)
   Lanes sums[4] = {};
   std::size_t i = 0;
   for (; i + 4 * kLanes <= count; i += 4 * kLanes) {
-    for (std::size_t k = 0; k < 4; ++k) sums[k] += *lanes_at(values + i + k * kLanes);
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += lanes_at(values + i + k * kLanes)->lanes;
   }
   double sum = total(sums[0]) + total(sums[1]) + total(sums[2]) + total(sums[3]);
   for (; i < count; ++i) sum += values[i];
@@ -28,7 +28,7 @@ VISCARD_WIDE_LOOP bool all_samples_finite(const double* values, std::size_t coun
   Lanes sums[4] = {};
   std::size_t i = 0;
   for (; i + 4 * kLanes <= count; i += 4 * kLanes) {
-    for (std::size_t k = 0; k < 4; ++k) sums[k] += 0.0 * *lanes_at(values + i + k * kLanes);
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += 0.0 * lanes_at(values + i + k * kLanes)->lanes;
   }
   double sum = total(sums[0]) + total(sums[1]) + total(sums[2]) + total(sums[3]);
   for (; i < count; ++i) sum += 0.0 * values[i];
@@ -44,7 +44,7 @@ VISCARD_WIDE_LOOP StepRange steps_of_samples(const double* times, std::size_t co
   for (; i + kChains * kLanes <= count; i += kChains * kLanes) {
     for (std::size_t k = 0; k < kChains; ++k) {
       const double* at = times + i + k * kLanes;
-      const Lanes step = *lanes_at(at) - *lanes_at(at - 1);
+      const Lanes step = lanes_at(at)->lanes - lanes_at(at - 1)->lanes;
       lows[k] = step < lows[k] ? step : lows[k];
       highs[k] = step > highs[k] ? step : highs[k];
     }
@@ -65,8 +65,8 @@ VISCARD_WIDE_LOOP bool has_far_sample(const double* values, std::size_t count, d
   Flags any = {};
   std::size_t i = 0;
   for (; i + kLanes <= count; i += kLanes) {
-    const Lanes from =
-        *lanes_at(values + i) - 0.5 * (*lanes_at(values + i - 1) + *lanes_at(values + i + 1));
+    const Lanes from = lanes_at(values + i)->lanes -
+                       0.5 * (lanes_at(values + i - 1)->lanes + lanes_at(values + i + 1)->lanes);
     any |= (from > far) | (from < -far);
   }
   bool is_any = (any[0] | any[1] | any[2] | any[3]) != 0;
@@ -81,8 +81,8 @@ VISCARD_WIDE_LOOP void add_powers(const double* times, const double* values, std
   Lanes s[11] = {};
   std::size_t i = 0;
   for (; i + kLanes <= count; i += kLanes) {
-    const Lanes d = *lanes_at(times + i) - centre;
-    const Lanes y = *lanes_at(values + i) - level;
+    const Lanes d = lanes_at(times + i)->lanes - centre;
+    const Lanes y = lanes_at(values + i)->lanes - level;
     const Lanes dd = d * d, ddd = dd * d;
     s[0] += d;
     s[1] += dd;

@@ -1,5 +1,6 @@
 # cmake -DSOURCE=FOLDER -DOUT=FILE [-DCOMMIT=TEXT] -P commit.cmake: writes the commit of the source as a C++ literal,
 # only if it is another than FILE holds.
+cmake_policy(VERSION 3.25)
 if(NOT COMMIT)
   set(COMMIT no.commit)
   find_program(GIT git)

@@ -11,7 +11,7 @@ VISCARD_WIDE_LOOP double dot_of_samples(const double* a, const double* b, std::s
   std::size_t i = 0;
   for (; i + 4 * kLanes <= count; i += 4 * kLanes) {
     for (std::size_t k = 0; k < 4; ++k) {
-      sums[k] += *lanes_at(a + i + k * kLanes) * *lanes_at(b + i + k * kLanes);
+      sums[k] += lanes_at(a + i + k * kLanes)->lanes * lanes_at(b + i + k * kLanes)->lanes;
     }
   }
   double sum = total(sums[0]) + total(sums[1]) + total(sums[2]) + total(sums[3]);
@@ -25,9 +25,9 @@ VISCARD_WIDE_LOOP void products_of_4_by_2(const double* a, const double* b, std:
   Lanes sums[8] = {};
   std::size_t i = 0;
   for (; i + kLanes <= rows; i += kLanes) {
-    const Lanes b0 = *lanes_at(b + i), b1 = *lanes_at(b + rows + i);
+    const Lanes b0 = lanes_at(b + i)->lanes, b1 = lanes_at(b + rows + i)->lanes;
     for (std::size_t k = 0; k < 4; ++k) {
-      const Lanes ak = *lanes_at(a + k * rows + i);
+      const Lanes ak = lanes_at(a + k * rows + i)->lanes;
       sums[k] += ak * b0;
       sums[4 + k] += ak * b1;
     }

@@ -16,14 +16,20 @@ namespace viscard {
 
 // Sums in four lanes, added at the end, so that an addition does not wait for the previous one.
 constexpr std::size_t kLanes = 4;
-using Lanes = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 
-inline const Lanes* lanes_at(const double* values) {
-  return reinterpret_cast<const Lanes*>(values);
+// Four numbers of an array, at any address: clang takes a vector that is aligned by its type for one at a multiple
+// of its size.
+struct __attribute__((packed, may_alias)) LanesInMemory {
+  Lanes lanes;
+};
+
+inline const LanesInMemory* lanes_at(const double* values) {
+  return reinterpret_cast<const LanesInMemory*>(values);
 }
 
-inline Lanes* lanes_at(double* values) {
-  return reinterpret_cast<Lanes*>(values);
+inline LanesInMemory* lanes_at(double* values) {
+  return reinterpret_cast<LanesInMemory*>(values);
 }
 
 inline double total(const Lanes& lanes) {

@@ -32,12 +32,12 @@ template <int kReadings, int kOutputs>
     const double* at = values + row.around[p] * (kReadings * kLanes);
     for (int o = 0; o < kOutputs; ++o) {
       for (int r = 0; r < kReadings; ++r) {
-        sum[o] += *number++ * *lanes_at(at + static_cast<std::size_t>(r) * kLanes);
+        sum[o] += *number++ * lanes_at(at + static_cast<std::size_t>(r) * kLanes)->lanes;
       }
     }
   }
   for (int o = 0; o < kOutputs; ++o)
-    *lanes_at(sums + static_cast<std::size_t>(o) * kLanes) = sum[o];
+    lanes_at(sums + static_cast<std::size_t>(o) * kLanes)->lanes = sum[o];
 }
 
 VISCARD_WIDE_LOOP void sum_one_to_one(const std::vector<StencilSums::Row>& rows,

@@ -27,11 +27,11 @@ VISCARD_WIDE_LOOP void add_product(int columns, const int* outer, const int* row
     while (at < end) {
       const int first = row[at];
       if (at + kBlock <= end && row[at + kBlock - 1] == first + kBlock - 1) {
-        const Lanes low = *lanes_at(value + at), high = *lanes_at(value + at + kLanes);
-        sums[0] += low * *lanes_at(x + first);
-        sums[1] += high * *lanes_at(x + first + kLanes);
-        *lanes_at(y + first) += low * own;
-        *lanes_at(y + first + kLanes) += high * own;
+        const Lanes low = lanes_at(value + at)->lanes, high = lanes_at(value + at + kLanes)->lanes;
+        sums[0] += low * lanes_at(x + first)->lanes;
+        sums[1] += high * lanes_at(x + first + kLanes)->lanes;
+        lanes_at(y + first)->lanes += low * own;
+        lanes_at(y + first + kLanes)->lanes += high * own;
         at += kBlock;
         continue;
       }
