@@ -71,10 +71,9 @@ ReadingNoise noise_of_scatter(const SizesByLevel& scatter, double of_median) {
     return {sigma, 0.0, false};
   }
   // a + b x with weights count/variance^2 (the variance of a variance), found in a few rounds.
-  double a = 0.0, b = 0.0, mean = 0.0, total = 0.0, mean_square = 0.0;
+  double a = 0.0, b = 0.0, mean = 0.0, total = 0.0;
   for (const LevelClass& one : classes) {
     mean += one.count * one.variance;
-    mean_square += one.count * one.square;
     total += one.count;
   }
   a = mean / total;

@@ -83,6 +83,7 @@ MatrixXd HouseholderQr::basis() const {
 }
 
 MatrixXd HouseholderQr::rotated(const MatrixXd& vectors) const {
+  if (vectors.cols() == 0) return vectors;  // Eigen counts on from the null pointer of no numbers
   return factor_.householderQ().adjoint() * vectors;
 }
 
