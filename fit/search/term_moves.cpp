@@ -41,6 +41,7 @@ class ReductionCosts {
     const HouseholderQr qr(values * scale.cwiseInverse().asDiagonal());
     const Eigen::MatrixXd inverse = scale.cwiseInverse().asDiagonal() * qr.upper_inverse();
     inverse_gram_ = inverse * inverse.transpose();
+    if (n < 2) return;  // nothing to merge
     const Eigen::MatrixXd rotated = qr.rotated(offered);
     shares_ = inverse * rotated.topRows(values.cols());
     outside_ = rotated.bottomRows(rotated.rows() - values.cols()).colwise().squaredNorm();
