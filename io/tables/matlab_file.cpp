@@ -130,13 +130,21 @@ void add_columns(const matvar_t& variable, const std::string& name,
   if (!values.empty()) add_columns(values, width, rows, name, columns);
 }
 
-void add_fields(matvar_t& variable, std::vector<NamedColumn>& columns) {
+// Names and contents of the first element's fields. A damaged struct has names without data, which the library
+// would read all the same.
+std::vector<std::pair<std::string, matvar_t*>> fields_of(matvar_t& variable) {
+  std::vector<std::pair<std::string, matvar_t*>> fields;
   char* const* names = Mat_VarGetStructFieldnames(&variable);
-  const unsigned n = Mat_VarGetNumberOfFields(&variable);
-  for (unsigned i = 0; names != nullptr && i < n; ++i) {
-    const matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
-    if (field != nullptr) add_columns(*field, names[i], columns);
+  if (names == nullptr || variable.data == nullptr) return fields;
+  for (unsigned i = 0; i < Mat_VarGetNumberOfFields(&variable); ++i) {
+    matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
+    if (field != nullptr && names[i] != nullptr) fields.emplace_back(names[i], field);
   }
+  return fields;
+}
+
+void add_fields(matvar_t& variable, std::vector<NamedColumn>& columns) {
+  for (const auto& [name, field] : fields_of(variable)) add_columns(*field, name, columns);
 }
 
 // True if a variable, or a field of it, claims more numbers than the file has bytes: the library
@@ -149,13 +157,9 @@ bool claims_too_much(matvar_t& variable, std::size_t n_bytes) {
   }
   if (left == 0) return true;
   if (variable.class_type != MAT_C_STRUCT) return false;
-  char* const* names = Mat_VarGetStructFieldnames(&variable);
-  const unsigned n = names == nullptr ? 0 : Mat_VarGetNumberOfFields(&variable);
-  for (unsigned i = 0; i < n; ++i) {
-    matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
-    if (field != nullptr && claims_too_much(*field, n_bytes)) return true;
-  }
-  return false;
+  const auto fields = fields_of(variable);
+  return std::any_of(fields.begin(), fields.end(),
+                     [&](const auto& named) { return claims_too_much(*named.second, n_bytes); });
 }
 
 bool claims_too_much(mat_t* file, std::size_t n_bytes) {
