@@ -76,12 +76,7 @@ int dispatch(const Words& typed, Streams& streams) {
   }
   if (words[0] == "--version") {
     if (std::find(words.begin(), words.end(), "--json") != words.end()) {
-      print_result(
-          {"viscard-version/1", {}}, [](ResultVisitor& v) {
-            v("program", "viscard", "viscard");
-            v("source", program_version(), "version and commit of the source");
-          },
-          streams);
+      print_result({"viscard-version/1", {}}, show_version, streams);
     } else {
       streams.out << program_with_version() << "\n";
     }

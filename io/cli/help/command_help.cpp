@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
+#include "io/basics/program.h"
 #include "io/basics/words.h"
 #include "io/cli/help/documents.h"
 #include "io/cli/words/help_text.h"
@@ -43,6 +44,15 @@ void show_page(ResultVisitor& v, const std::string& page) {
   v.when(!page.empty(), [&] { v("manual_page", page, "source of the manual page, with --man"); });
 }
 
+}  // namespace
+
+void show_version(ResultVisitor& v) {
+  v("program", "viscard", "viscard");
+  v("source", program_version(), "version and commit of the source");
+}
+
+namespace {
+
 // Those of no command of their own, and of this one.
 std::vector<DescribedResult> common_results() {
   DescribedResult error{"error",
@@ -50,9 +60,7 @@ std::vector<DescribedResult> common_results() {
                         {[](ResultVisitor& v) { v("error", CommandError{}, "why it failed"); }}};
   error.has_inputs = false;
   return {error,
-          {"version", "viscard --version", {[](ResultVisitor& v) {
-             v("program", "viscard", "viscard");
-           }}},
+          {"version", "viscard --version", {show_version}},
           {"help", "viscard help COMMAND, viscard COMMAND --help", {[](ResultVisitor& v) {
              show_keys(v, CommandSyntax{});
              show_page(v, "");

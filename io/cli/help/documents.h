@@ -18,6 +18,9 @@ using CommandDocuments = std::vector<CommandDocument>;
 // Asks all commands for their syntax, also help and completion.
 using AskDocuments = std::function<CommandDocuments()>;
 
+// Keys of viscard --version --json.
+void show_version(ResultVisitor& v);
+
 // viscard help: the overview, the help of a command, or a manual page.
 // names: of all commands; overview: what `viscard --help` prints.
 int run_help(const Words& words, Streams& streams, const Words& names,
