@@ -52,9 +52,13 @@ class Reader {
   bool lengths_fit(const Element& element, int depth = 0) const {
     if (element.type == kPacked || depth > kDeepest) return false;
     if (element.type != kMatrix) return true;
-    for (std::string_view rest = element.contents; !rest.empty();) {
+    std::optional<Element> before;  // of the dimensions: what kind of array it is
+    int n_inner = 0;
+    for (std::string_view rest = element.contents; !rest.empty(); ++n_inner) {
       const std::optional<Element> inner = first(rest);
       if (!inner || !lengths_fit(*inner, depth + 1)) return false;
+      if (n_inner == 1 && !dimensions_fit(*before, *inner, element.contents.size())) return false;
+      before = inner;
       // Each begins at a multiple of 8 bytes; the last one may lack its padding.
       const auto end = static_cast<std::size_t>(inner->contents.end() - rest.begin());
       rest.remove_prefix(std::min(rest.size(), (end + 7) / 8 * 8));
@@ -63,6 +67,24 @@ class Reader {
   }
 
  private:
+  // True if an array, of whose numbers, letters or parts each takes a byte at least, can have these dimensions: the library
+  // asks for the memory of all parts of a struct before it reads one.
+  bool dimensions_fit(const Element& flags, const Element& dimensions, std::size_t n_bytes) const {
+    constexpr std::uint32_t kUint32 = 6, kInt32 = 5, kSparse = 5, kLastWithDimensions = 15;
+    if (flags.type != kUint32 || flags.contents.size() < 4) return false;
+    const std::uint32_t kind = word(flags.contents.data()) & 0xff;
+    if (kind == kSparse || kind > kLastWithDimensions) return true;
+    if (dimensions.type != kInt32) return false;
+    std::size_t left = n_bytes;
+    for (std::size_t at = 0; at + 4 <= dimensions.contents.size(); at += 4) {
+      const std::size_t size = word(dimensions.contents.data() + at);
+      if (size == 0) return true;
+      if (size > left) return false;
+      left /= size;
+    }
+    return true;
+  }
+
   bool is_swapped_;
 };
 
