@@ -111,9 +111,9 @@ CaptureSetup RigApi::setup_of(const std::string& specimen) const {
 }
 
 Json RigApi::state() const {
-  Json json = {{"program", program_with_version()}, {"folder", folder_.path().string()},
-               {"folder_trouble", folder_.trouble()},   {"is_emulated", options_.is_emulated},
-               {"clock_speed", options_.speed},         {"job", job_.what()}};
+  Json json = {{"program", program_with_version()},   {"folder", folder_.path().string()},
+               {"folder_trouble", folder_.trouble()}, {"is_emulated", options_.is_emulated},
+               {"clock_speed", options_.speed},       {"job", job_.what()}};
   const bool is_idle = json["job"].get_ref<const std::string&>().empty();
   json["rig"] = or_trouble([&] {
     const RigConfig found = rig();
