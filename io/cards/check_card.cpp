@@ -229,9 +229,9 @@ void compare_with_header(const std::string& text, CardCheck& check) {
 std::optional<CardFinding> implausible(const std::string& text, const CheckOptions& options,
                                        const CardCheck& check) {
   const ReadCard& read = check.read;
-  const bool is_accepted = text.find(kPlausibleOffText) != std::string::npos;
-  if (is_accepted || has_mistake(check.findings)) return std::nullopt;
-  return implausible_finding({read.material.E0_Pa, read.material.rho_kg_m3,
+  if (has_mistake(check.findings)) return std::nullopt;
+  return implausible_finding(text,
+                             {read.material.E0_Pa, read.material.rho_kg_m3,
                               read.understood.numbers_carry_units ? nullptr : &read.units},
                              options.plausible);
 }

@@ -22,27 +22,33 @@ CardScale read_in(const CardScale& scale, const UnitSystem& other) {
           from_card(scale.rho_kg_m3, other.density_exponent - own.density_exponent), &other};
 }
 
-}  // namespace
-
-std::optional<CardFinding> implausible_finding(const CardScale& scale, Plausible judged) {
-  const auto doubt = doubt_of(scale, judged);
-  if (!doubt) return std::nullopt;
-  const bool is_stiff = doubt_about(quantities::kModulus, scale.modulus_Pa, judged).has_value();
-  std::string text =
-      fmt::format("the {} of the card {}", is_stiff ? "modulus" : "density", doubt->text());
-  if (scale.read_in == nullptr) return CardFinding{"implausible", text, true};
+// The first other system in which a solid would have these numbers; empty if there is none.
+std::string other_units(const CardScale& scale, Plausible judged) {
   for (const UnitSystem& other : unit_systems()) {
     if (std::string_view(other.name) == scale.read_in->name) continue;
     const CardScale meant = read_in(scale, other);
     if (doubt_of(meant, judged)) continue;
-    text += fmt::format(
+    return fmt::format(
         "; in {} the modulus is {}{} (--units {})", other.name,
         text_with_unit(meant.modulus_Pa, "Pa"),
         meant.rho_kg_m3 > 0.0 ? fmt::format(" and the density {:g} kg/m3", meant.rho_kg_m3) : "",
         other.name);
-    break;
   }
-  return CardFinding{"implausible", text + "; if the value is right, add --plausible off", true};
+  return "";
+}
+
+}  // namespace
+
+std::optional<CardFinding> implausible_finding(const std::string& text, const CardScale& scale,
+                                               Plausible judged) {
+  if (text.find(kPlausibleOffText) != std::string::npos) return std::nullopt;
+  const auto doubt = doubt_of(scale, judged);
+  if (!doubt) return std::nullopt;
+  const bool is_stiff = doubt_about(quantities::kModulus, scale.modulus_Pa, judged).has_value();
+  std::string why =
+      fmt::format("the {} of the card {}", is_stiff ? "modulus" : "density", doubt->text());
+  if (scale.read_in != nullptr) why += other_units(scale, judged);
+  return CardFinding{"implausible", why + "; if the value is right, add --plausible off", true};
 }
 
 }  // namespace viscard

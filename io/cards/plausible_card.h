@@ -16,6 +16,8 @@ struct CardScale {
 };
 
 // The mistake "implausible" if no solid has these numbers, with the system of units in which one would.
-std::optional<CardFinding> implausible_finding(const CardScale& scale, Plausible judged);
+// text: the card, which may say that its numbers were accepted.
+std::optional<CardFinding> implausible_finding(const std::string& text, const CardScale& scale,
+                                               Plausible judged);
 
 }  // namespace viscard

@@ -4,6 +4,7 @@
 #include "io/basics/data_folder.h"
 #include "io/basics/program.h"
 #include "io/basics/words.h"
+#include "io/basics/words_file.h"
 #include "io/flow/words/fit_words.h"
 #include "io/flow/words/predict_words.h"
 #include "io/materials/material_file.h"
@@ -57,6 +58,10 @@ bool is_material_of(const std::filesystem::path& path, const std::string& comman
 
 // Words for every page of this folder, one a line: --logo=logo.svg.
 constexpr const char* kReportOptions = "report.options";
+
+Texts report_options(const std::filesystem::path& file) {
+  return std::filesystem::exists(file) ? with_words_of_files({"@" + file.string()}) : Texts{};
+}
 
 constexpr std::size_t kLongestScene_B = std::size_t{1} << 20;
 
@@ -368,9 +373,12 @@ Json DeskApi::report(const Json& request) {
     folder_.require_table(one.get<std::string>());
     words.push_back(word_of_file(one.get<std::string>()));
   }
-  if (std::filesystem::exists(folder_.path() / kReportOptions))
-    words.push_back(std::string("@") + kReportOptions);
-  if (request.contains("title")) add_value("title", request.at("title"), words);
+  // A title that is typed on the page stands for that of the file.
+  const bool has_title = request.contains("title");
+  for (const std::string& word : report_options(folder_.path() / kReportOptions)) {
+    if (!has_title || !word.starts_with("--title=")) words.push_back(word);
+  }
+  if (has_title) add_value("title", request.at("title"), words);
   const ScratchFolder scratch;
   const std::filesystem::path page = scratch.path() / "report.html";
   const std::string shown = typed(words);

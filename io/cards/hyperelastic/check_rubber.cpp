@@ -397,11 +397,9 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
     take_volume(text, file, options, check.read, expected);
     const auto differ = header_findings(text, found, expected);
     check.findings.insert(check.findings.end(), differ.begin(), differ.end());
-    const bool is_judged =
-        check.findings.empty() && text.find(kPlausibleOffText) == std::string::npos;
     const CardScale scale{youngs_modulus_Pa(found.law), found.density_kg_m3, check.read.units};
-    const auto doubt = implausible_finding(scale, options.plausible);
-    if (is_judged && doubt) check.findings.push_back(*doubt);
+    const auto doubt = implausible_finding(text, scale, options.plausible);
+    if (check.findings.empty() && doubt) check.findings.push_back(*doubt);
   }
   // Behind what may explain it.
   if (const auto soft = soft_volume(text, check.read)) check.findings.push_back(*soft);

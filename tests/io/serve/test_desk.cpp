@@ -96,6 +96,20 @@ TEST_CASE("the same fit keeps its material, another one gets a name that is free
   CHECK(names_in(desk.folder()) == std::set<std::string>{"a.csv", "a.json", "a.2.json"});
 }
 
+TEST_CASE("a report of the desk has the options of the folder, and the title of the page first",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  write_file(desk.folder() / "report.options", "--title=House\n\n--logo=logo.svg\n", false);
+  write_file(desk.folder() / "logo.svg", "<svg/>", false);
+  const Json house = desk.order("report", {{"tables", {"a.csv"}}}).json;
+  CHECK(contains(house.at("html"), "<h1>House</h1>"));
+  CHECK(contains(house.at("html"), "data:image/svg+xml"));
+  const Json own = desk.order("report", {{"tables", {"a.csv"}}, {"title", "Mine"}}).json;
+  CHECK(contains(own.at("html"), "<h1>Mine</h1>"));
+  CHECK(contains(own.at("html"), "data:image/svg+xml"));
+}
+
 TEST_CASE("tests of one material are fitted together, and their material is kept",
           "[serve][desk]") {
   ServedDesk desk;
