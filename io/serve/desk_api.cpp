@@ -60,7 +60,7 @@ bool is_material_of(const std::filesystem::path& path, const std::string& comman
 constexpr const char* kReportOptions = "report.options";
 
 Texts report_options(const std::filesystem::path& file) {
-  return std::filesystem::exists(file) ? with_words_of_files({"@" + file.string()}) : Texts{};
+  return std::filesystem::exists(file) ? words_of_file(file) : Texts{};
 }
 
 constexpr std::size_t kLongestScene_B = std::size_t{1} << 20;
