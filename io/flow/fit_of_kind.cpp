@@ -5,8 +5,8 @@
 #include "fit/fit_indentation.h"
 #include "fit/fit_relaxation.h"
 #include "fit/intervals/left_out.h"
-#include "io/flow/fit_table.h"
 #include "io/flow/plausible_record.h"
+#include "io/flow/table_kind.h"
 #include "io/tables/column_map.h"
 #include "models/maths/text_of_number.h"
 

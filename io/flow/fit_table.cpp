@@ -4,6 +4,7 @@
 #include "io/basics/words.h"
 #include "io/flow/fit_of_kind.h"
 #include "io/flow/plausible_record.h"
+#include "io/flow/table_kind.h"
 #include "io/tables/csv_table.h"
 #include "io/tables/modulus_of_columns.h"
 #include "models/maths/text_of_number.h"

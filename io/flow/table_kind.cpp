@@ -1,5 +1,6 @@
+#include "io/flow/table_kind.h"
+
 #include "fit/samples/median.h"
-#include "io/flow/fit_table.h"
 #include "io/flow/plausible_record.h"
 #include "io/tables/column_names.h"
 #include "io/tables/column_proposal.h"

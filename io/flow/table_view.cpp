@@ -6,6 +6,7 @@
 #include "io/flow/fit_file.h"
 #include "io/flow/fit_table.h"
 #include "io/flow/table_from_capture.h"
+#include "io/flow/table_kind.h"
 #include "io/tables/column_names.h"
 #include "io/tables/modulus_of_columns.h"
 #include "models/maths/result_visitor.h"
