@@ -16,9 +16,6 @@ FittedFile fit_csv(CsvTable all, const FitRequest& request);
 // fit_file() for a table. Throws std::runtime_error, which may lack the name of the file.
 FittedFile fit_table(const std::string& path, const FitRequest& request);
 
-// Adds the flag unit-assumed if a column of this kind of test states no unit and was read in SI.
-void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitResult& result);
-
 // What --from, --to, --hold and --crop chose.
 struct ChosenPart {
   std::string text;  // which rows; empty if the request chooses none, so that all stay

@@ -25,4 +25,7 @@ bool is_force_alone(const CsvTable& table, const FitRequest& request);
 // True for a table of storage moduli over frequency without anything that tells the loss.
 bool is_storage_alone(const CsvTable& table, const FitRequest& request);
 
+// Adds the flag unit-assumed if a column of this kind of test states no unit and was read in SI.
+void flag_assumed_units(const CsvTable& table, const FitRequest& request, FitResult& result);
+
 }  // namespace viscard
