@@ -68,7 +68,7 @@ const withRatio = () => fitted().filter((name) => Number(ratios[name]) > 0);
 
 function showButtons() {
   element("compare-together").disabled = fitted().length < 2;
-  element("compare-ratios").disabled = withRatio().length < 2;
+  element("compare-ratios").disabled = withRatio().length < 3;  // fewer show no law
 }
 
 function showRows() {

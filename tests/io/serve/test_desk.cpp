@@ -160,17 +160,21 @@ TEST_CASE(
   ServedDesk desk;
   desk.drop("a.csv", ServedDesk::example());
   desk.drop("b.csv", ServedDesk::example(0.5));
-  const Json tests = {{{"table", "a.csv"}, {"ratio", "10"}}, {{"table", "b.csv"}, {"ratio", "20"}}};
+  desk.drop("c.csv", ServedDesk::example(0.51));
+  const Json tests = {{{"table", "a.csv"}, {"ratio", "10"}},
+                      {{"table", "b.csv"}, {"ratio", "20"}},
+                      {{"table", "c.csv"}, {"ratio", "20"}}};
   const ApiAnswer fitted = desk.order("fit", {{"tests", tests}});
   INFO(fitted.json.dump());
   REQUIRE(fitted.status == 200);
-  CHECK(fitted.json.at("command") == "viscard fit --joint a.csv b.csv --ratio=10 --ratio=20");
+  CHECK(fitted.json.at("command") ==
+        "viscard fit --joint a.csv b.csv c.csv --ratio=10 --ratio=20 --ratio=20");
   CHECK(fitted.json.at("result").at("materials").size() == 2);
   for (int i = 0; i < 2; ++i) {
     const Json card =
         desk.order("card", {{"tests", tests}, {"card", {{"for", "abaqus"}, {"ratio", "15"}}}}).json;
     INFO(card.dump());
-    CHECK(card.at("material") == "a+b.json");
+    CHECK(card.at("material") == "a+b+c.json");
     CHECK(contains(card.at("result").at("card"), "*VISCOELASTIC"));
   }
   desk.order("table", {{"table", "a.csv"}, {"options", {{"column", {"time_s=1"}}}}});

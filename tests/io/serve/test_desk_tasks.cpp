@@ -90,7 +90,7 @@ int voltage_of_a_pillar(Browser& browser, bool may_scroll) {
   person.choose("#scene-example", "pillar_press.toml");
   REQUIRE(shows(browser, "#scene-effects", "film compliance"));
   person.click("#scene-cost");
-  REQUIRE(browser.wait_until("return document.querySelectorAll('#scene-choices button').length > 2",
+  REQUIRE(browser.wait_until("return document.querySelectorAll('#scene-choices button').length > 0",
                              60));
   browser.click("#scene-choices button:last-child");
   ++person.n_clicks;
