@@ -15,10 +15,10 @@ function draw() {
   const largest = Math.max(...fit.specimens.map((one) => one.E0_Pa));
   const axis = axisOf("E0_Pa", largest);
   const rows = [...fit.specimens.map((one) => [one.mixing_ratio, axis.factor * one.E0_Pa, null, null, null]),
-                ...fit.materials.map((one) => [one.mixing_ratio, null, ...[one.E0_Pa, ...one.uncertainty.E0_interval_95].map((E) => axis.factor * E)])]
+                ...fit.materials.map((one) => [one.mixing_ratio, null, ...[...one.uncertainty.E0_interval_95, one.E0_Pa].map((E) => axis.factor * E)])]
     .sort((a, b) => a[0] - b[0]);
   chart = new Chart(element("ratio-chart"), {
-    labels: ["mixing ratio", "specimen", "material", "low", "high"], colors: ["measured", "fit", "depth", "depth"], points: ["specimen"],
+    labels: ["mixing ratio", "specimen", "low", "high", "material"], colors: ["measured", "depth", "depth", "fit"], points: ["specimen"],
     titles: { xlabel: "mixing ratio (parts of base to one of curing agent)", ylabel: axis.label },
     readout: (x) => {
       const material = x === null ? null : materialOf(x);
@@ -32,9 +32,9 @@ function draw() {
 function showSpecimens() {
   element("ratio-specimens").tBodies[0].replaceChildren(...fit.specimens.map(({ name, mixing_ratio, E0_Pa }) => {
     const { E0_Pa: usual, uncertainty: { E0_interval_95: [low, high] } } = materialOf(mixing_ratio);
-    const apart = 100 * (E0_Pa / usual - 1), { factor, unit } = axisOf("E0_Pa", usual);
+    const apart = fixed(100 * (E0_Pa / usual - 1), 1), { factor, unit } = axisOf("E0_Pa", usual);
     return make("tr", { class: E0_Pa < low || E0_Pa > high ? "wrong" : undefined }, make("th", { scope: "row" }, name), number(`${significant(mixing_ratio)}:1`),
-                number(`${significant(factor * E0_Pa, 5)} ${unit}`), number(`${apart > 0 ? "+" : ""}${fixed(apart, 1)} %`));
+                number(`${significant(factor * E0_Pa, 5)} ${unit}`), number(`${Number(apart) > 0 ? "+" : ""}${apart} %`));
   }));
 }
 
