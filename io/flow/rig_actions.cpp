@@ -7,6 +7,9 @@
 #include "rig/open_devices.h"
 #include "rig/touch_cell.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -56,6 +59,36 @@ OpenRig::OpenRig(const RigConfig& rig, bool is_emulated)
   add_drivers(devices_, config_, clock_, [](const RunRecord&) {});
 }
 
+enum class Keep { kYes, kNo, kAsComment };
+
+// Writes a line as the first of a section of a TOML file. keep: what becomes of each other line of the section,
+// which it gets without the blanks in front.
+void write_in_section(const std::filesystem::path& file, const std::string& section,
+                      const std::string& line,
+                      const std::function<Keep(const std::string&)>& keep) {
+  std::istringstream lines(read_file(file));
+  std::string out, old;
+  bool is_inside = false, is_written = false;
+  while (std::getline(lines, old)) {
+    const std::size_t begin = old.find_first_not_of(" \t");
+    const std::string rest = begin == std::string::npos ? "" : old.substr(begin);
+    const bool is_head = rest.rfind('[', 0) == 0;
+    const Keep kept = is_inside && !is_head ? keep(rest) : Keep::kYes;
+    if (kept == Keep::kNo) continue;
+    out += (kept == Keep::kAsComment ? "# " : "") + old + "\n";
+    if (!is_head) continue;
+    is_inside = rest.rfind("[" + section + "]", 0) == 0;
+    if (!is_inside) continue;
+    out += line + "\n";
+    is_written = true;
+  }
+  if (!is_written) {
+    throw std::runtime_error(file.string() + ": has no section [" + section + "]; write " + line +
+                             " there yourself");
+  }
+  write_file(file, out, true);
+}
+
 }  // namespace
 
 RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds) {
@@ -94,38 +127,65 @@ double touch_rig(const RigConfig& rig, bool is_emulated, double wait_s,
 }
 
 void write_answer(const std::filesystem::path& rig_file, const std::string& day) {
-  std::istringstream lines(read_file(rig_file));
-  std::string out, line;
-  bool is_inside = false, is_written = false;
-  while (std::getline(lines, line)) {
-    const std::size_t begin = line.find_first_not_of(" \t");
-    const std::string rest = begin == std::string::npos ? "" : line.substr(begin);
-    if (is_inside && rest.rfind("answered_on", 0) == 0) continue;
-    out += line + "\n";
-    if (rest.rfind('[', 0) != 0) continue;
-    is_inside = rest.rfind("[load_cell]", 0) == 0;
-    if (!is_inside) continue;
-    out += "answered_on = " + day + "\n";
-    is_written = true;
-  }
-  if (!is_written) {
-    throw std::runtime_error(rig_file.string() +
-                             ": has no section [load_cell]; write answered_on = " + day +
-                             " where its load cell is described");
-  }
-  write_file(rig_file, out, true);
+  const std::string line = "answered_on = " + day;
+  write_in_section(rig_file, "load_cell", line, [](const std::string& text) {
+    return text.rfind("answered_on", 0) == 0 ? Keep::kNo : Keep::kYes;
+  });
+}
+
+void write_calibration_file(const std::filesystem::path& rig_file, const std::string& record) {
+  write_in_section(rig_file, "calibration", "file = \"" + record + "\"",
+                   [](const std::string& text) {
+                     if (text.rfind("file", 0) == 0) return Keep::kNo;
+                     return text.empty() || text.front() == '#' ? Keep::kYes : Keep::kAsComment;
+                   });
+}
+
+void check_order(const StageOrder& order, const RigConfig& rig) {
+  if (order.is_home) return;
+  constexpr double kFarthest_m = 0.1, kFastest_m_s = 10e-3;
+  const auto require = [](bool is_right, const std::string& text) {
+    if (!is_right) throw std::invalid_argument(text);
+  };
+  const double way_m = std::abs(order.toward_m);
+  require(way_m > 0.0 && way_m <= kFarthest_m,
+          fmt::format("the way is {} mm; it must be above 0 and at most {} mm", way_m * 1e3,
+                      kFarthest_m * 1e3));
+  require(order.speed_m_s > 0.0 && order.speed_m_s <= kFastest_m_s,
+          fmt::format("the speed is {} mm/s; it must be above 0 and at most {} mm/s",
+                      order.speed_m_s * 1e3, kFastest_m_s * 1e3));
+  const double most_N = rig.safety.soft_fraction * rig.calibration.capacity_N;
+  require(order.limit_N > 0.0 && order.limit_N <= most_N,
+          fmt::format("the limit is {} N; it must be above 0 and at most {:.3f} N, {} of the "
+                      "capacity (soft_fraction)",
+                      order.limit_N, most_N, rig.safety.soft_fraction));
 }
 
 StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& order,
-                          const std::atomic<bool>* stop) {
+                          RunControl control) {
   rig.stage.home = order.is_home;
   OpenRig open(rig, is_emulated);
-  RunControl control;
   control.clock = &open.clock();
-  control.stop = stop;
   return move_stage(
       *open.devices().stage, *open.devices().load_cell, open.config(), [](const RunRecord&) {},
       control, order);
+}
+
+WeighedLoad weigh_on_rig(const RigConfig& rig, bool is_emulated, double force_N, double largest_N,
+                         const std::atomic<bool>* stop) {
+  const std::unique_ptr<EmulatedRig> emulated = is_emulated ? emulated_rig(rig) : nullptr;
+  const RigConfig config = config_of(rig, emulated.get());
+  const RigClock clock = emulated ? emulated->clock() : RigClock(rig.clock_speed);
+  SerialLine line(config.load_cell.port, config.load_cell.baud, clock, config.load_cell.framing);
+  const auto load_cell = make_load_cell(line, config.load_cell, clock, [](const RunRecord&) {});
+  WeighOptions options;
+  options.largest_N = largest_N;
+  options.stop = stop;
+  options.put_on = [&](double load_N) {
+    if (emulated) emulated->hang_weight(load_N);
+    return true;
+  };
+  return weigh(*load_cell, config, clock, {force_N}, options).front();
 }
 
 }  // namespace viscard

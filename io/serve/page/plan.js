@@ -86,6 +86,15 @@ function showExpected() {
     `Expected course: up to ${significant(expected.peak_force_N, 3)} N at ${significant(Math.max(...course.depth_m) * 1e6, 4)} µm; limit ${significant(expected.limit_N, 3)} N`);
 }
 
+// The course of a test that is not kept yet: nothing can be started.
+export function showCourse(answer) {
+  ++asked;
+  isGood = false;
+  expected = answer;
+  showExpected();
+  showStart();
+}
+
 export async function refreshPlan() {
   const number = ++asked;
   isGood = false;
@@ -149,7 +158,7 @@ export function showPlan(newState) {
   showText(element("plan-name"), state.test.trouble ? "" : state.test.name);
   show(element("plan-form"), isEditable());
   showText(element("plan-fixed"), state.test.trouble || isEditable() ? ""
-    : `This test follows the protocol "${state.test.protocol}". Its numbers stand in test.toml in the folder of the series.`);
+    : `This test follows the protocol "${state.test.protocol}". Its numbers stand in test.toml; open the text below to change them.`);
   if (isEditable()) fillForm();
   if (before !== JSON.stringify([state.test, state.rig])) refreshPlan();
   showStart();
