@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPoints = 200;
+constexpr std::size_t kMostWeighings = 200;
 constexpr double kLargestMass_kg = 1e3;
 
 double mass_at(const Json& object, const char* key) {
@@ -113,9 +113,9 @@ Json HandsApi::weigh(const Json& request) {
 
 Json HandsApi::calibrate(const Json& request) {
   const auto found = request.find("points");
-  if (found == request.end() || !found->is_array() || found->size() > kMostPoints) {
+  if (found == request.end() || !found->is_array() || found->size() > kMostWeighings) {
     throw ApiError(400, "bad-value",
-                   "'points' are the weighings, at most " + std::to_string(kMostPoints));
+                   "'points' are the weighings, at most " + std::to_string(kMostWeighings));
   }
   const RigConfig rig = options_.rig_file ? read_rig_to_calibrate(*options_.rig_file) : demo_rig();
   CalibrationRequest asked;
