@@ -17,9 +17,11 @@
 namespace viscard {
 namespace {
 
-std::unique_ptr<EmulatedRig> emulated_rig(const RigConfig& rig) {
-  return std::make_unique<EmulatedRig>(
-      EmulatedRigOptions{.truth = demo_truth(10.0, 1), .config = rig});
+// from_m: where its stage stands; the emulator begins at 0.
+std::unique_ptr<EmulatedRig> emulated_rig(const RigConfig& rig, double from_m = 0.0) {
+  EmulatedRigOptions options{.truth = demo_truth(10.0, 1), .config = rig};
+  options.truth.surface_position_m -= from_m;
+  return std::make_unique<EmulatedRig>(options);
 }
 
 // What the emulated bench decides is its ports and its clock; what is asked of the stage stays.
@@ -35,7 +37,7 @@ RigConfig config_of(const RigConfig& rig, const EmulatedRig* emulated) {
 // cannot be opened, and for wrong words of the rig file.
 class OpenRig {
  public:
-  OpenRig(const RigConfig& rig, bool is_emulated);
+  OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m = 0.0);
   OpenRig(const OpenRig&) = delete;
   OpenRig& operator=(const OpenRig&) = delete;
 
@@ -51,8 +53,8 @@ class OpenRig {
   RigDevices devices_;
 };
 
-OpenRig::OpenRig(const RigConfig& rig, bool is_emulated)
-    : emulated_(is_emulated ? emulated_rig(rig) : nullptr),
+OpenRig::OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m)
+    : emulated_(is_emulated ? emulated_rig(rig, emulated_from_m) : nullptr),
       config_(config_of(rig, emulated_.get())),
       clock_(emulated_ ? emulated_->clock() : RigClock(rig.clock_speed)),
       devices_(open_ports(config_, clock_)) {
@@ -162,13 +164,18 @@ void check_order(const StageOrder& order, const RigConfig& rig) {
 }
 
 StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& order,
-                          RunControl control) {
+                          RunControl control, double emulated_from_m) {
   rig.stage.home = order.is_home;
-  OpenRig open(rig, is_emulated);
+  OpenRig open(rig, is_emulated, emulated_from_m);
   control.clock = &open.clock();
-  return move_stage(
+  StageMoved moved = move_stage(
       *open.devices().stage, *open.devices().load_cell, open.config(), [](const RunRecord&) {},
       control, order);
+  if (is_emulated && !order.is_home) {
+    moved.from_m += emulated_from_m;
+    moved.to_m += emulated_from_m;
+  }
+  return moved;
 }
 
 WeighedLoad weigh_on_rig(const RigConfig& rig, bool is_emulated, double force_N, double largest_N,

@@ -38,9 +38,9 @@ void write_calibration_file(const std::filesystem::path& rig_file, const std::st
 // Throws std::invalid_argument for a way, speed or limit that no move by hand has.
 void check_order(const StageOrder& order, const RigConfig& rig);
 // Opens the devices of the rig, or of an emulated one, and carries out the order. control: who watches and
-// stops it; its clock is set here. Throws RigError as move_stage() does, and if another program holds a port.
+// stops it; its clock is set here. emulated_from_m: where an emulated stage stands. Throws RigError as move_stage() does, and if another program holds a port.
 StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& order,
-                          RunControl control);
+                          RunControl control, double emulated_from_m = 0.0);
 
 // Opens the load cell and weighs one load, which hangs already (on an emulated rig it is hung). largest_N: of the
 // loads of this calibration. Throws RigError as weigh() does.

@@ -63,7 +63,8 @@ void LiveMove::work(const RigConfig& rig, bool is_emulated, const StageOrder& or
   std::optional<StageMoved> moved;
   std::string trouble;
   try {
-    moved = move_rig_stage(rig, is_emulated, order, control);
+    moved = move_rig_stage(rig, is_emulated, order, control, emulated_m_);
+    emulated_m_ = moved->to_m;
   } catch (const std::exception& error) {
     trouble = failure_text(error, "this move");
   }

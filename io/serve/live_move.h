@@ -49,6 +49,7 @@ class LiveMove {
   std::mutex starting_;
   std::atomic<bool> stop_{false}, stop_at_once_{false};
   std::thread worker_, watcher_;
+  double emulated_m_ = 0.0;  // where an emulated stage stands; of the worker
   std::mutex mutex_;  // guards the rest
   MoveState state_;
   bool is_unwatched_ = false;

@@ -228,7 +228,7 @@ TEST_CASE("a jog, a calibration, another protocol and a note are done on the pag
   browser.click("#start");
   REQUIRE(has_text(browser, "#result-name", ".viscap"));
   REQUIRE(browser.wait_until("return !document.body.classList.contains('running')", 60));
-  browser.click("td.state button[title^='Note on']");
+  browser.click("td.state button[aria-label^=Note]");
   browser.type("td.state input", "wet surface");
   browser.run("document.querySelector('td.state input').blur()");
   REQUIRE(has_text(browser, "td.state", "wet surface"));
