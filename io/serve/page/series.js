@@ -99,10 +99,12 @@ function link(text, label, action) {
 // A line of text that is changed in its place: Enter or leaving it keeps it.
 function edited(button, label, value, keep) {
   const input = make("input", { "aria-label": label, value, autocomplete: "off", maxlength: "1000", class: "inline" });
-  input.addEventListener("change", () => keep(input.value.trim()));
   input.addEventListener("keydown", (event) => { if (event.key === "Enter") input.blur(); });
-  button.after(input);
-  button.remove();
+  input.addEventListener("blur", () => {
+    input.replaceWith(button);
+    if (input.value.trim() !== value) keep(input.value.trim());
+  });
+  button.replaceWith(input);
   input.focus();
 }
 
@@ -161,7 +163,8 @@ export function showSeries(state) {
   show(element("no-specimens"), names.length === 0);
   if (names.length === 0) element("add").open = true;
   const text = JSON.stringify([state.specimens, chosen]);
-  if (text !== drawn) {  // otherwise the focus would be lost every few seconds
+  const isWriting = element("specimens").querySelector("input.inline") !== null;
+  if (text !== drawn && !isWriting) {  // otherwise the focus would be lost every few seconds
     drawn = text;
     element("specimens").tBodies[0].replaceChildren(...state.specimens.map(rowOf));
   }
