@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/failure_text.h"
+#include "io/basics/file_kind.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
 #include "io/config/config_file.h"
@@ -50,6 +51,15 @@ bool comes_before(const SeriesSpecimen& a, const SeriesSpecimen& b) {
 bool is_specimen_file(const std::string& file) {
   return ends_with(file, kSpecimenEnding) && !ends_with(file, kTruthTomlEnding) &&
          file != "test.toml" && file != "rig.toml" && file.front() != '.';
+}
+
+// A record of the page, or one that was put there.
+bool is_calibration(const fs::path& file) {
+  try {
+    return kind_of_file(read_file(file)) == FileKind::kCalibration;
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 // Lower-case letters, digits and hyphens of a name that a person has typed.
@@ -204,6 +214,7 @@ std::vector<SeriesSpecimen> SeriesFolder::specimens() const {
     try {
       specimen.specimen = read_specimen(entry.path());
     } catch (const std::exception& error) {
+      if (is_calibration(entry.path())) continue;
       specimen.trouble = failure_text(error, "this specimen");
     }
     specimen.captures = captures_of(first_capture(specimen.name));

@@ -15,7 +15,7 @@ const kFields = [{ key: "depth_m", label: "Depth", unit: "mm", factor: 1e-3 },
                  { key: "baseline_s", label: "Rest before and after", unit: "s", factor: 1 }];
 const kWait_ms = 400;  // after the last key
 
-let state = null, expected = null, isGood = false, isStarting = false, timer = 0, asked = 0, onStart = () => {};
+let state = null, expected = null, isGood = false, isUnkept = false, isStarting = false, timer = 0, asked = 0, onStart = () => {};
 const chart = new Chart(element("plan-chart"), {
   labels: ["time", "force", "depth"], colors: ["force", "depth"], right: "depth",
   titles: { xlabel: "time (s)", ylabel: "force, at most (N)", y2label: "depth (µm)" },
@@ -90,6 +90,7 @@ function showExpected() {
 export function showCourse(answer) {
   ++asked;
   isGood = false;
+  isUnkept = true;
   expected = answer;
   showExpected();
   showStart();
@@ -98,6 +99,7 @@ export function showCourse(answer) {
 export async function refreshPlan() {
   const number = ++asked;
   isGood = false;
+  isUnkept = false;
   showStart();
   const specimen = chosenSpecimen();
   if (!specimen || !state || state.rig.trouble || state.test.trouble) {
@@ -135,7 +137,7 @@ function reasonNotToStart() {
   const entry = state.specimens.find((other) => other.name === chosenSpecimen());
   if (entry && entry.trouble) return "This specimen cannot be tested; see Specimens.";
   if (entry && entry.state === "running") return "Another program captures this specimen.";
-  if (!isGood) return "";
+  if (!isGood) return isUnkept ? "The course above is of the text, which is not kept yet." : "";
   return state.is_emulated ? "" : `Put ${chosenSpecimen()} under the punch, clear of it.`;
 }
 

@@ -103,6 +103,7 @@ TEST_CASE("weights on the load cell make a record on the page", "[serve][pty]") 
   CHECK(std::filesystem::path(file).parent_path() == rig.folder());
   CHECK(read_calibration(file).calibration->volts_per_newton ==
         made.json.at("gain_V_N").get<double>());
+  CHECK(rig.ask("/api/state").json.at("specimens").empty());  // it is none
   // Nothing is overwritten, and an emulated cell calibrates no rig.
   CHECK(rig.order("/api/calibrate", {{"points", points}}).json.at("file") != file);
   CHECK(rig.order("/api/calibrate", {{"points", points}, {"use", true}}).status == 422);
