@@ -12,7 +12,7 @@ namespace viscard {
 namespace {
 
 constexpr const char* kNeeded =
-    ", which this driver cannot use. The stage needs GRBL 1.1, grblHAL or Zaber ASCII";
+    ", which this driver cannot use. The stage needs GRBL 1.1, grblHAL, Zaber ASCII or PI GCS 2";
 constexpr const char* kSwapped = ": are the ports of stage and load cell swapped in the rig file?";
 
 struct Speaker {
@@ -23,7 +23,7 @@ struct Speaker {
 // Welcome lines of the firmware: Marlin (MarlinCore.cpp: "start", "echo:Marlin"), TinyG and g2core (JSON
 // with "fv", the firmware version), Smoothieware ("Smoothie"), Repetier, RepRapFirmware, GRBL (report.c:
 // "Grbl 1.1f ['$' for help]", "<Idle|MPos:"), Zaber ASCII replies ("@01 0 OK IDLE").
-constexpr std::array<Speaker, 12> kSpeakers{{{"marlin", "Marlin", kNeeded},
+constexpr std::array<Speaker, 13> kSpeakers{{{"marlin", "Marlin", kNeeded},
                                              {"tinyg", "TinyG", kNeeded},
                                              {"g2core", "g2core", kNeeded},
                                              {"\"fv\":", "TinyG or g2core", kNeeded},
@@ -34,7 +34,8 @@ constexpr std::array<Speaker, 12> kSpeakers{{{"marlin", "Marlin", kNeeded},
                                              {"echo:", "the firmware of a 3-D printer", kNeeded},
                                              {"grbl ", "a GRBL controller", kSwapped},
                                              {"|mpos:", "a GRBL controller", kSwapped},
-                                             {" ok idle ", "a Zaber controller", kSwapped}}};
+                                             {" ok idle ", "a Zaber controller", kSwapped},
+                                             {"physik instrumente", "a PI controller", kSwapped}}};
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
