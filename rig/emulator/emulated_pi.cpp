@@ -58,6 +58,7 @@ void EmulatedPi::reset(double time_s) {
   needs_reference_ = true;
   error_ = 0;
   offset_mm_ -= position_mm(time_s);
+  target_mm_ = 0.0;
 }
 
 void EmulatedPi::hit_limit(double time_s) {
@@ -128,6 +129,7 @@ std::optional<std::string> EmulatedPi::answer_to(const std::vector<std::string>&
   };
   const auto flag = [&](bool is_set) { return of_axis(is_set ? "1" : "0"); };
   if (verb == "POS?") return of_axis(mm_text(position_mm(time_s)));
+  if (verb == "MOV?") return of_axis(mm_text(target_mm_));
   if (verb == "SVO?") return flag(has_servo_);
   if (verb == "FRF?") return flag(has_reference_);
   if (verb == "RON?") return flag(needs_reference_);
@@ -200,6 +202,7 @@ void EmulatedPi::move(double to_mm, double time_s) {
   } else if (to_mm < habits_.lowest_mm || to_mm > habits_.highest_mm) {
     error_ = PiError::kBeyondLimits;
   } else {
+    target_mm_ = to_mm;
     motion_.stop_at_once(time_s);
     motion_.start(time_s, toward_ * (to_mm - offset_mm_) * 1e-3, speed_mm_s_ * 1e-3,
                   acceleration_mm_s2_ * 1e-3);

@@ -59,6 +59,7 @@ class EmulatedPi final : public EmulatedController {
   int device_;
   std::string axis_;
   double speed_mm_s_, largest_speed_mm_s_, acceleration_mm_s2_, deceleration_mm_s2_;
+  double target_mm_ = 0.0;
   double offset_mm_ = 0.0;  // of the counter, after the supply was cut or POS
   bool has_servo_ = false;
   bool has_reference_;

@@ -12,6 +12,8 @@ namespace {
 constexpr double kStandstill_wall_s = 10.0;
 // An end so near counts as reached; the reported position is then recorded as the end.
 constexpr double kNear_m = 2e-6;
+// A stage is outside of its path from here on; servos overshoot by less.
+constexpr double kAstray_m = 5e-6;
 
 }  // namespace
 
@@ -56,7 +58,7 @@ void AskedStage::await_rest(const Pump& pump, double wall_s) {
   polls_ = true;
   next_poll_s_ = clock_.now_s();
   const std::size_t before = n_rounds_;
-  if (wait_for([&] { return n_rounds_ > before && !last_.is_moving; }, pump, wall_s)) return;
+  if (wait_for([&] { return n_rounds_ > before + 1 && last_.is_steady; }, pump, wall_s)) return;
   throw RigError("the stage on '" + transport_.name() +
                  "' does not come to rest: IT MAY STILL PRESS. Lift the punch by hand");
 }
@@ -82,6 +84,9 @@ void AskedStage::begin_move(double to_m, double speed_m_s, const std::string& pu
   jobs_.push_back({dialect_.speed_question, Origin::kMove});
   jobs_.push_back({move_words(toward_ * to_m * 1e3 + 0.0), Origin::kMove, true});
   jobs_.push_back({dialect_.error_question, Origin::kMove});
+  if (!dialect_.target_question.empty()) {
+    jobs_.push_back({dialect_.target_question, Origin::kMove});
+  }
   drive(now_s);
 }
 
@@ -100,6 +105,15 @@ void AskedStage::take_move_answer(const std::string& question, const std::string
     }
     active_->planned.speed_m_s = speed_mm_s_ * 1e-3;
     return;
+  }
+  if (question == dialect_.target_question) {
+    const double target_mm = toward_ * number_from_text(answer).value_or(0.0);
+    if (std::abs(target_mm * 1e-3 - active_->target_m) < 1.0 / dynamics_.steps_per_m) return;
+    stop_hard();
+    throw StageAlarm("the stage was sent to " + text_from_number(active_->target_m * 1e3, 4) +
+                     " mm and understood " + text_from_number(target_mm, 4) +
+                     " mm: it was stopped at once. Check its cable for interference, then start "
+                     "the run again");
   }
   const std::string trouble = trouble_in(answer);
   if (!active_->tracker) {
@@ -127,8 +141,12 @@ void AskedStage::judge() {
   } else if (seen_.trouble != last_.trouble) {
     note(seen_.asked_s, "stage_warning", seen_.trouble, "The stage warns: " + seen_.trouble);
   }
+  seen_.is_steady = !seen_.is_moving && !last_.is_moving && n_rounds_ > 0 &&
+                    std::abs(reported_m_ - last_m_) < 1.5 / dynamics_.steps_per_m;
   last_ = seen_;
+  last_m_ = reported_m_;
   ++n_rounds_;
+  if (!last_.is_moving && !last_.is_steady) next_poll_s_ = clock_.now_s();
   if (!is_recovering_) judge_health();
   if (active_) judge_move();
 }
@@ -156,23 +174,44 @@ void AskedStage::judge_move() {
   ActiveMove& active = *active_;
   if (active.is_stopping) {
     if (last_.asked_s < active.stop_s) return;
-    if (!last_.is_moving) return end_move(reported_m_);
+    if (last_.is_steady) return end_move(reported_m_);
+    if (!last_.is_moving) return;
     // A stop that was lost is repeated, because it does no harm.
     const double due_s = active.stop_sent_s + clock_.from_wall_s(0.3) +
                          active.planned.speed_m_s / active.planned.acceleration_m_s2;
     if (clock_.now_s() > due_s) active.stop_sent_s = send(active.stop_words);
     return;
   }
+  watch_path();
   if (last_.is_moving) {
     active.rests_since_s.reset();
     return;
   }
   if (!active.accepted_s || last_.asked_s < *active.accepted_s || n_unwell_ > 0) return;
   const double aside_m = std::abs(reported_m_ - active.target_m);
-  if (last_.is_on_target && aside_m < kNear_m) {
-    return end_move(aside_m < 1.5 / dynamics_.steps_per_m ? active.target_m : reported_m_);
+  if (last_.is_on_target && aside_m < 1.5 / dynamics_.steps_per_m) {
+    return end_move(active.target_m);
   }
+  if (last_.is_on_target && last_.is_steady && aside_m < kNear_m) return end_move(reported_m_);
   rest_elsewhere();
+}
+
+// A garbled command can be another valid one.
+void AskedStage::watch_path() {
+  constexpr int kMostAstray = 2;  // rounds in a row; one can be a garbled answer
+  ActiveMove& active = *active_;
+  const StageMove& move = active.planned;
+  const bool is_astray = reported_m_ < std::min(move.from_m, move.to_m) - kAstray_m ||
+                         reported_m_ > std::max(move.from_m, move.to_m) + kAstray_m;
+  active.n_astray = is_astray ? active.n_astray + 1 : 0;
+  if (!is_astray) return;
+  next_poll_s_ = clock_.now_s();
+  if (active.n_astray < kMostAstray) return;
+  stop_hard();
+  throw StageAlarm("the stage was sent to " + text_from_number(move.to_m * 1e3, 3) +
+                   " mm and is at " + text_from_number(reported_m_ * 1e3, 3) +
+                   " mm, outside of its path: it was stopped at once. Check its cable for "
+                   "interference, then start the run again");
 }
 
 void AskedStage::rest_elsewhere() {

@@ -172,6 +172,7 @@ double AskedStage::number(const std::string& question, const Pump& pump) {
 }
 
 void AskedStage::command(const std::string& words, const Pump& pump) {
+  ask(dialect_.error_question, pump);  // an old error is not that of this command
   send_later(words);
   const std::string trouble = trouble_in(ask(dialect_.error_question, pump));
   if (!trouble.empty()) throw RigError("the stage refused '" + words + "': " + trouble);

@@ -14,7 +14,7 @@ namespace viscard {
 //  - One question is open at a time. After a lost answer the controller is asked for its name, and
 //    all lines before that answer are ignored: a late answer cannot answer a newer question.
 //  - Only questions and stops are repeated. A move is written once, with its absolute target, after
-//    the controller has confirmed its speed. Then the controller is asked for its error.
+//    the controller has confirmed its speed. Then it is asked for its error and its target.
 //  - The position and the state are asked for in rounds. A round counts when all of its questions
 //    were asked after the move (or stop) that it judges.
 class AskedStage : public PolledStage {
@@ -37,6 +37,7 @@ class AskedStage : public PolledStage {
     std::string name_question;      // its answer differs from every other line
     std::string position_question;  // mm
     std::string speed_question;     // mm/s
+    std::string target_question;    // mm; empty if the controller does not know it
     std::string error_question;
     std::string soft_stop, hard_stop;
     std::string limits;                 // names of its limits of travel, for messages
@@ -46,6 +47,7 @@ class AskedStage : public PolledStage {
   struct Seen {
     double asked_s = 0.0;  // the first of them
     bool is_moving = false;
+    bool is_steady = false;  // it rests where it rested in the round before
     bool is_on_target = false;
     bool holds = true;  // the motor holds the position
     bool has_reference = true;
@@ -116,6 +118,7 @@ class AskedStage : public PolledStage {
     double stop_s = 0.0, stop_sent_s = 0.0;
     std::string stop_words = {};
     std::optional<double> rests_since_s = {};  // elsewhere than at the target
+    int n_astray = 0;                          // rounds in a row that show it outside of its path
   };
 
   double send(const std::string& words);
@@ -125,6 +128,7 @@ class AskedStage : public PolledStage {
   void take_position(const Sent& question, const std::string& answer, double time_s);
   void judge();
   void judge_health();
+  void watch_path();
   void judge_move();
   void rest_elsewhere();
   void end_move(double end_m);
@@ -148,6 +152,7 @@ class AskedStage : public PolledStage {
   double speed_mm_s_ = 0.0;    // as the controller confirmed last
   bool is_recovering_ = true;  // faults are expected, also until connected
   Seen last_;                  // complete round
+  double last_m_ = 0.0;        // position in it
   std::size_t n_rounds_ = 0;
   int n_unwell_ = 0;  // rounds in a row that show a fault
 

@@ -22,6 +22,7 @@ PiStage::PiStage(Transport& transport, const StageConfig& config, const RigClock
                   .name_question = "*IDN?",
                   .position_question = "POS? " + std::to_string(config.axis_number),
                   .speed_question = "VEL? " + std::to_string(config.axis_number),
+                  .target_question = "MOV? " + std::to_string(config.axis_number),
                   .error_question = "ERR?",
                   .soft_stop = "HLT " + std::to_string(config.axis_number),
                   .hard_stop = std::string(1, kPiStop),

@@ -218,7 +218,7 @@ TEST_CASE("a PI stage that never reports to be on target ends where it rests", "
 
 TEST_CASE("a PI stage that rests far from its target is an error", "[rig][pty]") {
   EmulatedRigOptions options = pi_rig();
-  options.pi.counts_beside_target = 100;
+  options.pi.counts_beside_target = -100;
   DeviceFixture rig(options);
   rig.devices.stage->connect(rig.pump());
   CHECK_THROWS_WITH(rig.move(0.5e-3, 1e-3), Contains("did not reach"));
