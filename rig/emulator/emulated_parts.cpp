@@ -13,6 +13,9 @@ std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions
   if (stage.driver == "pi-gcs2") {
     return std::make_unique<EmulatedPi>(options.truth, stage, options.pi);
   }
+  if (stage.driver == "smc100") {
+    return std::make_unique<EmulatedSmc>(options.truth, stage, options.smc);
+  }
   return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
                                         options.grbl);
 }

@@ -210,13 +210,8 @@ void EmulatedPi::move(double to_mm, double time_s) {
 }
 
 void EmulatedPi::answer(const std::string& text, double time_s) {
-  ++n_answers_;
-  const auto is_nth = [&](int every) { return every > 0 && n_answers_ % every == 0; };
-  if (is_nth(habits_.lose_answer_every)) return;
-  const double due_s =
-      time_s + (is_nth(habits_.late_answer_every) ? habits_.late_s : habits_.answer_delay_s);
   const std::string prefix = is_prefixed_ ? "0 " + std::to_string(device_) + " " : "";
-  answers_.add(due_s, prefix + text + "\n");
+  send_answer(prefix + text + "\n", time_s, habits_.answers);
 }
 
 }  // namespace viscard

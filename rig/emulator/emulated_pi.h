@@ -23,10 +23,7 @@ struct PiHabits {
   int counts_beside_target = 0;     // where the stage rests
   double deceleration_ratio = 1.0;  // DEC over ACC
   double lowest_mm = -25.0, highest_mm = 25.0;
-  int lose_answer_every = 0;  // every n-th answer is not sent
-  int late_answer_every = 0;  // every n-th answer comes after late_s
-  double late_s = 0.8;
-  double answer_delay_s = 0.0;  // of all of them
+  AnswerHabits answers;
 };
 
 // A PI controller of one axis with GCS 2 as a host sees it on the wire (rig/protocols/pi_protocol.h
@@ -69,7 +66,6 @@ class EmulatedPi final : public EmulatedController {
   bool is_prefixed_ = false;  // the last command had an address
   int error_ = 0;
   std::string begun_;
-  int n_answers_ = 0;
 };
 
 }  // namespace viscard

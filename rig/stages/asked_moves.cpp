@@ -124,10 +124,10 @@ void AskedStage::take_move_answer(const std::string& question, const std::string
   }
   if (!trouble.empty()) {
     jobs_.clear();
-    active_.reset();
-    exact_m_.reset();
-    throw StageAlarm("the stage refused the move: " + trouble +
-                     (last_.trouble.empty() ? "" : ", after " + last_.trouble));
+    active_->refusal = trouble;  // a round will show why
+    active_->tracker.reset();
+    next_poll_s_ = time_s;
+    return;
   }
   active_->accepted_s = time_s;
   active_->tracker->acknowledged(time_s);
@@ -181,6 +181,14 @@ void AskedStage::judge_move() {
                          active.planned.speed_m_s / active.planned.acceleration_m_s2;
     if (clock_.now_s() > due_s) active.stop_sent_s = send(active.stop_words);
     return;
+  }
+  if (!active.refusal.empty()) {
+    if (n_unwell_ > 0) return;
+    const std::string refusal = active.refusal;
+    active_.reset();
+    exact_m_.reset();
+    throw StageAlarm("the stage refused the move: " + refusal +
+                     (last_.trouble.empty() ? "" : ", after " + last_.trouble));
   }
   watch_path();
   if (last_.is_moving) {
@@ -248,6 +256,7 @@ void AskedStage::stop(const std::string& words) {
   jobs_.clear();
   abort_round();
   const double sent_s = send(words);
+  free_at_s_ = sent_s + clock_.from_wall_s(dialect_.after_command_wall_s);
   if (!active_) return;
   active_->is_stopping = true;
   active_->stop_words = words;

@@ -100,7 +100,7 @@ void AskedStage::drive(double now_s) {
   if (active_ && active_->accepted_s) {
     check_deadline(active_->planned, active_->late_before_s, now_s);
   }
-  if (find_again(now_s)) return;
+  if (!may_write() || find_again(now_s)) return;
   while (!question_ && !jobs_.empty() && now_s >= free_at_s_) {
     Job job = std::move(jobs_.front());
     jobs_.pop_front();

@@ -57,6 +57,7 @@ class AskedStage : public PolledStage {
   AskedStage(Transport& transport, const StageConfig& config, const RigClock& clock,
              RecordSink sink, Dialect dialect);
 
+  virtual bool may_write() { return true; }  // stops are written in any case
   virtual std::string bytes_of(const std::string& words) const = 0;
   virtual bool is_question(const std::string& words) const = 0;
   virtual bool is_name(const std::string& line) const = 0;
@@ -113,6 +114,7 @@ class AskedStage : public PolledStage {
     std::string purpose;
     double target_m = 0.0;
     std::optional<double> accepted_s = {};
+    std::string refusal = {};    // the controller's error instead
     double late_before_s = 0.0;  // delays of this program before the move
     bool is_stopping = false;
     double stop_s = 0.0, stop_sent_s = 0.0;

@@ -23,7 +23,7 @@ void PolledStage::receive() {
   if (chunk.bytes.empty()) return;
   sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
   // No wire time is subtracted: a report bounds the start of a move, and only the stamp is safe.
-  splitter_.feed(chunk.bytes, chunk.time_s);
+  splitter_.feed(text_in(chunk.bytes), chunk.time_s);
 }
 
 void PolledStage::note(double time_s, const std::string& name, const std::string& value,

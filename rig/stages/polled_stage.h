@@ -29,6 +29,8 @@ class PolledStage : public Stage {
 
   // Records what has arrived and cuts it into lines.
   void receive();
+  // The bytes that belong to lines: without those of a flow control.
+  virtual std::string text_in(const std::string& bytes) { return bytes; }
   void note(double time_s, const std::string& name, const std::string& value,
             const std::string& text) const;
   // Pumps until something is there; false if wall_s have passed first.

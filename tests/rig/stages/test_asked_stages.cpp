@@ -1,6 +1,7 @@
 // What the drivers of controllers without numbered answers and checksums (PI, Newport) share.
 #include "rig/stages/stage.h"
 #include "tests/rig/device_fixture.h"
+#include "tests/rig/stages/asked_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,6 +9,8 @@
 
 namespace viscard {
 namespace {
+
+using Catch::Matchers::Contains;
 
 TestPlan shortest_asked_plan() {
   TestPlan plan;
@@ -18,7 +21,20 @@ TestPlan shortest_asked_plan() {
   return plan;
 }
 
-EmulatedRigOptions asked_rig(const std::string& driver) {
+TestPlan quick_asked_plan() {
+  TestPlan plan = shortest_asked_plan();
+  plan.baseline_s = 1.0;
+  plan.hold_s = 2.0;
+  plan.recovery_s = 1.0;
+  return plan;
+}
+
+// Of each driver in turn.
+EmulatedRigOptions asked_rig() {
+  return DeviceFixture::options(GENERATE("pi-gcs2", "smc100"));
+}
+
+EmulatedRigOptions asked_rig_near(const std::string& driver) {
   EmulatedRigOptions options = DeviceFixture::options(driver);
   options.truth.surface_position_m = 0.1e-3;
   return options;
@@ -42,7 +58,7 @@ EmulatedOutcome bench_at_the_end(DeviceFixture& rig) {
 
 // One run; how it ended.
 std::string run_over_disturbed_line(const std::string& driver, std::uint64_t seed) {
-  DeviceFixture rig(asked_rig(driver), stage_faults(seed));
+  DeviceFixture rig(asked_rig_near(driver), stage_faults(seed));
   std::string status, reason;
   try {
     const RunOutcome outcome = rig.run(shortest_asked_plan());
@@ -73,15 +89,106 @@ void run_disturbed_seeds(const std::string& driver, std::uint64_t first, std::ui
 
 }  // namespace
 
+TEST_CASE("a PI or Newport stage stops gently or at once and can be moved again", "[rig][pty]") {
+  EmulatedRigOptions options = asked_rig();
+  answers_of(options).lose_every = GENERATE(0, 5);
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(2e-3, 1e-3, "approach");
+  pump_into_move(rig, 0.3);
+  stage.stop_soft();
+  while (stage.is_moving()) rig.pump()();
+  const double stopped_m = stage.position_m();
+  CHECK(stopped_m > 0.01e-3);
+  CHECK(stopped_m < 1.0e-3);
+  REQUIRE(rig.all<CommandedMove>().size() == 1);
+  CHECK(rig.all<CommandedMove>().back().move.to_m == Approx(stopped_m).margin(1e-12));
+  stage.begin_move(2e-3, 1e-3, "approach");
+  pump_into_move(rig, 0.2);
+  stage.stop_hard();
+  stage.recover(rig.pump());
+  CHECK_FALSE(stage.is_moving());
+  CHECK(stage.position_m() < 1.9e-3);
+  CHECK(stage.position_m() == Approx(rig.emulated.outcome().final_position_m).margin(1e-9));
+  REQUIRE(rig.move(0.0, 2e-3));
+}
+
+TEST_CASE("a stop of a PI or Newport stage before its move was written leaves it where it is",
+          "[rig][pty]") {
+  DeviceFixture rig(asked_rig());
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(2e-3, 1e-3, "approach");
+  stage.stop_soft();
+  while (stage.is_moving()) rig.pump()();
+  rig.pump_for(0.5);
+  CHECK(rig.emulated.outcome().final_position_m == 0.0);
+  CHECK(n_moves_written(rig) == 0);
+  CHECK(rig.all<CommandedMove>().empty());
+}
+
+TEST_CASE("a PI or Newport stage whose cable was pulled is stopped when its port comes back",
+          "[rig][pty]") {
+  EmulatedRigOptions options = asked_rig();
+  options.fault = rig_fault_from_text("stage-port-back@ramp");
+  options.resets_on_open = false;
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(5e-3, 0.5e-3, "ramp");
+  pump_into_move(rig, 0.2);
+  rig.emulated.enter_phase("ramp");
+  CHECK_THROWS_AS(rig.pump_for(2.0), PortHungUp);
+  CHECK(rig.emulated.outcome().is_moving);
+  const double until_s = rig.clock.now_s() + 3.0;
+  while (!stage.transport().reopen() && rig.clock.now_s() < until_s) rig.clock.pass(0.1);
+  stage.recover(rig.pump());
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(stage.position_m() == Approx(rig.emulated.outcome().final_position_m).margin(1e-9));
+  CHECK(rig.move(0.1e-3, 1e-3));
+}
+
+TEST_CASE("a whole test runs on a PI or Newport stage and presses with the force of its specimen",
+          "[rig][pty]") {
+  EmulatedRigOptions options = asked_rig();
+  answers_of(options).late_every = GENERATE(0, 199);
+  DeviceFixture rig(options);
+  const RunOutcome outcome = rig.run(quick_asked_plan());
+  INFO(outcome.reason);
+  REQUIRE(outcome.status == "finished");
+  CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(4e-6));  // contact is found to a few um
+  CHECK(rig.emulated.outcome().peak_force_N == Approx(outcome.expected.peak_force_N).epsilon(0.05));
+  CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
+}
+
+TEST_CASE("a run on a PI or Newport stage that meets a motion error lifts the punch",
+          "[rig][pty]") {
+  DeviceFixture rig(asked_rig());
+  bool has_met = false;
+  rig.sink = [&](const RunRecord& record) {
+    rig.records.push_back(record);
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (has_met || event == nullptr || event->name != "phase" || event->value != "ramp") return;
+    has_met = true;
+    rig.emulated.cause(Incident::kHitLimitSwitch);
+  };
+  const RunOutcome outcome = rig.run(quick_asked_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status != "finished");
+  CHECK_THAT(outcome.reason, Contains("could not follow"));
+  CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
+}
+
 TEST_CASE("runs over a disturbed line of the stage end well or give the reason",
           "[rig][pty][faults]") {
-  const std::string driver = GENERATE("pi-gcs2");
+  const std::string driver = GENERATE("pi-gcs2", "smc100");
   run_disturbed_seeds(driver, 1, 12);
 }
 
 TEST_CASE("300 runs over a disturbed line of the stage end well or give the reason",
           "[rig][pty][faults][slow]") {
-  const std::string driver = GENERATE("pi-gcs2");
+  const std::string driver = GENERATE("pi-gcs2", "smc100");
   run_disturbed_seeds(driver, 1, 300);
 }
 

@@ -1,10 +1,9 @@
 #include "rig/protocols/pi_protocol.h"
 #include "rig/stages/stage.h"
 #include "tests/rig/device_fixture.h"
+#include "tests/rig/stages/asked_rig.h"
 
 #include <catch2/catch.hpp>
-
-#include <algorithm>
 
 namespace viscard {
 namespace {
@@ -13,26 +12,6 @@ using Catch::Matchers::Contains;
 
 EmulatedRigOptions pi_rig() {
   return DeviceFixture::options("pi-gcs2");
-}
-
-TestPlan quick_pi_plan() {
-  TestPlan plan;
-  plan.approach_speed_m_s = 0.2e-3;
-  plan.baseline_s = 1.0;
-  plan.hold_s = 2.0;
-  plan.recovery_s = 1.0;
-  return plan;
-}
-
-// How often these words were written to the stage.
-int n_written(const DeviceFixture& rig, const std::string& words) {
-  int n = 0;
-  for (const RawBytes& raw : rig.all<RawBytes>()) {
-    n += raw.device == Device::kStage && raw.is_sent && raw.bytes.find(words) != std::string::npos
-             ? 1
-             : 0;
-  }
-  return n;
 }
 
 }  // namespace
@@ -82,13 +61,13 @@ TEST_CASE("a PI stage reports its dynamics and reaches its target at the speed a
     options.pi = {.lists_two_axes = true, .stale_error = 7};
   }
   SECTION("with lost answers") {
-    options.pi.lose_answer_every = 9;
+    options.pi.answers.lose_every = 9;
   }
   SECTION("with late answers") {
-    options.pi.late_answer_every = 11;
+    options.pi.answers.late_every = 11;
   }
   SECTION("slow to answer") {
-    options.pi.answer_delay_s = 0.2;
+    options.pi.answers.delay_s = 0.2;
   }
   SECTION("without parameters, with a slower deceleration") {
     options.pi = {.has_parameters = false, .deceleration_ratio = 0.5};
@@ -105,7 +84,7 @@ TEST_CASE("a PI stage reports its dynamics and reaches its target at the speed a
   REQUIRE(rig.move(0.3e-3, 2e-3));
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.3e-3).margin(1e-9));
   CHECK(rig.devices.stage->position_m() == Approx(0.3e-3).margin(1e-9));
-  CHECK(n_written(rig, "MOV ") == 2);
+  CHECK(n_moves_written(rig) == 2);
   const auto moves = rig.all<CommandedMove>();
   REQUIRE(moves.size() == 2);
   CHECK(moves[0].move.to_m == Approx(0.5e-3).margin(1e-9));
@@ -113,43 +92,15 @@ TEST_CASE("a PI stage reports its dynamics and reaches its target at the speed a
   CHECK(moves[1].move.from_m == Approx(0.5e-3).margin(1e-9));
 }
 
-TEST_CASE("a PI stage stops gently or at once and can be moved again", "[rig][pty]") {
-  EmulatedRigOptions options = pi_rig();
-  options.pi.lose_answer_every = GENERATE(0, 5);
-  DeviceFixture rig(options);
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  stage.begin_move(2e-3, 1e-3, "approach");
-  rig.pump_for(0.6);
-  stage.stop_soft();
-  while (stage.is_moving()) rig.pump()();
-  const double stopped_m = stage.position_m();
-  CHECK(stopped_m > 0.01e-3);
-  CHECK(stopped_m < 1.0e-3);
-  CHECK(rig.all<CommandedMove>().back().move.to_m == Approx(stopped_m).margin(1e-12));
-  stage.begin_move(2e-3, 1e-3, "approach");
-  rig.pump_for(0.2);
-  stage.stop_hard();
-  rig.pump_for(0.005);
-  CHECK_FALSE(rig.emulated.outcome().is_moving);
-  stage.recover(rig.pump());
-  CHECK_FALSE(stage.is_moving());
-  CHECK(stage.position_m() < 1.9e-3);
-  CHECK(stage.position_m() == Approx(rig.emulated.outcome().final_position_m).margin(1e-9));
-  REQUIRE(rig.move(0.0, 2e-3));
-}
-
-TEST_CASE("a stop of a PI stage before its move was written leaves it where it is", "[rig][pty]") {
+TEST_CASE("the stop byte of a PI stage acts at once", "[rig][pty]") {
   DeviceFixture rig(pi_rig());
   Stage& stage = *rig.devices.stage;
   stage.connect(rig.pump());
   stage.begin_move(2e-3, 1e-3, "approach");
-  stage.stop_soft();
-  while (stage.is_moving()) rig.pump()();
-  rig.pump_for(0.5);
-  CHECK(rig.emulated.outcome().final_position_m == 0.0);
-  CHECK(n_written(rig, "MOV ") == 0);
-  CHECK(rig.all<CommandedMove>().empty());
+  pump_into_move(rig, 0.3);
+  stage.stop_hard();
+  rig.pump_for(0.005);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
 }
 
 TEST_CASE("a PI stage that cannot follow or meets a limit raises an alarm with its words",
@@ -160,7 +111,7 @@ TEST_CASE("a PI stage that cannot follow or meets a limit raises an alarm with i
   Stage& stage = *rig.devices.stage;
   stage.connect(rig.pump());
   stage.begin_move(2e-3, 0.5e-3, "approach");
-  rig.pump_for(0.2);
+  pump_into_move(rig, 0.3);
   rig.emulated.cause(Incident::kHitLimitSwitch);
   const char* words = options.pi.limit_keeps_servo ? "limit switch" : "could not follow";
   try {
@@ -182,7 +133,7 @@ TEST_CASE("a PI stage whose supply is cut has restarted, and still lifts the pun
   stage.connect(rig.pump());
   REQUIRE(rig.move(0.5e-3, 1e-3));
   if (is_moving) stage.begin_move(0.9e-3, 0.1e-3, "ramp");
-  rig.pump_for(0.4);
+  pump_into_move(rig, 0.3);
   rig.emulated.cause(Incident::kRestartStage);
   CHECK_THROWS_AS(rig.pump_for(2.0), DeviceRestarted);
   stage.recover(rig.pump());
@@ -235,26 +186,6 @@ TEST_CASE("a move of a PI stage ends at the limits of its controller", "[rig][pt
   CHECK_THROWS_WITH(rig.move(1.5e-3, 1e-3), Contains("TMN"));
 }
 
-TEST_CASE("a PI stage whose cable was pulled is stopped when its port comes back", "[rig][pty]") {
-  EmulatedRigOptions options = pi_rig();
-  options.fault = rig_fault_from_text("stage-port-back@ramp");
-  options.resets_on_open = false;
-  DeviceFixture rig(options);
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  stage.begin_move(5e-3, 0.5e-3, "ramp");
-  rig.pump_for(0.2);
-  rig.emulated.enter_phase("ramp");
-  CHECK_THROWS_AS(rig.pump_for(2.0), PortHungUp);
-  CHECK(rig.emulated.outcome().is_moving);
-  const double until_s = rig.clock.now_s() + 3.0;
-  while (!stage.transport().reopen() && rig.clock.now_s() < until_s) rig.clock.pass(0.1);
-  stage.recover(rig.pump());
-  CHECK_FALSE(rig.emulated.outcome().is_moving);
-  CHECK(stage.position_m() == Approx(rig.emulated.outcome().final_position_m).margin(1e-9));
-  CHECK(rig.move(0.1e-3, 1e-3));
-}
-
 TEST_CASE("another device on the port of a PI stage is quoted, and silence names the switches",
           "[rig][pty]") {
   EmulatedRigOptions options = pi_rig();
@@ -274,36 +205,6 @@ TEST_CASE("another device on the port of a PI stage is quoted, and silence names
     CHECK_THROWS_WITH(rig.devices.stage->connect(rig.pump()),
                       Contains("address 5") && Contains("switches"));
   }
-}
-
-TEST_CASE("a whole test runs on a PI stage and presses with the force of its specimen",
-          "[rig][pty]") {
-  EmulatedRigOptions options = pi_rig();
-  options.pi.late_answer_every = GENERATE(0, 199);
-  DeviceFixture rig(options);
-  const RunOutcome outcome = rig.run(quick_pi_plan());
-  INFO(outcome.reason);
-  REQUIRE(outcome.status == "finished");
-  CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(4e-6));  // contact is found to a few um
-  CHECK(rig.emulated.outcome().peak_force_N == Approx(outcome.expected.peak_force_N).epsilon(0.05));
-  CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
-}
-
-TEST_CASE("a run on a PI stage that meets a motion error lifts the punch", "[rig][pty]") {
-  DeviceFixture rig(pi_rig());
-  bool has_met = false;
-  rig.sink = [&](const RunRecord& record) {
-    rig.records.push_back(record);
-    const auto* event = std::get_if<RunEvent>(&record);
-    if (has_met || event == nullptr || event->name != "phase" || event->value != "ramp") return;
-    has_met = true;
-    rig.emulated.cause(Incident::kHitLimitSwitch);
-  };
-  const RunOutcome outcome = rig.run(quick_pi_plan());
-  INFO(outcome.reason);
-  CHECK(outcome.status != "finished");
-  CHECK_THAT(outcome.reason, Contains("motion error"));
-  CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
 }
 
 }  // namespace viscard
