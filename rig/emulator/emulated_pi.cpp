@@ -151,16 +151,16 @@ std::optional<std::string> EmulatedPi::answer_to(const std::vector<std::string>&
 
 void EmulatedPi::obey(const std::vector<std::string>& words, double time_s) {
   const std::string& verb = words[0];
-  if (words.size() < 2 || words[1] != axis_) {
-    error_ = PiError::kParameter;
-  } else if (verb == "HLT") {
+  const bool is_of_axis = words.size() >= 2 && words[1] == axis_;
+  const auto value = words.size() == 3 ? number_from_text(words[2]) : std::nullopt;
+  if (is_of_axis && verb == "HLT") {
     motion_.stop_gently(time_s, deceleration_mm_s2_ * 1e-3);
     error_ = kPiStopped;
-  } else if (verb == "FRF") {
+  } else if (is_of_axis && verb == "FRF") {
     motion_.start(time_s, 0.0, 1e-3, acceleration_mm_s2_ * 1e-3);
     is_homing_ = has_reference_ = true;
     offset_mm_ = 0.0;
-  } else if (const auto value = words.size() == 3 ? number_from_text(words[2]) : std::nullopt) {
+  } else if (is_of_axis && value) {
     set(verb, *value, time_s);
   } else {
     error_ = PiError::kParameter;

@@ -22,7 +22,9 @@ bool is_number(std::string_view word) {
 std::string format_pi_command(int device, std::string_view words) {
   const std::string prefix = device == 1 ? "" : std::to_string(device) + " ";
   const bool is_byte = words.size() == 1 && static_cast<unsigned char>(words.front()) < 0x20;
-  return prefix + std::string(words) + (is_byte ? "" : "\n");
+  std::string addressed = prefix + std::string(words) + (is_byte ? "" : "\n");
+  if (words != std::string_view(&kPiStop, 1) || device == 1) return addressed;
+  return kPiStop + addressed + "\n";  // the line end discards an address that the stop ignored
 }
 
 std::optional<std::string> pi_answer_text(std::string_view line, int device) {
@@ -94,7 +96,7 @@ std::string pi_error_text(int error) {
         "motion error: the stage could not follow, so the servo was switched off; look for an "
         "obstacle or a load that is too large"},
        {-1024, "motion error: the stage could not follow, so the servo was switched off"}}};
-  const std::string number = "error " + std::to_string(error);
+  std::string number = "error " + std::to_string(error);
   for (const auto& [code, text] : kRows) {
     if (code == error) return number + " (" + text + ")";
   }

@@ -19,7 +19,8 @@ inline constexpr char kPiStop = '\x18';      // all axes stop at once; leaves er
 inline constexpr int kPiStopped = 10;        // the error that every stop leaves
 
 // "POS? 1\n"; on a chain "3 POS? 1\n" with the address in front. A single byte has no line end.
-// Address 1 is written without a prefix, which a controller that stands alone expects.
+// Address 1 is written without a prefix, which a controller that stands alone expects. The stop is
+// written without an address first, because it is meant for all.
 std::string format_pi_command(int device, std::string_view words);
 
 // An answer without its address ("0 3 " from address 3; controllers that stand alone send none).

@@ -109,7 +109,7 @@ std::string smc_error_text(std::string_view letter) {
        {'W', "not for the model PP"},
        {'X', "not for the model CC"}}};
   if (letter == "@") return "";
-  const std::string error = "error " + std::string(letter);
+  std::string error = "error " + std::string(letter);
   for (const auto& [key, text] : kRows) {
     if (letter.size() == 1 && letter.front() == key) return error + " (" + text + ")";
   }

@@ -19,10 +19,9 @@ constexpr double kAstray_m = 5e-6;
 
 void AskedStage::connect(const Pump& pump) {
   if (!await_name(pump)) {
-    throw_no_answer(dialect_.name + " of address " + std::to_string(config_.device),
-                    dialect_.if_unreadable,
-                    "Is this the stage's port, is the controller switched on, are baud and device "
-                    "under [stage] of the rig file those of its switches?");
+    throw_no_answer(
+        dialect_.name + " of address " + std::to_string(config_.device), dialect_.settings,
+        "Is this the stage's port, and is the controller switched on? " + dialect_.settings);
   }
   ask(dialect_.error_question, pump);  // an old error must not be taken for that of a command
   set_up(pump);

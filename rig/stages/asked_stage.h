@@ -33,7 +33,7 @@ class AskedStage : public PolledStage {
  protected:
   struct Dialect {
     std::string name;               // of the controller, for messages
-    std::string if_unreadable;      // what to look at if its bytes are unreadable
+    std::string settings;           // which baud and device it needs, if it does not answer
     std::string name_question;      // its answer differs from every other line
     std::string position_question;  // mm
     std::string speed_question;     // mm/s

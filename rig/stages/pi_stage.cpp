@@ -17,8 +17,8 @@ PiStage::PiStage(Transport& transport, const StageConfig& config, const RigClock
                  RecordSink sink)
     : AskedStage(transport, config, clock, std::move(sink),
                  {.name = "PI controller",
-                  .if_unreadable = "baud under [stage] of the rig file must be that of its "
-                                   "switches (C-863: 5 and 6)",
+                  .settings = "Under [stage] of the rig file baud and device must be those of its "
+                              "switches (C-863: 5 and 6, 1 to 4)",
                   .name_question = "*IDN?",
                   .position_question = "POS? " + std::to_string(config.axis_number),
                   .speed_question = "VEL? " + std::to_string(config.axis_number),

@@ -12,7 +12,8 @@ SmcStage::SmcStage(Transport& transport, const StageConfig& config, const RigClo
                    RecordSink sink)
     : AskedStage(transport, config, clock, std::move(sink),
                  {.name = "Newport SMC100",
-                  .if_unreadable = "baud under [stage] of the rig file must be 57600",
+                  .settings = "Under [stage] of the rig file baud must be 57600, and device its "
+                              "address",
                   .name_question = "VE",
                   .position_question = "TP",
                   .speed_question = "VA?",

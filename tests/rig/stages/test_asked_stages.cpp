@@ -160,6 +160,10 @@ TEST_CASE("a whole test runs on a PI or Newport stage and presses with the force
   CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(4e-6));  // contact is found to a few um
   CHECK(rig.emulated.outcome().peak_force_N == Approx(outcome.expected.peak_force_N).epsilon(0.05));
   CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
+  for (const CommandedMove& move : rig.all<CommandedMove>()) {
+    if (move.purpose != "ramp") continue;
+    CHECK(move.start_uncertainty_s < 0.03);  // the reports bound it
+  }
 }
 
 TEST_CASE("a run on a PI or Newport stage that meets a motion error lifts the punch",

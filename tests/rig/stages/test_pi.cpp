@@ -21,6 +21,9 @@ TEST_CASE("PI commands have an address on a chain and no line end after a single
   CHECK(format_pi_command(3, "POS? 1") == "3 POS? 1\n");
   CHECK(format_pi_command(1, std::string(1, kPiStop)) == "\x18");
   CHECK(format_pi_command(3, std::string(1, kPiIsMoving)) == "3 \x05");
+  CHECK(format_pi_command(3, std::string(1, kPiStop)) ==
+        "\x18"
+        "3 \x18\n");
 }
 
 TEST_CASE("PI answers are read with and without an address, on one line or several", "[rig]") {
@@ -93,7 +96,9 @@ TEST_CASE("a PI stage reports its dynamics and reaches its target at the speed a
 }
 
 TEST_CASE("the stop byte of a PI stage acts at once", "[rig][pty]") {
-  DeviceFixture rig(pi_rig());
+  EmulatedRigOptions options = pi_rig();
+  options.config.stage.device = GENERATE(1, 4);
+  DeviceFixture rig(options);
   Stage& stage = *rig.devices.stage;
   stage.connect(rig.pump());
   stage.begin_move(2e-3, 1e-3, "approach");
@@ -101,6 +106,8 @@ TEST_CASE("the stop byte of a PI stage acts at once", "[rig][pty]") {
   stage.stop_hard();
   rig.pump_for(0.005);
   CHECK_FALSE(rig.emulated.outcome().is_moving);
+  stage.recover(rig.pump());
+  CHECK(rig.move(0.0, 1e-3));
 }
 
 TEST_CASE("a PI stage that cannot follow or meets a limit raises an alarm with its words",

@@ -204,7 +204,8 @@ TEST_CASE("another device on the port of a Newport stage is quoted", "[rig][pty]
   config.driver = "smc100";
   config.device = 5;
   rig.devices.stage = make_stage(*rig.devices.stage_line, config, rig.clock, rig.sink);
-  CHECK_THROWS_WITH(rig.devices.stage->connect(rig.pump()), Contains("address 5"));
+  CHECK_THROWS_WITH(rig.devices.stage->connect(rig.pump()),
+                    Contains("address 5") && Contains("57600"));
 }
 
 }  // namespace viscard
