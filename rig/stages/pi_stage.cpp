@@ -172,15 +172,16 @@ void PiStage::set_up(const Pump& pump) {
   ask(dialect_.error_question, pump);  // of questions that it does not know
 }
 
-// Without a reference the stage moves only if its present position is declared: that is enough to
-// lift the punch.
+// Without a reference the stage moves only if its present position is declared: in the middle of its
+// travel, so that no limit hinders the lift of the punch.
 void PiStage::set_free(const Pump& pump) {
   send_later("");  // ends a command that the stop byte cut
   ask(dialect_.error_question, pump);
   switch_on(pump);
   if (number(of_axis("FRF?"), pump) == 1.0) return;
   command(of_axis("RON") + " 0", pump);
-  command(of_axis("POS") + " " + text_from_number(toward_ * reported_m_ * 1e3, 7), pump);
+  start_m_ = 0.5 * (dynamics_.lowest_m + dynamics_.highest_m);
+  command(of_axis("POS") + " " + text_from_number(toward_ * *start_m_ * 1e3, 7), pump);
 }
 
 std::vector<std::string> PiStage::advice() const {

@@ -40,6 +40,20 @@ EmulatedRigOptions asked_rig_near(const std::string& driver) {
   return options;
 }
 
+// A run in which something happens to the stage when the ramp begins.
+RunOutcome run_with(DeviceFixture& rig, Incident incident) {
+  bool has_happened = false;
+  rig.sink = [&](const RunRecord& record) {
+    rig.records.push_back(record);
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (has_happened || event == nullptr || event->name != "phase") return;
+    if (event->value != "ramp") return;
+    has_happened = true;
+    rig.emulated.cause(incident);
+  };
+  return rig.run(quick_asked_plan());
+}
+
 // Faults of the stage's line alone; those of the cell's line are tested elsewhere.
 LineFaults stage_faults(std::uint64_t seed) {
   LineFaults faults = faults_of(seed);
@@ -88,6 +102,30 @@ void run_disturbed_seeds(const std::string& driver, std::uint64_t first, std::ui
 }
 
 }  // namespace
+
+TEST_CASE("a PI or Newport stage at a wrong baud rate names the setting", "[rig]") {
+  struct Idle final : WaitingRig {
+    double time_s = 0.0;
+    double now_s() const override { return time_s; }
+    void pass(double longest_s) override { time_s += longest_s; }
+  } idle;
+  struct Noise final : Transport {
+    std::string name() const override { return "noise"; }
+    int baud() const override { return 9600; }
+    int descriptor() const override { return -1; }
+    Chunk read_available() override { return {0.0, "\xf3\x81z\xee"}; }
+    void write(std::string_view, double) override {}
+  } noise;
+  const RigClock clock(idle);
+  StageConfig config;
+  config.driver = GENERATE("pi-gcs2", "smc100");
+  const auto stage = make_stage(noise, config, clock, [](const RunRecord&) {});
+  const Pump pump = [&] {
+    clock.pass(0.01);
+    stage->service();
+  };
+  CHECK_THROWS_WITH(stage->connect(pump), Contains("unreadable") && Contains("baud"));
+}
 
 TEST_CASE("a PI or Newport stage stops gently or at once and can be moved again", "[rig][pty]") {
   EmulatedRigOptions options = asked_rig();
@@ -169,19 +207,27 @@ TEST_CASE("a whole test runs on a PI or Newport stage and presses with the force
 TEST_CASE("a run on a PI or Newport stage that meets a motion error lifts the punch",
           "[rig][pty]") {
   DeviceFixture rig(asked_rig());
-  bool has_met = false;
-  rig.sink = [&](const RunRecord& record) {
-    rig.records.push_back(record);
-    const auto* event = std::get_if<RunEvent>(&record);
-    if (has_met || event == nullptr || event->name != "phase" || event->value != "ramp") return;
-    has_met = true;
-    rig.emulated.cause(Incident::kHitLimitSwitch);
-  };
-  const RunOutcome outcome = rig.run(quick_asked_plan());
+  const RunOutcome outcome = run_with(rig, Incident::kHitLimitSwitch);
   INFO(outcome.reason);
-  CHECK(outcome.status != "finished");
+  CHECK(outcome.status == "interrupted");
   CHECK_THAT(outcome.reason, Contains("could not follow"));
   CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
+}
+
+TEST_CASE("a run on a PI or Newport stage whose supply is cut lifts the punch or asks for it",
+          "[rig][pty]") {
+  EmulatedRigOptions options = asked_rig();
+  options.pi.loses_power = options.smc.loses_power = true;
+  DeviceFixture rig(options);
+  const RunOutcome outcome = run_with(rig, Incident::kRestartStage);
+  INFO(outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("supply"));
+  if (options.config.stage.driver == "smc100") {
+    CHECK_THAT(outcome.reason, Contains("BY HAND"));
+  } else {
+    CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
+  }
 }
 
 TEST_CASE("runs over a disturbed line of the stage end well or give the reason",

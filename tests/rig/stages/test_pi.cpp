@@ -134,6 +134,8 @@ TEST_CASE("a PI stage that cannot follow or meets a limit raises an alarm with i
 TEST_CASE("a PI stage whose supply is cut has restarted, and still lifts the punch", "[rig][pty]") {
   EmulatedRigOptions options = pi_rig();
   options.pi.loses_power = true;
+  options.config.stage.toward_specimen = 1;
+  options.pi.lowest_mm = 0.0;  // the stage starts at the end of its travel
   const bool is_moving = GENERATE(false, true);
   DeviceFixture rig(options);
   Stage& stage = *rig.devices.stage;
