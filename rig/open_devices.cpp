@@ -6,6 +6,8 @@
 #include "rig/cells/mark10_stream.h"
 #include "rig/lines/rig_error.h"
 #include "rig/stages/grbl_stage.h"
+#include "rig/stages/pi_stage.h"
+#include "rig/stages/smc_stage.h"
 #include "rig/stages/zaber_stage.h"
 
 #include <cstddef>
@@ -38,7 +40,9 @@ struct DriverRow {
 
 constexpr DriverRow<Stage, StageConfig> kStages[] = {
     {"grbl", made<Stage, GrblStage, StageConfig>, [](const StageConfig&) {}},
-    {"zaber", made<Stage, ZaberStage, StageConfig>, [](const StageConfig&) {}}};
+    {"zaber", made<Stage, ZaberStage, StageConfig>, [](const StageConfig&) {}},
+    {"pi-gcs2", made<Stage, PiStage, StageConfig>, [](const StageConfig&) {}},
+    {"smc100", made<Stage, SmcStage, StageConfig>, [](const StageConfig&) {}}};
 
 constexpr DriverRow<LoadCell, LoadCellConfig> kCells[] = {
     {"hx711", made<LoadCell, Hx711LoadCell, LoadCellConfig>,

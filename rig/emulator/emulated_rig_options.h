@@ -5,6 +5,8 @@
 #include "rig/emulator/emulated_amplifier.h"
 #include "rig/emulator/emulated_gauge.h"
 #include "rig/emulator/emulated_grbl.h"
+#include "rig/emulator/emulated_pi.h"
+#include "rig/emulator/emulated_smc.h"
 #include "rig/emulator/emulated_thermometer.h"
 #include "rig/emulator/emulated_zaber.h"
 #include "rig/emulator/rig_fault.h"
@@ -24,6 +26,8 @@ struct EmulatedRigOptions {
   bool is_on_wall_clock = false;
   GrblHabits grbl;
   ZaberHabits zaber;
+  PiHabits pi;
+  SmcHabits smc;
   GaugeHabits gauge;
   AmplifierOptions amplifier;
   ThermometerHabits thermometer;  // of the one that config names

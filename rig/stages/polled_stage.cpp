@@ -23,7 +23,7 @@ void PolledStage::receive() {
   if (chunk.bytes.empty()) return;
   sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
   // No wire time is subtracted: a report bounds the start of a move, and only the stamp is safe.
-  splitter_.feed(chunk.bytes, chunk.time_s);
+  splitter_.feed(text_in(chunk.bytes), chunk.time_s);
 }
 
 void PolledStage::note(double time_s, const std::string& name, const std::string& value,
@@ -91,6 +91,23 @@ void PolledStage::plan_poll(double now_s, double every_s) {
   }
 }
 
+void PolledStage::check_deadline(const StageMove& planned, double late_before_s,
+                                 double now_s) const {
+  constexpr double kNoEnd_wall_s = 5.0;
+  now_s -= clock_.late_s() - late_before_s;  // nobody listened meanwhile
+  const double late_s = 0.5 * duration_s(planned) + clock_.from_wall_s(kNoEnd_wall_s);
+  if (now_s < expected_end_s_ + late_s) return;
+  throw RigError("the stage should have come to rest " +
+                 text_from_number(now_s - expected_end_s_, 1) +
+                 " s ago but still moves. Switch it off and on, home it, then start the run again");
+}
+
+void PolledStage::throw_elsewhere(double target_m, const std::string& state) const {
+  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +
+                 " mm and did not reach " + text_from_number(target_m * 1e3, 4) + " mm (" + state +
+                 "). Look for an obstacle or a turned knob, then start the run again");
+}
+
 CommandedMove PolledStage::ended_move(const MoveTracker& tracker, const std::string& purpose,
                                       double end_m) {
   exact_m_ = end_m;
@@ -107,14 +124,15 @@ void check_travel(double to_m, double start_m, double travel_m) {
                  "raise travel in the rig file");
 }
 
-double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics) {
+double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics,
+                       const std::string& settings) {
   constexpr double kSlack = 1e-6;  // of a step: rounding of the limits themselves
   const double slack_m = kSlack / dynamics.steps_per_m;
   if (from_m < dynamics.lowest_m - slack_m || from_m > dynamics.highest_m + slack_m) {
     throw RigError("the stage stands at " + text_from_number(from_m * 1e3, 3) +
-                   " mm, outside of the travel that the controller allows ($20=1), so it "
-                   "refuses every move. Home it (home = true under [stage] of the rig file), or "
-                   "switch its soft limits off ($20=0)");
+                   " mm, outside of the travel that the controller allows (" + settings +
+                   "), so it refuses every move. Home it (home = true under [stage] of the rig "
+                   "file), or change these settings");
   }
   if (to_m < from_m && to_m < dynamics.lowest_m) {
     const double step = std::ceil(dynamics.lowest_m * dynamics.steps_per_m - kSlack);
@@ -123,8 +141,8 @@ double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics
   if (to_m > from_m && to_m > dynamics.highest_m + slack_m) {
     throw RigError("the move to " + text_from_number(to_m * 1e3, 3) +
                    " mm goes beyond the controller's own travel, which ends at " +
-                   text_from_number(dynamics.highest_m * 1e3, 3) +
-                   " mm ($20 and $130-132). Bring the punch nearer to the specimen by hand, or "
+                   text_from_number(dynamics.highest_m * 1e3, 3) + " mm (" + settings +
+                   "). Bring the punch nearer to the specimen by hand, or "
                    "correct these settings");
   }
   return to_m;

@@ -29,6 +29,8 @@ class PolledStage : public Stage {
 
   // Records what has arrived and cuts it into lines.
   void receive();
+  // The bytes that belong to lines: without those of a flow control.
+  virtual std::string text_in(const std::string& bytes) { return bytes; }
   void note(double time_s, const std::string& name, const std::string& value,
             const std::string& text) const;
   // Pumps until something is there; false if wall_s have passed first.
@@ -48,6 +50,11 @@ class PolledStage : public Stage {
   // The next question follows after every_s, or just after the end of the move, so that standstill
   // is noticed without delay.
   void plan_poll(double now_s, double every_s);
+  // The move should have ended long ago: throws RigError. late_before_s: delays of this program
+  // before the move.
+  void check_deadline(const StageMove& planned, double late_before_s, double now_s) const;
+  // The stage stands elsewhere than at the end of its move.
+  [[noreturn]] void throw_elsewhere(double target_m, const std::string& state) const;
   // The move has ended; its record from the tracker.
   CommandedMove ended_move(const MoveTracker& tracker, const std::string& purpose, double end_m);
 
@@ -78,7 +85,8 @@ void check_travel(double to_m, double start_m, double travel_m);
 // Limits the end of a move to what the controller allows (StageDynamics::lowest_m, highest_m), on a
 // whole step. A move away from the specimen is shortened, because a shorter lift is better than
 // none. A move toward the specimen beyond the limit throws RigError, and so does any move that
-// starts outside of the travel.
-double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics);
+// starts outside of the travel. settings: names of the controller's limits, for the message.
+double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics,
+                       const std::string& settings);
 
 }  // namespace viscard

@@ -1,5 +1,4 @@
 // How ZaberStage begins, follows and ends a move.
-#include "models/maths/text_of_number.h"
 #include "rig/stages/zaber_stage.h"
 
 #include <algorithm>
@@ -27,10 +26,7 @@ void ZaberStage::follow_move(double asked_s, double received_s, bool is_busy) {
   if (++active.n_rests_elsewhere < kMostRestsAside) return;
   active_.reset();
   exact_m_.reset();
-  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +
-                 " mm and did not reach " + text_from_number(target_m * 1e3, 4) + " mm (" +
-                 zaber_flag_text(flag_) +
-                 "). Look for an obstacle or a turned knob, then start the run again");
+  throw_elsewhere(target_m, zaber_flag_text(flag_));
 }
 
 void ZaberStage::end_move(double end_m) {
@@ -77,14 +73,8 @@ void ZaberStage::start_action() {
 }
 
 void ZaberStage::watch_deadline(double now_s) {
-  constexpr double kNoEnd_wall_s = 5.0;
   if (!active_ || !active_->reply_s) return;
-  now_s -= clock_.late_s() - active_->late_before_s;  // nobody listened meanwhile
-  const double late_s = 0.5 * duration_s(active_->planned) + clock_.from_wall_s(kNoEnd_wall_s);
-  if (now_s < expected_end_s_ + late_s) return;
-  throw RigError("the stage should have come to rest " +
-                 text_from_number(now_s - expected_end_s_, 1) +
-                 " s ago but still moves. Switch it off and on, home it, then start the run again");
+  check_deadline(active_->planned, active_->late_before_s, now_s);
 }
 
 void ZaberStage::stop(const std::string& words) {
