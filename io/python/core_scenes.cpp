@@ -148,7 +148,7 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
     SceneOutcome outcome;
     outcome.answer = answer_scene(
         file, path, [&](double done, const std::string& point) { job.report(done, point); });
-    if (file.accepts_implausible) outcome.answer.notes.emplace_back(kPlausibleOffText);
+    add_notes_of_file(file, outcome.answer);
     if (with_fields && file.sweep.is_empty()) {
       outcome.fields = solution_fields(file.scene, outcome.answer.discretisation);
     }

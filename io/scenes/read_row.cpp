@@ -15,7 +15,9 @@ namespace {
 
 void show_geometry(FieldVisitor& v, SceneFile& file, ArrayScene& scene) {
   ArrayGeometry& g = scene.geometry;
-  v.only("kind", ArrayScene::kKind);
+  // Files of before call it an array.
+  v.choice({"kind", ArrayScene::kKind}, {{ArrayScene::kKind, false}, {SpaceScene::kKind, true}},
+           file.row_is_called_array);
   v.choice({"model", "plane-stress"},
            {{"plane-stress", PlaneState::kStress}, {"plane-strain", PlaneState::kStrain}},
            scene.plane);

@@ -10,48 +10,54 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <stdexcept>
 
 namespace viscard {
 namespace {
 
-// An array in the plane shares its kind with rows; the model distinguishes them.
-bool is_in_space(const toml::node_view<const toml::node>& geometry, const std::string& kind) {
-  if (kind != SpaceScene::kKind) return false;
-  if (geometry["model"].value_or(std::string()) == SpaceScene::kModel) return true;
-  for (const char* const key : {"rows", "columns", "positions"}) {
-    if (!geometry[key]) continue;
-    throw SceneMistake(std::string("geometry.") + key,
-                       "belongs to an array in the plane; say model = \"space\" (a row has a "
-                       "count)");
+using Geometry = toml::node_view<const toml::node>;
+
+bool has_any(const Geometry& geometry, std::initializer_list<const char*> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return !!geometry[key]; });
+}
+
+// Rows were called arrays, too: without the keys of an array in the plane a count, or a plane model, means a row.
+std::string kind_in(const Geometry& geometry) {
+  const bool has_count = has_any(geometry, {"count", "spacing"});
+  const std::string kind =
+      geometry["kind"].value_or(std::string(has_count ? "" : PillarScene::kKind));
+  if (kind.empty()) {
+    throw SceneMistake("geometry",
+                       "has the count or spacing of a row of pillars; say kind = \"row\", or leave "
+                       "them out for a single one");
   }
-  return false;
+  if (kind != SpaceScene::kKind || has_any(geometry, {"rows", "columns", "positions", "lattice"}))
+    return kind;
+  const std::string model = geometry["model"].value_or(std::string());
+  if (model == SpaceScene::kModel) return kind;
+  if (has_count || !model.empty()) return ArrayScene::kKind;
+  throw SceneMistake(
+      "geometry.kind",
+      "is 'array', which has rows and columns, or positions; a row of pillars is kind = \"row\" "
+      "with a count");
 }
 
 // geometry.kind decides which keys there are. A file that is not TOML counts as one of a pillar, whose reader
 // reports what is wrong with it.
 Scene empty_scene(const std::string& text, const std::filesystem::path& path) {
   std::string kind;
-  bool is_space = false;
   try {
     const toml::table table = parsed_toml(text, path.string());
-    const toml::node_view<const toml::node> geometry = table["geometry"];
-    const bool has_count = geometry["count"] || geometry["spacing"];
-    kind = geometry["kind"].value_or(std::string(has_count ? "" : PillarScene::kKind));
-    is_space = is_in_space(geometry, kind);
+    kind = kind_in(table["geometry"]);
   } catch (const toml::parse_error&) {
     return PillarScene();
   }
-  if (kind.empty()) {
-    throw SceneMistake("geometry",
-                       "has the count or spacing of a row of pillars; say kind = "
-                       "\"array\", or leave them out for a single one");
-  }
-  if (is_space) return SpaceScene();
   return choice<Scene>("geometry.kind", kind,
                        {{PillarScene::kKind, PillarScene()},
                         {ArrayScene::kKind, ArrayScene()},
+                        {SpaceScene::kKind, SpaceScene()},
                         {LayerScene::kKind, LayerScene()}});
 }
 
@@ -129,8 +135,8 @@ std::vector<FieldKey> keys_of(SceneFile file) {
 std::string table_of_scene_keys() {
   const std::pair<const char*, Scene> kKinds[] = {
       {"One pillar", PillarScene()},
-      {"A row of pillars, geometry.kind = \"array\"", ArrayScene()},
-      {"An array in the plane, geometry.kind = \"array\" and model = \"space\"", SpaceScene()},
+      {"A row of pillars, geometry.kind = \"row\"", ArrayScene()},
+      {"An array in the plane, geometry.kind = \"array\"", SpaceScene()},
       {"A layer, geometry.kind = \"layer\"", LayerScene()}};
   std::string text =
       "# Keys of scene files\n\nA film's material stands under [materials] with the name that "

@@ -48,6 +48,7 @@ const NamedMaterial& named(const SceneFile& file, const std::string& name) {
 void show_common(FieldVisitor& v, const char* wanted_example, SceneFile& file) {
   SceneCommon& scene = common(file.scene);
   v.quantity({.key = "tolerance", .range = Range::kPositive, .is_exact = true}, scene.tolerance);
+  v.text({"compare", "layer_cylinder.toml"}, file.compare);
   v.section("effects", [&](FieldVisitor& e) { show_effects(e, scene.effects); });
   v.section("want", [&](FieldVisitor& w) {
     w.texts({"quantities", wanted_example}, scene.wanted);

@@ -33,7 +33,7 @@ void show_fields(FieldVisitor& v, SceneFile& file, LayerScene& scene);
 QuantityField length_key(const char* key, bool is_required = false);
 
 // The parts that the kinds share.
-// tolerance, [effects], [want] and [[printed]].
+// tolerance, compare, [effects], [want] and [[printed]].
 void show_common(FieldVisitor& v, const char* wanted_example, SceneFile& file);
 // [materials] with `body`, "pillar" or "layer", those of the film and of classes, and what `others` shows. The
 // scene gets the material of the body.

@@ -61,6 +61,8 @@ struct SceneFile {
   ArraySweep sweep;                       // of rows of pillars; otherwise empty
   std::vector<PrintedValue> printed;      // [[printed]]
   SceneSources sources;
+  bool row_is_called_array = false;  // kind = "array" of a row, which is "row" now
+  std::string compare;               // another scene, in the folder of this one; empty: none
   bool accepts_implausible = false;  // the file, or who read it, says plausible = "off"
 };
 

@@ -105,9 +105,12 @@ std::string stem_of(const std::string& path) {
   return std::filesystem::path(path).stem().string();
 }
 
-// The scene of --compare, if there is one, before any work: to its own tolerance unless the command states one.
-std::optional<SceneFile> other_scene(const SimulateWords& words, const SceneFile& file,
+// The scene of --compare, or the one that the scene names, before any work: to its own tolerance unless the command
+// states one.
+std::optional<SceneFile> other_scene(SimulateWords& words, const SceneFile& file,
                                      Plausible judged) {
+  if (!words.compare && !file.compare.empty())
+    words.compare = (std::filesystem::path(words.scene).parent_path() / file.compare).string();
   if (!words.compare) return std::nullopt;
   SceneFile other = read_scene(*words.compare, judged);
   if (!file.sweep.is_empty() || !other.sweep.is_empty())
@@ -145,7 +148,8 @@ CommandSyntax simulate_syntax(SimulateWords& words) {
   add_tolerance_option(options, words.tolerance);
   options
       .add("compare", &words.compare,
-           "a second scene: results, modes and voltages along x of both beside each other, and in "
+           "a second scene, by default that of the key compare: results, modes and voltages along "
+           "x of both beside each other, and in "
            "--out "
            "curves and voltages of both in one picture each")
       .shown_as("SCENE.toml");
@@ -187,7 +191,7 @@ int run_simulate(const Words& words, Streams& streams) {
   SceneAnswer& answer = shown.answer;
   answer = is_sweep ? run_sweep(file, path, output, streams) : answer_of(file.scene, path, streams);
   shown.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (file.accepts_implausible) answer.notes.emplace_back(kPlausibleOffText);
+  add_notes_of_file(file, answer);
   shown.printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
   if (other) compare_with(asked, file, *other, output, shown, streams);

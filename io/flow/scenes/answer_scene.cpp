@@ -2,17 +2,28 @@
 
 #include "io/flow/scenes/array_sweep.h"
 #include "io/flow/scenes/wanted_results.h"
+#include "models/quantities/plausible.h"
 #include "models/scene/simulate.h"
 
 #include <stdexcept>
 
 namespace viscard {
+
 void set_tolerance(double tolerance, Scene& scene) {
   const ToleranceRange& range = tolerances_of(scene);
   if (!range.contains(tolerance)) {
     throw std::invalid_argument(std::string("--tol must lie between ") + range.words);
   }
   common(scene).tolerance = tolerance;
+}
+
+void add_notes_of_file(const SceneFile& file, SceneAnswer& answer) {
+  if (file.accepts_implausible) answer.notes.emplace_back(kPlausibleOffText);
+  if (!file.row_is_called_array) return;
+  answer.notes.emplace_back(
+      "geometry.kind is \"array\" of a row of pillars; write \"row\", because an array is one in "
+      "the "
+      "plane now");
 }
 
 SceneAnswer simulate_file(const Scene& scene, const std::string& path) {

@@ -14,6 +14,9 @@ namespace viscard {
 SceneAnswer answer_scene(const SceneFile& file, const std::string& path,
                          const std::function<void(double, const std::string&)>& progress);
 
+// What the file itself calls for beside the numbers: values that nothing has, words of before.
+void add_notes_of_file(const SceneFile& file, SceneAnswer& answer);
+
 // simulate() of one scene with messages that name the file.
 SceneAnswer simulate_file(const Scene& scene, const std::string& path);
 

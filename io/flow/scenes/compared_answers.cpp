@@ -2,6 +2,7 @@
 
 #include "io/flow/scenes/named_values.h"
 #include "models/maths/result_visitor.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,24 @@ std::optional<double> contrast(const VoltageProfile& profile, double pitch_m) {
   return difference / largest;
 }
 
+// The voltages of electrodes at the same places; those of electrodes with the same number lie elsewhere.
+void add_same_places(const ComparedProfile& profile, std::vector<ComparedValue>& values) {
+  std::erase_if(values, [&](const ComparedValue& value) {
+    const std::string stem = profile.here.name + "_";
+    return value.name.starts_with(stem) &&
+           value.name.find_first_not_of("0123456789", stem.size()) == std::string::npos;
+  });
+  const VoltageProfile &here = profile.here, &other = profile.other;
+  for (std::size_t i = 0; i < here.x_m.size(); ++i) {
+    for (std::size_t k = 0; k < other.x_m.size(); ++k) {
+      if (std::abs(here.x_m[i] - other.x_m[k]) > 1e-6 * profile.pitch_m) continue;
+      const std::string name = here.name + " at " + text_from_number(here.x_m[i] * 1e6, 6) + " um";
+      values.push_back(compared({name, here.value_V[i], "V", here.error_V[i]},
+                                {name, other.value_V[k], "V", other.error_V[k]}));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<VoltageProfile> voltage_profiles(const Scene& scene, const SceneAnswer& answer) {
@@ -129,6 +148,7 @@ ComparedAnswers compare_answers(const AnsweredScene& here, const AnsweredScene& 
     const double pitch_m = smallest_distance_m(profile.x_m);
     out.profiles.push_back(
         {profile, *beside, pitch_m, contrast(profile, pitch_m), contrast(*beside, pitch_m)});
+    if (profile.x_m != beside->x_m) add_same_places(out.profiles.back(), out.values);
   }
   const bool share_a_curve = std::any_of(
       here.answer.curves.begin(), here.answer.curves.end(), [&](const SceneCurve& curve) {

@@ -61,7 +61,7 @@ struct ArrayScene : SceneCommon {
   // Set by the plan: a shape only pushes. If not, all tops follow it, also where they must be pulled.
   bool feels_contact = true;
 
-  static constexpr const char* kKind = "array";  // geometry.kind in a scene file
+  static constexpr const char* kKind = "row";  // geometry.kind in a scene file
   static constexpr ToleranceRange kTolerances{1e-7, "1e-7 and 1 for a row of pillars"};
 };
 

@@ -42,7 +42,7 @@ history = [
 
 const char* const kArray = R"(tolerance = 1e-3
 [geometry]
-kind = "array"
+kind = "row"
 count = 8
 diameter = "40 um"
 length = "120 um"
@@ -191,8 +191,8 @@ TEST_CASE("a contradictory row of pillars is refused by every command with its l
       kArray,
       GENERATE(
           Mistake{"1e-3", "0", 1, "tolerance"}, Mistake{"1e-3", "1e-9", 1, "1e-7"},
-          Mistake{"kind = \"array\"", "kind = \"arrray\"", 3, "did you mean 'array'"},
-          Mistake{"kind = \"array\"\n", "", 2, "kind = \"array\""},
+          Mistake{"kind = \"row\"", "kind = \"arrray\"", 3, "did you mean 'array'"},
+          Mistake{"kind = \"row\"\n", "", 2, "kind = \"row\""},
           Mistake{"count = 8", "count = 0", 4, "count"},
           Mistake{"length =", "lenght =", 6, "did you mean 'length'"},
           Mistake{"spacing = \"60 um\"", "spacing = \"-5 um\"", 7, "spacing"},
@@ -219,8 +219,8 @@ TEST_CASE("a contradictory array in the plane is refused by every command with i
       kSpace,
       GENERATE(
           Mistake{"1e-3", "1e-8", 1, "between 1e-6 and 1"},
-          Mistake{"model = \"space\"\n", "", 4, "say model = \"space\""},
-          Mistake{"\"space\"", "\"spaces\"", 5, "say model = \"space\""},
+          Mistake{"\"space\"", "\"spaces\"", 4, "did you mean 'space'"},
+          Mistake{"\"array\"", "\"row\"", 4, "model"},
           Mistake{"rows = 8", "rows = 0", 5, "whole number from 1 to 1000"},
           Mistake{"rows = 8\n", "", 2, "needs rows and columns"},
           Mistake{"columns = 8", "count = 8", 6, "there is no key 'geometry.count'"},
