@@ -131,23 +131,6 @@ FitResult fit_stress_history_as(const HistoryInput& input, const FitOptions& opt
   return result;
 }
 
-// The longest time between two rows in which the stress changes at once: where in it, the table does not tell. A
-// ramp of several rows is known.
-double longest_jump_s(const HistoryInput& input) {
-  constexpr double kJump = 0.05, kAlone = 0.2;
-  double largest = 0.0, longest_s = 0.0;
-  for (const double stress : input.input) largest = std::max(largest, std::abs(stress));
-  const auto change = [&](std::size_t i) {  // into row i
-    return i > 0 && i < input.input.size() ? std::abs(input.input[i] - input.input[i - 1]) : 0.0;
-  };
-  for (std::size_t i = 1; i < input.input.size(); ++i) {
-    if (change(i) < kJump * largest) continue;
-    if (std::max(change(i - 1), change(i + 1)) > kAlone * change(i)) continue;
-    longest_s = std::max(longest_s, input.time_s[i] - input.time_s[i - 1]);
-  }
-  return longest_s;
-}
-
 // Rows at which the stress has moved: averages do not extend over them.
 std::vector<char> moved_rows(const std::vector<double>& stress_Pa) {
   constexpr double kMoved = 0.01;
@@ -200,7 +183,7 @@ FitResult fit_stress_history(const CreepData& data, const FitOptions& options) {
   add_record_notes(record.notes, result);
   add_spikes(result, spikes.size());
   if (rounding) report_time_rounding(*rounding, result);
-  if (const double jump_s = longest_jump_s(input); jump_s > 0.0) report_jump(jump_s, result);
+  if (const double jump_s = longest_jump_s(input); jump_s > 0.0) report_jump("stress", jump_s, result);
   return result;
 }
 

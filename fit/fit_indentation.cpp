@@ -189,13 +189,16 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
                              std::to_string(kLeastContactRows));
   }
   const auto [low, high] = std::minmax_element(input.output.begin(), input.output.end());
-  return fit_with_or_without_drift(
+  FitResult result = fit_with_or_without_drift(
       options, {input.time_s.back() - input.time_s.front(), *high - *low, "N"},
       [&](TableDrift drift) {
         return fit_solid_or_liquid(options, [&](const FitOptions& as) {
           return fit_contact_table(data, table, drift == TableDrift::kFitted, as);
         });
       });
+  if (const double jump_s = longest_jump_s(input); jump_s > 0.0)
+    report_jump("depth", jump_s, result);
+  return result;
 }
 
 // A table whose export may have rounded the times.

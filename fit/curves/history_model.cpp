@@ -129,6 +129,21 @@ std::optional<double> step_before(const std::vector<double>& time_s,
   return 0.0;
 }
 
+double longest_jump_s(const HistoryInput& input) {
+  constexpr double kJump = 0.05, kAlone = 0.2;
+  double largest = 0.0, longest_s = 0.0;
+  for (const double one : input.input) largest = std::max(largest, std::abs(one));
+  const auto change = [&](std::size_t i) {  // into row i
+    return i > 0 && i < input.input.size() ? std::abs(input.input[i] - input.input[i - 1]) : 0.0;
+  };
+  for (std::size_t i = 1; i < input.input.size(); ++i) {
+    if (change(i) < kJump * largest) continue;
+    if (std::max(change(i - 1), change(i + 1)) > kAlone * change(i)) continue;
+    longest_s = std::max(longest_s, input.time_s[i] - input.time_s[i - 1]);
+  }
+  return longest_s;
+}
+
 HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
   if (!in_.contact_input) {
     return {in_.contact, in_.step_s.value_or(in_.time_s[in_.contact]), 0.0};

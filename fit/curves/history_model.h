@@ -57,6 +57,10 @@ double loading_s(const HistoryInput& input);
 std::optional<double> step_before(const std::vector<double>& time_s,
                                   const std::vector<double>& input);
 
+// The longest time between two rows in which the input changes at once: where in it, the table does not tell. A ramp
+// of several rows is known. 0: there is none.
+double longest_jump_s(const HistoryInput& input);
+
 class HistoryModel final : public SpectralModel {
  public:
   HistoryModel(HistoryInput input, const FitOptions& options);

@@ -11,6 +11,8 @@ namespace viscard {
 
 namespace {
 
+constexpr double kVisible = 0.25;  // of the interval; what widens it by less needs no words
+
 std::string percent_of_E0(double change_Pa, const FitResult& result) {
   return text_of(50.0 * change_Pa / result.E0_Pa, 2) + " %";
 }
@@ -45,7 +47,6 @@ double widen_for_zero(double half_s, FitResult& result) {
 }
 
 void report_time_rounding(const TimeRounding& rounding, FitResult& result) {
-  constexpr double kVisible = 0.25;
   const double before = result.E0_interval_95.high - result.E0_interval_95.low;
   const double change_Pa = widen_for_zero(rounding.unsure_s, result);
   const bool is_spread = !rounding.time_s.empty();
@@ -85,13 +86,15 @@ void report_rise(double begin_s, double end_s, FitResult& result) {
            ", which its interval includes. With a column of depth the rise itself is fitted"});
 }
 
-void report_jump(double jump_s, FitResult& result) {
+void report_jump(const std::string& load, double jump_s, FitResult& result) {
   constexpr double kHalf =
       0.55;  // and a little more: the ramp between the rows is not quite the step
+  const double before = result.E0_interval_95.high - result.E0_interval_95.low;
   const double change_Pa = widen_for_zero(kHalf * jump_s, result);
+  if (!(change_Pa > kVisible * before)) return;
   result.flags.push_back(
       {"time-zero-chosen", 0,
-       "the stress changes at once between two rows, " + text_of(jump_s, 3) +
+       "the " + load + " changes at once between two rows, " + text_of(jump_s, 3) +
            " s apart, and counts as a ramp between them; half of that time changes E0 by " +
            percent_of_E0(change_Pa, result) +
            ", which its interval includes. More rows at the changes would tell"});

@@ -3,6 +3,8 @@
 #include "fit/intervals/fit_result.h"
 #include "fit/samples/rounded_times.h"
 
+#include <string>
+
 namespace viscard {
 
 // Widens the intervals of E0 and of the terms by what the unsure zero of rounded times changes, and names it
@@ -16,8 +18,8 @@ void report_time_rounding(const TimeRounding& rounding, FitResult& result);
 // flag time-zero-chosen.
 void report_rise(double begin_s, double end_s, FitResult& result);
 
-// The same for a stress that changes at once between two rows, jump_s apart.
-void report_jump(double jump_s, FitResult& result);
+// The same for a load ("stress", "strain", "depth") that changes at once between two rows, jump_s apart.
+void report_jump(const std::string& load, double jump_s, FitResult& result);
 
 // Widens the intervals of E0, of the moduli and shares of the terms for a zero of time that is uncertain
 // by half_s: each modulus changes by exp(half_s/tau). Returns the change of E0 between both ends.

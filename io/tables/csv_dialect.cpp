@@ -197,9 +197,42 @@ bool has_groups_of_three(std::string_view cell) {
   return n_groups > 0 && (cell.empty() || !(is_decimal_digit(cell[0]) || cell[0] == ','));
 }
 
+// Signs between groups of three digits that are no decimal sign anywhere: apostrophes, and blanks.
+constexpr std::string_view kGroupSigns[] = {"'",        "\xE2\x80\x99", " ",
+                                            "\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89"};
+
+// "1'498'996.2" without its apostrophes. Nothing for a cell without such groups.
+std::optional<std::string> without_group_signs(std::string_view cell) {
+  for (const std::string_view sign : kGroupSigns) {
+    const std::size_t first = cell.find(sign);
+    if (first == std::string_view::npos) continue;
+    std::string commas;
+    for (std::size_t at = 0; at < cell.size();) {
+      const bool is_sign = cell.substr(at, sign.size()) == sign;
+      commas += is_sign ? ',' : cell[at];
+      at += is_sign ? sign.size() : 1;
+    }
+    // A comma behind the groups is a decimal one, which has_groups_of_three() ends at.
+    const std::size_t decimal = cell.find(',');
+    if (decimal != std::string_view::npos && decimal < first) return std::nullopt;
+    if (!has_groups_of_three(commas.substr(
+            0, decimal == std::string_view::npos ? commas.size() : commas.rfind(','))))
+      return std::nullopt;
+    std::string plain;
+    const std::size_t keep =
+        decimal == std::string_view::npos ? std::string::npos : commas.rfind(',');
+    for (std::size_t i = 0; i < commas.size(); ++i) {
+      if (commas[i] != ',' || i == keep) plain += commas[i];
+    }
+    return plain;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> number_from_cell(std::string_view cell, const Dialect& dialect) {
+  const std::string_view given = cell;
   std::array<char, 64> changed{};
   const auto change = [&] {
     if (cell.size() > changed.size()) return false;
@@ -223,7 +256,10 @@ std::optional<double> number_from_cell(std::string_view cell, const Dialect& dia
     changed[at] = 'e';
     result = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   }
-  if (result.ptr != cell.data() + cell.size() || cell.empty()) return std::nullopt;
+  if (result.ptr != cell.data() + cell.size() || cell.empty()) {
+    const std::optional<std::string> plain = without_group_signs(given);
+    return plain ? number_from_cell(*plain, dialect) : std::nullopt;
+  }
   if (result.ec == std::errc::result_out_of_range) {
     const bool is_tiny =
         cell.find("e-") != std::string_view::npos || cell.find("E-") != std::string_view::npos;

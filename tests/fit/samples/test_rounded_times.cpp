@@ -195,6 +195,36 @@ TEST_CASE("intervals hold a material whose times were cut off, also if the noise
   CHECK(n_terms_held >= kRuns - 2);
 }
 
+TEST_CASE(
+    "a strain or depth that jumps between two rows leaves E0 unsure by half of their distance",
+    "[fit]") {
+  const bool is_depth = GENERATE(false, true);
+  const PronySeries truth = quick_material();
+  int n_held = 0, n_named = 0;
+  constexpr int kRuns = 20;
+  constexpr double kStep_s = 0.1;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    std::mt19937_64 dice(seed);
+    std::normal_distribution<double> normal;
+    const double loaded_s = 2.0 + kStep_s * std::uniform_real_distribution<double>()(dice);
+    std::vector<double> time_s, load, answer;
+    for (int i = 0; i < 400; ++i) {
+      const double t = kStep_s * i, strain = t > loaded_s ? 0.02 : 0.0;
+      time_s.push_back(t);
+      load.push_back(strain);
+      answer.push_back(strain * relaxation_modulus_Pa(truth, std::max(0.0, t - loaded_s)) +
+                       1e-6 * normal(dice));
+    }
+    const FitResult fit =
+        is_depth ? fit_indentation({.time_s = time_s, .force_N = answer, .depth_m = load})
+                 : fit_relaxation({.time_s = time_s, .value = answer, .strain = load});
+    n_held += holds(fit.E0_interval_95, 2.0) ? 1 : 0;
+    n_named += has_flag(fit, "time-zero-chosen") ? 1 : 0;
+  }
+  CHECK(n_held >= kRuns - 1);
+  CHECK(n_named == kRuns);
+}
+
 TEST_CASE("rows missing at equal distances and cut times look alike, and both are inside",
           "[fit]") {
   const PronySeries truth = quick_material();
