@@ -214,7 +214,7 @@ std::vector<CardFinding> compare_headers(const std::vector<HeaderLine>& found,
     if (match.line != nullptr && !differs) {
       differs = CardFinding{
           "header-differs",
-          at_line(match.line->line, "'" + line.key + "' says '" + match.line->text + right), true};
+          at_line(match.line->line, "'" + line.key + "' reads '" + match.line->text + right), true};
     } else if (match.line == nullptr && !is_missing &&
                line.key != "rho") {  // older headers lack it
       is_missing =

@@ -220,8 +220,9 @@ void compare_with_header(const std::string& text, CardCheck& check) {
   const std::string& missing = check.read.missing_keyword;
   check.findings.push_back(
       {missing.empty() ? "header-disagrees" : "E0-without-instantaneous",
-       fmt::format("the header says E0 = {:g} Pa and the numbers below mean {:g} Pa{}{}", stated_Pa,
-                   found_Pa, factor_of(found_Pa, stated_Pa), missing.empty() ? "" : "; " + missing),
+       fmt::format("the header states E0 = {:g} Pa and the numbers below mean {:g} Pa{}{}",
+                   stated_Pa, found_Pa, factor_of(found_Pa, stated_Pa),
+                   missing.empty() ? "" : "; " + missing),
        true});
 }
 

@@ -165,7 +165,8 @@ std::string material_named(const std::string& text, const std::string& target,
                            const std::string& name) {
   const auto found = materials_in(text, target);
   if (!found)
-    throw std::invalid_argument("materials in files for " + target + " are not told apart by name");
+    throw std::invalid_argument("materials in files for " + target +
+                                " are not distinguished by name");
   const Materials& all = *found;
   const auto is_overlay = [&](const FoundMaterial& one) {
     return target == "calculix" && one.name.rfind(name + "_", 0) == 0;

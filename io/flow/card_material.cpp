@@ -55,7 +55,7 @@ void take_bound(const CardMaterialRequest& request, PreparedMaterial& prepared) 
   const double E0_Pa = end_of_E0_Pa(material, end);
   if (!(E0_Pa > 0.0) || !std::isfinite(E0_Pa)) {
     throw std::runtime_error("the " + request.bound + " bound of E0 is no modulus (" +
-                             fmt::format("{:g}", E0_Pa) + " Pa); the data do not tell it");
+                             fmt::format("{:g}", E0_Pa) + " Pa); the data do not show it");
   }
   if (!has_band(material)) return take_both_ends(request, end, prepared);
   const bool has_systematic = material.uncertainty->systematic_relative > 0.0;

@@ -96,7 +96,7 @@ void show_keys(ResultVisitor& v, const FittedFile& fitted) {
   v.word("kind", name_of_kind(fit.kind), {"indentation", "relaxation", "creep", "dma", "several"},
          "kind of test");
   v("trustworthy", fit.is_trustworthy,
-    "whether the result may be used; if not, flags say why and the exit status is 1");
+    "whether the result may be used; if not, flags state why and the exit status is 1");
   show_moduli(v, fit, names);
   show_measured(v, fitted);
   show_quality(v, fit);

@@ -26,7 +26,7 @@ inline constexpr double kUsualNu = 0.495;
 // Of the option --unverified, for the help of all commands that read captures.
 inline constexpr const char* kUnverifiedHelp =
     "read a capture although its checksums show that description, events or moves are damaged; the "
-    "result says so";
+    "result states it";
 
 // One of several tests of a material.
 struct TestFile {

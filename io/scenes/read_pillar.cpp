@@ -70,9 +70,10 @@ void show_film(FieldVisitor& v, SceneFile& file, PillarScene& scene) {
     if (!scene.geometry.film) return;
     fill_film(file, scene);
     if (!of_pillar) return;
-    throw SceneMistake("geometry.bottom",
-                       "the pillar stands on a film; say bottom = \"fixed\" or \"free\" inside the "
-                       "film's braces");
+    throw SceneMistake(
+        "geometry.bottom",
+        "the pillar stands on a film; write bottom = \"fixed\" or \"free\" inside the "
+        "film's braces");
   });
 }
 
@@ -87,7 +88,7 @@ struct ElectrodeKeys {
 void fill_electrode(const ElectrodeKeys& keys, PillarScene& scene) {
   if (!keys.grounded) {
     throw SceneMistake("geometry.electrode",
-                       "needs the film's face it is on; say face = \"top\" or \"bottom\"");
+                       "needs the film's face it is on; write face = \"top\" or \"bottom\"");
   }
   const bool is_sampled = keys.is_sampled.value_or(false);
   if (!is_sampled && !(keys.radius_m > 0.0)) {

@@ -70,7 +70,7 @@ void fill_load(const RowLoadKeys& keys, ArrayScene& scene) {
       scene.drive, [](const auto& d) requires requires { d.history; } {});
   const bool has_load = keys.pressure_Pa != 0.0 || keys.shear_Pa != 0.0 || is_in_history;
   if (has_load && !keys.has_place) {
-    throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
+    throw SceneMistake("analysis.load", "the load has no place; write on = \"top\"");
   }
   if (keys.pressure_Pa != 0.0 && keys.shear_Pa != 0.0) {
     throw SceneMistake("analysis.load", "has both a pressure and a shear; give one of them");

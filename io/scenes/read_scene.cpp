@@ -29,9 +29,10 @@ std::string kind_in(const Geometry& geometry) {
   const std::string kind =
       geometry["kind"].value_or(std::string(has_count ? "" : PillarScene::kKind));
   if (kind.empty()) {
-    throw SceneMistake("geometry",
-                       "has the count or spacing of a row of pillars; say kind = \"row\", or leave "
-                       "them out for a single one");
+    throw SceneMistake(
+        "geometry",
+        "has the count or spacing of a row of pillars; write kind = \"row\", or leave "
+        "them out for a single one");
   }
   if (kind != SpaceScene::kKind || has_any(geometry, {"rows", "columns", "positions", "lattice"}))
     return kind;

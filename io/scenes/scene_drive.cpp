@@ -225,20 +225,21 @@ void fill_place(const LoadKeys& keys, PillarScene& scene) {
   const bool is_loaded =
       keys.pressure_Pa != 0.0 || keys.shear_Pa != 0.0 || keys.force_N != 0.0 || keys.is_moved();
   if (is_loaded && !keys.on) {
-    throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
+    throw SceneMistake("analysis.load", "the load has no place; write on = \"top\"");
   }
   const LoadPlace place = keys.on.value_or(LoadPlace::kTop);
   if (!set(scene.drive, kPlace, place) && place == LoadPlace::kBase) {
-    throw SceneMistake("analysis.load.on", only(kPlace, "shake the base; say \"top\""));
+    throw SceneMistake("analysis.load.on", only(kPlace, "shake the base; write \"top\""));
   }
   if (keys.acceleration_m_s2 != 0.0 && place != LoadPlace::kBase) {
-    throw SceneMistake("analysis.load.acceleration", "is of the base; say on = \"base\"");
+    throw SceneMistake("analysis.load.acceleration", "is of the base; write on = \"base\"");
   }
   if (keys.pressure_Pa != 0.0 && place == LoadPlace::kBase) {
     throw SceneMistake("analysis.load.pressure", "is on the top; the base takes an acceleration");
   }
   if (!set(scene.drive, kDirection, keys.direction) && keys.direction == LoadDirection::kLateral) {
-    throw SceneMistake("analysis.load.direction", only(kDirection, "push sideways; say \"axial\""));
+    throw SceneMistake("analysis.load.direction",
+                       only(kDirection, "push sideways; write \"axial\""));
   }
 }
 
@@ -253,14 +254,14 @@ void fill_traction(const LoadKeys& keys, PillarScene& scene) {
   if (has_history(scene) && (given > 0 || keys.acceleration_m_s2 != 0.0)) {
     throw SceneMistake("analysis.load",
                        std::string("the load of a ") + analysis_of(scene).name +
-                           " analysis stands in its history or pulse; say here only on and "
+                           " analysis stands in its history or pulse; write here only on and "
                            "direction");
   }
   if ((keys.shear_Pa != 0.0 || keys.force_N != 0.0) && load_place(scene) == LoadPlace::kBase) {
     throw SceneMistake("analysis.load", "the base takes an acceleration");
   }
   if (keys.shear_Pa != 0.0 && !is_lateral(scene)) {
-    throw SceneMistake("analysis.load.shear", "a shear is sideways; say direction = \"lateral\"");
+    throw SceneMistake("analysis.load.shear", "a shear is sideways; write direction = \"lateral\"");
   }
   const double d_m = 2.0 * radius_at_m(scene.geometry, scene.geometry.length_m);  // of the top
   const double area_m2 = scene.plane ? d_m : 0.25 * std::numbers::pi * d_m * d_m;
@@ -300,7 +301,7 @@ void show_analysis(FieldVisitor& v, PillarScene& scene) {
   show_load(v, *load);
   v.after_all_keys([&scene, plate, load] {
     if (plate && !set(scene.drive, kPlate, *plate)) {
-      throw SceneMistake("analysis.top", only(kPlate, "say what is on the top"));
+      throw SceneMistake("analysis.top", only(kPlate, "state what is on the top"));
     }
     fill_place(*load, scene);
     fill_traction(*load, scene);

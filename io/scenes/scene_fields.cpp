@@ -114,9 +114,10 @@ void show_electrode(FieldVisitor& v, FilmFace& grounded, SpaceElectrode& electro
   if (!quadrants) return;
   v.after_all_keys([is_one = electrode == SpaceElectrode::kEquipotential] {
     if (!is_one) return;
-    throw SceneMistake("geometry.electrode.kind",
-                       "quadrants are read on a charge-free face; say kind = \"sampled\", or leave "
-                       "quadrants out");
+    throw SceneMistake(
+        "geometry.electrode.kind",
+        "quadrants are read on a charge-free face; write kind = \"sampled\", or leave "
+        "quadrants out");
   });
   electrode = SpaceElectrode::kQuadrants;
 }

@@ -57,13 +57,13 @@ void refuse_at_rest(const TouchKeys& touch, const ReadoutKeys& readout, const Sp
   if (!touch.history.empty()) {
     throw SceneMistake(
         "analysis.history",
-        "a load at rest has none; say kind = \"relaxation\" for the depth of a shape "
+        "a load at rest has none; write kind = \"relaxation\" for the depth of a shape "
         "in time, or \"creep\" for its force");
   }
   if (readout.kind && !scene.noise) {
     throw SceneMistake("readout",
                        "charge leaks in time, and [noise] is that of an amplifier; add [noise], or "
-                       "say kind = \"relaxation\" or \"creep\", with a "
+                       "write kind = \"relaxation\" or \"creep\", with a "
                        "history and a shape");
   }
 }
@@ -124,7 +124,7 @@ void refuse_beside_path(const TouchKeys& touch, const SpaceScene& scene) {
   const bool is_creep = !std::isnan(touch.path->front().force_N);
   if (touch.kind == "static" || touch.kind == (is_creep ? "creep" : "relaxation")) return;
   throw SceneMistake("analysis.kind", "cannot be '" + touch.kind +
-                                          "' beside shape.path; leave it out, or say "
+                                          "' beside shape.path; leave it out, or write "
                                           "\"relaxation\" for depths and \"creep\" for forces");
 }
 

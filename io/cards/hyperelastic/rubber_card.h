@@ -14,7 +14,7 @@ namespace viscard {
 // lsdyna, mfront, moose, openradioss, sfepy.
 const std::vector<std::string>& rubber_card_targets();
 
-// The bulk modulus of a solver that needs one and was given none, and how the header says so.
+// The bulk modulus of a solver that needs one and was given none, and how the header states it.
 inline constexpr double kUsualBulkRatio = 1000.0;  // of the shear modulus at rest
 inline constexpr const char* kUsualBulkText = "bulk modulus 1000 times the shear modulus at rest";
 

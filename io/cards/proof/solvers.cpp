@@ -136,32 +136,33 @@ Commands openradioss_commands(const std::string& program) {
 }
 
 Solver openradioss_solver() {
-  return {.name = "openradioss",
-          .code = "OpenRadioss",
-          .programs = {"starter_linux64_gf", "starter_linux64_ifx", "starter_linuxa64"},
-          .install =
-              "Debian has no OpenRadioss; get it from github.com/OpenRadioss/OpenRadioss with its "
-              "tool th_to_csv, set RAD_CFG_PATH and LD_LIBRARY_PATH as its INSTALL.md says, and "
-              "name its starter with --solver-path; engine and th_to_csv are taken from beside it",
-          .targets = {"openradioss"},
-          .test = openradioss_test(),
-          // The strain of 1e-5, and six decimals of 10 (openradioss_model.cpp).
-          .resolves = 2.0 * kFiniteStrain,
-          .model = openradioss_model,
-          .commands = openradioss_commands,
-          .samples = openradioss_samples,
-          .divergence = "ENERGY ERROR LIMIT REACHED",
-          .error = "ERROR TERMINATION",
-          // Of strain: six decimals of a displacement would show little of a stiff answer.
-          .confined = ElementTestKind::kConfined,
-          .version_words = {"-version"},
-          // execargcheck.F of the starter states no version but this.
-          .version_pattern = "OpenRadioss Starter[\\s\\S]*Date of build : *(\\S[^\\n]*\\S)",
-          .most_ramps = openradioss_most_ramps,
-          .counted = "times compared",
-          .caution =
-              "OpenRadioss itself has never run this test: its running and reading were tested "
-              "with a stand-in, from its published source"};
+  return {
+      .name = "openradioss",
+      .code = "OpenRadioss",
+      .programs = {"starter_linux64_gf", "starter_linux64_ifx", "starter_linuxa64"},
+      .install =
+          "Debian has no OpenRadioss; get it from github.com/OpenRadioss/OpenRadioss with its "
+          "tool th_to_csv, set RAD_CFG_PATH and LD_LIBRARY_PATH as its INSTALL.md describes, and "
+          "name its starter with --solver-path; engine and th_to_csv are taken from beside it",
+      .targets = {"openradioss"},
+      .test = openradioss_test(),
+      // The strain of 1e-5, and six decimals of 10 (openradioss_model.cpp).
+      .resolves = 2.0 * kFiniteStrain,
+      .model = openradioss_model,
+      .commands = openradioss_commands,
+      .samples = openradioss_samples,
+      .divergence = "ENERGY ERROR LIMIT REACHED",
+      .error = "ERROR TERMINATION",
+      // Of strain: six decimals of a displacement would show little of a stiff answer.
+      .confined = ElementTestKind::kConfined,
+      .version_words = {"-version"},
+      // execargcheck.F of the starter states no version but this.
+      .version_pattern = "OpenRadioss Starter[\\s\\S]*Date of build : *(\\S[^\\n]*\\S)",
+      .most_ramps = openradioss_most_ramps,
+      .counted = "times compared",
+      .caution =
+          "OpenRadioss itself has never run this test: its running and reading were tested "
+          "with a stand-in, from its published source"};
 }
 
 // One of the two Python packages. Python's own error names the missing part.

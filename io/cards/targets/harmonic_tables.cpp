@@ -216,7 +216,7 @@ CardTarget ansys_table_target() {
           "ANTYPE,HARMIC with HROPT,FULL. Without prestress TB,PRONY of card ansys does "
           "the same exactly; a prestressed harmonic analysis drops it, and then needs "
           "this card. Near nu = .5 set KEYOPT(6)=1 of SOLID185 to 187. NOT CHECKED: no public "
-          "text says that the coefficient of TB,SDAMP with STRU multiplies the stiffness once, "
+          "text states that the coefficient of TB,SDAMP with STRU multiplies the stiffness once, "
           "as here, and not twice, as that of MP,DMPR does; the stress of one element must lead "
           "its strain by atan(loss factor).",
       .cannot_represent =

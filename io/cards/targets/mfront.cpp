@@ -148,7 +148,7 @@ void check_program(const std::string& text, const NamedNumbers& named, std::size
   if (!has_head || program.find(squeezed(kMfrontIntegrator)) == std::string::npos) {
     card.add("integrator-differs",
              "the lines that integrate the stress, or @DSL and @Behaviour, are not those that "
-             "viscard writes, so the numbers alone say nothing");
+             "viscard writes, so the numbers alone show nothing");
   }
   const auto size = first_match(text, "@IntegerConstant\\s+Nt\\s*=\\s*(\\d+)\\s*;");
   if (!size || size->group[1] != std::to_string(count)) {

@@ -99,7 +99,7 @@ void show_check(ResultVisitor& v, const CardCheck& check, const std::string& car
   v.object("understood", "how the card was read",
            [&] { show_understood(v, check.read.understood); });
   v.object(
-      "material", "what the card says; null: no whole material",
+      "material", "what the card means; null: no whole material",
       [&] { show_material(v, check.read.material); }, has_values);
   v.when(has_values, [&] {
     v("frequencies_Hz", check.read.frequencies_Hz, "of a table over frequency");
@@ -176,9 +176,9 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
     out << fmt::format("the card differs by more than the {:.1e} allowed\n", check.tolerance);
   } else if (has_unread_parts(check.findings)) {
     out << (check.E_difference
-                ? "what was read of the card agrees with the material; nothing is said of the "
+                ? "what was read of the card agrees with the material; nothing is stated of the "
                   "rest\n"
-                : "not all of the card was read; nothing is said of it as a whole\n");
+                : "not all of the card was read; nothing is stated of it as a whole\n");
   } else if (check.E_difference) {
     out << fmt::format("the card agrees with the material (within {:.1e})\n", check.tolerance);
   } else {

@@ -77,8 +77,8 @@ void print_rubber_check(const RubberCheck& check, const CardWords& words, std::o
     out << "the card is wrong\n";
   } else if (is_partial) {
     out << (check.difference
-                ? "what was read of the card agrees with the law; nothing is said of the rest\n"
-                : "not all of the card was read; nothing is said of it as a whole\n");
+                ? "what was read of the card agrees with the law; nothing is stated of the rest\n"
+                : "not all of the card was read; nothing is stated of it as a whole\n");
   } else if (check.difference) {
     out << fmt::format("the card agrees with the law (within {:.1e})\n", check.tolerance);
   } else {

@@ -102,7 +102,7 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "mixing ratio, when the material is a joint fit: measured, or between measured ones")
       .shown_as("R");
   add("extrapolate", &words.may_extrapolate,
-      "with --ratio: also outside the measured range; the header says so");
+      "with --ratio: also outside the measured range; the header states it");
   add("at-temperature", &words.temperature_C,
       "card of one temperature, such as 37 or \"37 degC\": the material's shift moves its times")
       .of("degC")
@@ -327,7 +327,7 @@ void check_words(CardWords& words) {
                      " must be a whole number from 1 to 100");
   }
   if (words.terms && !words.may_approximate) {
-    throw UsageError("--terms changes the material; say --approximate too");
+    throw UsageError("--terms changes the material; add --approximate");
   }
   if (words.tolerance && !(*words.tolerance > 0.0)) {
     throw UsageError("--tolerance must be positive");

@@ -36,7 +36,7 @@ void show_summary(ResultVisitor& v, const CapturedRun& run, const std::string& c
   v("n_raw_bytes", run.n_raw_bytes, "bytes received and sent");
   std::vector<std::string> notes;
   for (const IntegrityNote& note : integrity_notes(run)) notes.push_back(note.text);
-  v("notes", notes, "what the checksums say against the record");
+  v("notes", notes, "what the checksums show against the record");
   v("out", out, "the table that was written");
 }
 

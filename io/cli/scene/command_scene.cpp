@@ -26,7 +26,7 @@ int run_scene(const Words& words, Streams& streams) {
   bool overwrite = false;
   CommandSyntax syntax{
       "viscard scene check SCENE.toml [OPTIONS]",
-      "Reads a scene, says with the line of the file what is missing or contradicts itself, and "
+      "Reads a scene, reports with the line of the file what is missing or contradicts itself, and "
       "draws the geometry. Nothing is solved.",
       "viscard scene check data/scenes/pillar_sensor.toml --svg sensor.svg --force"};
   syntax.positional.add("what", &what, "what to do").among({"check"});

@@ -102,7 +102,7 @@ void print_doubts(const StudyOutcome& outcome, StudyStore& store, const std::str
   if (outcome.n_refused > 0) {
     say(fmt::format(
         "{} of the {} points answered now {} refused: they lie outside the model (column "
-        "failure says why)",
+        "failure states why)",
         outcome.n_refused, outcome.n_answered, outcome.n_refused == 1 ? "is" : "are"));
   }
   if (outcome.n_failed > 0) {

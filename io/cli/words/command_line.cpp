@@ -156,7 +156,7 @@ bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
     syntax.options
         .add("plausible", &plausible,
              "off: accept values that no test, material or scene can have (a wrong unit, most "
-             "often); the result says so")
+             "often); the result states it")
         .among({"on", "off"});
   }
   syntax.options

@@ -125,7 +125,7 @@ void check_order(const LargeStrainTest& test, const std::string& file, std::size
       file + ": the times do not ascend: they fall " + std::to_string(n_falls) +
       " times, first from " + text_of(test.time_s[row - 1]) + " s to " + text_of(test.time_s[row]) +
       " s in reading " + std::to_string(row + 1) +
-      ", so that loading and unloading cannot be told apart; sort the rows by time, or give "
+      ", so that loading and unloading cannot be distinguished; sort the rows by time, or give "
       "--cycle all");
 }
 

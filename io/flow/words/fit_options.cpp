@@ -151,7 +151,7 @@ OptionList options_of(FitWords& words) {
   list.group("Units");
   list.add("plausible", &words.plausible,
            "off: accept values that no test or material can have (a wrong unit, most often); the "
-           "result says so")
+           "result states it")
       .among({"on", "off"})
       .by_default("on");
   return list;

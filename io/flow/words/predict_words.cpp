@@ -125,7 +125,7 @@ OptionList options_of(PredictWords& words) {
       .among(modulus_kind_words());
   list.add("plausible", &words.plausible,
            "off: accept values that no test or material can have (a wrong unit, most often); the "
-           "result says so")
+           "result states it")
       .among({"on", "off"})
       .by_default("on");
   list.add("time-zero", &words.time_zero, "time in the tables where t = 0").of("s").by_default("0");

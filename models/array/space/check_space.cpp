@@ -181,7 +181,7 @@ void check_film(const SpaceScene& scene) {
     throw SceneMistake(
         "geometry.electrode.face",
         "cannot be the top here: the potential of a charge-free face has a steep rim at "
-        "each foot that stands on it. Read the bottom, or say kind = "
+        "each foot that stands on it. Read the bottom, or write kind = "
         "\"equipotential\"");
   }
   const double beyond_m = electrode_radius_m(scene) - 0.5 * scene.diameter_m;

@@ -48,14 +48,14 @@ void check_bottom(const PillarScene& scene) {
   const std::string instead =
       ". A free bottom has modes (kind = \"modal\"), the motion by a voltage (kind = \"static\") "
       "and that by a load on the top in time (kind = \"harmonic\" or \"transient\"); for anything "
-      "else say bottom = \"fixed\"";
+      "else write bottom = \"fixed\"";
   const Analysis& analysis = analysis_of(scene);
   if (analysis.free_bottom == FreeBottom::kMoves) {
     if (load_place(scene) == LoadPlace::kTop) return;
     throw SceneMistake(
         "analysis.load.on",
         "a free bottom rests on no base that could accelerate it: let the load act on "
-        "the top, or say bottom = \"fixed\"");
+        "the top, or write bottom = \"fixed\"");
   }
   if (analysis.free_bottom == FreeBottom::kRefused) {
     throw SceneMistake(key, std::string("nothing holds a pillar with a free bottom: a ") +

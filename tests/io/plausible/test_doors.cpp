@@ -184,7 +184,7 @@ TEST_CASE("a table in another unit is refused, and the advised words read it", "
   }
 }
 
-TEST_CASE("a table with a wrong unit is fitted with --plausible off, and the result says so",
+TEST_CASE("a table with a wrong unit is fitted with --plausible off, and the result states it",
           "[io][cli]") {
   const ScratchFolder folder;
   for (const Case& one : wrong_units()) {

@@ -238,7 +238,7 @@ TEST_CASE("a contradictory array in the plane is refused by every command with i
           Mistake{"edge = \"150 um\"", "edge = \"-1 um\"", 12, "edge"},
           Mistake{"kind = \"sampled\"", "kind = \"sample\"", 13,
                   "There are: equipotential, sampled"},
-          Mistake{"face = \"bottom\"", "face = \"top\"", 13, "say kind = \"equipotential\""},
+          Mistake{"face = \"bottom\"", "face = \"top\"", 13, "write kind = \"equipotential\""},
           Mistake{"radius = \"20 um\"", "radius = \"60 um\"", 13, "overlap"},
           Mistake{"nu = 0.33", "nu = 0.7", 15, "Poisson"},
           Mistake{"{ file = \"DATA/materials/pvdf_seed.json\" }", "{ E = \"2 GPa\", nu = 0.3 }", 12,

@@ -96,7 +96,7 @@ TEST_CASE("the band of a strain is the scatter of materials drawn from the covar
   }
 }
 
-TEST_CASE("a modulus at its bound and terms that cannot be told apart have a finite band",
+TEST_CASE("a modulus at its bound and terms that cannot be distinguished have a finite band",
           "[models][stability]") {
   Material material = fitted_material();
   material.E0_Pa = 1e6;

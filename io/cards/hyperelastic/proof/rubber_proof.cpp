@@ -376,7 +376,7 @@ RubberProof prove_rubber_card(const std::string& card, const std::string& target
     throw std::runtime_error(
         "the card has no terms of relaxation and the law has " +
         std::to_string(wanted.terms.size()) +
-        "; --elastic-only instantaneous or long-term says which law without them it should be");
+        "; --elastic-only instantaneous or long-term states which law without them it should be");
   const CubeRunner* runner = runner_of(found.solver.name);
   wanted.rule = runner == nullptr ? VolumeRule::kWholeOgden : runner->rule;
   if (found.solver.name == "calculix" && wanted.law.form == HyperelasticForm::kArrudaBoyce)
