@@ -82,7 +82,7 @@ void fill_load(const RowLoadKeys& keys, ArrayScene& scene) {
   if (is_in_history && (keys.pressure_Pa != 0.0 || keys.shear_Pa != 0.0)) {
     throw SceneMistake("analysis.load", std::string("the pressure or shear of a ") +
                                             analysis_of(scene).name +
-                                            " analysis is its history or pulse; say "
+                                            " analysis is its history or pulse; write "
                                             "only on and direction = \"axial\" or \"lateral\"");
   }
   scene.load = is_shear ? ArrayLoad::kShear : ArrayLoad::kPressure;
