@@ -389,7 +389,8 @@ TEST_CASE("the page refuses and accepts the same numbers as files", "[io][serve]
   ServeOptions options;
   options.folder = folder.path();
   options.is_emulated = true;
-  RigApi api(options);
+  OneJob job;
+  RigApi api(options, job);
   const Json good{{"id", "a"},
                   {"modulus_guess_Pa", 2e6},
                   {"punch_diameter_m", 4.4e-3},
