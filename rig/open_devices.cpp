@@ -5,6 +5,7 @@
 #include "rig/cells/hx711_load_cell.h"
 #include "rig/cells/mark10_stream.h"
 #include "rig/lines/rig_error.h"
+#include "rig/stages/apt_stage.h"
 #include "rig/stages/grbl_stage.h"
 #include "rig/stages/zaber_stage.h"
 
@@ -38,7 +39,8 @@ struct DriverRow {
 
 constexpr DriverRow<Stage, StageConfig> kStages[] = {
     {"grbl", made<Stage, GrblStage, StageConfig>, [](const StageConfig&) {}},
-    {"zaber", made<Stage, ZaberStage, StageConfig>, [](const StageConfig&) {}}};
+    {"zaber", made<Stage, ZaberStage, StageConfig>, [](const StageConfig&) {}},
+    {"apt", made<Stage, AptStage, StageConfig>, [](const StageConfig&) {}}};
 
 constexpr DriverRow<LoadCell, LoadCellConfig> kCells[] = {
     {"hx711", made<LoadCell, Hx711LoadCell, LoadCellConfig>,

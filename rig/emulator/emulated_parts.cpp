@@ -10,6 +10,9 @@ std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions
     return std::make_unique<EmulatedZaber>(options.truth, stage.toward_specimen, stage.device,
                                            options.zaber);
   }
+  if (stage.driver == "apt") {
+    return std::make_unique<EmulatedApt>(options.truth, stage.toward_specimen, options.apt);
+  }
   return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
                                         options.grbl);
 }

@@ -3,6 +3,7 @@
 #include "models/experiment/emulated_specimen.h"
 #include "models/experiment/rig_config.h"
 #include "rig/emulator/emulated_amplifier.h"
+#include "rig/emulator/emulated_apt.h"
 #include "rig/emulator/emulated_gauge.h"
 #include "rig/emulator/emulated_grbl.h"
 #include "rig/emulator/emulated_thermometer.h"
@@ -24,6 +25,7 @@ struct EmulatedRigOptions {
   bool is_on_wall_clock = false;
   GrblHabits grbl;
   ZaberHabits zaber;
+  AptHabits apt;
   GaugeHabits gauge;
   AmplifierOptions amplifier;
   ThermometerHabits thermometer;  // of the one that config names

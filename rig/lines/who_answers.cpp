@@ -12,7 +12,7 @@ namespace viscard {
 namespace {
 
 constexpr const char* kNeeded =
-    ", which this driver cannot use. The stage needs GRBL 1.1, grblHAL or Zaber ASCII";
+    ", which this driver cannot use. Known are GRBL 1.1, grblHAL, Zaber ASCII and Thorlabs APT";
 constexpr const char* kSwapped = ": are the ports of stage and load cell swapped in the rig file?";
 
 struct Speaker {

@@ -77,14 +77,8 @@ void ZaberStage::start_action() {
 }
 
 void ZaberStage::watch_deadline(double now_s) {
-  constexpr double kNoEnd_wall_s = 5.0;
   if (!active_ || !active_->reply_s) return;
-  now_s -= clock_.late_s() - active_->late_before_s;  // nobody listened meanwhile
-  const double late_s = 0.5 * duration_s(active_->planned) + clock_.from_wall_s(kNoEnd_wall_s);
-  if (now_s < expected_end_s_ + late_s) return;
-  throw RigError("the stage should have come to rest " +
-                 text_from_number(now_s - expected_end_s_, 1) +
-                 " s ago but still moves. Switch it off and on, home it, then start the run again");
+  watch_end(now_s, active_->planned, active_->late_before_s);
 }
 
 void ZaberStage::stop(const std::string& words) {
