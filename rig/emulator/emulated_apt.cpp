@@ -70,8 +70,17 @@ void EmulatedApt::hit_limit(double time_s) {
 }
 
 void EmulatedApt::receive(std::string_view bytes, double time_s) {
+  // How a real unit comes into step again is not known; this one drops what is no header, and a
+  // message that does not go on.
+  constexpr double kLongestPause_s = 0.1;
+  if (time_s > heard_s_ + kLongestPause_s) begun_.clear();
+  heard_s_ = time_s;
   begun_ += bytes;
   while (begun_.size() >= kHeader) {
+    if ((begun_[4] & 0x7f) != 0x50 || begun_[5] != 0x01) {
+      begun_.erase(0, 1);
+      continue;
+    }
     const bool has_data = (static_cast<unsigned char>(begun_[4]) & 0x80U) != 0;
     const std::size_t n_data = has_data ? apt_u16(begun_, 2) : 0;
     if (begun_.size() < kHeader + n_data) return;

@@ -72,6 +72,7 @@ class EmulatedApt final : public EmulatedController {
   std::optional<double> limit_at_m_;  // a limit switch is closed there
   std::optional<Due> due_;            // a move that has not begun
   std::string begun_;
+  double heard_s_ = 0.0;
   int n_replies_ = 0, n_moves_ = 0, n_speeds_ = 0, n_stops_ = 0;
 };
 

@@ -46,6 +46,15 @@ std::optional<std::size_t> data_size(std::string_view text) {
   return std::nullopt;
 }
 
+// False if no message of a unit begins with these bytes, or the first of them.
+bool may_begin(std::string_view text) {
+  if (text.size() >= kHeader) return data_size(text).has_value();
+  const std::size_t n = std::min<std::size_t>(text.size(), 2);
+  return std::any_of(kKinds.begin(), kKinds.end(), [&](const Kind& kind) {
+    return apt_bytes(kind.id, 2).substr(0, n) == text.substr(0, n);
+  });
+}
+
 // Text up to the first NUL.
 std::string text_of(std::string_view bytes) {
   return std::string(bytes.substr(0, bytes.find('\0')));
@@ -118,12 +127,12 @@ void AptSplitter::feed(std::string_view bytes, double time_s, double patience_s)
   while (buffer_.size() - at >= kHeader) {
     const std::string_view rest = std::string_view(buffer_).substr(at);
     const auto n_data = data_size(rest);
-    if (!n_data) {
+    if (n_data && rest.size() < kHeader + *n_data) break;
+    if (!n_data || !may_begin(rest.substr(kHeader + *n_data))) {
       ++at;
       ++n_skipped_;
       continue;
     }
-    if (rest.size() < kHeader + *n_data) break;
     AptMessage message{apt_u16(rest, 0), 0, 0, std::string(rest.substr(kHeader, *n_data)), time_s};
     if (*n_data == 0) {
       message.p1 = static_cast<std::uint8_t>(byte_at(rest, 2));

@@ -50,7 +50,8 @@ std::string format_apt(std::uint16_t id, std::string_view data, bool is_to_host 
 std::string format_apt_move(std::int32_t counts);
 
 // Cuts a byte stream into messages, however reads split it. Only what a motor unit sends counts as a
-// message, with its length, so that after lost bytes the stream comes into step again.
+// message, with its length and with another one behind it if anything is, so that after lost bytes
+// the stream comes into step again.
 class AptSplitter {
  public:
   // A message whose rest is missing for longer than patience_s is dropped.

@@ -94,13 +94,18 @@ void AptStage::take_status(const AptStatus& status, double time_s) {
 
 void AptStage::watch_bits() {
   const bool is_enabled = (bits_ & apt::kIsEnabled) != 0;
-  if (is_homed_ && (bits_ & apt::kIsHomed) == 0) {
+  const bool is_homing_lost = is_homed_ && (bits_ & apt::kIsHomed) == 0;
+  const bool is_trouble = is_homing_lost || !is_enabled || (bits_ & apt::kAnyError) != 0;
+  if (!std::exchange(is_troubled_, is_trouble) || !is_trouble) {
+    if (is_trouble) next_poll_s_ = clock_.now_s();  // a single status may have lost bytes
+    return;
+  }
+  if (is_homing_lost) {
     exact_m_.reset();
     throw DeviceRestarted(
         "the stage lost its reference position in the middle of the run (was its supply cut?). "
         "Home it, then start the run again");
   }
-  if (is_enabled && (bits_ & apt::kAnyError) == 0) return;
   exact_m_.reset();
   throw StageAlarm("the stage stopped with " +
                    (is_enabled ? apt_error_text(bits_)

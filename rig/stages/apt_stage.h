@@ -91,6 +91,7 @@ class AptStage final : public PolledStage {
   std::optional<AptMessage> answer_;
   std::uint32_t bits_ = 0;     // as reported last
   bool has_homed_ = false;     // the event after homing
+  bool is_troubled_ = false;   // by the last status
   bool is_homed_ = false;      // when the stage was connected or recovered
   bool is_recovering_ = true;  // faults are expected, also until connected
   AptVelocity found_;          // before the first move; limits the speed
