@@ -7,6 +7,7 @@
 #include "rig/lines/rig_error.h"
 #include "rig/stages/apt_stage.h"
 #include "rig/stages/grbl_stage.h"
+#include "rig/stages/marlin_stage.h"
 #include "rig/stages/zaber_stage.h"
 
 #include <cstddef>
@@ -40,7 +41,8 @@ struct DriverRow {
 constexpr DriverRow<Stage, StageConfig> kStages[] = {
     {"grbl", made<Stage, GrblStage, StageConfig>, [](const StageConfig&) {}},
     {"zaber", made<Stage, ZaberStage, StageConfig>, [](const StageConfig&) {}},
-    {"apt", made<Stage, AptStage, StageConfig>, [](const StageConfig&) {}}};
+    {"apt", made<Stage, AptStage, StageConfig>, [](const StageConfig&) {}},
+    {"marlin", made<Stage, MarlinStage, StageConfig>, [](const StageConfig&) {}}};
 
 constexpr DriverRow<LoadCell, LoadCellConfig> kCells[] = {
     {"hx711", made<LoadCell, Hx711LoadCell, LoadCellConfig>,

@@ -10,7 +10,7 @@ namespace viscard {
 
 // The stage and how it is connected.
 struct StageConfig {
-  std::string driver = "grbl";  // "grbl" | "zaber" | "apt"
+  std::string driver = "grbl";  // "grbl" | "zaber" | "apt" | "marlin"
   std::string port;             // path; prefer /dev/serial/by-id/...
   int baud = 115200;
   char axis = 'Z';

@@ -13,6 +13,10 @@ std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions
   if (stage.driver == "apt") {
     return std::make_unique<EmulatedApt>(options.truth, stage.toward_specimen, options.apt);
   }
+  if (stage.driver == "marlin") {
+    return std::make_unique<EmulatedMarlin>(options.truth, stage.axis, stage.toward_specimen,
+                                            options.marlin);
+  }
   return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
                                         options.grbl);
 }

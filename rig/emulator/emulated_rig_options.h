@@ -6,6 +6,7 @@
 #include "rig/emulator/emulated_apt.h"
 #include "rig/emulator/emulated_gauge.h"
 #include "rig/emulator/emulated_grbl.h"
+#include "rig/emulator/emulated_marlin.h"
 #include "rig/emulator/emulated_thermometer.h"
 #include "rig/emulator/emulated_zaber.h"
 #include "rig/emulator/rig_fault.h"
@@ -26,6 +27,7 @@ struct EmulatedRigOptions {
   GrblHabits grbl;
   ZaberHabits zaber;
   AptHabits apt;
+  MarlinHabits marlin;
   GaugeHabits gauge;
   AmplifierOptions amplifier;
   ThermometerHabits thermometer;  // of the one that config names

@@ -12,7 +12,11 @@ namespace viscard {
 namespace {
 
 constexpr const char* kNeeded =
-    ", which this driver cannot use. Known are GRBL 1.1, grblHAL, Zaber ASCII and Thorlabs APT";
+    ", which this driver cannot use. Known are GRBL 1.1, grblHAL, Marlin, Zaber ASCII and Thorlabs "
+    "APT";
+constexpr const char* kMarlin =
+    ": driver = \"marlin\" under [stage] of the rig file drives it, at the baud rate of its "
+    "firmware";
 constexpr const char* kSwapped = ": are the ports of stage and load cell swapped in the rig file?";
 
 struct Speaker {
@@ -23,7 +27,7 @@ struct Speaker {
 // Welcome lines of the firmware: Marlin (MarlinCore.cpp: "start", "echo:Marlin"), TinyG and g2core (JSON
 // with "fv", the firmware version), Smoothieware ("Smoothie"), Repetier, RepRapFirmware, GRBL (report.c:
 // "Grbl 1.1f ['$' for help]", "<Idle|MPos:"), Zaber ASCII replies ("@01 0 OK IDLE").
-constexpr std::array<Speaker, 12> kSpeakers{{{"marlin", "Marlin", kNeeded},
+constexpr std::array<Speaker, 12> kSpeakers{{{"marlin", "Marlin", kMarlin},
                                              {"tinyg", "TinyG", kNeeded},
                                              {"g2core", "g2core", kNeeded},
                                              {"\"fv\":", "TinyG or g2core", kNeeded},

@@ -1,11 +1,14 @@
-// Any line or bytes from a Zaber or APT stage, a multimeter or a force gauge is understood or refused.
+// Any line or bytes from a Zaber, APT or Marlin stage, a multimeter or a force gauge is understood or refused.
 #include "rig/protocols/apt_protocol.h"
 #include "rig/protocols/gauge_protocols.h"
+#include "rig/protocols/marlin_protocol.h"
 #include "rig/protocols/zaber_protocol.h"
 
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
+#include <string>
 #include <string_view>
 
 namespace {
@@ -17,20 +20,35 @@ void check(const std::optional<viscard::GaugeAnswer>& answer) {
   }
 }
 
-// However reads split them, the same bytes hold the same messages.
-void check_apt(std::string_view bytes) {
-  viscard::AptSplitter whole, split;
-  whole.feed(bytes, 0.0, 1.0);
-  for (const char c : bytes) split.feed(std::string_view(&c, 1), 0.0, 1.0);
-  while (const auto message = whole.next()) {
-    const auto same = split.next();
-    if (!same || same->id != message->id || same->data != message->data) std::abort();
+// However reads split them, no byte is in two messages.
+void check_apt(std::string_view bytes, std::size_t read_size) {
+  viscard::AptSplitter splitter;
+  for (std::size_t at = 0; at < bytes.size(); at += read_size) {
+    splitter.feed(bytes.substr(at, read_size), 0.0, 1.0);
+  }
+  std::size_t n_used = splitter.n_skipped();
+  while (const auto message = splitter.next()) {
+    constexpr std::size_t kHeader = 6;
+    n_used += kHeader + message->data.size();
     (void)viscard::parse_apt_info(*message);
     (void)viscard::parse_apt_status(*message);
     (void)viscard::parse_apt_velocity(*message);
     (void)viscard::parse_apt_error(*message);
   }
-  if (split.next()) std::abort();
+  if (n_used > bytes.size()) std::abort();
+}
+
+void check_marlin(std::string_view line) {
+  if (viscard::parse_marlin_resend(line).value_or(0) < 0) std::abort();
+  (void)viscard::parse_marlin_count(line, 'Z');
+  (void)viscard::parse_marlin_error(line);
+  (void)viscard::parse_marlin_echo(line);
+  (void)viscard::parse_marlin_firmware(line);
+  std::map<std::string, double> settings;
+  viscard::add_marlin_settings(line, settings);
+  for (const auto& [name, value] : settings) {
+    if (!std::isfinite(value)) std::abort();
+  }
 }
 
 }  // namespace
@@ -41,7 +59,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check(viscard::parse_mark10_reading(text, "N"));
   check(viscard::parse_sauter_reading(text, "N"));
   (void)viscard::parse_scpi_error(text);
-  check_apt(text);
+  check_apt(text, 1);
+  check_apt(text, 64);
+  check_marlin(text);
   const auto message = viscard::parse_zaber_message(text);
   if (message && (message->device < 0 || message->axis < 0)) std::abort();
   return 0;
