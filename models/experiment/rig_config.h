@@ -21,8 +21,8 @@ struct StageConfig {
   // and steps that the motor lags or loses unnoticed.
   double depth_relative_u = 0.0;
   bool home = false;  // run the controller's homing cycle before a test
-  // Zaber: length of a microstep of the motor. APT: length of an encoder count, or of a microstep. Both
-  // from the maker's page; no controller knows it.
+  // Zaber: length of a microstep of the motor. APT: length of an encoder count or a microstep. From
+  // the maker's page, because no controller knows it.
   double microstep_m = 0.0;
   int device = 1;  // address on the chain
   int axis_number = 1;

@@ -81,6 +81,37 @@ TEST_CASE("the record of a move agrees with all reports of its positions", "[rig
   CHECK(farthest_m < speed_m_s * (made.start_uncertainty_s + 0.010) + 2e-6);
 }
 
+TEST_CASE("a stage that is stopped at any moment of a move stands where it says", "[rig][pty]") {
+  const std::string driver = GENERATE("grbl", "zaber", "apt", "marlin");
+  const bool is_hard = GENERATE(false, true);
+  DeviceFixture rig(rig_with(driver));
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  for (const double after_s :
+       {0.0, 0.001, 0.004, 0.008, 0.02, 0.05, 0.11, 0.3, 0.49, 0.505, 0.53}) {
+    INFO(driver << (is_hard ? ", at once" : ", gently") << " after " << after_s << " s");
+    const double from_m = stage.position_m();
+    stage.begin_move(from_m + 0.25e-3, 0.5e-3, "press");
+    rig.pump_for(after_s);
+    if (is_hard) {
+      stage.stop_hard();
+      stage.recover(rig.pump());
+    } else {
+      stage.stop_soft();
+      while (stage.is_moving()) rig.pump()();
+    }
+    rig.pump_for(0.5);
+    CHECK_FALSE(rig.emulated.outcome().is_moving);
+    // GRBL reports whole um.
+    CHECK(rig.emulated.outcome().final_position_m == Approx(stage.position_m()).margin(0.6e-6));
+    CHECK(stage.position_m() < from_m + 0.2501e-3);
+    REQUIRE(rig.move(0.0, 2e-3));
+    // Marlin makes no moves of fewer than 6 steps.
+    CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(2e-6));
+    CHECK(rig.emulated.outcome().final_position_m == Approx(stage.position_m()).margin(0.6e-6));
+  }
+}
+
 TEST_CASE("a disturbed line to any stage leaves neither a moving stage nor a pressing punch",
           "[rig][pty]") {
   const std::string driver = GENERATE("zaber", "apt", "marlin");
