@@ -51,7 +51,7 @@ void EmulatedMarlin::reset(double time_s) {
   answers_.clear();
   begun_.clear();
   last_number_ = 0;
-  is_homed_ = is_homing_ = false;
+  is_homed_ = is_homing_ = is_halted_ = false;
   stop_due_s_.reset();
   if (++n_starts_ == 1 && !habits_.talks_at_start) return;
   say("start", time_s);
@@ -75,6 +75,7 @@ void EmulatedMarlin::stop(double time_s) {
 void EmulatedMarlin::receive(std::string_view bytes, double time_s) {
   tick(time_s);
   for (const char c : bytes) {
+    if (is_halted_) return;
     if (c != '\n' && c != '\r') {
       begun_ += c;
     } else if (!begun_.empty()) {
@@ -92,7 +93,11 @@ void EmulatedMarlin::line(std::string text, double time_s) {
       stop_due_s_ = time_s + habits_.stop_delay_s;
     }
   } else {
-    ++n_lines_;
+    if (++n_lines_ == habits_.halt_number) {
+      stop(time_s);
+      is_halted_ = true;
+      return say("Error:Printer halted. kill() called!", time_s);
+    }
     if (is_every_nth(n_lines_, habits_.lose_line_every)) return;
     if (is_every_nth(n_lines_, habits_.garble_line_every)) text[text.size() / 2] ^= 1;
   }
@@ -170,6 +175,7 @@ void EmulatedMarlin::obey(const std::string& command, double time_s) {
     zero_m_ = end_m() - toward_ * word(command, axis_).value_or(0.0) * 1e-3;
   } else if (code == "G28") {
     is_homing_ = is_homed_ = true;
+    home_until_s_ = time_s + habits_.homing_s;
     motion_.start(time_s, 0.0, 5e-3, acceleration_m_s2_);
     return;  // its ok follows at the end
   } else if (code != "M110" && code != "G21" && code != "G90" && code != "M17" && code != "M18") {
@@ -249,7 +255,7 @@ void EmulatedMarlin::tick(double time_s) {
     stop_due_s_.reset();
     stop(time_s);
   }
-  if (is_homing_ && !motion_.is_moving(time_s)) {
+  if (is_homing_ && !motion_.is_moving(time_s) && time_s >= home_until_s_) {
     is_homing_ = false;
     origin_m_ = zero_m_ = motion_.position_m(time_s);
     ok(time_s);

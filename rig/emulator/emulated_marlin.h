@@ -21,6 +21,8 @@ struct MarlinHabits {
   bool has_emergency_parser = true;    // M410 acts while its line arrives
   bool waits_in_m114 = false;          // Marlin 1.1, or M114_LEGACY: answers at rest
   bool needs_home = false;             // moves are answered with ok and not made before G28
+  double homing_s = 0.0;               // at least, with "busy" meanwhile
+  int halt_number = 0;                 // kill() instead of this line: silent until a reset
   bool makes_short_moves = false;      // of fewer than 6 steps; else they join the next one
   double highest_m = std::numeric_limits<double>::infinity();  // a soft limit, on the bench
   double lowest_m = -std::numeric_limits<double>::infinity();
@@ -81,6 +83,8 @@ class EmulatedMarlin final : public EmulatedController {
   std::string begun_;
   long last_number_ = 0;
   bool is_homed_ = false, is_homing_ = false;
+  double home_until_s_ = 0.0;
+  bool is_halted_ = false;
   std::optional<double> stop_due_s_;
   double busy_s_ = 0.0;
   int n_lines_ = 0, n_oks_ = 0, n_stops_ = 0, n_starts_ = 0;

@@ -225,6 +225,7 @@ TEST_CASE("a Marlin stage that makes no move before homing says what the board s
   }
   SECTION("homed") {
     options.config.stage.home = true;
+    options.marlin.homing_s = 20.0;
     DeviceFixture rig(options);
     rig.devices.stage->connect(rig.pump());
     CHECK(rig.move(0.2e-3, 1e-3));
@@ -241,6 +242,17 @@ TEST_CASE("a Marlin stage at a limit switch raises an alarm and recovers", "[rig
   CHECK_THROWS_AS(rig.pump_for(2.0), StageAlarm);
   stage.recover(rig.pump());
   CHECK(rig.move(0.0, 2e-3));
+}
+
+TEST_CASE("a Marlin board that halts raises an alarm and asks for a person", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.halt_number = 30;
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(2e-3, 0.2e-3, "approach");
+  CHECK_THROWS_WITH(rig.pump_for(10.0), Contains("Printer halted"));
+  CHECK_THROWS_WITH(stage.recover(rig.pump()), Contains("by hand"));
 }
 
 TEST_CASE("a restart of a Marlin stage is noticed, and the punch can be lifted afterwards",
