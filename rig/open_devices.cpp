@@ -8,6 +8,8 @@
 #include "rig/stages/apt_stage.h"
 #include "rig/stages/grbl_stage.h"
 #include "rig/stages/marlin_stage.h"
+#include "rig/stages/pi_stage.h"
+#include "rig/stages/smc_stage.h"
 #include "rig/stages/zaber_stage.h"
 
 #include <cstddef>
@@ -42,7 +44,9 @@ constexpr DriverRow<Stage, StageConfig> kStages[] = {
     {"grbl", made<Stage, GrblStage, StageConfig>, [](const StageConfig&) {}},
     {"zaber", made<Stage, ZaberStage, StageConfig>, [](const StageConfig&) {}},
     {"apt", made<Stage, AptStage, StageConfig>, [](const StageConfig&) {}},
-    {"marlin", made<Stage, MarlinStage, StageConfig>, [](const StageConfig&) {}}};
+    {"marlin", made<Stage, MarlinStage, StageConfig>, [](const StageConfig&) {}},
+    {"pi-gcs2", made<Stage, PiStage, StageConfig>, [](const StageConfig&) {}},
+    {"smc100", made<Stage, SmcStage, StageConfig>, [](const StageConfig&) {}}};
 
 constexpr DriverRow<LoadCell, LoadCellConfig> kCells[] = {
     {"hx711", made<LoadCell, Hx711LoadCell, LoadCellConfig>,

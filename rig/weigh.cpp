@@ -64,8 +64,8 @@ std::vector<WeighedLoad> weigh(LoadCell& load_cell, const RigConfig& rig, const 
     if (options.stop != nullptr && *options.stop) throw RigError("the weighing was interrupted");
   };
   load_cell.connect(pump);
-  const double largest_N =
-      forces_N.empty() ? 0.0 : std::max(0.0, *std::max_element(forces_N.begin(), forces_N.end()));
+  double largest_N = options.largest_N;
+  for (const double force_N : forces_N) largest_N = std::max(largest_N, force_N);
   const double full_reading = largest_N * std::abs(rig.calibration.volts_per_newton);
   std::vector<WeighedLoad> loads;
   for (const double force_N : forces_N) {

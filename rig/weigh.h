@@ -19,8 +19,9 @@ struct WeighedLoad {
 };
 
 struct WeighOptions {
-  double settle_s = 1.0;  // from the moment the weight hangs until its readings count
-  double mean_s = 3.0;    // length of the mean
+  double settle_s = 1.0;   // from the moment the weight hangs until its readings count
+  double mean_s = 3.0;     // length of the mean
+  double largest_N = 0.0;  // of all loads, if these are some of them; a drift is judged by it
   // Puts a weight on, or asks a person to, and returns when it hangs; false ends the weighing.
   std::function<bool(double force_N)> put_on;
   const std::atomic<bool>* stop = nullptr;

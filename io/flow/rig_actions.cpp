@@ -7,6 +7,9 @@
 #include "rig/open_devices.h"
 #include "rig/touch_cell.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -14,9 +17,11 @@
 namespace viscard {
 namespace {
 
-std::unique_ptr<EmulatedRig> emulated_rig(const RigConfig& rig) {
-  return std::make_unique<EmulatedRig>(
-      EmulatedRigOptions{.truth = demo_truth(10.0, 1), .config = rig});
+// from_m: where its stage stands; the emulator begins at 0.
+std::unique_ptr<EmulatedRig> emulated_rig(const RigConfig& rig, double from_m = 0.0) {
+  EmulatedRigOptions options{.truth = demo_truth(10.0, 1), .config = rig};
+  options.truth.surface_position_m -= from_m;
+  return std::make_unique<EmulatedRig>(options);
 }
 
 // What the emulated bench decides is its ports and its clock; what is asked of the stage stays.
@@ -32,7 +37,7 @@ RigConfig config_of(const RigConfig& rig, const EmulatedRig* emulated) {
 // cannot be opened, and for wrong words of the rig file.
 class OpenRig {
  public:
-  OpenRig(const RigConfig& rig, bool is_emulated);
+  OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m = 0.0);
   OpenRig(const OpenRig&) = delete;
   OpenRig& operator=(const OpenRig&) = delete;
 
@@ -48,12 +53,42 @@ class OpenRig {
   RigDevices devices_;
 };
 
-OpenRig::OpenRig(const RigConfig& rig, bool is_emulated)
-    : emulated_(is_emulated ? emulated_rig(rig) : nullptr),
+OpenRig::OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m)
+    : emulated_(is_emulated ? emulated_rig(rig, emulated_from_m) : nullptr),
       config_(config_of(rig, emulated_.get())),
       clock_(emulated_ ? emulated_->clock() : RigClock(rig.clock_speed)),
       devices_(open_ports(config_, clock_)) {
   add_drivers(devices_, config_, clock_, [](const RunRecord&) {});
+}
+
+enum class Keep { kYes, kNo, kAsComment };
+
+// Writes a line as the first of a section of a TOML file. keep: what becomes of each other line of the section,
+// which it gets without the blanks in front.
+void write_in_section(const std::filesystem::path& file, const std::string& section,
+                      const std::string& line,
+                      const std::function<Keep(const std::string&)>& keep) {
+  std::istringstream lines(read_file(file));
+  std::string out, old;
+  bool is_inside = false, is_written = false;
+  while (std::getline(lines, old)) {
+    const std::size_t begin = old.find_first_not_of(" \t");
+    const std::string rest = begin == std::string::npos ? "" : old.substr(begin);
+    const bool is_head = rest.rfind('[', 0) == 0;
+    const Keep kept = is_inside && !is_head ? keep(rest) : Keep::kYes;
+    if (kept == Keep::kNo) continue;
+    out += (kept == Keep::kAsComment ? "# " : "") + old + "\n";
+    if (!is_head) continue;
+    is_inside = rest.rfind("[" + section + "]", 0) == 0;
+    if (!is_inside) continue;
+    out += line + "\n";
+    is_written = true;
+  }
+  if (!is_written) {
+    throw std::runtime_error(file.string() + ": has no section [" + section + "]; write " + line +
+                             " there yourself");
+  }
+  write_file(file, out, true);
 }
 
 }  // namespace
@@ -94,38 +129,70 @@ double touch_rig(const RigConfig& rig, bool is_emulated, double wait_s,
 }
 
 void write_answer(const std::filesystem::path& rig_file, const std::string& day) {
-  std::istringstream lines(read_file(rig_file));
-  std::string out, line;
-  bool is_inside = false, is_written = false;
-  while (std::getline(lines, line)) {
-    const std::size_t begin = line.find_first_not_of(" \t");
-    const std::string rest = begin == std::string::npos ? "" : line.substr(begin);
-    if (is_inside && rest.rfind("answered_on", 0) == 0) continue;
-    out += line + "\n";
-    if (rest.rfind('[', 0) != 0) continue;
-    is_inside = rest.rfind("[load_cell]", 0) == 0;
-    if (!is_inside) continue;
-    out += "answered_on = " + day + "\n";
-    is_written = true;
-  }
-  if (!is_written) {
-    throw std::runtime_error(rig_file.string() +
-                             ": has no section [load_cell]; write answered_on = " + day +
-                             " where its load cell is described");
-  }
-  write_file(rig_file, out, true);
+  const std::string line = "answered_on = " + day;
+  write_in_section(rig_file, "load_cell", line, [](const std::string& text) {
+    return text.rfind("answered_on", 0) == 0 ? Keep::kNo : Keep::kYes;
+  });
+}
+
+void write_calibration_file(const std::filesystem::path& rig_file, const std::string& record) {
+  write_in_section(rig_file, "calibration", "file = \"" + record + "\"",
+                   [](const std::string& text) {
+                     if (text.rfind("file", 0) == 0) return Keep::kNo;
+                     return text.empty() || text.front() == '#' ? Keep::kYes : Keep::kAsComment;
+                   });
+}
+
+void check_order(const StageOrder& order, const RigConfig& rig) {
+  if (order.is_home) return;
+  constexpr double kFarthest_m = 0.1, kFastest_m_s = 10e-3;
+  const auto require = [](bool is_right, const std::string& text) {
+    if (!is_right) throw std::invalid_argument(text);
+  };
+  const double way_m = std::abs(order.toward_m);
+  require(way_m > 0.0 && way_m <= kFarthest_m,
+          fmt::format("the way is {} mm; it must be above 0 and at most {} mm", way_m * 1e3,
+                      kFarthest_m * 1e3));
+  require(order.speed_m_s > 0.0 && order.speed_m_s <= kFastest_m_s,
+          fmt::format("the speed is {} mm/s; it must be above 0 and at most {} mm/s",
+                      order.speed_m_s * 1e3, kFastest_m_s * 1e3));
+  const double most_N = rig.safety.soft_fraction * rig.calibration.capacity_N;
+  require(order.limit_N > 0.0 && order.limit_N <= most_N,
+          fmt::format("the limit is {} N; it must be above 0 and at most {:.3f} N, {} of the "
+                      "capacity (soft_fraction)",
+                      order.limit_N, most_N, rig.safety.soft_fraction));
 }
 
 StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& order,
-                          const std::atomic<bool>* stop) {
+                          RunControl control, double emulated_from_m) {
   rig.stage.home = order.is_home;
-  OpenRig open(rig, is_emulated);
-  RunControl control;
+  OpenRig open(rig, is_emulated, emulated_from_m);
   control.clock = &open.clock();
-  control.stop = stop;
-  return move_stage(
+  StageMoved moved = move_stage(
       *open.devices().stage, *open.devices().load_cell, open.config(), [](const RunRecord&) {},
       control, order);
+  if (is_emulated && !order.is_home) {
+    moved.from_m += emulated_from_m;
+    moved.to_m += emulated_from_m;
+  }
+  return moved;
+}
+
+WeighedLoad weigh_on_rig(const RigConfig& rig, bool is_emulated, double force_N, double largest_N,
+                         const std::atomic<bool>* stop) {
+  const std::unique_ptr<EmulatedRig> emulated = is_emulated ? emulated_rig(rig) : nullptr;
+  const RigConfig config = config_of(rig, emulated.get());
+  const RigClock clock = emulated ? emulated->clock() : RigClock(rig.clock_speed);
+  SerialLine line(config.load_cell.port, config.load_cell.baud, clock, config.load_cell.framing);
+  const auto load_cell = make_load_cell(line, config.load_cell, clock, [](const RunRecord&) {});
+  WeighOptions options;
+  options.largest_N = largest_N;
+  options.stop = stop;
+  options.put_on = [&](double load_N) {
+    if (emulated) emulated->hang_weight(load_N);
+    return true;
+  };
+  return weigh(*load_cell, config, clock, {force_N}, options).front();
 }
 
 }  // namespace viscard

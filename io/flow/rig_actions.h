@@ -3,6 +3,8 @@
 #include "models/experiment/rig_config.h"
 #include "rig/move_stage.h"
 #include "rig/rig_check.h"
+#include "rig/run/run_control.h"
+#include "rig/weigh.h"
 
 #include <atomic>
 #include <filesystem>
@@ -30,11 +32,19 @@ double touch_rig(const RigConfig& rig, bool is_emulated, double wait_s,
 // Writes answered_on = DAY under [load_cell] of a rig file and changes nothing else of it. Throws
 // std::runtime_error if the file has no such section or cannot be written.
 void write_answer(const std::filesystem::path& rig_file, const std::string& day);
+// Writes file = "RECORD" under [calibration]; the other keys there become comments. Throws likewise.
+void write_calibration_file(const std::filesystem::path& rig_file, const std::string& record);
 
-// Opens the devices of the rig, or of an emulated one, and carries out the order. stop: set by a
-// signal handler; may be nullptr. Throws RigError as move_stage() does, and if another program holds
-// a port.
+// Throws std::invalid_argument for a way, speed or limit that no move by hand has.
+void check_order(const StageOrder& order, const RigConfig& rig);
+// Opens the devices of the rig, or of an emulated one, and carries out the order. control: who watches and
+// stops it; its clock is set here. emulated_from_m: where an emulated stage stands. Throws RigError as move_stage() does, and if another program holds a port.
 StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& order,
-                          const std::atomic<bool>* stop);
+                          RunControl control, double emulated_from_m = 0.0);
+
+// Opens the load cell and weighs one load, which hangs already (on an emulated rig it is hung). largest_N: of the
+// loads of this calibration. Throws RigError as weigh() does.
+WeighedLoad weigh_on_rig(const RigConfig& rig, bool is_emulated, double force_N, double largest_N,
+                         const std::atomic<bool>* stop);
 
 }  // namespace viscard

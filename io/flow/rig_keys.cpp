@@ -81,6 +81,14 @@ void show_run(ResultVisitor& v, const RunOutcome& outcome) {
 
 }  // namespace
 
+void show_keys(ResultVisitor& v, const StageMoved& moved) {
+  v("from_m", moved.from_m, "position of the controller before the move, toward the specimen");
+  v("to_m", moved.to_m, "position after it");
+  v("force_before_N", moved.force_before_N, "force by the calibration before the move");
+  v("force_after_N", moved.force_after_N, "force after it");
+  v("is_stopped_by_force", moved.is_stopped_by_force, "the change of force reached --limit");
+}
+
 void show_keys(ResultVisitor& v, const RigCheck& found) {
   v("is_usable", found.is_usable, "whether a test can begin");
   v("is_proven", found.is_proven, "whether the readings show the noise of a converter");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/flow/command_error.h"
+#include "rig/move_stage.h"
 #include "rig/rig_check.h"
 #include "rig/run/run_outcome.h"
 
@@ -13,6 +14,9 @@ class ResultVisitor;
 
 // The keys of `viscard rig check`; with "error" if the rig is not fit for a test.
 void show_keys(ResultVisitor& v, const RigCheck& found);
+
+// The keys of `viscard rig jog`.
+void show_keys(ResultVisitor& v, const StageMoved& moved);
 
 // A capture of `viscard capture`: a run, or why there was none.
 struct CaptureOfSeries {

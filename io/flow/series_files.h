@@ -10,6 +10,9 @@ namespace viscard {
 // The n-th file, from 1.
 std::filesystem::path attempt_path(const std::filesystem::path& first, int n);
 
+// The largest n of a file that is there; 0: none. Those between may have been taken away.
+int last_attempt(const std::filesystem::path& first);
+
 // Where the next capture goes.
 struct NextCapture {
   std::filesystem::path file;      // does not exist yet; empty if there is a finished capture
@@ -20,7 +23,7 @@ struct NextCapture {
 // writing one of the captures.
 NextCapture next_capture(const std::filesystem::path& first);
 
-// The first file that does not exist, also if there is a finished capture. Throws likewise.
+// The file after the last one, also if there is a finished capture. Throws likewise.
 std::filesystem::path further_capture(const std::filesystem::path& first);
 
 }  // namespace viscard

@@ -33,8 +33,9 @@ constexpr int kMostRunning = 3;  // commands at once; a further one waits
 
 // Options of card that the page may set.
 const Texts& card_options_offered() {
-  static const Texts kNames{"approximate",  "accept-flags", "clamp-nu", "bound",
-                            "elastic-only", "terms",        "band",     "at-temperature"};
+  static const Texts kNames{"approximate",  "accept-flags",  "clamp-nu", "bound",
+                            "elastic-only", "terms",         "band",     "ratio",
+                            "extrapolate",  "at-temperature"};
   return kNames;
 }
 
@@ -46,7 +47,8 @@ Json answered(const Texts& words, Json result) {
 bool is_material_of(const std::filesystem::path& path, const std::string& command,
                     const Texts& sha256) {
   try {
-    const Provenance made = read_material(path).material.provenance;
+    const Provenance made = looks_like_ratio_file(path) ? read_ratio_fit(path).common.provenance
+                                                        : read_material(path).material.provenance;
     return made.command == command &&
            std::equal(
                made.raw_files.begin(), made.raw_files.end(), sha256.begin(), sha256.end(),

@@ -37,16 +37,42 @@ std::string stem_of(const std::string& table) {
 
 void add_test(const Json& test, const DeskFolder& folder, DeskTables& out) {
   if (!test.is_object()) throw ApiError(400, "bad-value", "a test is {\"table\", \"kind\"}");
-  const std::string name = text_at(test, "table"), kind = text_at(test, "kind");
+  const std::string name = text_at(test, "table");
   folder.require_table(name);
+  out.names.push_back(name);
+  const std::string stem = out.stem.empty() ? stem_of(name) : out.stem + "+" + stem_of(name);
+  out.stem = stem.substr(0, kLongestStem);
+  if (test.contains("ratio")) {
+    out.words.push_back(word_of_file(name));
+    return;
+  }
+  const std::string kind = text_at(test, "kind");
   const bool is_word = !kind.empty() && std::all_of(kind.begin(), kind.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || c == '-';
   });
   if (!is_word) throw ApiError(400, "bad-value", "'" + kind + "' is no kind of test");
-  out.names.push_back(name);
   out.words.push_back(kind + "=" + name);
-  const std::string stem = out.stem.empty() ? stem_of(name) : out.stem + "+" + stem_of(name);
-  out.stem = stem.substr(0, kLongestStem);
+}
+
+// Specimens of several mixing ratios, or tests of one material.
+void add_tests(const Json& tests, const DeskFolder& folder, DeskTables& out) {
+  const auto has_ratio = [](const Json& test) {
+    return test.is_object() && test.contains("ratio");
+  };
+  const auto n_ratios = std::count_if(tests.begin(), tests.end(), has_ratio);
+  if (n_ratios != 0 && static_cast<std::size_t>(n_ratios) != tests.size()) {
+    throw ApiError(400, "bad-value", "either each test has a mixing ratio, or none");
+  }
+  out.is_joint = n_ratios > 0;
+  if (out.is_joint) out.words.emplace_back("--joint");
+  for (const Json& test : tests) add_test(test, folder, out);
+  if (!out.is_joint) return;
+  for (const Json& test : tests) {
+    if (text_at(test, "ratio").empty()) {
+      throw ApiError(400, "bad-value", text_at(test, "table") + " needs a mixing ratio");
+    }
+    add_value("ratio", test.at("ratio"), out.words);
+  }
 }
 
 bool has(const Texts& words, const std::string& word) {
@@ -153,13 +179,14 @@ DeskTables tables_of(const Json& request, const DeskFolder& folder) {
     const Json& tests = request.at("tests");
     if (!tests.is_array() || tests.size() < 2 || tests.size() > kMostTests) {
       throw ApiError(400, "bad-value",
-                     "'tests' are two to " + std::to_string(kMostTests) + " of one material");
+                     "'tests' are two to " + std::to_string(kMostTests) +
+                         " of one material, or specimens of several mixing ratios");
     }
-    for (const Json& test : tests) add_test(test, folder, out);
+    add_tests(tests, folder, out);
   } else {
     const std::string name = text_at(request, "table");
     folder.require_table(name);
-    out = {{name}, {word_of_file(name)}, {}, stem_of(name)};
+    out = {{name}, {word_of_file(name)}, {}, stem_of(name), false};
   }
   if (request.contains("options")) {
     out.options = fit_words_of(request);

@@ -13,7 +13,8 @@ namespace viscard {
 
 // Requests of the desk as words of command lines. Functions throw ApiError 400 for a value that is none.
 
-// The options of fit that the page may set: those that neither read another file nor belong to mixing ratios.
+// The options of fit that the page may set: those that neither read another file nor belong to mixing ratios, which stand
+// beside each table.
 bool is_offered_by_desk(const Option& option);
 
 // Adds --name=value; value: a text, of which an empty one sets nothing.
@@ -25,13 +26,15 @@ std::vector<std::string> words_of(const nlohmann::ordered_json& request, const c
 // {"terms": "3"} of the words --terms=3, as the page has it; words of options that it does not set are left out.
 nlohmann::ordered_json options_of_words(const std::vector<std::string>& words);
 
-// What a request fits: {"table": NAME}, or {"tests": [{"table": NAME, "kind": "creep"}, ...]}, tests of one material.
+// What a request fits: {"table": NAME}; or {"tests": [{"table": NAME, "kind": "creep"}, ...]}, tests of one material;
+// or {"tests": [{"table": NAME, "ratio": "10"}, ...]}, specimens of several mixing ratios.
 struct DeskTables {
   std::vector<std::string> names;  // files of the folder
   std::vector<std::string> words;  // as fit takes them
   std::vector<std::string>
       options;       // of fit: those of the request, else those that are kept beside the tables
   std::string stem;  // of the names of files that are made of them
+  bool is_joint = false;  // over mixing ratios
 };
 // Throws ApiError 404 for a file that is not there, 422 for tests that keep different options.
 DeskTables tables_of(const nlohmann::ordered_json& request, const DeskFolder& folder);

@@ -6,7 +6,7 @@
 
 namespace viscard {
 
-// At most one piece of heavy work at a time: a run, a check of the rig or a fit. Both devices serve
+// At most one piece of heavy work at a time: a run, a move by hand, a check of the rig or a fit. Both devices serve
 // one program, and a fit beside a run could make this computer too late to watch the force.
 class OneJob {
  public:
@@ -30,6 +30,18 @@ class OneJob {
  private:
   mutable std::mutex mutex_;
   std::string what_;
+};
+
+// Ends a job at the end of a scope.
+class JobEnd {
+ public:
+  explicit JobEnd(OneJob& job) : job_(job) {}
+  ~JobEnd() { job_.end(); }
+  JobEnd(const JobEnd&) = delete;
+  JobEnd& operator=(const JobEnd&) = delete;
+
+ private:
+  OneJob& job_;
 };
 
 }  // namespace viscard

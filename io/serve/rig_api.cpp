@@ -1,6 +1,7 @@
 #include "io/serve/rig_api.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/data_folder.h"
 #include "io/basics/failure_text.h"
 #include "io/basics/program.h"
 #include "io/basics/timestamp.h"
@@ -20,24 +21,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr double kCheck_s = 2.0;
-
-// Ends a job at the end of a scope.
-class JobEnd {
- public:
-  explicit JobEnd(OneJob& job) : job_(job) {}
-  ~JobEnd() { job_.end(); }
-  JobEnd(const JobEnd&) = delete;
-  JobEnd& operator=(const JobEnd&) = delete;
-
- private:
-  OneJob& job_;
-};
 
 // What make() returns, or {"trouble"} with the reason why a file cannot be used.
 template <typename Make>
@@ -81,6 +74,26 @@ Config with_judgement(Config config, const Json& request) {
   return config;
 }
 
+// The text of a test file that the page shows or wants to keep.
+TestPlan test_of_text(const Json& request) {
+  constexpr std::size_t kLongest = 20'000;
+  const std::string text = text_at(request, "text");
+  if (text.size() > kLongest) throw ApiError(400, "bad-value", "a test has at most 20 kB of text");
+  return test_from_toml(text, "test.toml", judged_by(request));
+}
+
+// Examples of all protocols, the demonstration's first.
+std::vector<fs::path> protocol_files() {
+  std::vector<fs::path> files;
+  std::error_code is_gone;
+  for (const auto& entry : fs::directory_iterator(data_folder() / "protocols", is_gone)) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  files.insert(files.begin(), data_folder() / "demo" / "02_test.toml");
+  return files;
+}
+
 Json curves_of(const FitCurves& curves) {
   return {{"time_s", curves.time_s}, {"measured", curves.measured},
           {"fitted", curves.fitted}, {"sigma", curves.sigma},
@@ -89,7 +102,8 @@ Json curves_of(const FitCurves& curves) {
 
 }  // namespace
 
-RigApi::RigApi(ServeOptions options) : options_(std::move(options)), folder_(options_.folder) {}
+RigApi::RigApi(ServeOptions options, OneJob& job)
+    : options_(std::move(options)), folder_(options_.folder), job_(job) {}
 
 RigConfig RigApi::rig() const {
   return options_.rig_file ? read_rig(*options_.rig_file) : demo_rig();
@@ -166,7 +180,8 @@ Json RigApi::check_rig() {
 
 Json RigApi::preflight_of(const Json& request) const {
   const Json changes = request.contains("test") ? request.at("test") : Json::object();
-  const TestPlan plan = with_judgement(test_with(folder_.test(), changes), request);
+  const TestPlan saved = request.contains("text") ? test_of_text(request) : folder_.test();
+  const TestPlan plan = with_judgement(test_with(saved, changes), request);
   folder_.check_test(plan);
   const SeriesSpecimen found = folder_.specimen_named(text_at(request, "specimen"));
   if (!found.trouble.empty()) throw std::runtime_error(found.trouble);
@@ -175,10 +190,23 @@ Json RigApi::preflight_of(const Json& request) const {
 }
 
 Json RigApi::save_test(const Json& request) {
+  if (request.contains("text")) {
+    const TestPlan plan = test_of_text(request);
+    folder_.save_test_text(text_at(request, "text"), plan);
+    return json_of_test(plan);
+  }
   const Json changes = request.contains("test") ? request.at("test") : Json();
   const TestPlan plan = with_judgement(test_with(folder_.test(), changes), request);
   folder_.save_test(plan);
   return json_of_test(plan);
+}
+
+Json RigApi::test_texts() const {
+  Json examples = Json::array();
+  for (const fs::path& file : protocol_files()) {
+    examples.push_back({{"name", file.stem().string()}, {"text", read_file(file)}});
+  }
+  return {{"text", folder_.test_text()}, {"examples", examples}};
 }
 
 Json RigApi::add_specimen(const Json& request) {
@@ -191,6 +219,20 @@ Json RigApi::remove_specimen(const Json& request) {
   const std::string name = text_at(request, "name");
   folder_.remove_specimen(name);
   return {{"name", name}};
+}
+
+Json RigApi::rename_specimen(const Json& request) {
+  return {{"name", folder_.rename_specimen(text_at(request, "name"), text_at(request, "id"))}};
+}
+
+Json RigApi::remove_capture(const Json& request) {
+  return {{"file", folder_.trash_capture(text_at(request, "capture"))}};
+}
+
+Json RigApi::note_capture(const Json& request) {
+  const std::string file = text_at(request, "capture");
+  folder_.note_capture(file, text_at(request, "note"));
+  return {{"file", file}};
 }
 
 // As `viscard capture` does.

@@ -33,18 +33,28 @@ struct ServeOptions {
 // ApiError, or std::exception with a message for a person. Any thread may call them.
 class RigApi {
  public:
-  explicit RigApi(ServeOptions options);
+  // job: what goes on at the rig.
+  RigApi(ServeOptions options, OneJob& job);
 
   // Rig, test, specimens with their captures, what to do next, and what is going on.
   nlohmann::ordered_json state() const;
   nlohmann::ordered_json ports() const;
   // Opens both devices for some seconds; moves nothing.
   nlohmann::ordered_json check_rig();
-  // {"specimen", "test"}: the expected course of a test that need not be saved.
+  // {"specimen", "test" or "text"}: the expected course of a test that need not be saved.
   nlohmann::ordered_json preflight_of(const nlohmann::ordered_json& request) const;
+  // {"test": changes}, or {"text"}: the whole test file, of any protocol.
   nlohmann::ordered_json save_test(const nlohmann::ordered_json& request);
+  // The test file, and an example of each protocol.
+  nlohmann::ordered_json test_texts() const;
   nlohmann::ordered_json add_specimen(const nlohmann::ordered_json& request);
   nlohmann::ordered_json remove_specimen(const nlohmann::ordered_json& request);
+  // {"name", "id"}: of a specimen without captures, which hold its name.
+  nlohmann::ordered_json rename_specimen(const nlohmann::ordered_json& request);
+  // {"capture"}: moves it into the folder trash, unless a material names it.
+  nlohmann::ordered_json remove_capture(const nlohmann::ordered_json& request);
+  // {"capture", "note"}: what a person wants to remember of a run.
+  nlohmann::ordered_json note_capture(const nlohmann::ordered_json& request);
   // {"specimen", "test", "repeat", "lift"}; test: what the page has shown of it; repeat: although there is a finished capture; lift: a punch that
   // presses at the start is lifted, and the test goes on.
   nlohmann::ordered_json start_run(const nlohmann::ordered_json& request);
@@ -71,7 +81,7 @@ class RigApi {
 
   ServeOptions options_;
   SeriesFolder folder_;
-  OneJob job_;
+  OneJob& job_;
   std::atomic<bool> is_closing_{false};
   LiveRun live_;  // destroyed first: its thread uses the others
 };

@@ -1,5 +1,6 @@
 #include "io/serve/rig_server.h"
 
+#include "io/serve/hands_api.h"
 #include "io/serve/page_server.h"
 
 #include <nlohmann/json.hpp>
@@ -20,7 +21,8 @@ constexpr std::chrono::milliseconds kPoll{20};
 class RigServer::Impl {
  public:
   explicit Impl(const ServeOptions& options)
-      : api_(options),
+      : api_(options, job_),
+        hands_(options, job_),
         server_({.program = "viscard serve",
                  .home = "/rig.html",
                  .urgent_path = kStopPath,
@@ -41,6 +43,7 @@ class RigServer::Impl {
   const RigApi& api() const { return api_; }
 
   void close() {
+    hands_.close();
     while (!api_.close()) std::this_thread::sleep_for(kPoll);
   }
 
@@ -50,6 +53,8 @@ class RigServer::Impl {
   void add_questions() {
     server_.add_question("/api/state", [this](const auto&) { return api_.state(); });
     server_.add_question("/api/ports", [this](const auto&) { return api_.ports(); });
+    server_.add_question("/api/test", [this](const auto&) { return api_.test_texts(); });
+    server_.add_question("/api/move", [this](const auto&) { return hands_.moving(); });
     server_.add_question("/api/run", [this](const PageServer::Value& value) {
       return api_.run(number_of(value, "from"), number_of(value, "keep_every"));
     });
@@ -65,11 +70,22 @@ class RigServer::Impl {
     add("/api/specimens", [this](const Json& r) { return api_.add_specimen(r); });
     add("/api/specimens/remove", [this](const Json& r) { return api_.remove_specimen(r); });
     add("/api/run", [this](const Json& r) { return api_.start_run(r); });
-    add(kStopPath, [this](const Json& r) { return api_.stop_run(r); });
+    add("/api/specimens/rename", [this](const Json& r) { return api_.rename_specimen(r); });
+    add("/api/captures/remove", [this](const Json& r) { return api_.remove_capture(r); });
+    add("/api/captures/note", [this](const Json& r) { return api_.note_capture(r); });
+    add("/api/move", [this](const Json& r) { return hands_.move(r); });
+    add("/api/weigh", [this](const Json& r) { return hands_.weigh(r); });
+    add("/api/calibrate", [this](const Json& r) { return hands_.calibrate(r); });
+    add(kStopPath, [this](const Json& r) {
+      hands_.stop_move(r.contains("how") && r.at("how") == "at once");
+      return hands_.is_moving() ? hands_.moving() : api_.stop_run(r);
+    });
     add("/api/fit", [this](const Json& r) { return api_.fit(r); });
   }
 
+  OneJob job_;
   RigApi api_;
+  HandsApi hands_;
   PageServer server_;
 };
 

@@ -2,9 +2,12 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/failure_text.h"
+#include "io/basics/file_kind.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/capture_lock.h"
 #include "io/config/config_file.h"
 #include "io/flow/series_files.h"
+#include "io/materials/material_file.h"
 #include "io/serve/api_error.h"
 #include "models/experiment/test_phases.h"
 
@@ -50,6 +53,15 @@ bool is_specimen_file(const std::string& file) {
          file != "test.toml" && file != "rig.toml" && file.front() != '.';
 }
 
+// A record of the page, or one that was put there.
+bool is_calibration(const fs::path& file) {
+  try {
+    return kind_of_file(read_file(file)) == FileKind::kCalibration;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 // Lower-case letters, digits and hyphens of a name that a person has typed.
 std::string file_name_from(const std::string& id) {
   std::string name;
@@ -66,11 +78,27 @@ std::string file_name_from(const std::string& id) {
   return name.empty() ? "specimen" : name;
 }
 
+fs::path note_file(const fs::path& capture) {
+  return fs::path(capture.string() + ".note.txt");
+}
+
+std::string note_of(const fs::path& capture) {
+  const fs::path file = note_file(capture);
+  if (!fs::exists(file)) return "";
+  try {
+    return read_file(file);
+  } catch (const std::exception& error) {
+    return failure_text(error, "this note");
+  }
+}
+
 std::vector<SeriesSpecimen::Capture> captures_of(const fs::path& first) {
   std::vector<SeriesSpecimen::Capture> captures;
-  for (int n = 1; fs::exists(attempt_path(first, n)); ++n) {
+  const int n_attempts = last_attempt(first);
+  for (int n = 1; n <= n_attempts; ++n) {
     const fs::path path = attempt_path(first, n);
-    SeriesSpecimen::Capture capture{path.filename().string(), "unreadable", "", ""};
+    if (!fs::exists(path)) continue;  // taken away
+    SeriesSpecimen::Capture capture{path.filename().string(), "unreadable", "", "", note_of(path)};
     try {
       const CaptureState state = read_capture_state(path);
       capture.status = state.status;
@@ -166,6 +194,15 @@ void SeriesFolder::save_test(const TestPlan& plan) const {
   write_file(test_file(), toml_from_test(plan), true);
 }
 
+void SeriesFolder::save_test_text(const std::string& text, const TestPlan& plan) const {
+  check_test(plan);
+  write_file(test_file(), text, true);
+}
+
+std::string SeriesFolder::test_text() const {
+  return fs::exists(test_file()) ? read_file(test_file()) : toml_from_test(test());
+}
+
 std::vector<SeriesSpecimen> SeriesFolder::specimens() const {
   std::vector<SeriesSpecimen> specimens;
   std::error_code is_gone;  // trouble() reports it
@@ -177,6 +214,7 @@ std::vector<SeriesSpecimen> SeriesFolder::specimens() const {
     try {
       specimen.specimen = read_specimen(entry.path());
     } catch (const std::exception& error) {
+      if (is_calibration(entry.path())) continue;
       specimen.trouble = failure_text(error, "this specimen");
     }
     specimen.captures = captures_of(first_capture(specimen.name));
@@ -219,6 +257,77 @@ void SeriesFolder::remove_specimen(const std::string& name) const {
   }
   fs::remove(specimen_file(name));
   sync_folder(folder_);
+}
+
+std::string SeriesFolder::rename_specimen(const std::string& name, const std::string& id) const {
+  const SeriesSpecimen found = specimen_named(name);
+  if (!found.captures.empty()) {
+    throw ApiError(
+        409, "has-captures",
+        "'" + name + "' has captures, and they hold its name. Add a specimen of the new name");
+  }
+  if (!found.specimen) throw ApiError(409, "unreadable", found.trouble);
+  Specimen renamed = *found.specimen;
+  renamed.id = id;
+  const std::string toml = toml_from_specimen(renamed);
+  require_id(specimen_from_toml(toml, "specimen", Plausible::kMeasured), toml, "specimen");
+  const std::string number =
+      name.substr(0, std::min(name.find_first_not_of("0123456789"), name.size()));
+  std::string other = number.empty() ? file_name_from(id) : number + "_" + file_name_from(id);
+  if (other == name) {
+    write_file(specimen_file(name), toml, true);
+    return name;
+  }
+  write_file(specimen_file(other), toml, false);
+  if (const auto truth = truth_file(name)) fs::rename(*truth, folder_ / (other + kTruthTomlEnding));
+  fs::remove(specimen_file(name));
+  sync_folder(folder_);
+  return other;
+}
+
+std::string SeriesFolder::trash_capture(const std::string& file) const {
+  const SeriesSpecimen specimen = specimen_of_capture(file);
+  const fs::path path = folder_ / file;
+  if (is_being_captured(path)) throw ApiError(409, "busy", file + " is being written");
+  if (!specimen.material_file.empty()) {
+    const auto sources =
+        read_material(folder_ / specimen.material_file).material.provenance.raw_files;
+    const bool is_source = std::any_of(sources.begin(), sources.end(), [&](const RawFile& source) {
+      return fs::path(source.path).filename() == file;
+    });
+    if (is_source) {
+      throw ApiError(409, "in-use",
+                     specimen.material_file + " was made of " + file +
+                         ", so it is kept. Move that material to another folder first");
+    }
+  }
+  const fs::path trash = folder_ / "trash";
+  fs::create_directory(trash);
+  fs::path to = trash / file;
+  for (int n = 2; fs::exists(fs::symlink_status(to)); ++n) {
+    to = trash / (fs::path(file).stem().string() + "." + std::to_string(n) + kCaptureEnding);
+  }
+  // The capture last: without it the others mean nothing.
+  for (const char* ending : {".note.txt", "-wal", "-shm"}) {
+    if (fs::exists(path.string() + ending))
+      fs::rename(path.string() + ending, to.string() + ending);
+  }
+  fs::rename(path, to);
+  sync_folder(folder_);
+  return to.filename().string();
+}
+
+void SeriesFolder::note_capture(const std::string& file, const std::string& note) const {
+  constexpr std::size_t kLongestNote = 4000;
+  specimen_of_capture(file);
+  if (note.size() > kLongestNote)
+    throw ApiError(400, "bad-value", "a note has at most 4000 characters");
+  if (note.empty()) {
+    fs::remove(note_file(folder_ / file));
+    sync_folder(folder_);
+  } else {
+    write_file(note_file(folder_ / file), note, true);
+  }
 }
 
 SeriesSpecimen SeriesFolder::specimen_of_capture(const std::string& file) const {

@@ -17,6 +17,7 @@ struct SeriesSpecimen {
     std::string status;  // CaptureState::status, or "unreadable"
     std::string started_at;
     std::string trouble;  // why it cannot be read
+    std::string note;     // of a person
   };
   std::string name;  // of the specimen file without .toml; also that of its captures
   std::optional<Specimen> specimen;
@@ -35,6 +36,8 @@ struct SeriesSpecimen {
 //   NAME.viscap, NAME.2.viscap ...    captures (io/flow/series_files.h)
 //   NAME.json                         the material of the fit
 //   NAME.truth.toml                   what an emulated specimen is made of
+//   NAME.viscap.note.txt              the note of a run
+//   trash/                            captures that were taken away
 // rig.toml in it is not a specimen. The numbers that names begin with ("02_a", "10_b") order them.
 class SeriesFolder {
  public:
@@ -53,6 +56,10 @@ class SeriesFolder {
   TestPlan test() const;
   // Throws what a capture would refuse, naming the key of test.toml.
   void save_test(const TestPlan& plan) const;
+  // The same with the text of the file, which may have comments.
+  void save_test_text(const std::string& text, const TestPlan& plan) const;
+  // Of the file, or of the test that holds without it.
+  std::string test_text() const;
   // The same check without saving.
   void check_test(const TestPlan& plan) const;
 
@@ -63,6 +70,15 @@ class SeriesFolder {
   std::string add_specimen(const Specimen& specimen) const;
   // Throws ApiError 409 if there is a capture of it.
   void remove_specimen(const std::string& name) const;
+
+  // Gives it another id and name, and returns the name. Throws ApiError 409 if there is a capture of it.
+  std::string rename_specimen(const std::string& name, const std::string& id) const;
+
+  // Moves a capture into trash/ and returns its name there. Throws ApiError 409 if the material names it, or
+  // while it is written.
+  std::string trash_capture(const std::string& file) const;
+  // Keeps a note beside the capture; an empty one is removed.
+  void note_capture(const std::string& file, const std::string& note) const;
 
   // The specimen that lists a capture of this name. Throws ApiError 404 if there is none.
   SeriesSpecimen specimen_of_capture(const std::string& file) const;

@@ -31,12 +31,6 @@ constexpr TestKey kTestKeys[] = {{"depth_m", &TestPlan::depth_m},
                                  {"contact_force_N", &TestPlan::contact_force_N},
                                  {"baseline_s", &TestPlan::baseline_s}};
 
-double number_at(const Json& object, const std::string& key) {
-  const Json& value = object.at(key);
-  if (value.is_number() && std::isfinite(value.get<double>())) return value.get<double>();
-  throw ApiError(400, "bad-value", "'" + key + "' is " + value.dump() + "; it must be a number");
-}
-
 // Calls take for each key with its number. Throws ApiError for a key without a taker.
 using Taker = std::function<bool(const std::string& key)>;
 void take_each(const Json& object, const char* what, const Taker& take) {
@@ -119,6 +113,12 @@ std::string text_at(const Json& object, const char* key) {
   throw ApiError(400, "bad-value", std::string("the request needs '") + key + "', a text");
 }
 
+double number_at(const Json& object, const std::string& key) {
+  const Json value = object.is_object() && object.contains(key) ? object.at(key) : Json();
+  if (value.is_number() && std::isfinite(value.get<double>())) return value.get<double>();
+  throw ApiError(400, "bad-value", "'" + key + "' is " + value.dump() + "; it must be a number");
+}
+
 std::vector<double> rounded(const std::vector<double>& values, double step) {
   std::vector<double> result;
   result.reserve(values.size());
@@ -190,7 +190,8 @@ Json json_of_specimen(const SeriesSpecimen& specimen, const SeriesFolder& folder
     json["captures"].push_back({{"file", capture.file},
                                 {"status", capture.status},
                                 {"started_at", capture.started_at},
-                                {"trouble", capture.trouble}});
+                                {"trouble", capture.trouble},
+                                {"note", capture.note}});
   }
   json["material"] = specimen.material_file.empty()
                          ? Json(nullptr)

@@ -18,6 +18,8 @@ namespace viscard {
 nlohmann::ordered_json object_from_text(const std::string& text);
 // Throws ApiError 400 naming the key if it is missing or not a text.
 std::string text_at(const nlohmann::ordered_json& object, const char* key);
+// The finite number of a key. Throws ApiError 400.
+double number_at(const nlohmann::ordered_json& object, const std::string& key);
 
 nlohmann::ordered_json json_of_rig(const RigConfig& rig, const std::string& calibration_trouble);
 nlohmann::ordered_json json_of_test(const TestPlan& plan);

@@ -54,7 +54,7 @@ void EmulatedApt::reset(double time_s) {
   answers_.clear();
   begun_.clear();
   const bool has_run = std::exchange(has_run_, true);
-  if (has_run && !habits_.restart_loses_reference) return;
+  if (has_run && !habits_.loses_power) return;
   motion_.stop_at_once(time_s);
   due_.reset();
   is_enabled_ = is_homing_ = false;

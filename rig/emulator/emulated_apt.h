@@ -20,7 +20,7 @@ struct AptHabits {
   bool is_homed = true;                   // false: not homed since it was switched on
   bool stays_disabled = false;            // its motor is switched off at the controller
   bool has_no_speed = false;  // speed, acceleration and homing speed are 0 after power-up
-  bool restart_loses_reference = false;
+  bool loses_power = false;   // a restart cuts the supply; otherwise only the port is opened
   int lose_reply_every = 0;
   int pause_reply_every = 0;  // every n-th reply is sent in two halves, pause_s apart
   double pause_s = 0.2;

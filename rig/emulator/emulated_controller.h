@@ -9,6 +9,14 @@
 
 namespace viscard {
 
+// What can happen to the answers of a controller. Times on the emulated clock.
+struct AnswerHabits {
+  int lose_every = 0;  // every n-th is not sent
+  int late_every = 0;  // every n-th comes after late_s
+  double late_s = 0.8;
+  double delay_s = 0.0;  // of all others
+};
+
 // A motion controller, as a host sees it on the wire, and the stage that it moves. Times on the
 // emulated clock; positions in m on the axis that grows toward the specimen, 0 at power-up.
 class EmulatedController {
@@ -33,9 +41,21 @@ class EmulatedController {
   bool is_moving(double time_s) const { return motion_.is_moving(time_s); }
 
  protected:
+  // bytes: with the end of the line.
+  void send_answer(std::string bytes, double time_s, const AnswerHabits& habits) {
+    ++n_answers_;
+    const auto is_nth = [&](int every) { return every > 0 && n_answers_ % every == 0; };
+    if (is_nth(habits.lose_every)) return;
+    answers_.add(time_s + (is_nth(habits.late_every) ? habits.late_s : habits.delay_s),
+                 std::move(bytes));
+  }
+
   EmulatedMotion motion_;
   std::string output_;
   DelayedBytes answers_;
+
+ private:
+  int n_answers_ = 0;
 };
 
 }  // namespace viscard

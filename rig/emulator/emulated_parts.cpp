@@ -17,6 +17,12 @@ std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions
     return std::make_unique<EmulatedMarlin>(options.truth, stage.axis, stage.toward_specimen,
                                             options.marlin);
   }
+  if (stage.driver == "pi-gcs2") {
+    return std::make_unique<EmulatedPi>(options.truth, stage, options.pi);
+  }
+  if (stage.driver == "smc100") {
+    return std::make_unique<EmulatedSmc>(options.truth, stage, options.smc);
+  }
   return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
                                         options.grbl);
 }

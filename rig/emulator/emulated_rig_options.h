@@ -7,6 +7,8 @@
 #include "rig/emulator/emulated_gauge.h"
 #include "rig/emulator/emulated_grbl.h"
 #include "rig/emulator/emulated_marlin.h"
+#include "rig/emulator/emulated_pi.h"
+#include "rig/emulator/emulated_smc.h"
 #include "rig/emulator/emulated_thermometer.h"
 #include "rig/emulator/emulated_zaber.h"
 #include "rig/emulator/rig_fault.h"
@@ -28,6 +30,8 @@ struct EmulatedRigOptions {
   ZaberHabits zaber;
   AptHabits apt;
   MarlinHabits marlin;
+  PiHabits pi;
+  SmcHabits smc;
   GaugeHabits gauge;
   AmplifierOptions amplifier;
   ThermometerHabits thermometer;  // of the one that config names

@@ -12,11 +12,11 @@ namespace viscard {
 namespace {
 
 constexpr const char* kNeeded =
-    ", which this driver cannot use. Known are GRBL 1.1, grblHAL, Marlin, Zaber ASCII and Thorlabs "
-    "APT";
-constexpr const char* kMarlin =
-    ": driver = \"marlin\" under [stage] of the rig file drives it, at the baud rate of its "
-    "firmware";
+    ", which this driver cannot use. The stage needs GRBL 1.1, grblHAL, Marlin, Zaber ASCII, "
+    "Thorlabs APT, PI GCS 2 or Newport SMC100";
+constexpr const char* kController =
+    ": set driver and baud under [stage] of the rig file for it, unless the ports of stage and "
+    "load cell are swapped";
 constexpr const char* kSwapped = ": are the ports of stage and load cell swapped in the rig file?";
 
 struct Speaker {
@@ -26,8 +26,9 @@ struct Speaker {
 };
 // Welcome lines of the firmware: Marlin (MarlinCore.cpp: "start", "echo:Marlin"), TinyG and g2core (JSON
 // with "fv", the firmware version), Smoothieware ("Smoothie"), Repetier, RepRapFirmware, GRBL (report.c:
-// "Grbl 1.1f ['$' for help]", "<Idle|MPos:"), Zaber ASCII replies ("@01 0 OK IDLE").
-constexpr std::array<Speaker, 12> kSpeakers{{{"marlin", "Marlin", kMarlin},
+// "Grbl 1.1f ['$' for help]", "<Idle|MPos:"), Zaber ASCII replies ("@01 0 OK IDLE"),
+// PI GCS 2 ("*IDN?"), Newport SMC100 ("VE": "1VE SMC_CC").
+constexpr std::array<Speaker, 14> kSpeakers{{{"marlin", "Marlin", kController},
                                              {"tinyg", "TinyG", kNeeded},
                                              {"g2core", "g2core", kNeeded},
                                              {"\"fv\":", "TinyG or g2core", kNeeded},
@@ -36,9 +37,11 @@ constexpr std::array<Speaker, 12> kSpeakers{{{"marlin", "Marlin", kMarlin},
                                              {"repetier", "Repetier", kNeeded},
                                              {"reprapfirmware", "RepRapFirmware", kNeeded},
                                              {"echo:", "the firmware of a 3-D printer", kNeeded},
-                                             {"grbl ", "a GRBL controller", kSwapped},
-                                             {"|mpos:", "a GRBL controller", kSwapped},
-                                             {" ok idle ", "a Zaber controller", kSwapped}}};
+                                             {"grbl ", "a GRBL controller", kController},
+                                             {"|mpos:", "a GRBL controller", kController},
+                                             {" ok idle ", "a Zaber controller", kController},
+                                             {"physik instrumente", "a PI controller", kController},
+                                             {"smc_", "a Newport controller", kController}}};
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

@@ -104,8 +104,8 @@ std::string PunchLift::lift(double share) {
   }
   const bool was_pressing = before_N > options.pressing_N || !options.blind.empty();
   if (to_m < from_m && !(lifted_m > 0.0) && was_pressing) {
-    return "THE PUNCH WAS NOT LIFTED: the controller's own travel ends where it stands ($20, "
-           "$130-132). Lift it by hand";
+    return "THE PUNCH WAS NOT LIFTED: the controller's own travel ends where it stands (GRBL: "
+           "$20, $130-132). Lift it by hand";
   }
   return lifted_m > 0.0 && was_pressing ? trouble_with_force(before_N) : "";
 }

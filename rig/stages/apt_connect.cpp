@@ -45,10 +45,7 @@ void AptStage::halt(std::uint8_t mode, const Pump& pump) {
   ask_position(pump);
   double again_s = clock_.awake_s() + 1.0;
   while (!rests()) {
-    if (clock_.awake_s() > deadline_s) {
-      throw RigError("the stage on '" + transport_.name() +
-                     "' does not come to rest: IT MAY STILL PRESS. Lift the punch by hand");
-    }
+    if (clock_.awake_s() > deadline_s) throw_no_rest();
     if (clock_.awake_s() > again_s) {
       stop(mode);
       again_s = clock_.awake_s() + 1.0;
@@ -139,11 +136,7 @@ void AptStage::connect(const Pump& pump) {
   }
   if (config_.home) home(pump);
   ask_position(pump);
-  if ((bits_ & apt::kIsHomed) == 0) {
-    throw RigError(
-        "the stage has no reference position since it was switched on. Clear the way and set home "
-        "= true under [stage] of the rig file, or home it by its own software");
-  }
+  if ((bits_ & apt::kIsHomed) == 0) throw_no_reference();
   is_homed_ = true;
   exact_m_ = reported_m_;
   start_m_ = reported_m_;

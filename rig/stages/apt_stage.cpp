@@ -100,12 +100,7 @@ void AptStage::watch_bits() {
     if (is_trouble) next_poll_s_ = clock_.now_s();  // a single status may have lost bytes
     return;
   }
-  if (is_homing_lost) {
-    exact_m_.reset();
-    throw DeviceRestarted(
-        "the stage lost its reference position in the middle of the run (was its supply cut?). "
-        "Home it, then start the run again");
-  }
+  if (is_homing_lost) throw_reference_lost();
   exact_m_.reset();
   throw StageAlarm("the stage stopped with " +
                    (is_enabled ? apt_error_text(bits_)
@@ -179,7 +174,7 @@ void AptStage::follow_move(double asked_s, double received_s) {
   if (active.stop_mode != 0) return follow_stop(asked_s);
   if (!active.tracker || active.is_due || asked_s < active.sent_s) return;
   active.tracker->reported(asked_s, received_s, reported_m_);
-  watch_way(active.planned, 2.0 * kSettled_m, active.n_astray);
+  watch_path(active.planned, 2.0 * kSettled_m, active.n_astray);
   if (!rests()) return active.rests_since_s.reset();
   const double way_m = std::abs(active.planned.to_m - active.planned.from_m);
   const double off_m = std::abs(reported_m_ - active.planned.to_m);
@@ -215,16 +210,13 @@ void AptStage::rest_elsewhere(double asked_s) {
   }
   const double target_m = active.planned.to_m;
   active_.reset();
-  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +
-                 " mm and did not reach " + text_from_number(target_m * 1e3, 4) +
-                 " mm. Look for an obstacle or somebody at the controller's buttons, then start "
-                 "the run again");
+  throw_elsewhere(target_m, "no limit switch is closed",
+                  "an obstacle or somebody at the controller's buttons");
 }
 
 void AptStage::end_move() {
-  exact_m_ = reported_m_;
   const ActiveMove ended = *std::exchange(active_, std::nullopt);
-  if (ended.tracker) sink_(ended_move(*ended.tracker, ended.purpose, reported_m_));  // else unsent
+  hand_out(ended.tracker, ended.purpose, reported_m_);
 }
 
 void AptStage::drive(double now_s) {

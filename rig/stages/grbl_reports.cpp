@@ -15,7 +15,6 @@ constexpr double kPollResting_s = 0.2;
 constexpr int kMostRestsElsewhere = 3;
 constexpr double kNudge_wall_s = 0.7;
 constexpr double kNoAnswer_wall_s = 5.0;
-constexpr double kNoProgress_wall_s = 5.0;
 
 }  // namespace
 
@@ -49,7 +48,7 @@ void GrblStage::follow_move(double asked_s, double received_s) {
         "or the line is disturbed. Release it, then start the run again");
   }
   if (!active.is_stopping) active.tracker.reported(asked_s, received_s, reported_m_);
-  watch_way(active.tracker.move(), 2.0 * resolution_m(), active.n_astray);
+  watch_path(active.tracker.move(), 2.0 * resolution_m(), active.n_astray);
   // An Idle that may be older than the ok is no proof that this move has ended.
   if (state_ != "Idle" || !active.has_ok || asked_s < active.ok_s) return;
   const double target_m = active.tracker.move().to_m;
@@ -72,21 +71,13 @@ void GrblStage::rest_elsewhere(double asked_s) {
   const double target_m = active.tracker.move().to_m;
   active_.reset();
   exact_m_.reset();
-  throw RigError(
-      "the stage stands at " + text_from_number(reported_m_ * 1e3, 3) + " mm and did not reach " +
-      text_from_number(target_m * 1e3, 3) +
-      " mm. Look for an obstacle or a limit switch, or for somebody who pressed the hold "
-      "button. Then start the run again");
+  throw_elsewhere(target_m, state_,
+                  "an obstacle, a limit switch or somebody who pressed the hold button");
 }
 
 void GrblStage::end_move(double end_m) {
-  const ActiveMove ended = std::move(*active_);
-  active_.reset();
-  hand_out(ended, end_m);
-}
-
-void GrblStage::hand_out(const ActiveMove& ended, double end_m) {
-  sink_(ended_move(ended.tracker, ended.purpose, end_m));
+  const ActiveMove ended = *std::exchange(active_, std::nullopt);
+  hand_out(ended.tracker, ended.purpose, end_m);
 }
 
 void GrblStage::poll_status() {
@@ -111,8 +102,10 @@ void GrblStage::nudge(double now_s) {
 
 void GrblStage::watch_deadlines(double now_s) {
   if (!active_) return;
+  const StageMove& move = active_->tracker.move();
+  watch_end(now_s, move, active_->late_before_s, active_->progress_s);
   now_s -= clock_.late_s() - active_->late_before_s;  // nobody listened meanwhile
-  const double written_s = active_->tracker.move().start_time_s;
+  const double written_s = move.start_time_s;
   if (!active_->has_ok) {
     if (now_s > written_s + clock_.from_wall_s(patience_ * kNudge_wall_s)) nudge(now_s);
     if (now_s > written_s + clock_.from_wall_s(patience_ * kNoAnswer_wall_s)) {
@@ -120,15 +113,6 @@ void GrblStage::watch_deadlines(double now_s) {
                      text_from_number(patience_ * kNoAnswer_wall_s, 1) +
                      " s. Check its cable and supply");
     }
-  }
-  const double due_s = expected_end_s_ + 0.5 * duration_s(active_->tracker.move());
-  const double patience_s = clock_.from_wall_s(patience_ * kNoProgress_wall_s);
-  // A slow controller is waited for as long as its position changes.
-  if (now_s > due_s + patience_s && now_s > active_->progress_s + patience_s) {
-    throw RigError("the stage should have come to rest " +
-                   text_from_number(now_s - expected_end_s_, 1) +
-                   " s ago, does not move and reports '" + state_ +
-                   "'. Switch it off and on, then start the run again");
   }
 }
 

@@ -153,7 +153,8 @@ void GrblStage::begin_move(double to_m, double speed_m_s, const std::string& pur
   if (active_) throw RigError("a move was asked for while the stage was still moving");
   const StageDynamics limits = dynamics();
   const double from_m = position_m();
-  to_m = within_travel_m(from_m, quantised_m(to_m, limits.steps_per_m), limits);
+  to_m = within_travel_m(from_m, quantised_m(to_m, limits.steps_per_m), limits,
+                         "soft limits: $20, $130-132");
   if (start_m_) check_travel(to_m, *start_m_, config_.travel_m);
   expected_end_s_ = clock_.now_s();
   if (std::abs(to_m - from_m) < 0.5 / limits.steps_per_m) return;

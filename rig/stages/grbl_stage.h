@@ -63,7 +63,6 @@ class GrblStage final : public PolledStage {
   void follow_move(double asked_s, double received_s);
   void rest_elsewhere(double asked_s);
   void end_move(double end_m);
-  void hand_out(const ActiveMove& ended, double end_m);
   void poll_status();
   void nudge(double now_s);
   void watch_deadlines(double now_s);

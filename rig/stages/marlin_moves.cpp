@@ -87,7 +87,7 @@ void MarlinStage::follow_move(double asked_s, double received_s) {
   if (active.is_stopping) return follow_stop(asked_s);
   if (!active.tracker) return;
   active.tracker->reported(asked_s, received_s, reported_m_);
-  watch_way(active.planned, 2.0 / steps_per_m(), active.n_astray);
+  watch_path(active.planned, 2.0 / steps_per_m(), active.n_astray);
   if (count_ != std::exchange(active.seen, count_)) active.progress_s = received_s;
   watch_waiting(asked_s, received_s);
   // The answer to the newest piece comes before its question.
@@ -133,17 +133,15 @@ void MarlinStage::rest_elsewhere(double asked_s) {
   const double target_m = active.planned.to_m;
   active_.reset();
   exact_m_.reset();
-  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +
-                 " mm and did not reach " + text_from_number(target_m * 1e3, 4) +
-                 " mm: a soft limit (M211), homing that is missing, or a limit switch" +
-                 (last_message_.empty() ? "" : " (it said '" + last_message_ + "')") +
-                 ". Correct that, then start the run again");
+  throw_elsewhere(
+      target_m,
+      last_message_.empty() ? "the board says nothing" : "it said '" + last_message_ + "'",
+      "a soft limit (M211), homing that is missing or a limit switch");
 }
 
 void MarlinStage::end_move() {
-  exact_m_ = reported_m_;
   const ActiveMove ended = *std::exchange(active_, std::nullopt);
-  if (ended.tracker) sink_(ended_move(*ended.tracker, ended.purpose, reported_m_));  // else unsent
+  hand_out(ended.tracker, ended.purpose, reported_m_);
 }
 
 // M410 is answered when the motors stand. Two equal reports are wanted, because one can be garbled.

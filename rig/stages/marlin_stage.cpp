@@ -189,10 +189,8 @@ void MarlinStage::take_count(long long count, double time_s) {
 }
 
 void MarlinStage::drive(double now_s) {
-  constexpr double kNoProgress_wall_s = 5.0;  // a slow controller is waited for
-  if (active_ && active_->tracker && !active_->is_stopping &&
-      now_s > active_->progress_s + clock_.from_wall_s(kNoProgress_wall_s)) {
-    watch_end(now_s, active_->planned, active_->late_before_s);
+  if (active_ && active_->tracker && !active_->is_stopping) {
+    watch_end(now_s, active_->planned, active_->late_before_s, active_->progress_s);
   }
   if (in_flight_) return send_again(now_s);
   if (is_stop_open_) {

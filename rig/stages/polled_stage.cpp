@@ -148,7 +148,7 @@ void PolledStage::plan_poll(double now_s, double every_s) {
   }
 }
 
-void PolledStage::watch_way(const StageMove& move, double slack_m, int& n_astray) {
+void PolledStage::watch_path(const StageMove& move, double slack_m, int& n_astray) {
   constexpr int kMostAstray = 2;  // a single one may have a garbled digit
   const double low_m = std::min(move.from_m, move.to_m) - slack_m;
   const double high_m = std::max(move.from_m, move.to_m) + slack_m;
@@ -165,28 +165,57 @@ void PolledStage::watch_way(const StageMove& move, double slack_m, int& n_astray
                    "interference, then start the run again");
 }
 
-void PolledStage::watch_end(double now_s, const StageMove& move, double late_before_s) const {
+void PolledStage::watch_end(double now_s, const StageMove& move, double late_before_s,
+                            std::optional<double> progress_s) const {
   constexpr double kNoEnd_wall_s = 5.0;
   now_s -= clock_.late_s() - late_before_s;  // nobody listened meanwhile
-  const double late_s = 0.5 * duration_s(move) + clock_.from_wall_s(kNoEnd_wall_s);
-  if (now_s < expected_end_s_ + late_s) return;
-  throw RigError("the stage should have come to rest " +
-                 text_from_number(now_s - expected_end_s_, 1) +
-                 " s ago but still moves. Switch it off and on, home it, then start the run again");
+  const double patience_s = clock_.from_wall_s(patience_ * kNoEnd_wall_s);
+  if (now_s < expected_end_s_ + 0.5 * duration_s(move) + patience_s) return;
+  if (progress_s && now_s < *progress_s + patience_s) return;
+  throw RigError(
+      "the stage should have come to rest " + text_from_number(now_s - expected_end_s_, 1) +
+      " s ago and does not report that it has. Switch it off and on, home it, then start "
+      "the run again");
 }
 
-CommandedMove PolledStage::ended_move(const MoveTracker& tracker, const std::string& purpose,
-                                      double end_m) {
+void PolledStage::throw_elsewhere(double target_m, const std::string& state,
+                                  const std::string& look_for) const {
+  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +
+                 " mm and did not reach " + text_from_number(target_m * 1e3, 4) + " mm (" + state +
+                 "). Look for " + look_for + ", then start the run again");
+}
+
+void PolledStage::throw_reference_lost() {
+  exact_m_.reset();
+  throw DeviceRestarted(
+      "the stage lost its reference position in the middle of the run (was its supply cut?). "
+      "Home it, then start the run again");
+}
+
+void PolledStage::throw_no_rest() const {
+  throw RigError("the stage on '" + transport_.name() +
+                 "' does not come to rest: IT MAY STILL PRESS. Lift the punch by hand");
+}
+
+void PolledStage::hand_out(const std::optional<MoveTracker>& tracker, const std::string& purpose,
+                           double end_m) {
   exact_m_ = end_m;
-  CommandedMove commanded = tracker.best(end_m);
+  if (!tracker) return;
+  CommandedMove commanded = tracker->best(end_m);
   commanded.purpose = purpose;
-  if (const int n = tracker.n_contradictions(); n >= 2) {
+  if (const int n = tracker->n_contradictions(); n >= 2) {
     note(clock_.now_s(), "move_doubtful", purpose,
          std::to_string(n) +
              " position reports do not agree with the speed and acceleration in "
              "the controller's settings: the move was slower or faster");
   }
-  return commanded;
+  sink_(commanded);
+}
+
+void throw_no_reference() {
+  throw RigError(
+      "the stage has no reference position since it was switched on. Clear the way and set home = "
+      "true under [stage] of the rig file, or home it by its own software");
 }
 
 void check_travel(double to_m, double start_m, double travel_m) {
@@ -197,14 +226,15 @@ void check_travel(double to_m, double start_m, double travel_m) {
                  "raise travel in the rig file");
 }
 
-double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics) {
+double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics,
+                       const std::string& settings) {
   constexpr double kSlack = 1e-6;  // of a step: rounding of the limits themselves
   const double slack_m = kSlack / dynamics.steps_per_m;
   if (from_m < dynamics.lowest_m - slack_m || from_m > dynamics.highest_m + slack_m) {
     throw RigError("the stage stands at " + text_from_number(from_m * 1e3, 3) +
-                   " mm, outside of the travel that the controller allows ($20=1), so it "
-                   "refuses every move. Home it (home = true under [stage] of the rig file), or "
-                   "switch its soft limits off ($20=0)");
+                   " mm, outside of the travel that the controller allows (" + settings +
+                   "), so it refuses every move. Home it (home = true under [stage] of the rig "
+                   "file), or change these settings");
   }
   if (to_m < from_m && to_m < dynamics.lowest_m) {
     const double step = std::ceil(dynamics.lowest_m * dynamics.steps_per_m - kSlack);
@@ -213,8 +243,8 @@ double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics
   if (to_m > from_m && to_m > dynamics.highest_m + slack_m) {
     throw RigError("the move to " + text_from_number(to_m * 1e3, 3) +
                    " mm goes beyond the controller's own travel, which ends at " +
-                   text_from_number(dynamics.highest_m * 1e3, 3) +
-                   " mm ($20 and $130-132). Bring the punch nearer to the specimen by hand, or "
+                   text_from_number(dynamics.highest_m * 1e3, 3) + " mm (" + settings +
+                   "). Bring the punch nearer to the specimen by hand, or "
                    "correct these settings");
   }
   return to_m;

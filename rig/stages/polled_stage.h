@@ -30,7 +30,8 @@ class PolledStage : public Stage {
 
   // Records what has arrived and cuts it into messages.
   void receive();
-  // Feeds recorded bytes to splitter_; a driver of a binary protocol also feeds its own splitter.
+  // Feeds recorded bytes to splitter_. A driver of a binary protocol also feeds its own splitter, one
+  // with flow control takes those bytes out first.
   virtual void split(const Chunk& chunk);
   void note(double time_s, const std::string& name, const std::string& value,
             const std::string& text) const;
@@ -46,7 +47,8 @@ class PolledStage : public Stage {
 
   void take_report(double time_s, double position_m, const std::string& state);
   // Questions for the position whose answers carry no number, so that a late answer cannot be told
-  // from a prompt one. asked() follows the write of a question.
+  // from a prompt one. asked() follows the write of a question. AskedStage does not use these: it
+  // asks for more than the position, so it finds its controller again after every lost answer.
   void asked(double now_s);
   // The time of the question that a report answers: the oldest open one, because the report cannot
   // be older than that. Nothing for an unasked report.
@@ -62,12 +64,21 @@ class PolledStage : public Stage {
   void plan_poll(double now_s, double every_s);
   // Stops at once and throws StageAlarm if two reports in a row are outside of the path: a command
   // garbled on its way to the controller can be a valid move to another position.
-  void watch_way(const StageMove& move, double slack_m, int& n_astray);
+  void watch_path(const StageMove& move, double slack_m, int& n_astray);
   // Throws RigError if the stage should have come to rest long ago. late_before_s: clock_.late_s()
-  // when the move began.
-  void watch_end(double now_s, const StageMove& move, double late_before_s) const;
-  // The move has ended; its record from the tracker.
-  CommandedMove ended_move(const MoveTracker& tracker, const std::string& purpose, double end_m);
+  // when the move began. progress_s: when its position last changed, for controllers that may be
+  // slower than their settings say and are waited for.
+  void watch_end(double now_s, const StageMove& move, double late_before_s,
+                 std::optional<double> progress_s = {}) const;
+  // The stage rests elsewhere than at the end of its move. state: in the controller's words.
+  [[noreturn]] void throw_elsewhere(double target_m, const std::string& state,
+                                    const std::string& look_for) const;
+  // The reference position was there when the stage was connected or recovered, and is gone.
+  [[noreturn]] void throw_reference_lost();
+  [[noreturn]] void throw_no_rest() const;
+  // The move has ended at end_m: hands its record to the sink. No tracker: it was never written.
+  void hand_out(const std::optional<MoveTracker>& tracker, const std::string& purpose,
+                double end_m);
 
   Transport& transport_;
   StageConfig config_;
@@ -94,6 +105,9 @@ class PolledStage : public Stage {
   bool is_answered_since_ = false;  // an older question was answered after the newest was sent
 };
 
+// At the start of a run: positions would mean nothing.
+[[noreturn]] void throw_no_reference();
+
 // The software limit that every stage driver checks: throws RigError if to_m lies further toward
 // the specimen than travel_m from start_m, where the stage stood at first.
 void check_travel(double to_m, double start_m, double travel_m);
@@ -101,7 +115,8 @@ void check_travel(double to_m, double start_m, double travel_m);
 // Limits the end of a move to what the controller allows (StageDynamics::lowest_m, highest_m), on a
 // whole step. A move away from the specimen is shortened, because a shorter lift is better than
 // none. A move toward the specimen beyond the limit throws RigError, and so does any move that
-// starts outside of the travel.
-double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics);
+// starts outside of the travel. settings: names of the controller's limits, for the message.
+double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics,
+                       const std::string& settings);
 
 }  // namespace viscard

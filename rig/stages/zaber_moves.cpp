@@ -1,5 +1,4 @@
 // How ZaberStage begins, follows and ends a move.
-#include "models/maths/text_of_number.h"
 #include "rig/stages/zaber_stage.h"
 
 #include <algorithm>
@@ -27,16 +26,12 @@ void ZaberStage::follow_move(double asked_s, double received_s, bool is_busy) {
   if (++active.n_rests_elsewhere < kMostRestsAside) return;
   active_.reset();
   exact_m_.reset();
-  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +
-                 " mm and did not reach " + text_from_number(target_m * 1e3, 4) + " mm (" +
-                 zaber_flag_text(flag_) +
-                 "). Look for an obstacle or a turned knob, then start the run again");
+  throw_elsewhere(target_m, zaber_flag_text(flag_), "an obstacle or a turned knob");
 }
 
 void ZaberStage::end_move(double end_m) {
-  exact_m_ = end_m;
   const ActiveMove ended = *std::exchange(active_, std::nullopt);
-  if (ended.tracker) sink_(ended_move(*ended.tracker, ended.purpose, end_m));  // else never sent
+  hand_out(ended.tracker, ended.purpose, end_m);
 }
 
 void ZaberStage::begin_move(double to_m, double speed_m_s, const std::string& purpose) {
@@ -74,11 +69,6 @@ void ZaberStage::start_action() {
   active_->late_before_s = clock_.late_s();
   active_->tracker.emplace(active_->planned, config_.microstep_m);
   expected_end_s_ = action_->written_s + duration_s(active_->planned);
-}
-
-void ZaberStage::watch_deadline(double now_s) {
-  if (!active_ || !active_->reply_s) return;
-  watch_end(now_s, active_->planned, active_->late_before_s);
 }
 
 void ZaberStage::stop(const std::string& words) {

@@ -1,7 +1,10 @@
-// Any line or bytes from a Zaber, APT or Marlin stage, a multimeter or a force gauge is understood or refused.
+// Any line or bytes from a stage other than GRBL, a multimeter or a force gauge is understood or
+// refused.
 #include "rig/protocols/apt_protocol.h"
 #include "rig/protocols/gauge_protocols.h"
 #include "rig/protocols/marlin_protocol.h"
+#include "rig/protocols/pi_protocol.h"
+#include "rig/protocols/smc_protocol.h"
 #include "rig/protocols/zaber_protocol.h"
 
 #include <cmath>
@@ -64,5 +67,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check_marlin(text);
   const auto message = viscard::parse_zaber_message(text);
   if (message && (message->device < 0 || message->axis < 0)) std::abort();
+  const auto answer = viscard::pi_answer_text(text, 3);
+  if (answer) (void)viscard::pi_value_of_axis(*answer, 1);
+  (void)viscard::parse_pi_moving(text, 32);
+  (void)viscard::parse_pi_ready(text);
+  const auto error = viscard::parse_pi_error(text);
+  if (error && viscard::pi_error_text(*error).empty()) std::abort();
+  const auto value = viscard::smc_answer_text(text, 1, "TS");
+  const auto state = viscard::parse_smc_state(value ? *value : text);
+  if (state && viscard::is_smc_ready(*state) && viscard::is_smc_moving(*state)) std::abort();
+  if (state) (void)viscard::smc_fault_text(state->faults);
+  (void)viscard::smc_error_text(text);
   return 0;
 }

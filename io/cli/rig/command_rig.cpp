@@ -175,14 +175,6 @@ bool moves(const RigWords& words) {
   return words.what == "jog" || words.what == "home" || words.what == "lift";
 }
 
-void show_move(ResultVisitor& v, const StageMoved& moved) {
-  v("from_m", moved.from_m, "position of the controller before the move, toward the specimen");
-  v("to_m", moved.to_m, "position after it");
-  v("force_before_N", moved.force_before_N, "force by the calibration before the move");
-  v("force_after_N", moved.force_after_N, "force after it");
-  v("is_stopped_by_force", moved.is_stopped_by_force, "the change of force reached --limit");
-}
-
 void show_touch(ResultVisitor& v, double force_N) {
   v("force_N", force_N, "the largest change of the force");
   v("answered_on", today(), "the day");
@@ -223,7 +215,7 @@ CommandSyntax rig_syntax(RigWords& words) {
       described<RigList>("rig-list", "viscard rig list"),
       described<RigCheck>("rig-check", "viscard rig check"),
       {"rig-touch", "viscard rig touch", {[](ResultVisitor& v) { show_touch(v, 0.0); }}},
-      {"rig-move", "viscard rig jog", {[](ResultVisitor& v) { show_move(v, {}); }}},
+      {"rig-move", "viscard rig jog", {[](ResultVisitor& v) { show_keys(v, StageMoved{}); }}},
       {"rig-overshoot", "viscard rig overshoot", {[](ResultVisitor& v) {
          show_keys(v, std::vector<OvershootRow>{});
        }}}};
@@ -286,7 +278,7 @@ int touch_and_write(const RigWords& words, bool as_json, Streams& streams) {
 }
 
 StageOrder order_from(const RigWords& words) {
-  constexpr double kLift_m = 2e-3, kFarthest_m = 0.1, kFastest_m_s = 10e-3;
+  constexpr double kLift_m = 2e-3;
   StageOrder order;
   order.is_home = words.what == "home";
   order.speed_m_s = words.speed_m_s;
@@ -300,16 +292,6 @@ StageOrder order_from(const RigWords& words) {
     throw UsageError("rig jog needs --toward or --away, such as --away \"0.5 mm\"");
   }
   const double way_m = words.toward_m.value_or(words.away_m.value_or(kLift_m));
-  if (!(way_m > 0.0) || way_m > kFarthest_m) {
-    throw UsageError(fmt::format("the way is {} mm; it must be above 0 and at most {} mm",
-                                 way_m * 1e3, kFarthest_m * 1e3));
-  }
-  if (!(order.speed_m_s > 0.0) || order.speed_m_s > kFastest_m_s) {
-    throw UsageError(fmt::format("--speed is {} mm/s; it must be above 0 and at most {} mm/s",
-                                 order.speed_m_s * 1e3, kFastest_m_s * 1e3));
-  }
-  if (!(order.limit_N > 0.0))
-    throw UsageError("--limit must be a force above 0, such as \"0.1 N\"");
   order.toward_m = words.toward_m ? way_m : -way_m;
   return order;
 }
@@ -321,18 +303,19 @@ int move_and_print(const RigWords& words, bool as_json, Streams& streams) {
   }
   const StageOrder order = order_from(words);
   const RigConfig rig = file ? read_rig(*file, words.plausible) : demo_rig();
-  if (!order.is_home && order.limit_N > rig.safety.soft_fraction * rig.calibration.capacity_N) {
-    throw UsageError(fmt::format(
-        "--limit is {} N; at most {:.3f} N is allowed, {} of the capacity (soft_fraction)",
-        order.limit_N, rig.safety.soft_fraction * rig.calibration.capacity_N,
-        rig.safety.soft_fraction));
+  try {
+    check_order(order, rig);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
   }
   const StopOnSignal on_signal;
-  const StageMoved moved = move_rig_stage(rig, words.is_emulated, order, &StopOnSignal::is_asked());
+  RunControl control;
+  control.stop = &StopOnSignal::is_asked();
+  const StageMoved moved = move_rig_stage(rig, words.is_emulated, order, control);
   if (as_json) {
     print_result(
         {"viscard-rig-move/1", file ? Words{*file} : Words{}},
-        [&](ResultVisitor& v) { show_move(v, moved); }, streams, kOneLine);
+        [&](ResultVisitor& v) { show_keys(v, moved); }, streams, kOneLine);
   } else if (order.is_home) {
     streams.out << fmt::format("homed; the stage stands at {:.3f} mm\n", moved.to_m * 1e3);
   } else {

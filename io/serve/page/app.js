@@ -2,11 +2,13 @@
 // the folder of the series and the running test do not: reloading or closing it changes nothing.
 import { ask, Unreachable } from "./api.js";
 import { element, sentence, showText } from "./format.js";
-import { refreshPlan, showPlan, showStart, startPlan } from "./plan.js";
+import { showHands, startHands } from "./hands.js";
+import { refreshPlan, showCourse, showPlan, showStart, startPlan } from "./plan.js";
+import { startProtocol } from "./protocol.js";
 import { fitCapture, startResult } from "./result.js";
 import { showRig, startRig } from "./rig.js";
 import { isRunning, pollRun, showRigLimits, startRun } from "./run.js";
-import { chooseNext, showSeries, startSeries } from "./series.js";
+import { chooseNext, chosenSpecimen, showSeries, startSeries } from "./series.js";
 
 const kRunning_ms = 200, kIdle_ms = 1500;
 const kStateEvery = 3;  // idle polls
@@ -16,6 +18,7 @@ let state = null;
 async function refresh() {
   state = await ask("/api/state");
   showRig(state);
+  showHands(state);
   showRigLimits(state);
   showSeries(state);
   showPlan(state);
@@ -57,6 +60,8 @@ async function runEnded(run) {
 const quietly = (work) => work().catch(showLink);
 
 startRig();
+startHands({ onDone: () => quietly(refresh) });
+startProtocol({ specimen: chosenSpecimen, onCourse: showCourse, onKept: () => refresh() });
 startSeries({
   onChoice: () => { showStart(); quietly(refreshPlan); },
   onChange: () => quietly(refresh),

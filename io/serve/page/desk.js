@@ -1,11 +1,12 @@
 // Puts the parts of the desk together. All that is made lies in the folder; the page holds what is chosen for each table.
 import { ask, drop, order, Unreachable } from "./api.js";
-import { chosenCard, showCard, showCardState, startCard } from "./desk_card.js";
+import { askRatio, chosenCard, showCard, showCardState, startCard } from "./desk_card.js";
 import { checkCard, startCheck } from "./desk_check.js";
 import { alsoCompare, compare, showCompareTables, startCompare } from "./desk_compare.js";
 import { forgetOrders, redrawFit, showFit, showFitState, shownRange } from "./desk_fit.js";
 import { keywordOf, pythonOf, showFields, showSame, startOptions } from "./desk_options.js";
 import { chosenPrediction, showOtherTables, showPrediction, showPredictState, startPredict } from "./desk_predict.js";
+import { redrawRatios, showRatios } from "./desk_ratios.js";
 import { showReportTables, startReport } from "./desk_report.js";
 import { showScenes, startScene } from "./desk_scene.js";
 import { showTable, showTableError, startTable } from "./desk_table.js";
@@ -72,7 +73,7 @@ function showView(name) {
     element(`tab-${step}`).setAttribute("aria-selected", String(isThis));
     element(`tab-${step}`).tabIndex = isThis ? 0 : -1;
   }
-  if (name === "fit") redrawFit();
+  if (name === "fit") { redrawFit(); redrawRatios(); }
   if (name === "card") makeCard();
   if (name === "predict") predict();
   if (name === "compare") compare();
@@ -84,9 +85,13 @@ function request() {
   return choices[table] === undefined ? what : { ...what, options: chosen() };
 }
 
-// What viscard.fit() of Python takes: a file, or tests by kind.
+const isByRatio = () => together[table]?.[0].ratio !== undefined;
+
+// What viscard.fit() of Python takes: a file, specimens, or tests by kind; and its keywords.
+const pythonKeywords = () => (isByRatio() ? { joint: true, ratio: together[table].map((test) => Number(test.ratio)), ...chosen() } : chosen());
 function pythonData() {
   if (!together[table]) return table;
+  if (isByRatio()) return together[table].map((test) => test.table);
   const byKind = {};
   for (const test of together[table]) (byKind[test.kind] ??= []).push(test.table);
   return byKind;
@@ -114,8 +119,9 @@ function readAndFit() {
     const { command, result, options } = await order("/api/desk/fit", request());
     if (!isNow()) return;
     choices[table] = options;
-    showFit(result, chosen().terms, (terms) => setOption("terms", terms));
-    showSame(element("fit-same"), command, pythonOf(pythonData(), chosen()));
+    if (isByRatio()) showRatios(result);
+    else showFit(result, chosen().terms, (terms) => setOption("terms", terms));
+    showSame(element("fit-same"), command, pythonOf(pythonData(), pythonKeywords()));
     if (view === "card") makeCard();
     if (view === "predict") predict();
     if (view === "compare") compare();
@@ -130,9 +136,9 @@ function makeCard() {
     const answer = await order("/api/desk/card", { ...request(), card: chosenCard() });
     if (!isNow()) return;
     showCard(answer);
-    const { for: target, units } = chosenCard();
+    const { for: target, units, ratio } = chosenCard();
     showSame(element("card-same"), `${answer.fit_command}\n${answer.command}`,
-             `${pythonOf(pythonData(), chosen())}\nprint(result.material.card(${JSON.stringify(target)}, ${JSON.stringify(units)}))`);
+             `${pythonOf(pythonData(), pythonKeywords())}\nprint(result.material${isByRatio() ? `(${ratio})` : ""}.card(${JSON.stringify(target)}, ${JSON.stringify(units)}))`);
   }, (text) => showCardState(text, "alert"));
 }
 
@@ -176,6 +182,7 @@ function open(name) {
   before = [];
   forgetOrders();
   if (!together[name]) alsoCompare(name);
+  askRatio(together[name]?.[0].ratio);
   showTables();
   element("table-name").textContent = name;
   if (view !== "table" && view !== "fit") showView("fit");
@@ -183,7 +190,7 @@ function open(name) {
 }
 
 function openTogether(tests) {
-  const name = tests.map((test) => test.table).join(" + ");
+  const name = tests.map((test) => (test.ratio ? `${test.table} (${test.ratio}:1)` : test.table)).join(" + ");
   together[name] = tests;
   delete choices[name];
   showView("fit");

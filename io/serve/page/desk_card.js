@@ -13,6 +13,7 @@ export function startCard(described, handler) {
   element("units").append(...choices.units.map((one) => make("label", { title: one.description },
     make("input", { type: "radio", name: "units", value: one.name, checked: one.name === saved("units", "SI") }), one.name)));
   element("target").value = saved("target", choices.targets[0].name);
+  element("card-ratio").addEventListener("change", () => onChoice());
   for (const id of ["target", "units", "approximate"]) {
     element(id).addEventListener("change", () => {
       localStorage.setItem("viscard-target", element("target").value);
@@ -25,9 +26,16 @@ export function startCard(described, handler) {
 
 const unitsNow = () => document.querySelector("input[name='units']:checked").value;
 
+// ratio: the first of a fit over mixing ratios; undefined: the fit is of one material.
+export function askRatio(ratio) {
+  show(element("card-ratio-field"), ratio !== undefined);
+  element("card-ratio").value = ratio ?? "";
+}
+
 export function chosenCard() {
+  const ratio = element("card-ratio").value.trim().replace(",", ".");
   return { for: element("target").value, units: unitsNow(),
-           ...(element("approximate").checked ? { approximate: true } : {}) };
+           ...(ratio ? { ratio } : {}), ...(element("approximate").checked ? { approximate: true } : {}) };
 }
 
 const targetNow = () => choices.targets.find((one) => one.name === element("target").value);

@@ -5,13 +5,21 @@ import { axisOf, element, make, show, showText, significant } from "./format.js"
 import { rowsOf } from "./moduli.js";
 
 const kColors = ["series-1", "series-2", "series-3", "series-4", "series-5", "series-6"];
-const kMost = 6;  // colours that can be told from each other
+const kMost = 12;  // of one fit; the picture shows as many as there are colours that can be told apart
 
+// The mixing ratio that a name states: "pdms_1to13.csv", "13-1 b.csv"; otherwise nothing.
+function ratioIn(name) {
+  const found = /(?:^|[^0-9.])(?:1[ _]?(?:to|-|:)[ _]?(\d{1,2}(?:\.\d)?)|(\d{1,2}(?:\.\d)?)[ _]?(?:to|-|:)[ _]?1)(?![0-9])/i.exec(name);
+  return found ? found[1] ?? found[2] : "";
+}
+
+let ratios = {};  // by table, as they were typed
 let chosen = new Set(), fits = {}, chart = null, optionsOf = () => ({}), onTogether = () => {}, asked = 0;
 
 export function startCompare(handlers) {
   ({ optionsOf, onTogether } = handlers);
   element("compare-together").addEventListener("click", () => onTogether(fitted().map((name) => ({ table: name, kind: fits[name].kind }))));
+  element("compare-ratios").addEventListener("click", () => onTogether(withRatio().map((name) => ({ table: name, ratio: ratios[name] }))));
   for (const id of ["compare-log-x", "compare-log-y", "compare-relative"]) element(id).addEventListener("change", draw);
 }
 
@@ -21,11 +29,15 @@ export function showCompareTables(names) {
     const box = make("input", { type: "checkbox" });
     box.checked = chosen.has(name);
     box.addEventListener("change", () => {
-      if (box.checked && chosen.size >= kMost) { box.checked = false; return tell(`At most ${kMost} tables have colours that can be told apart.`); }
+      if (box.checked && chosen.size >= kMost) { box.checked = false; return tell(`At most ${kMost} tables are compared.`); }
       if (box.checked) chosen.add(name); else chosen.delete(name);
       compare();
     });
-    return make("label", { class: "switch" }, box, name);
+    ratios[name] ??= ratioIn(name);
+    const ratio = make("input", { "aria-label": `Mixing ratio of ${name}`, placeholder: "ratio", title: "parts of base to one of curing agent",
+                                  inputmode: "decimal", autocomplete: "off", size: "4", value: ratios[name] });
+    ratio.addEventListener("input", () => { ratios[name] = ratio.value.trim().replace(",", "."); showButtons(); });
+    return make("div", { class: "specimen" }, make("label", { class: "switch" }, box, name), ratio);
   }));
 }
 
@@ -52,11 +64,17 @@ export async function compare() {
 }
 
 const fitted = () => [...chosen].filter((name) => fits[name]);
+const withRatio = () => fitted().filter((name) => Number(ratios[name]) > 0);
+
+function showButtons() {
+  element("compare-together").disabled = fitted().length < 2;
+  element("compare-ratios").disabled = withRatio().length < 3;  // fewer show no law
+}
 
 function showRows() {
   const names = fitted();
   const head = make("tr", {}, make("th", { scope: "col" }, "Quantity"), ...names.map((name, i) =>
-    make("th", { scope: "col", class: "number" }, make("span", { class: `key ${kColors[i]}` }), name)));
+    make("th", { scope: "col", class: "number" }, ...(kColors[i] ? [make("span", { class: `key ${kColors[i]}` })] : []), name)));
   const columns = names.map((name) => rowsOf(fits[name]));
   const longest = columns.reduce((most, rows) => (rows.length > most.length ? rows : most), []);
   const body = longest.map(([label], i) => make("tr", {}, make("th", { scope: "row" }, ...label.map((node) => node.cloneNode(true))),
@@ -68,8 +86,9 @@ function showRows() {
 function draw() {
   if (chart) chart.close();
   chart = null;
-  const names = fitted();
-  element("compare-together").disabled = names.length < 2;
+  const names = fitted().slice(0, kColors.length);
+  showButtons();
+  if (fitted().length > names.length) tell(`The picture shows the first ${kColors.length}.`);
   show(element("compare-body"), names.length > 0);
   if (names.length === 0) return;
   const kinds = new Set(names.map((name) => `${fits[name].curves.argument} ${fits[name].curves.columns[0].name}`));

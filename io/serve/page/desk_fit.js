@@ -57,10 +57,10 @@ function drawCharts() {
   fitChart.show(thinned(rows, kMostPoints));
 }
 
-function showFlags() {
-  const seen = [...new Set(fit.flags.map((flag) => flag.name))];
-  element("flags").replaceChildren(...seen.map((name) => {
-    const texts = fit.flags.filter((flag) => flag.name === name).map((flag) => sentence(flag.text));
+export function showFlags(node, flags) {
+  const seen = [...new Set(flags.map((flag) => flag.name))];
+  node.replaceChildren(...seen.map((name) => {
+    const texts = flags.filter((flag) => flag.name === name).map((flag) => sentence(flag.text));
     return make("details", {}, make("summary", {}, name.replaceAll("-", " ")), ...texts.map((text) => make("p", {}, text)));
   }));
 }
@@ -94,8 +94,9 @@ export function showFit(result, chosenTerms, onTerms) {
   showParts(fit);
   element("fit-note").textContent = `${fit.n_samples} samples, ${fit.n_left_out ?? 0} rows left out. Intervals cover the scatter`
     + (fit.systematic_relative ? `; geometry and frame add ${significant(100 * fit.systematic_relative, 2)} % to E0.` : ".");
-  showFlags();
+  showFlags(element("flags"), fit.flags);
   showOrders(chosenTerms, onTerms);
+  show(element("ratio-body"), false);
   show(element("fit-body"), true);
   drawCharts();
 }
@@ -108,7 +109,7 @@ export function showFitState(text, kind) {
   const status = element("fit-status");
   status.className = kind;
   showText(status, text);
-  if (kind === "alert") show(element("fit-body"), false);
+  if (kind === "alert") { show(element("fit-body"), false); show(element("ratio-body"), false); }
 }
 
 // The charts have no size while their view is hidden.

@@ -15,7 +15,7 @@ const kFields = [{ key: "depth_m", label: "Depth", unit: "mm", factor: 1e-3 },
                  { key: "baseline_s", label: "Rest before and after", unit: "s", factor: 1 }];
 const kWait_ms = 400;  // after the last key
 
-let state = null, expected = null, isGood = false, isStarting = false, timer = 0, asked = 0, onStart = () => {};
+let state = null, expected = null, isGood = false, isUnkept = false, isStarting = false, timer = 0, asked = 0, onStart = () => {};
 const chart = new Chart(element("plan-chart"), {
   labels: ["time", "force", "depth"], colors: ["force", "depth"], right: "depth",
   titles: { xlabel: "time (s)", ylabel: "force, at most (N)", y2label: "depth (µm)" },
@@ -86,9 +86,20 @@ function showExpected() {
     `Expected course: up to ${significant(expected.peak_force_N, 3)} N at ${significant(Math.max(...course.depth_m) * 1e6, 4)} µm; limit ${significant(expected.limit_N, 3)} N`);
 }
 
+// The course of a test that is not kept yet: nothing can be started.
+export function showCourse(answer) {
+  ++asked;
+  isGood = false;
+  isUnkept = true;
+  expected = answer;
+  showExpected();
+  showStart();
+}
+
 export async function refreshPlan() {
   const number = ++asked;
   isGood = false;
+  isUnkept = false;
   showStart();
   const specimen = chosenSpecimen();
   if (!specimen || !state || state.rig.trouble || state.test.trouble) {
@@ -126,7 +137,7 @@ function reasonNotToStart() {
   const entry = state.specimens.find((other) => other.name === chosenSpecimen());
   if (entry && entry.trouble) return "This specimen cannot be tested; see Specimens.";
   if (entry && entry.state === "running") return "Another program captures this specimen.";
-  if (!isGood) return "";
+  if (!isGood) return isUnkept ? "The course above is of the text, which is not kept yet." : "";
   return state.is_emulated ? "" : `Put ${chosenSpecimen()} under the punch, clear of it.`;
 }
 
@@ -149,7 +160,7 @@ export function showPlan(newState) {
   showText(element("plan-name"), state.test.trouble ? "" : state.test.name);
   show(element("plan-form"), isEditable());
   showText(element("plan-fixed"), state.test.trouble || isEditable() ? ""
-    : `This test follows the protocol "${state.test.protocol}". Its numbers stand in test.toml in the folder of the series.`);
+    : `This test follows the protocol "${state.test.protocol}". Its numbers stand in test.toml; open the text below to change them.`);
   if (isEditable()) fillForm();
   if (before !== JSON.stringify([state.test, state.rig])) refreshPlan();
   showStart();

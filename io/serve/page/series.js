@@ -79,21 +79,51 @@ function choose(name) {
   onChoice();
 }
 
+async function tellOrder(path, body, done) {
+  try {
+    const answer = await order(path, body);
+    showText(element("series-error"), "");
+    if (done) done(answer);
+  } catch (error) {
+    showText(element("series-error"), sentence(error.message));
+  }
+  await onChange();
+}
+
+function link(text, label, action) {
+  const button = make("button", { type: "button", class: "link", title: label, "aria-label": label }, text);
+  button.addEventListener("click", action);
+  return button;
+}
+
+// A line of text that is changed in its place: Enter or leaving it keeps it.
+function edited(button, label, value, keep) {
+  const input = make("input", { "aria-label": label, value, autocomplete: "off", maxlength: "1000", class: "inline" });
+  input.addEventListener("keydown", (event) => { if (event.key === "Enter") input.blur(); });
+  input.addEventListener("blur", () => {
+    input.replaceWith(button);
+    if (input.value.trim() !== value) keep(input.value.trim());
+  });
+  button.replaceWith(input);
+  input.focus();
+}
+
+function actionsOfCapture(capture, which) {
+  const { file } = capture;
+  if (capture.status === "running") return [];
+  const note = link("note", `Note on ${file}`, () => edited(note, `Note on ${file}`, capture.note, (text) => tellOrder("/api/captures/note", { capture: file, note: text })));
+  return [...(capture.status === "unreadable" ? [] : [link(`fit${which}`, `Fit ${file}`, () => onFit(file))]), note,
+          link("take away", `Move ${file} into the folder trash`, () => tellOrder("/api/captures/remove", { capture: file })),
+          ...(capture.note ? [make("div", { class: "hint" }, capture.note)] : [])];
+}
+
 function actionsOf(entry) {
-  const actions = [];
-  for (const [i, capture] of entry.captures.entries()) {
-    if (capture.status === "running" || capture.status === "unreadable") continue;
-    const button = make("button", { type: "button", class: "link", title: capture.file, "aria-label": `Fit ${capture.file}` },
-                        entry.captures.length > 1 ? `fit run ${i + 1}` : "fit");
-    button.addEventListener("click", () => onFit(capture.file));
-    actions.push(button);
+  if (entry.captures.length > 0) {
+    return entry.captures.flatMap((capture, i) => actionsOfCapture(capture, entry.captures.length > 1 ? ` run ${i + 1}` : ""));
   }
-  if (entry.captures.length === 0) {
-    const button = make("button", { type: "button", class: "link", "aria-label": `Remove ${entry.name}` }, "remove");
-    button.addEventListener("click", () => remove(entry.name));
-    actions.push(button);
-  }
-  return actions;
+  const rename = link("rename", `Rename ${entry.name}`, () => edited(rename, `New name of ${entry.name}`, entry.specimen ? entry.specimen.id : entry.name, (id) =>
+    tellOrder("/api/specimens/rename", { name: entry.name, id }, (answer) => { if (chosen === entry.name) chosen = answer.name; })));
+  return [rename, link("remove", `Remove ${entry.name}`, () => remove(entry.name))];
 }
 
 function rowOf(entry) {
@@ -133,7 +163,8 @@ export function showSeries(state) {
   show(element("no-specimens"), names.length === 0);
   if (names.length === 0) element("add").open = true;
   const text = JSON.stringify([state.specimens, chosen]);
-  if (text !== drawn) {  // otherwise the focus would be lost every few seconds
+  const isWriting = element("specimens").querySelector("input.inline") !== null;
+  if (text !== drawn && !isWriting) {  // otherwise the focus would be lost every few seconds
     drawn = text;
     element("specimens").tBodies[0].replaceChildren(...state.specimens.map(rowOf));
   }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 namespace viscard::test {
@@ -35,9 +36,20 @@ class ServedDesk {
     const std::string path = "/api/desk/drop?name=" + httplib::detail::encode_query_param(name);
     return answer_of(client_.Post(path, bytes, "application/octet-stream"));
   }
-  // The example that comes with viscard.
-  static std::string example() {
-    return read_file(VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv");
+  // The example that comes with viscard, of a material that is stiffer by the factor.
+  static std::string example(double factor = 1.0) {
+    const std::string text = read_file(VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv");
+    std::istringstream lines(text);
+    std::string scaled;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t comma = line.find(',');
+      const bool is_row = comma != std::string::npos && line.front() >= '0' && line.front() <= '9';
+      scaled += is_row ? line.substr(0, comma + 1) +
+                             std::to_string(factor * std::stod(line.substr(comma + 1)))
+                       : line;
+      scaled += '\n';
+    }
+    return factor == 1.0 ? text : scaled;
   }
 
  private:

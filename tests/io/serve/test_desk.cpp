@@ -154,6 +154,39 @@ TEST_CASE("tests of one material are fitted together, and their material is kept
   CHECK(desk.order("fit", {{"tests", gone}}).status == 404);
 }
 
+TEST_CASE(
+    "specimens of several mixing ratios are fitted by their ratio, and give a card of any between",
+    "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  desk.drop("b.csv", ServedDesk::example(0.5));
+  desk.drop("c.csv", ServedDesk::example(0.51));
+  const Json tests = {{{"table", "a.csv"}, {"ratio", "10"}},
+                      {{"table", "b.csv"}, {"ratio", "20"}},
+                      {{"table", "c.csv"}, {"ratio", "20"}}};
+  const ApiAnswer fitted = desk.order("fit", {{"tests", tests}});
+  INFO(fitted.json.dump());
+  REQUIRE(fitted.status == 200);
+  CHECK(fitted.json.at("command") ==
+        "viscard fit --joint a.csv b.csv c.csv --ratio=10 --ratio=20 --ratio=20");
+  CHECK(fitted.json.at("result").at("materials").size() == 2);
+  for (int i = 0; i < 2; ++i) {
+    const Json card =
+        desk.order("card", {{"tests", tests}, {"card", {{"for", "abaqus"}, {"ratio", "15"}}}}).json;
+    INFO(card.dump());
+    CHECK(card.at("material") == "a+b+c.json");
+    CHECK(contains(card.at("result").at("card"), "*VISCOELASTIC"));
+  }
+  desk.order("table", {{"table", "a.csv"}, {"options", {{"column", {"time_s=1"}}}}});
+  CHECK(contains(message_of(desk.order("fit", {{"tests", tests}})), "are not read alike"));
+  for (const Json& wrong : {Json{tests[0], {{"table", "b.csv"}, {"kind", "relaxation"}}},
+                            Json{tests[0], {{"table", "b.csv"}, {"ratio", ""}}},
+                            Json{tests[0], {{"table", "b.csv"}, {"ratio", 20}}}}) {
+    CAPTURE(wrong.dump());
+    CHECK(desk.order("fit", {{"tests", wrong}, {"options", Json::object()}}).status == 400);
+  }
+}
+
 TEST_CASE("a dropped file is written into the folder only, and replaces nothing", "[serve][desk]") {
   ServedDesk desk;
   const std::string table = ServedDesk::example();

@@ -157,5 +157,83 @@ TEST_CASE("three specimens go through the page one after another, with the fit o
   CHECK(browser.errors() == nlohmann::json::array());
 }
 
+// Sets a field as a person does, who then leaves it.
+void fill(Browser& browser, const std::string& selector, const std::string& value) {
+  browser.run("const s = document.querySelector('" + selector +
+              "'); s.value = " + nlohmann::json(value).dump() +
+              "; s.dispatchEvent(new Event('input', {bubbles: true})); s.dispatchEvent(new "
+              "Event('change', {bubbles: true}))");
+}
+
+bool has_text(Browser& browser, const std::string& selector, const std::string& text) {
+  return browser.wait_until("const e = document.querySelector('" + selector +
+                                "'); return !!e && e.textContent.includes(" +
+                                nlohmann::json(text).dump() + ")",
+                            30);
+}
+
+TEST_CASE("a jog, a calibration, another protocol and a note are done on the page alone",
+          "[serve][slow]") {
+  if (is_without_browser()) return;
+  ScratchFolder scratch;
+  RigServer server({.folder = scratch / "series", .is_emulated = true, .speed = 30.0});
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 1000, false, false);
+  browser.open(server.address());
+  REQUIRE(
+      browser.wait_until("return document.getElementById('link').textContent === 'connected'", 20));
+
+  browser.click("#hands summary");
+  browser.click("#jog-steps label:nth-of-type(3) input");  // 200 um
+  browser.click("#jog-away");
+  REQUIRE(has_text(browser, "#jog-status", "Moved by 200"));
+  browser.click("#jog-zero");
+  browser.click("#jog-steps label:nth-of-type(4) input");
+  for (int i = 0; i < 3; ++i) {  // the specimen lies 0.5 mm below
+    browser.click("#jog-toward");
+    REQUIRE(browser.wait_until("return !document.getElementById('jog-toward').disabled", 30));
+    if (contains(browser.text("#jog-status"), "The force stopped")) break;
+  }
+  CHECK(contains(browser.text("#jog-status"), "The force stopped"));
+  CHECK(contains(browser.text("#jog-position"), "from your zero"));
+  browser.click("#calibrate summary");
+  fill(browser, "#weigh-masses", "50, 100, 200");
+  fill(browser, "#weigh-series", "2");
+  for (int i = 0; i < 13; ++i) {
+    REQUIRE(has_text(browser, "#weigh", "Weigh (" + std::to_string(i) + " of 13)"));
+    REQUIRE(browser.wait_until("return !document.getElementById('weigh').disabled", 30));
+    browser.click("#weigh");
+    if (i != 6) continue;
+    REQUIRE(has_text(browser, "#weigh", "Weigh (7 of 13)"));
+    browser.click("#weigh-back");
+    REQUIRE(has_text(browser, "#weigh", "Weigh (6 of 13)"));
+    browser.click("#weigh");
+  }
+  REQUIRE(has_text(browser, "#weigh-next", "All weights are done"));
+  look_at(browser, "6_hands");
+  browser.click("#weigh-make");
+  REQUIRE(has_text(browser, "#weigh-status", "V/N"));
+
+  browser.click("#add-submit");
+  REQUIRE(browser.wait_until("return !document.getElementById('start').disabled", 20));
+  browser.click("#protocol summary");
+  REQUIRE(browser.wait_until(
+      "return document.querySelectorAll('#protocol-example option').length > 5", 20));
+  fill(browser, "#protocol-example", "cycles");
+  REQUIRE(browser.wait_until("return !document.getElementById('protocol-keep').disabled", 20));
+  look_at(browser, "7_protocol");
+  browser.click("#protocol-keep");
+  REQUIRE(has_text(browser, "#plan-fixed", "cycles"));
+  REQUIRE(browser.wait_until("return !document.getElementById('start').disabled", 20));
+  browser.click("#start");
+  REQUIRE(has_text(browser, "#result-name", ".viscap"));
+  REQUIRE(browser.wait_until("return !document.body.classList.contains('running')", 60));
+  browser.click("td.state button[aria-label^=Note]");
+  browser.run("const i = document.querySelector('td.state input'); i.value = 'wet surface'; i.blur()");
+  REQUIRE(has_text(browser, "td.state", "wet surface"));
+  look_at(browser, "8_note");
+  CHECK(browser.errors() == nlohmann::json::array());
+}
+
 }  // namespace
 }  // namespace viscard

@@ -43,6 +43,8 @@ TEST_CASE("devices that a rig cannot use are named from their first lines", "[ri
        {"Grbl 1.1h ['$' for help]", "swapped"},
        {"<Idle|MPos:0.000,0.000,0.000|FS:0,0>", "swapped"},
        {"@01 0 OK IDLE WR 0", "swapped"},
+       {"(c)2013 Physik Instrumente (PI), C-863.11, 0, 1.2.1.0", "PI"},
+       {"1VE SMC_CC V2.0.0", "Newport"},
        {"8388607", "swapped"},
        {"12.5 g", "swapped"},
        {"1042,-3126", "swapped"}}));

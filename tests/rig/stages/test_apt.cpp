@@ -1,6 +1,6 @@
 #include "rig/emulator/pty_port.h"
 #include "rig/stages/apt_stage.h"
-#include "tests/rig/device_fixture.h"
+#include "tests/rig/stages/stage_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,20 +10,7 @@ namespace {
 using Catch::Matchers::Contains;
 
 EmulatedRigOptions apt_rig() {
-  EmulatedRigOptions options = DeviceFixture::options("apt");
-  options.truth.steps_per_m = 34304e3;
-  options.truth.max_rate_m_s = 2.4e-3;
-  options.truth.acceleration_m_s2 = 4e-3;
-  return options;
-}
-
-TestPlan quick_plan() {
-  TestPlan plan;
-  plan.approach_speed_m_s = 0.2e-3;
-  plan.baseline_s = 1.0;
-  plan.hold_s = 2.0;
-  plan.recovery_s = 1.0;
-  return plan;
+  return stage_rig("apt");
 }
 
 // How often the unit was sent a move.
@@ -170,18 +157,6 @@ TEST_CASE("an APT stage that is stopped before its move was sent does not move",
   CHECK(rig.move(0.2e-3, 1e-3));
 }
 
-TEST_CASE("an APT stage at a limit switch raises an alarm and recovers", "[rig][pty]") {
-  DeviceFixture rig(apt_rig());
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  stage.begin_move(2e-3, 0.5e-3, "approach");
-  rig.pump_for(0.3);
-  rig.emulated.cause(Incident::kHitLimitSwitch);
-  CHECK_THROWS_AS(rig.pump_for(2.0), StageAlarm);
-  stage.recover(rig.pump());
-  CHECK(rig.move(0.0, 2e-3));
-}
-
 TEST_CASE("an APT stage that ends short or leaves its path is noticed", "[rig][pty]") {
   EmulatedRigOptions options = apt_rig();
   SECTION("short") {
@@ -199,24 +174,6 @@ TEST_CASE("an APT stage that ends short or leaves its path is noticed", "[rig][p
     CHECK(rig.emulated.outcome().final_position_m < 0.7e-3);
     CHECK(rig.move(0.0, 2e-3));
   }
-}
-
-TEST_CASE("a restart of an APT stage is noticed, and the punch can be lifted afterwards",
-          "[rig][pty]") {
-  EmulatedRigOptions options = apt_rig();
-  options.apt.restart_loses_reference = true;
-  DeviceFixture rig(options);
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  REQUIRE(rig.move(0.5e-3, 1e-3));
-  stage.begin_move(2e-3, 0.5e-3, "approach");
-  rig.pump_for(0.3);
-  rig.emulated.cause(Incident::kRestartStage);
-  CHECK_THROWS_AS(rig.pump_for(1.0), DeviceRestarted);
-  stage.recover(rig.pump());
-  const double before_m = rig.emulated.outcome().final_position_m;
-  REQUIRE(rig.move(stage.position_m() - 0.4e-3, 1e-3));
-  CHECK(rig.emulated.outcome().final_position_m == Approx(before_m - 0.4e-3).margin(1e-7));
 }
 
 TEST_CASE("an APT stage without a reference position is refused unless it may home", "[rig][pty]") {
@@ -282,36 +239,15 @@ TEST_CASE("what answers instead of an APT unit is quoted", "[rig][pty]") {
   CHECK_THAT(error_of_apt_on(""), Contains("switched on"));
 }
 
-TEST_CASE("a whole test runs on an APT stage, and the punch leaves the specimen", "[rig][pty]") {
+TEST_CASE("a whole test runs on an APT stepper, and the punch leaves the specimen", "[rig][pty]") {
   EmulatedRigOptions options = apt_rig();
-  options.apt.model = GENERATE("KDC101", "KST101");
+  options.apt.model = "KST101";
   DeviceFixture rig(options);
-  const RunOutcome outcome = rig.run(quick_plan());
+  const RunOutcome outcome = rig.run(shortest_stage_plan());
   INFO(outcome.reason);
   REQUIRE(outcome.status == "finished");
   CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(4e-6));
   CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
-}
-
-TEST_CASE("an APT stage whose port comes back in the middle of a test lifts the punch",
-          "[rig][pty]") {
-  const std::string phase = GENERATE("ramp", "hold");
-  const bool is_back = GENERATE(true, false);
-  EmulatedRigOptions options = apt_rig();
-  options.fault = rig_fault_from_text((is_back ? "stage-port-back@" : "stage-port@") + phase);
-  DeviceFixture rig(options);
-  rig.sink = [&rig, phase](const RunRecord& record) {
-    rig.records.push_back(record);
-    const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->name == "phase") rig.emulated.enter_phase(event->value);
-  };
-  const RunOutcome outcome = rig.run(quick_plan());
-  INFO(phase << ": " << outcome.reason);
-  CHECK(outcome.status == "interrupted");
-  CHECK((outcome.reason.find("by hand") != std::string::npos) == !is_back);
-  if (!is_back) return;
-  CHECK_FALSE(rig.emulated.outcome().is_moving);
-  CHECK(rig.emulated.outcome().final_position_m < options.truth.surface_position_m);
 }
 
 }  // namespace viscard

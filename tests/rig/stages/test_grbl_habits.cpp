@@ -80,12 +80,12 @@ TEST_CASE("with soft limits a lift ends at the end of the controller's travel", 
 
 TEST_CASE("a stage outside of its own travel is refused with the advice to home it", "[rig]") {
   const StageDynamics dynamics{1600e3, 0.2, 5e-3, 0.0, 0.0, 3e-3};
-  CHECK_THROWS_WITH(within_travel_m(-0.3e-3, 0.1e-3, dynamics), Contains("home = true"));
-  CHECK_THROWS_WITH(within_travel_m(3.1e-3, 3.0e-3, dynamics), Contains("home = true"));
-  CHECK(within_travel_m(0.0, 0.1e-3, dynamics) == 0.1e-3);
+  CHECK_THROWS_WITH(within_travel_m(-0.3e-3, 0.1e-3, dynamics, "$20"), Contains("home = true"));
+  CHECK_THROWS_WITH(within_travel_m(3.1e-3, 3.0e-3, dynamics, "$20"), Contains("home = true"));
+  CHECK(within_travel_m(0.0, 0.1e-3, dynamics, "$20") == 0.1e-3);
   // A limit between two steps: the lift ends on the step inside.
   const StageDynamics odd{1600e3, 0.2, 5e-3, 0.0, 0.3 / 1600e3, 3e-3};
-  CHECK(within_travel_m(1e-3, -1e-3, odd) == Approx(1.0 / 1600e3).epsilon(1e-9));
+  CHECK(within_travel_m(1e-3, -1e-3, odd, "$20") == Approx(1.0 / 1600e3).epsilon(1e-9));
 }
 
 TEST_CASE("a run with soft limits retracts as far as they allow and finishes", "[rig][pty]") {
@@ -260,7 +260,7 @@ TEST_CASE("a stage that rests at another position than its target is an error", 
   options.grbl.ends_short_number = 1;
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
-  CHECK_THROWS_WITH(move_and_wait(rig, 0.3e-3, 1e-3), Contains("did not reach 0.300 mm"));
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.3e-3, 1e-3), Contains("did not reach 0.3000 mm"));
 }
 
 TEST_CASE("a force that stays flat at full depth is a doubt: steps may be lost", "[rig][pty]") {

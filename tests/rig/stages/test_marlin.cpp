@@ -1,6 +1,6 @@
 #include "rig/emulator/pty_port.h"
 #include "rig/stages/marlin_stage.h"
-#include "tests/rig/device_fixture.h"
+#include "tests/rig/stages/stage_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -16,15 +16,6 @@ constexpr double kStep_m = 1.0 / 3200e3;
 
 EmulatedRigOptions marlin_rig() {
   return DeviceFixture::options("marlin");
-}
-
-TestPlan quick_plan() {
-  TestPlan plan;
-  plan.approach_speed_m_s = 0.2e-3;
-  plan.baseline_s = 1.0;
-  plan.hold_s = 2.0;
-  plan.recovery_s = 1.0;
-  return plan;
 }
 
 std::vector<std::string> sent_lines(const DeviceFixture& rig, const std::string& word) {
@@ -232,18 +223,6 @@ TEST_CASE("a Marlin stage that makes no move before homing says what the board s
   }
 }
 
-TEST_CASE("a Marlin stage at a limit switch raises an alarm and recovers", "[rig][pty]") {
-  DeviceFixture rig(marlin_rig());
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  stage.begin_move(2e-3, 0.5e-3, "approach");
-  rig.pump_for(0.3);
-  rig.emulated.cause(Incident::kHitLimitSwitch);
-  CHECK_THROWS_AS(rig.pump_for(2.0), StageAlarm);
-  stage.recover(rig.pump());
-  CHECK(rig.move(0.0, 2e-3));
-}
-
 TEST_CASE("a Marlin board that halts raises an alarm and asks for a person", "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
   options.marlin.halt_number = 30;
@@ -253,22 +232,6 @@ TEST_CASE("a Marlin board that halts raises an alarm and asks for a person", "[r
   stage.begin_move(2e-3, 0.2e-3, "approach");
   CHECK_THROWS_WITH(rig.pump_for(10.0), Contains("Printer halted"));
   CHECK_THROWS_WITH(stage.recover(rig.pump()), Contains("by hand"));
-}
-
-TEST_CASE("a restart of a Marlin stage is noticed, and the punch can be lifted afterwards",
-          "[rig][pty]") {
-  DeviceFixture rig(marlin_rig());
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  REQUIRE(rig.move(0.5e-3, 1e-3));
-  stage.begin_move(2e-3, 0.5e-3, "approach");
-  rig.pump_for(0.3);
-  rig.emulated.cause(Incident::kRestartStage);
-  CHECK_THROWS_AS(rig.pump_for(1.0), DeviceRestarted);
-  stage.recover(rig.pump());
-  const double before_m = rig.emulated.outcome().final_position_m;
-  REQUIRE(rig.move(stage.position_m() - 0.4e-3, 1e-3));
-  CHECK(rig.emulated.outcome().final_position_m == Approx(before_m - 0.4e-3).margin(1e-7));
 }
 
 TEST_CASE("moves of fewer than six steps are recorded as they were made", "[rig][pty]") {
@@ -304,37 +267,15 @@ TEST_CASE("what answers instead of Marlin is quoted", "[rig][pty]") {
   CHECK_THAT(error_of_marlin_on(std::string(40, '\xf8')), Contains("250000"));
 }
 
-TEST_CASE("a whole test runs on a Marlin stage, and the punch leaves the specimen", "[rig][pty]") {
+TEST_CASE("a whole test runs on a Marlin stage without an emergency parser", "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
-  options.marlin.has_emergency_parser = GENERATE(true, false);
+  options.marlin.has_emergency_parser = false;
   DeviceFixture rig(options);
-  const RunOutcome outcome = rig.run(quick_plan());
+  const RunOutcome outcome = rig.run(shortest_stage_plan());
   INFO(outcome.reason);
   REQUIRE(outcome.status == "finished");
   CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(4e-6));
   CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
-}
-
-TEST_CASE("a Marlin stage whose port comes back in the middle of a test lifts the punch",
-          "[rig][pty]") {
-  const std::string phase = GENERATE("ramp", "hold");
-  const bool is_back = GENERATE(true, false);
-  EmulatedRigOptions options = marlin_rig();
-  options.resets_on_open = GENERATE(true, false);
-  options.fault = rig_fault_from_text((is_back ? "stage-port-back@" : "stage-port@") + phase);
-  DeviceFixture rig(options);
-  rig.sink = [&rig, phase](const RunRecord& record) {
-    rig.records.push_back(record);
-    const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->name == "phase") rig.emulated.enter_phase(event->value);
-  };
-  const RunOutcome outcome = rig.run(quick_plan());
-  INFO(phase << ": " << outcome.reason);
-  CHECK(outcome.status == "interrupted");
-  CHECK((outcome.reason.find("by hand") != std::string::npos) == !is_back);
-  if (!is_back) return;
-  CHECK_FALSE(rig.emulated.outcome().is_moving);
-  CHECK(rig.emulated.outcome().final_position_m < options.truth.surface_position_m);
 }
 
 }  // namespace viscard
