@@ -5,7 +5,9 @@
 #include "rig/cells/hx711_load_cell.h"
 #include "rig/cells/mark10_stream.h"
 #include "rig/lines/rig_error.h"
+#include "rig/stages/apt_stage.h"
 #include "rig/stages/grbl_stage.h"
+#include "rig/stages/marlin_stage.h"
 #include "rig/stages/pi_stage.h"
 #include "rig/stages/smc_stage.h"
 #include "rig/stages/zaber_stage.h"
@@ -41,6 +43,8 @@ struct DriverRow {
 constexpr DriverRow<Stage, StageConfig> kStages[] = {
     {"grbl", made<Stage, GrblStage, StageConfig>, [](const StageConfig&) {}},
     {"zaber", made<Stage, ZaberStage, StageConfig>, [](const StageConfig&) {}},
+    {"apt", made<Stage, AptStage, StageConfig>, [](const StageConfig&) {}},
+    {"marlin", made<Stage, MarlinStage, StageConfig>, [](const StageConfig&) {}},
     {"pi-gcs2", made<Stage, PiStage, StageConfig>, [](const StageConfig&) {}},
     {"smc100", made<Stage, SmcStage, StageConfig>, [](const StageConfig&) {}}};
 

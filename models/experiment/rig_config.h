@@ -10,8 +10,9 @@ namespace viscard {
 
 // The stage and how it is connected.
 struct StageConfig {
-  std::string driver = "grbl";  // "grbl" | "zaber" | "pi-gcs2" | "smc100"
-  std::string port;             // path; prefer /dev/serial/by-id/...
+  // "grbl" | "zaber" | "apt" | "marlin" | "pi-gcs2" | "smc100"
+  std::string driver = "grbl";
+  std::string port;  // path; prefer /dev/serial/by-id/...
   int baud = 115200;
   char axis = 'Z';
   int toward_specimen = -1;  // sign of machine motion that presses into the specimen
@@ -22,8 +23,8 @@ struct StageConfig {
   double depth_relative_u = 0.0;
   bool home = false;  // run the controller's homing cycle before a test
   // Length of the controller's smallest step, from the maker's page of the stage: of a microstep of
-  // a Zaber or SMC100PP motor, which no controller knows, or of an encoder count that a PI does not
-  // report.
+  // a Zaber or SMC100PP motor, of an encoder count or a microstep of an APT unit, which no controller
+  // knows, or of an encoder count that a PI does not report.
   double microstep_m = 0.0;
   int device = 1;  // address on the chain
   int axis_number = 1;

@@ -1,7 +1,5 @@
 #include "rig/emulator/emulated_motion.h"
 
-#include "models/experiment/motion_profile.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,6 +47,7 @@ double EmulatedMotion::next_knot_s(double time_s) const {
 void EmulatedMotion::start(double time_s, double to_m, double speed_m_s, double acceleration_m_s2) {
   const StageMove move{time_s, end_m_, quantised_m(to_m, steps_per_m_), speed_m_s,
                        acceleration_m_s2};
+  move_ = move;
   pieces_.clear();
   if (move.to_m == move.from_m) return;
   const double direction = move.to_m > move.from_m ? 1.0 : -1.0;
@@ -63,6 +62,11 @@ void EmulatedMotion::start(double time_s, double to_m, double speed_m_s, double 
                        at_start_m_s, sign * acceleration_m_s2});
   }
   end_m_ = move.to_m;
+}
+
+void EmulatedMotion::extend(double to_m) {
+  end_m_ = move_.from_m;
+  start(move_.start_time_s, to_m, move_.speed_m_s, move_.acceleration_m_s2);
 }
 
 void EmulatedMotion::cut(double time_s) {

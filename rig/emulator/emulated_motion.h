@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/experiment/motion_profile.h"
+
 #include <vector>
 
 namespace viscard {
@@ -26,6 +28,9 @@ class EmulatedMotion {
 
   // Precondition: not moving. The end is rounded to whole steps.
   void start(double time_s, double to_m, double speed_m_s, double acceleration_m_s2);
+  // The same move with a further end, as a planner joins moves in line. Precondition: it does not
+  // brake yet.
+  void extend(double to_m);
   void stop_gently(double time_s, double acceleration_m_s2);
   void stop_at_once(double time_s);
   void set_steps_per_m(double steps_per_m) { steps_per_m_ = steps_per_m; }
@@ -40,6 +45,7 @@ class EmulatedMotion {
   double steps_per_m_;
   double end_m_;
   std::vector<Piece> pieces_;  // of the current or last move
+  StageMove move_;
 };
 
 }  // namespace viscard

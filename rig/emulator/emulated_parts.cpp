@@ -10,6 +10,13 @@ std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions
     return std::make_unique<EmulatedZaber>(options.truth, stage.toward_specimen, stage.device,
                                            options.zaber);
   }
+  if (stage.driver == "apt") {
+    return std::make_unique<EmulatedApt>(options.truth, stage.toward_specimen, options.apt);
+  }
+  if (stage.driver == "marlin") {
+    return std::make_unique<EmulatedMarlin>(options.truth, stage.axis, stage.toward_specimen,
+                                            options.marlin);
+  }
   if (stage.driver == "pi-gcs2") {
     return std::make_unique<EmulatedPi>(options.truth, stage, options.pi);
   }

@@ -29,7 +29,7 @@ struct EmulatedOutcome {
   bool is_moving = false;
 };
 
-// A stage (GRBL, Zaber, PI or Newport) and a load cell (HX711 amplifier, multimeter or force gauge) behind two
+// A stage (of any driver) and a load cell (HX711 amplifier, multimeter or force gauge) behind two
 // pseudo-terminals, with a thermometer behind a third one, pressing on an emulated specimen. config
 // names their drivers. On the wall clock one thread does all the work, otherwise it is done in the
 // waits of the program that uses clock(). The destructor hangs up the ports.

@@ -3,8 +3,10 @@
 #include "models/experiment/emulated_specimen.h"
 #include "models/experiment/rig_config.h"
 #include "rig/emulator/emulated_amplifier.h"
+#include "rig/emulator/emulated_apt.h"
 #include "rig/emulator/emulated_gauge.h"
 #include "rig/emulator/emulated_grbl.h"
+#include "rig/emulator/emulated_marlin.h"
 #include "rig/emulator/emulated_pi.h"
 #include "rig/emulator/emulated_smc.h"
 #include "rig/emulator/emulated_thermometer.h"
@@ -26,6 +28,8 @@ struct EmulatedRigOptions {
   bool is_on_wall_clock = false;
   GrblHabits grbl;
   ZaberHabits zaber;
+  AptHabits apt;
+  MarlinHabits marlin;
   PiHabits pi;
   SmcHabits smc;
   GaugeHabits gauge;

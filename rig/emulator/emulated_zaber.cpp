@@ -45,14 +45,17 @@ double EmulatedZaber::acceleration_m_s2() const {
   return microsteps_s2_from_zaber(acceleration_data_) * microstep_m_;
 }
 long long EmulatedZaber::microsteps(double time_s) const {
-  return std::llround(toward_ * motion_.position_m(time_s) / microstep_m_);
+  return std::llround(toward_ * (motion_.position_m(time_s) - origin_m_) / microstep_m_);
 }
 
-// Opening the port does not reset a Zaber controller.
+// Opening the port does not reset a Zaber controller, and a move goes on.
 void EmulatedZaber::reset(double time_s) {
-  motion_.stop_at_once(time_s);
   begun_.clear();
   answers_.clear();
+  if (!std::exchange(has_started_, true) || !habits_.loses_power) return;
+  motion_.stop_at_once(time_s);
+  has_reference_ = is_stalled_ = is_interrupted_ = false;
+  origin_m_ = motion_.position_m(time_s);
 }
 
 void EmulatedZaber::hit_limit(double time_s) {
@@ -102,6 +105,7 @@ std::optional<std::string> EmulatedZaber::obey(const std::vector<std::string>& w
   }
   if (verb == "home") {
     motion_.start(time_s, 0.0, speed_m_s(), acceleration_m_s2());
+    origin_m_ = 0.0;
     has_reference_ = true;
     return "0";
   }
@@ -146,8 +150,8 @@ std::optional<std::string> EmulatedZaber::move(const std::vector<std::string>& w
   rejection_ = "STATUSBUSY";
   if (motion_.is_moving(time_s)) return std::nullopt;
   is_interrupted_ = false;
-  motion_.start(time_s, toward_ * static_cast<double>(*number) * microstep_m_, speed_m_s(),
-                acceleration_m_s2());
+  motion_.start(time_s, origin_m_ + toward_ * static_cast<double>(*number) * microstep_m_,
+                speed_m_s(), acceleration_m_s2());
   return "0";
 }
 

@@ -15,6 +15,7 @@ struct ZaberHabits {
   bool sends_checksums = true;
   bool sends_alerts = false;   // comm.alert = 1: sends an alert when a move has ended
   bool has_reference = true;   // false: not homed since it was switched on
+  bool loses_power = false;    // a restart cuts the supply; otherwise only the port is opened
   bool knows_estop = true;     // older firmware does not
   int lose_reply_every = 0;    // every n-th reply is not sent
   int garble_reply_every = 0;  // every n-th reply has a wrong digit, so its checksum is wrong
@@ -54,6 +55,8 @@ class EmulatedZaber final : public EmulatedController {
   int device_;
   double max_speed_data_, acceleration_data_;
   bool has_reference_;
+  bool has_started_ = false;
+  double origin_m_ = 0.0;  // where it counts from
   bool is_stalled_ = false;
   bool is_interrupted_ = false;
   bool was_moving_ = false;

@@ -12,12 +12,11 @@ namespace viscard {
 namespace {
 
 constexpr const char* kNeeded =
-    ", which this driver cannot use. The stage needs GRBL 1.1, grblHAL, Zaber ASCII, PI GCS 2 or "
-    "Newport SMC100";
+    ", which this driver cannot use. The stage needs GRBL 1.1, grblHAL, Marlin, Zaber ASCII, "
+    "Thorlabs APT, PI GCS 2 or Newport SMC100";
 constexpr const char* kController =
-    ": set driver under [stage] of the rig file for it, unless the ports of stage and load cell "
-    "are "
-    "swapped";
+    ": set driver and baud under [stage] of the rig file for it, unless the ports of stage and "
+    "load cell are swapped";
 constexpr const char* kSwapped = ": are the ports of stage and load cell swapped in the rig file?";
 
 struct Speaker {
@@ -29,7 +28,7 @@ struct Speaker {
 // with "fv", the firmware version), Smoothieware ("Smoothie"), Repetier, RepRapFirmware, GRBL (report.c:
 // "Grbl 1.1f ['$' for help]", "<Idle|MPos:"), Zaber ASCII replies ("@01 0 OK IDLE"),
 // PI GCS 2 ("*IDN?"), Newport SMC100 ("VE": "1VE SMC_CC").
-constexpr std::array<Speaker, 14> kSpeakers{{{"marlin", "Marlin", kNeeded},
+constexpr std::array<Speaker, 14> kSpeakers{{{"marlin", "Marlin", kController},
                                              {"tinyg", "TinyG", kNeeded},
                                              {"g2core", "g2core", kNeeded},
                                              {"\"fv\":", "TinyG or g2core", kNeeded},

@@ -58,8 +58,7 @@ void AskedStage::await_rest(const Pump& pump, double wall_s) {
   next_poll_s_ = clock_.now_s();
   const std::size_t before = n_rounds_;
   if (wait_for([&] { return n_rounds_ > before + 1 && last_.is_steady; }, pump, wall_s)) return;
-  throw RigError("the stage on '" + transport_.name() +
-                 "' does not come to rest: IT MAY STILL PRESS. Lift the punch by hand");
+  throw_no_rest();
 }
 
 void AskedStage::begin_move(double to_m, double speed_m_s, const std::string& purpose) {
@@ -159,12 +158,8 @@ void AskedStage::judge_health() {
     next_poll_s_ = clock_.now_s();
     return;
   }
+  if (!last_.has_reference) throw_reference_lost();
   exact_m_.reset();
-  if (!last_.has_reference) {
-    throw DeviceRestarted(
-        "the stage lost its reference position in the middle of the run (was its supply cut?). "
-        "Home it, then start the run again");
-  }
   throw StageAlarm("the stage does not hold its position any more: " +
                    (last_.trouble.empty() ? "its motor is off" : last_.trouble));
 }
@@ -189,7 +184,7 @@ void AskedStage::judge_move() {
     throw StageAlarm("the stage refused the move: " + refusal +
                      (last_.trouble.empty() ? "" : ", after " + last_.trouble));
   }
-  watch_path();
+  watch_path(active.planned, kAstray_m, active.n_astray);
   if (last_.is_moving) {
     active.rests_since_s.reset();
     return;
@@ -201,24 +196,6 @@ void AskedStage::judge_move() {
   }
   if (last_.is_on_target && last_.is_steady && aside_m < kNear_m) return end_move(reported_m_);
   rest_elsewhere();
-}
-
-// A garbled command can be another valid one.
-void AskedStage::watch_path() {
-  constexpr int kMostAstray = 2;  // rounds in a row; one can be a garbled answer
-  ActiveMove& active = *active_;
-  const StageMove& move = active.planned;
-  const bool is_astray = reported_m_ < std::min(move.from_m, move.to_m) - kAstray_m ||
-                         reported_m_ > std::max(move.from_m, move.to_m) + kAstray_m;
-  active.n_astray = is_astray ? active.n_astray + 1 : 0;
-  if (!is_astray) return;
-  next_poll_s_ = clock_.now_s();
-  if (active.n_astray < kMostAstray) return;
-  stop_hard();
-  throw StageAlarm("the stage was sent to " + text_from_number(move.to_m * 1e3, 3) +
-                   " mm and is at " + text_from_number(reported_m_ * 1e3, 3) +
-                   " mm, outside of its path: it was stopped at once. Check its cable for "
-                   "interference, then start the run again");
 }
 
 void AskedStage::rest_elsewhere() {
@@ -242,13 +219,12 @@ void AskedStage::rest_elsewhere() {
                      " mm: " + last_.trouble);
   }
   active_.reset();
-  throw_elsewhere(target_m, "the controller reports no error");
+  throw_elsewhere(target_m, "the controller reports no error", "an obstacle or a turned knob");
 }
 
 void AskedStage::end_move(double end_m) {
-  exact_m_ = end_m;
   const ActiveMove ended = *std::exchange(active_, std::nullopt);
-  if (ended.tracker) sink_(ended_move(*ended.tracker, ended.purpose, end_m));  // else never sent
+  hand_out(ended.tracker, ended.purpose, end_m);
 }
 
 void AskedStage::stop(const std::string& words) {

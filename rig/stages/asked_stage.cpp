@@ -98,7 +98,7 @@ bool AskedStage::find_again(double now_s) {
 
 void AskedStage::drive(double now_s) {
   if (active_ && active_->accepted_s) {
-    check_deadline(active_->planned, active_->late_before_s, now_s);
+    watch_end(now_s, active_->planned, active_->late_before_s);
   }
   if (!may_write() || find_again(now_s)) return;
   while (!question_ && !jobs_.empty() && now_s >= free_at_s_) {

@@ -130,7 +130,6 @@ class AskedStage : public PolledStage {
   void take_position(const Sent& question, const std::string& answer, double time_s);
   void judge();
   void judge_health();
-  void watch_path();
   void judge_move();
   void rest_elsewhere();
   void end_move(double end_m);

@@ -143,7 +143,7 @@ void GrblStage::recover(const Pump& pump) {
   command("$X", pump);
   ask_position(pump);
   exact_m_ = reported_m_;
-  if (cut_short) hand_out(*cut_short, reported_m_);
+  if (cut_short) hand_out(cut_short->tracker, cut_short->purpose, reported_m_);
   is_recovering_ = false;
 }
 

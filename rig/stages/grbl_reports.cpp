@@ -10,16 +10,11 @@
 namespace viscard {
 namespace {
 
-constexpr double kStatusTimeout_wall_s = 0.25;
-constexpr double kForgetQuestion_wall_s = 1.0;  // no answer is expected after this time
-constexpr double kTimesPrompt = 4.0;            // timeout over the mean time of prompt answers
 constexpr double kPollMoving_s = 0.1;  // rig time; the firmware recommends at most 5 to 10 Hz
 constexpr double kPollResting_s = 0.2;
 constexpr int kMostRestsElsewhere = 3;
-constexpr int kMostAstray = 2;  // a single one may have a garbled digit
 constexpr double kNudge_wall_s = 0.7;
 constexpr double kNoAnswer_wall_s = 5.0;
-constexpr double kNoProgress_wall_s = 5.0;
 
 }  // namespace
 
@@ -32,25 +27,6 @@ std::optional<double> GrblStage::reported_position_m(const GrblStatus& status) {
     return toward_ * (status.work_mm[i] + work_offset_mm_[i]) * mm * 1e-3;
   }
   return std::nullopt;  // a work position whose offset is not known yet
-}
-
-// The time of the question that this report answers: the oldest open one, because the report cannot
-// be older than that. Nothing for an unasked report.
-std::optional<double> GrblStage::question_answered(double time_s) {
-  if (asked_s_.empty()) return std::nullopt;
-  const double asked_s = asked_s_.front();
-  if (asked_s_.size() == 1) take_latency(asked_s, time_s);
-  asked_s_.pop_front();
-  n_missed_ = 0;
-  is_last_missed_ = false;
-  is_answered_since_ = !asked_s_.empty();
-  return asked_s;
-}
-
-void GrblStage::forget_questions() {
-  asked_s_.clear();
-  is_last_missed_ = false;
-  n_missed_ = 0;
 }
 
 void GrblStage::take_status(const GrblStatus& status, double time_s) {
@@ -72,30 +48,12 @@ void GrblStage::follow_move(double asked_s, double received_s) {
         "or the line is disturbed. Release it, then start the run again");
   }
   if (!active.is_stopping) active.tracker.reported(asked_s, received_s, reported_m_);
-  watch_way();
+  watch_path(active.tracker.move(), 2.0 * resolution_m(), active.n_astray);
   // An Idle that may be older than the ok is no proof that this move has ended.
   if (state_ != "Idle" || !active.has_ok || asked_s < active.ok_s) return;
   const double target_m = active.tracker.move().to_m;
   if (std::abs(reported_m_ - target_m) <= resolution_m()) return end_move(target_m);
   rest_elsewhere(asked_s);
-}
-
-// A line garbled on its way to the controller can be a valid jog to another position.
-void GrblStage::watch_way() {
-  const StageMove& move = active_->tracker.move();
-  const double low_m = std::min(move.from_m, move.to_m) - 2.0 * resolution_m();
-  const double high_m = std::max(move.from_m, move.to_m) + 2.0 * resolution_m();
-  if (reported_m_ >= low_m && reported_m_ <= high_m) {
-    active_->n_astray = 0;
-    return;
-  }
-  next_poll_s_ = clock_.now_s();
-  if (++active_->n_astray < kMostAstray) return;
-  stop_hard();
-  throw StageAlarm("the stage was sent to " + text_from_number(move.to_m * 1e3, 3) +
-                   " mm and is at " + text_from_number(reported_m_ * 1e3, 3) +
-                   " mm, outside of its path: it was stopped at once. Check its cable for "
-                   "interference, then start the run again");
 }
 
 void GrblStage::rest_elsewhere(double asked_s) {
@@ -113,52 +71,13 @@ void GrblStage::rest_elsewhere(double asked_s) {
   const double target_m = active.tracker.move().to_m;
   active_.reset();
   exact_m_.reset();
-  throw RigError(
-      "the stage stands at " + text_from_number(reported_m_ * 1e3, 3) + " mm and did not reach " +
-      text_from_number(target_m * 1e3, 3) +
-      " mm. Look for an obstacle or a limit switch, or for somebody who pressed the hold "
-      "button. Then start the run again");
+  throw_elsewhere(target_m, state_,
+                  "an obstacle, a limit switch or somebody who pressed the hold button");
 }
 
 void GrblStage::end_move(double end_m) {
-  const ActiveMove ended = std::move(*active_);
-  active_.reset();
-  hand_out(ended, end_m);
-}
-
-void GrblStage::hand_out(const ActiveMove& ended, double end_m) {
-  const CommandedMove commanded = ended_move(ended.tracker, ended.purpose, end_m);
-  if (const int n = ended.tracker.n_contradictions(); n >= 2) {
-    note(clock_.now_s(), "move_doubtful", ended.purpose,
-         std::to_string(n) +
-             " position reports do not agree with the speed and acceleration in "
-             "the controller's settings: the move was slower or faster");
-  }
-  sink_(commanded);
-}
-
-// True while the newest question may still be answered; counts one that was not answered in time.
-bool GrblStage::awaits_report(double now_s) {
-  if (asked_s_.empty()) return false;
-  if (now_s - asked_s_.back() <= clock_.from_wall_s(kStatusTimeout_wall_s)) return true;
-  // On a line with prompt answers, the report that was taken for the answer to an older question
-  // answered this one, and the older one was lost. From here on questions and answers match again.
-  const bool is_prompt = latency_.n > 0 && kTimesPrompt * latency_.mean_s < kStatusTimeout_wall_s;
-  if (is_answered_since_ && is_prompt) {
-    latency_.n_lost += static_cast<int>(asked_s_.size());
-    forget_questions();
-    return false;
-  }
-  if (!is_last_missed_) {
-    is_last_missed_ = true;
-    count_miss();
-  }
-  const double oldest_s = now_s - clock_.from_wall_s(kForgetQuestion_wall_s);
-  while (!asked_s_.empty() && asked_s_.front() < oldest_s) {
-    asked_s_.pop_front();
-    ++latency_.n_lost;
-  }
-  return false;
+  const ActiveMove ended = *std::exchange(active_, std::nullopt);
+  hand_out(ended.tracker, ended.purpose, end_m);
 }
 
 void GrblStage::poll_status() {
@@ -167,9 +86,7 @@ void GrblStage::poll_status() {
   watch_deadlines(now_s);
   if (is_waiting || now_s < next_poll_s_) return;
   send_realtime(grbl::kStatus);
-  asked_s_.push_back(now_s);
-  is_answered_since_ = false;
-  is_last_missed_ = false;
+  asked(now_s);
   plan_poll(now_s, active_ ? kPollMoving_s : kPollResting_s);
 }
 
@@ -185,8 +102,10 @@ void GrblStage::nudge(double now_s) {
 
 void GrblStage::watch_deadlines(double now_s) {
   if (!active_) return;
+  const StageMove& move = active_->tracker.move();
+  watch_end(now_s, move, active_->late_before_s, active_->progress_s);
   now_s -= clock_.late_s() - active_->late_before_s;  // nobody listened meanwhile
-  const double written_s = active_->tracker.move().start_time_s;
+  const double written_s = move.start_time_s;
   if (!active_->has_ok) {
     if (now_s > written_s + clock_.from_wall_s(patience_ * kNudge_wall_s)) nudge(now_s);
     if (now_s > written_s + clock_.from_wall_s(patience_ * kNoAnswer_wall_s)) {
@@ -194,15 +113,6 @@ void GrblStage::watch_deadlines(double now_s) {
                      text_from_number(patience_ * kNoAnswer_wall_s, 1) +
                      " s. Check its cable and supply");
     }
-  }
-  const double due_s = expected_end_s_ + 0.5 * duration_s(active_->tracker.move());
-  const double patience_s = clock_.from_wall_s(patience_ * kNoProgress_wall_s);
-  // A slow controller is waited for as long as its position changes.
-  if (now_s > due_s + patience_s && now_s > active_->progress_s + patience_s) {
-    throw RigError("the stage should have come to rest " +
-                   text_from_number(now_s - expected_end_s_, 1) +
-                   " s ago, does not move and reports '" + state_ +
-                   "'. Switch it off and on, then start the run again");
   }
 }
 

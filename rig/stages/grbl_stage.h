@@ -60,14 +60,10 @@ class GrblStage final : public PolledStage {
   void take_alarm(int code, double time_s);
   void take_welcome(const GrblWelcome& welcome, double time_s);
   void take_status(const GrblStatus& status, double time_s);
-  std::optional<double> question_answered(double time_s);
   void follow_move(double asked_s, double received_s);
-  void watch_way();
   void rest_elsewhere(double asked_s);
   void end_move(double end_m);
-  void hand_out(const ActiveMove& ended, double end_m);
   void poll_status();
-  bool awaits_report(double now_s);
   void nudge(double now_s);
   void watch_deadlines(double now_s);
   std::optional<double> reported_position_m(const GrblStatus& status);
@@ -79,7 +75,6 @@ class GrblStage final : public PolledStage {
   double setting(int number, double otherwise) const;
   double resolution_m() const;
   double least_speed_m_s() const;
-  void forget_questions();
 
   int axis_;
   bool is_connected_ = false;  // after the welcome; lines before it are dropped
@@ -94,10 +89,6 @@ class GrblStage final : public PolledStage {
   std::string state_;  // as reported last
   std::vector<double> work_offset_mm_;
   int n_welcomes_ = 0;
-
-  std::deque<double> asked_s_;  // times of the open '?', oldest first
-  bool is_last_missed_ = false;
-  bool is_answered_since_ = false;  // an older '?' was answered after the newest was sent
 
   std::optional<ActiveMove> active_;
 };

@@ -12,10 +12,8 @@ MoveTracker::MoveTracker(const StageMove& move, double resolution_m)
       earliest_s_(move.start_time_s),
       latest_s_(std::numeric_limits<double>::infinity()) {}
 
-void MoveTracker::acknowledged(double time_s) {
-  // Then the controller prepares its first steps (gnea/grbl stepper.c: one segment of 10 ms).
-  constexpr double kFirstSegment_s = 0.010;
-  latest_s_ = std::min(latest_s_, time_s + kFirstSegment_s);
+void MoveTracker::acknowledged(double time_s, double first_step_s) {
+  latest_s_ = std::min(latest_s_, time_s + first_step_s);
 }
 
 // Time after the start at which the move has covered way_m, by bisection.

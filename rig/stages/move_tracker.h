@@ -14,8 +14,9 @@ class MoveTracker {
   MoveTracker(const StageMove& move, double resolution_m);
 
   const StageMove& move() const { return move_; }
-  // The controller answered the command at time_s.
-  void acknowledged(double time_s);
+  // The controller answered the command at time_s. It begins at most first_step_s later: GRBL
+  // prepares one segment of 10 ms (gnea/grbl stepper.c).
+  void acknowledged(double time_s, double first_step_s = 0.010);
   // The stage was at position_m at some time between the two.
   void reported(double asked_s, double received_s, double position_m);
 

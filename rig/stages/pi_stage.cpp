@@ -163,11 +163,7 @@ void PiStage::set_up(const Pump& pump) {
   read_dynamics(pump);
   switch_on(pump);
   if (config_.home) home(pump);
-  if (number(of_axis("FRF?"), pump) != 1.0) {
-    throw RigError(
-        "the stage has no reference position since it was switched on. Clear the way and set home "
-        "= true under [stage] of the rig file, or home it by its own software");
-  }
+  if (number(of_axis("FRF?"), pump) != 1.0) throw_no_reference();
   is_zero_declared_ = ask_if_known(of_axis("RON?"), pump).value_or("1") == "0";
   ask(dialect_.error_question, pump);  // of questions that it does not know
 }

@@ -8,6 +8,13 @@
 #include <utility>
 
 namespace viscard {
+namespace {
+
+constexpr double kStatusTimeout_wall_s = 0.25;
+constexpr double kForgetQuestion_wall_s = 1.0;  // no answer is expected after this time
+constexpr double kTimesPrompt = 4.0;            // timeout over the mean time of prompt answers
+
+}  // namespace
 
 PolledStage::PolledStage(Transport& transport, const StageConfig& config, const RigClock& clock,
                          RecordSink sink, double patience)
@@ -22,8 +29,12 @@ void PolledStage::receive() {
   const Chunk chunk = transport_.read_available();
   if (chunk.bytes.empty()) return;
   sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
+  split(chunk);
+}
+
+void PolledStage::split(const Chunk& chunk) {
   // No wire time is subtracted: a report bounds the start of a move, and only the stamp is safe.
-  splitter_.feed(text_in(chunk.bytes), chunk.time_s);
+  splitter_.feed(chunk.bytes, chunk.time_s);
 }
 
 void PolledStage::note(double time_s, const std::string& name, const std::string& value,
@@ -71,6 +82,52 @@ void PolledStage::take_report(double time_s, double position_m, const std::strin
   sink_(StageReport{time_s, reported_m_, state});
 }
 
+void PolledStage::asked(double now_s) {
+  asked_s_.push_back(now_s);
+  is_answered_since_ = false;
+  is_last_missed_ = false;
+}
+
+std::optional<double> PolledStage::question_answered(double time_s) {
+  if (asked_s_.empty()) return std::nullopt;
+  const double asked_s = asked_s_.front();
+  if (asked_s_.size() == 1) take_latency(asked_s, time_s);
+  asked_s_.pop_front();
+  n_missed_ = 0;
+  is_last_missed_ = false;
+  is_answered_since_ = !asked_s_.empty();
+  return asked_s;
+}
+
+void PolledStage::forget_questions() {
+  asked_s_.clear();
+  is_last_missed_ = false;
+  n_missed_ = 0;
+}
+
+bool PolledStage::awaits_report(double now_s) {
+  if (asked_s_.empty()) return false;
+  if (now_s - asked_s_.back() <= clock_.from_wall_s(kStatusTimeout_wall_s)) return true;
+  // On a line with prompt answers, the report that was taken for the answer to an older question
+  // answered this one, and the older one was lost. From here on questions and answers match again.
+  const bool is_prompt = latency_.n > 0 && kTimesPrompt * latency_.mean_s < kStatusTimeout_wall_s;
+  if (is_answered_since_ && is_prompt) {
+    latency_.n_lost += static_cast<int>(asked_s_.size());
+    forget_questions();
+    return false;
+  }
+  if (!is_last_missed_) {
+    is_last_missed_ = true;
+    count_miss();
+  }
+  const double oldest_s = now_s - clock_.from_wall_s(kForgetQuestion_wall_s);
+  while (!asked_s_.empty() && asked_s_.front() < oldest_s) {
+    asked_s_.pop_front();
+    ++latency_.n_lost;
+  }
+  return false;
+}
+
 void PolledStage::take_latency(double asked_s, double time_s) {
   const double took_s = (time_s - asked_s) / clock_.speed();
   latency_.mean_s += (took_s - latency_.mean_s) / ++latency_.n;
@@ -91,29 +148,74 @@ void PolledStage::plan_poll(double now_s, double every_s) {
   }
 }
 
-void PolledStage::check_deadline(const StageMove& planned, double late_before_s,
-                                 double now_s) const {
+void PolledStage::watch_path(const StageMove& move, double slack_m, int& n_astray) {
+  constexpr int kMostAstray = 2;  // a single one may have a garbled digit
+  const double low_m = std::min(move.from_m, move.to_m) - slack_m;
+  const double high_m = std::max(move.from_m, move.to_m) + slack_m;
+  if (reported_m_ >= low_m && reported_m_ <= high_m) {
+    n_astray = 0;
+    return;
+  }
+  next_poll_s_ = clock_.now_s();
+  if (++n_astray < kMostAstray) return;
+  stop_hard();
+  throw StageAlarm("the stage was sent to " + text_from_number(move.to_m * 1e3, 3) +
+                   " mm and is at " + text_from_number(reported_m_ * 1e3, 3) +
+                   " mm, outside of its path: it was stopped at once. Check its cable for "
+                   "interference, then start the run again");
+}
+
+void PolledStage::watch_end(double now_s, const StageMove& move, double late_before_s,
+                            std::optional<double> progress_s) const {
   constexpr double kNoEnd_wall_s = 5.0;
   now_s -= clock_.late_s() - late_before_s;  // nobody listened meanwhile
-  const double late_s = 0.5 * duration_s(planned) + clock_.from_wall_s(kNoEnd_wall_s);
-  if (now_s < expected_end_s_ + late_s) return;
-  throw RigError("the stage should have come to rest " +
-                 text_from_number(now_s - expected_end_s_, 1) +
-                 " s ago but still moves. Switch it off and on, home it, then start the run again");
+  const double patience_s = clock_.from_wall_s(patience_ * kNoEnd_wall_s);
+  if (now_s < expected_end_s_ + 0.5 * duration_s(move) + patience_s) return;
+  if (progress_s && now_s < *progress_s + patience_s) return;
+  throw RigError(
+      "the stage should have come to rest " + text_from_number(now_s - expected_end_s_, 1) +
+      " s ago and does not report that it has. Switch it off and on, home it, then start "
+      "the run again");
 }
 
-void PolledStage::throw_elsewhere(double target_m, const std::string& state) const {
+void PolledStage::throw_elsewhere(double target_m, const std::string& state,
+                                  const std::string& look_for) const {
   throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +
                  " mm and did not reach " + text_from_number(target_m * 1e3, 4) + " mm (" + state +
-                 "). Look for an obstacle or a turned knob, then start the run again");
+                 "). Look for " + look_for + ", then start the run again");
 }
 
-CommandedMove PolledStage::ended_move(const MoveTracker& tracker, const std::string& purpose,
-                                      double end_m) {
+void PolledStage::throw_reference_lost() {
+  exact_m_.reset();
+  throw DeviceRestarted(
+      "the stage lost its reference position in the middle of the run (was its supply cut?). "
+      "Home it, then start the run again");
+}
+
+void PolledStage::throw_no_rest() const {
+  throw RigError("the stage on '" + transport_.name() +
+                 "' does not come to rest: IT MAY STILL PRESS. Lift the punch by hand");
+}
+
+void PolledStage::hand_out(const std::optional<MoveTracker>& tracker, const std::string& purpose,
+                           double end_m) {
   exact_m_ = end_m;
-  CommandedMove commanded = tracker.best(end_m);
+  if (!tracker) return;
+  CommandedMove commanded = tracker->best(end_m);
   commanded.purpose = purpose;
-  return commanded;
+  if (const int n = tracker->n_contradictions(); n >= 2) {
+    note(clock_.now_s(), "move_doubtful", purpose,
+         std::to_string(n) +
+             " position reports do not agree with the speed and acceleration in "
+             "the controller's settings: the move was slower or faster");
+  }
+  sink_(commanded);
+}
+
+void throw_no_reference() {
+  throw RigError(
+      "the stage has no reference position since it was switched on. Clear the way and set home = "
+      "true under [stage] of the rig file, or home it by its own software");
 }
 
 void check_travel(double to_m, double start_m, double travel_m) {

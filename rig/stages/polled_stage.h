@@ -6,6 +6,7 @@
 #include "rig/stages/move_tracker.h"
 #include "rig/stages/stage.h"
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -27,10 +28,11 @@ class PolledStage : public Stage {
   PolledStage(Transport& transport, const StageConfig& config, const RigClock& clock,
               RecordSink sink, double patience = 1.0);
 
-  // Records what has arrived and cuts it into lines.
+  // Records what has arrived and cuts it into messages.
   void receive();
-  // The bytes that belong to lines: without those of a flow control.
-  virtual std::string text_in(const std::string& bytes) { return bytes; }
+  // Feeds recorded bytes to splitter_. A driver of a binary protocol also feeds its own splitter, one
+  // with flow control takes those bytes out first.
+  virtual void split(const Chunk& chunk);
   void note(double time_s, const std::string& name, const std::string& value,
             const std::string& text) const;
   // Pumps until something is there; false if wall_s have passed first.
@@ -44,19 +46,39 @@ class PolledStage : public Stage {
                                     const std::string& otherwise) const;
 
   void take_report(double time_s, double position_m, const std::string& state);
+  // Questions for the position whose answers carry no number, so that a late answer cannot be told
+  // from a prompt one. asked() follows the write of a question. AskedStage does not use these: it
+  // asks for more than the position, so it finds its controller again after every lost answer.
+  void asked(double now_s);
+  // The time of the question that a report answers: the oldest open one, because the report cannot
+  // be older than that. Nothing for an unasked report.
+  std::optional<double> question_answered(double time_s);
+  // True while the newest question may still be answered; counts one that was not answered in time.
+  bool awaits_report(double now_s);
+  void forget_questions();
   // One question was answered promptly, or not in time; throws RigError after too many of these.
   void take_latency(double asked_s, double time_s);
   void count_miss();
   // The next question follows after every_s, or just after the end of the move, so that standstill
   // is noticed without delay.
   void plan_poll(double now_s, double every_s);
-  // The move should have ended long ago: throws RigError. late_before_s: delays of this program
-  // before the move.
-  void check_deadline(const StageMove& planned, double late_before_s, double now_s) const;
-  // The stage stands elsewhere than at the end of its move.
-  [[noreturn]] void throw_elsewhere(double target_m, const std::string& state) const;
-  // The move has ended; its record from the tracker.
-  CommandedMove ended_move(const MoveTracker& tracker, const std::string& purpose, double end_m);
+  // Stops at once and throws StageAlarm if two reports in a row are outside of the path: a command
+  // garbled on its way to the controller can be a valid move to another position.
+  void watch_path(const StageMove& move, double slack_m, int& n_astray);
+  // Throws RigError if the stage should have come to rest long ago. late_before_s: clock_.late_s()
+  // when the move began. progress_s: when its position last changed, for controllers that may be
+  // slower than their settings say and are waited for.
+  void watch_end(double now_s, const StageMove& move, double late_before_s,
+                 std::optional<double> progress_s = {}) const;
+  // The stage rests elsewhere than at the end of its move. state: in the controller's words.
+  [[noreturn]] void throw_elsewhere(double target_m, const std::string& state,
+                                    const std::string& look_for) const;
+  // The reference position was there when the stage was connected or recovered, and is gone.
+  [[noreturn]] void throw_reference_lost();
+  [[noreturn]] void throw_no_rest() const;
+  // The move has ended at end_m: hands its record to the sink. No tracker: it was never written.
+  void hand_out(const std::optional<MoveTracker>& tracker, const std::string& purpose,
+                double end_m);
 
   Transport& transport_;
   StageConfig config_;
@@ -76,7 +98,15 @@ class PolledStage : public Stage {
   ReportLatency latency_;
   double next_poll_s_ = 0.0;
   double expected_end_s_ = 0.0;
+
+ private:
+  std::deque<double> asked_s_;  // times of the open questions, oldest first
+  bool is_last_missed_ = false;
+  bool is_answered_since_ = false;  // an older question was answered after the newest was sent
 };
+
+// At the start of a run: positions would mean nothing.
+[[noreturn]] void throw_no_reference();
 
 // The software limit that every stage driver checks: throws RigError if to_m lies further toward
 // the specimen than travel_m from start_m, where the stage stood at first.

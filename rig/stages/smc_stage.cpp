@@ -25,9 +25,9 @@ SmcStage::SmcStage(Transport& transport, const StageConfig& config, const RigClo
                   .after_command_wall_s = 0.06}) {}
 
 // The flow control stands between the bytes of the answers.
-std::string SmcStage::text_in(const std::string& bytes) {
+void SmcStage::split(const Chunk& chunk) {
   std::string text;
-  for (const char c : bytes) {
+  for (const char c : chunk.bytes) {
     if (c == kSmcXoff) {
       held_since_s_ = clock_.now_s();
     } else if (c == kSmcXon) {
@@ -36,7 +36,7 @@ std::string SmcStage::text_in(const std::string& bytes) {
       text += c;
     }
   }
-  return text;
+  AskedStage::split({chunk.time_s, text});
 }
 
 bool SmcStage::may_write() {
@@ -154,11 +154,7 @@ void SmcStage::read_dynamics(const Pump& pump) {
 void SmcStage::set_up(const Pump& pump) {
   const SmcState now = state(pump);
   if (!is_smc_referenced(now)) {
-    if (!config_.home) {
-      throw RigError(
-          "the stage has no reference position since it was switched on. Clear the way and set "
-          "home = true under [stage] of the rig file, or home it by its own software");
-    }
+    if (!config_.home) throw_no_reference();
     home(pump);
   }
   switch_on(pump);

@@ -19,7 +19,7 @@ class SmcStage final : public AskedStage {
   std::vector<std::string> advice() const override;
 
  private:
-  std::string text_in(const std::string& bytes) override;
+  void split(const Chunk& chunk) override;
   bool may_write() override;
   std::string bytes_of(const std::string& words) const override;
   bool is_question(const std::string& words) const override;

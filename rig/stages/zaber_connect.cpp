@@ -40,10 +40,7 @@ void ZaberStage::wait_for_rest(const Pump& pump, double wall_s) {
   const double deadline_s = clock_.awake_s() + wall_s;
   do {
     ask("", pump);
-    if (clock_.awake_s() > deadline_s) {
-      throw RigError("the stage on '" + transport_.name() +
-                     "' does not come to rest: IT MAY STILL PRESS. Lift the punch by hand");
-    }
+    if (clock_.awake_s() > deadline_s) throw_no_rest();
   } while (is_busy_);
 }
 
@@ -78,12 +75,9 @@ void ZaberStage::connect(const Pump& pump) {
     ask("home", pump);
     wait_for_rest(pump, kHome_wall_s);
   }
-  if (flag_ == "WR" || flag_ == "WH") {
-    throw RigError(
-        "the stage has no reference position since it was switched on. Clear the way and set home "
-        "= true under [stage] of the rig file, or home it by its own software");
-  }
+  if (lacks_reference()) throw_no_reference();
   ask_position(pump);
+  is_referenced_ = true;
   exact_m_ = reported_m_;
   start_m_ = reported_m_;
   is_recovering_ = false;
@@ -93,6 +87,8 @@ void ZaberStage::recover(const Pump& pump) {
   is_recovering_ = true;
   polls_ = false;
   question_.reset();
+  // A port that came back found the stage still moving.
+  if (active_ && !active_->is_stopping) stop_hard();
   wait_for_rest(pump, kRest_wall_s);
   identity_ =
       "Zaber, firmware " + ask("get version", pump);  // the port may have come back with another
@@ -101,7 +97,8 @@ void ZaberStage::recover(const Pump& pump) {
   ask_position(pump);
   if (active_) end_move(reported_m_);
   exact_m_ = reported_m_;
-  flag_.clear();  // so that a fault that is still there is reported again
+  is_referenced_ = !lacks_reference();  // after a cut of the supply it counts from where it stands
+  flag_.clear();                        // so that a fault that is still there is reported again
   is_recovering_ = false;
 }
 

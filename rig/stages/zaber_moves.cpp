@@ -26,13 +26,12 @@ void ZaberStage::follow_move(double asked_s, double received_s, bool is_busy) {
   if (++active.n_rests_elsewhere < kMostRestsAside) return;
   active_.reset();
   exact_m_.reset();
-  throw_elsewhere(target_m, zaber_flag_text(flag_));
+  throw_elsewhere(target_m, zaber_flag_text(flag_), "an obstacle or a turned knob");
 }
 
 void ZaberStage::end_move(double end_m) {
-  exact_m_ = end_m;
   const ActiveMove ended = *std::exchange(active_, std::nullopt);
-  if (ended.tracker) sink_(ended_move(*ended.tracker, ended.purpose, end_m));  // else never sent
+  hand_out(ended.tracker, ended.purpose, end_m);
 }
 
 void ZaberStage::begin_move(double to_m, double speed_m_s, const std::string& purpose) {
@@ -70,11 +69,6 @@ void ZaberStage::start_action() {
   active_->late_before_s = clock_.late_s();
   active_->tracker.emplace(active_->planned, config_.microstep_m);
   expected_end_s_ = action_->written_s + duration_s(active_->planned);
-}
-
-void ZaberStage::watch_deadline(double now_s) {
-  if (!active_ || !active_->reply_s) return;
-  check_deadline(active_->planned, active_->late_before_s, now_s);
 }
 
 void ZaberStage::stop(const std::string& words) {

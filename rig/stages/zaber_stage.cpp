@@ -103,12 +103,7 @@ void ZaberStage::take_flag(const ZaberMessage& reply, double time_s) {
     exact_m_.reset();
     throw StageAlarm("the stage stopped with " + zaber_flag_text(flag_));
   }
-  if (flag_ == "WR" || flag_ == "WH") {
-    exact_m_.reset();
-    throw DeviceRestarted(
-        "the stage lost its reference position in the middle of the run (was its supply cut?). "
-        "Home it, then start the run again");
-  }
+  if (is_referenced_ && lacks_reference()) throw_reference_lost();
 }
 
 void ZaberStage::take_action_reply(const Sent& action, const ZaberMessage& reply, double time_s) {
@@ -166,7 +161,7 @@ void ZaberStage::drive(double now_s) {
     action_->n_sent = n_sent + 1;
   }
   start_action();
-  watch_deadline(now_s);
+  if (active_ && active_->reply_s) watch_end(now_s, active_->planned, active_->late_before_s);
   if (!polls_ || question_ || now_s < next_poll_s_) return;
   question_ = send(kAskPosition);
   plan_poll(now_s, active_ ? kPollMoving_s : kPollResting_s);

@@ -61,13 +61,13 @@ class ZaberStage final : public PolledStage {
   void end_move(double end_m);
   void drive(double now_s);
   void start_action();
-  void watch_deadline(double now_s);
   void stop(const std::string& words);
   std::string ask(const std::string& words, const Pump& pump);
   double number(const std::string& setting, const Pump& pump);
   void wait_for_rest(const Pump& pump, double wall_s);
   void read_settings(const Pump& pump);
   void ask_position(const Pump& pump);
+  bool lacks_reference() const { return flag_ == "WR" || flag_ == "WH"; }
   double metres(double microsteps) const {
     return toward_ * microsteps * config_.microstep_m + 0.0;
   }
@@ -88,6 +88,7 @@ class ZaberStage final : public PolledStage {
   bool is_recovering_ = true;  // faults are expected, also until connected
   std::string flag_;           // as reported last
   bool is_busy_ = false;
+  bool is_referenced_ = false;  // when the stage was connected or recovered
 
   std::optional<ActiveMove> active_;
 };

@@ -1,5 +1,8 @@
-// Any line from a Zaber, PI or Newport stage, a multimeter or a force gauge is understood or refused.
+// Any line or bytes from a stage other than GRBL, a multimeter or a force gauge is understood or
+// refused.
+#include "rig/protocols/apt_protocol.h"
 #include "rig/protocols/gauge_protocols.h"
+#include "rig/protocols/marlin_protocol.h"
 #include "rig/protocols/pi_protocol.h"
 #include "rig/protocols/smc_protocol.h"
 #include "rig/protocols/zaber_protocol.h"
@@ -7,6 +10,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
+#include <string>
 #include <string_view>
 
 namespace {
@@ -18,6 +23,37 @@ void check(const std::optional<viscard::GaugeAnswer>& answer) {
   }
 }
 
+// However reads split them, no byte is in two messages.
+void check_apt(std::string_view bytes, std::size_t read_size) {
+  viscard::AptSplitter splitter;
+  for (std::size_t at = 0; at < bytes.size(); at += read_size) {
+    splitter.feed(bytes.substr(at, read_size), 0.0, 1.0);
+  }
+  std::size_t n_used = splitter.n_skipped();
+  while (const auto message = splitter.next()) {
+    constexpr std::size_t kHeader = 6;
+    n_used += kHeader + message->data.size();
+    (void)viscard::parse_apt_info(*message);
+    (void)viscard::parse_apt_status(*message);
+    (void)viscard::parse_apt_velocity(*message);
+    (void)viscard::parse_apt_error(*message);
+  }
+  if (n_used > bytes.size()) std::abort();
+}
+
+void check_marlin(std::string_view line) {
+  if (viscard::parse_marlin_resend(line).value_or(0) < 0) std::abort();
+  (void)viscard::parse_marlin_count(line, 'Z');
+  (void)viscard::parse_marlin_error(line);
+  (void)viscard::parse_marlin_echo(line);
+  (void)viscard::parse_marlin_firmware(line);
+  std::map<std::string, double> settings;
+  viscard::add_marlin_settings(line, settings);
+  for (const auto& [name, value] : settings) {
+    if (!std::isfinite(value)) std::abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -26,6 +62,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check(viscard::parse_mark10_reading(text, "N"));
   check(viscard::parse_sauter_reading(text, "N"));
   (void)viscard::parse_scpi_error(text);
+  check_apt(text, 1);
+  check_apt(text, 64);
+  check_marlin(text);
   const auto message = viscard::parse_zaber_message(text);
   if (message && (message->device < 0 || message->axis < 0)) std::abort();
   const auto answer = viscard::pi_answer_text(text, 3);

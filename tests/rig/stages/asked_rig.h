@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/rig/device_fixture.h"
+#include "tests/rig/stages/stage_rig.h"
 
 #include <string>
 
@@ -10,13 +10,6 @@ namespace viscard {
 
 inline AnswerHabits& answers_of(EmulatedRigOptions& options) {
   return options.config.stage.driver == "smc100" ? options.smc.answers : options.pi.answers;
-}
-
-// Pumps until the stage has moved for move_s.
-inline void pump_into_move(DeviceFixture& rig, double move_s) {
-  const double until_s = rig.clock.awake_s() + 10.0;
-  while (!rig.emulated.outcome().is_moving && rig.clock.awake_s() < until_s) rig.pump()();
-  rig.pump_for(move_s);
 }
 
 // How often a move was written to the stage.

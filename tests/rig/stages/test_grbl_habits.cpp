@@ -260,7 +260,7 @@ TEST_CASE("a stage that rests at another position than its target is an error", 
   options.grbl.ends_short_number = 1;
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
-  CHECK_THROWS_WITH(move_and_wait(rig, 0.3e-3, 1e-3), Contains("did not reach 0.300 mm"));
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.3e-3, 1e-3), Contains("did not reach 0.3000 mm"));
 }
 
 TEST_CASE("a force that stays flat at full depth is a doubt: steps may be lost", "[rig][pty]") {

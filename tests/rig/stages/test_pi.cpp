@@ -1,6 +1,5 @@
 #include "rig/protocols/pi_protocol.h"
 #include "rig/stages/stage.h"
-#include "tests/rig/device_fixture.h"
 #include "tests/rig/stages/asked_rig.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,5 @@
 #include "rig/protocols/smc_protocol.h"
 #include "rig/stages/stage.h"
-#include "tests/rig/device_fixture.h"
 #include "tests/rig/stages/asked_rig.h"
 
 #include <catch2/catch.hpp>
@@ -124,22 +123,6 @@ TEST_CASE("a Newport stage that cannot follow or meets its end raises an alarm w
   }
   stage.recover(rig.pump());
   CHECK(rig.move(0.0, 2e-3));
-}
-
-TEST_CASE("a Newport stage whose supply is cut has restarted, and the punch is lifted by hand",
-          "[rig][pty]") {
-  EmulatedRigOptions options = smc_rig();
-  options.smc.loses_power = true;
-  const bool is_moving = GENERATE(false, true);
-  DeviceFixture rig(options);
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  REQUIRE(rig.move(0.5e-3, 1e-3));
-  if (is_moving) stage.begin_move(0.9e-3, 0.1e-3, "ramp");
-  pump_into_move(rig, 0.3);
-  rig.emulated.cause(Incident::kRestartStage);
-  CHECK_THROWS_AS(rig.pump_for(2.0), DeviceRestarted);
-  CHECK_THROWS_WITH(stage.recover(rig.pump()), Contains("BY HAND"));
 }
 
 TEST_CASE("a Newport stage without a reference position is refused unless it may home",

@@ -12,15 +12,6 @@ EmulatedRigOptions zaber_rig() {
   return DeviceFixture::options("zaber");
 }
 
-TestPlan quick_plan() {
-  TestPlan plan;
-  plan.approach_speed_m_s = 0.2e-3;
-  plan.baseline_s = 1.0;
-  plan.hold_s = 2.0;
-  plan.recovery_s = 1.0;
-  return plan;
-}
-
 }  // namespace
 
 TEST_CASE("Zaber checksums agree with the ones printed for known messages", "[rig]") {
@@ -121,18 +112,6 @@ TEST_CASE("a Zaber stage stops gently or at once and can be moved again", "[rig]
   REQUIRE(rig.move(0.0, 2e-3));
 }
 
-TEST_CASE("a Zaber stage that stalls raises an alarm and recovers", "[rig][pty]") {
-  DeviceFixture rig(zaber_rig());
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  stage.begin_move(2e-3, 0.5e-3, "approach");
-  rig.pump_for(0.1);
-  rig.emulated.cause(Incident::kHitLimitSwitch);
-  CHECK_THROWS_AS(rig.pump_for(2.0), StageAlarm);
-  stage.recover(rig.pump());
-  CHECK(rig.move(0.0, 2e-3));
-}
-
 TEST_CASE("a Zaber stage without a reference position is refused unless it may home",
           "[rig][pty]") {
   EmulatedRigOptions options = zaber_rig();
@@ -167,16 +146,6 @@ TEST_CASE("a Zaber stage without microstep in the rig file is refused with the p
   rig.stage.driver = "zabre";
   CHECK_THROWS_WITH(make_stage(transport, rig.stage, clock, [](const RunRecord&) {}),
                     Contains("grbl, zaber"));
-}
-
-TEST_CASE("a whole test runs on a Zaber stage, and a stalled one leaves the specimen",
-          "[rig][pty]") {
-  DeviceFixture rig(zaber_rig());
-  const RunOutcome outcome = rig.run(quick_plan());
-  INFO(outcome.reason);
-  REQUIRE(outcome.status == "finished");
-  CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(4e-6));  // contact is found to a few um
-  CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
 }
 
 }  // namespace viscard

@@ -1,0 +1,166 @@
+// The exchanges of MarlinStage that wait for answers: connecting, settings, recovery.
+#include "models/maths/text_of_number.h"
+#include "rig/stages/marlin_stage.h"
+
+namespace viscard {
+namespace {
+
+constexpr double kStart_wall_s = 3.0;    // from the opening of a port to the start of a board
+constexpr double kChatter_wall_s = 0.5;  // a pause that ends what it says at its start
+constexpr double kBooted_wall_s = 10.0;
+constexpr double kHomed_wall_s = 180.0;
+constexpr int kConversations = 4;
+constexpr double kCoarsest_m = 20e-6;  // of the shortest move
+
+}  // namespace
+
+void MarlinStage::command(const std::string& text, const Pump& pump, double wall_s) {
+  awaited_ = text;
+  outbox_.push_back(text);
+  if (wait_for([&] { return !awaited_; }, pump, wall_s)) return;
+  in_flight_.reset();
+  throw RigError("the stage on '" + transport_.name() + "' did not answer '" + text + "'");
+}
+
+// Boards with a USB converter start when their port is opened, and talk while they do.
+void MarlinStage::await_boot(const Pump& pump) {
+  const int n_before = n_starts_;
+  if (wait_for([&] { return n_starts_ > n_before; }, pump, kStart_wall_s)) await_pause(pump);
+}
+
+void MarlinStage::await_pause(const Pump& pump) {
+  const double pause_s = clock_.from_wall_s(kChatter_wall_s);
+  wait_for([&] { return clock_.now_s() > heard_s_ + pause_s; }, pump, kBooted_wall_s);
+}
+
+// A board that has just started, because its port was opened again, answers late.
+void MarlinStage::halt(const Pump& pump) {
+  const int n_before = n_starts_;
+  is_stop_open_ = false;
+  stop();
+  wait_for([&] { return !is_stop_open_; }, pump, 1.2 * kMostTriesAtStart * kSilence_wall_s);
+  if (n_starts_ > n_before) await_pause(pump);
+}
+
+// Reads the settings until two readings agree: one garbled digit would falsify every move.
+void MarlinStage::read_settings(const Pump& pump) {
+  std::map<std::string, double> before;
+  for (int i = 0; i < kConversations; ++i) {
+    settings_.clear();
+    command("M503", pump, 10.0);
+    if (!settings_.empty() && settings_ == before) break;
+    before = settings_;
+  }
+  const StageDynamics found = dynamics();
+  if (!(found.steps_per_m > 0.0) || !(found.acceleration_m_s2 > 0.0) ||
+      !(found.max_speed_m_s > 0.0)) {
+    throw RigError(std::string("the stage did not report steps/mm, acceleration and largest "
+                               "speed of axis ") +
+                   config_.axis +
+                   " (M92, M201, M204 and M203 of M503). Check the axis in the rig "
+                   "file");
+  }
+  if (kFewestSteps / found.steps_per_m <= kCoarsest_m) return;
+  throw RigError("M92 " + std::string(1, config_.axis) +
+                 text_from_number(found.steps_per_m * 1e-3, 1) +
+                 " steps/mm is too coarse: Marlin makes no move of fewer than 6 steps. Use "
+                 "microstepping or a finer screw for at least 400");
+}
+
+void MarlinStage::converse(bool may_home, const Pump& pump) {
+  command("M110 N0", pump);
+  command("M115", pump);
+  wait_for([&] { return !firmware_.empty(); }, pump, kChatter_wall_s);
+  if (firmware_.empty()) throw RigError("the stage did not name its firmware");
+  if (firmware_.find("Marlin") == std::string::npos &&
+      firmware_.find("Prusa") == std::string::npos) {
+    throw RigError("the stage on '" + transport_.name() + "' runs '" + shown_bytes(firmware_) +
+                   "', which is not Marlin: its stops and reports are not known");
+  }
+  halt(pump);
+  command("G21", pump);
+  command("G90", pump);
+  command("M17", pump);     // motors that are switched on later may jump to another step
+  command("M18 S0", pump);  // else they let go after two minutes, and the hold is lost
+  read_settings(pump);
+  if (may_home && config_.home) {
+    command(std::string("G28 ") + config_.axis, pump, kHomed_wall_s);
+  }
+  command("M420 S0", pump);  // levelling would change the height on the way
+  // M114 has two decimals, so G1 counts from where the stage stands, on a whole step.
+  command(std::string("G92 ") + config_.axis + "0", pump);
+  await_report(pump, 5.0, "Check the axis in the rig file");
+  origin_count_ = count_;
+}
+
+// A board that starts late begins the exchange again.
+void MarlinStage::converse_again(bool may_home, const Pump& pump) {
+  for (int i = 0;; ++i) {
+    const int n_before = n_starts_;
+    polls_ = false;
+    outbox_.clear();
+    try {
+      converse(may_home, pump);
+      if (n_before == n_starts_) return;
+    } catch (const PortHungUp&) {
+      throw;
+    } catch (const RigError&) {
+      if (n_before == n_starts_ || i >= kConversations) throw;
+      await_pause(pump);
+    }
+  }
+}
+
+void MarlinStage::connect(const Pump& pump) {
+  await_boot(pump);
+  try {
+    converse_again(true, pump);
+  } catch (const PortHungUp&) {
+    throw;
+  } catch (const RigError&) {
+    if (!firmware_.empty()) throw;
+    throw_no_answer("Marlin controller",
+                    "is the baud rate of " + std::to_string(transport_.baud()) +
+                        " right? Boards built for 250000 baud need another BAUDRATE, such as "
+                        "115200",
+                    "Is this the stage's port, and is it switched on?");
+  }
+  exact_m_ = reported_m_;
+  start_m_ = reported_m_;
+  is_recovering_ = false;
+}
+
+void MarlinStage::recover(const Pump& pump) {
+  is_recovering_ = true;
+  in_flight_.reset();
+  halt(pump);
+  converse_again(false, pump);
+  if (active_) end_move();
+  exact_m_ = reported_m_;
+  is_recovering_ = false;
+}
+
+std::vector<std::string> MarlinStage::advice() const {
+  std::vector<std::string> advice;
+  const StageDynamics found = dynamics();
+  if (!has_emergency_parser_) {
+    advice.push_back(
+        "the firmware has no EMERGENCY_PARSER: a stop waits for the line before it; "
+        "build it with that option");
+  }
+  if (found.steps_per_m < 1600e3) {
+    advice.push_back(
+        "M92 " + std::string(1, config_.axis) + text_from_number(found.steps_per_m * 1e-3, 0) +
+        " steps/mm: the shortest move is " + micrometres(kFewestSteps / found.steps_per_m, 2) +
+        ", the slowest " + text_from_number(found.min_speed_m_s * 1e3, 3) +
+        " mm/s; use microstepping for at least 1600");
+  }
+  if (found.acceleration_m_s2 < 0.1) {
+    advice.push_back("M201 or M204 T limits the acceleration to " +
+                     text_from_number(found.acceleration_m_s2 * 1e3, 0) +
+                     " mm/s2: ramps are slow; set at least 100");
+  }
+  return advice;
+}
+
+}  // namespace viscard

@@ -1,0 +1,281 @@
+#include "rig/emulator/pty_port.h"
+#include "rig/stages/marlin_stage.h"
+#include "tests/rig/stages/stage_rig.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+constexpr double kStep_m = 1.0 / 3200e3;
+
+EmulatedRigOptions marlin_rig() {
+  return DeviceFixture::options("marlin");
+}
+
+std::vector<std::string> sent_lines(const DeviceFixture& rig, const std::string& word) {
+  std::vector<std::string> found;
+  for (const RawBytes& raw : rig.all<RawBytes>()) {
+    if (raw.device != Device::kStage || !raw.is_sent) continue;
+    if (raw.bytes.find(word) != std::string::npos) found.push_back(raw.bytes);
+  }
+  return found;
+}
+
+std::string error_of_marlin_on(const std::string& sent) {
+  PtyPort device;
+  const RigClock clock;
+  SerialLine line(device.path(), 115200, clock);
+  MarlinStage stage(line, StageConfig{}, clock, [](const RunRecord&) {});
+  device.write(sent);
+  try {
+    stage.connect([&] {
+      wait_readable({&line}, clock, 0.01);
+      stage.service();
+    });
+  } catch (const RigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string error_of_move(DeviceFixture& rig, double to_m) {
+  try {
+    rig.move(to_m, 0.5e-3);
+  } catch (const RigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a Marlin stage reports its dynamics and reaches its target at the speed asked for",
+          "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  SECTION("as it comes") {}
+  SECTION("native USB, whose start is missed") {
+    options.marlin.talks_at_start = false;
+  }
+  SECTION("long answers") {
+    options.marlin.sends_advanced_ok = true;
+  }
+  SECTION("lost answers") {
+    options.marlin.lose_answer_every = 7;
+  }
+  SECTION("lost lines") {
+    options.marlin.lose_line_every = 7;
+  }
+  SECTION("garbled lines, Resend alone") {
+    options.marlin.garble_line_every = 5;
+  }
+  SECTION("garbled lines, Resend and ok") {
+    options.marlin.garble_line_every = 5;
+    options.marlin.sends_ok_after_resend = true;
+  }
+  SECTION("lost answers, Resend and ok") {
+    options.marlin.lose_answer_every = 5;
+    options.marlin.sends_ok_after_resend = true;
+  }
+  SECTION("late answers") {
+    options.marlin.answer_delay_s = 0.4;
+  }
+  SECTION("mounted the other way round") {
+    options.config.stage.toward_specimen = 1;
+  }
+  SECTION("another axis") {
+    options.config.stage.axis = 'X';
+  }
+  DeviceFixture rig(options);
+  rig.devices.stage->connect(rig.pump());
+  CHECK(rig.devices.stage->identity() == "Marlin 2.1.2 (Feb  1 2023 12:00:00)");
+  const StageDynamics dynamics = rig.devices.stage->dynamics();
+  CHECK(dynamics.steps_per_m == Approx(3200e3).epsilon(1e-9));
+  CHECK(dynamics.max_speed_m_s == Approx(10e-3).epsilon(1e-9));
+  CHECK(dynamics.acceleration_m_s2 == Approx(0.2).epsilon(1e-9));
+  CHECK(dynamics.min_speed_m_s == Approx(0.05e-3).epsilon(1e-9));
+  REQUIRE(rig.move(0.5e-3, 0.25e-3));
+  REQUIRE(rig.move(0.3e-3, 2e-3));
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.3e-3).margin(1e-9));
+  CHECK(rig.devices.stage->position_m() == Approx(0.3e-3).margin(1e-9));
+  const auto moves = rig.all<CommandedMove>();
+  REQUIRE(moves.size() == 2);
+  CHECK(moves[0].move.to_m == Approx(0.5e-3).margin(1e-9));
+  CHECK(moves[0].move.speed_m_s == Approx(0.25e-3).epsilon(1e-6));
+  CHECK(moves[1].move.from_m == Approx(0.5e-3).margin(1e-9));
+}
+
+TEST_CASE("the pieces of a Marlin stage are short, and its speed is constant over them",
+          "[rig][pty]") {
+  DeviceFixture rig(marlin_rig());
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  const double speed_m_s = GENERATE(0.05e-3, 0.2e-3, 1e-3);
+  stage.begin_move(0.6e-3, speed_m_s, "ramp");
+  while (stage.is_moving()) rig.pump()();
+  CHECK(rig.all<CommandedMove>().back().start_uncertainty_s < 0.12);
+  for (const RunEvent& event : rig.all<RunEvent>()) CHECK(event.name != "move_doubtful");
+  const double piece_m = std::max(20e-6, 0.05 * speed_m_s);
+  CHECK(sent_lines(rig, "G1 Z").size() ==
+        static_cast<std::size_t>(std::ceil(0.6e-3 / piece_m - 1e-9)));
+}
+
+TEST_CASE("a Marlin stage that hears nothing more comes to rest within three pieces",
+          "[rig][pty]") {
+  DeviceFixture rig(marlin_rig());
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(2e-3, 0.2e-3, "approach");
+  rig.pump_for(1.0);
+  const double before_m = rig.emulated.outcome().final_position_m;
+  CHECK(before_m > 0.1e-3);
+  for (int i = 0; i < 1000; ++i) wait_readable({}, rig.clock, 0.002);  // the program is frozen
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.emulated.outcome().final_position_m <= before_m + 61e-6);
+}
+
+TEST_CASE("a Marlin stage stops gently or at once and can be moved again", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  SECTION("with an emergency parser") {}
+  SECTION("without one, late") {
+    options.marlin.has_emergency_parser = false;
+    options.marlin.stop_delay_s = 0.1;
+  }
+  // The first stop is that of connect(), the second the gentle one, the third the hard one.
+  SECTION("the gentle one is lost") {
+    options.marlin.lose_stop_number = 2;
+  }
+  SECTION("the hard one is lost") {
+    options.marlin.lose_stop_number = 3;
+  }
+  SECTION("answers are late") {
+    options.marlin.answer_delay_s = 0.2;
+  }
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(2e-3, 1e-3, "approach");
+  rig.pump_for(0.5);
+  stage.stop_soft();
+  while (stage.is_moving()) rig.pump()();
+  const double stopped_m = stage.position_m();
+  CHECK(stopped_m > 0.02e-3);
+  CHECK(stopped_m < 1.2e-3);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.emulated.outcome().final_position_m == Approx(stopped_m).margin(1e-9));
+  REQUIRE_FALSE(rig.all<CommandedMove>().empty());
+  CHECK(rig.all<CommandedMove>().back().move.to_m == Approx(stopped_m).margin(1e-12));
+  stage.begin_move(3e-3, 1e-3, "approach");
+  rig.pump_for(0.3);
+  stage.stop_hard();
+  stage.recover(rig.pump());
+  CHECK_FALSE(stage.is_moving());
+  CHECK(rig.emulated.outcome().final_position_m == Approx(stage.position_m()).margin(1e-9));
+  CHECK(stage.position_m() < 2.5e-3);
+  REQUIRE(rig.move(0.0, 2e-3));
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-9));
+}
+
+TEST_CASE("a Marlin stage whose M114 waits for the end of moves is refused at its first press",
+          "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.waits_in_m114 = true;
+  options.marlin.has_emergency_parser = false;
+  DeviceFixture rig(options);
+  rig.devices.stage->connect(rig.pump());
+  CHECK_THAT(error_of_move(rig, 1e-3), Contains("M114_LEGACY"));
+  rig.devices.stage->recover(rig.pump());
+  CHECK(rig.move(0.0, 1e-3));
+}
+
+TEST_CASE("a clipped move of a Marlin stage is noticed", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.highest_m = 0.4e-3;
+  options.marlin.lowest_m = -0.1e-3;
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  REQUIRE(rig.move(-0.5e-3, 1e-3));  // a lift ends at the end of the travel
+  CHECK(stage.position_m() == Approx(-0.1e-3).margin(1e-9));
+  CHECK_THAT(error_of_move(rig, 0.8e-3), Contains("did not reach 0.8000 mm") && Contains("M211"));
+}
+
+TEST_CASE("a Marlin stage that makes no move before homing says what the board said",
+          "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.needs_home = true;
+  SECTION("not homed") {
+    DeviceFixture rig(options);
+    rig.devices.stage->connect(rig.pump());
+    CHECK_THAT(error_of_move(rig, 0.2e-3), Contains("Home XYZ first"));
+  }
+  SECTION("homed") {
+    options.config.stage.home = true;
+    options.marlin.homing_s = 20.0;
+    DeviceFixture rig(options);
+    rig.devices.stage->connect(rig.pump());
+    CHECK(rig.move(0.2e-3, 1e-3));
+  }
+}
+
+TEST_CASE("a Marlin board that halts raises an alarm and asks for a person", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.halt_number = 30;
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(2e-3, 0.2e-3, "approach");
+  CHECK_THROWS_WITH(rig.pump_for(10.0), Contains("Printer halted"));
+  CHECK_THROWS_WITH(stage.recover(rig.pump()), Contains("by hand"));
+}
+
+TEST_CASE("moves of fewer than six steps are recorded as they were made", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.makes_short_moves = GENERATE(true, false);
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  REQUIRE(rig.move(3.0 * kStep_m, 0.1e-3));
+  const double made_m = options.marlin.makes_short_moves ? 3.0 * kStep_m : 0.0;
+  CHECK(stage.position_m() == Approx(made_m).margin(1e-12));
+  REQUIRE(rig.move(20.0 * kStep_m, 0.1e-3));
+  CHECK(rig.emulated.outcome().final_position_m == Approx(20.0 * kStep_m).margin(1e-12));
+}
+
+TEST_CASE("a stage that is too coarse, or not Marlin, is refused", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  SECTION("coarse") {
+    options.truth.steps_per_m = 100e3;
+    DeviceFixture rig(options);
+    CHECK_THROWS_WITH(rig.devices.stage->connect(rig.pump()), Contains("too coarse"));
+  }
+  SECTION("another firmware") {
+    options.marlin.firmware = "Repetier_1.0.3";
+    DeviceFixture rig(options);
+    CHECK_THROWS_WITH(rig.devices.stage->connect(rig.pump()), Contains("Repetier_1.0.3"));
+  }
+}
+
+TEST_CASE("what answers instead of Marlin is quoted", "[rig][pty]") {
+  CHECK_THAT(error_of_marlin_on("8388607\r\n8388610\r\n"),
+             Contains("It sent '8388607'") && Contains("swapped"));
+  CHECK_THAT(error_of_marlin_on(std::string(40, '\xf8')), Contains("250000"));
+}
+
+TEST_CASE("a whole test runs on a Marlin stage without an emergency parser", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.has_emergency_parser = false;
+  DeviceFixture rig(options);
+  const RunOutcome outcome = rig.run(shortest_stage_plan());
+  INFO(outcome.reason);
+  REQUIRE(outcome.status == "finished");
+  CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(4e-6));
+  CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
+}
+
+}  // namespace viscard
