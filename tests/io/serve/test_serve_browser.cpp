@@ -229,7 +229,8 @@ TEST_CASE("a jog, a calibration, another protocol and a note are done on the pag
   REQUIRE(has_text(browser, "#result-name", ".viscap"));
   REQUIRE(browser.wait_until("return !document.body.classList.contains('running')", 60));
   browser.click("td.state button[aria-label^=Note]");
-  browser.run("const i = document.querySelector('td.state input'); i.value = 'wet surface'; i.blur()");
+  browser.run(
+      "const i = document.querySelector('td.state input'); i.value = 'wet surface'; i.blur()");
   REQUIRE(has_text(browser, "td.state", "wet surface"));
   look_at(browser, "8_note");
   CHECK(browser.errors() == nlohmann::json::array());
