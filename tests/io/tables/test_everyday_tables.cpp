@@ -357,7 +357,7 @@ TEST_CASE("numbers with thousands, quoted decimal commas and Fortran's exponents
     const std::string grouped = "1" + sign + "498" + sign + "996";
     CHECK(column_SI(read("t;E\n0;" + grouped + ".5\n1;998.0\n"), "modulus_Pa") == expected);
     CHECK(column_SI(read("t;E\n0;" + grouped + ",5\n1;998,0\n"), "modulus_Pa") == expected);
-    CHECK_THROWS(column_SI(read("t;E\n0;1" + sign + "49\n1;998\n2;997\n"), "modulus_Pa"));
+    CHECK_THROWS(column_SI(read("t;E\n0;998\n1;1" + sign + "49\n2;997\n"), "modulus_Pa"));
   }
   CHECK(column_SI(read("t E\n0 1.4989965D+06\n1 9.98d2\n"), "modulus_Pa") == expected);
   CHECK(column_SI(read("t,E\n\"0,1\",\"1,25\"\n\"1,2\",\"1,5\"\n"), "modulus_Pa") ==
