@@ -91,6 +91,18 @@ std::optional<double> contrast(const VoltageProfile& profile, double pitch_m) {
   return difference / largest;
 }
 
+bool is_same_place(double x_m, double other_m, double pitch_m) {
+  return std::abs(x_m - other_m) < 1e-6 * pitch_m;
+}
+
+bool has_same_places(const ComparedProfile& profile) {
+  const auto is_same = [&](double x_m, double other_m) {
+    return is_same_place(x_m, other_m, profile.pitch_m);
+  };
+  return std::equal(profile.here.x_m.begin(), profile.here.x_m.end(), profile.other.x_m.begin(),
+                    profile.other.x_m.end(), is_same);
+}
+
 // The voltages of electrodes at the same places; those of electrodes with the same number lie elsewhere.
 void add_same_places(const ComparedProfile& profile, std::vector<ComparedValue>& values) {
   std::erase_if(values, [&](const ComparedValue& value) {
@@ -101,8 +113,8 @@ void add_same_places(const ComparedProfile& profile, std::vector<ComparedValue>&
   const VoltageProfile &here = profile.here, &other = profile.other;
   for (std::size_t i = 0; i < here.x_m.size(); ++i) {
     for (std::size_t k = 0; k < other.x_m.size(); ++k) {
-      if (std::abs(here.x_m[i] - other.x_m[k]) > 1e-6 * profile.pitch_m) continue;
-      const std::string name = here.name + " at " + text_from_number(here.x_m[i] * 1e6, 6) + " um";
+      if (!is_same_place(here.x_m[i], other.x_m[k], profile.pitch_m)) continue;
+      const std::string name = here.name + " at " + text_of(here.x_m[i] * 1e6, 6) + " um";
       values.push_back(compared({name, here.value_V[i], "V", here.error_V[i]},
                                 {name, other.value_V[k], "V", other.error_V[k]}));
     }
@@ -148,7 +160,7 @@ ComparedAnswers compare_answers(const AnsweredScene& here, const AnsweredScene& 
     const double pitch_m = smallest_distance_m(profile.x_m);
     out.profiles.push_back(
         {profile, *beside, pitch_m, contrast(profile, pitch_m), contrast(*beside, pitch_m)});
-    if (profile.x_m != beside->x_m) add_same_places(out.profiles.back(), out.values);
+    if (!has_same_places(out.profiles.back())) add_same_places(out.profiles.back(), out.values);
   }
   const bool share_a_curve = std::any_of(
       here.answer.curves.begin(), here.answer.curves.end(), [&](const SceneCurve& curve) {

@@ -56,7 +56,7 @@ TEST_CASE("of several materials in a file one is chosen by name or number", "[ca
       "!MATERIAL, NAME=A\n!ELASTIC, INFINITESIMAL\n200., 0.3\n!MATERIAL, NAME=B\n"
       "!ELASTIC, INFINITESIMAL\n2., 0.4\n!STEP\n";
   CHECK(young_of(frontistr, "frontistr", "B") == 2.0);
-  CHECK_THROWS_WITH(material_named("", "moose", "a"), Contains("not told apart"));
+  CHECK_THROWS_WITH(material_named("", "moose", "a"), Contains("not distinguished"));
 }
 
 TEST_CASE("materials of LS-DYNA and OpenRadioss are chosen with what else bears their number",
