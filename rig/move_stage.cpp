@@ -57,9 +57,10 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
   StageMoved moved;
   try {
     session.connect();
-    session.begin_phase("move", 0.0, "A move outside of any test");
+    session.begin_phase("rest", 0.0, "The force before a move outside of any test");
     session.forget_readings();
     const ForceMean rest = session.tare(kRest_s);
+    session.begin_phase(kMovePhase, 0.0, "A move outside of any test");
     moved.force_before_N = rest.force_N;
     moved.from_m = stage.position_m();
     if (order.is_home) {
@@ -81,8 +82,11 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     const double back_m =
         order.is_home ? stage.position_m() : std::min(moved.from_m, stage.position_m());
     const SafeEnd end = session.make_safe(back_m, order.speed_m_s);
-    throw RigError(std::string(error.what()) + ". The stage was stopped at " +
-                   in_mm(stage.position_m()) + (end.trouble.empty() ? "" : "; " + end.trouble));
+    const bool is_asked_for = dynamic_cast<const RunInterrupted*>(&error) != nullptr;
+    throw StageStands((is_asked_for ? "the move was stopped" : std::string(error.what())) +
+                          ". The stage was stopped at " + in_mm(stage.position_m()) +
+                          (end.trouble.empty() ? "" : "; " + end.trouble),
+                      stage.position_m());
   }
   return moved;
 }

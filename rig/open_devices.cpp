@@ -1,5 +1,6 @@
 #include "rig/open_devices.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/cells/frame_load_cell.h"
 #include "rig/cells/gauge_load_cell.h"
 #include "rig/cells/hx711_load_cell.h"
@@ -40,13 +41,22 @@ struct DriverRow {
   bool sends_lines = false;
 };
 
+// The length of a count or microstep decides how far the stage goes. 0: the driver asks for it.
+void check_microstep(const StageConfig& stage) {
+  constexpr double kLongest_m = 100e-6;
+  if (stage.microstep_m <= kLongest_m) return;
+  throw RigError(
+      "microstep under [stage] of the rig file is " + text_from_number(stage.microstep_m * 1e3, 4) +
+      " mm, and no stage has steps so long. Give its unit, such as microstep = \"0.05 um\"");
+}
+
 constexpr DriverRow<Stage, StageConfig> kStages[] = {
-    {"grbl", made<Stage, GrblStage, StageConfig>, [](const StageConfig&) {}},
-    {"zaber", made<Stage, ZaberStage, StageConfig>, [](const StageConfig&) {}},
-    {"apt", made<Stage, AptStage, StageConfig>, [](const StageConfig&) {}},
-    {"marlin", made<Stage, MarlinStage, StageConfig>, [](const StageConfig&) {}},
-    {"pi-gcs2", made<Stage, PiStage, StageConfig>, [](const StageConfig&) {}},
-    {"smc100", made<Stage, SmcStage, StageConfig>, [](const StageConfig&) {}}};
+    {"grbl", made<Stage, GrblStage, StageConfig>, check_microstep},
+    {"zaber", made<Stage, ZaberStage, StageConfig>, check_microstep},
+    {"apt", made<Stage, AptStage, StageConfig>, check_microstep},
+    {"marlin", made<Stage, MarlinStage, StageConfig>, check_microstep},
+    {"pi-gcs2", made<Stage, PiStage, StageConfig>, check_microstep},
+    {"smc100", made<Stage, SmcStage, StageConfig>, check_microstep}};
 
 constexpr DriverRow<LoadCell, LoadCellConfig> kCells[] = {
     {"hx711", made<LoadCell, Hx711LoadCell, LoadCellConfig>,

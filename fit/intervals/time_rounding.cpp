@@ -43,6 +43,11 @@ double widen_for_zero(double half_s, FitResult& result) {
   widen(result.sum_g_95, result.sum_g, 1.0 - result.E_inf_Pa / early_Pa,
         1.0 - result.E_inf_Pa / late_Pa);
   widen(result.E0_interval_95, result.E0_Pa, early_Pa, late_Pa);
+  if (result.first) {
+    const double t_s = result.first->time_s;
+    widen(result.first->interval_95, relaxation_modulus_Pa(moved(0.0), t_s),
+          relaxation_modulus_Pa(early, t_s), relaxation_modulus_Pa(late, t_s));
+  }
   return late_Pa - early_Pa;
 }
 

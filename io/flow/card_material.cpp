@@ -6,6 +6,7 @@
 #include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/materials/material_file.h"
+#include "io/materials/plausible_numbers.h"
 #include "models/material/liquid.h"
 #include "models/material/material_bound.h"
 #include "models/material/series_band.h"
@@ -128,6 +129,8 @@ void take_ratio(const CardMaterialRequest& request, PreparedMaterial& prepared) 
   if (!request.ratio)
     throw std::invalid_argument(request.material + " is a joint fit; it needs a ratio");
   prepared.material = material_at_ratio(fit, *request.ratio, request.may_extrapolate);
+  refuse_implausible(request.material + fmt::format(" at ratio {:g}", *request.ratio),
+                     prepared.material, request.plausible);
   const auto& ratios = fit.best.ratios;
   const bool is_measured = std::find(ratios.begin(), ratios.end(), *request.ratio) != ratios.end();
   const bool is_outside = *request.ratio < ratios.front() || *request.ratio > ratios.back();

@@ -164,17 +164,25 @@ void check_order(const StageOrder& order, const RigConfig& rig) {
 }
 
 StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& order,
-                          RunControl control, double emulated_from_m) {
+                          RunControl control, std::optional<double>* position_m) {
   rig.stage.home = order.is_home;
-  OpenRig open(rig, is_emulated, emulated_from_m);
+  const double from_m = is_emulated && position_m != nullptr ? position_m->value_or(0.0) : 0.0;
+  OpenRig open(rig, is_emulated, from_m);
   control.clock = &open.clock();
-  StageMoved moved = move_stage(
-      *open.devices().stage, *open.devices().load_cell, open.config(), [](const RunRecord&) {},
-      control, order);
-  if (is_emulated && !order.is_home) {
-    moved.from_m += emulated_from_m;
-    moved.to_m += emulated_from_m;
+  if (position_m != nullptr && !is_emulated) position_m->reset();  // not known until it is read
+  Stage& stage = *open.devices().stage;
+  StageMoved moved;
+  try {
+    moved = move_stage(
+        stage, *open.devices().load_cell, open.config(), [](const RunRecord&) {}, control, order);
+  } catch (const StageStands& error) {
+    if (position_m != nullptr) *position_m = from_m + error.position_m();
+    throw;
   }
+  const double begin_m = order.is_home ? 0.0 : from_m;
+  moved.from_m += begin_m;
+  moved.to_m += begin_m;
+  if (position_m != nullptr) *position_m = moved.to_m;
   return moved;
 }
 

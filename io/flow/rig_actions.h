@@ -9,6 +9,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 // What is done with a rig outside of a run: check it, wait for a finger, move its stage. Each opens the devices of a rig
 // file, or an emulated rig in their place, and throws RigError for a port that cannot be opened and for wrong words of
@@ -38,9 +39,10 @@ void write_calibration_file(const std::filesystem::path& rig_file, const std::st
 // Throws std::invalid_argument for a way, speed or limit that no move by hand has.
 void check_order(const StageOrder& order, const RigConfig& rig);
 // Opens the devices of the rig, or of an emulated one, and carries out the order. control: who watches and
-// stops it; its clock is set here. emulated_from_m: where an emulated stage stands. Throws RigError as move_stage() does, and if another program holds a port.
+// stops it; its clock is set here. position_m: where the stage stands, before
+// (of an emulated one, which would begin at 0) and after the move, also of one that failed; nothing if that is not known. Throws RigError as move_stage() does, and if another program holds a port.
 StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& order,
-                          RunControl control, double emulated_from_m = 0.0);
+                          RunControl control, std::optional<double>* position_m = nullptr);
 
 // Opens the load cell and weighs one load, which hangs already (on an emulated rig it is hung). largest_N: of the
 // loads of this calibration. Throws RigError as weigh() does.

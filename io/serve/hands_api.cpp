@@ -40,7 +40,9 @@ StageOrder order_from(const Json& request) {
                    "'how' is '" + how + "'; it must be 'toward', 'away' or 'home'");
   }
   if (order.is_home) return order;
-  order.toward_m = (how == "away" ? -1.0 : 1.0) * number_at(request, "way_m");
+  const double way_m = number_at(request, "way_m");
+  if (!(way_m > 0.0)) throw ApiError(400, "bad-value", "'way_m' must be above 0");
+  order.toward_m = (how == "away" ? -1.0 : 1.0) * way_m;
   order.limit_N = number_at(request, "limit_N");
   return order;
 }
@@ -86,6 +88,7 @@ Json HandsApi::moving() {
   return {{"number", state.number},
           {"is_moving", state.is_moving},
           {"force_N", state.force_N},
+          {"position_m", state.position_m ? Json(*state.position_m) : Json(nullptr)},
           {"moved", state.moved ? json_from_result(*state.moved) : Json(nullptr)},
           {"trouble", state.trouble}};
 }
@@ -126,10 +129,17 @@ Json HandsApi::calibrate(const Json& request) {
   readings.force_relative_u = weights_relative_u(asked);
   readings.resolution =
       has_converter(rig.load_cell) ? std::abs(rig.load_cell.volts_per_count) : 0.0;
+  double largest = 0.0;
+  for (const Json& point : *found)
+    largest = std::max(largest, std::abs(number_at(point, "reading")));
   for (const Json& point : *found) {
     readings.force_N.push_back(weight_N(mass_at(point, "mass_kg"), asked));
     readings.reading.push_back(number_at(point, "reading"));
     readings.reading_se.push_back(number_at(point, "reading_se"));
+    constexpr double kMostScatter = 0.01;  // of the largest reading; such a cell weighs nothing
+    if (readings.reading_se.back() >= 0.0 && readings.reading_se.back() <= kMostScatter * largest)
+      continue;
+    throw ApiError(400, "bad-value", "'reading_se' is no standard error of a reading; weigh again");
   }
   const bool is_used = request.contains("use") && request.at("use") == true;
   if (is_used && (options_.is_emulated || !options_.rig_file)) {
@@ -140,7 +150,9 @@ Json HandsApi::calibrate(const Json& request) {
   // Beside the rig file, which names records relative to itself.
   const fs::path folder =
       is_used ? fs::absolute(*options_.rig_file).parent_path() : options_.folder;
-  const fs::path record = write_record(folder, toml_from_calibration(cell.record));
+  const std::string toml = toml_from_calibration(cell.record);
+  calibration_from_toml(toml, "the record");  // what could not be read back is not written
+  const fs::path record = write_record(folder, toml);
   if (is_used) write_calibration_file(*options_.rig_file, record.filename().string());
   return json_from_keys([&](ResultVisitor& v) { show_keys(v, cell, record.string()); });
 }

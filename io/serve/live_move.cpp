@@ -57,14 +57,14 @@ void LiveMove::work(const RigConfig& rig, bool is_emulated, const StageOrder& or
   control.stop = &stop_;
   control.stop_at_once = &stop_at_once_;
   control.progress = [this](const RunProgress& now) {
+    if (now.phase != kMovePhase) return;  // the force before the move is not known yet
     const std::lock_guard<std::mutex> lock(mutex_);
     state_.force_N = now.force_N;
   };
   std::optional<StageMoved> moved;
   std::string trouble;
   try {
-    moved = move_rig_stage(rig, is_emulated, order, control, emulated_m_);
-    emulated_m_ = moved->to_m;
+    moved = move_rig_stage(rig, is_emulated, order, control, &position_m_);
   } catch (const std::exception& error) {
     trouble = failure_text(error, "this move");
   }
@@ -74,6 +74,7 @@ void LiveMove::work(const RigConfig& rig, bool is_emulated, const StageOrder& or
     trouble = "the page has not answered for half a second, so the stage was stopped. " + trouble;
   state_.is_moving = false;
   state_.moved = moved;
+  state_.position_m = position_m_;
   state_.trouble = std::move(trouble);
 }
 

@@ -16,9 +16,10 @@ namespace viscard {
 struct MoveState {
   std::size_t number = 0;  // of the move since the program began; 0 without one
   bool is_moving = false;
-  double force_N = 0.0;             // newest, from the force before the move
-  std::optional<StageMoved> moved;  // once the move has ended
-  std::string trouble;              // why it could not begin, or was ended
+  double force_N = 0.0;              // newest, from the force before the move
+  std::optional<StageMoved> moved;   // once the move has ended
+  std::optional<double> position_m;  // where the stage stands then, if that is known
+  std::string trouble;               // why it could not begin, or was ended
 };
 
 // The one move by hand that can go on at a time, on a thread of its own. It goes on only while somebody watches it:
@@ -49,8 +50,8 @@ class LiveMove {
   std::mutex starting_;
   std::atomic<bool> stop_{false}, stop_at_once_{false};
   std::thread worker_, watcher_;
-  double emulated_m_ = 0.0;  // where an emulated stage stands; of the worker
-  std::mutex mutex_;  // guards the rest
+  std::optional<double> position_m_;  // where the stage stands; of the worker
+  std::mutex mutex_;                  // guards the rest
   MoveState state_;
   bool is_unwatched_ = false;
   std::chrono::steady_clock::time_point asked_;

@@ -210,26 +210,34 @@ Json RigApi::test_texts() const {
 }
 
 Json RigApi::add_specimen(const Json& request) {
+  const std::lock_guard<std::mutex> lock(writing_);
   const Json asked = request.contains("specimen") ? request.at("specimen") : Json();
   const Specimen specimen = with_judgement(specimen_from(asked), request);
   return {{"name", folder_.add_specimen(specimen)}};
 }
 
 Json RigApi::remove_specimen(const Json& request) {
+  const std::lock_guard<std::mutex> lock(writing_);
   const std::string name = text_at(request, "name");
   folder_.remove_specimen(name);
   return {{"name", name}};
 }
 
 Json RigApi::rename_specimen(const Json& request) {
-  return {{"name", folder_.rename_specimen(text_at(request, "name"), text_at(request, "id"))}};
+  const std::lock_guard<std::mutex> lock(writing_);
+  return {{"name", folder_.rename_specimen(text_at(request, "name"),
+                                           specimen_from({{"id", text_at(request, "id")}}).id)}};
 }
 
 Json RigApi::remove_capture(const Json& request) {
+  begin_job("moving a capture");  // a fit may read it
+  const JobEnd at_end(job_);
+  const std::lock_guard<std::mutex> lock(writing_);
   return {{"file", folder_.trash_capture(text_at(request, "capture"))}};
 }
 
 Json RigApi::note_capture(const Json& request) {
+  const std::lock_guard<std::mutex> lock(writing_);
   const std::string file = text_at(request, "capture");
   folder_.note_capture(file, text_at(request, "note"));
   return {{"file", file}};

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -83,7 +84,8 @@ class RigApi {
   SeriesFolder folder_;
   OneJob& job_;
   std::atomic<bool> is_closing_{false};
-  LiveRun live_;  // destroyed first: its thread uses the others
+  std::mutex writing_;  // of specimens, notes and the trash
+  LiveRun live_;        // destroyed first: its thread uses the others
 };
 
 }  // namespace viscard

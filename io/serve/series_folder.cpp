@@ -19,6 +19,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -53,6 +54,25 @@ bool is_specimen_file(const std::string& file) {
          file != "test.toml" && file != "rig.toml" && file.front() != '.';
 }
 
+// The text of a specimen's file with another id; its comments stay.
+std::string with_id(const std::string& text, const Specimen& renamed) {
+  std::istringstream lines(toml_from_specimen(renamed));
+  std::string id_line;
+  while (std::getline(lines, id_line) && id_line.rfind("id", 0) != 0) {
+  }
+  std::istringstream old(text);
+  std::string out, line;
+  bool is_done = false, is_in_section = false;
+  while (std::getline(old, line)) {
+    is_in_section = is_in_section || line.rfind('[', 0) == 0;
+    const bool is_id =
+        !is_done && !is_in_section && (line.rfind("id ", 0) == 0 || line.rfind("id=", 0) == 0);
+    out += (is_id ? id_line : line) + "\n";
+    is_done = is_done || is_id;
+  }
+  return is_done ? out : toml_from_specimen(renamed);
+}
+
 // A record of the page, or one that was put there.
 bool is_calibration(const fs::path& file) {
   try {
@@ -78,13 +98,21 @@ std::string file_name_from(const std::string& id) {
   return name.empty() ? "specimen" : name;
 }
 
+// A pipe in the place of a file would be waited for without end.
+void require_plain(const fs::path& file) {
+  std::error_code is_gone;
+  const fs::file_status status = fs::status(file, is_gone);
+  if (!fs::exists(status) || fs::is_regular_file(status)) return;
+  throw std::runtime_error(file.string() + " is no ordinary file; move it elsewhere");
+}
+
 fs::path note_file(const fs::path& capture) {
   return fs::path(capture.string() + ".note.txt");
 }
 
 std::string note_of(const fs::path& capture) {
   const fs::path file = note_file(capture);
-  if (!fs::exists(file)) return "";
+  if (!fs::is_regular_file(fs::symlink_status(file))) return "";
   try {
     return read_file(file);
   } catch (const std::exception& error) {
@@ -178,6 +206,7 @@ std::optional<std::string> SeriesFolder::truth_file(const std::string& name) con
 }
 
 TestPlan SeriesFolder::test() const {
+  require_plain(test_file());
   if (fs::exists(test_file())) return read_test(test_file());
   TestPlan plan;
   plan.name = "stress relaxation";
@@ -200,6 +229,7 @@ void SeriesFolder::save_test_text(const std::string& text, const TestPlan& plan)
 }
 
 std::string SeriesFolder::test_text() const {
+  require_plain(test_file());
   return fs::exists(test_file()) ? read_file(test_file()) : toml_from_test(test());
 }
 
@@ -269,14 +299,19 @@ std::string SeriesFolder::rename_specimen(const std::string& name, const std::st
   if (!found.specimen) throw ApiError(409, "unreadable", found.trouble);
   Specimen renamed = *found.specimen;
   renamed.id = id;
-  const std::string toml = toml_from_specimen(renamed);
+  const std::string toml = with_id(read_file(specimen_file(name)), renamed);
   require_id(specimen_from_toml(toml, "specimen", Plausible::kMeasured), toml, "specimen");
-  const std::string number =
-      name.substr(0, std::min(name.find_first_not_of("0123456789"), name.size()));
-  std::string other = number.empty() ? file_name_from(id) : number + "_" + file_name_from(id);
+  const long long number = number_of_name(name);
+  std::string other =
+      number > 0 ? fmt::format("{:02}_{}", number, file_name_from(id)) : file_name_from(id);
+  if (!is_specimen_file(other + kSpecimenEnding)) other = "specimen-" + other;
   if (other == name) {
     write_file(specimen_file(name), toml, true);
     return name;
+  }
+  for (const fs::path& taken : {specimen_file(other), folder_ / (other + kTruthTomlEnding)}) {
+    if (!fs::exists(fs::symlink_status(taken))) continue;
+    throw ApiError(409, "name-taken", taken.filename().string() + " exists; choose another name");
   }
   write_file(specimen_file(other), toml, false);
   if (const auto truth = truth_file(name)) fs::rename(*truth, folder_ / (other + kTruthTomlEnding));
@@ -302,9 +337,17 @@ std::string SeriesFolder::trash_capture(const std::string& file) const {
     }
   }
   const fs::path trash = folder_ / "trash";
+  const fs::file_status is_there = fs::symlink_status(trash);
+  if (fs::exists(is_there) && !fs::is_directory(is_there)) {
+    throw ApiError(409, "no-folder",
+                   "'trash' in " + folder_.string() + " is no folder; rename it first");
+  }
   fs::create_directory(trash);
+  const auto is_taken = [](const fs::path& one) {
+    return fs::exists(fs::symlink_status(one)) || fs::exists(fs::symlink_status(note_file(one)));
+  };
   fs::path to = trash / file;
-  for (int n = 2; fs::exists(fs::symlink_status(to)); ++n) {
+  for (int n = 2; is_taken(to); ++n) {
     to = trash / (fs::path(file).stem().string() + "." + std::to_string(n) + kCaptureEnding);
   }
   // The capture last: without it the others mean nothing.

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -55,6 +56,17 @@ Json fields_of(const Specimen& specimen) {
           {"punch_diameter_m", 2.0 * specimen.contact.punch_radius_m},
           {"layer_thickness_m", specimen.contact.layer_thickness_m},
           {"poisson_ratio", specimen.contact.poisson_ratio}};
+}
+
+// A name that a person has typed, on one line.
+std::string name_at(const Json& object) {
+  constexpr std::size_t kLongest = 200;
+  std::string name = text_at(object, "id");
+  const bool has_control = std::any_of(name.begin(), name.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  });
+  if (!has_control && name.size() <= kLongest) return name;
+  throw ApiError(400, "bad-value", "'id' must be a name of one line, at most 200 characters");
 }
 
 bool take_number(Specimen& specimen, const std::string& key, double value) {
@@ -174,7 +186,7 @@ void refuse_unseen_test(const Json& shown, const TestPlan& plan) {
 Specimen specimen_from(const Json& object) {
   Specimen specimen;
   take_each(object, "the specimen", [&](const std::string& key) {
-    if (key == "id") return specimen.id = text_at(object, "id"), true;
+    if (key == "id") return specimen.id = name_at(object), true;
     if (key == "material") return specimen.material = text_at(object, "material"), true;
     if (take_number(specimen, key, 0.0)) return take_number(specimen, key, number_at(object, key));
     return false;

@@ -181,50 +181,46 @@ bool is_decimal_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// "1,498" or "-1,498,996.2": one to three digits, then groups of three behind commas.
-bool has_groups_of_three(std::string_view cell) {
+// "1,498" or "-1,498,996.2": one to three digits, then groups of three behind the sign.
+bool has_groups_of_three(std::string_view cell, char sign = ',', std::size_t fewest = 1) {
   if (!cell.empty() && (cell.front() == '-' || cell.front() == '+')) cell.remove_prefix(1);
   std::size_t n = 0;
   while (n < cell.size() && is_decimal_digit(cell[n])) ++n;
   if (n < 1 || n > 3 || cell[0] == '0') return false;
   cell.remove_prefix(n);
   std::size_t n_groups = 0;
-  while (cell.size() >= 4 && cell[0] == ',' &&
+  while (cell.size() >= 4 && cell[0] == sign &&
          std::all_of(cell.begin() + 1, cell.begin() + 4, is_decimal_digit)) {
     cell.remove_prefix(4);
     ++n_groups;
   }
-  return n_groups > 0 && (cell.empty() || !(is_decimal_digit(cell[0]) || cell[0] == ','));
+  return n_groups >= fewest && (cell.empty() || !(is_decimal_digit(cell[0]) || cell[0] == sign));
 }
 
 // Signs between groups of three digits that are no decimal sign anywhere: apostrophes, and blanks.
 constexpr std::string_view kGroupSigns[] = {"'",        "\xE2\x80\x99", " ",
                                             "\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89"};
 
-// "1'498'996.2" without its apostrophes. Nothing for a cell without such groups.
+// "1'498'996.2" without its apostrophes. Nothing for a cell without such groups, or with signs elsewhere.
 std::optional<std::string> without_group_signs(std::string_view cell) {
   for (const std::string_view sign : kGroupSigns) {
-    const std::size_t first = cell.find(sign);
-    if (first == std::string_view::npos) continue;
-    std::string commas;
-    for (std::size_t at = 0; at < cell.size();) {
-      const bool is_sign = cell.substr(at, sign.size()) == sign;
-      commas += is_sign ? ',' : cell[at];
-      at += is_sign ? sign.size() : 1;
-    }
-    // A comma behind the groups is a decimal one, which has_groups_of_three() ends at.
-    const std::size_t decimal = cell.find(',');
-    if (decimal != std::string_view::npos && decimal < first) return std::nullopt;
-    if (!has_groups_of_three(commas.substr(
-            0, decimal == std::string_view::npos ? commas.size() : commas.rfind(','))))
-      return std::nullopt;
+    if (cell.find(sign) == std::string_view::npos) continue;
     std::string plain;
-    const std::size_t keep =
-        decimal == std::string_view::npos ? std::string::npos : commas.rfind(',');
-    for (std::size_t i = 0; i < commas.size(); ++i) {
-      if (commas[i] != ',' || i == keep) plain += commas[i];
+    std::size_t n_digits = 0, at = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
+    plain = cell.substr(0, at);
+    bool is_first = true;
+    while (at < cell.size() && is_decimal_digit(cell[at])) {
+      for (n_digits = 0; at < cell.size() && is_decimal_digit(cell[at]); ++n_digits)
+        plain += cell[at++];
+      if (is_first ? n_digits > 3 : n_digits != 3) return std::nullopt;
+      is_first = false;
+      if (cell.substr(at, sign.size()) != sign) break;
+      at += sign.size();
+      n_digits = 0;
     }
-    return plain;
+    // A sign at the end of the groups, or behind them, is none between thousands.
+    if (n_digits == 0 || cell.find(sign, at) != std::string_view::npos) return std::nullopt;
+    return plain + std::string(cell.substr(at));
   }
   return std::nullopt;
 }
@@ -240,12 +236,16 @@ std::optional<double> number_from_cell(std::string_view cell, const Dialect& dia
     cell = {changed.data(), cell.size()};
     return true;
   };
+  const auto remove_all = [&](char sign) {
+    const auto* end = std::remove(changed.begin(), changed.begin() + cell.size(), sign);
+    cell = {changed.data(), static_cast<std::size_t>(end - changed.data())};
+  };
   if (dialect.has_decimal_comma) {
+    if (dialect.has_thousands_point && has_groups_of_three(cell, '.') && change()) remove_all('.');
     if (cell.find('.') != std::string_view::npos || !change()) return std::nullopt;
     std::replace(changed.begin(), changed.end(), ',', '.');
   } else if (dialect.has_thousands_comma && has_groups_of_three(cell) && change()) {
-    const auto* end = std::remove(changed.begin(), changed.begin() + cell.size(), ',');
-    cell = {changed.data(), static_cast<std::size_t>(end - changed.data())};
+    remove_all(',');
   }
   if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
   double value = 0.0;
@@ -281,17 +281,27 @@ bool is_gap(std::string_view cell) {
 }
 
 Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& name) {
-  Dialect dialect{detect_separator(sample), false, false};
+  Dialect dialect{detect_separator(sample)};
   const TextLine* with_comma = nullptr;
   const TextLine* with_point = nullptr;
   const TextLine* grouped = nullptr;
   std::string example;
-  bool is_certain = false;  // that a comma stands between thousands: "1,498,996" or "1,498.2"
+  bool is_certain = false;       // that a comma stands between thousands: "1,498,996" or "1,498.2"
+  bool has_plain_point = false;  // "0.5", which no sign between thousands has
+  // By column: a number such as "1,038", and one such as "990". Together they are hardly 1.038 and 990.
+  std::vector<std::array<bool, 2>> found;
   std::vector<std::string_view> cells;
   for (const TextLine& line : sample) {
     split_cells(line, dialect.separator, cells);
     bool has_group = false, has_point_number = false;  // in this line
-    for (const std::string_view cell : cells) {
+    if (found.size() < cells.size()) found.resize(cells.size(), {false, false});
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::string_view cell = cells[i];
+      found[i][0] = found[i][0] || has_groups_of_three(cell);
+      found[i][1] = found[i][1] || (cell.size() == 3 && cell[0] != '0' &&
+                                    std::all_of(cell.begin(), cell.end(), is_decimal_digit));
+      // Two points in one number are between thousands, so the others are, too.
+      if (has_groups_of_three(cell, '.', 2)) dialect.has_thousands_point = true;
       const bool has_comma = cell.find(',') != std::string_view::npos;
       const bool has_point = cell.find('.') != std::string_view::npos;
       if (has_comma && has_groups_of_three(cell)) {
@@ -307,6 +317,7 @@ Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& n
       if (has_point && number_from_cell(cell, {dialect.separator, false, true})) {
         with_point = &line;
         has_point_number = true;
+        has_plain_point = has_plain_point || !has_groups_of_three(cell, '.');
       }
     }
     // A point in the same row; one in a note above would say nothing of the rows.
@@ -314,15 +325,23 @@ Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& n
   }
   const bool has_thousands = grouped != nullptr && with_comma == nullptr && is_certain;
   if (grouped != nullptr && !has_thousands) {
-    // Where commas separate the cells, nothing else than the quotes says what the comma in "1,498" is.
-    if (with_comma == nullptr && with_point == nullptr && dialect.separator == ',') {
+    // Where commas separate the cells, nothing else than the quotes shows what the comma in "1,498" is.
+    const bool is_mixed =
+        std::any_of(found.begin(), found.end(), [](const auto& one) { return one[0] && one[1]; });
+    if (with_comma == nullptr && with_point == nullptr && (dialect.separator == ',' || is_mixed)) {
       throw std::runtime_error(
           name + ": line " + std::to_string(grouped->number) + " has '" + example +
           "', which may be " +
-          "a number with thousands or with a decimal comma; write it without the comma, "
-          "or separate the cells by semicolons");
+          "a number with thousands or with a decimal comma; write it without the comma" +
+          (is_mixed ? ", or with as many decimals in all rows"
+                    : ", or separate the cells by semicolons"));
     }
     if (with_comma == nullptr) with_comma = grouped;
+  }
+  dialect.has_thousands_point = dialect.has_thousands_point && !has_plain_point;
+  if (dialect.has_thousands_point) {
+    dialect.has_decimal_comma = true;
+    return dialect;
   }
   if (dialect.separator == ',' && with_point != nullptr) with_comma = nullptr;  // a quoted note
   if (with_comma != nullptr && with_point != nullptr) {

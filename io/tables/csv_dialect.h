@@ -40,6 +40,7 @@ struct Dialect {
   char separator = ',';  // ' ' stands for any run of blanks
   bool has_decimal_comma = false;
   bool has_thousands_comma = false;  // "1,498,996.2", in quotes where commas separate the cells
+  bool has_thousands_point = false;  // "1.498.996,2", beside decimal commas
 };
 
 // Returns the cells of a line, trimmed and without the quotes around them. Throws

@@ -292,6 +292,9 @@ StageOrder order_from(const RigWords& words) {
     throw UsageError("rig jog needs --toward or --away, such as --away \"0.5 mm\"");
   }
   const double way_m = words.toward_m.value_or(words.away_m.value_or(kLift_m));
+  if (!(way_m > 0.0)) {
+    throw UsageError(fmt::format("the way is {} mm; it must be above 0", way_m * 1e3));
+  }
   order.toward_m = words.toward_m ? way_m : -way_m;
   return order;
 }

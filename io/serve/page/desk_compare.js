@@ -36,7 +36,13 @@ export function showCompareTables(names) {
     ratios[name] ??= ratioIn(name);
     const ratio = make("input", { "aria-label": `Mixing ratio of ${name}`, placeholder: "ratio", title: "parts of base to one of curing agent",
                                   inputmode: "decimal", autocomplete: "off", size: "4", value: ratios[name] });
-    ratio.addEventListener("input", () => { ratios[name] = ratio.value.trim().replace(",", "."); showButtons(); });
+    ratio.addEventListener("input", () => {
+      ratios[name] = ratio.value.trim().replace(",", ".").replace(/\s*:\s*1$/, "");  // 13:1 is 13
+      const isWrong = ratios[name] !== "" && !(Number(ratios[name]) > 0);
+      ratio.setAttribute("aria-invalid", String(isWrong));
+      tell(isWrong ? `${name}: "${ratio.value}" is no mixing ratio; it is left out of a fit by ratio.` : "");
+      showButtons();
+    });
     return make("div", { class: "specimen" }, make("label", { class: "switch" }, box, name), ratio);
   }));
 }

@@ -31,11 +31,14 @@ function tell(text, kind) {
   showText(element("jog-status"), text);
 }
 
-function showEnd({ moved, trouble }) {
-  if (trouble) return tell(sentence(trouble), "alert");
-  position_m = moved.to_m;
-  element("jog-force").textContent = `${fixed(moved.force_after_N, 3)} N`;
+function showEnd({ moved, trouble, position_m: now_m }) {
+  position_m = now_m;
   showPosition();
+  if (trouble) {
+    element("jog-force").textContent = "–";
+    return tell(sentence(trouble), "alert");
+  }
+  element("jog-force").textContent = `${fixed(moved.force_after_N, 3)} N`;
   const way = `${significant(Math.abs(moved.to_m - moved.from_m) * 1e6, 4)} µm`;
   if (moved.is_stopped_by_force) tell(`The force stopped the stage after ${way}.`, "note");
   else tell(moved.to_m === moved.from_m ? "The stage stands." : `Moved by ${way}.`, "good");
@@ -54,7 +57,7 @@ async function move(how, way_mm) {
     while (now.is_moving) {
       await new Promise((done) => setTimeout(done, kWatch_ms));
       now = await ask("/api/move");
-      element("jog-force").textContent = `${fixed(now.force_N, 3)} N more than before`;
+      element("jog-force").textContent = `${now.force_N < 0 ? "" : "+"}${fixed(now.force_N, 3)} N since the move began`;
     }
     showEnd(now);
   } catch (error) {

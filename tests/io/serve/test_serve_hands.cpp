@@ -51,12 +51,15 @@ TEST_CASE("the page moves the stage by hand, and its force limit holds", "[serve
   const Json toward = watched(rig);
   INFO(toward.dump());
   CHECK(toward.at("moved").at("is_stopped_by_force") == true);
-  for (const Json& wrong : {Json{{"how", "up"}}, Json{{"how", "away"}, {"way_m", 1e-3}}}) {
+  for (const Json& wrong : {Json{{"how", "up"}}, Json{{"how", "away"}, {"way_m", 1e-3}},
+                            Json{{"how", "away"}, {"way_m", -1e-3}, {"limit_N", 0.1}},
+                            Json{{"how", "toward"}, {"way_m", -1e-3}, {"limit_N", 0.1}},
+                            Json{{"how", "away"}, {"way_m", 0.0}, {"limit_N", 0.1}}}) {
+    CAPTURE(wrong.dump());
     CHECK(rig.order("/api/move", wrong).status == 400);
   }
   for (const Json& wrong : {Json{{"how", "away"}, {"way_m", 1.0}, {"limit_N", 0.1}},
-                            Json{{"how", "away"}, {"way_m", 1e-3}, {"limit_N", 100.0}},
-                            Json{{"how", "away"}, {"way_m", 0.0}, {"limit_N", 0.1}}}) {
+                            Json{{"how", "away"}, {"way_m", 1e-3}, {"limit_N", 100.0}}}) {
     CAPTURE(wrong.dump());
     CHECK(rig.order("/api/move", wrong).status == 422);
   }
@@ -81,6 +84,9 @@ TEST_CASE("a move by hand ends when it is stopped, and when nobody watches it", 
   const Json move = watched(rig);
   INFO(move.dump());
   CHECK(move.at("moved").is_null());
+  CHECK(move.at("position_m").get<double>() < -0.2e-3);  // where it was stopped
+  CHECK(contains(move.at("trouble"), "the move was stopped"));
+  CHECK_FALSE(contains(move.at("trouble"), "recorded"));
   CHECK(contains(move.at("trouble"), "half a second") == !is_watched);
   CHECK(rig.ask("/api/state").json.at("job") == "");
 }
@@ -114,6 +120,10 @@ TEST_CASE("weights on the load cell make a record on the page", "[serve][pty]") 
   CHECK(contains(message_of(rig.order("/api/calibrate", {{"points", points}})),
                  "do not lie on a line"));
   CHECK(rig.order("/api/calibrate", {{"points", {{{"mass_kg", 0.1}}}}}).status == 400);
+  for (const double wrong : {-1.0, 1e300}) {
+    points[3]["reading_se"] = wrong;
+    CHECK(rig.order("/api/calibrate", {{"points", points}}).status == 400);
+  }
 }
 
 TEST_CASE("a rig file is made to name its calibration, and its old numbers stay as comments",
@@ -193,6 +203,11 @@ TEST_CASE("a run has a note, and is taken away unless a material was made of it"
   CHECK(captures().at(1).at("file") == third);
   CHECK(run(true) == attempt_path(first, 4));
   CHECK(rig.order("/api/captures/remove", {{"capture", "none.viscap"}}).status == 404);
+  // A note of the same name in the trash is not written over.
+  std::filesystem::rename(rig.folder() / "trash" / second, rig.folder() / second);
+  REQUIRE(rig.order("/api/captures/note", {{"capture", second}, {"note", "dry"}}).status == 200);
+  CHECK(rig.order("/api/captures/remove", {{"capture", second}}).json.at("file") != second);
+  CHECK(read_file(rig.folder() / "trash" / (second + ".note.txt")) == "wet <b>");
 }
 
 TEST_CASE("a specimen is renamed while nothing was captured of it", "[serve][pty]") {
@@ -206,6 +221,19 @@ TEST_CASE("a specimen is renamed while nothing was captured of it", "[serve][pty
   CHECK(read_specimen(rig.folder() / "01_pdms-1-13.toml").id == "PDMS 1:13");
   CHECK_FALSE(std::filesystem::exists(rig.folder() / (name + ".toml")));
   CHECK(rig.order("/api/specimens/rename", {{"name", "01_pdms-1-13"}, {"id", ""}}).status != 200);
+  CHECK(rig.order("/api/specimens/rename", {{"name", "01_pdms-1-13"}, {"id", "a\nb"}}).status ==
+        400);
+  // A name without a number does not become the test or the rig, and comments stay.
+  const auto own = rig.folder() / "mine.toml";
+  write_file(own, "# glued twice\n" + read_file(rig.folder() / "01_pdms-1-13.toml"), false);
+  const Json as_test = rig.order("/api/specimens/rename", {{"name", "mine"}, {"id", "Test"}}).json;
+  CHECK(as_test.at("name") == "specimen-test");
+  CHECK(contains(read_file(rig.folder() / "specimen-test.toml"), "# glued twice"));
+  CHECK(rig.order("/api/specimens/rename", {{"name", "specimen-test"}, {"id", "Rig"}})
+            .json.at("name") == "specimen-rig");
+  write_file(rig.folder() / "01_z.truth.toml", "x = 1\n", false);
+  CHECK(rig.order("/api/specimens/rename", {{"name", "01_pdms-1-13"}, {"id", "z"}}).status == 409);
+  CHECK(read_file(rig.folder() / "01_z.truth.toml") == "x = 1\n");
   CHECK(rig.order("/api/specimens/rename", {{"name", "../x"}, {"id", "y"}}).status == 404);
   REQUIRE(rig.order("/api/run", {{"specimen", "01_pdms-1-13"}}).status == 200);
   rig.wait_for_run([](const Json& now) { return now.at("is_running") == false; });

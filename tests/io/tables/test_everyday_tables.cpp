@@ -359,6 +359,15 @@ TEST_CASE("numbers with thousands, quoted decimal commas and Fortran's exponents
     CHECK(column_SI(read("t;E\n0;" + grouped + ",5\n1;998,0\n"), "modulus_Pa") == expected);
     CHECK_THROWS(column_SI(read("t;E\n0;998\n1;1" + sign + "49\n2;997\n"), "modulus_Pa"));
   }
+  // Points between thousands, which two of them in one number prove, beside decimal commas.
+  CHECK(column_SI(read("t;E\n0;1.498.996,5\n1;998,0\n"), "modulus_Pa") == expected);
+  CHECK(column_SI(read("t;E\n1;1.165.741\n9;1.000.127\n15;920.327\n"), "modulus_Pa") ==
+        Numbers{1165741.0, 1000127.0, 920327.0});
+  CHECK(column_SI(read("Version;1.234.567\nt;E\n0.5;998.5\n1.5;997.5\n"), "modulus_Pa") ==
+        Numbers{998.5, 997.5});
+  // Thousands that come and go, or decimals that do: refused.
+  CHECK(contains(error_text([] { read("t;E\n1;1,038\n2;1,021\n3;990\n"); }),
+                 "with as many decimals"));
   CHECK(column_SI(read("t E\n0 1.4989965D+06\n1 9.98d2\n"), "modulus_Pa") == expected);
   CHECK(column_SI(read("t,E\n\"0,1\",\"1,25\"\n\"1,2\",\"1,5\"\n"), "modulus_Pa") ==
         Numbers{1.25, 1.5});
