@@ -139,6 +139,8 @@ TEST_CASE("a number that cannot be read is refused with option, value and what i
       {{"simulate", scene, "--samples=-2"}, "--samples cannot be '-2'; expected a whole number"},
       {{"demo", "--speed", "x"}, "--speed cannot be 'x'; expected a number"},
       {{"demo", "--speed", "0"}, "--speed is 0; it must be above 0 and at most 500"},
+      {{"rig", "lift", "--emulate", "--away=-3mm"}, "the way is -3 mm; it must be above 0"},
+      {{"rig", "jog", "--emulate", "--toward=-1mm"}, "the way is -1 mm; it must be above 0"},
       {{"fit", "a.viscap", "--want", "g_2=abc"},
        "--want is 'g_2=abc'; after the equals sign expected a share, such as 5%"},
       {{"fit", "a.csv", "--time-zero", "q"}, "--time-zero: 'q' does not begin with a number"}};
