@@ -78,11 +78,14 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     moved.force_after_N = moved.force_before_N + session.mean_force(kRest_s).force_N;
     moved.to_m = stage.position_m();
   } catch (const RigError& error) {
-    if (!session.is_stage_connected() || !session.has_moved()) throw;
+    const bool is_asked_for = dynamic_cast<const RunInterrupted*>(&error) != nullptr;
+    if (!session.is_stage_connected() || !session.has_moved()) {
+      if (is_asked_for) throw RigError("the move was stopped before it began");
+      throw;
+    }
     const double back_m =
         order.is_home ? stage.position_m() : std::min(moved.from_m, stage.position_m());
     const SafeEnd end = session.make_safe(back_m, order.speed_m_s);
-    const bool is_asked_for = dynamic_cast<const RunInterrupted*>(&error) != nullptr;
     throw StageStands((is_asked_for ? "the move was stopped" : std::string(error.what())) +
                           ". The stage was stopped at " + in_mm(stage.position_m()) +
                           (end.trouble.empty() ? "" : "; " + end.trouble),
