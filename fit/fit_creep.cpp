@@ -162,28 +162,36 @@ FitResult fit_stress_history(const CreepData& data, const FitOptions& options) {
     const auto values = clean.column(column);
     return std::vector<double>(values.begin(), values.end());
   };
+  if (!data.is_zero_known && begins_under_load(clean.column(2))) check_clock(clean, record.notes);
   HistoryInput input;
-  input.is_creep = true;
-  input.time_s = copy_of(0);
-  input.output = copy_of(1);
-  input.input = copy_of(2);
-  while (input.contact + 1 < input.input.size() && input.input[input.contact + 1] == 0.0) {
-    ++input.contact;
-  }
-  if (input.contact + 1 == input.input.size() && input.input.front() == 0.0) {
-    throw std::runtime_error(
-        "the stress is zero in every row: no stress was applied, or the column is not the stress");
-  }
-  input.step_s = step_before(input.time_s, input.input);
-  input.has_moved = moved_rows(input.input);
-  FitResult result = fit_solid_or_liquid(
-      options, [&](const FitOptions& as) { return fit_stress_history_as(input, as); });
-  flag_step_before(input.step_s, input.time_s.front(), result);
+  const auto fit_rows = [&] {
+    input = HistoryInput{};
+    input.is_creep = true;
+    input.time_s = copy_of(0);
+    input.output = copy_of(1);
+    input.input = copy_of(2);
+    while (input.contact + 1 < input.input.size() && input.input[input.contact + 1] == 0.0) {
+      ++input.contact;
+    }
+    if (input.contact + 1 == input.input.size() && input.input.front() == 0.0) {
+      throw std::runtime_error(
+          "the stress is zero in every row: no stress was applied, or the column is not the "
+          "stress");
+    }
+    input.step_s = step_before(input.time_s, input.input);
+    input.has_moved = moved_rows(input.input);
+    FitResult found = fit_solid_or_liquid(
+        options, [&](const FitOptions& as) { return fit_stress_history_as(input, as); });
+    flag_step_before(input.step_s, input.time_s.front(), found);
+    return found;
+  };
+  FitResult result = fit_from_begin(record, fit_rows);
   add_left_out(result, left_out::kNotANumber, clean.n_left_out());
   add_record_notes(record.notes, result);
   add_spikes(result, spikes.size());
   if (rounding) report_time_rounding(*rounding, result);
-  if (const double jump_s = longest_jump_s(input); jump_s > 0.0) report_jump("stress", jump_s, result);
+  if (const double jump_s = longest_jump_s(input); jump_s > 0.0)
+    report_jump("stress", jump_s, result);
   return result;
 }
 

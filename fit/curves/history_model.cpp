@@ -116,16 +116,20 @@ double loading_s(const HistoryInput& input) {
   return fastest > 0.0 ? std::min(whole_s, rise / fastest) : whole_s;
 }
 
+bool begins_under_load(std::span<const double> input) {
+  constexpr double kLoaded = 0.5;
+  double largest = 0.0;
+  for (const double one : input) largest = std::max(largest, std::abs(one));
+  return !input.empty() && std::abs(input.front()) >= kLoaded * largest && largest > 0.0;
+}
+
 std::optional<double> step_before(const std::vector<double>& time_s,
                                   const std::vector<double>& input) {
   constexpr double kShare = 0.1;
   if (time_s.size() < 2 || input.front() == 0.0 || !(time_s.front() > 0.0)) return std::nullopt;
   if (time_s.front() > kShare * (time_s.back() - time_s.front())) return std::nullopt;
-  // A ramp that the record shows from its first sample on is not a step.
-  double largest = 0.0;
-  for (const double one : input) largest = std::max(largest, std::abs(one));
-  constexpr double kLoaded = 0.5;
-  if (std::abs(input.front()) < kLoaded * largest) return std::nullopt;
+  if (!begins_under_load(input))
+    return std::nullopt;  // a ramp that it shows from the first sample on
   return 0.0;
 }
 

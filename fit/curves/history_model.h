@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace viscard {
@@ -51,6 +52,9 @@ std::size_t end_of_loading(const std::vector<double>& input);
 // Time for which the load rises: up to the end of loading, without the holds between several ramps.
 // 0 for a step.
 double loading_s(const HistoryInput& input);
+
+// True for a record that does not show when its load came: at its first sample half of the largest is there.
+bool begins_under_load(std::span<const double> input);
 
 // Time of the step that a record beginning under load missed: t = 0, if that is before the first
 // sample by at most a tenth of the record. None for other records.
