@@ -125,9 +125,8 @@ bool begins_under_load(std::span<const double> input) {
 
 std::optional<double> step_before(const std::vector<double>& time_s,
                                   const std::vector<double>& input) {
-  constexpr double kShare = 0.1;
   if (time_s.size() < 2 || input.front() == 0.0 || !(time_s.front() > 0.0)) return std::nullopt;
-  if (time_s.front() > kShare * (time_s.back() - time_s.front())) return std::nullopt;
+  if (time_s.front() > kLatestStep * (time_s.back() - time_s.front())) return std::nullopt;
   if (!begins_under_load(input))
     return std::nullopt;  // a ramp that it shows from the first sample on
   return 0.0;

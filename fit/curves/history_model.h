@@ -56,6 +56,8 @@ double loading_s(const HistoryInput& input);
 // True for a record that does not show when its load came: at its first sample half of the largest is there.
 bool begins_under_load(std::span<const double> input);
 
+inline constexpr double kLatestStep = 0.1;  // of the length of the record, for step_before()
+
 // Time of the step that a record beginning under load missed: t = 0, if that is before the first
 // sample by at most a tenth of the record. None for other records.
 std::optional<double> step_before(const std::vector<double>& time_s,

@@ -60,8 +60,9 @@ struct CheckedRecord {
 std::vector<std::size_t> wrong_stamps(const std::vector<std::span<const double>>& columns,
                                       RecordKind kind, RecordNotes& notes);
 void check_values(RecordKind kind, CleanViews& clean, RecordNotes& notes);
-// Where t = 0 is; for records of a step.
-void check_clock(CleanViews& clean, RecordNotes& notes);
+// Where t = 0 is; for records that begin under load. A record that begins later than this share of its length counts
+// from its first row.
+void check_clock(CleanViews& clean, RecordNotes& notes, double latest_share = 1.0);
 
 // t = 0 half a step before the first row of a record that begins late.
 void count_from_first(CleanViews& clean, RecordNotes& notes);

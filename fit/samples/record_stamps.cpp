@@ -314,7 +314,7 @@ std::vector<std::size_t> wrong_stamps(const std::vector<std::span<const double>>
   return wrong;
 }
 
-void check_clock(CleanViews& clean, RecordNotes& notes) {
+void check_clock(CleanViews& clean, RecordNotes& notes, double latest_share) {
   // Seconds of a computer's clock (since 1970, 1904 or its start), or any time so long before the
   // record that relaxation since then would not show in it.
   constexpr double kEpoch_s = 1e8, kTimesLength = 1000.0, kLonger = 10.0, kManySteps = 5.0;
@@ -343,7 +343,7 @@ void check_clock(CleanViews& clean, RecordNotes& notes) {
   if (is_log_sampled(time_s) && !is_log_from_later(time_s)) return;
   notes.late_s = first_s;
   notes.late_step_s = step_s;
-  if (first_s >= length_s) count_from_first(clean, notes);
+  if (first_s >= latest_share * length_s) count_from_first(clean, notes);
 }
 
 void count_from_first(CleanViews& clean, RecordNotes& notes) {
