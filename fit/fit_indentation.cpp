@@ -14,6 +14,7 @@
 #include "fit/intervals/positive_intervals.h"
 #include "fit/intervals/time_rounding.h"
 #include "fit/laws/law_fit.h"
+#include "fit/samples/check_record.h"
 #include "fit/samples/chosen_rows.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
@@ -201,16 +202,47 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   return result;
 }
 
-// A table whose export may have rounded the times.
+// The first row in time has the punch in the specimen already, and its time is not 0.
+bool begins_late_under_load(const IndentationData& data) {
+  std::size_t first = data.time_s.size();
+  for (std::size_t i = 0; i < data.time_s.size() && i < data.depth_m.size(); ++i) {
+    if (!std::isfinite(data.time_s[i]) || !std::isfinite(data.depth_m[i])) continue;
+    if (first == data.time_s.size() || data.time_s[i] < data.time_s[first]) first = i;
+  }
+  if (data.is_zero_known || first == data.time_s.size() || !(data.time_s[first] > 0.0))
+    return false;
+  std::vector<double> from_first{data.depth_m[first]};
+  for (const double depth_m : data.depth_m) {
+    if (std::isfinite(depth_m)) from_first.push_back(depth_m);
+  }
+  return begins_under_load(from_first);
+}
+
+// A table, the times of which its export may have rounded, and may count from long before the load.
 FitResult fit_depth_table(const IndentationData& data, const FitOptions& options) {
   const std::optional<TimeRounding> rounding = time_rounding(data.time_s, data.n_missing);
-  const auto fit_with = [&](const std::vector<double>& time_s) {
-    if (time_s.empty()) return fit_measured_depth(data, options);
-    IndentationData spread = data;
-    spread.time_s = time_s;
-    return fit_measured_depth(spread, options);
-  };
-  FitResult result = fit_with(rounding ? rounding->time_s : std::vector<double>{});
+  IndentationData table = data;
+  if (rounding && !rounding->time_s.empty()) table.time_s = rounding->time_s;
+  FitResult result;
+  if (begins_late_under_load(table)) {
+    CheckedRecord record({table.time_s, table.force_N, table.depth_m}, kLeastContactRows,
+                         RecordKind::kHistory);
+    check_clock(record.clean, record.notes, kLatestStep);
+    result = fit_from_begin(record, [&] {
+      const auto column = [&](std::size_t i) {
+        const auto values = record.clean.column(i);
+        return std::vector<double>(values.begin(), values.end());
+      };
+      table.time_s = column(0);
+      table.force_N = column(1);
+      table.depth_m = column(2);
+      return fit_measured_depth(table, options);
+    });
+    add_left_out(result, left_out::kNotANumber, record.clean.n_left_out());
+    add_record_notes(record.notes, result);
+  } else {
+    result = fit_measured_depth(table, options);
+  }
   if (rounding) report_time_rounding(*rounding, result);
   return result;
 }

@@ -38,6 +38,7 @@ struct IndentationData {
   std::vector<double> time_s;
   std::vector<double> force_N;  // positive in compression; its zero is fitted
   std::vector<double> depth_m;  // into the specimen; negative before contact
+  bool is_zero_known = false;   // as in RelaxationData; of a table that begins under load
 
   // From a capture: moves on the time base of time_s. Each starts within [start_time_s -
   // start_early_s, start_time_s + start_late_s]. The ramp comes first, then the moves in contact.

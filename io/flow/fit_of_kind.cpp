@@ -160,6 +160,7 @@ FitResult fit_indentation_table(const CsvTable& table, const FitRequest& request
         "add --specimen FILE, or --punch-diameter (and --layer-thickness)");
   }
   IndentationData data;
+  data.is_zero_known = request.time_zero_s.has_value();
   data.time_s = time_of(table, request);
   data.force_N = column_SI(table, "force_N", request.columns);
   data.depth_m = column_SI(table, "depth_m", request.columns);

@@ -163,6 +163,28 @@ TEST_CASE("a record that begins late without its loading gives the modulus there
              Contains("cropped") && Contains("--time-zero"));
 }
 
+TEST_CASE("a table of force and depth that begins late under load gives the modulus there",
+          "[fit]") {
+  const double late_s = GENERATE(5.0, 50.0, 500.0);
+  CAPTURE(late_s);
+  const RelaxationData rows = record(17);
+  IndentationData data;
+  for (std::size_t i = 0; i < rows.time_s.size(); ++i) {
+    data.time_s.push_back(rows.time_s[i] + late_s);
+    data.force_N.push_back(1e-4 * rows.value[i]);  // without a contact: a stiffness
+    data.depth_m.push_back(1e-4);
+  }
+  const FitResult late = fit_indentation(data);
+  CHECK_FALSE(late.is_trustworthy);
+  REQUIRE(late.first);
+  CHECK(late.first->modulus_Pa == Approx(relaxation_modulus_Pa(two_terms(), 0.1)).epsilon(0.01));
+  CHECK_THAT(text_of_flag(late, "time-zero-doubtful"), Contains("--time-zero"));
+  data.time_s = rows.time_s;
+  const FitResult known = fit_indentation(data);
+  CHECK(known.is_trustworthy);
+  CHECK(holds(known.E0_interval_95, kE0_Pa));
+}
+
 TEST_CASE("a record of logarithmic times, or a flat one, may begin late", "[fit]") {
   RelaxationData data;
   const bool is_flat = GENERATE(false, true);
