@@ -142,6 +142,12 @@ class MpiRun {
   pid_t pid_ = 0;
 };
 
+// The object of --json. Both streams are in one file, with a line about the points outside the model.
+nlohmann::json object_in(const std::string& printed) {
+  const std::size_t begin = printed.find('{');
+  return nlohmann::json::parse(printed.substr(begin, printed.rfind('}') + 1 - begin));
+}
+
 }  // namespace
 
 TEST_CASE("two ranks give the same rows as one process, bit for bit", "[cli][sweep][mpi]") {
@@ -151,11 +157,9 @@ TEST_CASE("two ranks give the same rows as one process, bit for bit", "[cli][swe
   CAPTURE(run.printed());
   CHECK(status == 0);
   CHECK(study.rows(study.store) == study.whole());
-  // Both streams are in one file: the object, and a line about the points outside the model.
   const std::string printed = run.printed();
   CHECK(printed.find("10 of the 30 points answered now are refused") != std::string::npos);
-  const std::size_t begin = printed.find('{');
-  const auto object = nlohmann::json::parse(printed.substr(begin, printed.rfind('}') + 1 - begin));
+  const auto object = object_in(printed);
   CHECK(object["schema"] == "viscard-sweep/1");
   CHECK(object["answered"] == 30);
   CHECK(object["failed"] == 0);
@@ -174,7 +178,7 @@ TEST_CASE("a rank that is killed ends the job, and the next one goes on with the
   MpiRun second(study, 3, {}, {"--json"});
   CHECK(second.wait() == 0);
   CAPTURE(second.printed());
-  CHECK(nlohmann::json::parse(second.printed())["answered"] == 30 - n_done);
+  CHECK(object_in(second.printed())["answered"] == 30 - n_done);
   CHECK(study.rows(study.store) == study.whole());
 }
 
