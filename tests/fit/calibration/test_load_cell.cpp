@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 WeightReadings cell_readings(int n_series, double gain, double hysteresis, double bow,
                              double noise_V, unsigned seed) {
   std::mt19937 random(seed);
-  std::normal_distribution<double> normal(0.0, noise_V);
+  std::normal_distribution<double> normal;
   WeightReadings data;
   for (int series = 0; series < n_series; ++series) {
     for (int i = 0; i <= 8; ++i) {
@@ -25,7 +25,7 @@ WeightReadings cell_readings(int n_series, double gain, double hysteresis, doubl
       const double loop = (i <= 4 ? -0.5 : 0.5) * hysteresis;
       data.force_N.push_back(2.0 * share);
       data.reading.push_back(0.1 + 0.001 * series + gain * 2.0 * share + parabola * (bow + loop) +
-                             (noise_V > 0.0 ? normal(random) : 0.0));
+                             noise_V * normal(random));
     }
   }
   return data;
