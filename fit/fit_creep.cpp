@@ -191,7 +191,7 @@ FitResult fit_stress_history(const CreepData& data, const FitOptions& options) {
   add_record_notes(record.notes, result);
   add_spikes(result, spikes.size());
   if (rounding) report_time_rounding(*rounding, result);
-  if (const double jump_s = longest_jump_s(input); jump_s > 0.0)
+  if (const double jump_s = sharpest_jump_s(input); jump_s > 0.0)
     report_jump("stress", jump_s, result);
   return result;
 }

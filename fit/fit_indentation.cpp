@@ -197,7 +197,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
           return fit_contact_table(data, table, drift == TableDrift::kFitted, as);
         });
       });
-  if (const double jump_s = longest_jump_s(input); jump_s > 0.0)
+  if (const double jump_s = sharpest_jump_s(input); jump_s > 0.0)
     report_jump("depth", jump_s, result);
   return result;
 }

@@ -95,7 +95,7 @@ FitResult fit_strain_history(const CleanViews& clean, TableDrift drift, const Fi
   FitResult result = fit_solid_or_liquid(
       options, [&](const FitOptions& as) { return fit_history_once(input, as); });
   flag_step_before(input.step_s, input.time_s.front(), result);
-  if (const double jump_s = longest_jump_s(input); jump_s > 0.0)
+  if (const double jump_s = sharpest_jump_s(input); jump_s > 0.0)
     report_jump("strain", jump_s, result);
   return result;
 }

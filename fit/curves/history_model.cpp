@@ -132,19 +132,20 @@ std::optional<double> step_before(const std::vector<double>& time_s,
   return 0.0;
 }
 
-double longest_jump_s(const HistoryInput& input) {
-  constexpr double kJump = 0.05, kAlone = 0.2;
-  double largest = 0.0, longest_s = 0.0;
-  for (const double one : input.input) largest = std::max(largest, std::abs(one));
+double sharpest_jump_s(const HistoryInput& input) {
+  constexpr double kLarge = 0.5, kAlone = 0.2;
+  double largest = 0.0, shortest_s = 0.0;
   const auto change = [&](std::size_t i) {  // into row i
     return i > 0 && i < input.input.size() ? std::abs(input.input[i] - input.input[i - 1]) : 0.0;
   };
+  for (std::size_t i = 1; i < input.input.size(); ++i) largest = std::max(largest, change(i));
   for (std::size_t i = 1; i < input.input.size(); ++i) {
-    if (change(i) < kJump * largest) continue;
+    if (change(i) == 0.0 || change(i) < kLarge * largest) continue;
     if (std::max(change(i - 1), change(i + 1)) > kAlone * change(i)) continue;
-    longest_s = std::max(longest_s, input.time_s[i] - input.time_s[i - 1]);
+    const double jump_s = input.time_s[i] - input.time_s[i - 1];
+    if (shortest_s == 0.0 || jump_s < shortest_s) shortest_s = jump_s;
   }
-  return longest_s;
+  return shortest_s;
 }
 
 HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {

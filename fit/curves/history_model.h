@@ -63,9 +63,10 @@ inline constexpr double kLatestStep = 0.1;  // of the length of the record, for 
 std::optional<double> step_before(const std::vector<double>& time_s,
                                   const std::vector<double>& input);
 
-// The longest time between two rows in which the input changes at once: where in it, the table does not tell. A ramp
-// of several rows is known. 0: there is none.
-double longest_jump_s(const HistoryInput& input);
+// The shortest time between two rows in which the input changes at once, among its large changes: where in it, the
+// table does not show. The sharpest of them decides E0; an unloading between rows far apart does not. A ramp of
+// several rows is known. 0: there is none.
+double sharpest_jump_s(const HistoryInput& input);
 
 class HistoryModel final : public SpectralModel {
  public:

@@ -78,6 +78,7 @@ std::size_t missing_rows(const CsvTable& table) {
 FitResult fit_stress_history(const CsvTable& table, const FitRequest& request) {
   CreepData data{.time_s = time_of(table, request),
                  .compliance_1_Pa = column_SI(table, "strain", request.columns)};
+  data.is_zero_known = request.time_zero_s.has_value();
   data.stress_Pa = moduli_of(table, "stress_Pa", request);
   data.n_missing = missing_rows(table);
   return fit_creep(data, request.options);

@@ -225,6 +225,32 @@ TEST_CASE(
   CHECK(n_named == kRuns);
 }
 
+TEST_CASE("an unloading between rows far apart does not decide how sure E0 is", "[fit]") {
+  const PronySeries truth = quick_material();
+  std::mt19937_64 dice(3);
+  std::normal_distribution<double> normal;
+  RelaxationData data;
+  const auto add = [&](double t, double strain, double stress) {
+    data.time_s.push_back(t);
+    data.strain.push_back(strain);
+    data.value.push_back(stress + 1e-5 * normal(dice));
+  };
+  add(0.0, 0.0, 0.0);
+  add(1.0, 0.0, 0.0);
+  for (int i = 0; i <= 150; ++i) {  // loaded at 1 s, in logarithmic time
+    const double t = 0.001 * std::pow(10.0, i / 30.0);
+    add(1.0 + t, 0.02, 0.02 * relaxation_modulus_Pa(truth, t));
+  }
+  for (int i = 1; i <= 20; ++i) {  // unloaded in the middle between the first two of these rows
+    const double t = 100.0 + 5.0 * i;
+    add(1.0 + t, 0.0,
+        0.02 * (relaxation_modulus_Pa(truth, t) - relaxation_modulus_Pa(truth, t - 102.5)));
+  }
+  const FitResult fit = fit_relaxation(data);
+  CHECK(holds(fit.E0_interval_95, 2.0));
+  CHECK(fit.E0_interval_95.high - fit.E0_interval_95.low < 0.1);
+}
+
 TEST_CASE("rows missing at equal distances and cut times look alike, and both are inside",
           "[fit]") {
   const PronySeries truth = quick_material();
