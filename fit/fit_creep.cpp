@@ -162,7 +162,7 @@ FitResult fit_stress_history(const CreepData& data, const FitOptions& options) {
     const auto values = clean.column(column);
     return std::vector<double>(values.begin(), values.end());
   };
-  if (!data.is_zero_known && begins_under_load(clean.column(2)))
+  if (!data.is_zero_known && begins_under_load(clean.column(2).front(), clean.column(2)))
     check_clock(clean, record.notes, kLatestStep);
   HistoryInput input;
   const auto fit_rows = [&] {

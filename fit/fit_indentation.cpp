@@ -211,21 +211,22 @@ bool begins_late_under_load(const IndentationData& data) {
   }
   if (data.is_zero_known || first == data.time_s.size() || !(data.time_s[first] > 0.0))
     return false;
-  std::vector<double> from_first{data.depth_m[first]};
-  for (const double depth_m : data.depth_m) {
-    if (std::isfinite(depth_m)) from_first.push_back(depth_m);
-  }
-  return begins_under_load(from_first);
+  return begins_under_load(data.depth_m[first], data.depth_m);
 }
 
 // A table, the times of which its export may have rounded, and may count from long before the load.
 FitResult fit_depth_table(const IndentationData& data, const FitOptions& options) {
   const std::optional<TimeRounding> rounding = time_rounding(data.time_s, data.n_missing);
-  IndentationData table = data;
-  if (rounding && !rounding->time_s.empty()) table.time_s = rounding->time_s;
+  const bool is_spread = rounding && !rounding->time_s.empty();
+  std::optional<IndentationData> changed;  // with other rows or times
+  if (is_spread) {
+    changed = data;
+    changed->time_s = rounding->time_s;
+  }
   FitResult result;
-  if (begins_late_under_load(table)) {
-    CheckedRecord record({table.time_s, table.force_N, table.depth_m}, kLeastContactRows,
+  if (begins_late_under_load(changed ? *changed : data)) {
+    if (!changed) changed = data;
+    CheckedRecord record({changed->time_s, changed->force_N, changed->depth_m}, kLeastContactRows,
                          RecordKind::kHistory);
     check_clock(record.clean, record.notes, kLatestStep);
     result = fit_from_begin(record, [&] {
@@ -233,15 +234,16 @@ FitResult fit_depth_table(const IndentationData& data, const FitOptions& options
         const auto values = record.clean.column(i);
         return std::vector<double>(values.begin(), values.end());
       };
-      table.time_s = column(0);
-      table.force_N = column(1);
-      table.depth_m = column(2);
-      return fit_measured_depth(table, options);
+      IndentationData rows = *changed;
+      rows.time_s = column(0);
+      rows.force_N = column(1);
+      rows.depth_m = column(2);
+      return fit_measured_depth(rows, options);
     });
     add_left_out(result, left_out::kNotANumber, record.clean.n_left_out());
     add_record_notes(record.notes, result);
   } else {
-    result = fit_measured_depth(table, options);
+    result = fit_measured_depth(changed ? *changed : data, options);
   }
   if (rounding) report_time_rounding(*rounding, result);
   return result;

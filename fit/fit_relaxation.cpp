@@ -249,7 +249,7 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
   } else {
     const std::vector<std::size_t> spikes = isolated_spikes(clean.steps(), clean.column(1));
     clean.drop(spikes);
-    if (!data.is_zero_known && begins_under_load(clean.column(2)))
+    if (!data.is_zero_known && begins_under_load(clean.column(2).front(), clean.column(2)))
       check_clock(clean, record.notes, kLatestStep);
     result = fit_from_begin(record, [&] {
       return fit_with_or_without_drift(options, extent_of(clean, data.unit), [&](TableDrift drift) {

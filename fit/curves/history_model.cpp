@@ -116,19 +116,21 @@ double loading_s(const HistoryInput& input) {
   return fastest > 0.0 ? std::min(whole_s, rise / fastest) : whole_s;
 }
 
-bool begins_under_load(std::span<const double> input) {
+bool begins_under_load(double first, std::span<const double> input) {
   constexpr double kLoaded = 0.5;
   double largest = 0.0;
-  for (const double one : input) largest = std::max(largest, std::abs(one));
-  return !input.empty() && std::abs(input.front()) >= kLoaded * largest && largest > 0.0;
+  for (const double one : input) {
+    if (std::isfinite(one)) largest = std::max(largest, std::abs(one));
+  }
+  return largest > 0.0 && std::abs(first) >= kLoaded * largest;
 }
 
 std::optional<double> step_before(const std::vector<double>& time_s,
                                   const std::vector<double>& input) {
   if (time_s.size() < 2 || input.front() == 0.0 || !(time_s.front() > 0.0)) return std::nullopt;
   if (time_s.front() > kLatestStep * (time_s.back() - time_s.front())) return std::nullopt;
-  if (!begins_under_load(input))
-    return std::nullopt;  // a ramp that it shows from the first sample on
+  // A ramp that the record shows from its first sample on is not a step.
+  if (!begins_under_load(input.front(), input)) return std::nullopt;
   return 0.0;
 }
 

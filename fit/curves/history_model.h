@@ -53,8 +53,9 @@ std::size_t end_of_loading(const std::vector<double>& input);
 // 0 for a step.
 double loading_s(const HistoryInput& input);
 
-// True for a record that does not show when its load came: at its first sample half of the largest is there.
-bool begins_under_load(std::span<const double> input);
+// True for a record that does not show when its load came: at its first sample half of the largest is there. Values that
+// are not finite do not count.
+bool begins_under_load(double first, std::span<const double> input);
 
 inline constexpr double kLatestStep = 0.1;  // of the length of the record, for step_before()
 

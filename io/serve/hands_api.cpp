@@ -62,18 +62,12 @@ fs::path write_record(const fs::path& folder, const std::string& toml) {
 
 HandsApi::HandsApi(ServeOptions options, OneJob& job) : options_(std::move(options)), job_(job) {}
 
-void HandsApi::begin_job(const std::string& what) {
-  if (is_closing_) throw ApiError(409, "closing", "viscard serve is ending; start it again");
-  if (job_.try_begin(what)) return;
-  throw ApiError(409, "busy", "first " + job_.what() + " must end; then try again");
-}
-
 Json HandsApi::move(const Json& request) {
   const StageOrder order = order_from(request);
   RigConfig rig = options_.rig_file ? read_rig(*options_.rig_file) : demo_rig();
   if (options_.is_emulated) rig.clock_speed = options_.speed;
   check_order(order, rig);
-  begin_job(kMove);
+  job_.begin(kMove);
   try {
     live_.start(rig, options_.is_emulated, order, [this] { job_.end(); });
   } catch (...) {
@@ -104,11 +98,11 @@ Json HandsApi::weigh(const Json& request) {
                    "a weight of " + std::to_string(std::lround(mass_kg * 1e3)) +
                        " g is above the capacity of the load cell");
   }
-  begin_job("a weighing");
+  job_.begin("a weighing");
   const JobEnd at_end(job_);
   const WeighedLoad load =
       weigh_on_rig(rig, options_.is_emulated, force_N,
-                   weight_N(std::max(mass_kg, largest_kg), usual), &is_closing_);
+                   weight_N(std::max(mass_kg, largest_kg), usual), &job_.is_closing());
   return {{"mass_kg", mass_kg},
           {"reading", load.reading},
           {"reading_se", load.sd / std::sqrt(static_cast<double>(load.n))}};
@@ -158,7 +152,7 @@ Json HandsApi::calibrate(const Json& request) {
 }
 
 void HandsApi::close() {
-  is_closing_ = true;
+  job_.close();
   live_.stop(false);
 }
 

@@ -6,7 +6,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <atomic>
 #include <string>
 
 namespace viscard {
@@ -35,11 +34,8 @@ class HandsApi {
  private:
   static constexpr const char* kMove = "a move of the stage";
 
-  void begin_job(const std::string& what);
-
   ServeOptions options_;
   OneJob& job_;
-  std::atomic<bool> is_closing_{false};
   LiveMove live_;  // destroyed first: its threads use the others
 };
 

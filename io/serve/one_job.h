@@ -1,5 +1,8 @@
 #pragma once
 
+#include "io/serve/api_error.h"
+
+#include <atomic>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -10,17 +13,25 @@ namespace viscard {
 // one program, and a fit beside a run could make this computer too late to watch the force.
 class OneJob {
  public:
-  // False if there is a job already.
-  bool try_begin(std::string what) {
+  // Throws ApiError 409 while there is another job, and once the program ends.
+  void begin(std::string what) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!what_.empty()) return false;
+    if (is_closing_) throw ApiError(409, "closing", "viscard serve is ending; start it again");
+    if (!what_.empty()) {
+      throw ApiError(409, "busy", "first " + what_ + " must end; then try again");
+    }
     what_ = std::move(what);
-    return true;
   }
   void end() {
     const std::lock_guard<std::mutex> lock(mutex_);
     what_.clear();
   }
+  // No job begins any more.
+  void close() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_closing_ = true;
+  }
+  const std::atomic<bool>& is_closing() const { return is_closing_; }
   // "a run of 01_a", "a check of the rig" ...; empty without a job.
   std::string what() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -30,6 +41,7 @@ class OneJob {
  private:
   mutable std::mutex mutex_;
   std::string what_;
+  std::atomic<bool> is_closing_{false};
 };
 
 // Ends a job at the end of a scope.

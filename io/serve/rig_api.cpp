@@ -163,14 +163,8 @@ Json RigApi::ports() const {
   return {{"ports", rows}};
 }
 
-void RigApi::begin_job(const std::string& what) {
-  if (is_closing_) throw ApiError(409, "closing", "viscard serve is ending; start it again");
-  if (job_.try_begin(what)) return;
-  throw ApiError(409, "busy", "first " + job_.what() + " must end; then try again");
-}
-
 Json RigApi::check_rig() {
-  begin_job("a check of the rig");
+  job_.begin("a check of the rig");
   const JobEnd at_end(job_);
   const RigConfig config = rig();
   RigCheck found = check_rig_config(config, options_.is_emulated, kCheck_s);
@@ -230,7 +224,7 @@ Json RigApi::rename_specimen(const Json& request) {
 }
 
 Json RigApi::remove_capture(const Json& request) {
-  begin_job("moving a capture");  // a fit may read it
+  job_.begin("moving a capture");  // a fit may read it
   const JobEnd at_end(job_);
   const std::lock_guard<std::mutex> lock(writing_);
   return {{"file", folder_.trash_capture(text_at(request, "capture"))}};
@@ -255,7 +249,7 @@ Json RigApi::start_run(const Json& request) {
   const std::string name = text_at(request, "specimen");
   const bool repeats = is_set(request, "repeat");
   const bool lifts = is_set(request, "lift");
-  begin_job("the run of " + name);
+  job_.begin("the run of " + name);
   try {
     CaptureRequest capture;
     capture.setup = setup_of(name);
@@ -327,7 +321,7 @@ Json RigApi::fit(const Json& request) {
   const std::string file = text_at(request, "capture");
   const std::string specimen = folder_.specimen_of_capture(file).name;
   const std::filesystem::path path = folder_.path() / file;
-  begin_job("the fit of " + file);
+  job_.begin("the fit of " + file);
   const JobEnd at_end(job_);
   FitRequest asked;
   asked.plausible = judged_by(request);
@@ -360,7 +354,7 @@ std::string RigApi::save_material(const FittedFile& fitted, const std::string& s
 
 // A request that was admitted before may begin a run after the first call.
 bool RigApi::close() {
-  is_closing_ = true;
+  job_.close();
   if (live_.is_running()) live_.stop(false);
   return job_.what().empty() && !live_.is_running();
 }

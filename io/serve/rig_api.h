@@ -75,7 +75,6 @@ class RigApi {
  private:
   RigConfig rig() const;
   CaptureSetup setup_of(const std::string& specimen) const;
-  void begin_job(const std::string& what);
   void check_before_run(const CaptureSetup& setup) const;
   // Returns the name of the file, which is written unless it is there.
   std::string save_material(const FittedFile& fitted, const std::string& specimen) const;
@@ -83,7 +82,6 @@ class RigApi {
   ServeOptions options_;
   SeriesFolder folder_;
   OneJob& job_;
-  std::atomic<bool> is_closing_{false};
   std::mutex writing_;  // of specimens, notes and the trash
   LiveRun live_;        // destroyed first: its thread uses the others
 };

@@ -43,8 +43,10 @@ class RigServer::Impl {
   const RigApi& api() const { return api_; }
 
   void close() {
-    hands_.close();
-    while (!api_.close()) std::this_thread::sleep_for(kPoll);
+    for (bool is_idle = false; !is_idle; std::this_thread::sleep_for(kPoll)) {
+      hands_.close();
+      is_idle = api_.close();
+    }
   }
 
  private:

@@ -40,6 +40,29 @@ TEST_CASE("a PI or Newport stage at a wrong baud rate names the setting", "[rig]
   CHECK_THROWS_WITH(stage->connect(pump), Contains("unreadable") && Contains("baud"));
 }
 
+TEST_CASE(
+    "a PI or Newport stage that cannot follow or meets a limit raises an alarm with its words",
+    "[rig][pty]") {
+  EmulatedRigOptions options = asked_rig();
+  const bool is_limit = GENERATE(false, true);
+  options.pi.limit_keeps_servo = options.smc.limit_keeps_motor = is_limit;
+  const char* at_limit = options.config.stage.driver == "smc100" ? "positive end" : "limit switch";
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(2e-3, 0.5e-3, "approach");
+  pump_into_move(rig, 0.3);
+  rig.emulated.cause(Incident::kHitLimitSwitch);
+  try {
+    rig.pump_for(4.0);
+    FAIL("no alarm");
+  } catch (const StageAlarm& alarm) {
+    CHECK_THAT(alarm.what(), Contains(is_limit ? at_limit : "could not follow"));
+  }
+  stage.recover(rig.pump());
+  CHECK(rig.move(0.0, 2e-3));
+}
+
 TEST_CASE("a PI or Newport stage stops gently or at once although answers are lost", "[rig][pty]") {
   EmulatedRigOptions options = asked_rig();
   answers_of(options).lose_every = 5;

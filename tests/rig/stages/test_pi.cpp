@@ -109,27 +109,6 @@ TEST_CASE("the stop byte of a PI stage acts at once", "[rig][pty]") {
   CHECK(rig.move(0.0, 1e-3));
 }
 
-TEST_CASE("a PI stage that cannot follow or meets a limit raises an alarm with its words",
-          "[rig][pty]") {
-  EmulatedRigOptions options = pi_rig();
-  options.pi.limit_keeps_servo = GENERATE(false, true);
-  DeviceFixture rig(options);
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  stage.begin_move(2e-3, 0.5e-3, "approach");
-  pump_into_move(rig, 0.3);
-  rig.emulated.cause(Incident::kHitLimitSwitch);
-  const char* words = options.pi.limit_keeps_servo ? "limit switch" : "could not follow";
-  try {
-    rig.pump_for(4.0);
-    FAIL("no alarm");
-  } catch (const StageAlarm& alarm) {
-    CHECK_THAT(alarm.what(), Contains(words));
-  }
-  stage.recover(rig.pump());
-  CHECK(rig.move(0.0, 2e-3));
-}
-
 TEST_CASE("a PI stage whose supply is cut has restarted, and still lifts the punch", "[rig][pty]") {
   EmulatedRigOptions options = pi_rig();
   options.pi.loses_power = true;

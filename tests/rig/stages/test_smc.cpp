@@ -104,27 +104,6 @@ TEST_CASE("a Newport stage reports its dynamics and reaches its target at the sp
   CHECK(moves[1].move.from_m == Approx(0.5e-3).margin(1e-9));
 }
 
-TEST_CASE("a Newport stage that cannot follow or meets its end raises an alarm with its words",
-          "[rig][pty]") {
-  EmulatedRigOptions options = smc_rig();
-  options.smc.limit_keeps_motor = GENERATE(false, true);
-  DeviceFixture rig(options);
-  Stage& stage = *rig.devices.stage;
-  stage.connect(rig.pump());
-  stage.begin_move(2e-3, 0.5e-3, "approach");
-  pump_into_move(rig, 0.3);
-  rig.emulated.cause(Incident::kHitLimitSwitch);
-  const char* words = options.smc.limit_keeps_motor ? "positive end" : "could not follow";
-  try {
-    rig.pump_for(4.0);
-    FAIL("no alarm");
-  } catch (const StageAlarm& alarm) {
-    CHECK_THAT(alarm.what(), Contains(words));
-  }
-  stage.recover(rig.pump());
-  CHECK(rig.move(0.0, 2e-3));
-}
-
 TEST_CASE("a Newport stage without a reference position is refused unless it may home",
           "[rig][pty]") {
   EmulatedRigOptions options = smc_rig();
