@@ -1,6 +1,6 @@
 #include "io/basics/parallel.h"
 
-#include "models/maths/usable_cores.h"
+#include "models/maths/usable_machine.h"
 
 #include <algorithm>
 #include <atomic>

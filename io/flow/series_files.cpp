@@ -57,7 +57,7 @@ int last_attempt(const fs::path& first) {
     if (name.size() <= head.size() + tail.size() || name.rfind(head, 0) != 0) continue;
     const auto n =
         integer_from_text(name.substr(head.size(), name.size() - head.size() - tail.size()));
-    constexpr long long kMost = 1'000'000;
+    constexpr long long kMost = 9'999;  // captures of one specimen
     if (!n || *n < 2 || *n > kMost || attempt_path(first, static_cast<int>(*n)).filename() != name)
       continue;
     last = std::max(last, static_cast<int>(*n));

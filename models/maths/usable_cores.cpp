@@ -1,4 +1,4 @@
-#include "models/maths/usable_cores.h"
+#include "models/maths/usable_machine.h"
 
 #include <sched.h>
 

@@ -1,6 +1,5 @@
-#include "models/maths/usable_memory.h"
-
 #include "models/maths/text_of_number.h"
+#include "models/maths/usable_machine.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

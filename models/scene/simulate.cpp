@@ -4,7 +4,7 @@
 #include "models/array/layer/simulate_layer.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/array/space/simulate_space.h"
-#include "models/maths/usable_cores.h"
+#include "models/maths/usable_machine.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/large_strain.h"
 #include "models/pillar/analyses/simulate_pillar.h"

@@ -135,7 +135,7 @@ void MarlinStage::rest_elsewhere(double asked_s) {
   exact_m_.reset();
   throw_elsewhere(
       target_m,
-      last_message_.empty() ? "the board says nothing" : "it said '" + last_message_ + "'",
+      last_message_.empty() ? "the board reports nothing" : "it reported '" + last_message_ + "'",
       "a soft limit (M211), homing that is missing or a limit switch");
 }
 

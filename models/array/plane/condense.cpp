@@ -1,5 +1,5 @@
 #include "models/array/plane/plane_system.h"
-#include "models/maths/usable_memory.h"
+#include "models/maths/usable_machine.h"
 #include "models/pillar/system/supernodal_factor.h"
 
 #include <stdexcept>

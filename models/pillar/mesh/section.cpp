@@ -1,7 +1,7 @@
 #include "models/pillar/mesh/section.h"
 
 #include "models/maths/require.h"
-#include "models/maths/usable_memory.h"
+#include "models/maths/usable_machine.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,7 +1,7 @@
 #include "models/pillar/system/discrete_system.h"
 
 #include "models/maths/dense.h"
-#include "models/maths/usable_memory.h"
+#include "models/maths/usable_machine.h"
 #include "models/pillar/system/kronecker_form.h"
 
 #include <algorithm>
