@@ -121,10 +121,11 @@ void fill_classes(const Classes& classes, const SceneFile& file, SpaceScene& sce
                          "names no pillars; give their rows and columns, such as pillars = "
                          "[[1, 1]]");
     }
-    const std::string& material = file.sources.of_classes[i];
+    const std::string& name = file.sources.of_classes[i];
+    Material own = name.empty() ? scene.pillar : pillar_material(file, name);
+    if (!name.empty()) bring_to_temperature(file, own);
     scene.others.push_back({one.diameter_m > 0.0 ? one.diameter_m : scene.diameter_m,
-                            one.length_m > 0.0 ? one.length_m : scene.length_m,
-                            material.empty() ? scene.pillar : pillar_material(file, material)});
+                            one.length_m > 0.0 ? one.length_m : scene.length_m, std::move(own)});
     for (const RowColumn& place : places_of(key, one.pillars)) {
       int& of_class = scene.pillars[standing(scene, key, place)].of_class;
       if (of_class != 0) {

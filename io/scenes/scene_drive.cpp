@@ -16,6 +16,8 @@ namespace {
 // Parts of drives that a scene file sets: the member of a drive that has it.
 constexpr auto kModes = [](auto& d) -> decltype((d.modes)) { return d.modes; };
 constexpr auto kPlate = [](auto& d) -> decltype((d.plate_on_top)) { return d.plate_on_top; };
+constexpr auto kBow = [](auto& d) -> decltype((d.bow_m)) { return d.bow_m; };
+constexpr auto kStrain = [](auto& d) -> decltype((d.collapse_strain)) { return d.collapse_strain; };
 constexpr auto kPlace = [](auto& d) -> decltype((d.load_place)) { return d.load_place; };
 constexpr auto kDirection = [](auto& d) -> decltype((d.direction)) { return d.direction; };
 constexpr auto kPressure = [](auto& d) -> decltype((d.pressure_Pa)) { return d.pressure_Pa; };
@@ -290,6 +292,20 @@ void show_load(FieldVisitor& v, LoadKeys& keys) {
   });
 }
 
+// Of a pillar that is not straight.
+void show_bow(FieldVisitor& v, PillarScene& scene) {
+  BucklingDrive bowed;
+  if (const auto* now = std::get_if<BucklingDrive>(&scene.drive)) bowed = *now;
+  v.quantity({.key = "bow", .unit = "m", .range = Range::kNotNegative}, bowed.bow_m);
+  v.quantity({.key = "collapse_strain", .range = Range::kPositive}, bowed.collapse_strain);
+  v.after_all_keys([&scene, bowed] {
+    const bool is_taken = set(scene.drive, kBow, bowed.bow_m);
+    set(scene.drive, kStrain, bowed.collapse_strain);
+    if (is_taken || bowed.bow_m == 0.0) return;
+    throw SceneMistake("analysis.bow", only(kBow, "answer a pillar that is not straight"));
+  });
+}
+
 }  // namespace
 
 void show_analysis(FieldVisitor& v, PillarScene& scene) {
@@ -297,6 +313,7 @@ void show_analysis(FieldVisitor& v, PillarScene& scene) {
   std::optional<bool> plate;
   if (has_part(scene.drive, kPlate) && !v.reads()) plate = plate_on_top(scene);
   v.choice({"top", "plate"}, {{"free", false}, {"plate", true}}, plate);
+  show_bow(v, scene);
   const auto load = std::make_shared<LoadKeys>(load_of(scene));
   show_load(v, *load);
   v.after_all_keys([&scene, plate, load] {

@@ -3,10 +3,12 @@
 #include "io/basics/named_file.h"
 #include "io/materials/material_file.h"
 #include "models/material/liquid.h"
+#include "models/material/series_band.h"
 #include "models/pillar/system/rotated_medium.h"
 #include "models/scene/effects.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace viscard {
 
@@ -45,10 +47,35 @@ const NamedMaterial& named(const SceneFile& file, const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+// Only a single pillar has all of it.
+void show_surroundings(FieldVisitor& v, SceneFile& file) {
+  Surroundings& around = common(file.scene).surroundings;
+  const bool is_pillar = std::holds_alternative<PillarScene>(file.scene);
+  v.section("surroundings", [&](FieldVisitor& s) {
+    s.quantity({.key = "temperature", .unit = "degC"}, around.temperature_C);
+    if (!is_pillar) return;
+    s.quantity({.key = "made_at", .unit = "degC"}, around.made_at_C);
+    s.quantity({.key = "pillar_expansion", .unit = "1/K"}, around.pillar_expansion_1_K);
+    s.quantity({.key = "film_expansion", .unit = "1/K"}, around.film_expansion_1_K);
+    s.quantity({.key = "pyroelectric", .unit = "C/m2/K"}, around.pyroelectric_C_m2K);
+    s.quantity({.key = "gravity", .unit = "m/s2"}, around.gravity_m_s2);
+    s.boolean("air", around.air);
+    s.quantity({.key = "air_density", .unit = "kg/m3", .range = Range::kPositive},
+               around.air_density_kg_m3);
+    s.quantity({.key = "air_viscosity", .unit = "Pa s", .range = Range::kPositive},
+               around.air_viscosity_Pa_s);
+  });
+}
+
+}  // namespace
+
 void show_common(FieldVisitor& v, const char* wanted_example, SceneFile& file) {
   SceneCommon& scene = common(file.scene);
   v.quantity({.key = "tolerance", .range = Range::kPositive, .is_exact = true}, scene.tolerance);
   v.text({"compare", "layer_cylinder.toml"}, file.compare);
+  show_surroundings(v, file);
   v.section("effects", [&](FieldVisitor& e) { show_effects(e, scene.effects); });
   v.section("want", [&](FieldVisitor& w) {
     w.texts({"quantities", wanted_example}, scene.wanted);
@@ -78,7 +105,11 @@ void show_materials(FieldVisitor& v, const char* body, SceneFile& file,
     }
     if (others) others(m);
   });
-  v.after_all_keys([&file, body] { common(file.scene).pillar = pillar_material(file, body); });
+  v.after_all_keys([&file, body] {
+    SceneCommon& scene = common(file.scene);
+    scene.pillar = pillar_material(file, body);
+    scene.surroundings.shift_factor = bring_to_temperature(file, scene.pillar);
+  });
 }
 
 void show_film_material(FieldVisitor& v, SceneFile& file) {
@@ -209,6 +240,17 @@ Material linear_part(const HyperelasticFile& rubber, const NamedMaterial& raw) {
 }
 
 }  // namespace
+
+double bring_to_temperature(const SceneFile& file, Material& material) {
+  const double temperature_C = common(file.scene).surroundings.temperature_C;
+  if (std::isnan(temperature_C) || !material.shift || material.terms.empty()) return 1.0;
+  double shift_factor = 1.0;
+  at_key("surroundings.temperature", [&] {
+    shift_factor = std::exp(ln_shift_factor(*material.shift, temperature_C));
+    material = material_at_temperature(material, temperature_C);
+  });
+  return shift_factor;
+}
 
 Material pillar_material(const SceneFile& file, const std::string& name) {
   const NamedMaterial& raw = named(file, name);

@@ -90,6 +90,9 @@ MediumFile film_medium(const SceneFile& file, const std::string& name);
 // A material under `name`. A file of rubber gives the modulus at rest and the terms; the scene gives nu and rho. Throws
 // SceneMistake for neither file nor modulus.
 Material pillar_material(const SceneFile& file, const std::string& name);
+// Multiplies the material's relaxation times by its shift factor at the scene's temperature, and returns the factor: 1
+// without a temperature, without a shift or without terms. Throws SceneMistake where the shift law has no value.
+double bring_to_temperature(const SceneFile& file, Material& material);
 // What the material's file states if it is one of rubber, as `viscard fit uniaxial=FILE --out` writes it. Throws
 // SceneMistake for one that is not to be trusted.
 std::optional<HyperelasticFile> pillar_rubber(const SceneFile& file, const std::string& name);

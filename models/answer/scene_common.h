@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/answer/effect_estimate.h"
+#include "models/answer/surroundings.h"
 #include "models/material/material.h"
 
 #include <functional>
@@ -15,6 +16,7 @@ struct SceneCommon {
   Material pillar;                  // of every pillar
   std::vector<std::string> wanted;  // names of results; empty: all
   EffectChoices effects;            // choices that the plan must respect
+  Surroundings surroundings;
 
   // Called with the fraction done and what is done next; may be empty.
   std::function<void(double, const std::string&)> progress;

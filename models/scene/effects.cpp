@@ -9,6 +9,12 @@ using Pillar = EffectOn<PillarScene>;
 using Row = EffectOn<ArrayScene>;
 using Space = EffectOn<SpaceScene>;  // an array in the plane
 
+// An effect that only single pillars have.
+const Row kOfPillars = {
+    [](const ArrayScene&) -> EffectEstimate { return {.reason = "computed of single pillars"}; }};
+const Space kOfPillarsInSpace = {
+    [](const SpaceScene&) -> EffectEstimate { return {.reason = "computed of single pillars"}; }};
+
 // How the material answers a load.
 std::vector<Effect> material_effects() {
   return {
@@ -125,13 +131,50 @@ std::vector<Effect> load_effects() {
   };
 }
 
+// What the scene stands in.
+std::vector<Effect> surroundings_effects() {
+  return {
+      {"temperature",
+       "relaxation times shift with it",
+       "nothing",
+       {Pillar{[](const PillarScene& scene) {
+                 return temperature_estimate(scene, relaxation_estimate(scene),
+                                             inertia_estimate(scene));
+               },
+               [](PillarScene& scene) { leave_out_temperature(scene); }},
+        Row{[](const ArrayScene& scene) {
+              return temperature_estimate(scene, relaxation_estimate(scene),
+                                          inertia_estimate(scene));
+            },
+            [](ArrayScene& scene) { leave_out_temperature(scene); }},
+        Space{[](const SpaceScene& scene) {
+                return temperature_estimate(scene, relaxation_estimate(scene), {});
+              },
+              [](SpaceScene& scene) { leave_out_temperature(scene); }}}},
+      {"thermal_strain",
+       "pillar and film expand, and the film gives charge",
+       "a solution",
+       {Pillar{thermal_strain_estimate, leave_out_thermal_strain}, kOfPillars, kOfPillarsInSpace}},
+      {"weight",
+       "the pillar presses on its foot",
+       "a solution",
+       {Pillar{weight_estimate, [](PillarScene& scene) { scene.surroundings.gravity_m_s2 = 0.0; }},
+        kOfPillars, kOfPillarsInSpace}},
+      {"air_damping",
+       "air moves with the pillar",
+       "a formula",
+       {Pillar{air_damping_estimate, [](PillarScene& scene) { scene.surroundings.air = false; }},
+        kOfPillars, kOfPillarsInSpace}},
+  };
+}
+
 }  // namespace
 
 const std::vector<Effect>& effects() {
   static const std::vector<Effect> kEffects = [] {
     std::vector<Effect> all;
-    for (const auto& group :
-         {material_effects(), base_effects(), neighbour_effects(), load_effects()}) {
+    for (const auto& group : {material_effects(), base_effects(), neighbour_effects(),
+                              load_effects(), surroundings_effects()}) {
       all.insert(all.end(), group.begin(), group.end());
     }
     return all;

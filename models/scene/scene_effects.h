@@ -25,6 +25,16 @@ void leave_out_geometric_stiffness(PillarScene& scene);
 EffectEstimate finite_strain_estimate(const PillarScene& scene);
 void leave_out_finite_strain(PillarScene& scene);
 
+// What a scene stands in (surroundings_effects.cpp). The first takes two other estimates of the scene: whether its
+// answer relaxes, and whether it vibrates.
+EffectEstimate temperature_estimate(const SceneCommon& scene, const EffectEstimate& relaxation,
+                                    const EffectEstimate& inertia);
+void leave_out_temperature(SceneCommon& scene);
+EffectEstimate thermal_strain_estimate(const PillarScene& scene);
+void leave_out_thermal_strain(PillarScene& scene);
+EffectEstimate weight_estimate(const PillarScene& scene);
+EffectEstimate air_damping_estimate(const PillarScene& scene);
+
 // What a scene declares that forces off the contact of a shape.
 constexpr const char* kPrescribed =
     "off, the scene prescribes the motion of all tops, which are pulled, too; a shape that only "

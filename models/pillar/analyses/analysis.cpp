@@ -24,8 +24,14 @@ const Analysis& analysis_of(const PillarScene& scene) {
 }
 
 PillarMedia media_of(const PillarScene& scene) {
-  return {isotropic_medium(scene.pillar.E0_Pa, scene.pillar.nu, scene.pillar.rho_kg_m3),
-          scene.film};
+  PillarMedia media{isotropic_medium(scene.pillar.E0_Pa, scene.pillar.nu, scene.pillar.rho_kg_m3),
+                    scene.film};
+  const Surroundings& around = scene.surroundings;
+  media.pillar.free_strain = around.pillar_expansion_1_K * around.heated_K();
+  if (!media.film) return media;
+  media.film->free_strain = around.film_expansion_1_K * around.heated_K();
+  media.film->free_polarisation_C_m2 = around.pyroelectric_C_m2K * around.heated_K();
+  return media;
 }
 
 Motion axial_motion(const PillarScene& scene) {

@@ -1,5 +1,7 @@
+#include "models/answer/scene_mistake.h"
 #include "models/maths/require.h"
 #include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/bowed_pillar.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/slender_rounding.h"
 #include "models/pillar/body/nearby_pillar.h"
@@ -14,8 +16,30 @@
 namespace viscard {
 namespace {
 
+const BucklingDrive& buckling_drive(const PillarScene& scene) {
+  return std::get<BucklingDrive>(scene.drive);
+}
+
 void check_buckling(const PillarScene& scene) {
   require(!scene.plane, "buckling is computed for a cylinder, not for a strip");
+  const BucklingDrive& drive = buckling_drive(scene);
+  if (drive.bow_m == 0.0) return;
+  at_key("analysis.bow", [&] { collapse(scene, 1.0, drive.bow_m, drive.collapse_strain); });
+}
+
+// Names of what a bowed pillar adds.
+constexpr const char* kCollapse = "collapse_pressure";
+constexpr const char* kOffset = "collapse_offset";
+
+void add_collapse(const PillarScene& scene, double buckling_Pa, double unresolved,
+                  SceneAnswer& answer) {
+  const BucklingDrive& drive = buckling_drive(scene);
+  if (drive.bow_m == 0.0) return;
+  const Collapse found = collapse(scene, buckling_Pa, drive.bow_m, drive.collapse_strain);
+  answer.results.push_back({kCollapse, found.pressure_Pa, "Pa"});
+  answer.results.back().unresolved = unresolved + found.left_out;
+  answer.results.push_back({kOffset, found.offset_m, "m"});
+  answer.results.back().unresolved = unresolved + found.left_out;
 }
 
 // Under a tip whose rim is thin, local modes of its inner corner mix with the pillar's own modes:
@@ -54,6 +78,7 @@ void run_buckling(const PillarScene& scene, SceneAnswer& answer) {
   answer.results.push_back({"buckling_pressure", found.pressure_Pa, "Pa"});
   answer.results.back().unresolved =
       kSecondOrder * std::abs(found.rim_share) + fall_under_thin_rim(scene.geometry.tip) + rim;
+  add_collapse(scene, found.pressure_Pa, answer.results.back().unresolved, answer);
 }
 
 // The axial model, whose stress is that of a neighbour to first order, and the shape of the lateral one.
@@ -110,8 +135,9 @@ Analysis buckling_analysis() {
           .bends = true,
           .weighs_stress = true,
           .check = check_buckling,
-          .result_names = [](const PillarScene&) -> std::vector<std::string> {
-            return {"buckling_pressure"};
+          .result_names = [](const PillarScene& scene) -> std::vector<std::string> {
+            if (buckling_drive(scene).bow_m == 0.0) return {"buckling_pressure"};
+            return {"buckling_pressure", kCollapse, kOffset};
           },
           .run = run_buckling,
           .found_pressure_Pa = engesser_pressure_Pa,

@@ -60,12 +60,15 @@ void run_elastic(const PillarScene& scene, SceneAnswer& answer) {
   const Eigen::VectorXd traction = axial.top_traction();
   const PillarState per_Pa = axial.solve(-traction);
   const double moved_m = axial.mean_top_displacement_m(per_Pa);
-  const double pressure_Pa = top_pressure_Pa(scene, moved_m);
-  const PillarState state = pressure_Pa * per_Pa;
+  const bool has_more = moves_unloaded(scene);
+  const PillarState unloaded = has_more ? unloaded_state(scene, axial) : 0.0 * per_Pa;
+  const double moved_unloaded_m = axial.mean_top_displacement_m(unloaded);
+  const double pressure_Pa = top_pressure_Pa(scene, moved_m, moved_unloaded_m);
+  const PillarState state = pressure_Pa * per_Pa + unloaded;
   if (moves_top(scene)) {
     add_top_force(scene, -pressure_Pa * traction.sum(), -traction.sum() / moved_m, answer);
   } else {
-    answer.results.push_back({"top_displacement", moved_m * pressure_Pa, "m"});
+    answer.results.push_back({"top_displacement", moved_m * pressure_Pa + moved_unloaded_m, "m"});
   }
   if (scene.nearby == nullptr) {
     const SolutionRest rest(axial, per_Pa.unknowns);
@@ -101,10 +104,15 @@ void check_displacement(const PillarScene& scene) {
 
 void check_static(const PillarScene& scene) {
   const bool is_held = displacement_m(scene) == 0.0;
-  if (drive_V(scene) == 0.0 && pressure_Pa(scene) == 0.0 && (!displacement_m(scene) || is_held)) {
+  const bool is_loaded =
+      drive_V(scene) != 0.0 || pressure_Pa(scene) != 0.0 || (displacement_m(scene) && !is_held);
+  if (!is_loaded && (is_lateral(scene) || !moves_unloaded(scene))) {
     throw SceneMistake("analysis.load",
                        "a static analysis needs a pressure on the top, a displacement of it or a "
                        "voltage");
+  }
+  if (!scene.fixed_bottom && scene.surroundings.gravity_m_s2 != 0.0) {
+    throw SceneMistake("surroundings.gravity", "nothing holds the free bottom against the weight");
   }
   check_displacement(scene);
   if (drive_V(scene) != 0.0 &&
@@ -171,20 +179,28 @@ Names static_names(const PillarScene& scene) {
 
 PillarState static_state(const PillarScene& scene, const PillarModel& model) {
   const Eigen::VectorXd traction = model.top_traction();
-  PiezoAnswer unit;  // 1 Pa
+  PiezoAnswer unit, unloaded;  // 1 Pa, and weight and heat without a load
+  const bool has_more = moves_unloaded(scene);
   if (model.electrode_dof() < 0) {
     unit.open = model.solve(-traction);
     unit.top_displacement_m = model.mean_top_displacement_m(unit.open);
   } else {
     unit = piezo_static(model, 1.0);
   }
-  const double pressure_Pa = top_pressure_Pa(scene, unit);
-  if (drive_V(scene) == 0.0) return pressure_Pa * unit.open;
+  if (has_more) unloaded = unloaded_answer(scene, model, unit);
+  const double pressure_Pa = top_pressure_Pa(scene, unit, unloaded);
+  if (drive_V(scene) == 0.0) {
+    return has_more ? pressure_Pa * unit.open + unloaded.open : pressure_Pa * unit.open;
+  }
   // The charge that brings the electrode to the voltage, in addition to that of the pressure.
   Eigen::VectorXd forces = -pressure_Pa * traction;
-  const double charge_C = unit.charge_C * pressure_Pa + unit.capacitance_F * drive_V(scene);
+  if (has_more) forces += unloaded_force(scene, model);
+  const double charge_C =
+      unit.charge_C * pressure_Pa + unit.capacitance_F * drive_V(scene) + unloaded.charge_C;
   forces[model.electrode_dof()] -= charge_C * model.potential_scale_V();
-  return model.solve(forces);
+  PillarState state = model.solve(forces);
+  state.heat = has_more ? 1.0 : 0.0;
+  return state;
 }
 
 std::vector<SectionGrid> static_fields(const PillarScene& scene, const Discretisation& mesh) {
@@ -202,7 +218,7 @@ std::vector<SectionGrid> static_fields(const PillarScene& scene, const Discretis
 
 NearbyPillars static_nearby(const PillarScene& scene, const Discretisation& mesh) {
   NearbyPillars nearby;
-  if (is_large(scene)) return nearby;
+  if (is_large(scene) || moves_unloaded(scene)) return nearby;
   if (is_lateral(scene)) {
     nearby.push_back(nearby_electric_model_of(scene, lateral_motion(scene), mesh));
   } else if (!scene.electrodes) {
@@ -245,6 +261,7 @@ EffectEstimate static_film_compliance(const PillarScene& scene, const EffectEsti
 const char* static_why_two_way(const PillarScene& scene) {
   if (is_lateral(scene)) return "quadrants are answered both ways";
   if (drive_V(scene) != 0.0) return "the film is driven by a voltage";
+  if (moves_unloaded(scene)) return "weight and heat are answered both ways";
   if (!asks_for(scene, "displacement_per_volt")) return nullptr;
   return scene.wanted.empty() ? "without a [want] everything is asked for, the motion per volt too"
                               : "the motion per volt is asked for";
@@ -259,6 +276,7 @@ const char* static_why_small_strain(const PillarScene& scene) {
   if (scene.plane) return "only round pillars are answered at large strain";
   if (!scene.fixed_bottom) return "a free bottom is answered at small strain";
   if (drive_V(scene) != 0.0) return "a driven film is answered at small strain";
+  if (moves_unloaded(scene)) return "weight and heat are answered at small strain";
   if (scene.directional_film) return "a film with a direction is answered at small strain";
   if (wants("displacement_per_volt")) return "the motion per volt is that of small strain";
   if (wants("base_stress_rim_mean")) return "the stress at the rim is that of small strain";

@@ -35,7 +35,8 @@ void leave_out(double change, SceneCurve& curve) {
 bool is_near_incompressible(const PillarScene& scene) {
   constexpr double kOfTolerance = 0.03;
   constexpr double kMost = 1e-4;
-  if (scene.plane == PlaneState::kStress) return false;  // where the thickness gives way
+  if (scene.plane == PlaneState::kStress) return false;    // where the thickness gives way
+  if (scene.surroundings.strains_by_heat()) return false;  // which takes the bulk modulus
   return scene.pillar.nu < 0.5 &&
          change_by_volume(scene) <= std::min(kOfTolerance * scene.tolerance, kMost);
 }

@@ -1,6 +1,7 @@
 #include "models/pillar/analyses/simulate_pillar.h"
 
 #include "models/maths/text_of_number.h"
+#include "models/pillar/analyses/air_damping.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/large_strain.h"
@@ -45,6 +46,7 @@ SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mes
   SceneAnswer answer;
   answer.discretisation = mesh;
   analysis_of(scene).run(scene, answer);
+  add_air(scene, answer);
   // Only the errors of results that the scene wants are watched.
   for (SceneResult& result : answer.results) result.is_wanted = asks_for(scene, result.name);
   return answer;
@@ -93,6 +95,7 @@ SceneAnswer simulate_pillar(const PillarScene& scene) {
                      .is_last_measured = scene.discretisation.has_value()},
                     [&](const Discretisation& mesh) { return pillar_answer_on(scene, mesh); });
   add_film_direction(scene, answer);
+  add_air_errors(scene, answer);
   if (share_of_buckling > kNearBuckling) answer.notes.push_back(growth_of_bow(share_of_buckling));
   const std::string why = holds_straight(scene) ? buckling_share(scene).beyond : "";
   if (!why.empty()) {

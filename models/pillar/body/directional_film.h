@@ -10,6 +10,9 @@ struct FilmAnswer {
   double centre_V = 0.0;  // charge-free face: potential at its centre
   double mean_V = 0.0;    //   and its mean under the pillar
   double area_m2 = 0.0;   // of the top
+  // What weight and heat do without a load, in the same members.
+  PiezoAnswer unloaded;
+  double unloaded_centre_V = 0.0, unloaded_mean_V = 0.0;
   int unknowns = 0;
 };
 

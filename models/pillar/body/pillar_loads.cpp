@@ -1,5 +1,6 @@
 #include "models/pillar/body/pillar_model.h"
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -54,6 +55,36 @@ Eigen::VectorXd unit_acceleration_force(const PillarModel& model) {
         if (dof >= 0) load[dof] += x[ix] * z[iz];
       }
     }
+  }
+  return load;
+}
+
+Eigen::VectorXd heat_force(const PillarModel& model) {
+  const DiscreteSystem& system = model.system();
+  const std::vector<OperatorRow> rows = system.kinematics().strain_and_field();
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(system.size());
+  const std::vector<SectionElement>& elements = system.section().elements();
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const Medium& medium = model.medium(elements[i].region);
+    if (medium.free_strain == 0.0 && medium.free_polarisation_C_m2 == 0.0) continue;
+    if (medium.is_isotropic && std::isinf(medium.bulk_Pa)) {
+      throw std::invalid_argument(
+          "an incompressible solid cannot expand by heat where it is held; its nu must lie below "
+          "0.5");
+    }
+    Eigen::VectorXd at_point = Eigen::VectorXd::Zero(n);
+    at_point.head(6) = free_strain_stress_Pa(medium);
+    if (n > 6) {
+      at_point.tail(3) = -medium.free_strain * medium.piezo_C_m2.leftCols<3>().rowwise().sum() +
+                         medium.free_polarisation_C_m2 * Eigen::Vector3d::UnitZ();
+    }
+    const DiscreteSystem::ElementRows at = system.element_rows(rows, elements[i]);
+    Eigen::VectorXd local = Eigen::VectorXd::Zero(at.B.cols());
+    for (Eigen::Index k = 0; k < at.weight.size(); ++k) {
+      local += at.weight[k] * at.B.middleRows(k * n, n).transpose() * at_point;
+    }
+    system.scatter(i, local, load);
   }
   return load;
 }

@@ -32,7 +32,15 @@ PillarGeometry with_electrode_edge(PillarGeometry geometry,
 PillarState operator*(double factor, PillarState state) {
   state.unknowns *= factor;
   state.pressure_source *= factor;
+  state.heat *= factor;
   return state;
+}
+
+PillarState operator+(PillarState one, const PillarState& other) {
+  one.unknowns += other.unknowns;
+  one.pressure_source += other.pressure_source;
+  one.heat += other.heat;
+  return one;
 }
 
 PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
@@ -208,6 +216,7 @@ Eigen::VectorXd PillarModel::stress_at(const PillarState& state, const SectionEl
     stress.head(3).array() += condensed_bulk_Pa(own) * system_->projected_divergence_at(
                                                            state.pressure_source, element, x, z);
   }
+  if (state.heat != 0.0) stress -= state.heat * free_strain_stress_Pa(own);
   return stress;
 }
 

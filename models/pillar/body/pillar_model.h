@@ -61,10 +61,12 @@ struct PillarMedia {
 struct PillarState {
   Eigen::VectorXd unknowns;
   Eigen::VectorXd pressure_source;  // its projected divergence gives the pressure, StiffnessFactor
+  double heat = 0.0;  // share of the free strains of the media that the state contains
 };
 
 // The state times a pure number, the factor.
 PillarState operator*(double factor, PillarState state);
+PillarState operator+(PillarState one, const PillarState& other);
 
 // Thrown for a pillar that cannot be answered to first order from a nearby one.
 class NotNearby : public std::runtime_error {
@@ -183,6 +185,12 @@ Eigen::VectorXd unit_acceleration_force(const PillarModel& model);
 // Number of rigid motions of an unsupported body within one family of motion: along its axis
 // (longitudinal), about it (torsion), sideways and rocking (lateral), none (ovalling).
 int rigid_motion_count(Motion motion);
+
+// Forces by which the free strains and polarisations of the media (medium.h) move the body,
+//   int S(v)^t c free_strain - E(v)^t (e free_strain - free_polarisation).
+// Axial families only. The solution is a state with heat = 1. Throws std::invalid_argument for an incompressible
+// medium with a free strain: its stress is not bounded. Source: Nye, Physical Properties of Crystals (1957), 10.
+Eigen::VectorXd heat_force(const PillarModel& model);
 
 // The rigid motions of a model whose bottom is free, as columns of its unknowns: 1 m along z or x,
 // and 1 rad about the middle of the bottom. Meshes of degree 2 and more contain them exactly.

@@ -32,6 +32,8 @@ struct ModalDrive {
 // The pressure at which the straight pillar buckles sideways.
 struct BucklingDrive {
   bool plate_on_top = false;  // pressed by a rigid frictionless plate that stays level
+  double bow_m = 0.0;  // of a pillar that is not straight: offset of its top; 0: it is straight
+  double collapse_strain = 0.1;  // at its foot, at which it has collapsed (analyses/bowed_pillar.h)
 };
 
 // A shortening in time without inertia.

@@ -88,7 +88,14 @@ Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
 
 Medium with_reversed_poling(Medium medium) {
   medium.piezo_C_m2 = -medium.piezo_C_m2;
+  medium.free_polarisation_C_m2 = -medium.free_polarisation_C_m2;
   return medium;
+}
+
+Eigen::Matrix<double, 6, 1> free_strain_stress_Pa(const Medium& medium) {
+  Eigen::Matrix<double, 6, 1> strain = Eigen::Matrix<double, 6, 1>::Zero();
+  strain.head<3>().setConstant(medium.free_strain);
+  return medium.stiffness_Pa * strain;
 }
 
 Eigen::MatrixXd coupled_form(const Medium& medium) {

@@ -40,6 +40,11 @@ struct Medium {
   double bulk_Pa = 0.0;  // infinite at nu = 0.5
   double poisson_ratio = 0.0;
 
+  // By heat: of a body that nothing holds, with its faces shorted. In T = c (S - free strain) - e^t E and
+  // D = e (S - free strain) + eps E + free polarisation.
+  double free_strain = 0.0;             // in each direction, a pure number
+  double free_polarisation_C_m2 = 0.0;  // along z
+
   bool is_piezoelectric() const { return !piezo_C_m2.isZero(0.0); }
   bool has_permittivity() const { return permittivity_F_m(2, 2) > 0.0; }
 };
@@ -57,7 +62,10 @@ Medium elastic_medium(const Matrix6d& stiffness_Pa, double rho_kg_m3);
 Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
                     const Eigen::Matrix3d& permittivity_stress_F_m, double rho_kg_m3);
 
-// Poled along -z instead of +z: e changes sign.
+// The stress that would suppress the free strain, with the other sign: c times it (Voigt, Pa).
+Eigen::Matrix<double, 6, 1> free_strain_stress_Pa(const Medium& medium);
+
+// Poled along -z instead of +z: e and the free polarisation change sign.
 Medium with_reversed_poling(Medium medium);
 
 // The 9 x 9 form [c, -e^t; -e, -eps] for rows [strain; electric field] with E = -grad phi.
