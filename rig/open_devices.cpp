@@ -98,10 +98,10 @@ void check_words(const RigConfig& rig) {
 
 // The port of a device; a port that cannot be opened is named with its key.
 template <class Config, class... Framing>
-std::unique_ptr<SerialLine> line_of(const char* section, const Config& device,
-                                    const RigClock& clock, const Framing&... framing) {
+std::unique_ptr<Transport> line_of(const char* section, const Config& device, const RigClock& clock,
+                                   const Framing&... framing) {
   try {
-    return std::make_unique<SerialLine>(device.port, device.baud, clock, framing...);
+    return open_line(device.port, device.baud, clock, framing...);
   } catch (const PortUnavailable& error) {
     throw PortUnavailable(std::string("port under [") + section +
                           "] of the rig file: " + error.what());
@@ -125,11 +125,11 @@ std::unique_ptr<Thermometer> make_thermometer(const RigConfig& rig, const RigClo
   const ThermometerConfig& config = rig.thermometer;
   check_thermometer_words(config);
   if (!has_thermometer(config)) return nullptr;
-  std::unique_ptr<SerialLine> line;
+  std::unique_ptr<Transport> line;
   std::string trouble;
   try {
     if (has_own_port(config)) {
-      line = std::make_unique<SerialLine>(config.port, config.baud, clock, config.framing);
+      line = open_line(config.port, config.baud, clock, config.framing);
     }
   } catch (const RigError& error) {
     trouble = std::string("the thermometer is missing: ") + error.what();

@@ -4,7 +4,7 @@
 #include "rig/cells/load_cell.h"
 #include "rig/lines/record_sink.h"
 #include "rig/lines/rig_clock.h"
-#include "rig/lines/serial_line.h"
+#include "rig/lines/tcp_line.h"
 #include "rig/sensors/thermometer.h"
 #include "rig/stages/stage.h"
 
@@ -21,7 +21,7 @@ std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellCon
 
 // The devices of a rig and their ports, destroyed in the right order.
 struct RigDevices {
-  std::unique_ptr<SerialLine> stage_line, cell_line;
+  std::unique_ptr<Transport> stage_line, cell_line;
   std::unique_ptr<Thermometer> thermometer;  // nullptr if the rig file names none
   std::unique_ptr<Stage> stage;
   std::unique_ptr<LoadCell> load_cell;

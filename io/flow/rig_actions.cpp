@@ -191,8 +191,9 @@ WeighedLoad weigh_on_rig(const RigConfig& rig, bool is_emulated, double force_N,
   const std::unique_ptr<EmulatedRig> emulated = is_emulated ? emulated_rig(rig) : nullptr;
   const RigConfig config = config_of(rig, emulated.get());
   const RigClock clock = emulated ? emulated->clock() : RigClock(rig.clock_speed);
-  SerialLine line(config.load_cell.port, config.load_cell.baud, clock, config.load_cell.framing);
-  const auto load_cell = make_load_cell(line, config.load_cell, clock, [](const RunRecord&) {});
+  const auto line =
+      open_line(config.load_cell.port, config.load_cell.baud, clock, config.load_cell.framing);
+  const auto load_cell = make_load_cell(*line, config.load_cell, clock, [](const RunRecord&) {});
   WeighOptions options;
   options.largest_N = largest_N;
   options.stop = stop;

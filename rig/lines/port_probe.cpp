@@ -1,6 +1,7 @@
 #include "rig/lines/port_probe.h"
 
 #include "rig/lines/rig_error.h"
+#include "rig/lines/tcp_line.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -106,6 +107,10 @@ std::vector<std::string> present_ports() {
 
 PortStatus port_status(const std::string& path) {
   PortStatus result{path, path, ""};
+  if (is_tcp_port(path)) {
+    result.trouble = trouble_of_tcp_port(path);
+    return result;
+  }
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) {
     result.trouble = trouble_text(path, errno);

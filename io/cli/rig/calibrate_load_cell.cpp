@@ -62,8 +62,8 @@ WeightReadings weigh_on(RigConfig rig, const CalibrateWords& words, EmulatedRig*
   const StopOnSignal on_signal;
   if (emulated != nullptr) rig = emulated->config();
   const RigClock clock = emulated != nullptr ? emulated->clock() : RigClock(rig.clock_speed);
-  SerialLine line(rig.load_cell.port, rig.load_cell.baud, clock, rig.load_cell.framing);
-  const auto load_cell = make_load_cell(line, rig.load_cell, clock, [](const RunRecord&) {});
+  const auto line = open_line(rig.load_cell.port, rig.load_cell.baud, clock, rig.load_cell.framing);
+  const auto load_cell = make_load_cell(*line, rig.load_cell, clock, [](const RunRecord&) {});
   std::vector<double> masses_kg = words.masses_kg;
   if (masses_kg.empty()) masses_kg = {0.05, 0.1, 0.15, 0.2};
   const std::vector<double> sequence = sequence_kg(masses_kg, words.series);

@@ -45,4 +45,10 @@ RequiredValue required_pressure_per_kelvin(const Scene& scene, const Requirement
 RequiredValue required_voltage_per_pressure(const Scene& scene, const Requirements& requirements,
                                             const SceneSolver& solve);
 
+// Of a surface that slides over the sensor (required_motion.cpp).
+RequiredValue required_slip_latency(const Scene& scene, const Requirements& requirements,
+                                    const SceneSolver& solve);
+RequiredValue required_texture_amplitude(const Scene& scene, const Requirements& requirements,
+                                         const SceneSolver& solve);
+
 }  // namespace viscard

@@ -41,7 +41,11 @@ const std::vector<RequirementKind>& requirement_kinds() {
       {"voltage_per_pressure", "V/Pa", false, "reading per mean pressure",
        &R::voltage_per_pressure_V_Pa, required_voltage_per_pressure},
       {"collapse_margin", "1", false, "longest pillar that stands over its length",
-       &R::collapse_margin, required_collapse_margin}};
+       &R::collapse_margin, required_collapse_margin},
+      {"slip_latency", "s", true, "time until the readings show that a top slides",
+       &R::slip_latency_s, required_slip_latency},
+      {"texture_amplitude", "m", true, "smallest ridge that is read while it slides by",
+       &R::texture_amplitude_m, required_texture_amplitude}};
   return kKinds;
 }
 
@@ -51,6 +55,10 @@ void show_requirements(FieldVisitor& v, Requirements& r) {
   v.text({"top", "free"}, r.top);
   v.quantity({.key = "bandwidth_error", .range = Range::kPositive}, r.bandwidth_error);
   v.quantity({.key = "linear_to", .unit = "Pa", .range = Range::kPositive}, r.linear_to_Pa);
+  v.quantity({.key = "texture_wavelength", .unit = "m", .range = Range::kPositive},
+             r.texture_wavelength_m);
+  v.quantity({.key = "texture_speed", .unit = "m/s", .range = Range::kPositive},
+             r.texture_speed_m_s);
   for (const RequirementKind& kind : requirement_kinds()) {
     v.quantity({.key = kind.key, .unit = kind.unit, .range = Range::kPositive}, r.*kind.limit);
   }

@@ -18,6 +18,8 @@ struct Requirements {
   std::string top = "free";              // of a pressed pillar: "free" or "plate" (kept level)
   double bandwidth_error = 0.05;       // relative rise of the response at the end of the bandwidth
   double linear_to_Pa = kNotRequired;  // mean pressure up to which `nonlinearity` holds
+  double texture_wavelength_m = kNotRequired;  // of the texture that slides over the sensor
+  double texture_speed_m_s = kNotRequired;
 
   // Limits on computed quantities, one for each row of requirement_kinds().
   double pillars_per_tactel = kNotRequired;         // at least
@@ -35,6 +37,8 @@ struct Requirements {
   double pressure_per_kelvin_Pa_K = kNotRequired;   // at most
   double voltage_per_pressure_V_Pa = kNotRequired;  // at least
   double collapse_margin = kNotRequired;            // at least, 1
+  double slip_latency_s = kNotRequired;             // at most
+  double texture_amplitude_m = kNotRequired;        // at most
 };
 
 // A quantity that a scene was asked for: its value with error, or the reason why there is none.
