@@ -82,18 +82,11 @@ const Row& row_of(const Row (&rows)[n], const std::string& name, const std::stri
                  "] of the rig file is unknown; known are " + known);
 }
 
-// A wrong word of the rig file is reported before a missing port, because the word must be
-// corrected in any case.
-void check_words(const RigConfig& rig) {
-  row_of(kStages, rig.stage.driver, "stage").check(rig.stage);
-  const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");
-  cell.check(rig.load_cell);
-  check_thermometer_words(rig.thermometer);
-  if (rig.thermometer.driver != "load-cell" || cell.sends_lines) return;
-  throw RigError(
-      "driver = \"load-cell\" under [thermometer] of the rig file needs a load cell that "
-      "sends lines by itself; '" +
-      rig.load_cell.driver + "' is polled. Give the thermometer a port of its own");
+template <class Row, std::size_t n>
+std::vector<std::string> names_of(const Row (&rows)[n]) {
+  std::vector<std::string> names;
+  for (const Row& row : rows) names.emplace_back(row.name);
+  return names;
 }
 
 // The port of a device; a port that cannot be opened is named with its key.
@@ -109,6 +102,28 @@ std::unique_ptr<Transport> line_of(const char* section, const Config& device, co
 }
 
 }  // namespace
+
+std::vector<std::string> stage_drivers() {
+  return names_of(kStages);
+}
+
+std::vector<std::string> load_cell_drivers() {
+  return names_of(kCells);
+}
+
+// A wrong word of the rig file is reported before a missing port, because the word must be
+// corrected in any case.
+void check_devices(const RigConfig& rig) {
+  row_of(kStages, rig.stage.driver, "stage").check(rig.stage);
+  const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");
+  cell.check(rig.load_cell);
+  check_thermometer_words(rig.thermometer);
+  if (rig.thermometer.driver != "load-cell" || cell.sends_lines) return;
+  throw RigError(
+      "driver = \"load-cell\" under [thermometer] of the rig file needs a load cell that "
+      "sends lines by itself; '" +
+      rig.load_cell.driver + "' is polled. Give the thermometer a port of its own");
+}
 
 std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& config,
                                   const RigClock& clock, const RecordSink& sink) {
@@ -138,7 +153,7 @@ std::unique_ptr<Thermometer> make_thermometer(const RigConfig& rig, const RigClo
 }
 
 RigDevices open_ports(const RigConfig& rig, const RigClock& clock) {
-  check_words(rig);
+  check_devices(rig);
   RigDevices devices;
   devices.stage_line = line_of("stage", rig.stage, clock);
   devices.cell_line = line_of("load_cell", rig.load_cell, clock, rig.load_cell.framing);

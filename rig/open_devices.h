@@ -9,6 +9,8 @@
 #include "rig/stages/stage.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -18,6 +20,11 @@ std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& confi
                                   const RigClock& clock, const RecordSink& sink);
 std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellConfig& config,
                                          const RigClock& clock, const RecordSink& sink);
+
+// The words of driver, and a check of all words of a rig file that name devices: throws RigError. No port is opened.
+std::vector<std::string> stage_drivers();
+std::vector<std::string> load_cell_drivers();
+void check_devices(const RigConfig& rig);
 
 // The devices of a rig and their ports, destroyed in the right order.
 struct RigDevices {

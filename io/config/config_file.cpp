@@ -196,9 +196,11 @@ RigConfig read_rig_to_calibrate(const std::filesystem::path& path, Plausible jud
   return rig;
 }
 
-RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
-  RigConfig rig = read_for_use(path, judged, rig_from_toml);
-  check_before_use(rig, read_file(path), path.string());
+namespace {
+
+// Checks a rig and takes what the records that it names have. text: of the rig file.
+RigConfig with_records(RigConfig rig, const std::string& text, const std::filesystem::path& path) {
+  check_before_use(rig, text, path.string());
   const std::filesystem::path folder = path.parent_path();
   // The record replaces the whole section, so that its numbers are never mixed with older ones.
   // Only the rated load of the cell may be in the rig file alone.
@@ -206,7 +208,7 @@ RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
     const double capacity_N = rig.calibration.capacity_N;
     const std::string file = rig.calibration.file;
     const std::filesystem::path where =
-        path_at_key(read_file(path), path, "calibration.file", file, FileKind::kCalibration);
+        path_at_key(text, path, "calibration.file", file, FileKind::kCalibration);
     const CalibrationRecord record = read_calibration(where);
     if (!record.calibration) {
       throw std::runtime_error((folder / rig.calibration.file).string() +
@@ -218,10 +220,10 @@ RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
     check_before_use(rig, read_file(where), where.string());
   }
   if (rig.frame.file.empty()) {
-    check_frame(rig.frame, read_file(path), path.string());
+    check_frame(rig.frame, text, path.string());
   } else {
     const std::filesystem::path where =
-        path_at_key(read_file(path), path, "frame.file", rig.frame.file, FileKind::kCalibration);
+        path_at_key(text, path, "frame.file", rig.frame.file, FileKind::kCalibration);
     const CalibrationRecord record = read_calibration(where);
     if (!record.frame) {
       throw std::runtime_error((folder / rig.frame.file).string() +
@@ -231,6 +233,17 @@ RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
     check_frame(rig.frame, read_file(where), where.string());
   }
   return rig;
+}
+
+}  // namespace
+
+RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
+  return with_records(read_for_use(path, judged, rig_from_toml), read_file(path), path);
+}
+
+RigConfig rig_of_text(const std::string& text, const std::filesystem::path& path,
+                      Plausible judged) {
+  return with_records(rig_from_toml(text, path.string(), judged), text, path);
 }
 
 void require_id(const Specimen& specimen, const std::string& toml, const std::string& name) {

@@ -20,6 +20,8 @@ namespace viscard {
 // line, key and the expected value, and for an unknown key the nearest known key. Values that no bench
 // can have are refused too, unless the file or `judged` accepts them.
 RigConfig read_rig(const std::filesystem::path& path, Plausible judged = Plausible::kMeasured);
+// The same of a text that shall stand in that file.
+RigConfig rig_of_text(const std::string& text, const std::filesystem::path& path, Plausible judged);
 // The same before its load cell is calibrated: the gain may be a guess, and the record that the file names
 // need not exist yet. Only the capacity is taken from an older record.
 RigConfig read_rig_to_calibrate(const std::filesystem::path& path,

@@ -57,16 +57,6 @@ bool is_set(const Json& request, const char* key) {
   throw ApiError(400, "bad-value", std::string("'") + key + "' must be true or false");
 }
 
-// How the page wants the numbers of this request judged: "plausible", "on" or "off". Throws ApiError 400.
-Plausible judged_by(const Json& request) {
-  if (!request.contains("plausible")) return Plausible::kMeasured;
-  try {
-    return plausible_from_word(text_at(request, "plausible"), Plausible::kMeasured);
-  } catch (const std::invalid_argument& error) {
-    throw ApiError(400, "bad-value", error.what());
-  }
-}
-
 // The configuration keeps it, and its file says it.
 template <typename Config>
 Config with_judgement(Config config, const Json& request) {

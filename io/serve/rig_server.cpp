@@ -2,6 +2,7 @@
 
 #include "io/serve/hands_api.h"
 #include "io/serve/page_server.h"
+#include "io/serve/rig_setup.h"
 
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,7 @@ class RigServer::Impl {
   explicit Impl(const ServeOptions& options)
       : api_(options, job_),
         hands_(options, job_),
+        setup_(options, job_),
         server_({.program = "viscard serve",
                  .home = "/rig.html",
                  .urgent_path = kStopPath,
@@ -55,6 +57,7 @@ class RigServer::Impl {
   void add_questions() {
     server_.add_question("/api/state", [this](const auto&) { return api_.state(); });
     server_.add_question("/api/ports", [this](const auto&) { return api_.ports(); });
+    server_.add_question("/api/rig", [this](const auto&) { return setup_.text(); });
     server_.add_question("/api/test", [this](const auto&) { return api_.test_texts(); });
     server_.add_question("/api/move", [this](const auto&) { return hands_.moving(); });
     server_.add_question("/api/run", [this](const PageServer::Value& value) {
@@ -67,6 +70,7 @@ class RigServer::Impl {
       server_.add_order(path, std::move(order));
     };
     add("/api/check", [this](const Json&) { return api_.check_rig(); });
+    add("/api/rig", [this](const Json& r) { return setup_.take(r); });
     add("/api/preflight", [this](const Json& r) { return api_.preflight_of(r); });
     add("/api/test", [this](const Json& r) { return api_.save_test(r); });
     add("/api/specimens", [this](const Json& r) { return api_.add_specimen(r); });
@@ -88,6 +92,7 @@ class RigServer::Impl {
   OneJob job_;
   RigApi api_;
   HandsApi hands_;
+  RigSetup setup_;
   PageServer server_;
 };
 

@@ -139,6 +139,15 @@ std::vector<double> rounded(const std::vector<double>& values, double step) {
   return result;
 }
 
+Plausible judged_by(const Json& request) {
+  if (!request.contains("plausible")) return Plausible::kMeasured;
+  try {
+    return plausible_from_word(text_at(request, "plausible"), Plausible::kMeasured);
+  } catch (const std::invalid_argument& error) {
+    throw ApiError(400, "bad-value", error.what());
+  }
+}
+
 Json json_of_rig(const RigConfig& rig, const std::string& calibration_trouble) {
   const double capacity_N = rig.calibration.capacity_N;
   return {{"name", rig.name},

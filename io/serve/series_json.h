@@ -3,6 +3,7 @@
 #include "io/serve/series_folder.h"
 #include "models/experiment/rig_config.h"
 #include "models/experiment/test_plan.h"
+#include "models/quantities/plausible.h"
 #include "rig/run/expected_course.h"
 #include "rig/run/preflight.h"
 
@@ -20,6 +21,8 @@ nlohmann::ordered_json object_from_text(const std::string& text);
 std::string text_at(const nlohmann::ordered_json& object, const char* key);
 // The finite number of a key. Throws ApiError 400.
 double number_at(const nlohmann::ordered_json& object, const std::string& key);
+// How the page wants the numbers of this request judged: "plausible", "on" or "off"; on without it. Throws ApiError 400.
+Plausible judged_by(const nlohmann::ordered_json& request);
 
 nlohmann::ordered_json json_of_rig(const RigConfig& rig, const std::string& calibration_trouble);
 nlohmann::ordered_json json_of_test(const TestPlan& plan);

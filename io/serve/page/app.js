@@ -9,6 +9,7 @@ import { fitCapture, startResult } from "./result.js";
 import { showRig, startRig } from "./rig.js";
 import { isRunning, pollRun, showRigLimits, startRun } from "./run.js";
 import { chooseNext, chosenSpecimen, showSeries, startSeries } from "./series.js";
+import { startSetup } from "./setup.js";
 
 const kRunning_ms = 200, kIdle_ms = 1500;
 const kStateEvery = 3;  // idle polls
@@ -60,6 +61,7 @@ async function runEnded(run) {
 const quietly = (work) => work().catch(showLink);
 
 startRig();
+startSetup({ onKept: () => refresh() });
 startHands({ onDone: () => quietly(refresh) });
 startProtocol({ specimen: chosenSpecimen, onCourse: showCourse, onKept: () => refresh() });
 startSeries({

@@ -53,6 +53,54 @@ TEST_CASE("ports that do not exist are named before, in a check and in a run", "
   CHECK(rig.ask("/api/state").json.at("job") == "");
 }
 
+TEST_CASE("the rig file is set up from the page, and the text of before stays beside it",
+          "[serve]") {
+  test::ScratchFolder scratch;
+  const std::string file = rig_file(scratch, "/dev/viscard-none", "/dev/viscard-none-2");
+  const std::string before = read_file(file);
+  ServedRig rig(ServeOptions{.rig_file = file});
+  const Json shown = rig.ask("/api/rig").json;
+  CHECK(shown.at("text") == before);
+  CHECK(shown.at("is_kept") == true);
+  CHECK(shown.at("stage_drivers").size() >= 6);
+  std::string other = before;
+  other.replace(other.find("/dev/viscard-none"), 17, "tcp://10.0.0.1:23");
+  SECTION("a text is looked at without a change") {
+    CHECK(rig.order("/api/rig", {{"text", other}}).status == 200);
+    CHECK(read_file(file) == before);
+  }
+  SECTION("what is no rig is refused with its line, and nothing is written") {
+    std::string wrong = other;
+    wrong.replace(wrong.find("driver = \"grbl\""), 15, "driver = \"gerbil\"");
+    for (const std::string& text :
+         {wrong, other + "[stage]\n", std::string("x = "), std::string(60000, '#')}) {
+      const auto answer = rig.order("/api/rig", {{"text", text}, {"keep", true}});
+      INFO(answer.json.dump());
+      CHECK(answer.status >= 400);
+    }
+    CHECK(read_file(file) == before);
+    CHECK_FALSE(std::filesystem::exists(file + ".1"));
+  }
+  SECTION("it is kept, more than once") {
+    CHECK(rig.order("/api/rig", {{"text", other}, {"keep", true}}).json.at("kept_before") ==
+          "rig.toml.1");
+    CHECK(read_file(file) == other);
+    CHECK(read_file(file + ".1") == before);
+    CHECK(rig.ask("/api/state").json.at("rig").at("stage").at("port") == "tcp://10.0.0.1:23");
+    CHECK(rig.order("/api/rig", {{"text", before}, {"keep", true}}).json.at("kept_before") ==
+          "rig.toml.2");
+    CHECK(rig.order("/api/rig", {{"text", before}, {"keep", true}}).json.at("kept_before") == "");
+  }
+}
+
+TEST_CASE("the rig of the demonstration is shown and not changed", "[serve]") {
+  ServedRig rig;
+  const Json shown = rig.ask("/api/rig").json;
+  CHECK(shown.at("is_kept") == false);
+  CHECK(rig.order("/api/rig", {{"text", shown.at("text")}}).status == 200);
+  CHECK(rig.order("/api/rig", {{"text", shown.at("text")}, {"keep", true}}).status == 422);
+}
+
 TEST_CASE("a port that goes away ends the run; the record is kept and the next start names it",
           "[serve][pty]") {
   test::ScratchFolder scratch;
