@@ -154,6 +154,38 @@ double static_over_peak(const ReducedBody& reduced, const TransientRequest& requ
   return std::abs(moved) * peak / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
 }
 
+// The share of the tolerance that waves too short for the meshes may take: more where ramps excite them.
+double share_of_tail(const Roughness& load) {
+  return load.jumps > 0.0 ? 0.5 : 0.9;
+}
+
+// The reach is chosen for a motion of the size of the one at rest. Up to this ratio of the two it suffices for ramps.
+constexpr double kShortPulse = 2.0;
+
+// Duration of a rectangle with the peak and the area of a load.
+double lasting_s(const std::vector<HistoryPoint>& history) {
+  double peak = 1e-300, area = 0.0;
+  for (const HistoryPoint& point : history) peak = std::max(peak, std::abs(point.value));
+  for (std::size_t i = 1; i < history.size(); ++i) {
+    area += 0.5 * (std::abs(history[i].value) + std::abs(history[i - 1].value)) *
+            (history[i].time_s - history[i - 1].time_s);
+  }
+  return area / peak;
+}
+
+// The least tolerance, from `least` on, at which the load is not refused: after a larger one the reach is shorter, so
+// that a short pulse is refused again, until the reach ends at its least.
+double proposed_tolerance(PillarScene scene, double least, double first_rad_s,
+                          double static_share) {
+  const Roughness load = roughness_of(transient_drive(scene).history);
+  scene.tolerance = least;
+  while (static_share * tail_beyond(reach_rad_s(scene, first_rad_s), first_rad_s, load) >
+         0.9 * share_of_tail(load) * scene.tolerance) {
+    scene.tolerance *= 1.25;
+  }
+  return scene.tolerance;
+}
+
 // A jump excites waves of every length with amplitudes in proportion to the length; a change of
 // slope with amplitudes in proportion to its square. The answer may therefore contain waves that
 // are too short for the meshes here. They become negligible if jumps are replaced by ramps and
@@ -161,11 +193,13 @@ double static_over_peak(const ReducedBody& reduced, const TransientRequest& requ
 // tolerance is raised accordingly. Mesh and basis use the rest of the tolerance.
 void refuse_sudden_load(const PillarScene& scene, double first_rad_s, double reach, double tail,
                         double static_share) {
-  const Roughness load = roughness_of(transient_drive(scene).history);
+  const std::vector<HistoryPoint>& history = transient_drive(scene).history;
+  const Roughness load = roughness_of(history);
   const bool has_jumps = load.jumps > 0.0;
-  if (tail <= (has_jumps ? 0.5 : 0.9) * scene.tolerance) return;
-  const double rise_s =
-      1.1 * load.jumps * first_rad_s * static_share / (scene.tolerance * reach * reach);
+  if (tail <= share_of_tail(load) * scene.tolerance) return;
+  double rise_s = 1.1 * load.jumps * first_rad_s * static_share / (scene.tolerance * reach * reach);
+  // A pulse as short is refused with ramps, too, until it moves the pillar about as far as at rest.
+  if (static_share > kShortPulse) rise_s = std::max(rise_s, static_share * lasting_s(history));
   const double wave_m =
       2.0 * std::numbers::pi * std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3) / reach;
   const std::string cause = has_jumps ? "the load jumps, which excites waves of all lengths; those "
@@ -173,11 +207,16 @@ void refuse_sudden_load(const PillarScene& scene, double first_rad_s, double rea
   const std::string cure =
       has_jumps ? "Let each jump take " + text_of(rise_s, 2) + " s or longer"
                 : "Stretch its ramps " + text_of(2.8 * tail / scene.tolerance, 2) + " times";
-  throw SceneMistake(transient_drive(scene).history.size() > 2 ? "analysis.history" : "analysis",
+  constexpr double kLargestProposed = 0.5;  // beyond it an answer says nothing
+  const double tolerance = proposed_tolerance(scene, 2.8 * tail, first_rad_s, static_share);
+  const std::string or_else =
+      tolerance < kLargestProposed
+          ? ", or ask for a tolerance of " + text_of(tolerance, 2) + " or larger"
+          : "";
+  throw SceneMistake(history.size() > 2 ? "analysis.history" : "analysis",
                      cause + "shorter than " + text_of(1e6 * wave_m, 2) +
                          " um, too short for the meshes here, carry " + text_of(tail, 2) +
-                         " of the answer, too much for the tolerance. " + cure +
-                         ", or ask for a tolerance of " + text_of(2.8 * tail, 2) + " or larger");
+                         " of the answer, too much for the tolerance. " + cure + or_else);
 }
 
 void check_transient(const PillarScene& scene) {

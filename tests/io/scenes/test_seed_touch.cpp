@@ -1,4 +1,4 @@
-// The thesis' chapter 8 and appendix A.1 as scenes of data/seed, each beside a number of another origin.
+// The thesis' chapters 7 and 8 and appendix A.1 as scenes of data/seed, each beside a number of another origin.
 #include "io/flow/scenes/answer_scene.h"
 #include "io/scenes/scene_file.h"
 #include "models/array/space/space_contact.h"
@@ -65,6 +65,21 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     bb += (b[i] - mean_b) * (b[i] - mean_b);
   }
   return ab / std::sqrt(aa * bb);
+}
+
+const SceneCurve& seed_curve(const SceneAnswer& answer, const std::string& name) {
+  for (const SceneCurve& one : answer.curves) {
+    if (one.name == name) return one;
+  }
+  throw std::runtime_error("no curve " + name);
+}
+
+double largest_near(const SceneCurve& spectrum, double middle_Hz) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < spectrum.x.size(); ++i) {
+    if (std::abs(spectrum.x[i] - middle_Hz) < 10e3) largest = std::max(largest, spectrum.value[i]);
+  }
+  return largest;
 }
 
 }  // namespace
@@ -161,6 +176,8 @@ TEST_CASE("quarters read by areas and by nodes give the numbers of the seed file
         Approx(-7.78507e-3).epsilon(1e-3));
   CHECK(result("quadrants_shear_area.toml", "sensed_shear_x_force_1_1") ==
         Approx(top_N).epsilon(1e-6));
+  // On a film as wide as the pillar the same foot reads several times as much.
+  CHECK(result("figure_8_5.toml", "quadrant_voltage") == Approx(-32.60e-3).epsilon(1e-3));
   const SceneAnswer nodes = seed_answer("quadrants_shear_nodes.toml").answer;
   CHECK(seed_result(nodes, "sensed_normal_force_1_1").value ==
         Approx(-0.140 * top_N).margin(2e-3 * top_N));
@@ -168,4 +185,54 @@ TEST_CASE("quarters read by areas and by nodes give the numbers of the seed file
         Approx(0.870 * top_N).margin(2e-3 * top_N));
   CHECK(seed_result(nodes, "sensed_shear_y_force_1_1").value ==
         Approx(0.015 * top_N).margin(2e-3 * top_N));
+}
+
+// A pulse moves the end of a rod by modes n in the ratio 1/(2 n - 1) and presses on its foot by all modes alike; one that rises and falls in
+// r each excites them by sinc^2(f r). Graff, Wave Motion in Elastic Solids (1975), 2.2. A pillar as thick as the wave is long disperses.
+TEST_CASE("the pulses of chapter 7 excite the modes of a rod", "[seed][scene]") {
+  struct Pulse {
+    const char *file, *top, *foot;
+    double first_Hz, second_Hz;
+  };
+  const Pulse pulse = GENERATE(
+      Pulse{"figure_7_2.toml", "top_displacement", "potential_at_centre", 90927.0, 2.68e5},
+      Pulse{"figure_7_19.toml", "top_displacement_4", "centre_voltage_4", 90321.0, 2.68e5});
+  CAPTURE(pulse.file);
+  const SceneAnswer answer = seed_answer(pulse.file).answer;
+  const auto second_over_first = [&](const std::string& name) {
+    const SceneCurve& spectrum = seed_curve(answer, name + "_spectrum");
+    return largest_near(spectrum, pulse.second_Hz) / largest_near(spectrum, pulse.first_Hz);
+  };
+  const auto triangle = [](double f_Hz) {
+    const double x = std::numbers::pi * f_Hz * 1.1e-6;
+    return std::pow(std::sin(x) / x, 2);
+  };
+  const double excited = triangle(pulse.second_Hz) / triangle(pulse.first_Hz);
+  CHECK(second_over_first(pulse.top) == Approx(excited / 3.0).epsilon(0.2));
+  CHECK(second_over_first(pulse.foot) == Approx(excited).epsilon(0.2));
+}
+
+TEST_CASE("the sweeps of chapter 7 are flat below and peak at the axial modes of its tables",
+          "[seed][scene]") {
+  const SceneAnswer slow = seed_answer("figure_7_8.toml").answer;
+  const double at_10_Hz = seed_result(slow, "potential_at_centre_at_lowest").value;
+  const double at_300_Hz = seed_result(slow, "potential_at_centre_at_highest").value;
+  CHECK(at_10_Hz < 0.1);  // the axis of the thesis
+  const double turn = 2.0 * std::numbers::pi * 300.0 * 120e-6 / std::sqrt(1.8e6 / 965.0);
+  CHECK(at_300_Hz / at_10_Hz - 1.0 == Approx(1.0 / std::cos(turn) - 1.0).epsilon(0.05));
+
+  const SceneAnswer single = seed_answer("figure_7_10.toml").answer;
+  CHECK(seed_result(single, "top_displacement_resonance_1").value == Approx(90927.0).epsilon(3e-3));
+  CHECK(seed_result(single, "top_displacement_resonance_2").value == Approx(2.68e5).epsilon(1e-3));
+
+  const SceneAnswer answer = seed_answer("figure_7_18.toml").answer;
+  const SceneCurve& row = seed_curve(answer, "centre_voltage_4_magnitude");
+  std::vector<double> peaks_Hz;
+  for (std::size_t i = 1; i + 1 < row.x.size(); ++i) {
+    if (row.value[i] > row.value[i - 1] && row.value[i] > row.value[i + 1])
+      peaks_Hz.push_back(row.x[i]);
+  }
+  REQUIRE(peaks_Hz.size() == 2);  // none at the lateral modes of 18, 82 and 180 kHz
+  CHECK(peaks_Hz[0] == Approx(90321.0).margin(2e3));
+  CHECK(peaks_Hz[1] == Approx(2.68e5).margin(2e3));
 }

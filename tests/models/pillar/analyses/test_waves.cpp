@@ -285,6 +285,35 @@ TEST_CASE("a ramp too steep for the tolerance is refused with a longer rise time
   CHECK(simulate_pillar(scene).largest_relative_error <= scene.tolerance);
 }
 
+// A tolerance of a few times the stated one shortens the reach as much as it allows more, so that it was refused again,
+// and ramps as long as a step needs are too short for a pulse that moves the pillar less than at rest.
+TEST_CASE("a pulse much shorter than a period can be solved as its refusal proposes", "[pillar]") {
+  PillarScene scene = rod_scene(0.33, 1e-4);
+  test::as<TransientDrive>(scene).direction = LoadDirection::kAxial;
+  const auto triangle = [](double rise_s) {
+    return std::vector<HistoryPoint>{{0.0, 0.0}, {rise_s, kPressure_Pa}, {2.0 * rise_s, 0.0}};
+  };
+  const double step_s = 0.55e-6;  // twenty per period
+  test::as<TransientDrive>(scene).history = {
+      {0.0, kPressure_Pa}, {step_s, kPressure_Pa}, {step_s, 0.0}};
+  const std::string jumps = refusal_of(scene);
+  CAPTURE(jumps);
+  CHECK_THAT(jumps, !Catch::Contains("ask for a tolerance"));  // it would be near 1
+  test::as<TransientDrive>(scene).history = triangle(number_after(jumps, "Let each jump take "));
+  CHECK(simulate_pillar(scene).largest_relative_error <= scene.tolerance);
+
+  scene.tolerance = 2e-2;
+  test::as<TransientDrive>(scene).history = triangle(step_s);
+  const std::string ramps = refusal_of(scene);
+  CAPTURE(ramps);
+  PillarScene slower = scene;
+  test::as<TransientDrive>(slower).history =
+      triangle(step_s * number_after(ramps, "Stretch its ramps "));
+  CHECK(simulate_pillar(slower).largest_relative_error <= slower.tolerance);
+  scene.tolerance = number_after(ramps, "ask for a tolerance of ");
+  CHECK(simulate_pillar(scene).largest_relative_error <= scene.tolerance);
+}
+
 TEST_CASE("a jump along the axis can be solved as its refusal proposes", "[pillar][slow]") {
   check_advice(LoadDirection::kAxial, 1e-3);
 }
