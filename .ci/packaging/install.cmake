@@ -10,7 +10,7 @@ file(CREATE_LINK ${CMAKE_SOURCE_DIR}/data ${CMAKE_BINARY_DIR}/share/viscard SYMB
 # --- runtime: the program, its data, man pages, completions ---------------------------------------
 install(TARGETS viscard RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 # Texts with paths of the installed files in the place of those of the source tree.
-set(folders_of_data "demo|designs|materials|protocols|requirements|scenes|studies")
+set(folders_of_data "demo|designs|materials|protocols|requirements|scenes|seed|studies")
 configure_file(${packaging}/installed_texts.cmake.in ${CMAKE_BINARY_DIR}/installed_texts.cmake @ONLY)
 configure_file(${packaging}/install_documents.cmake.in ${CMAKE_BINARY_DIR}/install_documents.cmake @ONLY)
 install(SCRIPT ${CMAKE_BINARY_DIR}/install_documents.cmake COMPONENT runtime)

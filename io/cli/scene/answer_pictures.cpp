@@ -85,6 +85,12 @@ EmptyPanel axes_of(const SceneCurve& curve) {
   out.panel.x = {.label = x.name + " (" + x_unit.text + ")",
                  .is_log = (is_frequency || x.name == "wavelength") && spans_decades(curve.x)};
   out.panel.y = {.label = label_of(curve, y_unit.text), .is_log = is_log};
+  // What lies further below the peak is rounding.
+  constexpr double kSeenShare = 1e-7;
+  const double least = kSeenShare * largest_size(curve.value);
+  const bool goes_below = std::any_of(curve.value.begin(), curve.value.end(),
+                                      [&](double value) { return std::abs(value) < least; });
+  if (is_log && goes_below) out.panel.y.min = std::pow(10.0, std::floor(std::log10(least)));
   return out;
 }
 
