@@ -25,6 +25,7 @@ std::complex<double> scaled_bessel_k(int order, std::complex<double> z) {
 
 AirMotion motion_of(const std::string& family) {
   if (family == "longitudinal") return AirMotion::kAlong;
+  if (family == "ovalling") return AirMotion::kOvalling;
   return family == "torsion" ? AirMotion::kTurning : AirMotion::kSideways;
 }
 
@@ -35,7 +36,8 @@ std::complex<double> air_factor(AirMotion motion, std::complex<double> z) {
     return 4.0 * scaled_bessel_k(2, z) / (z * scaled_bessel_k(1, z));
   }
   const std::complex<double> ratio = scaled_bessel_k(1, z) / (z * scaled_bessel_k(0, z));
-  return motion == AirMotion::kAlong ? 2.0 * ratio : 1.0 + 4.0 * ratio;
+  if (motion == AirMotion::kAlong) return 2.0 * ratio;
+  return (motion == AirMotion::kOvalling ? 0.5 : 1.0) * (1.0 + 4.0 * ratio);
 }
 
 AirLoad air_load(const PillarScene& scene, AirMotion motion, double frequency_Hz) {
@@ -71,7 +73,7 @@ void add_air_errors(const PillarScene& scene, SceneAnswer& answer) {
   for (SceneMode& mode : answer.modes) {
     const AirLoad air = air_load(scene, motion_of(mode.family), mode.frequency_Hz);
     const double unknown =
-        mode.family == "ovalling"
+        motion_of(mode.family) == AirMotion::kOvalling
             ? 1.0
             : std::min(1.0, 0.5 * scene.geometry.diameter_m / scene.geometry.length_m);
     mode.error_estimate += unknown * air.frequency_share * mode.frequency_Hz;

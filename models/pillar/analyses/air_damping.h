@@ -13,9 +13,10 @@ namespace viscard {
 //   sideways   Gamma = 1 + 4 K_1(z)/(z K_0(z))
 //   along      Gamma = 2 K_1(z)/(z K_0(z))
 //   turning    Gamma = 4 K_2(z)/(z K_1(z))   (eq. 22d)
+//   ovalling   half of that sideways, as the harmonic 2 has in an ideal fluid (Lamb, Hydrodynamics (1932), 68)
 // A small part -Im of it damps, the real part adds mass. Sources: Stokes, Trans. Camb. Phil. Soc. 9 (1851) 8;
 // Rosenhead, Laminar Boundary Layers (1963), ch. 7 (sideways); the other two follow from the same equation.
-enum class AirMotion { kSideways, kAlong, kTurning };
+enum class AirMotion { kSideways, kAlong, kTurning, kOvalling };
 // `motion` at z; Re z > 0.
 std::complex<double> air_factor(AirMotion motion, std::complex<double> z);
 
@@ -31,7 +32,7 @@ AirLoad air_load_of_slowest_mode(const PillarScene& scene);
 // Air on the modes of one mesh. A mode of an elastic pillar gets the damping ratio of the air alone.
 void add_air(const PillarScene& scene, SceneAnswer& answer);
 // The errors of that: the formulas hold for a cylinder without ends, so that the share of the end faces, R/L, of what
-// air does is unknown; ovalling takes that of a motion sideways, and all of it is unknown.
+// air does is unknown, and all of it for ovalling.
 void add_air_errors(const PillarScene& scene, SceneAnswer& answer);
 
 }  // namespace viscard

@@ -58,7 +58,9 @@ void run_elastic(const PillarScene& scene, SceneAnswer& answer) {
   const PillarModel axial = model_of(scene, axial_motion(scene), answer.discretisation);
   count_unknowns(axial, answer);
   const Eigen::VectorXd traction = axial.top_traction();
-  const PillarState per_Pa = axial.solve(-traction);
+  // A body that nothing holds bears no load, and moves by heat alone.
+  const PillarState per_Pa =
+      scene.fixed_bottom ? axial.solve(-traction) : 0.0 * unloaded_state(scene, axial);
   const double moved_m = axial.mean_top_displacement_m(per_Pa);
   const bool has_more = moves_unloaded(scene);
   const PillarState unloaded = has_more ? unloaded_state(scene, axial) : 0.0 * per_Pa;
@@ -70,7 +72,7 @@ void run_elastic(const PillarScene& scene, SceneAnswer& answer) {
   } else {
     answer.results.push_back({"top_displacement", moved_m * pressure_Pa + moved_unloaded_m, "m"});
   }
-  if (scene.nearby == nullptr) {
+  if (scene.nearby == nullptr && scene.fixed_bottom) {
     const SolutionRest rest(axial, per_Pa.unknowns);
     const double unresolved = missing_share(rest, rest, traction.dot(per_Pa.unknowns));
     for (SceneResult& result : answer.results) result.unresolved = unresolved;

@@ -66,7 +66,8 @@ void check_bottom(const PillarScene& scene) {
     throw SceneMistake(
         key, "nothing holds a pillar with a free bottom against the load on its top" + instead);
   }
-  if (analysis.free_bottom == FreeBottom::kPinned && drive_V(scene) == 0.0) {
+  if (analysis.free_bottom == FreeBottom::kPinned && drive_V(scene) == 0.0 &&
+      !scene.surroundings.strains_by_heat()) {
     throw SceneMistake(
         key, "a static analysis with a free bottom needs a voltage on an electrode" + instead);
   }
