@@ -1,7 +1,7 @@
 #include "rig/lines/port_probe.h"
 
 #include "rig/lines/rig_error.h"
-#include "rig/lines/tcp_line.h"
+#include "rig/lines/tcp_port.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

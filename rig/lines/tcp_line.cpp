@@ -2,6 +2,7 @@
 
 #include "rig/lines/rig_error.h"
 #include "rig/lines/serial_line.h"
+#include "rig/lines/tcp_port.h"
 
 #include <fcntl.h>
 #include <netdb.h>
@@ -15,6 +16,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <optional>
 
 namespace viscard {
@@ -22,26 +24,6 @@ namespace {
 
 constexpr int kConnect_ms = 3000;
 constexpr unsigned kSilent_ms = 10'000;
-
-struct Address {
-  std::string host, number;
-};
-
-// Nothing: no host, or no number from 1 to 65535 behind the last colon.
-std::optional<Address> address_of(const std::string& port) {
-  const std::string rest = port.substr(std::strlen(kTcpPort));
-  const std::size_t colon = rest.rfind(':');
-  if (colon == std::string::npos || colon == 0) return std::nullopt;
-  Address found{rest.substr(0, colon), rest.substr(colon + 1)};
-  if (found.host.front() == '[' && found.host.back() == ']')
-    found.host = found.host.substr(1, found.host.size() - 2);
-  const bool is_number = !found.number.empty() && found.number.size() <= 5 &&
-                         found.number.find_first_not_of("0123456789") == std::string::npos;
-  if (found.host.empty() || !is_number) return std::nullopt;
-  const int number = std::stoi(found.number);
-  if (number < 1 || number > 65535) return std::nullopt;
-  return found;
-}
 
 struct FreeAddresses {
   void operator()(addrinfo* list) const { freeaddrinfo(list); }
@@ -87,15 +69,6 @@ std::string why_not_connected(int error) {
 
 }  // namespace
 
-bool is_tcp_port(const std::string& port) {
-  return port.starts_with(kTcpPort);
-}
-
-std::string trouble_of_tcp_port(const std::string& port) {
-  if (address_of(port)) return "";
-  return "needs a host and a number, such as tcp://192.168.1.20:5025";
-}
-
 TcpLine::TcpLine(const std::string& port, const RigClock& clock) : port_(port), clock_(clock) {
   open();
 }
@@ -105,7 +78,7 @@ TcpLine::~TcpLine() {
 }
 
 void TcpLine::open() {
-  const std::optional<Address> address = address_of(port_);
+  const std::optional<TcpAddress> address = tcp_address(port_);
   if (!address) throw PortUnavailable("'" + port_ + "' " + trouble_of_tcp_port(port_));
   addrinfo wanted{};
   wanted.ai_socktype = SOCK_STREAM;

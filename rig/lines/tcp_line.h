@@ -9,13 +9,6 @@
 
 namespace viscard {
 
-// The start of the name of a port that is reached over the network: "tcp://192.168.1.20:5025", "tcp://[::1]:5025".
-constexpr const char* kTcpPort = "tcp://";
-bool is_tcp_port(const std::string& port);
-
-// Why such a name cannot be used; empty if it can. Nothing is connected.
-std::string trouble_of_tcp_port(const std::string& port);
-
 // An instrument, or the serial port of a device server, that is reached over TCP. Nothing of the connection itself ends
 // lines: a reply may arrive in pieces, or several together. The network holds bytes back, so the other end is gone if
 // it has taken none of ours for 10 s, or if nothing answers the system's own questions for as long.
