@@ -4,8 +4,11 @@ import { element, list, make, sentence, show, showText, significant } from "./fo
 
 const kPortNames = (device) => (device.port ? `${device.driver} at ${device.port}` : device.driver);
 
+let calibrationTrouble = "";
+
 export function showRig(state) {
   const rig = state.rig;
+  calibrationTrouble = rig.calibration_trouble || "";
   const ports = [rig.stage, rig.load_cell].map((device) => (device && device.trouble) || "");
   const troubles = [rig.trouble, rig.calibration_trouble, ...ports].filter(Boolean);
   showText(element("rig-trouble"), troubles.map(sentence).join(" "));
@@ -24,11 +27,16 @@ export function showRig(state) {
     ...facts.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
 }
 
+// A light with its word: colour alone says nothing to some.
+const light = (state) => make("span", { class: `light ${state}` }, state === "go" ? "ready" : state === "wait" ? "look" : "not fit");
+
 function rowsOfCheck(found) {
   const { stage, load_cell: cell } = found;
-  return [["Stage", `${stage.identity}, at ${significant(stage.position_m * 1e3, 4)} mm, answers in ${significant(stage.latency_mean_s * 1e3, 2)} ms`],
-          ["Load cell", `${significant(cell.rate_Hz, 4)} readings/s, ${cell.missing} missing, ${cell.unreadable} unreadable`],
-          ["It reads", `${significant(cell.force_N, 4)} N, noise ${significant(cell.noise_N * 1e3, 3)} mN per reading`]];
+  const ofCell = !found.is_usable ? "halt" : found.is_proven ? "go" : "wait";
+  return [["Stage", `${stage.identity}, at ${significant(stage.position_m * 1e3, 4)} mm, answers in ${significant(stage.latency_mean_s * 1e3, 2)} ms`, stage.reports_lost > 0 ? "wait" : "go"],
+          ["Load cell", `${significant(cell.rate_Hz, 4)} readings/s, ${cell.missing} missing, ${cell.unreadable} unreadable`, cell.missing + cell.unreadable > 0 ? "wait" : "go"],
+          ["It reads", `${significant(cell.force_N, 4)} N, noise ${significant(cell.noise_N * 1e3, 3)} mN per reading`, ofCell],
+          ["Calibration", calibrationTrouble ? sentence(calibrationTrouble) : "in date", calibrationTrouble ? "wait" : "go"]];
 }
 
 async function check() {
@@ -43,7 +51,7 @@ async function check() {
       make("p", { class: found.is_usable ? "good" : "alert" },
            found.is_usable ? "Ready for a test." : "Not fit for a test yet."),
       make("dl", { class: "facts" },
-           ...rowsOfCheck(found).flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)])),
+           ...rowsOfCheck(found).flatMap(([name, value, state]) => [make("dt", {}, name), make("dd", {}, light(state), " ", value)])),
       advice);
   } catch (error) {
     result.replaceChildren(make("p", { class: "alert" }, sentence(error.message)));

@@ -1,3 +1,4 @@
+#include "models/answer/scene_mistake.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/simulate_pillar.h"
@@ -189,6 +190,19 @@ void report_as_error(const PillarScene& scene, const std::vector<DirectionChange
     largest = std::max(largest, std::abs(one.relative()));
   }
   enlarge_errors(electric, other, answer);
+  const bool is_declared =
+      std::any_of(scene.effects.begin(), scene.effects.end(),
+                  [](const auto& one) { return one.second == EffectChoice::kOff; });
+  if (electric > scene.tolerance && !is_declared) {
+    throw SceneMistake("geometry.film.directional",
+                       "the film differs along x and y, and this analysis takes its mean over all "
+                       "directions: voltages may be wrong by " +
+                           percent_of(electric) +
+                           ", more than the tolerance. Ask for a tolerance of " +
+                           text_of(1.5 * electric, 2) +
+                           ", or write directional = false for a film that is the same in all "
+                           "directions");
+  }
   answer.notes.push_back(
       "the film differs along x and y in its plane, and this analysis takes its mean over all "
       "directions: voltages and charges may be wrong by " +

@@ -115,6 +115,44 @@ TEST_CASE("names and messages that contain markup are shown as text", "[serve][s
   CHECK(browser.run("return document.title") == "viscard");
 }
 
+TEST_CASE("the rig is checked with lights, and its file is set up on the page", "[serve][slow]") {
+  if (is_without_browser()) return;
+  ScratchFolder scratch;
+  const std::string before = read_file(VISCARD_SOURCE_DIR "/data/demo/01_rig.toml");
+  write_file(scratch / "rig.toml", before, false);
+  RigServer server({.folder = scratch / "series",
+                    .rig_file = (scratch / "rig.toml").string(),
+                    .is_emulated = true,
+                    .speed = 40.0});
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 1000, false, false);
+  browser.open(server.address());
+  browser.click("#check");
+  REQUIRE(browser.wait_until(
+      "return document.querySelectorAll('#check-result .light').length === 4", 30));
+  CHECK(browser.run("return document.querySelectorAll('#check-result .light.halt').length") == 0);
+  browser.click("#setup summary");
+  REQUIRE(browser.wait_until(
+      "return document.getElementById('setup-text').value.includes('[stage]')", 20));
+  CHECK(browser.run("return document.getElementById('setup-keep').disabled") == true);
+  look_at(browser, "8_setup");
+  const auto choose = [&](const std::string& id, const std::string& value) {
+    browser.run("const s = document.getElementById('" + id + "'); s.value = '" + value +
+                "'; s.dispatchEvent(new Event('change'));");
+  };
+  choose("setup-stage-driver", "zaber");
+  REQUIRE(browser.wait_until("return !document.getElementById('setup-keep').disabled", 20));
+  browser.click("#setup-keep");
+  REQUIRE(browser.wait_until(
+      "return document.getElementById('setup-kept').textContent.includes('rig.toml.1')", 20));
+  CHECK(contains(read_file(scratch / "rig.toml"), "driver = \"zaber\""));
+  CHECK(read_file(scratch / "rig.toml.1") == before);
+  browser.type("#setup-text", "[stage");
+  REQUIRE(browser.wait_until("return !document.getElementById('setup-trouble').hidden", 20));
+  CHECK(browser.run("return document.getElementById('setup-keep').disabled") == true);
+  CHECK(browser.errors() == nlohmann::json::array());
+}
+
 TEST_CASE("three specimens go through the page one after another, with the fit of each",
           "[serve][slow]") {
   if (is_without_browser()) return;
