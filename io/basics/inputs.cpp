@@ -3,6 +3,7 @@
 #include "io/basics/json_string.h"
 #include "io/basics/program.h"
 #include "io/basics/sha256.h"
+#include "io/basics/written_path.h"
 
 #include <nlohmann/json.hpp>
 
@@ -58,7 +59,10 @@ std::vector<InputFile> provenance_of_inputs() {
       if (one->is_of_process()) innermost = one;
     }
   }
-  return innermost == nullptr ? std::vector<InputFile>{} : innermost->files();
+  std::vector<InputFile> files;
+  if (innermost != nullptr) files = innermost->files();
+  for (InputFile& file : files) file.path = written_path(file.path);
+  return files;
 }
 
 void record_input(const std::filesystem::path& path, const std::string& contents) {

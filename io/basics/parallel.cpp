@@ -17,7 +17,7 @@ void for_each_in_parallel(std::size_t n, const std::function<void(std::size_t)>&
     for (std::size_t i = next++; i < n; i = next++) {
       try {
         work(i);
-      } catch (const Interrupted&) {
+      } catch (const StopsWork&) {
         failures[i] = std::current_exception();
         next = n;
       } catch (...) {

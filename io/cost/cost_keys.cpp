@@ -86,6 +86,7 @@ void show_keys(ResultVisitor& v, const CostStudy& study) {
   show_laws(v, study);
   show_linear_elements(v, study);
   show_machine(v, study.machine);
+  v("notes", study.notes, "remarks, in words");
   v.list("predicted_rows", "what did not fit into the budget", study.predicted,
          [&](const PredictedRow& row) { show_predicted(v, row); });
   v.list("recommendations", "the cheapest for each tolerance", study.advice,

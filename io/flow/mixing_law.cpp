@@ -2,6 +2,7 @@
 #include "fit/laws/ratio_estimates.h"
 #include "fit/laws/scatter_levels.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/written_path.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/specimen_reports.h"
 #include "io/materials/material_file.h"
@@ -104,7 +105,7 @@ SpecimenReport specimen_of_tests(const ReportRequest& request, const FlowProgres
     report.specimen.id = std::filesystem::path(request.tests.front().path).stem().string();
   }
   for (const TestFile& test : request.tests) {
-    report.files.push_back({test.path, sha256_of_file(test.path)});
+    report.files.push_back({written_path(test.path), sha256_of_file(test.path)});
   }
   if (!fitted.result.is_stiffness) {
     report.material = material_from_fitted(

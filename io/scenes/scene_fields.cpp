@@ -2,6 +2,7 @@
 
 #include "io/basics/named_file.h"
 #include "io/materials/material_file.h"
+#include "io/materials/material_json.h"
 #include "models/material/liquid.h"
 #include "models/material/series_band.h"
 #include "models/pillar/system/rotated_medium.h"
@@ -236,6 +237,7 @@ Material linear_part(const HyperelasticFile& rubber, const NamedMaterial& raw) {
   for (const RubberTerm& term : rubber.terms) {
     material.terms.push_back({.g = term.g, .k = term.g, .tau_s = term.tau_s});
   }
+  if (rubber.is_edited) material.flags.push_back({kEdited, 0, kEditedText});
   return material;
 }
 

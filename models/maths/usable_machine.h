@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
 
 // What this process may use of the machine.
 namespace viscard {
@@ -12,7 +13,13 @@ std::size_t usable_cores();
 // Memory that this process may use, B: that of the machine, or its limit (ulimit -v) if that is less.
 double usable_memory_B();
 
-// Throws std::runtime_error with the numbers if a system of so many unknowns needs more than that.
+// This machine, now, has too little memory for the work; another one, or this one later, may have enough.
+class NotEnoughMemory : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Throws NotEnoughMemory with the numbers if a system of so many unknowns needs more than that.
 void require_memory(double unknowns, double needed_B);
 
 }  // namespace viscard

@@ -7,6 +7,7 @@
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/read_report.h"
 #include "io/flow/specimen_reports.h"
@@ -163,6 +164,7 @@ int run_report(const Words& words, Streams& streams) {
   refuse_existing(page, is_forced);
 
   Progress progress(streams, "report");
+  const WordsOnSignal words_on_signal("the report was stopped; nothing is written");
   const ReportInput input =
       read_report(report, asked.title,
                   [&](double fraction, const std::string& what) { progress.show(fraction, what); });

@@ -7,7 +7,9 @@
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/cost/study_cost.h"
+#include "io/flow/scenes/answer_scene.h"
 #include "io/plots/plot.h"
 #include "io/scenes/scene_file.h"
 
@@ -79,8 +81,12 @@ int run_cost(const Words& words, Streams& streams) {
   {
     Progress progress(streams, "cost");
     options.progress = [&](double done, const std::string& name) { progress.show(done, name); };
+    const WordsOnSignal words_on_signal(
+        "the study of costs was stopped; nothing is written. A smaller --budget ends earlier");
     study = with_lines_of(path, [&] { return study_cost(scene, options); });
   }
+  if (const std::string edited = note_of_edited(scene); !edited.empty())
+    study.notes.push_back(edited);
   const JsonHead head{"viscard-cost/1", {path}};
   const auto show = [&](ResultVisitor& v) { show_keys(v, study); };
   if (asked.files.folder) {

@@ -8,6 +8,7 @@
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/flow/scenes/answer_scene.h"
 #include "io/flow/scenes/scene_uncertainty.h"
 #include "io/flow/scenes/wanted_results.h"
@@ -94,6 +95,8 @@ std::optional<SceneUncertainty> uncertainty_of(const SimulateWords& words, const
     throw UsageError("--samples must be a number from 100 to 10000000");
   }
   Progress progress(streams, "uncertainty");
+  const WordsOnSignal words_on_signal(
+      "the uncertainty was stopped; nothing is written. --samples N limits the number of answers");
   const UncertainScene scene(file, read_file(path), path);
   progress.announce(0.0, "answers around the given values");
   return scene_uncertainty(scene, answer, {.n_samples = n_samples, .progress = [&](double done) {

@@ -6,6 +6,8 @@
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
+#include "io/flow/scenes/answer_scene.h"
 #include "io/flow/sweep/run_study.h"
 #include "io/scenes/scene_file.h"
 #include "models/maths/text_of_number.h"
@@ -19,13 +21,14 @@ namespace viscard {
 namespace {
 
 void show_sweep(ResultVisitor& v, const StudyOutcome& outcome, const std::string& file,
-                std::int64_t merged, std::int64_t n_done) {
+                std::int64_t merged, std::int64_t n_done, const std::vector<std::string>& notes) {
   v("answered", outcome.n_answered, "points of this run");
   v("done", n_done, "points in the file");
   v("failed", outcome.n_failed,
     "points that failed for memory, disk or an error of the program; they have no answer");
   v("file", file, "the SQLite file of the points");
   v("merged", merged, "points taken over from other files");
+  v("notes", notes, "such as a material that was edited since it was written");
   v("points", outcome.n_points, "of the whole study");
   v("refused", outcome.n_refused, "of those answered, points outside the model");
 }
@@ -59,7 +62,7 @@ CommandSyntax sweep_syntax(const SweepProgram& program, SweepWords& words) {
   if (program.add_options) program.add_options(options);
   syntax.may_exist = {"out"};
   syntax.results = {{"sweep", "viscard sweep", {[](ResultVisitor& v) {
-                       show_sweep(v, StudyOutcome{}, "", 0, 0);
+                       show_sweep(v, StudyOutcome{}, "", 0, 0, {});
                      }}}};
   return syntax;
 }
@@ -86,6 +89,16 @@ std::string words_of(const StudyOutcome& outcome, const std::string& file, std::
   return text + "\n";
 }
 
+// What the scene of the first point has to state of its materials.
+std::string note_of_first_point(const Study& study, Plausible judged) {
+  try {
+    const std::string text = scene_text_with(study, values_at(study, 0));
+    return note_of_edited(scene_from_toml(text, study.scene_path, {}, judged).scene);
+  } catch (const std::runtime_error&) {
+    return "";  // its point states why
+  }
+}
+
 // What a user must know beside the count of points.
 void print_doubts(const StudyOutcome& outcome, StudyStore& store, const std::string& file,
                   Streams& streams) {
@@ -98,6 +111,11 @@ void print_doubts(const StudyOutcome& outcome, StudyStore& store, const std::str
         fmt::format("{}: {} damaged; their points were removed or left out, and are answered again "
                     "by the same command",
                     file, counted(store.n_damaged(), "row")));
+  }
+  const std::int64_t n_all_refused = store.count(PointKind::kRefused);
+  if (n_all_refused > outcome.n_refused) {
+    say(fmt::format("{} points of the file are refused in all: they lie outside the model",
+                    n_all_refused));
   }
   if (outcome.n_refused > 0) {
     say(fmt::format(
@@ -149,6 +167,8 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
   const Study study = read_study(path);
   // A mistake in the study or its scene is reported here, not once for each point.
   check_values(study, judged);
+  const std::string edited = note_of_first_point(study, judged);
+  if (!edited.empty()) streams.err << "viscard: note: " << edited << "\n";
   const std::string file =
       asked.out.value_or(std::filesystem::path(path).stem().string() + ".sqlite");
   const bool answers = asked.merge.empty();
@@ -163,6 +183,9 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
     for (const std::string& part : asked.merge) merged += store.merge(part, study, how);
   } else {
     Progress progress(streams, "sweep");
+    const WordsOnSignal words_on_signal(
+        "the sweep was stopped; the points that were answered are in " + file +
+        ", and the same command goes on with the others");
     outcome =
         program.run({study, shard, store, [&](double done) { progress.show(done, ""); }, judged});
   }
@@ -174,7 +197,8 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
   }
   const auto n_done = static_cast<std::int64_t>(store.done().size());
   const JsonHead head{"viscard-sweep/1", {path}};
-  const auto show = [&](ResultVisitor& v) { show_sweep(v, outcome, file, merged, n_done); };
+  const std::vector<std::string> notes = edited.empty() ? Words{} : Words{edited};
+  const auto show = [&](ResultVisitor& v) { show_sweep(v, outcome, file, merged, n_done, notes); };
   const bool is_all_refused = outcome.n_answered > 0 && outcome.n_refused == outcome.n_answered;
   const int status = outcome.n_failed > 0 || is_all_refused ? kFailed : kDone;
   print_doubts(outcome, store, file, streams);

@@ -6,6 +6,7 @@
 #include "io/cli/words/progress.h"
 #include "io/flow/validation_keys.h"
 #include "io/materials/material_file.h"
+#include "io/materials/material_json.h"
 #include "models/material/liquid.h"
 #include "models/pillar/validate_material.h"
 
@@ -74,7 +75,10 @@ int run_validate(const Words& words, Streams& streams) {
   const std::string name = material.name.empty() ? path : material.name;
   Progress progress(streams, "validate");
   options.progress = [&](double fraction) { progress.show(fraction, name); };
-  const ValidationResult result = validate_material(material, options);
+  ValidationResult result = validate_material(material, options);
+  for (const MaterialFlag& flag : material.flags) {
+    if (flag.name == kEdited) result.notes.push_back(flag.text);
+  }
   progress.clear();
 
   const std::string command = quoted_command_line("validate", words);

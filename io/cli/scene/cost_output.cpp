@@ -87,6 +87,7 @@ void print_study(const CostStudy& study, const std::string& path, std::ostream& 
   }
   out << "recommended for a tolerance of (processor time)\n";
   for (const CostAdvice& advice : study.advice) out << "  " << advice.text << "\n";
+  for (const std::string& note : study.notes) out << "  note: " << note << "\n";
 }
 
 }  // namespace viscard

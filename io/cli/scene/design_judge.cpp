@@ -8,6 +8,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/design/judgement_output.h"
 
@@ -21,6 +22,9 @@ Judgement judgement_of(const DesignWords& words, const Requirements& requirement
                        Streams& streams) {
   const std::string& scene = *words.scene;
   Progress progress(streams, "design");
+  const WordsOnSignal words_on_signal(
+      "the design was stopped; nothing is written. --search-time ends the search for remedies "
+      "earlier");
   JudgeOptions options;
   options.tolerance = words.tolerance;
   options.search_s = words.search_s;

@@ -5,6 +5,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/flow/optimise/optimised_output.h"
 
 #include <fmt/format.h>
@@ -56,6 +57,10 @@ int run_design_optimise(const DesignWords& asked, const CommandSyntax& syntax, c
   DesignFront front;
   {
     Progress progress(streams, "design");
+    const WordsOnSignal words_on_signal(
+        "the design was stopped; nothing is written. Fewer free values, a larger tolerance or a "
+        "smaller budget in " +
+        path + " end earlier");
     front = design_front(
         spec, [&](double done, const std::string& what) { progress.announce(done, what); });
   }

@@ -1,6 +1,7 @@
 #include "io/cli/words/command_line.h"
 
 #include "io/basics/words.h"
+#include "io/basics/written_path.h"
 #include "io/cli/words/help_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
@@ -148,7 +149,7 @@ void show_help(const CommandSyntax& syntax, Streams& streams) {
 }  // namespace
 
 bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
-  bool is_help = false;
+  bool is_help = false, strips_paths = false;
   std::string color = "auto";  // read by main() before the command begins
   std::string plausible = "on";
   syntax.options.group("All commands");
@@ -168,9 +169,15 @@ bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
       .shown_as("WHEN")
       .among({"auto", "always", "never"})
       .only_typed();
+  syntax.options
+      .add("strip-paths", &strips_paths,
+           "write the names of files without their folders, which often name persons, into all "
+           "that is written")
+      .only_typed();
   syntax.options.add("help", &is_help, "print this").only_typed();
   const Words free = take_given(words, syntax);
   syntax.as_json = is_given(syntax, "json");
+  strip_written_paths(is_given(syntax, "strip-paths"));
   if (is_given(syntax, "help")) {
     show_help(syntax, streams);
     return false;
@@ -216,6 +223,8 @@ std::string quoted_command_line(const std::string& command, const Words& words) 
   Words all{"viscard", command};
   all.insert(all.end(), words.begin(), words.end());
   std::erase(all, "--json");  // no file is another one for it
+  std::erase(all, "--strip-paths");
+  for (std::string& word : all) word = written_word(word);
   return quoted_for_shell(all);
 }
 

@@ -3,6 +3,7 @@
 #include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
 #include "io/basics/program.h"
+#include "io/basics/written_path.h"
 #include "io/flow/command_error.h"
 
 #include <algorithm>
@@ -30,7 +31,9 @@ void print_line(const nlohmann::ordered_json& object, Streams& streams, int inde
 void show_head(ResultVisitor& v, const JsonHead& head) {
   v.word("schema", head.schema, {head.schema}, "name and version of the description");
   v("version", VISCARD_VERSION, "version of viscard");
-  v("inputs", head.inputs, "the files that were read, as they were named");
+  std::vector<std::string> inputs;
+  for (const std::string& input : head.inputs) inputs.push_back(written_path(input));
+  v("inputs", inputs, "the files that were read, as they were named");
   v.when(head.accepts_implausible, [&] {
     v.word("plausible", "off", {"off"}, "that ranges of plausible values were switched off");
   });

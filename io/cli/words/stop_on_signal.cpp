@@ -1,5 +1,7 @@
 #include "io/cli/words/stop_on_signal.h"
 
+#include <unistd.h>
+
 namespace viscard {
 namespace {
 
@@ -10,7 +12,30 @@ extern "C" void ask_to_stop(int) {
   stop_asked = true;
 }
 
+// What a handler prints; it may allocate nothing.
+std::string words_of_signal;
+
+extern "C" void print_and_end(int number) {
+  const ssize_t ignored = ::write(STDERR_FILENO, words_of_signal.data(), words_of_signal.size());
+  static_cast<void>(ignored);
+  signal(number, SIG_DFL);
+  raise(number);
+}
+
 }  // namespace
+
+WordsOnSignal::WordsOnSignal(const std::string& words) {
+  words_of_signal = "\nviscard: " + words + "\n";
+  struct sigaction action {};
+  action.sa_handler = print_and_end;
+  std::size_t n = 0;
+  for (const int number : kEnding) sigaction(number, &action, &before_[n++]);
+}
+
+WordsOnSignal::~WordsOnSignal() {
+  std::size_t n = 0;
+  for (const int number : kEnding) sigaction(number, &before_[n++], nullptr);
+}
 
 StopOnSignal::StopOnSignal() {
   stop_asked = false;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <string>
 
 namespace viscard {
 
@@ -23,6 +24,20 @@ class StopOnSignal {
   static constexpr std::array<int, 3> kAsking{SIGINT, SIGTERM, SIGHUP};
   static constexpr std::array<int, 4> kIgnored{SIGPIPE, SIGXFSZ, SIGTSTP, SIGTTOU};
   std::array<struct sigaction, kAsking.size() + kIgnored.size()> before_{};
+};
+
+// During its lifetime, Ctrl-C and a termination request print "viscard: " and the words (how to go on, what is kept)
+// before they end the program as they do otherwise. One at a time.
+class WordsOnSignal {
+ public:
+  explicit WordsOnSignal(const std::string& words);
+  ~WordsOnSignal();
+  WordsOnSignal(const WordsOnSignal&) = delete;
+  WordsOnSignal& operator=(const WordsOnSignal&) = delete;
+
+ private:
+  static constexpr std::array<int, 2> kEnding{SIGINT, SIGTERM};
+  std::array<struct sigaction, kEnding.size()> before_{};
 };
 
 }  // namespace viscard

@@ -3,6 +3,7 @@
 #include "fit/large_strain/large_strain_result.h"
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
+#include "io/basics/written_path.h"
 #include "io/flow/large_strain/large_strain_files.h"
 #include "io/materials/material_json.h"
 #include "io/results/result_json.h"
@@ -113,7 +114,8 @@ void show_keys(ResultVisitor& v, const FittedLargeStrain& fitted) {
   std::vector<ShownTest> tests;
   for (std::size_t i = 0; i < result.tests.size(); ++i) {
     const std::string& path = fitted.files[i].path;
-    tests.push_back({result.tests[i], path, fitted.files[i].in_memory ? "" : sha256_of_file(path),
+    tests.push_back({result.tests[i], written_path(path),
+                     fitted.files[i].in_memory ? "" : sha256_of_file(path),
                      times_of(fitted.tests[i]), fitted.cycles[i]});
   }
   v("law", name_of(best.law.form), "the chosen law");

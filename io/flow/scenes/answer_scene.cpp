@@ -2,10 +2,12 @@
 
 #include "io/flow/scenes/array_sweep.h"
 #include "io/flow/scenes/wanted_results.h"
+#include "io/materials/material_json.h"
 #include "models/quantities/plausible.h"
 #include "models/scene/simulate.h"
 
 #include <stdexcept>
+#include <vector>
 
 namespace viscard {
 
@@ -19,11 +21,27 @@ void set_tolerance(double tolerance, Scene& scene) {
 
 void add_notes_of_file(const SceneFile& file, SceneAnswer& answer) {
   if (file.accepts_implausible) answer.notes.emplace_back(kPlausibleOffText);
+  if (const std::string edited = note_of_edited(file.scene); !edited.empty())
+    answer.notes.push_back(edited);
   if (!file.row_is_called_array) return;
   answer.notes.emplace_back(
       "geometry.kind is \"array\" of a row of pillars; write \"row\", because an array is one in "
       "the "
       "plane now");
+}
+
+std::string note_of_edited(const Scene& scene) {
+  std::vector<const Material*> materials = {&common(scene).pillar};
+  if (const auto* array = std::get_if<SpaceScene>(&scene)) {
+    for (const SpaceClass& one : array->others) materials.push_back(&one.material);
+  }
+  for (const Material* material : materials) {
+    for (const MaterialFlag& flag : material->flags) {
+      if (flag.name != kEdited) continue;
+      return "material" + (material->name.empty() ? "" : " " + material->name) + ": " + flag.text;
+    }
+  }
+  return "";
 }
 
 SceneAnswer simulate_file(const Scene& scene, const std::string& path) {

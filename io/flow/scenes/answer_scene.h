@@ -17,6 +17,9 @@ SceneAnswer answer_scene(const SceneFile& file, const std::string& path,
 // What the file itself calls for beside the numbers: values that nothing has, words of before.
 void add_notes_of_file(const SceneFile& file, SceneAnswer& answer);
 
+// Files of the pillars' materials that were edited since they were written; "": none.
+std::string note_of_edited(const Scene& scene);
+
 // simulate() of one scene with messages that name the file.
 SceneAnswer simulate_file(const Scene& scene, const std::string& path);
 

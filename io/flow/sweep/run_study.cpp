@@ -5,6 +5,7 @@
 #include "io/basics/parallel.h"
 #include "io/flow/scenes/answer_scene.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/usable_machine.h"
 
 #include <algorithm>
 #include <charconv>
@@ -70,6 +71,7 @@ PointKind kind_of_failure(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return PointKind::kPassing;
   if (dynamic_cast<const std::length_error*>(&error) != nullptr) return PointKind::kPassing;
   if (dynamic_cast<const std::system_error*>(&error) != nullptr) return PointKind::kPassing;
+  if (dynamic_cast<const NotEnoughMemory*>(&error) != nullptr) return PointKind::kPassing;
   if (dynamic_cast<const std::runtime_error*>(&error) != nullptr) return PointKind::kRefused;
   if (dynamic_cast<const std::invalid_argument*>(&error) != nullptr) return PointKind::kRefused;
   if (dynamic_cast<const std::domain_error*>(&error) != nullptr) return PointKind::kRefused;
@@ -140,7 +142,11 @@ StudyOutcome run_study(const Study& study, const StudyShard& shard, StudyStore& 
   for_each_in_parallel(open.size(), [&](std::size_t i) {
     const StudyPoint point = answer_point(study, open[i], judged);
     const std::lock_guard<std::mutex> lock(mutex);
-    store.add(point);
+    try {
+      store.add(point);
+    } catch (const std::exception& error) {
+      throw StopsWork(failure_text(error, "the file of the points"));  // what follows would be lost
+    }
     count_point(point, outcome);
     if (progress) progress(static_cast<double>(++n_tried) / static_cast<double>(open.size()));
   });

@@ -86,6 +86,12 @@ void write_ahead(Database& database) {
       "; it was not changed. Name another file with --out");
 }
 
+[[noreturn]] void refuse_other_study(const std::filesystem::path& path) {
+  throw std::runtime_error(path.string() +
+                           ": holds points of another study, scene or version of viscard; name "
+                           "another file with --out, or remove this one");
+}
+
 // Looks into an existing file without changing it.
 void refuse_other_kind(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) {
@@ -93,6 +99,11 @@ void refuse_other_kind(const std::filesystem::path& path) {
                              (path / "points.sqlite").string());
   }
   std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored) && std::filesystem::is_symlink(path, ignored)) {
+    throw std::runtime_error(path.string() + ": leads to " +
+                             std::filesystem::read_symlink(path).string() +
+                             ", which does not exist; name the file itself");
+  }
   if (!std::filesystem::exists(path) || std::filesystem::file_size(path, ignored) == 0) return;
   Database database(path, Database::Access::kReadOnly);
   if (database.text_of("PRAGMA application_id") != "0") refuse_other_file(path);
@@ -101,7 +112,24 @@ void refuse_other_kind(const std::filesystem::path& path) {
       "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('study', 'points')");
   if (!database.first_foreign_object().empty()) refuse_other_file(path);
   // A file without any table is a store that is just being made.
-  if (n_tables != "0" && n_own != "2") refuse_other_file(path);
+  if (n_tables == "0" ? database.text_of("PRAGMA user_version") != "0" : n_own != "2")
+    refuse_other_file(path);
+  if (n_tables == "0") return;
+  const std::string n_columns = database.text_of(
+      "SELECT (SELECT count(*) FROM pragma_table_info('study') WHERE name = 'fingerprint') + "
+      "(SELECT count(*) FROM pragma_table_info('points') WHERE name IN ('point', 'parameters', "
+      "'results', 'failure'))");
+  if (n_columns != "5") refuse_other_file(path);
+}
+
+// The same of a store of other points.
+void refuse_other_points(const std::filesystem::path& path, const Study& study) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path) || std::filesystem::file_size(path, ignored) == 0) return;
+  Database database(path, Database::Access::kReadOnly);
+  if (database.text_of("SELECT count(*) FROM sqlite_schema") == "0") return;
+  if (database.text_of("SELECT fingerprint FROM study LIMIT 1") != fingerprint(study))
+    refuse_other_study(path);
 }
 
 void refuse_damage(Database& database, const std::filesystem::path& path) {
@@ -147,9 +175,7 @@ std::string changed_input(Database& database, const Study& study) {
 bool check_study(Database& database, const std::filesystem::path& path, const Study& study,
                  const StoreOptions& options) {
   if (database.text_of("SELECT fingerprint FROM study LIMIT 1") != fingerprint(study)) {
-    throw std::runtime_error(path.string() +
-                             ": holds points of another study, scene or version of viscard; name "
-                             "another file with --out, or remove this one");
+    refuse_other_study(path);
   }
   const bool is_recorded =
       has_table(database, "inputs") && database.text_of("SELECT count(*) FROM inputs") != "0";
@@ -180,6 +206,7 @@ void create_tables(Database& database, const Study& study) {
 Database opened(const std::filesystem::path& path, const Study& study, const StoreOptions& options,
                 bool& is_recorded) {
   refuse_other_kind(path);
+  refuse_other_points(path, study);
   if (!std::filesystem::exists(path)) std::ofstream(path).flush();
   Database database(path, Database::Access::kReadWrite);
   database.execute("PRAGMA busy_timeout = 10000;");

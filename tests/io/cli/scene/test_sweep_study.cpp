@@ -1,6 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/flow/sweep/run_study.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/usable_machine.h"
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
@@ -374,7 +375,8 @@ TEST_CASE("a database that is not the store of a study is not changed", "[cli][s
   write_file(other, "", false);
   change_store(other, GENERATE("CREATE TABLE mine(a)",
                                "PRAGMA application_id = 0x56434150; CREATE TABLE run(a)",
-                               "CREATE TABLE study(a)"));
+                               "CREATE TABLE study(a)", "PRAGMA user_version = 7",
+                               "CREATE TABLE points(a); CREATE TABLE study(a)"));
   const std::string before = read_file(other);
   const CommandOutcome outcome = files.sweep({"--out", other});
   CHECK(outcome.status == 1);
@@ -383,6 +385,27 @@ TEST_CASE("a database that is not the store of a study is not changed", "[cli][s
   CHECK(files.sweep({"--out", files.store, "--merge", other}).status == 1);
   CHECK(read_file(other) == before);
   CHECK_FALSE(std::filesystem::exists(other + "-wal"));
+}
+
+TEST_CASE("a store of another study keeps its bytes, and a link that leads nowhere makes no file",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  REQUIRE(files.sweep({"--out", files.store}).status == 0);
+  Database(files.store, Database::Access::kReadWrite).execute("PRAGMA journal_mode = DELETE;");
+  const std::string before = read_file(files.store);
+  const StudyFiles other;
+  const CommandOutcome refused = run_command({"sweep", other.study, "--out", files.store});
+  CHECK(refused.status == 1);
+  CHECK(says(refused.err, "another study"));
+  CHECK(read_file(files.store) == before);
+  const std::string link = files.scene.beside("link.sqlite");
+  std::filesystem::create_symlink(files.scene.beside("nothing.sqlite"), link);
+  CHECK(says(files.sweep({"--out", link}).err, "which does not exist"));
+  CHECK_FALSE(std::filesystem::exists(files.scene.beside("nothing.sqlite")));
+}
+
+TEST_CASE("a lack of memory is no answer of a point", "[cli][scene][sweep]") {
+  CHECK_THROWS_AS(require_memory(1e12, 1e18), NotEnoughMemory);
 }
 
 TEST_CASE("a second sweep into the same file is refused until the first has ended",

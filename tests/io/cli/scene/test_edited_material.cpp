@@ -1,0 +1,86 @@
+// Materials that were edited by hand, in whatever is computed with them; what a command prints when it is stopped.
+#include "io/basics/atomic_file.h"
+#include "io/cli/words/stop_on_signal.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Matchers::Contains;
+
+TEST_CASE("an edited material is named by every command that computes with it", "[cli][scene]") {
+  const ScratchFolder scratch;
+  const std::string material = (scratch / "m.json").string();
+  const CommandOutcome fit = run_command(
+      {"fit", VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv", "--out", material});
+  REQUIRE(fit.status == 0);
+  write_file(scratch / "scene.toml", R"(tolerance = 1e-2
+[geometry]
+diameter = "40 um"
+length = "120 um"
+[materials]
+pillar = { file = "m.json" }
+[analysis]
+kind = "static"
+load = { pressure = "1 kPa", on = "top" }
+)",
+             false);
+  write_file(
+      scratch / "study.toml",
+      "scene = \"scene.toml\"\n[[parameter]]\nkey = \"geometry.diameter\"\nvalues = [\"40 um\"]\n",
+      false);
+  const std::string scene = (scratch / "scene.toml").string(),
+                    study = (scratch / "study.toml").string(),
+                    store = (scratch / "store.sqlite").string();
+  const std::vector<std::vector<std::string>> all = {{"simulate", scene},
+                                                     {"simulate", scene, "--json"},
+                                                     {"cost", scene, "--budget", "2s"},
+                                                     {"cost", scene, "--budget", "2s", "--json"},
+                                                     {"sweep", study, "--out", store, "--json"},
+                                                     {"validate", material},
+                                                     {"validate", material, "--json"}};
+  const char* const kWords = "edited since it was written";
+  for (const auto& words : all) {
+    CAPTURE(words);
+    CHECK_THAT(run_command(words).out, !Contains(kWords));
+  }
+  std::string text = read_file(material);
+  const std::size_t at = text.find("\"E0_Pa\":");
+  REQUIRE(at != std::string::npos);
+  text.insert(text.find_first_of("0123456789", at + 8), "1");
+  write_file(material, text, true);
+  std::filesystem::remove(store);
+  for (const auto& words : all) {
+    CAPTURE(words);
+    CHECK_THAT(run_command(words).out, Contains(kWords));
+  }
+}
+
+TEST_CASE("a command that is stopped prints how to go on before it ends", "[cli]") {
+  std::array<int, 2> pipe_ends{};
+  REQUIRE(::pipe(pipe_ends.data()) == 0);
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    ::dup2(pipe_ends[1], STDERR_FILENO);
+    const WordsOnSignal words("the same command goes on");
+    ::raise(SIGINT);
+    ::_exit(0);
+  }
+  ::close(pipe_ends[1]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  std::array<char, 256> buffer{};
+  const ssize_t n = ::read(pipe_ends[0], buffer.data(), buffer.size());
+  ::close(pipe_ends[0]);
+  CHECK(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGINT);
+  CHECK_THAT(std::string(buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(0, n))),
+             Contains("viscard: the same command goes on"));
+}
