@@ -26,7 +26,7 @@ TEST_CASE("with --strip-paths no file states a folder of this computer", "[cli]"
   };
   const CommandOutcome fit = run({"fit", table, "--out", material, "--json"});
   CHECK_THAT(fit.out, !Contains("miller"));
-  run({"card", material, "--for", "abaqus", "--units", "mm-N-s", "--out", card});
+  run({"card", material, "--for", "abaqus", "--units", "mm-t-s", "--out", card});
   run({"report", table, "--out", page});
   for (const std::string& file : {material, card, page}) {
     CAPTURE(file);
