@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -210,6 +211,47 @@ class TemporaryFolder {
       " MiB in all, and was stopped; run the deck by hand to see its messages");
 }
 
+// A process that ends a process group once this program is gone, also by kill -9: the death signal of the group's leader
+// does not reach what a script has started.
+class GroupGuard {
+ public:
+  explicit GroupGuard(pid_t group) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
+    guard_ = ::fork();
+    if (guard_ == 0) watch(ends[0], group);
+    ::close(ends[0]);
+    written_ = ends[1];
+  }
+  ~GroupGuard() {
+    if (written_ < 0) return;
+    const ssize_t ignored = ::write(written_, "", 1);  // the group has ended as it should
+    static_cast<void>(ignored);
+    ::close(written_);
+    if (guard_ > 0) ::waitpid(guard_, nullptr, 0);
+  }
+  GroupGuard(const GroupGuard&) = delete;
+  GroupGuard& operator=(const GroupGuard&) = delete;
+
+ private:
+  // Only this end of the pipe stays open; the other one closes with the program.
+  [[noreturn]] static void watch(int end, pid_t group) {
+    ::setpgid(0, 0);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
+    ::dup2(end, STDIN_FILENO);
+    ::close_range(1, ~0U, 0);
+    char byte = 0;
+    ssize_t n = 0;
+    while ((n = ::read(STDIN_FILENO, &byte, 1)) < 0 && errno == EINTR) {
+    }
+    if (n == 0) ::kill(-group, SIGKILL);
+    ::_exit(0);
+  }
+
+  pid_t guard_ = -1;
+  int written_ = -1;
+};
+
 // The status of waitpid, or nothing if it took too long and was stopped. Nothing that it has started
 // outlives it.
 std::optional<int> status_of(const std::vector<std::string>& command,
@@ -218,6 +260,7 @@ std::optional<int> status_of(const std::vector<std::string>& command,
   if (child < 0) throw std::runtime_error("cannot start " + command[0] + ": no process left");
   if (child == 0) become(command, folder, limits, self);
   ::setpgid(child, child);  // whoever comes first
+  const GroupGuard guard(child);
   int status = 0;
   const auto end_all = [&] {
     ::kill(-child, SIGKILL);

@@ -56,14 +56,15 @@ bool has_folder_of(pid_t process) {
 }
 
 // A process of its own that proves; its solver writes its number into the file and waits.
-pid_t proving_process(const std::filesystem::path& file) {
+pid_t proving_process(const std::filesystem::path& file, bool is_started_by_script = false) {
   const pid_t child = fork();
   if (child != 0) return child;
   // Those of the test program would be left alone.
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   try {
-    run_script("echo $$ > " + file.string() + "; exec sleep 600");
+    run_script(is_started_by_script ? "sleep 600 & echo $! > " + file.string() + "; wait"
+                                    : "echo $$ > " + file.string() + "; exec sleep 600");
   } catch (const std::exception&) {
   }
   _exit(0);
@@ -108,7 +109,7 @@ TEST_CASE("kill -9 of the program ends its solver, and the next proof removes it
   const std::string before = usual == nullptr ? "" : usual;
   setenv("TMPDIR", folder.path().c_str(), 1);
   const auto file = folder / "pid";
-  const pid_t child = proving_process(file);
+  const pid_t child = proving_process(file, GENERATE(false, true));
   REQUIRE(wait_until([&] { return std::filesystem::exists(file) && pid_in(file) > 0; }));
   const pid_t solver = pid_in(file);
   kill(child, SIGKILL);
