@@ -39,6 +39,9 @@ def differences(then, now, where, relative, skipped=VOLATILE):
             else:
                 yield from differences(value, now[key], f"{where}/{key}", relative, skipped)
     elif isinstance(then, list):
+        # New effects stand behind those of before.
+        if where.endswith("/effects") and isinstance(now, list):
+            now = now[:len(then)]
         if not isinstance(now, list) or len(then) != len(now):
             yield f"{where}: had {len(then)} entries, is {now!r:.80}"
             return
