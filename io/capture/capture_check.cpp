@@ -3,6 +3,7 @@
 #include "io/basics/number_text.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/integrity_notes.h"
 #include "io/capture/open_capture.h"
 #include "io/capture/row_checksum.h"
 
@@ -169,6 +170,8 @@ CaptureCheck check_capture(const std::filesystem::path& path) {
     }
     check = check_records(database).check;
     database.execute("COMMIT");
+    if (!capture.side_file().damage.empty()) check.faults.push_back(capture.side_file().damage);
+    if (capture.side_file().is_torn) check.faults.emplace_back(kTornLogText);
   } catch (const SqliteError& error) {
     capture.explain(error);
   }

@@ -22,6 +22,9 @@ inline constexpr std::uint32_t kFirstSchemaWithChecksums = 3;
 inline constexpr std::uint32_t kFirstSchemaWithTemperatures = 4;
 inline constexpr std::uint32_t kFirstSchemaWithIdentity = 5;
 
+// The key in `run` that every synced transaction writes, and no other.
+inline constexpr const char* kSyncedCount = "n_records_synced";
+
 // The schema that a capture states.
 unsigned long schema_of(Database& database);
 

@@ -126,16 +126,21 @@ void mark_implausible(CapturedRun& run) {
 }
 
 // Description, end, events and moves decide what the readings mean, so damage to them is refused.
-void judge_damage(const CheckedRecords& records, const fs::path& path,
-                  const CaptureReading& reading, CapturedRun& run) {
-  run.integrity.has_checksums = records.check.is_checked;
-  run.integrity.faults = records.check.faults;
-  const bool is_meaning_damaged =
-      records.is_description_damaged || records.is_damaged("events") || records.is_damaged("moves");
+// So is a log of which only the begin can be read: what is left out may be any of them.
+void judge_damage(const CheckedRecords& records, const SideFileCheck& side_file,
+                  const fs::path& path, const CaptureReading& reading, CapturedRun& run) {
+  RecordIntegrity& integrity = run.integrity;
+  integrity.has_checksums = records.check.is_checked;
+  integrity.faults = records.check.faults;
+  integrity.has_torn_log = side_file.is_torn;
+  const bool is_log_damaged = !side_file.damage.empty();
+  if (is_log_damaged) integrity.faults.insert(integrity.faults.begin(), side_file.damage);
+  const bool is_meaning_damaged = is_log_damaged || records.is_description_damaged ||
+                                  records.is_damaged("events") || records.is_damaged("moves");
   if (!is_meaning_damaged) return;
-  run.integrity.is_damage_accepted = true;
+  integrity.is_damage_accepted = true;
   if (reading.accepts_damage) return;
-  throw std::runtime_error(path.string() + " is damaged: " + records.check.faults.front() +
+  throw std::runtime_error(path.string() + " is damaged: " + integrity.faults.front() +
                            ". Use another copy of it (viscard export --verify lists all damage); "
                            "to read it as it is, add --unverified, which the result will state");
 }
@@ -153,7 +158,7 @@ CapturedRun read_capture(const std::filesystem::path& path, const CaptureReading
       throw SqliteError(path.string(), SQLITE_CORRUPT);
     }
     const CheckedRecords records = check_records(database);
-    judge_damage(records, path, reading, run);
+    judge_damage(records, capture.side_file(), path, reading, run);
     read_metadata(database, path, run);
     read_samples(database, records, run);
     read_stage(database, records, run);

@@ -25,6 +25,7 @@ std::vector<IntegrityNote> integrity_notes(const CapturedRun& run) {
   left_out("samples-damaged", integrity.n_left_out_samples, "reading");
   left_out("reports-damaged", integrity.n_left_out_reports, "report of the stage");
   left_out("temperatures-damaged", integrity.n_left_out_temperatures, "temperature");
+  if (integrity.has_torn_log) notes.push_back({"side-file-torn", kTornLogText});
   if (integrity.has_lost_log) {
     notes.push_back({"side-file-missing",
                      "the run was interrupted, and the side file *-wal that may hold its last "

@@ -13,6 +13,12 @@ struct IntegrityNote {
   std::string text;  // for a person
 };
 
+// Of a side file with a hole at its end.
+inline constexpr const char* kTornLogText =
+    "the newest records in the side file *-wal cannot be read, as a power cut leaves them: the "
+    "last second of the run may "
+    "be missing";
+
 // Empty for a record that is what was written.
 std::vector<IntegrityNote> integrity_notes(const CapturedRun& run);
 

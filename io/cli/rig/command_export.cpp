@@ -130,7 +130,9 @@ int run_export(const Words& words, Streams& streams) {
   for (const IntegrityNote& note : integrity_notes(run)) {
     streams.err << "viscard: " << capture << ": " << note.text << "\n";
   }
-  if (run.status != "finished" && !run.integrity.has_lost_log) {
+  const bool is_whole =
+      !run.integrity.has_lost_log && !run.integrity.has_torn_log && run.integrity.faults.empty();
+  if (run.status != "finished" && is_whole) {
     streams.err << "viscard: " << capture << " is "
                 << (run.status == "running" ? "still being written" : "of an interrupted run")
                 << "; all that was committed is exported\n";
