@@ -19,8 +19,9 @@ namespace viscard {
 // wrong by the delays. read_csv() reads the table back.
 std::string csv_from_capture(const CapturedRun& run, const RunTiming& timing = {});
 
-// The raw bytes as host_time_s, device, direction, bytes. Bytes that are not printable ASCII are
-// written as \r, \n or \xHH. Throws as read_raw_bytes() does.
-std::string csv_from_raw_bytes(const std::filesystem::path& capture);
+// The raw bytes as host_time_s, device, direction, bytes, below a comment line for each damage to the
+// capture; `run` is what read_capture() returned. Bytes that are not printable ASCII are written as \r,
+// \n or \xHH. Throws as read_raw_bytes() does.
+std::string csv_from_raw_bytes(const std::filesystem::path& capture, const CapturedRun& run);
 
 }  // namespace viscard

@@ -91,8 +91,9 @@ struct CaptureState {
 // Throws as read_capture() does, but does not notice damage to the records.
 CaptureState read_capture_state(const std::filesystem::path& path);
 
-// Calls take with the raw bytes, in the order of reception or sending. Throws as read_capture()
-// does.
+// Calls take with the raw bytes, in the order of reception or sending; those that are not what was
+// written are left out, and read_capture() counts them. Throws as read_capture() does, but for damage
+// to the records and the side file.
 void read_raw_bytes(const std::filesystem::path& path,
                     const std::function<void(const RawBytes&)>& take);
 

@@ -83,6 +83,16 @@ void read_temperatures(Database& database, const CheckedRecords& records, Captur
   }
 }
 
+void count_raw_bytes(Database& database, const CheckedRecords& records, CapturedRun& run) {
+  run.n_raw_bytes = static_cast<std::size_t>(
+      std::stoull("0" + database.text_of("SELECT sum(length(bytes)) FROM raw_bytes")));
+  if (!records.is_damaged("raw_bytes")) return;
+  Statement row = database.prepare("SELECT seq FROM raw_bytes");
+  while (row.step()) {
+    if (!records.is_sound("raw_bytes", row.integer(0))) ++run.integrity.n_left_out_raw;
+  }
+}
+
 Device device_of(const std::string& word) {
   for (const Device device : {Device::kStage, Device::kThermometer}) {
     if (word == word_of(device)) return device;
@@ -166,8 +176,7 @@ CapturedRun read_capture(const std::filesystem::path& path, const CaptureReading
     read_temperatures(database, records, run);
     refuse_impossible_values(run, path.string());
     mark_implausible(run);
-    run.n_raw_bytes = static_cast<std::size_t>(
-        std::stoull("0" + database.text_of("SELECT sum(length(bytes)) FROM raw_bytes")));
+    count_raw_bytes(database, records, run);
     read_status(capture, path, run);
     database.execute("COMMIT");
   } catch (const SqliteError& error) {
@@ -193,9 +202,13 @@ void read_raw_bytes(const std::filesystem::path& path,
                     const std::function<void(const RawBytes&)>& take) {
   OpenCapture capture(path);
   try {
-    Statement row = capture.database().prepare(
-        "SELECT host_time_s, device, is_sent, bytes FROM raw_bytes ORDER BY seq");
+    Database& database = capture.database();
+    database.execute("BEGIN");
+    const CheckedRecords records = check_records(database);
+    Statement row = database.prepare(
+        "SELECT host_time_s, device, is_sent, bytes, seq FROM raw_bytes ORDER BY seq");
     while (row.step()) {
+      if (!records.is_sound("raw_bytes", row.integer(4))) continue;
       take({device_of(row.text(1)), row.integer(2) != 0, row.number(0), row.text(3)});
     }
   } catch (const SqliteError& error) {

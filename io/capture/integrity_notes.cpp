@@ -4,7 +4,7 @@
 
 namespace viscard {
 
-std::vector<IntegrityNote> integrity_notes(const CapturedRun& run) {
+std::vector<IntegrityNote> integrity_notes(const CapturedRun& run, CapturePart part) {
   const RecordIntegrity& integrity = run.integrity;
   std::vector<IntegrityNote> notes;
   if (!integrity.has_checksums) {
@@ -18,13 +18,20 @@ std::vector<IntegrityNote> integrity_notes(const CapturedRun& run) {
   }
   const auto left_out = [&notes](const char* name, std::size_t count, const char* what) {
     if (count == 0) return;
-    notes.push_back({name, counted(count, what) +
-                               " of the capture were left out: their checksums show that they are "
-                               "not what was written"});
+    notes.push_back(
+        {name,
+         counted(count, what) +
+             (count == 1 ? " of the capture was left out: its checksum shows that it is "
+                         : " of the capture were left out: their checksums show that they are ") +
+             "not what was written"});
   };
-  left_out("samples-damaged", integrity.n_left_out_samples, "reading");
-  left_out("reports-damaged", integrity.n_left_out_reports, "report of the stage");
-  left_out("temperatures-damaged", integrity.n_left_out_temperatures, "temperature");
+  if (part == CapturePart::kRawBytes) {
+    left_out("raw-bytes-damaged", integrity.n_left_out_raw, "raw message");
+  } else {
+    left_out("samples-damaged", integrity.n_left_out_samples, "reading");
+    left_out("reports-damaged", integrity.n_left_out_reports, "report of the stage");
+    left_out("temperatures-damaged", integrity.n_left_out_temperatures, "temperature");
+  }
   if (integrity.has_torn_log) notes.push_back({"side-file-torn", kTornLogText});
   if (integrity.has_lost_log) {
     notes.push_back({"side-file-missing",

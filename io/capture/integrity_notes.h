@@ -19,7 +19,11 @@ inline constexpr const char* kTornLogText =
     "last second of the run may "
     "be missing";
 
+// What is made of a capture: results and tables of its readings, or the table of its raw bytes.
+enum class CapturePart { kReadings, kRawBytes };
+
 // Empty for a record that is what was written.
-std::vector<IntegrityNote> integrity_notes(const CapturedRun& run);
+std::vector<IntegrityNote> integrity_notes(const CapturedRun& run,
+                                           CapturePart part = CapturePart::kReadings);
 
 }  // namespace viscard

@@ -18,6 +18,7 @@ struct RecordIntegrity {
   bool is_damage_accepted = false;
   // Rows that are not what was written; they are not in the record.
   std::size_t n_left_out_samples = 0, n_left_out_reports = 0, n_left_out_temperatures = 0;
+  std::size_t n_left_out_raw = 0;  // records of raw bytes, which only their export shows
   // The run was interrupted, and the side file that held its newest records is missing.
   bool has_lost_log = false;
   // The end of the side file has a hole, as a power cut leaves it.
