@@ -44,13 +44,13 @@ void append_line(Buffer& out, const std::string& text) {
 void append_damage(Buffer& out, const CapturedRun& run, CapturePart part) {
   if (!run.integrity.has_checksums) return;
   for (const IntegrityNote& note : integrity_notes(run, part)) {
-    append_line(out, "damage: " + note.text);
+    append_line(out, line_in_head(note));
   }
 }
 
 void append_head(Buffer& out, const CapturedRun& run, const RunTiming& timing, double tare_N) {
   const auto line = [&out](const std::string& text) { append_line(out, text); };
-  line("load-cell samples of a capture, written by " + program_with_version());
+  line(kExportedHead + program_with_version());
   line("captured: " + run.started_at + " by " + run.program + ": " + run.command);
   line("status: " + run.status +
        (run.status == "finished" ? "" : " (not the whole test: everything recorded is below)"));

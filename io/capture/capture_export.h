@@ -8,6 +8,9 @@
 
 namespace viscard {
 
+// With this the head of such a table begins, in a comment.
+inline constexpr const char* kExportedHead = "load-cell samples of a capture, written by ";
+
 // Every load sample as a row: time_s, host_time_s, device_time_s, counts, volts, force_N,
 // stage_position_m, depth_m, temperature_C, phase, is_saturated, is_glitch. Comment lines (#) above them describe
 // the run, its status and its events. time_s is the time of the reading by `timing`, host_time_s

@@ -2,7 +2,19 @@
 
 #include "models/maths/text_of_number.h"
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
 namespace viscard {
+namespace {
+
+constexpr std::string_view kDamageMark = "damage: ";
+constexpr std::string_view kNoteNames[] = {"unverified",      "samples-damaged",
+                                           "reports-damaged", "temperatures-damaged",
+                                           "side-file-torn",  "side-file-missing"};
+
+}  // namespace
 
 std::vector<IntegrityNote> integrity_notes(const CapturedRun& run, CapturePart part) {
   const RecordIntegrity& integrity = run.integrity;
@@ -39,6 +51,21 @@ std::vector<IntegrityNote> integrity_notes(const CapturedRun& run, CapturePart p
                      "seconds, or all of it, is missing: copy it with the capture"});
   }
   return notes;
+}
+
+std::string line_in_head(const IntegrityNote& note) {
+  return std::string(kDamageMark) + note.name + ": " + note.text;
+}
+
+// Tables of before the name was written count as "unverified".
+std::optional<IntegrityNote> note_in_head(const std::string& line) {
+  if (!line.starts_with(kDamageMark)) return std::nullopt;
+  const std::string text = line.substr(kDamageMark.size());
+  const std::size_t end = text.find(": ");
+  const auto name = std::find(std::begin(kNoteNames), std::end(kNoteNames), text.substr(0, end));
+  if (end == std::string::npos || name == std::end(kNoteNames))
+    return IntegrityNote{"unverified", text};
+  return IntegrityNote{std::string(*name), text.substr(end + 2)};
 }
 
 }  // namespace viscard

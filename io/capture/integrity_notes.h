@@ -2,6 +2,7 @@
 
 #include "models/experiment/captured_run.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,9 @@ enum class CapturePart { kReadings, kRawBytes };
 // Empty for a record that is what was written.
 std::vector<IntegrityNote> integrity_notes(const CapturedRun& run,
                                            CapturePart part = CapturePart::kReadings);
+
+// A note as a line in the head of a table, and back; nothing if the line is none.
+std::string line_in_head(const IntegrityNote& note);
+std::optional<IntegrityNote> note_in_head(const std::string& line);
 
 }  // namespace viscard
