@@ -59,6 +59,9 @@ class CaptureDatabase {
   // Stores the status. Merges the journal into the main file unless a reader has the file open.
   void finish(const std::string& status);
 
+  // Closing the file will not merge the log into it.
+  void leave_log_as_it_is() { database_.leave_log_as_it_is(); }
+
  private:
   void create(const std::filesystem::path& path, const CapturedRun& about);
   void store_checksum(const char* name, std::int64_t first_seq, const RowChecksum& checksum);
