@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace viscard {
@@ -24,6 +25,8 @@ namespace viscard {
 // How a capture file is written.
 struct CaptureOptions {
   bool overwrite = false;
+  // Of the new file, as for chmod; none: those of the file that is replaced, or the usual ones.
+  std::optional<unsigned> rights;
   double commit_interval_s = 0.05;
   double sync_interval_s = 0.5;            // at most; an event is synced at once
   std::size_t queue_capacity = 200'000;    // records that wait for the disk; more are dropped

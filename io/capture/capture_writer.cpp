@@ -65,7 +65,7 @@ class CaptureWriter::Impl {
         cut_watch_(path_),
         schedule_(options.sync_interval_s, options.commit_interval_s, now_s()) {
     refuse_full_disk(path_, options.min_free_bytes);
-    lock_.emplace(path_, options.overwrite);
+    lock_.emplace(path_, options.overwrite, options.rights);
     try {
       database_.emplace(path_, about);
     } catch (...) {
