@@ -177,7 +177,12 @@ CaptureCheck check_capture(const std::filesystem::path& path) {
   }
   // The checksums cover the records and not the names of tables and columns.
   try {
-    read_capture(path, {.accepts_damage = true});
+    const RecordIntegrity integrity = read_capture(path, {.accepts_damage = true}).integrity;
+    if (integrity.has_lost_log) {
+      check.faults.push_back("the run was interrupted, and its side file " + integrity.lost_log +
+                             ", which may hold its last seconds, or all of it, is missing: copy it "
+                             "with the capture");
+    }
   } catch (const std::runtime_error& error) {
     check.faults.emplace_back(error.what());
   }

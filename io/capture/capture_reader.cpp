@@ -116,6 +116,7 @@ void read_status(OpenCapture& capture, const fs::path& path, CapturedRun& run) {
   run.status = capture.is_running() ? "running" : "interrupted";
   if (capture.is_running() || has_journal(path)) return;
   run.integrity.has_lost_log = true;
+  run.integrity.lost_log = path.string() + "-wal";
   run.events.push_back({run.events.empty() ? 0.0 : run.events.back().host_time_s, "gap", "",
                         "the run was interrupted and its side file " + path.string() +
                             "-wal is missing; if only the main file was copied, the last "

@@ -21,6 +21,7 @@ struct RecordIntegrity {
   std::size_t n_left_out_raw = 0;  // records of raw bytes, which only their export shows
   // The run was interrupted, and the side file that held its newest records is missing.
   bool has_lost_log = false;
+  std::string lost_log;  // name of that side file
   // The end of the side file has a hole, as a power cut leaves it.
   bool has_torn_log = false;
   std::vector<std::string> faults;  // one line each: what is damaged, and where

@@ -85,6 +85,21 @@ TEST_CASE("viscard export --verify reports a capture that matches, and one with 
   CHECK(json["faults"].size() == 1);
 }
 
+TEST_CASE("viscard export --verify names a side file that is missing", "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string live = folder / "live.viscap", copy = folder / "copy.viscap";
+  CaptureWriter writer(live, test::demo_run());
+  for (int i = 0; i < 50; ++i) writer.append(test::sample(i));
+  writer.sync();
+  std::filesystem::copy_file(live, copy);
+  const auto verified = run_command({"export", copy, "--verify"});
+  CHECK(verified.status == kFailed);
+  CHECK(contains(verified.err, "its side file " + copy + "-wal"));
+  const auto fitted = run_command({"fit", copy});
+  CHECK(fitted.status == kFailed);
+  CHECK(contains(fitted.err, copy + "-wal"));
+}
+
 TEST_CASE("viscard export --raw leaves altered bytes out and says so", "[cli][capture]") {
   const ScratchFolder folder;
   const std::string capture = folder / "run.viscap";
