@@ -56,7 +56,7 @@ KilledCapture killed_capture(const ScratchFolder& folder) {
   return copy_of_live(folder, live);
 }
 
-bool has_note(const CapturedRun& run, const std::string& name) {
+bool is_flagged(const CapturedRun& run, const std::string& name) {
   const std::vector<IntegrityNote> notes = integrity_notes(run);
   return std::any_of(notes.begin(), notes.end(),
                      [&](const IntegrityNote& note) { return note.name == name; });
@@ -71,7 +71,7 @@ void check_is_refused(const KilledCapture& killed) {
   CHECK(contains(error, "--unverified"));
   const CapturedRun run = read_capture(killed.file, {.accepts_damage = true});
   CHECK(run.load_samples.size() < 400);
-  CHECK(has_note(run, "unverified"));
+  CHECK(is_flagged(run, "unverified"));
   const CaptureCheck check = check_capture(killed.file);
   REQUIRE_FALSE(check.faults.empty());
   CHECK(contains(check.faults.front(), "side file"));
@@ -134,7 +134,7 @@ TEST_CASE("no flipped bit in a side file cuts the record without a word", "[io][
       continue;
     }
     // In the last transaction, which no later one shows to be safe.
-    CHECK(has_note(run, "side-file-torn"));
+    CHECK(is_flagged(run, "side-file-torn"));
   }
   CHECK(n_refused > 40);
 }
@@ -198,8 +198,8 @@ TEST_CASE("a hole among frames that were not synced is flagged, as a power cut l
   killed.put_log(killed.log().replace(synced_B, kFrame_B, kFrame_B, '\0'));
   const CapturedRun run = read_capture(killed.file);
   CHECK(run.load_samples.size() == 40);
-  CHECK(has_note(run, "side-file-torn"));
-  CHECK_FALSE(has_note(run, "unverified"));
+  CHECK(is_flagged(run, "side-file-torn"));
+  CHECK_FALSE(is_flagged(run, "unverified"));
   CHECK(check_capture(killed.file).faults.size() == 1);
 }
 
