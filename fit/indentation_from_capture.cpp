@@ -171,6 +171,22 @@ double largest_force_N(const IndentationData& data) {
   return std::max(0.0, *place - (n_before > 0 ? before_N / n_before : 0.0));
 }
 
+// What to do about a record with too little in it: the usual, unless the file explains it.
+std::string remedy(const CapturedRun& run, const std::string& usual) {
+  const RecordIntegrity& integrity = run.integrity;
+  if (integrity.has_lost_log) {
+    return "Its side file " + integrity.lost_log +
+           ", which may hold the rest, is missing: copy it to where the capture lies. Without it, "
+           "repeat the run with viscard capture";
+  }
+  if (integrity.n_left_out_samples > 0) {
+    return std::to_string(integrity.n_left_out_samples) +
+           " readings were left out, because their checksums show that they are not what was "
+           "written: use another copy of the capture (viscard export --verify lists the damage)";
+  }
+  return usual;
+}
+
 }  // namespace
 
 ClockLine line_from_below(const std::vector<double>& x, const std::vector<double>& y) {
@@ -227,14 +243,15 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   const CommandedMove* ramp = preload != nullptr ? preload : first_move(run, "ramp");
   if (ramp == nullptr) {
     throw std::runtime_error("the capture holds no ramp: the run ended (" + run.status +
-                             ") before the punch was driven in. Repeat it with viscard capture");
+                             ") before the punch was driven in. " +
+                             remedy(run, "Repeat it with viscard capture"));
   }
   const Readings readings = good_readings(run, data);
   if (readings.time_s.size() < 20) {
     throw std::runtime_error("the capture holds only " + std::to_string(readings.time_s.size()) +
                              " usable force readings (" + std::to_string(data.n_saturated) +
-                             " saturated, " + std::to_string(data.n_glitch) +
-                             " glitches). Check the amplifier, then repeat the run");
+                             " saturated, " + std::to_string(data.n_glitch) + " glitches). " +
+                             remedy(run, "Check the amplifier, then repeat the run"));
   }
   data.start_early_s = kStartEarly_s * std::max(1.0, run.rig.clock_speed);
   data.contact_from_s = ramp->move.start_time_s;
@@ -245,8 +262,8 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   take_moves_in_contact(run, data);
   if (data.moves.empty()) {
     throw std::runtime_error(
-        "the readings end before the punch is driven in, so there is nothing to fit. Repeat the "
-        "run with viscard capture");
+        "the readings end before the punch is driven in, so there is nothing to fit. " +
+        remedy(run, "Repeat the run with viscard capture"));
   }
   for (std::size_t i = 0; i < readings.time_s.size(); ++i) {
     const double t = readings.time_s[i];

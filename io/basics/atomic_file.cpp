@@ -124,16 +124,10 @@ void remove_leftovers(const fs::path& folder, const fs::path& path) {
   place->second.erase(begin, end);
 }
 
-// The rights of the file that is replaced, if there is one: what was private stays private.
-std::optional<mode_t> mode_of(const fs::path& path) {
-  struct stat old {};
-  if (::stat(path.c_str(), &old) != 0) return {};
-  return old.st_mode & 0777;
-}
-
 // Creates a new file: never writes into one that lies there already, nor through a link that somebody
 // has put in its place.
-int create_temporary(const fs::path& temporary, const fs::path& path, std::optional<mode_t> mode) {
+int create_temporary(const fs::path& temporary, const fs::path& path,
+                     std::optional<unsigned> mode) {
   const auto create = [&] {
     return ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
                   mode.value_or(0666));
@@ -172,6 +166,12 @@ void put_in_place(const fs::path& temporary, const fs::path& path, bool overwrit
 
 }  // namespace
 
+std::optional<unsigned> rights_of_file(const std::filesystem::path& path) {
+  struct stat old {};
+  if (::stat(path.c_str(), &old) != 0) return {};
+  return old.st_mode & 0777;
+}
+
 void sync_folder(const std::filesystem::path& folder) {
   const std::string what =
       "cannot sync this folder, so a power cut may lose what was written in it";
@@ -197,7 +197,7 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
       path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   remove_leftovers(folder, path);
   const std::filesystem::path temporary = temporary_for(folder, path);
-  const std::optional<mode_t> old_mode = mode_of(path);
+  const std::optional<unsigned> old_mode = rights_of_file(path);
   Descriptor file(create_temporary(temporary, path, old_mode));
   ::flock(file.get(), LOCK_EX | LOCK_NB);  // marks a live writer; without locks the pid decides
   try {

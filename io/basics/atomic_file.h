@@ -3,6 +3,7 @@
 #include "io/basics/sha256.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace viscard {
@@ -15,6 +16,10 @@ namespace viscard {
 // the same file. A folder that cannot be synced is an error too: the file is there, but a power cut
 // may lose it.
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite);
+
+// The rights of a file that will be replaced (as for chmod), if there is one: what was private stays
+// private.
+std::optional<unsigned> rights_of_file(const std::filesystem::path& path);
 
 // Makes new, renamed and removed entries of the folder survive a power cut. Throws
 // std::runtime_error naming the folder and the reason. File systems that cannot sync a folder (some

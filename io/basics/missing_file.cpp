@@ -75,7 +75,13 @@ std::string why_file_is_gone(int fd, const fs::path& path) {
   // Linux knows the present name of an open file: proc(5), /proc/PID/fd.
   std::error_code error;
   const fs::path now = fs::read_symlink("/proc/self/fd/" + std::to_string(fd), error);
-  return error ? "was moved" : "was moved to " + now.string();
+  if (error) return "was moved";
+  const bool is_now_there = ::stat(now.c_str(), &named) == 0 && named.st_ino == open_file.st_ino &&
+                            named.st_dev == open_file.st_dev;
+  // Of a file with several names the kernel shows the one that was opened.
+  const bool is_unlinked = !is_now_there && now.string().ends_with(" (deleted)");
+  if (is_unlinked) return "was moved: it is left under another name only (a hard link)";
+  return "was moved to " + now.string();
 }
 
 bool is_readable(const fs::path& path) {

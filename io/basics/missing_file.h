@@ -14,7 +14,7 @@ std::string why_not_opened(const std::filesystem::path& path, int error);
 std::string near_file(const std::filesystem::path& path);
 
 // For a file that this process has open as fd: why it is no longer found under its name. "was deleted",
-// "was moved to B" or "was replaced by another file"; "" if it is still there.
+// "was moved to B", "was moved: ..." if only a hard link is left, or "was replaced by another file"; "" if it is still there.
 std::string why_file_is_gone(int fd, const std::filesystem::path& path);
 
 // True if a file of this name can be opened for reading.

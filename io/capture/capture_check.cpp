@@ -3,6 +3,7 @@
 #include "io/basics/number_text.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/integrity_notes.h"
 #include "io/capture/open_capture.h"
 #include "io/capture/row_checksum.h"
 
@@ -169,12 +170,19 @@ CaptureCheck check_capture(const std::filesystem::path& path) {
     }
     check = check_records(database).check;
     database.execute("COMMIT");
+    if (!capture.side_file().damage.empty()) check.faults.push_back(capture.side_file().damage);
+    if (capture.side_file().is_torn) check.faults.emplace_back(kTornLogText);
   } catch (const SqliteError& error) {
     capture.explain(error);
   }
   // The checksums cover the records and not the names of tables and columns.
   try {
-    read_capture(path, {.accepts_damage = true});
+    const RecordIntegrity integrity = read_capture(path, {.accepts_damage = true}).integrity;
+    if (integrity.has_lost_log) {
+      check.faults.push_back("the run was interrupted, and its side file " + integrity.lost_log +
+                             ", which may hold its last seconds, or all of it, is missing: copy it "
+                             "with the capture");
+    }
   } catch (const std::runtime_error& error) {
     check.faults.emplace_back(error.what());
   }

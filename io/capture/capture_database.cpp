@@ -67,7 +67,7 @@ void CaptureDatabase::write(const std::vector<RunRecord>& batch, bool is_synced)
   }
   if (seq_ >= first_seq) store_checksums_from(first_seq);
   // With an empty batch this makes the transaction that is synced.
-  if (is_synced) set("n_records_synced", std::to_string(seq_));
+  if (is_synced) set(kSyncedCount, std::to_string(seq_));
   identity_->run_with();
   database_.execute("COMMIT");
   if (is_synced) database_.execute("PRAGMA synchronous=NORMAL");

@@ -22,6 +22,9 @@ inline constexpr std::uint32_t kFirstSchemaWithChecksums = 3;
 inline constexpr std::uint32_t kFirstSchemaWithTemperatures = 4;
 inline constexpr std::uint32_t kFirstSchemaWithIdentity = 5;
 
+// The key in `run` that every synced transaction writes, and no other.
+inline constexpr const char* kSyncedCount = "n_records_synced";
+
 // The schema that a capture states.
 unsigned long schema_of(Database& database);
 
@@ -55,6 +58,9 @@ class CaptureDatabase {
 
   // Stores the status. Merges the journal into the main file unless a reader has the file open.
   void finish(const std::string& status);
+
+  // Closing the file will not merge the log into it.
+  void leave_log_as_it_is() { database_.leave_log_as_it_is(); }
 
  private:
   void create(const std::filesystem::path& path, const CapturedRun& about);

@@ -37,11 +37,20 @@ std::optional<double> number_of_event(const CapturedRun& run, const std::string&
   return found;
 }
 
+void append_line(Buffer& out, const std::string& text) {
+  fmt::format_to(std::back_inserter(out), "# {}\n", utf8_on_one_line(text));
+}
+
+void append_damage(Buffer& out, const CapturedRun& run, CapturePart part) {
+  if (!run.integrity.has_checksums) return;
+  for (const IntegrityNote& note : integrity_notes(run, part)) {
+    append_line(out, line_in_head(note));
+  }
+}
+
 void append_head(Buffer& out, const CapturedRun& run, const RunTiming& timing, double tare_N) {
-  const auto line = [&out](const std::string& text) {
-    fmt::format_to(std::back_inserter(out), "# {}\n", utf8_on_one_line(text));
-  };
-  line("load-cell samples of a capture, written by " + program_with_version());
+  const auto line = [&out](const std::string& text) { append_line(out, text); };
+  line(kExportedHead + program_with_version());
   line("captured: " + run.started_at + " by " + run.program + ": " + run.command);
   line("status: " + run.status +
        (run.status == "finished" ? "" : " (not the whole test: everything recorded is below)"));
@@ -52,9 +61,7 @@ void append_head(Buffer& out, const CapturedRun& run, const RunTiming& timing, d
        "(volts - " + text_from_number(run.rig.calibration.zero_volts) + " V)/(" +
        text_from_number(run.rig.calibration.volts_per_newton) + " V/N) - tare " +
        text_from_number(tare_N) + " N");
-  for (const IntegrityNote& note : integrity_notes(run)) {
-    if (run.integrity.has_checksums) line("damage: " + note.text);
-  }
+  append_damage(out, run, CapturePart::kReadings);
   if (!timing.description.empty()) line(timing.description);
   for (const RunEvent& event : run.events) {
     line(fmt::format("event at {:.3f} s: {} {} {}", event.host_time_s, event.name, event.value,
@@ -190,8 +197,9 @@ std::string csv_from_capture(const CapturedRun& run, const RunTiming& timing) {
   return fmt::to_string(out);
 }
 
-std::string csv_from_raw_bytes(const std::filesystem::path& capture) {
+std::string csv_from_raw_bytes(const std::filesystem::path& capture, const CapturedRun& run) {
   Buffer out;
+  append_damage(out, run, CapturePart::kRawBytes);
   fmt::format_to(std::back_inserter(out), "host_time_s,device,direction,bytes\n");
   read_raw_bytes(capture, [&out](const RawBytes& raw) {
     fmt::format_to(std::back_inserter(out), "{},{},{},{}\n", raw.host_time_s, word_of(raw.device),

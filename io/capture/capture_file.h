@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace viscard {
@@ -24,6 +25,8 @@ namespace viscard {
 // How a capture file is written.
 struct CaptureOptions {
   bool overwrite = false;
+  // Of the new file, as for chmod; none: those of the file that is replaced, or the usual ones.
+  std::optional<unsigned> rights;
   double commit_interval_s = 0.05;
   double sync_interval_s = 0.5;            // at most; an event is synced at once
   std::size_t queue_capacity = 200'000;    // records that wait for the disk; more are dropped
@@ -91,8 +94,9 @@ struct CaptureState {
 // Throws as read_capture() does, but does not notice damage to the records.
 CaptureState read_capture_state(const std::filesystem::path& path);
 
-// Calls take with the raw bytes, in the order of reception or sending. Throws as read_capture()
-// does.
+// Calls take with the raw bytes, in the order of reception or sending; those that are not what was
+// written are left out, and read_capture() counts them. Throws as read_capture() does, but for damage
+// to the records and the side file.
 void read_raw_bytes(const std::filesystem::path& path,
                     const std::function<void(const RawBytes&)>& take);
 

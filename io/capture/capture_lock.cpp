@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -67,9 +68,18 @@ void remove_old(const std::filesystem::path& path, bool overwrite) {
   for (const char* suffix : kCaptureParts) std::filesystem::remove(name + suffix);
 }
 
+// SQLite gives the log the rights of the file, and must be able to write both.
+void set_rights(int fd, const std::filesystem::path& path, unsigned rights) {
+  if (::fchmod(fd, rights | S_IRUSR | S_IWUSR) == 0) return;
+  throw std::runtime_error(path.string() +
+                           ": cannot keep the rights of the capture that it replaces: " +
+                           std::strerror(errno) + "; choose another name, or another disk");
+}
+
 }  // namespace
 
-CaptureLock::CaptureLock(const std::filesystem::path& path, bool overwrite)
+CaptureLock::CaptureLock(const std::filesystem::path& path, bool overwrite,
+                         std::optional<unsigned> rights)
     : path_(path), key_(key_of(path)) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder)) {
@@ -80,6 +90,7 @@ CaptureLock::CaptureLock(const std::filesystem::path& path, bool overwrite)
     throw std::runtime_error(path.string() +
                              " is being written by another capture; choose another name");
   }
+  if (overwrite && !rights) rights = rights_of_file(path);
   remove_old(path, overwrite);
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd_ < 0) {
@@ -91,6 +102,7 @@ CaptureLock::CaptureLock(const std::filesystem::path& path, bool overwrite)
     throw std::runtime_error(path.string() + ": cannot lock: " + std::strerror(error));
   }
   try {
+    if (rights) set_rights(fd_, path, *rights);
     sync_folder(folder);
   } catch (...) {
     ::close(fd_);

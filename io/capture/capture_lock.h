@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace viscard {
@@ -14,10 +15,12 @@ inline constexpr const char* kCaptureParts[] = {"", "-wal", "-shm", "-journal"};
 // own connection.
 class CaptureLock {
  public:
-  // Creates the file. With overwrite an old one and its side files are removed first. Throws
+  // Creates the file. With overwrite an old one and its side files are removed first; the new one has
+  // its rights, or `rights` if they are given (atomic_file.h). Throws
   // std::runtime_error if the file exists and overwrite is false, if the folder does not exist, if
   // it is not a plain file, or if it is being written.
-  CaptureLock(const std::filesystem::path& path, bool overwrite);
+  CaptureLock(const std::filesystem::path& path, bool overwrite,
+              std::optional<unsigned> rights = {});
   ~CaptureLock();
   CaptureLock(const CaptureLock&) = delete;
   CaptureLock& operator=(const CaptureLock&) = delete;
@@ -51,6 +54,8 @@ class PreviousCapture {
   PreviousCapture& operator=(const PreviousCapture&) = delete;
 
   bool is_aside() const { return is_aside_; }
+  // Those of the old capture, which the new one shall have.
+  std::optional<unsigned> rights() const { return rights_; }
   // Removes the old capture for good.
   void drop();
 
@@ -60,6 +65,7 @@ class PreviousCapture {
 
   std::filesystem::path path_;
   bool is_aside_ = false;
+  std::optional<unsigned> rights_;
 };
 
 }  // namespace viscard

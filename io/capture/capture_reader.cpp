@@ -83,6 +83,16 @@ void read_temperatures(Database& database, const CheckedRecords& records, Captur
   }
 }
 
+void count_raw_bytes(Database& database, const CheckedRecords& records, CapturedRun& run) {
+  run.n_raw_bytes = static_cast<std::size_t>(
+      std::stoull("0" + database.text_of("SELECT sum(length(bytes)) FROM raw_bytes")));
+  if (!records.is_damaged("raw_bytes")) return;
+  Statement row = database.prepare("SELECT seq FROM raw_bytes");
+  while (row.step()) {
+    if (!records.is_sound("raw_bytes", row.integer(0))) ++run.integrity.n_left_out_raw;
+  }
+}
+
 Device device_of(const std::string& word) {
   for (const Device device : {Device::kStage, Device::kThermometer}) {
     if (word == word_of(device)) return device;
@@ -106,6 +116,7 @@ void read_status(OpenCapture& capture, const fs::path& path, CapturedRun& run) {
   run.status = capture.is_running() ? "running" : "interrupted";
   if (capture.is_running() || has_journal(path)) return;
   run.integrity.has_lost_log = true;
+  run.integrity.lost_log = path.string() + "-wal";
   run.events.push_back({run.events.empty() ? 0.0 : run.events.back().host_time_s, "gap", "",
                         "the run was interrupted and its side file " + path.string() +
                             "-wal is missing; if only the main file was copied, the last "
@@ -126,16 +137,21 @@ void mark_implausible(CapturedRun& run) {
 }
 
 // Description, end, events and moves decide what the readings mean, so damage to them is refused.
-void judge_damage(const CheckedRecords& records, const fs::path& path,
-                  const CaptureReading& reading, CapturedRun& run) {
-  run.integrity.has_checksums = records.check.is_checked;
-  run.integrity.faults = records.check.faults;
-  const bool is_meaning_damaged =
-      records.is_description_damaged || records.is_damaged("events") || records.is_damaged("moves");
+// So is a log of which only the begin can be read: what is left out may be any of them.
+void judge_damage(const CheckedRecords& records, const SideFileCheck& side_file,
+                  const fs::path& path, const CaptureReading& reading, CapturedRun& run) {
+  RecordIntegrity& integrity = run.integrity;
+  integrity.has_checksums = records.check.is_checked;
+  integrity.faults = records.check.faults;
+  integrity.has_torn_log = side_file.is_torn;
+  const bool is_log_damaged = !side_file.damage.empty();
+  if (is_log_damaged) integrity.faults.insert(integrity.faults.begin(), side_file.damage);
+  const bool is_meaning_damaged = is_log_damaged || records.is_description_damaged ||
+                                  records.is_damaged("events") || records.is_damaged("moves");
   if (!is_meaning_damaged) return;
-  run.integrity.is_damage_accepted = true;
+  integrity.is_damage_accepted = true;
   if (reading.accepts_damage) return;
-  throw std::runtime_error(path.string() + " is damaged: " + records.check.faults.front() +
+  throw std::runtime_error(path.string() + " is damaged: " + integrity.faults.front() +
                            ". Use another copy of it (viscard export --verify lists all damage); "
                            "to read it as it is, add --unverified, which the result will state");
 }
@@ -153,7 +169,7 @@ CapturedRun read_capture(const std::filesystem::path& path, const CaptureReading
       throw SqliteError(path.string(), SQLITE_CORRUPT);
     }
     const CheckedRecords records = check_records(database);
-    judge_damage(records, path, reading, run);
+    judge_damage(records, capture.side_file(), path, reading, run);
     read_metadata(database, path, run);
     read_samples(database, records, run);
     read_stage(database, records, run);
@@ -161,8 +177,7 @@ CapturedRun read_capture(const std::filesystem::path& path, const CaptureReading
     read_temperatures(database, records, run);
     refuse_impossible_values(run, path.string());
     mark_implausible(run);
-    run.n_raw_bytes = static_cast<std::size_t>(
-        std::stoull("0" + database.text_of("SELECT sum(length(bytes)) FROM raw_bytes")));
+    count_raw_bytes(database, records, run);
     read_status(capture, path, run);
     database.execute("COMMIT");
   } catch (const SqliteError& error) {
@@ -188,9 +203,13 @@ void read_raw_bytes(const std::filesystem::path& path,
                     const std::function<void(const RawBytes&)>& take) {
   OpenCapture capture(path);
   try {
-    Statement row = capture.database().prepare(
-        "SELECT host_time_s, device, is_sent, bytes FROM raw_bytes ORDER BY seq");
+    Database& database = capture.database();
+    database.execute("BEGIN");
+    const CheckedRecords records = check_records(database);
+    Statement row = database.prepare(
+        "SELECT host_time_s, device, is_sent, bytes, seq FROM raw_bytes ORDER BY seq");
     while (row.step()) {
+      if (!records.is_sound("raw_bytes", row.integer(4))) continue;
       take({device_of(row.text(1)), row.integer(2) != 0, row.number(0), row.text(3)});
     }
   } catch (const SqliteError& error) {

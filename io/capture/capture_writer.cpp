@@ -3,9 +3,10 @@
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
+#include "io/capture/cut_watch.h"
+#include "io/capture/disk_room.h"
+#include "io/capture/side_file_check.h"
 #include "io/capture/sync_schedule.h"
-
-#include <sys/statvfs.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -24,7 +25,7 @@ constexpr std::size_t kMaxQueuedBytes = 64u << 20;  // of raw bytes that wait fo
 
 constexpr double kLookInterval_s = 0.3;  // a deleted file is noticed within a second
 
-// The file is no longer under its name.
+// The file is no longer under its name, or not all of it is there.
 class FileIsGone : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -54,17 +55,6 @@ std::size_t raw_size(const RunRecord& record) {
   return raw == nullptr ? 0 : raw->bytes.size();
 }
 
-void refuse_full_disk(const std::filesystem::path& path, std::size_t needed_bytes) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  struct statvfs disk {};
-  if (statvfs(folder.c_str(), &disk) != 0) return;
-  const auto free_bytes = static_cast<std::size_t>(disk.f_bavail) * disk.f_frsize;
-  if (free_bytes >= needed_bytes) return;
-  throw std::runtime_error(path.string() + ": only " + std::to_string(free_bytes >> 20) +
-                           " MiB are left on that disk; a capture needs at least " +
-                           std::to_string(needed_bytes >> 20) + " MiB. Make room first");
-}
-
 }  // namespace
 
 class CaptureWriter::Impl {
@@ -72,9 +62,10 @@ class CaptureWriter::Impl {
   Impl(std::filesystem::path path, const CapturedRun& about, const CaptureOptions& options)
       : path_(std::move(path)),
         options_(options),
+        cut_watch_(path_),
         schedule_(options.sync_interval_s, options.commit_interval_s, now_s()) {
     refuse_full_disk(path_, options.min_free_bytes);
-    lock_.emplace(path_, options.overwrite);
+    lock_.emplace(path_, options.overwrite, options.rights);
     try {
       database_.emplace(path_, about);
     } catch (...) {
@@ -154,6 +145,7 @@ class CaptureWriter::Impl {
       while (write_once()) {
       }
       refuse_lost_file();
+      refuse_cut_log();
       database_->finish(final_status_);
     } catch (const FileIsGone& gone) {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -183,6 +175,32 @@ class CaptureWriter::Impl {
                                : "What was recorded is lost; repeat the run"));
   }
 
+  // What is missing in the files cannot be written again, so the run must not end as finished.
+  void refuse_cut_files() {
+    const CutWatch::Finding found = cut_watch_.look();
+    if (found.loss == CutWatch::Loss::kNone) return;
+    refuse_lost_file();  // the log goes with its file
+    refuse_damage(found.text, found.loss == CutWatch::Loss::kCut);
+  }
+
+  // A log that was cut between two looks has grown again since, with a hole.
+  void refuse_cut_log() {
+    refuse_cut_files();
+    const std::string log = path_.string() + "-wal";
+    const SideFileCheck check = check_side_file(log);
+    if (!check.damage.empty() || check.is_torn) refuse_damage(log + " was changed", true);
+  }
+
+  // When SQLite closes the file it merges the log into it. From the log as it has it open, that saves
+  // what it can; from a log with a hole it would spoil the file.
+  void refuse_damage(const std::string& what, bool keeps_log) {
+    if (keeps_log) database_->leave_log_as_it_is();
+    throw FileIsGone(what +
+                     " while the run was writing it; the capture stops here. Part of what was "
+                     "recorded may be lost: see what is left with viscard export --verify, and "
+                     "repeat the run");
+  }
+
   // Commits the queued records; false after the last batch of a run that has ended.
   bool write_once() {
     bool is_synced = false, is_last = false;
@@ -203,7 +221,11 @@ class CaptureWriter::Impl {
       queued_bytes_ = 0;
       if (gap_records_ > 0) batch_.push_back(gap_event());
     }
-    if (!batch_.empty() || is_synced) database_->write(batch_, is_synced);
+    if (!batch_.empty() || is_synced) {
+      refuse_cut_files();
+      database_->write(batch_, is_synced);
+      refuse_cut_files();
+    }
     if (is_synced) schedule_.synced(begun_s, now_s());
     if (now_s() - looked_s_ > kLookInterval_s) {
       looked_s_ = now_s();
@@ -231,6 +253,7 @@ class CaptureWriter::Impl {
   std::optional<CaptureLock> lock_;  // before the database, which must be closed first
   std::optional<CaptureDatabase> database_;
   std::vector<RunRecord> batch_;
+  CutWatch cut_watch_;
   SyncSchedule schedule_;
   double looked_s_ = 0.0;  // when the file was last looked for under its name
 

@@ -32,6 +32,12 @@ std::string identity_of(Database& database) {
 OpenCapture::OpenCapture(const fs::path& path) : path_(path) {
   check_capture_header(path);
   is_running_ = is_being_captured(path);
+  if (!is_running_ && has_journal(path)) {
+    const std::string log = path.string() + "-wal";
+    side_file_ = check_side_file(log);
+    if (!side_file_.damage.empty())
+      side_file_.damage = "its side file " + log + ": " + side_file_.damage;
+  }
   try {
     database_.emplace(path, Database::Access::kReadOnly);
     database_->text_of("SELECT count(*) FROM sqlite_schema");

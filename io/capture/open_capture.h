@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/capture/side_file_check.h"
 #include "io/capture/sqlite_database.h"
 
 #include <filesystem>
@@ -18,6 +19,8 @@ class OpenCapture {
 
   Database& database() { return *database_; }
   bool is_running() const { return is_running_; }
+  // Of the log beside the file, if nobody is writing it. SQLite has left out what is damaged in it.
+  const SideFileCheck& side_file() const { return side_file_; }
 
   // Throws std::runtime_error that explains the error to a user.
   [[noreturn]] void explain(const SqliteError& error) const;
@@ -30,6 +33,7 @@ class OpenCapture {
   std::filesystem::path path_, copy_;
   std::optional<Database> database_;
   bool is_running_ = false;
+  SideFileCheck side_file_;
 };
 
 }  // namespace viscard

@@ -1,3 +1,4 @@
+#include "io/basics/atomic_file.h"
 #include "io/capture/capture_lock.h"
 
 #include <stdexcept>
@@ -24,6 +25,7 @@ PreviousCapture::PreviousCapture(std::filesystem::path path, bool is_replaced)
     throw std::runtime_error(aside("").string() +
                              " is a capture that an earlier --force has kept; move it away");
   }
+  rights_ = rights_of_file(path_);
   move_parts([this](const char* suffix) { return part(suffix); },
              [this](const char* suffix) { return aside(suffix); });
   is_aside_ = true;

@@ -166,6 +166,10 @@ void Database::execute(const char* sql) {
   if (code != SQLITE_OK) fail(database_.get(), file_, code);
 }
 
+void Database::leave_log_as_it_is() {
+  sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+}
+
 Statement Database::prepare(const char* sql) {
   return {database_.get(), sql, file_};
 }

@@ -77,6 +77,8 @@ class Database {
   Statement prepare(const char* sql);
   // First column of the first row; "" without a row.
   std::string text_of(const char* sql);
+  // Closing the file will not merge its log into it, nor remove the log.
+  void leave_log_as_it_is();
   // The first view, trigger or virtual table. Files of viscard have none, and one may never end or run code of
   // others. "" without one.
   std::string first_foreign_object();

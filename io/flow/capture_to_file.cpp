@@ -71,6 +71,7 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   CaptureOptions options;
   options.overwrite = request.overwrite;
   PreviousCapture previous(request.path, request.overwrite);
+  options.rights = previous.rights();
   CaptureWriter writer(request.path, about_run(request, rig), options);
   if (setup.truth) {
     std::filesystem::path path = request.path;

@@ -7,6 +7,7 @@
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/integrity_notes.h"
+#include "io/flow/damaged_table.h"
 #include "io/flow/fit_table.h"
 #include "io/flow/plausible_record.h"
 #include "io/flow/table_from_capture.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -38,7 +40,9 @@ FittedFile fit_as_table(const std::string& path, const CapturedRun& run,
   FitRequest of_table = request;
   of_table.specimen = run.specimen;
   of_table.frame_stiffness_N_m = 0.0;
-  return fit_csv(csv_from_text(table_from_capture(run), path), of_table);
+  CsvTable table = csv_from_text(table_from_capture(run), path);
+  table.comments.clear();  // damage that they state is judged by fit_capture()
+  return fit_csv(std::move(table), of_table);
 }
 
 FittedFile fit_capture(const std::string& path, const FitRequest& request) {
@@ -71,10 +75,7 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   fitted.specimen = run.specimen;
   fitted.specimen_id = specimen_id;
   fitted.fitted_unit = "N";
-  for (const IntegrityNote& note : integrity_notes(run)) {
-    fitted.result.flags.push_back({note.name, 0, note.text});
-    if (is_defect(note.name)) fitted.result.is_trustworthy = false;
-  }
+  flag_damage(integrity_notes(run), fitted.result);
   if (run.status != "finished") {
     fitted.result.flags.push_back(
         {"run-" + run.status, 0,

@@ -25,8 +25,8 @@ inline constexpr double kUsualNu = 0.495;
 
 // Of the option --unverified, for the help of all commands that read captures.
 inline constexpr const char* kUnverifiedHelp =
-    "read a capture although its checksums show that description, events or moves are damaged; the "
-    "result states it";
+    "read a capture although its checksums show that description, events or moves are damaged, or "
+    "the table of such a capture; the result states it";
 
 // One of several tests of a material.
 struct TestFile {

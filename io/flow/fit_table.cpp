@@ -2,6 +2,7 @@
 
 #include "fit/intervals/left_out.h"
 #include "io/basics/words.h"
+#include "io/flow/damaged_table.h"
 #include "io/flow/fit_of_kind.h"
 #include "io/flow/plausible_record.h"
 #include "io/flow/table_kind.h"
@@ -254,6 +255,7 @@ FittedFile fit_table(const std::string& path, const FitRequest& request) {
 
 FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   const auto [maker, n_all] = std::pair(all.maker, all.lines.size());
+  const std::vector<IntegrityNote> damage = accepted_damage(all, asked.accepts_unverified);
   FitRequest request = asked;
   all.judged = request.plausible;
   if (!request.specimen && !request.depth_m) request.size = size_from_notes(all, request.size);
@@ -283,6 +285,7 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   const bool is_modulus = !fitted.result.is_stiffness && !fitted.has_no_depth;
   if (is_modulus) refuse_modulus(fitted.result.E0_Pa, &table, request.columns, request.plausible);
   flag_history(part, fitted.result);
+  flag_damage(damage, fitted.result);
   fitted.maker = maker;
   fitted.notes = table.notes;
   fitted.chosen = std::move(part.text);

@@ -3,6 +3,7 @@
 #include "io/basics/number_text.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
+#include "io/flow/damaged_table.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/fit_table.h"
 #include "io/flow/table_from_capture.h"
@@ -144,6 +145,7 @@ TableView view_table(const std::string& path, const FitRequest& request) {
     view.columns.push_back(viewed(table.columns[i], i + 1));
   }
   view.notes = table.notes;
+  for (const IntegrityNote& note : damage_of_table(table)) view.notes.push_back(note.text);
   add_quantities(table, request, used, view);
   return view;
 }

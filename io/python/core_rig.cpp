@@ -1,6 +1,7 @@
 #include "io/flow/calibrate.h"
 #include "io/flow/capture_setup.h"
 #include "io/flow/capture_to_file.h"
+#include "io/flow/damaged_table.h"
 #include "io/flow/rig_keys.h"
 #include "io/options/option.h"
 #include "io/python/job.h"
@@ -99,6 +100,7 @@ py::dict calibrate(const std::string& file, const py::dict& tables, bool is_fram
   const CsvTable table = tables.empty()
                              ? read_csv(file)
                              : table_from_arrays(tables[py::str(file)].cast<py::dict>(), file);
+  (void)accepted_damage(table, false);
   std::optional<RigConfig> rig;
   if (rig_file)
     rig = is_frame ? read_rig(*rig_file, judged) : read_rig_to_calibrate(*rig_file, judged);

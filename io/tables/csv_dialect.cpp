@@ -99,6 +99,19 @@ std::string_view LineReader::take_line() {
   return line;
 }
 
+std::vector<std::string> leading_comments(std::string_view text) {
+  std::vector<std::string> comments;
+  while (!text.empty()) {
+    const std::string_view whole = first_line(text), line = trimmed(whole);
+    text.remove_prefix(whole.size());
+    if (line.empty()) continue;
+    if (!is_comment(line)) break;
+    const std::size_t mark = std::min(line.size(), line.find_first_not_of("#%/"));
+    comments.emplace_back(trimmed(line.substr(mark)));
+  }
+  return comments;
+}
+
 bool LineReader::next(TextLine& line) {
   while (!rest_.empty()) {
     const std::string_view whole = take_line();

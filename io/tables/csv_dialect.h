@@ -33,6 +33,9 @@ class LineReader {
   std::string_view last_comment_;
 };
 
+// The comments with which a text begins, without their marks.
+std::vector<std::string> leading_comments(std::string_view text);
+
 // The first line of a text with its end: LF, CRLF or CR.
 std::string_view first_line(std::string_view text);
 

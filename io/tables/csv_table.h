@@ -39,7 +39,9 @@ struct CsvTable {
   std::vector<CsvColumn> columns;     // all of the same length
   LineNumbers lines;                  // line of the file, from 1, of each row
   std::vector<std::string> preamble;  // lines before the header, which are not part of the table
-  std::vector<std::string> notes;     // how it was read, where that was not plain: sentences
+  std::vector<std::string>
+      comments;  // at the very begin of a text, before any other line; without marks
+  std::vector<std::string> notes;  // how it was read, where that was not plain: sentences
   bool has_header = false;
   char separator = ',';  // ' ' for runs of blanks
   bool has_decimal_comma = false;

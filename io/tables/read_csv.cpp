@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/tables/csv_dialect.h"
 #include "io/tables/csv_table.h"
 #include "io/tables/foreign_file.h"
 #include "io/tables/maker_table.h"
@@ -38,6 +39,7 @@ CsvTable csv_from_text(std::string_view bytes, const std::string& name, const Ta
     std::optional<MakerTable> maker = maker_table(text, name);
     if (maker) text = maker->text;
     CsvTable table = chosen_table(plain_tables(text, name, choice.skip), choice.table);
+    table.comments = leading_comments(text);
     if (maker) {
       table.maker = std::move(maker->maker);
       table.maker_columns = std::move(maker->columns);

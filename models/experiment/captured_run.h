@@ -14,12 +14,16 @@ namespace viscard {
 // What is known of a record by the checksums of its capture file.
 struct RecordIntegrity {
   bool has_checksums = true;  // false: written before captures carried them
-  // The description, the events or the moves are not what was written, and the reader accepted that.
+  // Description, events, moves or the side file are not what was written, and the reader accepted that.
   bool is_damage_accepted = false;
   // Rows that are not what was written; they are not in the record.
   std::size_t n_left_out_samples = 0, n_left_out_reports = 0, n_left_out_temperatures = 0;
+  std::size_t n_left_out_raw = 0;  // records of raw bytes, which only their export shows
   // The run was interrupted, and the side file that held its newest records is missing.
   bool has_lost_log = false;
+  std::string lost_log;  // name of that side file
+  // The end of the side file has a hole, as a power cut leaves it.
+  bool has_torn_log = false;
   std::vector<std::string> faults;  // one line each: what is damaged, and where
 };
 

@@ -148,6 +148,20 @@ TEST_CASE("a captured run without a ramp, a gain or readings is refused", "[fit]
     CHECK_THROWS_WITH(indentation_from_capture(run),
                       Contains("no ramp") && Contains("interrupted"));
   }
+  SECTION("no ramp, because the side file is missing") {
+    run.moves.clear();
+    run.integrity.has_lost_log = true;
+    run.integrity.lost_log = "run.viscap-wal";
+    CHECK_THROWS_WITH(indentation_from_capture(run),
+                      Contains("run.viscap-wal") && Contains("is missing"));
+  }
+  SECTION("no readings, because all are damaged") {
+    run.integrity.n_left_out_samples = run.load_samples.size();
+    run.load_samples.clear();
+    CHECK_THROWS_WITH(indentation_from_capture(run), Contains("0 usable force readings") &&
+                                                         Contains("checksums") &&
+                                                         !Contains("amplifier"));
+  }
   SECTION("readings that end before the ramp") {
     const double ramp_s = run.moves.front().move.start_time_s;
     std::erase_if(run.load_samples,

@@ -6,6 +6,7 @@
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/stop_on_signal.h"
 #include "io/flow/calibrate.h"
+#include "io/flow/damaged_table.h"
 #include "io/tables/csv_table.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
@@ -101,6 +102,13 @@ void wait_for_block(const CalibrateWords& words, Streams& streams) {
   if (!std::getline(std::cin, answer)) throw std::runtime_error("nothing was measured");
 }
 
+void say_damage(const std::string& file, const std::vector<IntegrityNote>& notes,
+                Streams& streams) {
+  for (const IntegrityNote& note : notes) {
+    streams.err << "viscard: " << file << ": " << note.text << "\n";
+  }
+}
+
 void print(const FrameCalibration& frame, const CalibrateWords& words, Streams& streams) {
   if (words.as_json) {
     print_result(
@@ -137,13 +145,13 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
   if (words.data_file && looks_like_capture(*words.data_file)) {
     const CapturedRun run =
         read_capture(*words.data_file, {.accepts_damage = words.accepts_unverified});
-    for (const IntegrityNote& note : integrity_notes(run)) {
-      streams.err << "viscard: " << *words.data_file << ": " << note.text << "\n";
-    }
+    say_damage(*words.data_file, integrity_notes(run), streams);
     points = block_points_from_capture(run);
     rig = run.rig;
   } else if (words.data_file) {
-    points = block_points_from_table(read_csv(*words.data_file));
+    const CsvTable table = read_csv(*words.data_file);
+    say_damage(*words.data_file, accepted_damage(table, words.accepts_unverified), streams);
+    points = block_points_from_table(table);
     if (words.rig_file) rig = read_rig(*words.rig_file, words.plausible);
   } else {
     rig = calibrate_rig(words);

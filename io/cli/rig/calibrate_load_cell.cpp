@@ -6,6 +6,7 @@
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/stop_on_signal.h"
 #include "io/flow/calibrate.h"
+#include "io/flow/damaged_table.h"
 #include "io/tables/csv_table.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
@@ -34,7 +35,7 @@ std::vector<double> sequence_kg(std::vector<double> masses_kg, int series) {
   return sequence;
 }
 
-CsvTable table_of_weights(const std::string& path) {
+CsvTable table_of_weights(const std::string& path, bool accepts_damage) {
   if (looks_like_capture(path)) {
     throw std::runtime_error(
         path +
@@ -42,7 +43,9 @@ CsvTable table_of_weights(const std::string& path) {
         "mass_kg (or force_N) and volts_V; a capture of a rigid block goes with "
         "--compliance");
   }
-  return read_csv(path);
+  CsvTable table = read_csv(path);
+  (void)accepted_damage(table, accepts_damage);
+  return table;
 }
 
 bool ask_for_weight(double mass_kg, std::ostream& err) {
@@ -160,7 +163,8 @@ int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
   }
   if (words.data_file) request.where = *words.data_file + ": ";
   const WeightReadings readings =
-      words.data_file ? readings_from_table(table_of_weights(*words.data_file), request)
+      words.data_file ? readings_from_table(
+                            table_of_weights(*words.data_file, words.accepts_unverified), request)
                       : readings_on_rig(rig, words, request.capacity_N, streams);
   const CellCalibration cell = calibrated_cell(readings, request, has_rig ? &rig : nullptr);
   write_file(words.out_file, toml_from_calibration(cell.record), words.overwrite);

@@ -18,8 +18,8 @@
 namespace viscard {
 namespace {
 
-void show_summary(ResultVisitor& v, const CapturedRun& run, const std::string& capture,
-                  const std::optional<std::string>& out) {
+void show_summary(ResultVisitor& v, const CapturedRun& run, CapturePart part,
+                  const std::string& capture, const std::optional<std::string>& out) {
   std::size_t n_gaps = 0;
   for (const RunEvent& event : run.events) n_gaps += event.name == "gap" ? 1 : 0;
   v("capture", capture, "the capture");
@@ -35,7 +35,7 @@ void show_summary(ResultVisitor& v, const CapturedRun& run, const std::string& c
   v("n_gaps", n_gaps, "gaps in the readings");
   v("n_raw_bytes", run.n_raw_bytes, "bytes received and sent");
   std::vector<std::string> notes;
-  for (const IntegrityNote& note : integrity_notes(run)) notes.push_back(note.text);
+  for (const IntegrityNote& note : integrity_notes(run, part)) notes.push_back(note.text);
   v("notes", notes, "what the checksums show against the record");
   v("out", out, "the table that was written");
 }
@@ -100,7 +100,7 @@ int run_export(const Words& words, Streams& streams) {
   syntax.options.add("unverified", &reading.accepts_damage, kUnverifiedHelp);
   syntax.options.add("force", &overwrite, "replace an existing file");
   syntax.results = {{"export", "viscard export", {[](ResultVisitor& v) {
-                       show_summary(v, CapturedRun{}, "", std::nullopt);
+                       show_summary(v, CapturedRun{}, CapturePart::kReadings, "", std::nullopt);
                      }}},
                     {"export-verify", "viscard export --verify", {[](ResultVisitor& v) {
                        show_check(v, CaptureCheck{}, "");
@@ -112,7 +112,8 @@ int run_export(const Words& words, Streams& streams) {
     return verify(capture, is_json, streams);
   }
   const CapturedRun run = read_capture(capture, reading);
-  const std::string table = is_raw ? csv_from_raw_bytes(capture) : table_from_capture(run);
+  const CapturePart part = is_raw ? CapturePart::kRawBytes : CapturePart::kReadings;
+  const std::string table = is_raw ? csv_from_raw_bytes(capture, run) : table_from_capture(run);
   if (out) {
     write_file(*out, table, overwrite);
     if (!is_json) {
@@ -125,12 +126,14 @@ int run_export(const Words& words, Streams& streams) {
   if (is_json) {
     print_result(
         {"viscard-export/1", {capture}},
-        [&](ResultVisitor& v) { show_summary(v, run, capture, out); }, streams);
+        [&](ResultVisitor& v) { show_summary(v, run, part, capture, out); }, streams);
   }
-  for (const IntegrityNote& note : integrity_notes(run)) {
+  for (const IntegrityNote& note : integrity_notes(run, part)) {
     streams.err << "viscard: " << capture << ": " << note.text << "\n";
   }
-  if (run.status != "finished" && !run.integrity.has_lost_log) {
+  const bool is_whole =
+      !run.integrity.has_lost_log && !run.integrity.has_torn_log && run.integrity.faults.empty();
+  if (run.status != "finished" && is_whole) {
     streams.err << "viscard: " << capture << " is "
                 << (run.status == "running" ? "still being written" : "of an interrupted run")
                 << "; all that was committed is exported\n";

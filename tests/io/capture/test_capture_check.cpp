@@ -40,7 +40,7 @@ std::filesystem::path finished_capture(const ScratchFolder& folder) {
 // All that a user gets out of a capture.
 std::string contents_of(const std::filesystem::path& path) {
   const CapturedRun run = read_capture(path);
-  return csv_from_capture(run) + csv_from_raw_bytes(path) + toml_from_rig(run.rig) +
+  return csv_from_capture(run) + csv_from_raw_bytes(path, run) + toml_from_rig(run.rig) +
          toml_from_test(run.plan) + toml_from_specimen(run.specimen);
 }
 

@@ -98,7 +98,7 @@ TEST_CASE("raw bytes are exported so that each byte can be recovered", "[io][cap
   writer.append(RawBytes{Device::kStage, true, 0.5, "$J=G91 Z-0.1\n"});
   writer.append(RawBytes{Device::kLoadCell, false, 0.75, std::string("1,\"2\\\0\xff\r\n", 9)});
   writer.finish("finished");
-  CHECK(csv_from_raw_bytes(path) ==
+  CHECK(csv_from_raw_bytes(path, read_capture(path)) ==
         "host_time_s,device,direction,bytes\n"
         "0.5,stage,sent,$J=G91 Z-0.1\\n\n"
         "0.75,load_cell,received,\"1,\"\"2\\\\\\x00\\xff\\r\\n\"\n");

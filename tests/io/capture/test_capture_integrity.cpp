@@ -242,6 +242,18 @@ TEST_CASE("an interrupted capture without its side file says that it may be inco
   const CapturedRun run = read_capture(copy);
   CHECK(run.integrity.has_lost_log);
   CHECK(has_note(run, "side-file-missing"));
+  const CaptureCheck check = check_capture(copy);
+  REQUIRE(check.faults.size() == 1);
+  CHECK(contains(check.faults.front(), copy.string() + "-wal"));
+  CHECK(contains(check.faults.front(), "is missing"));
+}
+
+TEST_CASE("one damaged temperature \"was\" left out", "[io][capture]") {
+  CapturedRun run = demo_run();
+  run.integrity.n_left_out_temperatures = 1;
+  CHECK(contains(integrity_notes(run).front().text, "1 temperature of the capture was left out"));
+  run.integrity.n_left_out_temperatures = 2;
+  CHECK(contains(integrity_notes(run).front().text, "2 temperatures of the capture were left out"));
 }
 
 // The first error of append() after something was done to the file.
@@ -270,6 +282,20 @@ TEST_CASE("a capture that is deleted, moved or replaced during its run is notice
   }
   const std::string moved = error_after(path, [&] { std::filesystem::rename(path, away); });
   CHECK(contains(moved, "was moved to " + away.string()));
+}
+
+TEST_CASE("a capture of which only a hard link is left is not said to lie under its old name",
+          "[io][capture]") {
+  const ScratchFolder folder;
+  const auto path = folder / "run.viscap", link = folder / "link.viscap";
+  const std::string error = error_after(path, [&] {
+    std::filesystem::create_hard_link(path, link);
+    std::filesystem::remove(path);
+  });
+  CAPTURE(error);
+  CHECK(contains(error, "run.viscap was moved: "));
+  CHECK(contains(error, "hard link"));
+  CHECK_FALSE(contains(error, "(deleted)"));
 }
 
 }  // namespace

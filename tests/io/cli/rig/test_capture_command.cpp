@@ -224,6 +224,28 @@ TEST_CASE("a run refused because the punch presses leaves the capture that --for
   CHECK_FALSE(std::filesystem::exists(capture.string() + ".previous"));
 }
 
+TEST_CASE("a capture that --force replaces keeps its rights", "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::filesystem::path capture = folder / "run.viscap";
+  leave_interrupted(capture);
+  const auto is_private = [&] {
+    using std::filesystem::perms;
+    return (std::filesystem::status(capture).permissions() & perms::all) ==
+           (perms::owner_read | perms::owner_write);
+  };
+  std::filesystem::permissions(
+      capture, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  REQUIRE(is_private());
+  write_file(folder / "test.toml", kShortTest, false);
+  REQUIRE(run_command({"capture", "--emulate", "--speed", "100", "--test", folder / "test.toml",
+                       "--out", capture, "--force"})
+              .status == kDone);
+  CHECK(read_capture(capture).status == "finished");
+  CHECK(is_private());
+  { CaptureWriter direct(capture, CapturedRun(read_capture(capture)), {.overwrite = true}); }
+  CHECK(is_private());
+}
+
 TEST_CASE("a doubt of a run is a flag of the fit", "[cli][capture][pty]") {
   const ScratchFolder folder;
   const std::string file = folder / "run.viscap";

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/sqlite_database.h"
 #include "io/tables/column_map.h"
 #include "tests/io/capture/capture_samples.h"
 #include "tests/support/error_text.h"
@@ -82,6 +83,54 @@ TEST_CASE("viscard export --verify reports a capture that matches, and one with 
       nlohmann::json::parse(run_command({"export", capture, "--verify", "--json"}).out);
   CHECK(json["is_checked"] == true);
   CHECK(json["faults"].size() == 1);
+}
+
+TEST_CASE("viscard export --verify names a side file that is missing", "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string live = folder / "live.viscap", copy = folder / "copy.viscap";
+  CaptureWriter writer(live, test::demo_run());
+  for (int i = 0; i < 50; ++i) writer.append(test::sample(i));
+  writer.sync();
+  std::filesystem::copy_file(live, copy);
+  const auto verified = run_command({"export", copy, "--verify"});
+  CHECK(verified.status == kFailed);
+  CHECK(contains(verified.err, "its side file " + copy + "-wal"));
+  const auto fitted = run_command({"fit", copy});
+  CHECK(fitted.status == kFailed);
+  CHECK(contains(fitted.err, copy + "-wal"));
+}
+
+TEST_CASE("viscard export --raw leaves altered bytes out and says so", "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string capture = folder / "run.viscap";
+  {
+    CaptureWriter writer(capture, test::demo_run());
+    for (int i = 0; i < 50; ++i) {
+      writer.append(RawBytes{Device::kLoadCell, false, 0.01 * i, std::to_string(1000 + i) + "\n"});
+      writer.append(test::sample(i));
+      if (i == 19) writer.sync();  // the checksum of the first 20
+    }
+    writer.finish("finished");
+  }
+  const auto sound = run_command({"export", capture, "--raw"});
+  CHECK(sound.err.empty());
+  CHECK(contains(sound.out, "1005\\n"));
+  Database(capture, Database::Access::kReadWrite)
+      .execute(
+          "UPDATE raw_bytes SET bytes = CAST('7777' AS BLOB) WHERE bytes = CAST('1005' || "
+          "char(10) AS BLOB)");
+  const auto altered = run_command({"export", capture, "--raw"});
+  CHECK(altered.status == kDone);
+  CHECK(contains(altered.out, "# damage: "));
+  CHECK(contains(altered.out, "raw messages of the capture were left out"));
+  CHECK(contains(altered.err, "raw messages of the capture were left out"));
+  CHECK_FALSE(contains(altered.out, "7777"));
+  CHECK_FALSE(contains(altered.out, "1006"));
+  CHECK(contains(altered.out, "1049\\n"));
+  const auto samples =
+      run_command({"export", capture});  // the readings have checksums of their own
+  CHECK(samples.err.empty());
+  CHECK_FALSE(contains(samples.out, "# damage: "));
 }
 
 TEST_CASE("viscard export refuses a file that is no capture in one line", "[cli][capture]") {

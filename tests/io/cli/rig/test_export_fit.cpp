@@ -3,6 +3,9 @@
 #include "fit/indentation_from_capture.h"
 #include "fit/run_timing.h"
 #include "io/basics/atomic_file.h"
+#include "io/capture/capture_file.h"
+#include "io/capture/sqlite_database.h"
+#include "io/flow/damaged_table.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/table_from_capture.h"
 #include "tests/io/capture/capture_samples.h"
@@ -13,6 +16,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace viscard {
@@ -88,6 +92,61 @@ TEST_CASE("a capture on the emulator, its export and the fit of the table give o
   check_same_answer(of_table, fitted.result);
   // Real ports make each run a little different, so one in twenty would be outside one half-width.
   CHECK(half_widths_apart(of_table, fitted.result) < 2.0);
+}
+
+// The run in a capture whose rig file was changed afterwards.
+std::string damaged_capture(const ScratchFolder& folder, const CapturedRun& run) {
+  std::string path = folder / "run.viscap";
+  CaptureWriter writer(path, run);
+  for (const RunEvent& event : run.events) writer.append(event);
+  for (const CommandedMove& move : run.moves) writer.append(move);
+  for (const StageReport& report : run.stage_reports) writer.append(report);
+  for (const LoadSample& sample : run.load_samples) writer.append(sample);
+  writer.finish("finished");
+  Database(path, Database::Access::kReadWrite)
+      .execute("UPDATE run SET value = value || ' ' WHERE key = 'rig_toml'");
+  return path;
+}
+
+TEST_CASE("the table of a damaged capture is refused as the capture is, or flagged",
+          "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string capture = damaged_capture(folder, late_run(1)), table = folder / "run.csv";
+  const std::string specimen = VISCARD_SOURCE_DIR "/data/demo/03_pdms_1to10.toml";
+  REQUIRE(test::run_command({"export", capture}).status == kFailed);
+  REQUIRE(test::run_command({"export", capture, "--unverified", "--out", table}).status == kDone);
+  const std::string text = read_file(table), mark = "# damage: unverified: ";
+  REQUIRE(contains(text, mark));
+  SECTION("as it is written") {}
+  SECTION("as it was written before the name of the flag stood in it") {
+    write_file(table, std::string(text).replace(text.find(mark), mark.size(), "# damage: "), true);
+  }
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"fit", table, "--specimen", specimen},
+        {"report", table, "--out", folder / "r.html"},
+        {"calibrate", "--compliance", "--data", table, "--out", folder / "f.toml"}}) {
+    const auto refused = test::run_command(words);
+    CAPTURE(words[0], refused.err);
+    CHECK(refused.status == kFailed);
+    CHECK(contains(refused.err, "run.csv: was exported from a damaged capture"));
+    CHECK(contains(refused.err, "--unverified"));
+  }
+  FitRequest request;
+  request.specimen = late_run(1).specimen;
+  request.accepts_unverified = true;
+  const FitResult accepted = fit_file(table, request).result;
+  CHECK_FALSE(accepted.is_trustworthy);
+  CHECK(std::count_if(accepted.flags.begin(), accepted.flags.end(),
+                      [](const MaterialFlag& flag) { return flag.name == "unverified"; }) == 1);
+  CHECK(test::run_command({"fit", table, "--specimen", specimen, "--unverified"}).status ==
+        kFailed);
+}
+
+TEST_CASE("a comment about damage in the table of another program means nothing",
+          "[cli][capture]") {
+  const CsvTable table = csv_from_text("# damage: 0.3\ntime_s,force_N\n0,1\n1,2\n", "a.csv");
+  CHECK(table.comments == std::vector<std::string>{"damage: 0.3"});
+  CHECK(damage_of_table(table).empty());
 }
 
 TEST_CASE("moves of a run start where the force shows it", "[cli][capture]") {
