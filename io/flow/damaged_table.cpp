@@ -21,9 +21,12 @@ std::vector<IntegrityNote> damage_of_table(const CsvTable& table) {
 
 std::vector<IntegrityNote> accepted_damage(const CsvTable& table, bool accepts_damage) {
   std::vector<IntegrityNote> notes = damage_of_table(table);
-  if (notes.empty() || accepts_damage) return notes;
+  // Readings that were left out are a flag of the capture, too.
+  const auto is_refused = [](const IntegrityNote& note) { return note.name == "unverified"; };
+  const auto refused = std::find_if(notes.begin(), notes.end(), is_refused);
+  if (refused == notes.end() || accepts_damage) return notes;
   throw std::runtime_error(
-      table.file + ": was exported from a damaged capture: " + notes.front().text +
+      table.file + ": was exported from a damaged capture: " + refused->text +
       ". Export another copy of that capture; to use this table as it is, add --unverified, which "
       "the result will state");
 }
