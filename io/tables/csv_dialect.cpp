@@ -1,6 +1,7 @@
 #include "io/tables/csv_dialect.h"
 
 #include "io/basics/words.h"
+#include "io/tables/table_limits.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -130,11 +131,10 @@ bool LineReader::next(TextLine& line) {
 void split_cells(const TextLine& line, char separator, std::vector<std::string_view>& cells) {
   cells.clear();
   std::string_view rest = line.text;
-  constexpr std::size_t kMostColumns = 16384;  // those of a sheet in Excel
   while (true) {
-    if (cells.size() == kMostColumns) {
+    if (cells.size() == kSheetColumns) {
       throw std::runtime_error("line " + std::to_string(line.number) + ": has more than " +
-                               std::to_string(kMostColumns) +
+                               std::to_string(kSheetColumns) +
                                " columns, the limit; remove those that are no data");
     }
     while (!rest.empty() && is_blank(rest.front()) && rest.front() != separator) {
