@@ -92,9 +92,13 @@ Range best_range(const DmaModel& model, const SpectrumFit& fit, Index begin) {
   // The spectrum can imitate the factor up to the noise.
   constexpr double kRounding = 1e-6, kOfNoise = 10.0;
   const double hidden = std::max(kRounding, kOfNoise * fit.rss / std::max(1.0, fit.spare));
+  // Of many frequencies, ranges begin and end at every second, third ... only: there are a square of their number.
+  constexpr Index kMostEnds = 4096;
+  const Index step = (count + kMostEnds - 1) / kMostEnds;
+  const Index least = (kFewest + step - 1) / step * step;
   Range best;
-  for (Index i = 0; i < count; ++i) {
-    for (Index j = i + kFewest; j <= count; ++j) {
+  for (Index i = 0; i < count; i += step) {
+    for (Index j = i + least; j <= count; j += step) {
       if (model.frequency_Hz(j - 1) < least_ratio * model.frequency_Hz(i)) continue;
       const double own = length2[j] - length2[i];
       const double outside = own - (shadow.row(j) - shadow.row(i)).squaredNorm();

@@ -85,26 +85,6 @@ Interval symmetric(double value, double error) {
 
 }  // namespace
 
-Eigen::MatrixXd correlated_rows(const Eigen::MatrixXd& x, const std::vector<std::size_t>& begins,
-                                const Autoregression& noise) {
-  const PairSums sums(noise);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.rows(), x.cols());
-  for (Index r = 0; r < x.rows(); ++r) {
-    const auto begin = static_cast<double>(begins[static_cast<std::size_t>(r)]);
-    const auto end = static_cast<double>(begins[static_cast<std::size_t>(r) + 1]);
-    for (Index s = r; s < x.rows(); ++s) {
-      const auto other = static_cast<double>(begins[static_cast<std::size_t>(s)]);
-      if (other - end > sums.reach()) break;
-      const double count = static_cast<double>(begins[static_cast<std::size_t>(s) + 1]) - other;
-      const double correlation =
-          sums.over(end - begin, count, other - begin) / std::sqrt((end - begin) * count);
-      out.row(r) += correlation * x.row(s);
-      if (s > r) out.row(s) += correlation * x.row(r);
-    }
-  }
-  return out;
-}
-
 void add_slow_part(Eigen::MatrixXd& covariance, const Eigen::VectorXd& white,
                    const Autoregression& noise) {
   if (noise.slow_factor <= 1.0) return;

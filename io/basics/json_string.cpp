@@ -18,9 +18,8 @@ nlohmann::json json_or_discarded(const std::string& text) {
   return nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
 }
 
-nlohmann::ordered_json ordered_json_from_text(
-    const std::string& text, const nlohmann::ordered_json::parser_callback_t& watch) {
-  return nlohmann::ordered_json::parse(text, watch);
+nlohmann::ordered_json ordered_json_from_text(const std::string& text) {
+  return nlohmann::ordered_json::parse(text);
 }
 
 std::string text_from_json(const nlohmann::json& json, int indent) {

@@ -12,9 +12,8 @@ namespace viscard {
 nlohmann::json json_from_text(const std::string& text);
 // Discarded (is_discarded()) where the text is not JSON.
 nlohmann::json json_or_discarded(const std::string& text);
-// The keys stay in their order; `watch` is called for each value and key met.
-nlohmann::ordered_json ordered_json_from_text(
-    const std::string& text, const nlohmann::ordered_json::parser_callback_t& watch = nullptr);
+// The keys stay in their order.
+nlohmann::ordered_json ordered_json_from_text(const std::string& text);
 
 // On one line where the indent is negative. Throws the library's type_error for strings that are not UTF-8.
 std::string text_from_json(const nlohmann::json& json, int indent = -1);

@@ -28,6 +28,12 @@ std::string in_lower_case(std::string text) {
   return text;
 }
 
+// "\x1b".
+std::string shown_byte(unsigned char byte) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  return std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15];
+}
+
 bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
 }
@@ -103,15 +109,35 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
 }
 
 std::string utf8_on_one_line(std::string_view text) {
-  constexpr char kDigits[] = "0123456789abcdef";
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const std::size_t length = utf8_length(text, i);
     if (length == 0) {
-      out += std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15];
+      out += shown_byte(byte);
     } else if (byte < 0x20 || byte == 0x7f) {
       out += ' ';
+    } else {
+      out += text.substr(i, length);
+    }
+    i += std::max<std::size_t>(1, length);
+  }
+  return out;
+}
+
+std::string with_shown_controls(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const std::size_t length = utf8_length(text, i);
+    const bool is_ascii_control = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f;
+    // U+0080 to U+009F, which some terminals obey, too.
+    const bool is_late_control =
+        byte == 0xC2 && length == 2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    if (length == 0 || is_ascii_control) {
+      out += shown_byte(byte);
+    } else if (is_late_control) {
+      out += shown_byte(byte) + shown_byte(static_cast<unsigned char>(text[i + 1]));
     } else {
       out += text.substr(i, length);
     }

@@ -34,6 +34,10 @@ std::size_t utf8_length(std::string_view text, std::size_t at);
 // bytes that are part of no character become \xHH.
 std::string utf8_on_one_line(std::string_view text);
 
+// The text for a terminal: control characters other than line feeds and tabs, and bytes that are part of no character,
+// become \xHH.
+std::string with_shown_controls(std::string_view text);
+
 // The number of characters of UTF-8 text, which is what a reader sees; size() counts bytes.
 std::size_t length_in_characters(std::string_view text);
 

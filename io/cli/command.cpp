@@ -14,6 +14,7 @@
 #include "io/cli/serve/serve_command.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
+#include "io/cli/words/printable_stream.h"
 #include "io/cli/words/terminal.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ CommandDocuments ask_documents() {
 int dispatch(const Words& typed, Streams& streams) {
   const Words words = with_words_of_files(typed);
   if (words.empty()) {
-    streams.err << overview(streams);
+    streams.err << AsItIs{overview(streams)};
     return kBadWords;
   }
   if (words[0] == "--help" || words[0] == "-h") {
@@ -138,7 +139,7 @@ int run_viscard(const Words& words, Streams& streams) {
 int with_exit_status(const char* program, const Words& words, Streams& streams,
                      const std::function<int()>& work) {
   const InputRecorder recorder;
-  const std::string who = bold_red(program + std::string(":"), streams.is_err_coloured) + " ";
+  const AsItIs who{bold_red(program + std::string(":"), streams.is_err_coloured) + " "};
   try {
     return with_json_errors(words, streams, [&] {
       try {

@@ -1,5 +1,6 @@
 #include "io/basics/failure_text.h"
 #include "io/cli/command.h"
+#include "io/cli/words/printable_stream.h"
 #include "io/cli/words/terminal.h"
 #include "models/maths/kept_memory.h"
 
@@ -26,7 +27,8 @@ int main(int argc, char** argv) {
   ::signal(SIGXFSZ,
            SIG_IGN);  // writes beyond a file size limit then fail like writes to a full disk
   std::ios::sync_with_stdio(false);
-  viscard::Streams streams{std::cout, std::cerr, viscard::is_drawable(STDERR_FILENO)};
+  viscard::PrintableStream err(std::cerr);
+  viscard::Streams streams{std::cout, err, viscard::is_drawable(STDERR_FILENO)};
   const viscard::Words words{argv + 1, argv + argc};
   streams.columns = viscard::columns_of(STDOUT_FILENO);
   streams.is_out_coloured = viscard::is_coloured(words, STDOUT_FILENO);

@@ -168,9 +168,28 @@ void refuse_endless_toml(const std::string& text, const std::string& name) {
                            ", the limit; shorten it");
 }
 
+namespace {
+
+bool holds_nul(const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get().find('\0') != std::string::npos;
+  if (const auto* list = node.as_array()) return std::any_of(list->begin(), list->end(), holds_nul);
+  const auto* table = node.as_table();
+  if (table == nullptr) return false;
+  return std::any_of(table->begin(), table->end(), [](const auto& entry) {
+    return entry.first.str().find('\0') != std::string_view::npos || holds_nul(entry.second);
+  });
+}
+
+}  // namespace
+
 toml::table parsed_toml(const std::string& text, const std::string& name) {
   refuse_endless_toml(text, name);
-  return toml::parse(text, name);
+  toml::table table = toml::parse(text, name);
+  // C cuts texts there, those of messages as well.
+  if (holds_nul(table)) {
+    throw std::runtime_error(name + ": a text or key has the character \\u0000; remove it");
+  }
+  return table;
 }
 
 toml::table table_from_toml(const std::string& text, const std::string& name) {

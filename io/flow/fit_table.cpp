@@ -88,7 +88,7 @@ void refuse_several_parts(const CsvTable& table, FitKind kind, const FitRequest&
   if (!restarts) return;
   throw std::runtime_error(table.file + ": holds " + std::to_string(names.size()) +
                            " parts, each with its own time or columns: " + listed(names) +
-                           ". Choose one with --segment \"" + names.back() + "\"");
+                           ". Choose one with --segment " + quoted_for_shell({names.back()}));
 }
 
 // Refuses options that this kind of table cannot use, because the user expects them to have an

@@ -1,5 +1,6 @@
 #include "io/flow/plausible_record.h"
 
+#include "io/basics/words.h"
 #include "io/tables/column_names.h"
 #include "models/maths/text_of_number.h"
 
@@ -69,7 +70,7 @@ std::optional<MaterialFlag> depth_flag(double deepest_m, double layer_m, Plausib
 
 namespace {
 
-// "write --column stress_Pa=1e6*stress" for the column without unit that the modulus is made of.
+// "write --column 'stress_Pa=1e6*stress'" for the column without unit that the modulus is made of.
 std::string remedy_for_modulus(const CsvTable& table, const ColumnMap& columns, double factor) {
   for (const char* name : {"modulus_Pa", "storage_modulus_Pa", "nominal_stress_Pa", "stress_Pa",
                            "compliance_1_Pa", "force_N"}) {
@@ -97,8 +98,10 @@ void refuse_modulus(double E0_Pa, const CsvTable* table, const ColumnMap& column
       throw BadNumber(
           table->file +
           ": stress and strain have opposite signs, which no material has; turn one of them, as in "
-          "--column \"stress_Pa=-" +
-          table->columns[find_column(*table, "stress_Pa", columns)->index].header + "\"");
+          "--column " +
+          quoted_for_shell(
+              {"stress_Pa=-" +
+               table->columns[find_column(*table, "stress_Pa", columns)->index].header}));
     }
   }
   const auto doubt = doubt_about(quantities::kModulus, E0_Pa, judged);

@@ -24,7 +24,7 @@ void refuse_depth(const CsvTable& table, double deepest_m, Plausible judged,
                   const std::string& remedy);
 
 // Of depths below the surface of a layer; nothing for a half-space (thickness 0). `remedy`: what to
-// write if the unit of the depths is another ("write --column depth_m=1e-3*depth").
+// write if the unit of the depths is another ("write --column 'depth_m=1e-3*depth'").
 std::optional<MaterialFlag> depth_flag(double deepest_m, double layer_m, Plausible judged,
                                        const std::string& remedy);
 

@@ -1,6 +1,7 @@
 #include "io/flow/table_kind.h"
 
 #include "fit/samples/median.h"
+#include "io/basics/words.h"
 #include "io/flow/plausible_record.h"
 #include "io/tables/column_names.h"
 #include "io/tables/column_proposal.h"
@@ -51,9 +52,9 @@ void refuse_curve(const CsvTable& table, const FitRequest& request) {
   throw std::runtime_error(
       table.file +
       ": holds stresses over stretches or strains without times, which show the elasticity of a "
-      "rubber and no relaxation. Name the kind of test, as in uniaxial=" +
-      table.file + " (or compression=, planar=, equibiaxial=). The columns are " +
-      columns_with_values(table));
+      "rubber and no relaxation. Name the kind of test, as in " +
+      quoted_for_shell({"uniaxial=" + table.file}) +
+      " (or compression=, planar=, equibiaxial=). The columns are " + columns_with_values(table));
 }
 
 // Largest less smallest value, over the larger of both sizes.

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
+#include "io/materials/json_watch.h"
 #include "io/materials/material_json.h"
 
 #include <algorithm>
@@ -105,38 +106,35 @@ std::string reason_of(const Json::exception& error) {
 }
 
 Json parse_json(const std::string& text, const std::string& name) {
-  std::vector<std::set<std::string>> keys;  // of the objects not yet closed
-  std::string repeated;
-  constexpr std::size_t kLongestJsonKey = 1000;
-  bool has_long_key = false;
-  bool is_deep = false;  // deeper nesting could overflow the stack when the text is written again
-  const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    is_deep = is_deep || depth > 64;
-    if (event == Json::parse_event_t::object_start) keys.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event == Json::parse_event_t::key) {
-      has_long_key = has_long_key || parsed.get_ref<const std::string&>().size() > kLongestJsonKey;
-    }
-    if (event == Json::parse_event_t::key &&
-        !keys.back().insert(parsed.get<std::string>()).second) {
-      repeated = parsed.get<std::string>();
-    }
-    return true;
-  };
+  const JsonFaults faults = faults_of_json(text);
+  if (faults.has_many_keys) {
+    throw std::runtime_error(name + ": an object has more than " + std::to_string(kMostJsonKeys) +
+                             " keys, the limit; remove those that viscard does not know");
+  }
   Json json;
   try {
-    json = ordered_json_from_text(text, watch);
+    json = ordered_json_from_text(text);
   } catch (const Json::parse_error& error) {
     throw std::runtime_error(name + place_of_fault(text, error.byte) + what_was_met(error));
   } catch (const Json::exception& error) {
     throw std::runtime_error(name + ": is not JSON: " + reason_of(error));
   }
-  if (is_deep) throw std::runtime_error(name + ": is nested deeper than 64 levels, the limit");
-  if (has_long_key) {
+  if (faults.is_deep) {
+    throw std::runtime_error(name + ": is nested deeper than " + std::to_string(kDeepestJson) +
+                             " levels, the limit");
+  }
+  if (faults.has_long_key) {
     throw std::runtime_error(name + ": a key has more than " + std::to_string(kLongestJsonKey) +
                              " characters, the limit");
   }
-  if (!repeated.empty()) throw std::runtime_error(name + ": key '" + repeated + "' is given twice");
+  if (faults.has_nul) {
+    throw std::runtime_error(name +
+                             ": a text has the character \\u0000, which no text may have; "
+                             "remove it");
+  }
+  if (!faults.repeated.empty()) {
+    throw std::runtime_error(name + ": key '" + faults.repeated + "' is given twice");
+  }
   return json;
 }
 

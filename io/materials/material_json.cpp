@@ -30,6 +30,9 @@ class Fields {
     return is_reading() && in_->contains(key) && !(*in_)[key].is_null();
   }
 
+  // Of a list or object on reading; 0 without the key.
+  std::size_t size_of(const std::string& key) const { return has(key) ? (*in_)[key].size() : 0; }
+
   // Throws on reading if the key is missing.
   void require(const char* key, const char* what) const {
     if (!is_reading() || has(key)) return;
@@ -166,6 +169,10 @@ void show_schema(const Fields& file) {
 
 void show_terms(const Fields& file, Material& material, MaterialUncertainty& uncertainty) {
   file.require("terms", "a list of {\"g\": ..., \"tau_s\": ...}; [] for an elastic material");
+  if (file.size_of("terms") > kMostMaterialTerms) {  // before any is read
+    file.fail("terms", "has " + std::to_string(file.size_of("terms")) + " terms; at most " +
+                           std::to_string(kMostMaterialTerms) + " are taken");
+  }
   file.objects("terms", material.terms, [&](const Fields& f, MaterialTerm& term, std::size_t i) {
     f.require("g", "the relative modulus, a number");
     f.require("tau_s", "the relaxation time in s");

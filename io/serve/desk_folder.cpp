@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/words.h"
 #include "io/basics/words_file.h"
 #include "io/serve/api_error.h"
 
@@ -237,8 +238,9 @@ void DeskFolder::keep_words(const std::string& table, const std::vector<std::str
     if (is_there) fs::remove(file, ignored);
     return;
   }
-  std::string text = std::string(kKeptHead) + " for " + table + ", one a line: viscard fit " +
-                     table + " @" + file.filename().string() + "\n";
+  std::string text = std::string(kKeptHead) + " for " + table + ", one a line: " +
+                     quoted_for_shell({"viscard", "fit", table, "@" + file.filename().string()}) +
+                     "\n";
   for (const std::string& word : words) text += word + "\n";
   write_file(file, text, is_there);
 }

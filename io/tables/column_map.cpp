@@ -247,11 +247,13 @@ void refuse_implausible(const CsvTable& table, const std::string& name, const Co
 std::string words_for_factor(const CsvTable& table, const std::string& name, const ColumnUse& use,
                              double factor) {
   const std::string& header = table.columns[use.index].header;
-  const bool has_header = !header.empty() && header.find('*') == std::string::npos;
+  const bool has_control = std::any_of(header.begin(), header.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  });
+  const bool has_header = !header.empty() && header.find('*') == std::string::npos && !has_control;
   const std::string word = name + "=" + factor_text(factor * use.written_factor) + "*" +
                            (has_header ? header : place(use.index));
-  const bool is_plain = word.find_first_of(" \t\"'()[]$&;<>|\\") == std::string::npos;
-  return "write --column " + (is_plain ? word : "\"" + word + "\"");
+  return "write --column " + quoted_for_shell({word});
 }
 
 std::vector<double> column_SI(const CsvTable& table, const std::string& name,

@@ -54,7 +54,7 @@ std::vector<double> column_SI(const CsvTable& table, const std::string& name,
                               const ColumnMap& map = {});
 
 // What to write where the numbers of a column are in another unit: "write --column
-// modulus_Pa=1e6*E", for 1e6 SI units in theirs.
+// 'modulus_Pa=1e6*E'", for 1e6 SI units in theirs. Quoted for a shell, because a header is somebody's text.
 // factor: the pure number by which a column is multiplied.
 std::string words_for_factor(const CsvTable& table, const std::string& name, const ColumnUse& use,
                              double factor);

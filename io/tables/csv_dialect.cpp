@@ -1,6 +1,7 @@
 #include "io/tables/csv_dialect.h"
 
 #include "io/basics/words.h"
+#include "io/tables/table_limits.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -79,19 +80,31 @@ std::string_view first_line(std::string_view text) {
   return text.substr(0, at + (is_crlf ? 2 : 1));
 }
 
-// The next "\n" is kept between lines: in a file whose lines end in "\r", searching it again for
-// each line would make reading quadratic.
+// The next "\n" is kept between lines, and is searched near by first: in a file whose lines end in "\r", a search to
+// its end for each line, or for each of its tables, would make reading quadratic.
 std::string_view LineReader::take_line() {
-  const char* begin = rest_.data();
-  if (newline_ < begin) {
-    const std::size_t at = rest_.find('\n');
-    newline_ = begin + std::min(at, rest_.size());
+  constexpr std::size_t kNear = std::size_t{1} << 12;
+  const char* const begin = rest_.data();
+  const char* const end = begin + rest_.size();
+  const auto search = [&](std::size_t n_bytes) {
+    const std::string_view near = rest_.substr(0, n_bytes);
+    newline_ = begin + std::min(near.size(), near.find('\n'));
+  };
+  if (newline_ < begin) search(kNear);
+  const auto found = [&] {
+    return std::string_view(begin, static_cast<std::size_t>(newline_ - begin));
+  };
+  // Without either end of a line so far, the line is longer.
+  for (std::size_t n_bytes = kNear;
+       newline_ < end && *newline_ != '\n' && found().find('\r') == std::string_view::npos;) {
+    n_bytes *= 2;
+    search(n_bytes);
   }
-  std::string_view line(begin, static_cast<std::size_t>(newline_ - begin));
+  std::string_view line = found();
   const std::size_t carriage_return = line.find('\r');
-  std::size_t end_size = line.size() < rest_.size() ? 1 : 0;
+  std::size_t end_size = newline_ < end ? 1 : 0;
   if (carriage_return != std::string_view::npos) {
-    const bool is_crlf = carriage_return + 1 == line.size() && end_size == 1;
+    const bool is_crlf = carriage_return + 1 == line.size() && newline_ < end && *newline_ == '\n';
     line = line.substr(0, carriage_return);
     end_size = is_crlf ? 2 : 1;
   }
@@ -131,11 +144,10 @@ bool LineReader::next(TextLine& line) {
 void split_cells(const TextLine& line, char separator, std::vector<std::string_view>& cells) {
   cells.clear();
   std::string_view rest = line.text;
-  constexpr std::size_t kMostColumns = 16384;  // those of a sheet in Excel
   while (true) {
-    if (cells.size() == kMostColumns) {
+    if (cells.size() == kSheetColumns) {
       throw std::runtime_error("line " + std::to_string(line.number) + ": has more than " +
-                               std::to_string(kMostColumns) +
+                               std::to_string(kSheetColumns) +
                                " columns, the limit; remove those that are no data");
     }
     while (!rest.empty() && is_blank(rest.front()) && rest.front() != separator) {

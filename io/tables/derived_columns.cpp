@@ -81,8 +81,8 @@ Values phases_of(const CsvTable& table, const Derivation& made) {
       throw std::runtime_error(
           table.file + ": column '" + header + "' has a phase of " + text_of(value, 4) +
           " rad, but a phase lies between 0 and pi/2. If it is in degrees, write "
-          "--column phase_rad=\"" +
-          header + " [deg]\"");
+          "--column " +
+          quoted_for_shell({"phase_rad=" + header + " [deg]"}));
     }
     return phase;
   }

@@ -1,5 +1,7 @@
 #include "io/tables/hdf5_file.h"
 
+#include "io/tables/table_limits.h"
+
 #include <hdf5.h>
 
 #include <algorithm>
@@ -10,8 +12,6 @@
 
 namespace viscard {
 namespace {
-
-constexpr std::size_t kMostFromPacked = 1032;  // bytes from one (zlib, "Technical Details")
 
 // A handle of the library with the function that closes it.
 class Handle {
@@ -30,7 +30,14 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-void read_numbers(hid_t group, const char* name, std::size_t most,
+// How many numbers a file may have.
+struct NumberLimit {
+  std::size_t possible = 0;  // of one array, packed as well as can be
+  std::size_t left = 0;      // of those that are read
+  std::size_t objects_left = kMostHdf5Objects;
+};
+
+void read_numbers(hid_t group, const char* name, NumberLimit& most,
                   std::vector<NamedColumn>& columns) {
   const Handle data(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
   if (!data.is_open()) return;
@@ -42,7 +49,9 @@ void read_numbers(hid_t group, const char* name, std::size_t most,
   std::array<hsize_t, 2> size{1, 1};
   if (rank < 1 || rank > 2) return;
   H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
-  if (size[0] == 0 || size[1] == 0 || size[0] > most / size[1]) return;
+  if (size[0] == 0 || size[1] == 0 || size[0] > most.possible / size[1]) return;
+  if (size[0] > most.left / size[1]) refuse_unpacked_numbers();
+  most.left -= size[0] * size[1];
   std::vector<double> values(size[0] * size[1]);
   if (H5Dread(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
     return;
@@ -51,7 +60,7 @@ void read_numbers(hid_t group, const char* name, std::size_t most,
 }
 
 // The numbers in a group; those of its own groups are tables of their own.
-void read_group(hid_t group, const std::string& name, std::size_t most, int depth,
+void read_group(hid_t group, const std::string& name, NumberLimit& most, int depth,
                 ColumnsOfTables& tables) {
   constexpr int kDeepest = 4;
   H5G_info_t info{};
@@ -60,6 +69,10 @@ void read_group(hid_t group, const std::string& name, std::size_t most, int dept
     std::array<char, 256> text{};
     const ssize_t length = H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i,
                                               text.data(), text.size(), H5P_DEFAULT);
+    if (most.objects_left-- == 0) {
+      throw std::runtime_error("has more than " + std::to_string(kMostHdf5Objects) +
+                               " arrays and groups, the limit; save the measured columns alone");
+    }
     const bool is_plain = length > 0 && static_cast<std::size_t>(length) < text.size();
     if (!is_plain || text[0] == '#') continue;  // "#refs#" of MATLAB
     const Handle object(H5Oopen(group, text.data(), H5P_DEFAULT), H5Oclose);
@@ -74,6 +87,12 @@ void read_group(hid_t group, const std::string& name, std::size_t most, int dept
 }
 
 }  // namespace
+
+void refuse_unpacked_numbers() {
+  throw std::runtime_error(
+      "holds more than " + std::to_string(kMostUnpackedNumbers) +
+      " numbers once it is unpacked, the limit; save the measured columns alone");
+}
 
 void add_columns(const std::vector<double>& values, std::size_t rows, std::size_t width,
                  const std::string& name, std::vector<NamedColumn>& columns) {
@@ -107,7 +126,10 @@ ColumnsOfTables columns_of_hdf5(std::string_view bytes, const std::string& name)
   const Handle file(H5Fopen("table", H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (!file.is_open()) throw std::runtime_error(name + ": is a damaged HDF5 file; save it again");
   ColumnsOfTables tables;
-  read_group(file.id(), "", kMostFromPacked * bytes.size() / sizeof(double), 0, tables);
+  // What is not packed takes as much memory as the file.
+  NumberLimit most{kMostFromPacked * bytes.size() / sizeof(double),
+                   std::max(kMostUnpackedNumbers, bytes.size())};
+  read_group(file.id(), "", most, 0, tables);
   return tables;
 }
 

@@ -19,6 +19,9 @@ using ColumnsOfTables = std::map<std::string, std::vector<NamedColumn>>;
 void add_columns(const std::vector<double>& values, std::size_t rows, std::size_t width,
                  const std::string& name, std::vector<NamedColumn>& columns);
 
+// Throws std::runtime_error that names kMostUnpackedNumbers, without the file.
+[[noreturn]] void refuse_unpacked_numbers();
+
 // MATLAB files of version 7.3 and other HDF5 files.
 bool is_hdf5_file(std::string_view bytes);
 

@@ -1,4 +1,6 @@
+#include "io/tables/hdf5_file.h"
 #include "io/tables/matlab_file.h"
+#include "io/tables/table_limits.h"
 
 #include <zlib.h>
 
@@ -16,7 +18,6 @@ constexpr std::size_t kHeader = 128, kTag = 8;
 constexpr std::uint32_t kMatrix = 14, kPacked = 15;
 // Of cells in structs in cells. Measured data do not nest as deep; the library calls itself for each level.
 constexpr int kDeepest = 64;
-constexpr std::size_t kMostUnpacked = 1032;  // bytes from one (zlib, "Technical Details")
 
 struct Element {
   std::uint32_t type = 0;
@@ -90,7 +91,8 @@ class Reader {
 
 // The element that was packed; empty if it is damaged: if it has another length than it claims or if its
 // checksum is wrong. A missing checksum is no damage.
-std::string unpacked(std::string_view packed, const Reader& reader) {
+// left: bytes that may be unpacked still.
+std::string unpacked(std::string_view packed, const Reader& reader, std::size_t& left) {
   struct Stream : z_stream {
     Stream() : z_stream{} {}
     ~Stream() { inflateEnd(this); }
@@ -107,7 +109,9 @@ std::string unpacked(std::string_view packed, const Reader& reader) {
   std::string element(kTag, '\0');
   if (!is_filled(element.data(), kTag)) return {};
   const std::size_t length = reader.word(element.data() + 4);
-  if (length > kMostUnpacked * packed.size()) return {};
+  if (length > kMostFromPacked * packed.size()) return {};
+  if (length > left) refuse_unpacked_numbers();
+  left -= length;
   element.resize(kTag + length);
   if (length > 0 && !is_filled(element.data() + kTag, length)) return {};
   char more = 0;
@@ -121,12 +125,13 @@ std::string unpacked_matlab_file(std::string_view bytes) {
   if (bytes.size() < kHeader) return {};
   const Reader reader(bytes.substr(0, kHeader));
   std::string file(bytes.substr(0, kHeader));
+  std::size_t left = kMostUnpackedNumbers * sizeof(double);
   for (std::string_view rest = bytes.substr(kHeader); !rest.empty();) {
     const std::optional<Element> outer = reader.first(rest);
     if (!outer) return {};
     const auto end = static_cast<std::size_t>(outer->contents.end() - rest.begin());
     const std::string inflated =
-        outer->type == kPacked ? unpacked(outer->contents, reader) : std::string();
+        outer->type == kPacked ? unpacked(outer->contents, reader, left) : std::string();
     const std::string_view element = outer->type == kPacked ? inflated : rest.substr(0, end);
     const std::optional<Element> plain = reader.first(element);
     if (!plain || !reader.lengths_fit(*plain)) return {};

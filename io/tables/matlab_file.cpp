@@ -173,10 +173,12 @@ ColumnsOfTables columns_of_tables(std::string_view bytes, const std::string& nam
   // A damaged file is reported once, by the first missing part.
   Mat_LogInitFunc("viscard", [](int, char*) {});
   if (is_hdf5_file(bytes)) return columns_of_hdf5(bytes, name);
-  const std::string unpacked = is_level_5(bytes) ? unpacked_matlab_file(bytes) : std::string(bytes);
+  std::string unpacked = is_level_5(bytes) ? unpacked_matlab_file(bytes) : std::string(bytes);
+  const std::size_t n_bytes = unpacked.size();
   const MemoryFile memory(unpacked);
+  std::string().swap(unpacked);
   const MatlabFile file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
-  if (unpacked.empty() || !file || claims_too_much(file.get(), unpacked.size())) {
+  if (n_bytes == 0 || !file || claims_too_much(file.get(), n_bytes)) {
     throw std::runtime_error(name + ": is a damaged MATLAB file; save it again");
   }
   ColumnsOfTables tables;
@@ -191,6 +193,17 @@ ColumnsOfTables columns_of_tables(std::string_view bytes, const std::string& nam
     }
   }
   return tables;
+}
+
+// The same with the file in front of every message.
+ColumnsOfTables named_columns_of_tables(std::string_view bytes, const std::string& name) {
+  try {
+    return columns_of_tables(bytes, name);
+  } catch (const std::runtime_error& error) {
+    const std::string text = error.what();
+    if (text.starts_with(name)) throw;
+    throw std::runtime_error(name + ": " + text);
+  }
 }
 
 // Keeps the columns of that length that holds most numbers.
@@ -228,7 +241,7 @@ bool is_matlab_file(std::string_view bytes) {
 
 SheetText matlab_table_text(std::string_view bytes, const std::string& name,
                             const std::string& table) {
-  ColumnsOfTables tables = columns_of_tables(bytes, name);
+  ColumnsOfTables tables = named_columns_of_tables(bytes, name);
   for (auto& [key, columns] : tables) keep_one_length(columns);
   std::erase_if(tables, [](const auto& entry) { return entry.second.empty(); });
   if (tables.empty()) {

@@ -20,7 +20,8 @@ SheetText matlab_table_text(std::string_view bytes, const std::string& name,
                             const std::string& table);
 
 // A MATLAB file of level 5 with the same contents and no packed element. Empty if the file is damaged:
-// if an element, or one in it, claims more bytes than there are, or does not unpack. libmatio asks for
+// if an element, or one in it, claims more bytes than there are, or does not unpack. Throws std::runtime_error,
+// without the file, beyond kMostUnpackedNumbers. libmatio asks for
 // the memory that an element claims before it looks whether the file has as much.
 // Source: MathWorks, "MAT-File Format", the chapter on level 5.
 std::string unpacked_matlab_file(std::string_view bytes);

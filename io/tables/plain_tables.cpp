@@ -2,10 +2,9 @@
 
 #include "io/basics/units.h"
 #include "io/tables/clock_times.h"
-#include "io/tables/column_match.h"
-#include "io/tables/column_names.h"
 #include "io/tables/csv_dialect.h"
 #include "io/tables/csv_header.h"
+#include "io/tables/known_names.h"
 #include "io/tables/log_columns.h"
 #include "io/tables/maker_table.h"
 #include "io/tables/table_rows.h"
@@ -46,8 +45,15 @@ bool begins_with_number(std::string_view line) {
 // cells that most lines fill with numbers; what stands above it are its header, its units and notes.
 class TableReader {
  public:
-  TableReader(std::string_view text, std::string name, RowPlace begin)
-      : text_(text), name_(std::move(name)), begin_(begin) {
+  // reserves: space for as many rows as the text has lines. A file of thousands of tables would ask for it
+  // thousands of times.
+  TableReader(std::string_view text, std::string name, RowPlace begin, bool reserves,
+              KnownNames& known_names)
+      : text_(text),
+        name_(std::move(name)),
+        begin_(begin),
+        reserves_(reserves),
+        known_names_(known_names) {
     table_.file = name_;
   }
 
@@ -204,21 +210,10 @@ class TableReader {
   }
 
   // The names that belong to a quantity.
-  static std::size_t n_known(const Cells& names) {
-    std::size_t known = 0;
-    for (const std::string_view name : names) {
-      CsvColumn column;
-      column.header = without_doubled_quotes(name);
-      const HeaderParts parts = split_header(column.header);
-      column.name = parts.name;
-      column.unit = parts.unit;
-      const auto& kinds = column_kinds();
-      known += std::any_of(kinds.begin(), kinds.end(),
-                           [&](const ColumnKind& kind) { return match_header(column, kind); })
-                   ? 1
-                   : 0;
-    }
-    return known;
+  std::size_t n_known(const Cells& names) const {
+    return static_cast<std::size_t>(std::count_if(
+        names.begin(), names.end(),
+        [&](std::string_view name) { return known_names_.has(without_doubled_quotes(name)); }));
   }
 
   bool is_row_of_units(const Cells& cells) const {
@@ -396,8 +391,10 @@ class TableReader {
   }
 
   void read_rows() {
-    const auto guess = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
-    for (CsvColumn& column : table_.columns) column.values.reserve(guess);
+    if (reserves_) {
+      const auto guess = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
+      for (CsvColumn& column : table_.columns) column.values.reserve(guess);
+    }
     const auto is_end = [&](const TextLine& line, const Cells& cells) {
       return (n_numbers(cells) == 0 || begins_with_word(cells)) && ends_before(line);
     };
@@ -436,6 +433,8 @@ class TableReader {
   std::string_view text_;
   std::string name_;
   RowPlace begin_, first_, next_;
+  bool reserves_;
+  KnownNames& known_names_;  // of the file
   CsvTable table_;
   Dialect dialect_;
   std::vector<TextLine> sample_;
@@ -468,13 +467,14 @@ RowPlace place_after(std::string_view text, std::size_t n_lines) {
 std::vector<CsvTable> plain_tables(std::string_view text, const std::string& name,
                                    std::size_t skip) {
   std::vector<CsvTable> tables;
+  KnownNames known_names;
   RowPlace place = place_after(text, skip);
   if (skip > 0 && place.at >= text.size()) {
     throw std::runtime_error(name + ": has fewer than " + counted(skip, "line") +
                              "; give a smaller --skip");
   }
   while (tables.empty() || (place.at < text.size() && has_number_line(text.substr(place.at)))) {
-    TableReader reader(text, name, place);
+    TableReader reader(text, name, place, /*reserves=*/tables.empty(), known_names);
     if (tables.empty()) {
       tables.push_back(reader.read());
     } else {

@@ -1,34 +1,56 @@
 #include "io/tables/workbook.h"
 
 #include "io/basics/words.h"
+#include "io/tables/table_limits.h"
 
 #include <pugixml.hpp>
 #include <zip.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
 namespace viscard {
 namespace {
 
-constexpr std::size_t kLongestText = 32767;  // characters of a cell, by the standard
-// A shared text may stand in a million cells, and a cell in the last column needs 16384 separators.
-constexpr std::size_t kMostBytesOfSheet = std::size_t{256} << 20;
-constexpr std::size_t kMostSheets = 1000;
-constexpr std::size_t kSheetColumns = 16384, kSheetRows = 1048576;  // of a sheet, by the standard
-constexpr std::size_t kLongestPart = std::size_t{1} << 30;          // bytes, unpacked
-
 [[noreturn]] void fail_workbook(const std::string& name, const std::string& what) {
   throw std::runtime_error(name + ": is no readable Excel workbook (" + what +
                            "); save the sheet as CSV");
 }
 
+std::string in_MiB(std::size_t n_bytes) {
+  return std::to_string(n_bytes >> 20) + " MiB";
+}
+
+// How often an element begins: "<row" of "<row r="1">" and "<row/>", not of "<rowBreaks>".
+std::size_t n_elements(std::string_view text, std::string_view begin) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(begin); at != std::string_view::npos;) {
+    at += begin.size();
+    count +=
+        at < text.size() && std::string_view(" \t\r\n/>").find(text[at]) != std::string_view::npos
+            ? 1
+            : 0;
+    at = text.find(begin, at);
+  }
+  return count;
+}
+
+// How many elements of a name a part may have.
+struct ElementLimit {
+  std::string_view begin;  // "<row"
+  std::size_t most = 0;
+  const char* what;  // "rows"
+};
+
 class Archive {
  public:
-  Archive(std::string_view bytes, std::string name) : name_(std::move(name)) {
+  Archive(std::string_view bytes, std::string name)
+      : name_(std::move(name)), n_bytes_(bytes.size()) {
     zip_error_t error{};
     zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
     if (source == nullptr) fail_workbook(name_, zip_error_strerror(&error));
@@ -43,10 +65,16 @@ class Archive {
     return zip_name_locate(zip_.get(), part.c_str(), 0) >= 0;
   }
 
-  pugi::xml_document xml(const std::string& part) const {
+  // Counts before it parses, because a parsed element takes ten times the memory of its text.
+  pugi::xml_document xml(const std::string& part, const ElementLimit& limit = {"", 0, ""}) {
     zip_stat_t stat{};
     if (zip_stat(zip_.get(), part.c_str(), 0, &stat) != 0) fail_workbook(name_, "it lacks " + part);
-    if (stat.size > kLongestPart) fail_workbook(name_, part + " is too long");
+    if (stat.size / kMostFromPacked > n_bytes_) fail_workbook(name_, part + " is damaged");
+    n_unpacked_ += std::min<std::size_t>(stat.size, kMostWorkbookBytes + 1);
+    if (stat.size > kMostPartBytes) refuse(part, "more than " + in_MiB(kMostPartBytes));
+    if (n_unpacked_ > kMostWorkbookBytes) {
+      refuse("the workbook, up to " + part + ",", "more than " + in_MiB(kMostWorkbookBytes));
+    }
     const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> file(
         zip_fopen(zip_.get(), part.c_str(), 0), &zip_fclose);
     std::string text(stat.size, '\0');
@@ -55,6 +83,12 @@ class Archive {
       const zip_int64_t count = zip_fread(file.get(), text.data() + size, text.size() - size);
       if (count <= 0) break;
       size += static_cast<std::size_t>(count);
+    }
+    if (static_cast<std::size_t>(std::count(text.begin(), text.end(), '<')) > kMostPartTags) {
+      refuse(part, "more than " + std::to_string(kMostPartTags) + " tags");
+    }
+    if (!limit.begin.empty() && n_elements(text, limit.begin) > limit.most) {
+      refuse(part, "more than " + std::to_string(limit.most) + " " + limit.what);
     }
     pugi::xml_document document;
     if (size != text.size() || !document.load_buffer(text.data(), text.size())) {
@@ -67,7 +101,13 @@ class Archive {
   struct Discard {
     void operator()(zip_t* zip) const { zip_discard(zip); }
   };
+  [[noreturn]] void refuse(const std::string& part, const std::string& what) const {
+    throw std::runtime_error(name_ + ": " + part + " has " + what +
+                             ", the limit; save the sheet as CSV, or leave out what is no data");
+  }
   std::string name_;
+  std::size_t n_bytes_;         // of the archive
+  std::size_t n_unpacked_ = 0;  // bytes of the parts so far
   std::unique_ptr<zip_t, Discard> zip_;
 };
 
@@ -75,18 +115,20 @@ struct Sheet {
   std::string name, part;
 };
 
-std::vector<Sheet> sheets_of(const Archive& archive) {
+std::vector<Sheet> sheets_of(Archive& archive) {
   const pugi::xml_document book = archive.xml("xl/workbook.xml");
   const pugi::xml_document relations = archive.xml("xl/_rels/workbook.xml.rels");
+  std::map<std::string, std::string> targets;
+  for (const auto relation : relations.child("Relationships").children("Relationship")) {
+    targets.emplace(relation.attribute("Id").value(), relation.attribute("Target").value());
+  }
   std::vector<Sheet> sheets;
   for (const auto sheet : book.child("workbook").child("sheets").children("sheet")) {
-    const std::string id = sheet.attribute("r:id").value();
-    for (const auto relation : relations.child("Relationships").children("Relationship")) {
-      if (relation.attribute("Id").value() != id) continue;
-      const std::string target = relation.attribute("Target").value();
-      sheets.push_back({sheet.attribute("name").value(),
-                        target.rfind('/', 0) == 0 ? target.substr(1) : "xl/" + target});
-    }
+    const auto found = targets.find(sheet.attribute("r:id").value());
+    if (found == targets.end()) continue;
+    const std::string& target = found->second;
+    sheets.push_back({sheet.attribute("name").value(),
+                      target.rfind('/', 0) == 0 ? target.substr(1) : "xl/" + target});
   }
   return sheets;
 }
@@ -96,18 +138,19 @@ std::string runs_of(const pugi::xml_node& node) {
   std::string text = node.child("t").text().get();
   for (const auto run : node.children("r")) text += run.child("t").text().get();
   // Of 4 bytes at most.
-  if (text.size() > 4 * kLongestText) {
+  if (text.size() > 4 * kLongestCell) {
     throw std::runtime_error("a cell has a text of " + std::to_string(text.size()) +
-                             " bytes; a sheet can have " + std::to_string(kLongestText) +
+                             " bytes; a sheet can have " + std::to_string(kLongestCell) +
                              " characters in a cell");
   }
   return text;
 }
 
-std::vector<std::string> shared_strings(const Archive& archive) {
+std::vector<std::string> shared_strings(Archive& archive) {
   std::vector<std::string> strings;
   if (!archive.has("xl/sharedStrings.xml")) return strings;
-  const pugi::xml_document document = archive.xml("xl/sharedStrings.xml");
+  const pugi::xml_document document =
+      archive.xml("xl/sharedStrings.xml", {"<si", kMostSharedTexts, "shared texts"});
   for (const auto item : document.child("sst").children("si")) strings.push_back(runs_of(item));
   return strings;
 }
@@ -151,9 +194,9 @@ struct SheetRows {
 };
 
 // The rows as lines of equally many cells: a sheet leaves out empty ones at the end of a row.
-SheetRows rows_of_sheet(const Archive& archive, const Sheet& sheet,
+SheetRows rows_of_sheet(Archive& archive, const Sheet& sheet,
                         const std::vector<std::string>& strings) {
-  const pugi::xml_document document = archive.xml(sheet.part);
+  const pugi::xml_document document = archive.xml(sheet.part, {"<row", kSheetRows, "rows"});
   SheetRows rows;
   struct Line {
     std::string text;
@@ -183,10 +226,11 @@ SheetRows rows_of_sheet(const Archive& archive, const Sheet& sheet,
     if (n_numbers > 0) width = std::max(width, next);
     rows.n_numbers += n_numbers;
     n_bytes += line.text.size();
-    if (n_bytes > kMostBytesOfSheet) {
+    // A shared text may stand in a million cells, and a cell in the last column needs 16384 separators.
+    if (n_bytes > kMostSheetBytes) {
       throw std::runtime_error("the sheet '" + sheet.name + "' has more than " +
-                               std::to_string(kMostBytesOfSheet >> 20) +
-                               " MiB of text, the limit; remove the columns that are no data");
+                               in_MiB(kMostSheetBytes) +
+                               " of text, the limit; remove the columns that are no data");
     }
     lines.push_back(std::move(line));
   }
@@ -208,7 +252,7 @@ bool is_workbook(std::string_view bytes) {
 namespace {
 
 SheetText text_of_sheet(std::string_view bytes, const std::string& name, const std::string& sheet) {
-  const Archive archive(bytes, name);
+  Archive archive(bytes, name);
   const std::vector<std::string> strings = shared_strings(archive);
   const std::vector<Sheet> sheets = sheets_of(archive);
   if (sheets.size() > kMostSheets) {
@@ -218,10 +262,12 @@ SheetText text_of_sheet(std::string_view bytes, const std::string& name, const s
   SheetText best;
   std::size_t most = 0;
   std::vector<std::string> names;
+  std::set<std::string> parts;  // sheets with the same one have the same rows
   bool is_found = false;
   for (const Sheet& one : sheets) {
     names.push_back(one.name);
     if (!sheet.empty() && one.name != sheet) continue;
+    if (!parts.insert(one.part).second) continue;
     SheetRows rows = rows_of_sheet(archive, one, strings);
     if (is_found && rows.n_numbers <= most) continue;
     is_found = true;

@@ -66,10 +66,10 @@ void validate(const Material& material) {
             "the reference temperature of the temperature shift is " +
                 text_of(material.shift->T_ref_C) + " C; T_ref_C must be given and be the same");
   }
-  constexpr std::size_t kMostTerms = 1000;  // a series of 100 decades with ten terms in each
-  if (material.terms.size() > kMostTerms) {
+  if (material.terms.size() > kMostMaterialTerms) {
     throw std::invalid_argument("the material has " + std::to_string(material.terms.size()) +
-                                " terms; at most " + std::to_string(kMostTerms) + " are taken");
+                                " terms; at most " + std::to_string(kMostMaterialTerms) +
+                                " are taken");
   }
   for (std::size_t i = 0; i < material.terms.size(); ++i) validate_term(material.terms[i], i + 1);
   const double sum_g = sum_of(material.terms, &MaterialTerm::g);

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <complex>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct MaterialTerm {
   double k = 0.0;      // bulk, relative to K_0
   double tau_s = 0.0;  // > 0
 };
+
+// Of one material: a series of 100 decades with ten terms in each.
+inline constexpr std::size_t kMostMaterialTerms = 1000;
 
 // Uncertainty of one term from the fit.
 struct TermUncertainty {

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/words.h"
 #include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/deck.h"
@@ -115,7 +116,7 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   if (!states_material(card_target(words.target))) {
     throw UsageError("--prove runs a material in time, and a card for " + words.target +
                      " states numbers over frequency; viscard card MATERIAL.json --check " +
-                     words.prove + " compares them");
+                     quoted_for_shell({words.prove}) + " compares them");
   }
   const Solver& solver = chosen_solver(words);
   const CertificateRequest request{words.prove, card_text_of(words.prove, words), words.material,

@@ -5,6 +5,7 @@
 #include "io/cli/mpi/mpi_dispatch.h"
 #include "io/cli/mpi/mpi_worker.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/printable_stream.h"
 #include "io/cli/words/terminal.h"
 
 #include <signal.h>
@@ -79,7 +80,8 @@ int print_manual_page() {
 
 // Words, work and messages of rank 0. Returns the exit status.
 int run_rank_0(const Words& words, MpiRanks& ranks) {
-  Streams streams{std::cout, std::cerr, is_drawable(STDERR_FILENO)};
+  PrintableStream err(std::cerr);
+  Streams streams{std::cout, err, is_drawable(STDERR_FILENO)};
   streams.columns = columns_of(STDOUT_FILENO);
   streams.is_out_coloured = is_coloured(words, STDOUT_FILENO);
   streams.is_err_coloured = is_coloured(words, STDERR_FILENO);

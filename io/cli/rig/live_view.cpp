@@ -1,6 +1,7 @@
 #include "io/cli/rig/live_view.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/cli/words/printable_stream.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -35,7 +36,7 @@ LiveView::~LiveView() {
   }
   wake_.notify_one();
   thread_.join();
-  if (is_line_drawn_) streams_.err << "\r\033[K" << std::flush;
+  if (is_line_drawn_) streams_.err << AsItIs{kEraseLine} << std::flush;
 }
 
 void LiveView::update(const RunProgress& now) {
@@ -75,7 +76,7 @@ void LiveView::work() {
 }
 
 void LiveView::draw_line(const RunProgress& now, const LiveHistory& history) {
-  streams_.err << "\r\033[K"
+  streams_.err << AsItIs{kEraseLine}
                << line_from_live(now, history, options_.capacity_N, terminal_columns())
                << std::flush;
   is_line_drawn_ = true;

@@ -108,7 +108,7 @@ std::string fitted(const std::string& text, std::size_t columns) {
 }
 
 FittedText::~FittedText() {
-  streams_.out << fitted(text_.str(), streams_.columns);
+  streams_.out << fitted(with_shown_controls(text_.str()), streams_.columns);
 }
 
 }  // namespace viscard

@@ -1,5 +1,7 @@
 #include "io/cli/words/progress.h"
 
+#include "io/cli/words/printable_stream.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +32,8 @@ void Progress::show(double fraction, const std::string& note) {
   const double spent_s = std::chrono::duration<double>(now - started_).count();
   const std::string left =
       fraction > 0.02 ? fmt::format(" {:.0f} s left", spent_s * (1.0 - fraction) / fraction) : "";
-  streams_.err << fmt::format("\r\033[K{} [{}{}] {:3.0f} %{}  {}", title_,
+  streams_.err << AsItIs{kEraseLine}
+               << fmt::format("{} [{}{}] {:3.0f} %{}  {}", title_,
                               std::string(static_cast<std::size_t>(filled), '#'),
                               std::string(static_cast<std::size_t>(kWidth - filled), '.'),
                               100.0 * fraction, left, note)
@@ -45,7 +48,7 @@ void Progress::announce(double fraction, const std::string& note) {
 
 void Progress::clear() {
   if (!is_drawn_) return;
-  streams_.err << "\r\033[K" << std::flush;
+  streams_.err << AsItIs{kEraseLine} << std::flush;
   is_drawn_ = false;
 }
 

@@ -17,15 +17,20 @@ def _keyword(match: "re.Match[str]") -> str:
     return _OTHER_NAMES.get(name, name.replace("-", "_"))
 
 
-# What messages advise to write: 'write --column stress_Pa=1e6*stress', '--density "1.1 g/cm3"'.
-_COLUMN = re.compile(r'write --column (?:"([^"]*)"|([^\s;]+))')
-_TEXT = re.compile(r'--([a-z]+(?:-[a-z]+)*) (?=")')
+# What messages advise to write: "write --column 'stress_Pa=1e6*stress'", quoted for a shell, and '--density "1.1 g/cm3"'.
+_COLUMN = re.compile(r"write --column (?:'((?:[^']|'\\'')*)'|([^\s;]+))")
+_TEXT = re.compile(r"""--([a-z]+(?:-[a-z]+)*) (?=["'])""")
+
+
+def _column(match: "re.Match[str]") -> str:
+    words = (match.group(1) or match.group(2)).replace("'\\''", "'")
+    return f'write column="{words}"'
 
 
 def in_python(text: str) -> str:
     """The same words with keywords (max_terms) in the place of options (--max-terms)."""
     text = text.replace("--plausible off", 'plausible="off"')
-    text = _COLUMN.sub(lambda match: f'write column="{match.group(1) or match.group(2)}"', text)
+    text = _COLUMN.sub(_column, text)
     return _OPTION.sub(_keyword, _TEXT.sub(lambda match: _keyword(match) + "=", text))
 
 

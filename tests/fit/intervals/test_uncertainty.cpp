@@ -1,5 +1,9 @@
+#include "fit/assembly/kramers_kronig.h"
+#include "fit/curves/dma_model.h"
 #include "fit/fit_dma.h"
 #include "fit/fit_relaxation.h"
+#include "fit/intervals/uncertainty.h"
+#include "fit/samples/noise_model.h"
 #include "tests/fit/fit_checks.h"
 #include "tests/fit/spectra.h"
 
@@ -7,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -89,4 +95,52 @@ TEST_CASE("storage and loss moduli that contradict each other are flagged", "[fi
   CHECK_FALSE(has_flag(fit_dma(data), "storage-loss-contradict"));
   for (double& loss : data.loss_Pa) loss *= 1.5;  // for example friction of the instrument
   CHECK(has_flag(fit_dma(data), "storage-loss-contradict"));
+}
+
+TEST_CASE("many rows of single samples are correlated as their pairs are", "[fit]") {
+  constexpr Eigen::Index kRows = 10001;  // above the number from which a convolution is used
+  const Autoregression noise{{0.98}};
+  const PairSums sums(noise);
+  REQUIRE(sums.reach() > 256.0);
+  Eigen::MatrixXd x(kRows, 2);
+  std::vector<std::size_t> begins;
+  for (Eigen::Index r = 0; r < kRows; ++r) {
+    x(r, 0) = std::sin(0.01 * static_cast<double>(r));
+    x(r, 1) = r % 7 == 0 ? 1.0 : -0.3;
+    begins.push_back(static_cast<std::size_t>(r));
+  }
+  begins.push_back(static_cast<std::size_t>(kRows));
+  const Eigen::MatrixXd found = correlated_rows(x, begins, noise);
+  REQUIRE(found.rows() == kRows);
+  for (const Eigen::Index r : {Eigen::Index{0}, Eigen::Index{1}, kRows / 2, kRows - 1}) {
+    Eigen::RowVector2d direct = Eigen::RowVector2d::Zero();
+    for (Eigen::Index s = 0; s < kRows; ++s) {
+      const auto lag = static_cast<double>(s > r ? s - r : r - s);
+      if (lag - 1.0 <= sums.reach()) direct += sums.over(1.0, 1.0, lag) * x.row(s);
+    }
+    CHECK((found.row(r) - direct).norm() < 1e-9 * direct.norm());
+  }
+}
+
+TEST_CASE("a contradiction is found among more frequencies than ranges are looked at", "[fit]") {
+  constexpr int kRows = 9001;
+  DmaData data;
+  for (int i = 0; i < kRows; ++i) {
+    const double f = std::pow(10.0, -4.0 + 8.0 * i / kRows);
+    const ComplexModulus modulus = complex_modulus_Pa(s6(), 2.0 * std::numbers::pi * f);
+    data.frequency_Hz.push_back(f);
+    data.storage_Pa.push_back(modulus.storage_Pa);
+    data.loss_Pa.push_back(modulus.loss_Pa * (i > 4000 && i < 6000 ? 1.5 : 1.0));
+  }
+  const DmaModel model(data.frequency_Hz, data.storage_Pa, data.loss_Pa, {});
+  Eigen::VectorXd ln_tau(static_cast<Eigen::Index>(s6().terms.size()));
+  for (Eigen::Index i = 0; i < ln_tau.size(); ++i) {
+    ln_tau[i] = std::log(s6().terms[static_cast<std::size_t>(i)].relaxation_time_s);
+  }
+  const auto found = kramers_kronig_break(model, ln_tau);
+  REQUIRE(found);
+  CHECK(found->is_loss);
+  // The spectrum follows a part of the edges.
+  CHECK(std::abs(std::log10(found->from_Hz / data.frequency_Hz[4001])) < 0.3);
+  CHECK(std::abs(std::log10(found->to_Hz / data.frequency_Hz[5999])) < 0.3);
 }

@@ -301,6 +301,13 @@ TEST_CASE("a file that says plausible = off is read, written and read again as i
   CHECK_FALSE(specimen_from_toml(text.substr(18), "s.toml").accepts_implausible);
 }
 
+TEST_CASE("the character 0, at which messages would be cut, is refused", "[io][config]") {
+  for (const char* text : {R"(x = "a\u0000b")", R"("a\u0000b" = 1)", R"(x = [["a\U00000000"]])",
+                           "[a]\nb = { c = \"\\u0000\" }"}) {
+    CHECK(rig_error(text) == "rig.toml: a text or key has the character \\u0000; remove it");
+  }
+}
+
 TEST_CASE("keys without end are refused before the library reads them", "[io][config]") {
   const std::string dots = [] {
     std::string text = "a";

@@ -117,6 +117,22 @@ TEST_CASE("a known key that was removed does not return from the original", "[io
   CHECK_FALSE(contains(json_from_material(file), "T_ref_C"));
 }
 
+TEST_CASE("a material file that is large beyond any use is refused by its number",
+          "[io][material]") {
+  std::string terms = R"({"g": 1e-6, "tau_s": 1})";
+  for (int i = 1; i < 200000; ++i) terms += R"(,{"g": 1e-6, "tau_s": 1})";
+  CHECK(error_of(R"({"E0_Pa": 1e6, "nu": 0.4, "terms": [)" + terms + "]}") ==
+        "m.json: terms: has 200000 terms; at most 1000 are taken");
+  std::string keys = R"({"E0_Pa": 1e6, "nu": 0.4, "terms": [])";
+  for (int i = 0; i < 100000; ++i) keys += ",\"k" + std::to_string(i) + "\": 1";
+  CHECK(contains(error_of(keys + "}"), "m.json: an object has more than 10000 keys, the limit"));
+  CHECK(contains(error_of(R"({"E0_Pa": 1, "nu": 0, "terms": [], "a": )" + std::string(70, '[') +
+                          "1" + std::string(70, ']') + "}"),
+                 "m.json: is nested deeper than 64 levels"));
+  CHECK(contains(error_of(R"({"name": "a\u0000b", "E0_Pa": 1, "nu": 0, "terms": []})"),
+                 "m.json: a text has the character \\u0000"));
+}
+
 TEST_CASE("an impossible material file is refused with file and key", "[io][material]") {
   CHECK(contains(error_of("{\"E0_Pa\": 1e6,\n  nu: 3}"), "m.json:2: is not JSON: at column"));
   CHECK(contains(error_of(""), "m.json:1: is empty, not a material"));

@@ -176,6 +176,18 @@ TEST_CASE("rows of one segment are selected by name", "[io][csv]") {
   CHECK(column_SI(rows_of_segment(numbered, "1"), "time_s") == std::vector<double>{6.0});
 }
 
+TEST_CASE("words that a message proposes run nothing in a shell", "[io][csv]") {
+  const auto words_of = [](const std::string& header) {
+    const CsvTable table = csv_from_text("time_s,\"" + header + "\"\n1,2\n3,4\n", "t.csv");
+    return words_for_factor(table, "modulus_Pa",
+                            *find_column(table, "modulus_Pa", {{"modulus_Pa", "2"}}), 1e6);
+  };
+  CHECK(words_of("E $(touch a)") == "write --column 'modulus_Pa=1e6*E $(touch a)'");
+  CHECK(words_of("E `touch a`") == "write --column 'modulus_Pa=1e6*E `touch a`'");
+  CHECK(words_of("it's") == "write --column 'modulus_Pa=1e6*it'\\''s'");
+  CHECK(words_of("a\x1b[2J") == "write --column 'modulus_Pa=1e6*2'");
+}
+
 TEST_CASE("bad words of --column are refused", "[io][csv]") {
   CHECK(contains(error_text([] { column_map_from_words({"time_s"}); }),
                  "is not of the form NAME=COLUMN"));

@@ -280,7 +280,7 @@ TEST_CASE("storage and loss modulus follow from what instruments write instead",
         "1," + std::to_string(5e6 / 6.283185307179586) + ",1.3333333333", ModulusKind::kShear);
   CHECK(kind_of(derived("f (Hz),Complex modulus (MPa),tan delta\n1,5,1\n2,5,1\n")).is_assumed);
   CHECK(contains(error_text([] { derived("f (Hz),|E*| (MPa),delta\n1,5,53\n2,5,53\n"); }),
-                 "--column phase_rad=\"delta [deg]\""));
+                 "--column 'phase_rad=delta [deg]'"));
 }
 
 TEST_CASE("nominal stress and strain follow from true ones and from load and extension",

@@ -308,5 +308,36 @@ TEST_CASE("a workbook without end is refused with the limit", "[io][csv]") {
   CHECK(csv_from_text(with_text("time_s"), "t.xlsx").columns.size() == 1);
 }
 
+TEST_CASE("a workbook with more elements than a sheet can have is refused before they are parsed",
+          "[io][csv]") {
+  const auto times = [](int n, const std::string& one) {
+    std::string all;
+    for (int i = 0; i < n; ++i) all += one;
+    return all;
+  };
+  const auto refusal_with = [](const std::string& texts, const std::string& rows) {
+    const std::string bytes = zipped(
+        {{"xl/workbook.xml",
+          "<workbook xmlns:r=\"r\"><sheets><sheet name=\"A\" r:id=\"a\"/><sheet name=\"B\" "
+          "r:id=\"a\"/></sheets></workbook>"},
+         {"xl/_rels/workbook.xml.rels",
+          "<Relationships><Relationship Id=\"a\" Target=\"worksheets/sheet1.xml\"/>"
+          "</Relationships>"},
+         {"xl/sharedStrings.xml", "<sst>" + texts + "</sst>"},
+         {"xl/worksheets/sheet1.xml",
+          "<worksheet><sheetData><row><c t=\"s\"><v>0</v></c></row><row><c><v>1</v></c></row>" +
+              rows + "</sheetData><rowBreaks/></worksheet>"}});
+    return error_text([&] { csv_from_text(bytes, "t.xlsx"); });
+  };
+  const std::string one_text = "<si><t>time_s</t></si>";
+  CHECK(refusal_with(one_text, "") == "");
+  CHECK(refusal_with(one_text, times(1048574, "<row/>")) == "");
+  CHECK(contains(refusal_with(one_text, times(1048575, "<row/>")),
+                 "t.xlsx: xl/worksheets/sheet1.xml has more than 1048576 rows, the limit; save the "
+                 "sheet as CSV"));
+  CHECK(contains(refusal_with(one_text + times(2097152, "<si/>"), ""),
+                 "t.xlsx: xl/sharedStrings.xml has more than 2097152 shared texts, the limit"));
+}
+
 }  // namespace
 }  // namespace viscard

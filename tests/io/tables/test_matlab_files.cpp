@@ -239,6 +239,18 @@ TEST_CASE("a sparse matrix in a MATLAB file does not hide the vectors beside it"
   CHECK(table.columns[0].header == "t");
 }
 
+TEST_CASE("a MATLAB file that unpacks to more than any use is refused by what it claims",
+          "[io][csv]") {
+  // It claims 160 MB, and has enough packed bytes for as many.
+  std::string contents = bytes_of(std::vector<std::uint32_t>{14, 160'000'000});
+  for (std::uint32_t i = 0, noise = 1; i < 50'000; ++i, noise = noise * 1664525U + 1013904223U) {
+    contents += bytes_of(std::vector<std::uint32_t>{noise});
+  }
+  CHECK(refusal_of(matlab_file(packed(contents))) ==
+        "a.mat: holds more than 16777216 numbers once it is unpacked, the limit; save the measured "
+        "columns alone");
+}
+
 TEST_CASE("structs nested ten thousand deep in a MATLAB file are refused as damaged", "[io][csv]") {
   std::string nested;
   for (int i = 0; i < 10000; ++i) {

@@ -1,5 +1,6 @@
 // Text that fits the terminal, colours, manual pages and completion scripts.
 #include "io/cli/words/fitted_text.h"
+#include "io/cli/words/printable_stream.h"
 #include "io/cli/words/terminal.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
@@ -55,6 +56,34 @@ TEST_CASE("text fits the terminal, keeps the cells of a table whole, and loses n
         "  name   what it does, in many\n         words");
   CHECK(fitted("a-word-that-is-longer-than-ten", 10) == "a-word-that-is-longer-than-ten");
   CHECK(fitted("\n\n", 10) == "\n\n");
+}
+
+TEST_CASE("names with control characters do nothing to a terminal", "[cli]") {
+  std::ostringstream sink;
+  PrintableStream err(sink);
+  err << "viscard: " << std::string("a\x1b[2J\r\0b.csv", 12) << 'c' << '\a' << 12 << "\n\ttext\n";
+  CHECK(sink.str() == "viscard: a\\x1b[2J\\x0d\\x00b.csvc\\x0712\n\ttext\n");
+  sink.str("");
+  err << "µ 力 "
+      << "\xc2\x9b"
+      << "1m \xb5 \x7f";
+  CHECK(sink.str() == "µ 力 \\xc2\\x9b1m \\xb5 \\x7f");
+  sink.str("");
+  err << AsItIs{kEraseLine} << "50 %" << std::flush;
+  CHECK(sink.str() == "\r\033[K50 %");
+  std::ostringstream plain;
+  plain << AsItIs{kEraseLine};
+  CHECK(plain.str() == "\r\033[K");
+}
+
+TEST_CASE("text for people shows control characters of names", "[cli]") {
+  std::ostringstream out, err;
+  Streams streams{out, err, false};
+  {
+    FittedText text(streams);
+    static_cast<std::ostream&>(text) << "column 'E\x1b[31m'\n";
+  }
+  CHECK(out.str() == "column 'E\\x1b[31m'\n");
 }
 
 TEST_CASE("help and tables fit down to 40 columns", "[cli]") {
