@@ -27,8 +27,10 @@ int main(int argc, char** argv) {
   ::signal(SIGXFSZ,
            SIG_IGN);  // writes beyond a file size limit then fail like writes to a full disk
   std::ios::sync_with_stdio(false);
-  viscard::PrintableStream err(std::cerr);
-  viscard::Streams streams{std::cout, err, viscard::is_drawable(STDERR_FILENO)};
+  viscard::PrintableStream err(std::cerr), shown_out(std::cout, /*is_buffered=*/true);
+  // Tables and cards that go to a file keep every byte.
+  std::ostream& out = ::isatty(STDOUT_FILENO) == 1 ? shown_out : std::cout;
+  viscard::Streams streams{out, err, viscard::is_drawable(STDERR_FILENO)};
   const viscard::Words words{argv + 1, argv + argc};
   streams.columns = viscard::columns_of(STDOUT_FILENO);
   streams.is_out_coloured = viscard::is_coloured(words, STDOUT_FILENO);

@@ -11,7 +11,7 @@ namespace viscard {
 // words no other is known.
 class KnownNames {
  public:
-  static constexpr std::size_t kMost = 50000;
+  static constexpr std::size_t kMost = 20000;
 
   bool has(const std::string& word);
   // How many words were looked up.

@@ -5,6 +5,7 @@
 #include "io/cli/help/documents.h"
 #include "io/cli/words/help_text.h"
 #include "io/cli/words/json_output.h"
+#include "io/cli/words/printable_stream.h"
 #include "io/flow/command_error.h"
 #include "io/scenes/scene_file.h"
 
@@ -127,9 +128,9 @@ int run_help(const Words& words, Streams& streams, const Words& names,
   } else if (!page.empty()) {
     streams.out << page;
   } else if (one != nullptr) {
-    streams.out << help_text(one->syntax, streams.columns, streams.is_out_coloured);
+    streams.out << AsItIs{help_text(one->syntax, streams.columns, streams.is_out_coloured)};
   } else {
-    streams.out << overview;
+    streams.out << AsItIs{overview};
   }
   return kDone;
 }

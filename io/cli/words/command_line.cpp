@@ -5,6 +5,7 @@
 #include "io/cli/words/help_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
+#include "io/cli/words/printable_stream.h"
 
 #include <boost/program_options.hpp>
 #include <nlohmann/json.hpp>
@@ -143,7 +144,7 @@ void show_help(const CommandSyntax& syntax, Streams& streams) {
     return print_result(
         {"viscard-help/1", {}}, [&](ResultVisitor& v) { show_keys(v, syntax); }, streams);
   }
-  streams.out << help_text(syntax, streams.columns, streams.is_out_coloured);
+  streams.out << AsItIs{help_text(syntax, streams.columns, streams.is_out_coloured)};
 }
 
 }  // namespace

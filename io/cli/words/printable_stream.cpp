@@ -7,9 +7,10 @@
 
 namespace viscard {
 
-PrintableStream::PrintableStream(std::ostream& sink) : std::ostream(nullptr), buffer_(sink) {
+PrintableStream::PrintableStream(std::ostream& sink, bool is_buffered)
+    : std::ostream(nullptr), buffer_(sink) {
   rdbuf(&buffer_);
-  setf(std::ios::unitbuf);  // as std::cerr
+  if (!is_buffered) setf(std::ios::unitbuf);
 }
 
 void PrintableStream::Buffer::print_as_it_is(const std::string& text) {

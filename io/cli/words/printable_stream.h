@@ -12,8 +12,8 @@ namespace viscard {
 struct AsItIs;
 class PrintableStream : public std::ostream {
  public:
-  // sink must outlive it.
-  explicit PrintableStream(std::ostream& sink);
+  // sink must outlive it. is_buffered: as std::cout; otherwise all is handed on at once, as std::cerr does.
+  explicit PrintableStream(std::ostream& sink, bool is_buffered = false);
 
  private:
   class Buffer : public std::streambuf {
