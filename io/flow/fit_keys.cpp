@@ -1,5 +1,6 @@
 // The keys of fits.
 #include "fit/intervals/fit_result_keys.h"
+#include "io/basics/written_path.h"
 #include "io/flow/command_error.h"
 #include "io/flow/fit_file.h"
 
@@ -88,7 +89,7 @@ CommandError reason_of(const std::exception_ptr& thrown) {
 void show_keys(ResultVisitor& v, const FittedFile& fitted) {
   const FitResult& fit = fitted.result;
   const ModulusNames names = modulus_names(fit.is_stiffness, fitted.has_no_depth);
-  v("file", fitted.path, "the table or capture");
+  v("file", written_path(fitted.path), "the table or capture");
   v.when(!fitted.maker.empty(),
          [&] { v("maker", fitted.maker, "maker of the machine that wrote the table"); });
   v.when(!fitted.notes.empty(),
@@ -112,7 +113,7 @@ void show_keys(ResultVisitor& v, const FittedFile& fitted) {
 
 void show_keys(ResultVisitor& v, const FileOutcome& outcome) {
   if (outcome.fitted) return show_keys(v, *outcome.fitted);
-  v("file", outcome.path, "the table or capture");
+  v("file", written_path(outcome.path), "the table or capture");
   v("error", reason_of(outcome.error),
     "why this file could not be fitted; the other keys are then missing");
 }

@@ -1,4 +1,5 @@
 #include "io/basics/number_text.h"
+#include "io/basics/written_path.h"
 #include "io/flow/predict_file.h"
 #include "models/maths/result_visitor.h"
 
@@ -46,7 +47,7 @@ std::vector<NamedColumn> columns_of(const TestPrediction& prediction) {
 void show_keys(ResultVisitor& v, const PredictedFile& predicted) {
   const TestPrediction& prediction = predicted.prediction;
   v("material", predicted.name, "name of the material");
-  v("file", predicted.path, "its file");
+  v("file", written_path(predicted.path), "its file");
   v.word("test", names_of_predicted_tests()[static_cast<std::size_t>(prediction.test)],
          {"relaxation", "creep", "recovery", "cycles", "oscillation", "history"}, "kind of test");
   v.object(
@@ -78,7 +79,7 @@ void show_keys(ResultVisitor& v, const PredictedFile& predicted) {
       });
   v.when(!predicted.against.empty(), [&] {
     v.object("against", "the comparison with measured values", [&] {
-      v("file", predicted.against, "the measured table");
+      v("file", written_path(predicted.against), "the measured table");
       v.list("quantities", "one for each measured column", predicted.agreement,
              [&](const Agreement& found) { show_agreement(v, found); });
     });

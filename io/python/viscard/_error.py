@@ -19,7 +19,7 @@ def _keyword(match: "re.Match[str]") -> str:
 
 # What messages advise to write: "write --column 'stress_Pa=1e6*stress'", quoted for a shell, and '--density "1.1 g/cm3"'.
 _COLUMN = re.compile(r"write --column (?:'((?:[^']|'\\'')*)'|([^\s;]+))")
-_TEXT = re.compile(r"""--([a-z]+(?:-[a-z]+)*) (?=["'])""")
+_TEXT = re.compile(r'--([a-z]+(?:-[a-z]+)*) (?=")')
 
 
 def _column(match: "re.Match[str]") -> str:

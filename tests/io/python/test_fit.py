@@ -40,7 +40,7 @@ def test_options_have_the_same_effect(program):
 
 def test_every_option_of_the_command_is_a_keyword(program):
     options = set(re.findall(r"^  (?:-\w \[ )?--([a-z-]+)", of_program(program, "fit", "--help"), re.M))
-    options -= {"help", "json", "out", "force", "version", "color", "svg", "csv"}
+    options -= {"help", "json", "out", "force", "version", "color", "strip-paths", "svg", "csv"}
     options -= {"want", "show-table", "curves"}  # what the program alone prints; here they are attributes
     names = {"from_" if one == "from" else one.replace("-", "_") for one in options}
     assert names <= set(inspect.signature(viscard.fit).parameters)
