@@ -46,6 +46,9 @@ struct LargeStrainOptions {
   // Terms of relaxation beside the law: this number, or up to max_terms by BIC. Without both: up to 6
   // if the tests have times and show more than one rate, otherwise none.
   std::optional<int> n_terms, max_terms;
+  // Damage by the first loading beside every law (models/hyperelastic/mullins_damage.h), instead of terms.
+  // The tests are then whole records in the order of time, each of a specimen never loaded before.
+  bool with_damage = false;
 };
 
 }  // namespace viscard

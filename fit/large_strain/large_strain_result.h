@@ -3,12 +3,14 @@
 #include "fit/intervals/fitted_law.h"
 #include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/law_stability.h"
+#include "models/hyperelastic/mullins_damage.h"
 #include "models/material/material.h"
 #include "models/maths/interval.h"
 
 #include <Eigen/Core>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,16 @@ struct UnseenDirections {
   }
 };
 
+// Damage beside a law. Misfits are root mean squares relative to the stresses of their branch; nothing
+// without readings on it.
+struct FittedDamage {
+  MullinsDamage constants;
+  std::vector<LawParameter> parameters;  // r, m_Pa, beta; those that are held have no error
+  Eigen::MatrixXd covariance;            // of the law's parameters, then r, m_Pa, beta
+  bool has_one_maximum = false;          // all unloading is from one maximum: beta is held at 0
+  std::optional<double> misfit_first_loading, misfit_unloading, misfit_reloading;
+};
+
 // One law fitted to all tests. With terms it is the instantaneous law, of which 1 - sum g is left after
 // all relaxation.
 struct FittedRubber {
@@ -55,6 +67,7 @@ struct FittedRubber {
   std::vector<FittedRubberTerm> terms;  // of relaxation, by ascending time; empty: elastic
   // Of the parameters, the g and the ln tau, in that order; empty without terms.
   Eigen::MatrixXd series_covariance;
+  std::optional<FittedDamage> damage;        // softening by the first loading; never beside terms
   UnseenDirections unseen;                   // quantities along them have infinite intervals
   double E_inf_Pa = 0.0, E_inf_se_Pa = 0.0;  // Young's modulus at rest after all relaxation
   Interval E_inf_interval_95;

@@ -102,6 +102,11 @@ void check_large_strain(const std::vector<LargeStrainTest>& tests,
   if (tests.empty()) throw std::runtime_error("there is no test to fit");
   if (options.forms.empty()) throw std::runtime_error("there is no law to fit");
   for (const LargeStrainTest& test : tests) check_test(test);
+  if (options.with_damage && options.n_terms.value_or(options.max_terms.value_or(0)) > 0) {
+    throw std::runtime_error(
+        "damage and terms of relaxation are asked for together, but solvers let the damage act on "
+        "different parts of such a law; fit one of the two");
+  }
   if (options.modulus && !(options.modulus->value_Pa > 0.0)) {
     throw std::runtime_error("the known modulus is " + text_of(options.modulus->value_Pa) +
                              " Pa; it must be positive");

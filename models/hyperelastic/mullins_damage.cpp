@@ -38,8 +38,7 @@ double softening_factor(const MullinsDamage& damage, double energy_Pa, double la
 double lost_energy_Pa(const MullinsDamage& damage, double energy_Pa, double largest_energy_Pa) {
   const double x = relative_drop(damage, energy_Pa, largest_energy_Pa);
   const double width_Pa = damage.m_Pa + damage.beta * largest_energy_Pa;
-  return width_Pa / damage.r *
-         (x * std::erf(x) + std::expm1(-x * x) * std::numbers::inv_sqrtpi);
+  return width_Pa / damage.r * (x * std::erf(x) + std::expm1(-x * x) * std::numbers::inv_sqrtpi);
 }
 
 std::vector<double> nominal_stress_Pa(const HyperelasticLaw& law, const MullinsDamage& damage,

@@ -129,8 +129,8 @@ TEST_CASE("mullins: with a large r it is the law itself", "[models][mullins][red
   const auto soft = nominal_stress_Pa(reference_ogden(), MullinsDamage{1e12, 0.15e6, 0.1},
                                       Deformation::kPlanar, kPath);
   for (std::size_t i = 0; i < kPath.size(); ++i) {
-    CHECK(soft[i] ==
-          Approx(nominal_stress_Pa(reference_ogden(), Deformation::kPlanar, kPath[i])).epsilon(1e-11));
+    CHECK(soft[i] == Approx(nominal_stress_Pa(reference_ogden(), Deformation::kPlanar, kPath[i]))
+                         .epsilon(1e-11));
   }
 }
 
@@ -168,7 +168,8 @@ TEST_CASE("mullins: the slope of the energy is the stress, of every law, and so 
                                          (2.0 * kShape);
           const double scale = columns.values.cwiseAbs().maxCoeff();
           for (Eigen::Index j = 0; j < change.size(); ++j) {
-            CHECK(columns.shape_slopes(j, k) == Approx(change[j]).epsilon(1e-5).margin(1e-8 * scale));
+            CHECK(columns.shape_slopes(j, k) ==
+                  Approx(change[j]).epsilon(1e-5).margin(1e-8 * scale));
           }
         }
       }
