@@ -67,6 +67,28 @@ std::vector<RubberTerm> terms_from(const RubberJson& json) {
   return terms;
 }
 
+// Only laws with damage have the key.
+std::optional<MullinsDamage> damage_from(const RubberJson& json) {
+  if (!json.contains("damage")) return std::nullopt;
+  const RubberJson& stored = json["damage"];
+  if (stored.at("name") != kMullinsName) {
+    throw std::invalid_argument("there is no damage " + stored.at("name").dump() +
+                                "; viscard knows " + kMullinsName);
+  }
+  std::vector<double> values;
+  for (const std::string& name : damage_parameter_names()) {
+    const auto& parameters = stored.at("parameters");
+    const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                    [&](const auto& one) { return one.at("name") == name; });
+    if (found == parameters.end())
+      throw std::invalid_argument("the damage has no parameter " + name);
+    values.push_back(found->at("value"));
+  }
+  const MullinsDamage damage{values[0], values[1], values[2]};
+  validate(damage);
+  return damage;
+}
+
 // Files of elastic laws may lack some of the intervals; {0, 0} then.
 void add_moduli(const RubberJson& json, HyperelasticFile& file) {
   const auto interval_of = [&](const char* key) {
@@ -123,6 +145,13 @@ std::string json_from_card_of_rubber(const HyperelasticFile& file) {
   for (const RubberTerm& term : file.terms) terms.push_back({{"g", term.g}, {"tau_s", term.tau_s}});
   Json law{{"name", name_of(file.law.form)}, {"parameters", parameters}};
   if (!terms.empty()) law["terms"] = terms;
+  if (file.damage) {
+    const double values[] = {file.damage->r, file.damage->m_Pa, file.damage->beta};
+    Json constants = Json::array();
+    for (std::size_t i = 0; i < 3; ++i)
+      constants.push_back({{"name", damage_parameter_names()[i]}, {"value", values[i]}});
+    law["damage"] = {{"name", kMullinsName}, {"parameters", constants}};
+  }
   law["trustworthy"] = true;
   law["flags"] = Json::array();
   Json json{{"schema", kHyperelasticSchema}, {"law", name_of(file.law.form)}};
@@ -156,6 +185,9 @@ HyperelasticFile hyperelastic_from_json(const std::string& text, const std::stri
       HyperelasticFile file;
       file.law = law_from(law);
       file.terms = terms_from(law);
+      file.damage = damage_from(law);
+      if (file.damage && !file.terms.empty())
+        throw std::invalid_argument("damage and terms of relaxation stand beside one law");
       add_moduli(law, file);
       file.is_trustworthy = law.at("trustworthy");
       for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));

@@ -2,6 +2,7 @@
 
 #include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/hyperelastic/mullins_damage.h"
 #include "models/maths/interval.h"
 #include "models/quantities/plausible.h"
 
@@ -16,8 +17,9 @@ namespace viscard {
 // A law of rubber as `viscard fit uniaxial=a.csv ... --out FILE` writes it, schema
 // "viscard-hyperelastic/1".
 struct HyperelasticFile {
-  HyperelasticLaw law;            // the chosen one, at once
-  std::vector<RubberTerm> terms;  // its relaxation; empty: elastic
+  HyperelasticLaw law;                       // the chosen one, at once
+  std::vector<RubberTerm> terms;             // its relaxation; empty: elastic
+  std::optional<MullinsDamage> damage = {};  // its softening by the first loading
   // Young's modulus at rest: at once, and after all relaxation.
   double E0_Pa = 0.0, E_inf_Pa = 0.0;
   Interval E0_interval_95, E_inf_interval_95;

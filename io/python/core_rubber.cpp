@@ -69,6 +69,9 @@ py::array rubber_stress(const HyperelasticFile& rubber, const std::string& defor
                         std::vector<double> stretch,
                         const std::optional<std::vector<double>>& time_s) {
   const Deformation kind = deformation_from(deformation);
+  if (rubber.damage) {
+    return array_of(nominal_stress_Pa(rubber.law, *rubber.damage, kind, stretch));
+  }
   if (time_s) {
     return array_of(nominal_stress_Pa(rubber.law, rubber.terms, kind, {*time_s, stretch}));
   }

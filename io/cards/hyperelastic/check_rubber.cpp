@@ -25,6 +25,7 @@ struct RubberParts {
   std::optional<double> bulk_Pa = {};  // 0: incompressible; none: not compared
   double density_kg_m3 = 0.0;          // 0: not compared
   double poisson = 0.0;                // of a card that states it for the bulk modulus; 0 else
+  std::optional<MullinsDamage> damage = {};
 };
 
 // Neo-Hooke and Mooney-Rivlin as the law of Ogden that they equal, for cards that have only that.
@@ -56,7 +57,8 @@ struct RubberPair {
 // Empty if law or number of terms differ.
 std::vector<RubberPair> pairs_between(const RubberParts& found, const RubberParts& expected) {
   std::vector<RubberPair> out;
-  if (found.law.form != expected.law.form || found.terms.size() != expected.terms.size())
+  if (found.law.form != expected.law.form || found.terms.size() != expected.terms.size() ||
+      found.damage.has_value() != expected.damage.has_value())
     return out;
   const auto moduli = modulus_names(found.law.form), shapes = shape_names(found.law.form);
   for (Eigen::Index i = 0; i < found.law.moduli_Pa.size(); ++i)
@@ -69,6 +71,11 @@ std::vector<RubberPair> pairs_between(const RubberParts& found, const RubberPart
   for (std::size_t i = 0; i < a.size(); ++i) {
     out.push_back({fmt::format("g_{}", i + 1), a[i].g, b[i].g});
     out.push_back({fmt::format("tau_{}_s", i + 1), a[i].tau_s, b[i].tau_s});
+  }
+  if (expected.damage) {
+    out.push_back({"r", found.damage->r, expected.damage->r});
+    out.push_back({"m_Pa", found.damage->m_Pa, expected.damage->m_Pa});
+    out.push_back({"beta", found.damage->beta, expected.damage->beta});
   }
   if (expected.poisson != 0.0)
     out.push_back({"Poisson's ratio", found.poisson, expected.poisson});
@@ -196,6 +203,25 @@ void add_law_mistakes(HyperelasticForm form, const std::string& target,
   }
 }
 
+void add_damage_mistakes(const UnitSystem& units, std::vector<RubberMistake>& list) {
+  list.push_back({"damage-order-exchanged",
+                  "m and beta of the damage stand in the wrong order (Abaqus takes r, m, beta, "
+                  "OpenRadioss R, beta, m)",
+                  [&units](RubberParts& p) {
+                    const double m = to_card(p.damage->m_Pa, units.stress_exponent);
+                    p.damage->m_Pa = from_card(p.damage->beta, units.stress_exponent);
+                    p.damage->beta = m;
+                  }});
+  list.push_back({"one-over-r", "1/r, the largest damage, stands where the solver takes r",
+                  [](RubberParts& p) { p.damage->r = 1.0 / p.damage->r; }});
+  for (const UnitSystem& other : unit_systems()) {
+    const int shift = other.stress_exponent - units.stress_exponent;
+    if (shift == 0) continue;
+    list.push_back({"damage-unit", fmt::format("m of the damage is in the unit of {}", other.name),
+                    [shift](RubberParts& p) { p.damage->m_Pa = to_card(p.damage->m_Pa, shift); }});
+  }
+}
+
 void add_volume_and_unit_mistakes(const UnitSystem& units, std::vector<RubberMistake>& list) {
   list.push_back({"K-for-D", "the bulk modulus stands where the solver takes D = 2/K",
                   [&units](RubberParts& p) {
@@ -212,6 +238,7 @@ void add_volume_and_unit_mistakes(const UnitSystem& units, std::vector<RubberMis
     list.push_back({"stress-unit", fmt::format("the moduli are in the unit of {}", other.name),
                     [shift](RubberParts& p) {
                       scale_law(p, to_card(1.0, shift));
+                      if (p.damage) p.damage->m_Pa = to_card(p.damage->m_Pa, shift);
                       if (p.bulk_Pa) p.bulk_Pa = to_card(*p.bulk_Pa, shift);
                     }});
   }
@@ -235,7 +262,14 @@ std::vector<CardFinding> explained(const RubberParts& found, const RubberParts& 
              fmt::format("the card has {} terms of relaxation, the law has {}", found.terms.size(),
                          expected.terms.size()),
              true}};
+  if (found.damage.has_value() != expected.damage.has_value())
+    return {{"other-damage",
+             std::string(found.damage ? "the card has the damage by the first loading "
+                                      : "the card lacks the damage by the first loading ") +
+                 kMullinsName + (found.damage ? ", which the law has not" : " of the law"),
+             true}};
   std::vector<RubberMistake> list;
+  if (expected.damage) add_damage_mistakes(units, list);
   if (!expected.terms.empty()) {
     add_basis_mistakes(list);
     add_term_mistakes(units, list);
@@ -332,6 +366,16 @@ std::vector<CardFinding> header_findings(const std::string& text, const RubberPa
   constexpr double kCut = 2e-5;
   if (expected.poisson != 0.0 && relative_mismatch(found.poisson, expected.poisson) > kCut)
     compare("the bulk modulus, by Poisson's ratio", *found.bulk_Pa, *expected.bulk_Pa);
+  if (found.damage) {
+    const double values[] = {found.damage->r, found.damage->m_Pa, found.damage->beta};
+    const char* const marks[] = {" damage r ", " damage m ", " damage beta "};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (const auto stated = stated_number(text, marks[i]))
+        compare(
+            std::string("the") + std::string(marks[i]).substr(0, std::string(marks[i]).size() - 1),
+            values[i], *stated);
+    }
+  }
   if (expected.density_kg_m3 > 0.0)
     compare("the density", found.density_kg_m3, expected.density_kg_m3);
   return out;
@@ -372,10 +416,11 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
   RubberCheck check{.read = read_rubber_card(text, options.target, options.units)};
   check.findings = check.read.findings;
   check.tolerance = options.tolerance.value_or(1e-6);
-  const RubberParts found{check.read.law, check.read.terms, check.read.bulk_Pa,
-                          check.read.density_kg_m3, check.read.poisson};
+  const RubberParts found{check.read.law,           check.read.terms,   check.read.bulk_Pa,
+                          check.read.density_kg_m3, check.read.poisson, check.read.damage};
   if (file != nullptr) {
     RubberParts expected{file->law, file->terms};
+    expected.damage = file->damage;
     if (!options.elastic_only.empty()) {
       expected.law = law_without_terms(file->law, file->terms, options.elastic_only);
       expected.terms.clear();
@@ -394,6 +439,7 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
     }
   } else {
     RubberParts expected{check.read.law, check.read.terms};
+    expected.damage = check.read.damage;
     take_volume(text, file, options, check.read, expected);
     const auto differ = header_findings(text, found, expected);
     check.findings.insert(check.findings.end(), differ.begin(), differ.end());

@@ -27,9 +27,30 @@ std::string reading_of(const RubberText& read) {
     add(term.g);
     add(term.time);
   }
+  if (const auto& damage = read.numbers.damage) {
+    out += fmt::format(" damage {} {} {}", damage->r, damage->m, damage->beta);
+  }
   out += (read.is_long_term ? " long" : " once") + read.also_read + read.units;
   for (const CardFinding& finding : read.findings) out += " " + finding.text;
   return out;
+}
+
+// The damage of a card in SI, and what is wrong with it.
+void take_damage(const RubberNumbers& numbers, double stress_Pa, ReadRubber& out) {
+  if (!numbers.damage) return;
+  out.damage =
+      MullinsDamage{numbers.damage->r, numbers.damage->m * stress_Pa, numbers.damage->beta};
+  try {
+    validate(*out.damage);
+  } catch (const std::invalid_argument& error) {
+    out.findings.push_back({"damage-out-of-range", error.what(), true});
+  }
+  if (out.terms.empty()) return;
+  out.findings.push_back(
+      {"damage-beside-terms",
+       "damage stands beside terms of relaxation: solvers let it act on different "
+       "parts of such a law, and viscard has none with both",
+       true});
 }
 
 RubberText text_of_target(const std::string& text, const std::string& target) {
@@ -155,7 +176,9 @@ ReadRubber read_rubber_card(const std::string& text, const std::string& target,
                                    return reading_of(text_of_target(changed, target));
                                  }),
                    out.findings);
-  take_at_once(read, from_card(1.0, out.units->stress_exponent), out);
+  const double stress_Pa = from_card(1.0, out.units->stress_exponent);
+  take_at_once(read, stress_Pa, out);
+  take_damage(read.numbers, stress_Pa, out);
   return out;
 }
 

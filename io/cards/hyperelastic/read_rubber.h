@@ -3,7 +3,9 @@
 #include "io/cards/read_card.h"
 #include "models/hyperelastic/finite_viscoelasticity.h"
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/hyperelastic/mullins_damage.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +13,9 @@ namespace viscard {
 
 // A law of rubber as a solver takes it from a card, in SI.
 struct ReadRubber {
-  HyperelasticLaw law;            // at once
-  std::vector<RubberTerm> terms;  // shares of the law at once
+  HyperelasticLaw law;                       // at once
+  std::vector<RubberTerm> terms;             // shares of the law at once
+  std::optional<MullinsDamage> damage = {};  // by the first loading
   // The law that stands in the card is the one after all relaxation.
   bool is_long_term = false;
   double bulk_Pa = 0.0;        // 0: incompressible

@@ -92,6 +92,41 @@ double bulk_from(double d) {
   return d > 0.0 ? 2.0 / d : 0.0;
 }
 
+// /FAIL/MULLINS_OR/mat_ID/unit_ID of the law: R, beta, m (fail_mullins_or.cfg); R = 0 is read as 1.
+void read_radioss_damage(const Lines& all, const CardLine& law, RubberText& out) {
+  const auto parts_of = [](const CardLine& line) {
+    auto parts = cells(trimmed(line.text), '/');  // "", FAIL, MULLINS_OR, 1, 1
+    parts.resize(std::max<std::size_t>(parts.size(), 5));
+    return parts;
+  };
+  const auto wanted = parts_of(law);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto parts = parts_of(all[i]);
+    if (upper(parts[1]) != "FAIL" || upper(parts[2]) != "MULLINS_OR" || parts[3] != wanted[3])
+      continue;
+    auto numbers = row_at(all, i + 1, kTwenty);
+    numbers.resize(3, 0.0);
+    out.numbers.damage = {numbers[0] == 0.0 ? 1.0 : numbers[0], numbers[2], numbers[1]};
+    if (parts[4] != wanted[4]) {
+      out.findings.push_back(
+          {"unit-block",
+           at_line(all[i],
+                   "the damage takes other units than the law, and m is converted as an "
+                   "energy, without the volume; name the same unit block"),
+           true});
+    }
+    const std::string number = wanted[2].size() > 3 ? wanted[2].substr(3) : "";
+    if (number != "92" && number != "95" && number != "100") {
+      out.findings.push_back(
+          {"ignored-damage",
+           at_line(all[i],
+                   "/FAIL/MULLINS_OR acts on LAW92, 95 and 100 only: the law has no damage"),
+           true});
+    }
+    return;
+  }
+}
+
 }  // namespace
 
 RubberText read_lsdyna_rubber(const std::string& text) {
@@ -148,6 +183,7 @@ RubberText read_openradioss_rubber(const std::string& text) {
   out.findings = radioss_keyword_findings(lines[0], all);
   RubberNumbers& law = out.numbers;
   law.density = at_or_zero(row_at(lines, 2, kTwenty), 0);
+  read_radioss_damage(all, lines[0], out);
   const std::string number = lines[0].text.substr(8, 2);
   if (number == "62") {
     read_law62(lines, out);

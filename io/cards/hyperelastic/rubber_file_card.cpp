@@ -44,13 +44,21 @@ std::string relaxation_line(const HyperelasticFile& file, const RubberCardOption
 std::vector<std::string> header_lines(const HyperelasticFile& file, const RubberTarget& target,
                                       const RubberCardOptions& options) {
   std::vector<std::string> lines{
-      "viscard card: " + name_of(file.law.form) + " for " + options.target,
+      "viscard card: " + name_of(file.law.form) +
+          (file.damage ? std::string("+") + kMullinsName : "") + " for " + options.target,
       fmt::format("units: {} ({})", options.units, unit_system(options.units).description),
       relaxation_line(file, options)};
   if (!file.terms.empty() && options.elastic_only.empty()) {
     lines.push_back("terms: " + target.terms);
   }
   lines.push_back("conventions: " + target.laws.of(file.law.form) + "; volume " + target.volume);
+  if (file.damage) {
+    lines.push_back(std::string("damage by the first loading, ") + kMullinsName +
+                    ": eta = 1 - erf((W_m - W)/(m + beta W_m))/r. " + target.damage.convention);
+    lines.push_back("damage r " + text_of(file.damage->r, kDigits));
+    lines.push_back("damage m " + text_of(file.damage->m_Pa, kDigits) + " Pa");
+    lines.push_back("damage beta " + text_of(file.damage->beta, kDigits));
+  }
   lines.push_back("evidence: " + target.evidence);
   if (options.density_kg_m3) {
     lines.push_back("density " + text_of(*options.density_kg_m3, kDigits) + " kg/m3");
@@ -153,7 +161,7 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
   }
   refuse_bulk_modulus(file, options);
   const RubberTarget& target = rubber_target(options.target);
-  const std::string card = rubber_card(file.law, file.terms, options);
+  const std::string card = rubber_card(file.law, file.terms, options, file.damage);
   const std::string text =
       sealed(as_comments(header_lines(file, target, options), target.comment) + card);
   read_back(text, file, name, options);

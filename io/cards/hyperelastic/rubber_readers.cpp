@@ -128,6 +128,35 @@ void take_keyword_law(const KeywordBlock& block, RubberText& out) {
   }
 }
 
+// *MULLINS EFFECT of Abaqus: r, m, beta.
+void take_mullins(const KeywordBlock& block, RubberText& out) {
+  const bool is_direct = std::none_of(
+      block.parameters.begin(), block.parameters.end(), [](const std::string& parameter) {
+        return parameter == "USER" || parameter == "TESTDATAINPUT" ||
+               parameter.rfind("DEPENDENCIES", 0) == 0;
+      });
+  if (!is_direct) {
+    out.findings.push_back(
+        {"other-law",
+         at_line(block.line, block.keyword + " is given by test data, fields or a subroutine "
+                                             "and is not read; only r, m, beta are"),
+         true});
+    return;
+  }
+  const std::vector<double> numbers = all_numbers(block);
+  constexpr std::size_t kConstants = 3;
+  require_count(numbers, 2, block.keyword.c_str());
+  out.numbers.damage = {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : 0.0};
+  if (numbers.size() <= kConstants) return;
+  out.findings.push_back(
+      {"other-count",
+       at_line(block.line, fmt::format("{} numbers stand below {}, and {} are read: r, m, beta",
+                                       numbers.size(), block.keyword, kConstants)),
+       true});
+  for (std::size_t i = kConstants; i < numbers.size(); ++i)
+    out.also_read += fmt::format(" {}", numbers[i]);
+}
+
 // Constants of MAPDL's tables by their locations.
 struct TableOfMapdl {
   std::string option;
@@ -212,6 +241,14 @@ RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
       is_at_once = block.has("MODULI=INSTANTANEOUS");
     } else if (block.keyword == "*DENSITY") {
       out.numbers.density = density_in(block);
+    } else if (block.keyword == "*MULLINS EFFECT" && is_calculix) {
+      out.findings.push_back({"ignored-damage",
+                              at_line(block.line,
+                                      "ccx skips *MULLINS EFFECT with a warning: the "
+                                      "law has no damage"),
+                              true});
+    } else if (block.keyword == "*MULLINS EFFECT") {
+      take_mullins(block, out);
     } else if (block.keyword == "*VISCOELASTIC" && is_calculix) {
       out.findings.push_back({"ignored-viscoelastic",
                               at_line(block.line, "ccx ignores *VISCOELASTIC: the law is elastic"),
@@ -234,9 +271,9 @@ RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
   for (const CardFinding& finding : material_findings(blocks, false))
     out.findings.push_back(finding);
   for (const KeywordBlock& block : blocks) {
-    for (const char* other : {"*ELASTIC", "*PLASTIC", "*CREEP", "*HYPERFOAM", "*MULLINS EFFECT",
-                              "*HYSTERESIS", "*DAMPING", "*USER MATERIAL", "*VISCOUS",
-                              "*DAMAGE INITIATION", "*CONCRETE", "*RATE DEPENDENT"}) {
+    for (const char* other :
+         {"*ELASTIC", "*PLASTIC", "*CREEP", "*HYPERFOAM", "*HYSTERESIS", "*DAMPING",
+          "*USER MATERIAL", "*VISCOUS", "*DAMAGE INITIATION", "*CONCRETE", "*RATE DEPENDENT"}) {
       if (block.keyword != other) continue;
       out.findings.push_back(
           {"other-law", at_line(block.line, block.keyword + " changes the stress and is not read"),

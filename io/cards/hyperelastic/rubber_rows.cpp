@@ -9,7 +9,8 @@
 //                vol. II; fields as in PyDYNA. Not run.
 //   openradioss  LAW82: mu_i, alpha_i of ours, nu = 0 and D_1 = 2/K; LAW94 (Yeoh) and LAW92
 //                (Arruda-Boyce) with the same D. Mooney-Rivlin is LAW82 with exponents 2 and -2, mu = 2 C.
-//                Source: Radioss Reference Guide 2021. Not run.
+//                Damage by the first loading: /FAIL/MULLINS_OR, which acts on LAW92, 95 and 100 only.
+//                Source: Radioss Reference Guide 2021; fail_mullins_or.cfg. Not run.
 #include "io/cards/hyperelastic/rubber_rows.h"
 
 #include "io/cards/column_fields.h"
@@ -66,6 +67,14 @@ std::string relaxation_rows(const RubberNumbers& law, ShortRows& rows) {
   for (const RubberNumbers::Term& term : law.terms)
     text += rows.row({term.g * law.shear, 1.0 / term.time});
   return text;
+}
+
+// R, beta, m: another order than that of Abaqus. m is converted as an energy, not as one per volume.
+std::string radioss_damage(const RubberNumbers::Damage& damage) {
+  return "# /BEGIN needs the units of /UNIT/1: m would be converted as an energy, without the "
+         "volume\n"
+         "/FAIL/MULLINS_OR/1/1\n#                  R                BETA                   m\n" +
+         row_of({damage.r, damage.beta, damage.m}, kWide);
 }
 
 }  // namespace
@@ -175,7 +184,8 @@ std::string openradioss_rubber(const RubberNumbers& law, const std::string& mate
     return text + "#                 mu                   D            lambda_m\n" +
            row_of({law.moduli[0], law.d(), law.shapes[0]}, kWide) +
            "#    Itype    fct_ID                  nu              Fscale\n" + right("0", kShort) +
-           right("0", kShort) + row_of({0.0, 0.0}, kWide);
+           right("0", kShort) + row_of({0.0, 0.0}, kWide) +
+           (law.damage ? radioss_damage(*law.damage) : "");
   }
   const RubberNumbers ogden = as_ogden(law);
   Row d(ogden.moduli.size(), 0.0);

@@ -3,6 +3,7 @@
 #include "io/cards/unit_system.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ struct RubberNumbers {
     double g = 0.0, time = 0.0;
   };
   std::vector<Term> terms;
+  // Softening by the first loading (mullins_damage.h); m in the unit of stress.
+  struct Damage {
+    double r = 0.0, m = 0.0, beta = 0.0;
+  };
+  std::optional<Damage> damage = std::nullopt;
 
   // Share that is left after all relaxation.
   double long_term_share() const {

@@ -86,6 +86,7 @@ ImportedCard import_rubber(const std::string& text, const CardWords& words) {
   HyperelasticFile file;
   file.law = read.law;
   file.terms = read.terms;
+  file.damage = read.damage;
   if (read.bulk_Pa > 0.0) file.bulk_Pa = read.bulk_Pa;
   if (read.density_kg_m3 > 0.0) file.density_kg_m3 = read.density_kg_m3;
   file.raw_files = {{words.material, sha256_of_text(text)}};

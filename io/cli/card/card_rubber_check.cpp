@@ -43,6 +43,14 @@ void show_check(ResultVisitor& v, const RubberCheck& check, const CardWords& wor
     v("g", term.g, "share of the law at once");
     v("tau_s", term.tau_s, "its time");
   });
+  v.when(read.damage.has_value(), [&] {
+    const MullinsDamage damage = read.damage.value_or(MullinsDamage{});
+    v.object("damage", "softening by the first loading (mullins-or)", [&] {
+      v("r", damage.r, "pure number");
+      v("m_Pa", damage.m_Pa, "energy per volume");
+      v("beta", damage.beta, "pure number");
+    });
+  });
   v("bulk_modulus_Pa",
     number_or_null(read.bulk_Pa > 0.0 ? std::optional(read.bulk_Pa) : std::nullopt),
     "null: incompressible");
@@ -63,6 +71,10 @@ void print_rubber_check(const RubberCheck& check, const CardWords& words, std::o
   for (std::size_t i = 0; i < read.terms.size(); ++i) {
     out << fmt::format("  term {}: g = {:.9g}, tau = {:.9g} s\n", i + 1, read.terms[i].g,
                        read.terms[i].tau_s);
+  }
+  if (read.damage) {
+    out << fmt::format("  damage {}: r = {:.9g}, m = {:.9g} Pa, beta = {:.9g}\n", kMullinsName,
+                       read.damage->r, read.damage->m_Pa, read.damage->beta);
   }
   out << (read.bulk_Pa > 0.0 ? fmt::format("  bulk modulus = {:.9g} Pa\n", read.bulk_Pa)
                              : std::string("  incompressible\n"));

@@ -146,9 +146,9 @@ void check_rows(LargeStrainTest& test, const std::string& file) {
 }
 
 // Keeps the loading of one cycle, if the record has unloading. Relaxation is fitted to all rows of a
-// record with one cycle.
+// record with one cycle, damage to all rows of any.
 CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
-                         const std::optional<int>& wanted, bool relaxes) {
+                         const std::optional<int>& wanted, bool relaxes, bool with_damage) {
   if (!wanted || *wanted != 0) check_rows(test, file);
   const std::vector<LoadCycle> cycles = load_cycles(test.stretch);
   const bool is_one_loading =
@@ -159,7 +159,8 @@ CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
     throw std::runtime_error(file + ": has " + counted(cycles.size(), "cycle") +
                              " of loading, so there is no --cycle " + std::to_string(*wanted));
   }
-  if (is_one_loading || (wanted && *wanted == 0)) return choice;
+  if (with_damage) check_order(test, file, cycles.size());
+  if (is_one_loading || with_damage || (wanted && *wanted == 0)) return choice;
   if (relaxes && !wanted && cycles.size() == 1) return choice;
   check_order(test, file, cycles.size());
   choice.fitted = wanted ? static_cast<std::size_t>(*wanted) : cycles.size();
@@ -172,7 +173,7 @@ CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
 void add_mullins_note(const std::string& name, const CycleChoice& choice,
                       LargeStrainResult& result) {
   constexpr double kLeast = 0.05;
-  if (!choice.softening || *choice.softening < kLeast) return;
+  if (!choice.softening || *choice.softening < kLeast || result.best().damage) return;
   result.notes.push_back({"mullins", 0,
                           "the " + name + " test softens by " +
                               text_of(100.0 * *choice.softening, 2) +
@@ -180,7 +181,8 @@ void add_mullins_note(const std::string& name, const CycleChoice& choice,
                               "effect): the law is that of " +
                               (choice.fitted == 0 ? std::string("all rows together")
                                                   : "cycle " + std::to_string(choice.fitted)) +
-                              "; choose another with --cycle"});
+                              "; choose another with --cycle, or fit the softening with --model " +
+                              name_of(result.best().law.form) + "+" + kMullinsName});
 }
 
 // "uniaxial", "uniaxial 2" ...
@@ -259,10 +261,11 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   refuse_copies(fitted.tests, request.files);
   number_names(fitted.tests);
   std::vector<MaterialFlag> notes;  // those of the fitted rows are made by the fit
-  const bool relaxes = most_terms_of(fitted.tests, request.options, notes) > 0;
+  const bool with_damage = request.options.with_damage;
+  const bool relaxes = !with_damage && most_terms_of(fitted.tests, request.options, notes) > 0;
   for (std::size_t i = 0; i < fitted.tests.size(); ++i) {
     fitted.cycles.push_back(
-        choose_cycle(fitted.tests[i], request.files[i].path, request.cycle, relaxes));
+        choose_cycle(fitted.tests[i], request.files[i].path, request.cycle, relaxes, with_damage));
   }
   fitted.result = fit_large_strain(fitted.tests, request.options);
   for (std::size_t i = 0; i < fitted.tests.size(); ++i) {

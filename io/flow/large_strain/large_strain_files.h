@@ -61,7 +61,7 @@ struct FittedLargeStrain {
 // Reads the tables and fits the laws. A table has the stretch (or nominal strain) and the nominal
 // stress: force over area at rest. The strains and stresses of a compression test may be counted
 // positive. Times (time_s) in all tables give terms of relaxation beside the law. Of a record with
-// unloading one loading is fitted, of one with times and a single cycle all rows; softening by more than 5 % gives the note mullins. Throws std::runtime_error with the name
+// unloading one loading is fitted, of one with times and a single cycle, or with damage, all rows; softening by more than 5 % that is not fitted gives the note mullins. Throws std::runtime_error with the name
 // of the file, also for stretches, stresses and a modulus that are not plausible.
 FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request);
 

@@ -19,6 +19,16 @@ Interval interval_of(const StableRange& range) {
   return {range.low_is_open ? -kOpen : range.low, range.high_is_open ? kOpen : range.high};
 }
 
+void show_parameters(ResultVisitor& v, const char* meaning,
+                     const std::vector<LawParameter>& parameters) {
+  v.list("parameters", meaning, parameters, [&](const LawParameter& one) {
+    v("name", one.name, "with its unit");
+    v("value", one.value, "its value");
+    v("se", one.se, "standard error");
+    v("interval_95", one.interval_95, "95 % interval");
+  });
+}
+
 void show_series(ResultVisitor& v, const FittedRubber& fitted) {
   v.list("terms", "terms of relaxation, by ascending time; empty: elastic", fitted.terms,
          [&](const FittedRubberTerm& term) {
@@ -39,21 +49,33 @@ void show_series(ResultVisitor& v, const FittedRubber& fitted) {
          });
 }
 
+void show_damage(ResultVisitor& v, const FittedDamage& damage) {
+  v("name", kMullinsName, "mullins-or: Ogden and Roxburgh");
+  show_parameters(v, "r, m_Pa and beta", damage.parameters);
+  v("covariance", damage.covariance, "of the parameters of the law, then of r, m_Pa and beta");
+  v("one_maximum", damage.has_one_maximum,
+    "all unloading is from one maximum: beta is held at 0, and m holds for this maximum");
+  v("misfit_first_loading", number_or_null(damage.misfit_first_loading),
+    "root mean square over that of the stresses of the first loading");
+  v("misfit_unloading", number_or_null(damage.misfit_unloading), "the same of unloading");
+  v("misfit_reloading", number_or_null(damage.misfit_reloading),
+    "the same of reloading; null without readings");
+}
+
 void show_law(ResultVisitor& v, const FittedRubber& fitted) {
   v("name", name_of(fitted.law.form),
     "neo-hooke, mooney-rivlin, yeoh, ogden-1, ogden-2, ogden-3, arruda-boyce or gent");
-  v.list("parameters", "moduli, then shapes", fitted.parameters, [&](const LawParameter& one) {
-    v("name", one.name, "with its unit");
-    v("value", one.value, "its value");
-    v("se", one.se, "standard error");
-    v("interval_95", one.interval_95, "95 % interval");
-  });
+  show_parameters(v, "moduli, then shapes", fitted.parameters);
   v("covariance", fitted.covariance, "of the parameters, in their order");
   v("E0_Pa", fitted.E0_Pa, "Young's modulus at rest; with terms, at once");
   v("E0_interval_95", fitted.E0_interval_95, "its 95 % interval");
   v("E_inf_Pa", fitted.E_inf_Pa, "Young's modulus at rest after all relaxation");
   v("E_inf_interval_95", fitted.E_inf_interval_95, "its 95 % interval");
   show_series(v, fitted);
+  v.when(fitted.damage.has_value(), [&] {
+    v.object("damage", "softening by the first loading, with --model LAW+mullins-or",
+             [&] { show_damage(v, fitted.damage.value_or(FittedDamage{})); });
+  });
   v("n_parameters", fitted.n_parameters, "number of parameters");
   v("rss_Pa2", fitted.rss, "sum of squared residuals, unweighted");
   v("rms_relative", fitted.rms_relative, "root of it over the sum of squared stresses");

@@ -53,7 +53,7 @@ PlotSeries band_of(const FittedRubber& fitted, Deformation deformation, const Pl
   return band;
 }
 
-// The fitted stress along each test, with its relaxation.
+// The fitted stress along each test, with its relaxation or damage.
 PlotSeries course_line(const FittedLargeStrain& fitted, Deformation deformation) {
   PlotSeries line;
   for (const LargeStrainTest& test : fitted.tests) {
@@ -140,12 +140,14 @@ void add_deformation(const FittedLargeStrain& fitted, std::size_t index, double 
     panel.series.push_back(std::move(beyond));
   }
   if (!is_measured) return;
-  const bool relaxes = !best.terms.empty();
-  PlotSeries line = relaxes ? course_line(fitted, deformation)
-                            : law_line(best, deformation, measured.low, measured.high);
-  if (!relaxes) add(band_of(best, deformation, line));
+  const bool is_course = !best.terms.empty() || best.damage;
+  PlotSeries line = is_course ? course_line(fitted, deformation)
+                              : law_line(best, deformation, measured.low, measured.high);
+  if (!is_course) add(band_of(best, deformation, line));
   line.label = name_of(deformation) + ", " + name_of(best.law.form) +
-               (relaxes ? " with " + counted(best.terms.size(), "term") : "");
+               (best.damage ? std::string("+") + kMullinsName
+                : is_course ? " with " + counted(best.terms.size(), "term")
+                            : "");
   add(std::move(line));
   PlotSeries points = readings_of(fitted, deformation);
   points.label = name_of(deformation) + ", measured";

@@ -38,6 +38,7 @@ void print_tests(const FittedLargeStrain& fitted, std::ostream& out) {
 // "yeoh + 2": with two terms.
 std::string name_with_terms(const FittedRubber& fitted) {
   const std::string name = name_of(fitted.law.form);
+  if (fitted.damage) return name + "+" + kMullinsName;
   return fitted.terms.empty() ? name : name + " + " + std::to_string(fitted.terms.size());
 }
 
@@ -79,6 +80,29 @@ void print_terms(const FittedRubber& best, std::ostream& out) {
       1e-3 * best.E_inf_interval_95.high);
 }
 
+void print_parameters(const std::vector<LawParameter>& parameters, std::ostream& out) {
+  for (const LawParameter& one : parameters) {
+    const bool is_held = one.se == 0.0 && one.interval_95.low == one.interval_95.high;
+    out << fmt::format("    {:<16} {:>14.6g}   ", one.name, one.value)
+        << (is_held ? std::string("held\n")
+                    : fmt::format("95 % {:.6g} to {:.6g}\n", one.interval_95.low,
+                                  one.interval_95.high));
+  }
+}
+
+void print_damage(const FittedDamage& damage, std::ostream& out) {
+  out << "    damage by the first loading: eta = 1 - erf((W_m - W)/(m + beta W_m))/r\n";
+  print_parameters(damage.parameters, out);
+  out << "    left by the law, share of the stresses:";
+  const auto add = [&](const char* branch, const std::optional<double>& misfit) {
+    if (misfit) out << fmt::format(" {} {:.2g} %", branch, 100.0 * *misfit);
+  };
+  add("first loading", damage.misfit_first_loading);
+  add("unloading", damage.misfit_unloading);
+  add("reloading", damage.misfit_reloading);
+  out << "\n";
+}
+
 void print_best(const LargeStrainResult& result, std::ostream& out) {
   const FittedRubber& best = result.best();
   out << "\n  " << name_of(best.law.form) << "\n";
@@ -87,6 +111,7 @@ void print_best(const LargeStrainResult& result, std::ostream& out) {
                        one.interval_95.low, one.interval_95.high);
   }
   print_terms(best, out);
+  if (best.damage) print_damage(*best.damage, out);
   if (best.inflation > 1.0) {
     out << fmt::format(
         "    (variances times {:.3g}: the law leaves a structure in the residuals)\n",

@@ -3,6 +3,7 @@
 #include "io/basics/option_quantity.h"
 #include "io/basics/units.h"
 #include "io/basics/words.h"
+#include "models/hyperelastic/mullins_damage.h"
 #include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 
@@ -12,15 +13,40 @@
 namespace viscard {
 namespace {
 
-std::vector<HyperelasticForm> forms_from(const LargeStrainWords& words) {
-  const auto& model = words.model;
-  if (!model) return hyperelastic_forms();
+// "yeoh", "yeoh+mullins-or" (with damage) or "mullins-or" (every law with it).
+void take_model(const LargeStrainWords& words, LargeStrainOptions& options) {
+  if (!words.model) return;
+  const std::string damage = kMullinsName, behind = "+" + damage;
+  std::string law = *words.model;
+  options.with_damage = law == damage || law.ends_with(behind);
+  if (law == damage) return;
+  if (options.with_damage) law.resize(law.size() - behind.size());
   for (const HyperelasticForm form : hyperelastic_forms()) {
-    if (*model == name_of(form)) return {form};
+    if (law == name_of(form)) {
+      options.forms = {form};
+      return;
+    }
   }
-  throw OptionError("--model " + *model + " is no law of rubber" +
-                    did_you_mean(*model, hyperelastic_names()) + " Use " +
-                    listed(hyperelastic_names()));
+  throw OptionError("--model " + *words.model + " is no law of rubber" +
+                    did_you_mean(law, hyperelastic_names()) + " Use " +
+                    listed(hyperelastic_names()) + "; LAW" + behind +
+                    " adds the damage of the first loading, " + damage + " alone adds it to all");
+}
+
+// Damage is a matter of whole records, and never stands beside terms.
+void check_damage(const LargeStrainRequest& request) {
+  const LargeStrainOptions& options = request.options;
+  if (!options.with_damage) return;
+  if (request.cycle.value_or(0) != 0) {
+    throw OptionError("--cycle " + std::to_string(*request.cycle) + " keeps one loading, and " +
+                      kMullinsName + " needs the whole record; omit one of the two");
+  }
+  if (options.n_terms.value_or(options.max_terms.value_or(0)) > 0) {
+    throw OptionError(std::string("terms of relaxation do not stand beside ") + kMullinsName +
+                      ": solvers let the damage act on different parts of such a law; omit "
+                      "--terms and --max-terms, or " +
+                      kMullinsName);
+  }
 }
 
 StressWeight weight_from(const LargeStrainWords& words) {
@@ -120,7 +146,7 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   }
   request.table = words.table;
   request.size = words.size;
-  request.options.forms = forms_from(words);
+  take_model(words, request.options);
   request.options.weight = weight_from(words);
   try {
     request.plausible = plausible_from_word(words.plausible.value_or("on"), Plausible::kMeasured);
@@ -132,6 +158,7 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   request.options.max_terms = terms_from(words.max_terms, "--max-terms");
   check_both(request.options);
   request.cycle = cycle_from(words);
+  check_damage(request);
   return request;
 }
 

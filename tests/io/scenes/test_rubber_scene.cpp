@@ -61,6 +61,16 @@ std::string relaxing_file(const ScratchFolder& folder) {
   return path.string();
 }
 
+// A file of a law with damage, as viscard fit --model neo-hooke+mullins-or writes it.
+std::string damaged_law_file(const ScratchFolder& folder) {
+  const std::filesystem::path path = folder / "damaged.json";
+  std::ofstream(path) << R"({"schema": "viscard-hyperelastic/1", "law": "neo-hooke", "laws": [
+    {"name": "neo-hooke", "parameters": [{"name": "C10_Pa", "value": 3e5}], "trustworthy": true,
+     "damage": {"name": "mullins-or", "parameters": [{"name": "r", "value": 1.6},
+     {"name": "m_Pa", "value": 1e5}, {"name": "beta", "value": 0}]}, "flags": []}], "tests": []})";
+  return path.string();
+}
+
 double value_of(const SceneAnswer& answer, const std::string& name) {
   for (const SceneResult& result : answer.results) {
     if (result.name == name) return result.value;
@@ -75,6 +85,13 @@ std::string notes_of(const PillarScene& scene) {
 }
 
 }  // namespace
+
+TEST_CASE("a law of rubber with damage is refused by scenes, with the way on", "[io][mullins]") {
+  const ScratchFolder folder;
+  CHECK_THROWS_WITH(pillar_of(scene_with("file = \"" + damaged_law_file(folder) + "\", nu = 0.49")),
+                    Catch::Contains("scenes do not compute") &&
+                        Catch::Contains("viscard fit --model neo-hooke --cycle N"));
+}
 
 TEST_CASE("the terms of a law of rubber relax the pillar", "[io][plan]") {
   const ScratchFolder folder;

@@ -1,5 +1,6 @@
 // Tests of rubber at large strain: viscard fit uniaxial=a.csv planar=b.csv equibiaxial=c.csv.
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/mullins_damage.h"
 #include "tests/io/cli/fit/table_folder.h"
 #include "tests/support/run_command.h"
 
@@ -271,13 +272,79 @@ TEST_CASE("of a record with cycles at large strain one loading is fitted", "[cli
   const auto run = run_command({"fit", word, "--model", "neo-hooke"});
   CHECK(run.status == 0);
   CHECK_THAT(run.out, Contains("the loading of cycle 2 of 2 is fitted; 61 rows left out") &&
-                          Contains("softens by 20 %"));
+                          Contains("softens by 20 %") &&
+                          Contains("fit the softening with --model neo-hooke+mullins-or"));
   const auto first = nlohmann::json::parse(
       run_command({"fit", word, "--model", "neo-hooke", "--cycle", "1", "--json"}).out);
   CHECK(first["laws"][0]["E0_Pa"].get<double>() == Approx(6e5).epsilon(1e-6));
   CHECK(first["tests"][0]["softening"].get<double>() == Approx(0.2));
   CHECK_THAT(run_command({"fit", word, "--cycle", "3"}).err, Contains("has 2 cycles of loading"));
   CHECK(run_command({"fit", word, "--cycle", "0"}).status == 2);
+}
+
+TEST_CASE("a record of cycles gives the damage of its first loading, which goes into a card",
+          "[cli][mullins]") {
+  const TableFolder folder;
+  const HyperelasticLaw law{HyperelasticForm::kNeoHooke, Eigen::VectorXd::Constant(1, 0.3e6), {}};
+  std::vector<double> stretch;
+  for (const double top : {1.4, 1.8}) {
+    for (int i = 0; i <= 80; ++i)
+      stretch.push_back(1.0 + (top - 1.0) * (i <= 40 ? i : 80 - i) / 40);
+  }
+  const auto stress_Pa =
+      nominal_stress_Pa(law, MullinsDamage{1.5, 2e4, 0.2}, Deformation::kUniaxial, stretch);
+  std::ostringstream table;
+  table.precision(12);
+  table << "time_s,stretch,nominal_stress_Pa\n";
+  for (std::size_t i = 0; i < stretch.size(); ++i)
+    table << i << "," << stretch[i] << "," << stress_Pa[i] << "\n";
+  const std::string word = "uniaxial=" + folder.write("cycles.csv", table.str());
+  const std::string made = folder.file("rubber.json"), card = folder.file("rubber.inp");
+  const auto run =
+      run_command({"fit", word, "--model", "neo-hooke+mullins-or", "--out", made, "--json"});
+  REQUIRE(run.status == 0);
+  const auto json = nlohmann::json::parse(run.out);
+  const auto& damage = json["laws"][0]["damage"];
+  const double truth[] = {1.5, 2e4, 0.2};
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(damage["parameters"][k]["value"].get<double>() == Approx(truth[k]).epsilon(1e-4));
+  CHECK(damage["covariance"].size() == 4);
+  CHECK(damage["misfit_reloading"].get<double>() < 1e-6);
+  CHECK_FALSE(damage["one_maximum"].get<bool>());
+  CHECK(json["tests"][0]["cycle"] == 0);
+  CHECK(json["tests"][0]["n_left_out"] == 0);
+  CHECK(json["laws"][0]["terms"].empty());
+  // The file makes a card, the card is checked against it, and comes back as a file.
+  REQUIRE(
+      run_command({"card", made, "--for", "abaqus", "--units", "mm-t-s", "--out", card}).status ==
+      0);
+  CHECK_THAT(text_of_file(card), Contains("*MULLINS EFFECT\n"));
+  CHECK(run_command({"card", made, "--check", card}).status == 0);
+  const std::string back = folder.file("back.json");
+  REQUIRE(run_command({"card", card, "--import", back}).status == 0);
+  CHECK_THAT(text_of_file(back), Contains("mullins-or"));
+  // Other doors say what they cannot do with it.
+  const auto calculix = run_command({"card", made, "--for", "calculix"});
+  CHECK(calculix.status != 0);
+  CHECK_THAT(calculix.err, Contains("calculix cannot take the damage mullins-or"));
+  // All laws with it; text.
+  const auto all = run_command({"fit", word, "--model", "mullins-or"});
+  CHECK(all.status == 0);
+  CHECK_THAT(all.out, Contains("neo-hooke+mullins-or") && Contains("damage by the first loading") &&
+                          Contains("reloading"));
+  const auto refused = [&](std::vector<std::string> more, const std::string& reason) {
+    more.insert(more.begin(), {"fit", word});
+    const auto wrong = run_command(more);
+    CHECK(wrong.status == 2);
+    CHECK_THAT(wrong.err, Contains(reason));
+  };
+  refused({"--model", "neo-hooke+mullins-or", "--cycle", "1"}, "needs the whole record");
+  refused({"--model", "yeoh+mullins-or", "--terms", "2"}, "do not stand beside mullins-or");
+  refused({"--model", "yeo+mullins-or"}, "did you mean 'yeoh'");
+  const auto virgin =
+      run_command({"fit", "uniaxial=" + treloar("uniaxial"), "--model", "yeoh+mullins-or"});
+  CHECK(virgin.status == 1);
+  CHECK_THAT(virgin.err, Contains("leave mullins-or out of --model"));
 }
 
 TEST_CASE("a damaged file of a rubber is refused with its name and what is wrong", "[cli]") {
