@@ -2,7 +2,9 @@
 
 #include "fit/large_strain/damage_checks.h"
 #include "fit/large_strain/damage_search.h"
+#include "fit/large_strain/foam_fit.h"
 #include "fit/large_strain/hyperelastic_search.h"
+#include "fit/large_strain/inverse_normal.h"
 #include "fit/large_strain/rubber_band.h"
 #include "fit/large_strain/rubber_bounds.h"
 #include "fit/large_strain/rubber_checks.h"
@@ -12,7 +14,6 @@
 #include "fit/large_strain/series_choice.h"
 #include "fit/large_strain/series_refine.h"
 #include "fit/samples/noise_model.h"
-#include "models/maths/dense.h"
 #include "models/maths/distributions.h"
 #include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
@@ -38,54 +39,6 @@ double inflation_of(const std::vector<LargeStrainTest>& tests, const VectorXd& r
     first += count;
   }
   return largest;
-}
-
-// Inverse of J^T J over the free parameters, zero elsewhere.
-Eigen::MatrixXd inverse_normal(const Eigen::MatrixXd& slopes, const std::vector<Index>& free,
-                               UnseenDirections& unseen) {
-  Eigen::MatrixXd used(slopes.rows(), static_cast<Index>(free.size()));
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    used.col(static_cast<Index>(i)) = slopes.col(free[i]);
-  }
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(slopes.cols(), slopes.cols());
-  if (free.empty()) return all;
-  const VectorXd length = used.colwise().norm().cwiseMax(1e-300);
-  const Eigen::MatrixXd pseudo = pseudo_inverse(used * length.cwiseInverse().asDiagonal());
-  const Eigen::MatrixXd inverse = pseudo * pseudo.transpose();
-  const Eigen::MatrixXd seen = pseudo * used * length.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(seen.rows(), seen.cols()) - seen;
-  constexpr double kRounding = 1e-4;  // a direction that is not seen has the length 1
-  if (rest.norm() > kRounding) {
-    unseen.columns = Eigen::MatrixXd::Zero(slopes.cols(), rest.cols());
-    unseen.step = VectorXd::Zero(slopes.cols());
-    for (std::size_t i = 0; i < free.size(); ++i) {
-      const auto a = static_cast<Index>(i);
-      unseen.step[free[i]] = 1.0 / length[a];
-      unseen.columns.row(free[i]) = rest.row(a) / length[a];
-    }
-  }
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    for (std::size_t j = 0; j < free.size(); ++j) {
-      const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
-      all(free[i], free[j]) = inverse(a, b) / (length[a] * length[b]);
-    }
-  }
-  return all;
-}
-
-// Sum of squared residuals and stresses, in Pa^2.
-void add_residuals(const std::vector<LargeStrainTest>& tests, FittedRubber& fitted) {
-  double of_stress = 0.0;
-  for (const LargeStrainTest& test : tests) {
-    const std::vector<double> stress_Pa = stresses_Pa(fitted, test);
-    for (std::size_t i = 0; i < test.stretch.size(); ++i) {
-      const double measured = test.nominal_stress_Pa[i];
-      const double left = measured - stress_Pa[i];
-      fitted.rss += left * left;
-      of_stress += measured * measured;
-    }
-  }
-  fitted.rms_relative = std::sqrt(fitted.rss / of_stress);
 }
 
 // Weighted residuals of the readings, without the row of a known modulus.
@@ -276,24 +229,12 @@ double inflation_of_others(const LargeStrainRows& rows, const std::vector<LargeS
   return least;
 }
 
-std::size_t choice(const std::vector<FittedRubber>& laws) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < laws.size(); ++i) {
-    const bool is_better = laws[i].bic < laws[best].bic;
-    if (laws[i].is_trustworthy != laws[best].is_trustworthy) {
-      if (laws[i].is_trustworthy) best = i;
-    } else if (is_better) {
-      best = i;
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
 LargeStrainResult fit_large_strain(const std::vector<LargeStrainTest>& tests,
                                    const LargeStrainOptions& options) {
   check_large_strain(tests, options);
+  if (!options.foam_terms.empty()) return fit_foam(tests, options);
   LargeStrainResult result;
   std::vector<MaterialFlag> notes;
   const int most_terms = options.with_damage ? 0 : most_terms_of(tests, options, notes);
@@ -309,7 +250,7 @@ LargeStrainResult fit_large_strain(const std::vector<LargeStrainTest>& tests,
   const double least_inflation = is_elastic ? inflation_of_others(rows, tests, options)
                                             : std::numeric_limits<double>::infinity();
   add_criteria(tests, least_inflation, result.laws);
-  result.chosen = choice(result.laws);
+  result.chosen = best_law(result.laws);
   result.tests = summaries_of(tests, result.best());
   result.notes = notes_of(tests);
   result.notes.insert(result.notes.end(), notes.begin(), notes.end());

@@ -2,6 +2,7 @@
 
 #include "fit/intervals/fitted_law.h"
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/law_stability.h"
 #include "models/hyperelastic/mullins_damage.h"
 #include "models/material/material.h"
@@ -56,6 +57,13 @@ struct FittedDamage {
   std::optional<double> misfit_first_loading, misfit_unloading, misfit_reloading;
 };
 
+// A foam, which stands in the place of a law of rubber.
+struct FittedFoam {
+  FoamLaw law;
+  bool has_one_nu = true;  // of all terms: one of each is no better by BIC
+  bool nu_is_given = false;
+};
+
 // One law fitted to all tests. With terms it is the instantaneous law, of which 1 - sum g is left after
 // all relaxation.
 struct FittedRubber {
@@ -68,6 +76,7 @@ struct FittedRubber {
   // Of the parameters, the g and the ln tau, in that order; empty without terms.
   Eigen::MatrixXd series_covariance;
   std::optional<FittedDamage> damage;        // softening by the first loading; never beside terms
+  std::optional<FittedFoam> foam;            // then `law` means nothing
   UnseenDirections unseen;                   // quantities along them have infinite intervals
   double E_inf_Pa = 0.0, E_inf_se_Pa = 0.0;  // Young's modulus at rest after all relaxation
   Interval E_inf_interval_95;
@@ -89,10 +98,16 @@ inline std::vector<RubberTerm> relaxation_of(const FittedRubber& fitted) {
   return terms;
 }
 
+// Name of a fitted law, "yeoh" or "hyperfoam-2".
+inline std::string name_of(const FittedRubber& fitted) {
+  return fitted.foam ? foam_name(fitted.foam->law.mu_Pa.size()) : name_of(fitted.law.form);
+}
+
 // What one test shows of the chosen law.
 struct RubberTestSummary {
   std::string name;
   Deformation deformation = Deformation::kUniaxial;
+  std::string kind;  // name of the deformation, or of the test of a foam
   std::size_t n_readings = 0;
   double least_stretch = 1.0, largest_stretch = 1.0;
   double rms_Pa = 0.0;  // of its residuals

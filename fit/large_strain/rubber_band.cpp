@@ -17,6 +17,12 @@ double nominal_stress_se_Pa(const FittedRubber& fitted, Deformation deformation,
 
 std::vector<double> stresses_Pa(const FittedRubber& fitted, const LargeStrainTest& test) {
   std::vector<double> stress_Pa;
+  if (fitted.foam) {
+    for (const double measured : test.stretch) {
+      stress_Pa.push_back(foam_state(fitted.foam->law, test.foam_test, measured).nominal_stress_Pa);
+    }
+    return stress_Pa;
+  }
   if (fitted.damage) {
     return nominal_stress_Pa(fitted.law, fitted.damage->constants, test.deformation, test.stretch);
   }

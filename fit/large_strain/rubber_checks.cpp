@@ -20,7 +20,8 @@ std::string percent(double share) {
 
 void check_reading(const LargeStrainTest& test, std::size_t i) {
   const double stretch = test.stretch[i];
-  if (std::isfinite(stretch) && stretch > 0.0 && std::isfinite(test.nominal_stress_Pa[i])) return;
+  const bool is_possible = stretch > 0.0 || test.foam_test == FoamTest::kShear;
+  if (std::isfinite(stretch) && is_possible && std::isfinite(test.nominal_stress_Pa[i])) return;
   throw std::runtime_error("reading " + std::to_string(i + 1) + " of the " + test.name +
                            " test has the stretch " + text_of(stretch) + " and the stress " +
                            text_of(test.nominal_stress_Pa[i]) +
@@ -30,8 +31,9 @@ void check_reading(const LargeStrainTest& test, std::size_t i) {
 // A stress that has the sign of the strain in most readings.
 void check_signs(const LargeStrainTest& test) {
   double work = 0.0;
+  const double rest = test.foam_test == FoamTest::kShear ? 0.0 : 1.0;
   for (std::size_t i = 0; i < test.stretch.size(); ++i) {
-    work += test.nominal_stress_Pa[i] * (test.stretch[i] - 1.0);
+    work += test.nominal_stress_Pa[i] * (test.stretch[i] - rest);
   }
   if (work > 0.0) return;
   const auto is_zero = [](double stress_Pa) { return stress_Pa == 0.0; };
@@ -69,7 +71,9 @@ void check_test(const LargeStrainTest& test) {
 
 bool is_stable_in_tests(const std::vector<LargeStrainTest>& tests, const FittedRubber& fitted) {
   return std::all_of(tests.begin(), tests.end(), [&](const LargeStrainTest& test) {
-    const StableRange& range = fitted.stable[static_cast<std::size_t>(test.deformation)];
+    const StableRange range = fitted.foam
+                                  ? stable_range(fitted.foam->law, test.foam_test)
+                                  : fitted.stable[static_cast<std::size_t>(test.deformation)];
     const auto [low, high] = std::minmax_element(test.stretch.begin(), test.stretch.end());
     return range.contains(*low) && range.contains(*high);
   });
@@ -173,7 +177,12 @@ std::vector<RubberTestSummary> summaries_of(const std::vector<LargeStrainTest>& 
   for (const LargeStrainTest& test : tests) {
     const std::vector<double> stress_Pa = stresses_Pa(fitted, test);
     const auto [low, high] = std::minmax_element(test.stretch.begin(), test.stretch.end());
-    RubberTestSummary one{test.name, test.deformation, test.stretch.size(), *low, *high};
+    RubberTestSummary one{test.name,
+                          test.deformation,
+                          fitted.foam ? name_of(test.foam_test) : name_of(test.deformation),
+                          test.stretch.size(),
+                          *low,
+                          *high};
     double sum = 0.0;
     for (std::size_t i = 0; i < test.stretch.size(); ++i) {
       const double left = test.nominal_stress_Pa[i] - stress_Pa[i];
@@ -183,6 +192,33 @@ std::vector<RubberTestSummary> summaries_of(const std::vector<LargeStrainTest>& 
     out.push_back(one);
   }
   return out;
+}
+
+void add_residuals(const std::vector<LargeStrainTest>& tests, FittedRubber& fitted) {
+  double of_stress = 0.0;
+  for (const LargeStrainTest& test : tests) {
+    const std::vector<double> stress_Pa = stresses_Pa(fitted, test);
+    for (std::size_t i = 0; i < test.stretch.size(); ++i) {
+      const double measured = test.nominal_stress_Pa[i];
+      const double left = measured - stress_Pa[i];
+      fitted.rss += left * left;
+      of_stress += measured * measured;
+    }
+  }
+  fitted.rms_relative = std::sqrt(fitted.rss / of_stress);
+}
+
+std::size_t best_law(const std::vector<FittedRubber>& laws) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < laws.size(); ++i) {
+    const bool is_better = laws[i].bic < laws[best].bic;
+    if (laws[i].is_trustworthy != laws[best].is_trustworthy) {
+      if (laws[i].is_trustworthy) best = i;
+    } else if (is_better) {
+      best = i;
+    }
+  }
+  return best;
 }
 
 std::vector<MaterialFlag> notes_of(const std::vector<LargeStrainTest>& tests) {
