@@ -193,6 +193,11 @@ FittedRubber fit_foam_terms(Index n_terms, const FoamRows& rows,
                             const std::vector<LargeStrainTest>& tests,
                             const LargeStrainOptions& options) {
   FoamPoint point = best_with_nu(best_foam(n_terms, rows, options.poisson_ratio), rows);
+  if (!std::isfinite(point.rss)) {
+    throw std::runtime_error("no " + foam_name(n_terms) +
+                             " with positive moduli comes near the tests; see that stresses and "
+                             "strains have the same sign, and that strains are not in per cent");
+  }
   sort_terms(point.law);
   FittedRubber fitted;
   fitted.foam = FittedFoam{point.law, point.has_one_nu, !point.fits_nu};

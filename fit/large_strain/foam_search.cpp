@@ -92,7 +92,7 @@ FoamPoint refined_foam(const FoamRows& rows, const FoamPoint& start) {
     if (k >= n) problem.SetParameterUpperBound(theta.data(), at, k < 2 * n ? kMostAlpha : kMostNu);
   }
   const SearchSummary summary =
-      solve_dense(problem, {.max_iterations = 200, .function_tolerance = 1e-13});
+      solve_dense(problem, {.max_iterations = 100, .function_tolerance = 1e-12});
   FoamPoint point = start;
   point.law = law_of_theta(start, theta, scale_Pa);
   point.rss = (rows.model(point.law) - rows.data()).squaredNorm();
@@ -179,8 +179,8 @@ Index FoamPoint::size() const {
 }
 
 FoamPoint best_foam(Index n_terms, const FoamRows& rows, std::optional<double> nu) {
-  constexpr std::size_t kFew = 200, kStarts = 5, kFinal = 2;
-  const FoamRows few = rows.thinned(kFew);
+  constexpr std::size_t kStarts = 5;
+  const FoamRows few = rows.thinned(kSearchedReadings);
   FoamPoint shape;
   shape.fits_nu = !nu;
   std::vector<FoamPoint> points;
@@ -189,20 +189,19 @@ FoamPoint best_foam(Index n_terms, const FoamRows& rows, std::optional<double> n
   } else {
     for (const double ratio : kRatios) add_foam_starts(n_terms, few, shape, ratio, points);
   }
-  std::vector<FoamPoint> refined;
-  for (const FoamPoint& start : best_few(std::move(points), kStarts))
-    refined.push_back(refined_foam(few, start));
   FoamPoint best;
   best.law = {VectorXd::Zero(n_terms), VectorXd::Ones(n_terms), VectorXd::Zero(n_terms)};
   best.fits_nu = shape.fits_nu;
-  for (const FoamPoint& start : best_few(std::move(refined), kFinal)) {
-    FoamPoint point = refined_foam(rows, start);
+  for (const FoamPoint& start : best_few(std::move(points), kStarts)) {
+    FoamPoint point = refined_foam(few, start);
     if (point.rss < best.rss) best = std::move(point);
   }
-  return best;
+  const bool is_all = few.data().size() == rows.data().size();
+  return is_all || !best.is_converged ? best : refined_foam(rows, best);
 }
 
 FoamPoint with_own_nu(const FoamRows& rows, const FoamPoint& start) {
+  const FoamRows few = rows.thinned(kSearchedReadings);
   FoamPoint best;
   // Apart from each other in both directions, because terms may not part from one nu by themselves.
   for (const double apart : {0.05, -0.05}) {
@@ -210,10 +209,11 @@ FoamPoint with_own_nu(const FoamRows& rows, const FoamPoint& start) {
     point.has_one_nu = false;
     for (Index i = 0; i < point.law.nu.size(); ++i)
       point.law.nu[i] = std::clamp(point.law.nu[i] + (i == 0 ? apart : -apart), kLeastNu, kMostNu);
-    point = refined_foam(rows, point);
+    point = refined_foam(few, point);
     if (point.rss < best.rss) best = std::move(point);
   }
-  return best;
+  const bool is_all = few.data().size() == rows.data().size();
+  return is_all || !best.is_converged ? best : refined_foam(rows, best);
 }
 
 Eigen::MatrixXd foam_jacobian(const FoamRows& rows, const FoamPoint& point) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 
@@ -30,6 +31,8 @@ inline constexpr double kMostAlpha = 40.0, kLeastNu = -0.45, kMostNu = 0.495;
 FoamPoint best_foam(Eigen::Index n_terms, const FoamRows& rows, std::optional<double> nu);
 // From such a law one with a nu of each term.
 FoamPoint with_own_nu(const FoamRows& rows, const FoamPoint& start);
+// Both search on at most this number of readings, and refine the best law on all of them.
+inline constexpr std::size_t kSearchedReadings = 300;
 
 // Derivative of the rows' model by mu (Pa), alpha and nu.
 Eigen::MatrixXd foam_jacobian(const FoamRows& rows, const FoamPoint& point);

@@ -82,11 +82,13 @@ bool is_stable_in_tests(const std::vector<LargeStrainTest>& tests, const FittedR
 // "uniaxial 0.31 to 6.2; equibiaxial up to 2.2"; empty if the law is stable everywhere.
 std::string text_of_ends(const FittedRubber& fitted) {
   std::string text;
-  for (std::size_t d = 0; d < fitted.stable.size(); ++d) {
-    const StableRange& range = fitted.stable[d];
+  const auto& names = fitted.foam ? foam_test_names() : deformation_names();
+  for (std::size_t d = 0; d < names.size(); ++d) {
+    const StableRange range =
+        fitted.foam ? stable_range(fitted.foam->law, static_cast<FoamTest>(d)) : fitted.stable[d];
     if (range.low_is_open && range.high_is_open) continue;
     text += text.empty() ? "" : "; ";
-    text += deformation_names()[d];
+    text += names[d];
     if (!range.low_is_open) text += " from " + text_of(range.low, 3);
     if (!range.high_is_open) text += " up to " + text_of(range.high, 3);
   }

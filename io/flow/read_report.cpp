@@ -20,19 +20,19 @@ namespace fs = std::filesystem;
 // A law of rubber as the page shows it.
 RubberReport rubber_report(const std::string& path) {
   const HyperelasticFile file = read_hyperelastic(path);
-  RubberReport out{
-      fs::path(path).filename().string(),
-      name_of(file.law.form) + (file.damage ? std::string("+") + kMullinsName : std::string()),
-      file.E0_Pa,
-      file.E_inf_Pa,
-      file.E0_interval_95,
-      file.E_inf_interval_95,
-      {},
-      file.t_min_s,
-      file.t_max_s,
-      "",
-      file.is_trustworthy};
+  RubberReport out{fs::path(path).filename().string(),
+                   name_of(file) + (file.damage ? std::string("+") + kMullinsName : std::string()),
+                   file.E0_Pa,
+                   file.E_inf_Pa,
+                   file.E0_interval_95,
+                   file.E_inf_interval_95,
+                   {},
+                   file.t_min_s,
+                   file.t_max_s,
+                   "",
+                   file.is_trustworthy};
   for (const RubberTerm& term : file.terms) out.terms.push_back({term.g, 0.0, term.tau_s});
+  out.stretches = file.foam_tests;
   for (std::size_t d = 0; d < file.measured.size(); ++d) {
     if (!file.measured[d]) continue;
     out.stretches += (out.stretches.empty() ? "" : ", ") + deformation_names()[d] + " " +

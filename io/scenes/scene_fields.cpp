@@ -183,6 +183,11 @@ std::optional<HyperelasticFile> pillar_rubber(const SceneFile& file, const std::
                                           "' is not to be trusted" + why +
                                           "; fit another law, or more tests");
   }
+  if (rubber.foam) {
+    throw SceneMistake(key + ".file", "'" + raw.file +
+                                          "' holds a foam, which scenes do not compute; give E and "
+                                          "nu, or a law of rubber");
+  }
   if (rubber.damage) {
     throw SceneMistake(key + ".file",
                        "the law of rubber in '" + raw.file + "' softens by its first loading (" +

@@ -228,9 +228,10 @@ bool is_stable(const FoamLaw& law, const Vector3d& log_strain) {
 StableRange stable_range(const FoamLaw& law, FoamTest test) {
   constexpr double kLeast = 0.1, kMost = 10.0;
   StableRange range;
-  const bool is_shear = test == FoamTest::kShear;
-  range.low = is_shear ? 0.0 : stable_end(law, test, kLeast, range.low_is_open);
   range.high = stable_end(law, test, kMost, range.high_is_open);
+  if (test == FoamTest::kShear)
+    return {-range.high, range.high, range.high_is_open, range.high_is_open};
+  range.low = stable_end(law, test, kLeast, range.low_is_open);
   return range;
 }
 

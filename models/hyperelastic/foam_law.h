@@ -23,7 +23,8 @@ struct FoamLaw {
 };
 inline constexpr Eigen::Index kMostFoamTerms = 3;
 
-// "hyperfoam-1" to "hyperfoam-3".
+// The family, and "hyperfoam-1" to "hyperfoam-3".
+inline constexpr const char* kFoamName = "hyperfoam";
 std::string foam_name(Eigen::Index n_terms);
 // Number of terms of such a name; nothing for another.
 std::optional<Eigen::Index> foam_terms_of(const std::string& name);
@@ -71,7 +72,7 @@ FoamState foam_state(const FoamLaw& law, FoamTest test, double measured);
 // the Kirchhoff stresses (Hill's form of Drucker's postulate).
 bool is_stable(const FoamLaw& law, const Eigen::Vector3d& log_strain);
 // Range of the measured quantity about rest in which a test is stable, up to stretches of 0.1 to 10, of shear
-// from 0 to a tangent of 10.
+// to tangents of -10 and 10.
 StableRange stable_range(const FoamLaw& law, FoamTest test);
 
 }  // namespace viscard

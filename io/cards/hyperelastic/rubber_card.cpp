@@ -103,6 +103,38 @@ HyperelasticLaw law_without_terms(const HyperelasticLaw& law, const std::vector<
   return out;
 }
 
+std::string foam_card(const FoamLaw& law, const RubberCardOptions& options) {
+  validate(law);
+  const RubberTarget& target = rubber_target(options.target);
+  if (target.laws.foam.empty()) {
+    std::string takers;
+    for (const RubberTarget& other : rubber_targets()) {
+      if (!other.laws.foam.empty()) takers += (takers.empty() ? "" : ", ") + other.name;
+    }
+    throw std::invalid_argument(
+        "viscard writes no card of a foam (" + foam_name(law.mu_Pa.size()) + ") for " +
+        target.name +
+        ": no public text states that it has this law with these constants. "
+        "Write the card for " +
+        takers);
+  }
+  require(!options.bulk_Pa, "the bulk modulus of a foam follows from its constants; omit it");
+  const UnitSystem& units = unit_system(options.units);
+  RubberNumbers numbers;
+  numbers.units = &units;
+  for (Eigen::Index i = 0; i < law.mu_Pa.size(); ++i)
+    numbers.foam.push_back({to_card(law.mu_Pa[i], units.stress_exponent), law.alpha[i], law.nu[i]});
+  numbers.shear = to_card(shear_modulus_Pa(law), units.stress_exponent);
+  numbers.bulk = to_card(bulk_modulus_Pa(law), units.stress_exponent);
+  if (options.density_kg_m3) {
+    require_positive("the density", *options.density_kg_m3, "kg/m3");
+    numbers.density = to_card(*options.density_kg_m3, units.density_exponent);
+  }
+  require(!target.needs_density || numbers.density > 0.0,
+          target.name + " needs a density: --density \"30 kg/m3\"");
+  return target.write(numbers, options.material_name);
+}
+
 std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& options) {
   return rubber_card(law, {}, options);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 #include "models/hyperelastic/mullins_damage.h"
 #include "models/quantities/plausible.h"
@@ -47,6 +48,10 @@ std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& opt
 std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
                         const RubberCardOptions& options,
                         const std::optional<MullinsDamage>& damage = {});
+
+// The card of a foam: its volume is a part of the law, so that it takes no bulk modulus. Throws
+// std::invalid_argument for a target without foams, unequal nu for lsdyna, and a missing density.
+std::string foam_card(const FoamLaw& law, const RubberCardOptions& options);
 
 // The law without terms: at once, or after all relaxation ("long-term").
 HyperelasticLaw law_without_terms(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,

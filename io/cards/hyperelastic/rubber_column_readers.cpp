@@ -71,6 +71,20 @@ void read_law62(const Lines& lines, RubberText& out) {
   out.has_poisson = true;  // 0 is compressible: K = 2 G/3 (hm_read_mat62.F)
   std::size_t at = 4;
   const auto mu = list_at(lines, at, n), alpha = list_at(lines, at, n);
+  const auto has_row = [&](std::size_t i) {
+    return i < lines.size() && !trimmed(lines[i].text).empty() && lines[i].text[0] != '/';
+  };
+  // A row of nu_i without terms: a foam; if all of them are 0, the nu of the first line holds.
+  if (m == 0 && has_row(at)) {
+    auto nu = list_at(lines, at, n);
+    const bool is_zero = std::all_of(nu.begin(), nu.end(), [](double one) { return one == 0.0; });
+    if (is_zero) nu.assign(n, out.poisson);
+    take_foam_terms(mu, alpha, nu, out.numbers);
+    out.has_poisson = false;
+    if (!is_zero) out.also_read += std::to_string(out.poisson);
+    out.poisson = 0.0;
+    return;
+  }
   take_ogden(mu, alpha, out.numbers);
   const auto gamma = list_at(lines, at, m), tau = list_at(lines, at, m);
   for (std::size_t i = 0; i < m; ++i) out.numbers.terms.push_back({gamma[i], tau[i]});
@@ -129,8 +143,49 @@ void read_radioss_damage(const Lines& all, const CardLine& law, RubberText& out)
 
 }  // namespace
 
+namespace {
+
+// *MAT_HILL_FOAM (177): MID RO K N MU LCID FITTYPE LCSR / C1 to C8 / B1 to B8 / R M.
+RubberText read_hill_foam(const Lines& all, const Lines& lines) {
+  const std::size_t width = dyna_width(all, lines[0]);
+  std::size_t at = upper(lines[0].text).find("_TITLE") != std::string::npos ? 2 : 1;
+  RubberText out;
+  if (at < lines.size()) {
+    const auto fields = columns(lines[at].text, width);
+    out.findings = material_number_findings(fields.empty() ? "" : fields[0], lines[at]);
+  }
+  const auto head = row_at(lines, at++, width);
+  out.numbers.density = at_or_zero(head, 1);
+  out.numbers.bulk = at_or_zero(head, 2);
+  const double beta = at_or_zero(head, 3), nu = beta / (1.0 + 2.0 * beta);
+  out.also_read = std::to_string(at_or_zero(head, 4));  // damping
+  if (at_or_zero(head, 5) != 0.0)
+    throw std::runtime_error("LCID is not 0: LS-DYNA fits the constants, and the card has none");
+  const auto factors = row_at(lines, at++, width), exponents = row_at(lines, at++, width);
+  std::vector<double> mu, alpha;
+  for (std::size_t i = 0; i < factors.size() && i < exponents.size(); ++i) {
+    if (factors[i] == 0.0 || exponents[i] == 0.0) break;
+    mu.push_back(factors[i] * exponents[i] / 2.0);
+    alpha.push_back(exponents[i]);
+  }
+  take_foam_terms(mu, alpha, std::vector<double>(mu.size(), nu), out.numbers);
+  const auto last = at < lines.size() ? row_at(lines, at, width) : std::vector<double>{};
+  if (at_or_zero(last, 0) == 0.0) return out;
+  out.findings.push_back(
+      {"other-law", at_line(lines[at], "R is not 0: a foam with damage, which is not read"), true});
+  return out;
+}
+
+}  // namespace
+
 RubberText read_lsdyna_rubber(const std::string& text) {
   const Lines all = card_lines(text, "$");
+  const auto is_foam = [](const CardLine& line) {
+    const std::string word = upper(line.text);
+    return word.rfind("*MAT_HILL_FOAM", 0) == 0 || word.rfind("*MAT_177", 0) == 0;
+  };
+  if (const auto found = std::find_if(all.begin(), all.end(), is_foam); found != all.end())
+    return read_hill_foam(all, {found, all.end()});
   const Lines lines =
       lines_from(all, {"*MAT_OGDEN_RUBBER", "*MAT_077_O", "*MAT_HYPERELASTIC_RUBBER", "*MAT_077_H"},
                  "*MAT_OGDEN_RUBBER or *MAT_HYPERELASTIC_RUBBER");

@@ -50,6 +50,7 @@ std::string rows_of_eight(const Numbers& numbers) {
 
 std::string keyword_rubber(const RubberNumbers& law, bool is_calculix,
                            const std::string& material) {
+  if (!law.foam.empty()) return keyword_foam(law, is_calculix, material);
   // calculix takes a smaller D for a missing one.
   constexpr double kLeast = 1e-10;
   require(!is_calculix || law.d() >= kLeast,

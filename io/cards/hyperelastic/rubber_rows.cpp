@@ -136,6 +136,7 @@ std::string frontistr_rubber(const RubberNumbers& law, const std::string& materi
 }
 
 std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& material) {
+  if (!at_once.foam.empty()) return lsdyna_foam(at_once, material);
   const RubberNumbers law = relaxed(at_once);
   const bool ogden = is_ogden(law.form);
   ShortRows rows;
@@ -166,6 +167,7 @@ std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& mater
 }
 
 std::string openradioss_rubber(const RubberNumbers& law, const std::string& material) {
+  if (!law.foam.empty()) return openradioss_foam(law, material);
   const bool is_yeoh = law.form == Law::kYeoh, is_boyce = law.form == Law::kArrudaBoyce;
   std::string text = radioss_unit_block(law) +
                      fmt::format("/MAT/LAW{}/1/1\n{}\n",

@@ -15,9 +15,13 @@ constexpr const char* kArrudaVolume = "; of Arruda-Boyce ((J^2 - 1)/2 - ln J)";
 const std::string kOwnMu = "Ogden's own 2 mu_i/alpha_i, alpha_i";
 
 RubberLaws keyword_laws() {
-  return {"NEO HOOKE: C10",        "MOONEY-RIVLIN: C10, C01",
-          "YEOH: C10, C20, C30",   "OGDEN: mu_i, alpha_i of sum 2 mu_i/alpha_i^2 (...)",
-          "ARRUDA-BOYCE: mu, s_m", ""};
+  return {"NEO HOOKE: C10",
+          "MOONEY-RIVLIN: C10, C01",
+          "YEOH: C10, C20, C30",
+          "OGDEN: mu_i, alpha_i of sum 2 mu_i/alpha_i^2 (...)",
+          "ARRUDA-BOYCE: mu, s_m",
+          "",
+          "HYPERFOAM: mu_i, alpha_i, nu_i of sum 2 mu_i/alpha_i^2 (...)"};
 }
 
 std::vector<RubberTarget> table() {
@@ -100,8 +104,8 @@ std::vector<RubberTarget> table() {
        .comment = "$",
        .write = lsdyna_rubber,
        .read = read_lsdyna_rubber,
-       .laws = {"077_H: C10", "077_H: C10, C01", "077_H: C10, C20, C30", "077_O: " + kOwnMu, "",
-                ""},
+       .laws = {"077_H: C10", "077_H: C10, C01", "077_H: C10, C20, C30", "077_O: " + kOwnMu, "", "",
+                "HILL_FOAM: C_i = 2 mu_i/alpha_i, B_i = alpha_i, N = nu/(1 - 2 nu)"},
        .volume = "by Poisson's ratio of K and the law's shear modulus at rest",
        .needs_density = true,
        .takes_terms = true,
@@ -144,7 +148,8 @@ std::vector<RubberTarget> table() {
        .read = read_openradioss_rubber,
        .laws = {"as Ogden: mu = 2 C10, alpha = 2", "as Ogden: mu = 2 C10, 2 C01, alpha = 2, -2",
                 "LAW94: C10, C20, C30", "LAW82 (with terms LAW62): mu_i, alpha_i",
-                "LAW92: mu, lambda_m = s_m", ""},
+                "LAW92: mu, lambda_m = s_m", "",
+                "LAW62: mu_i, alpha_i, nu_i of sum 2 mu_i/alpha_i^2 (...)"},
        .volume = "by D_1 = 2/K (LAW62: by Poisson's ratio)",
        .needs_density = true,
        .takes_terms = true,

@@ -12,6 +12,7 @@ namespace viscard {
 // "": it is refused.
 struct RubberLaws {
   std::string neo_hooke, mooney_rivlin, yeoh, ogden, arruda_boyce, gent;
+  std::string foam = "";
 
   const std::string& of(HyperelasticForm form) const;
 };

@@ -27,7 +27,7 @@ void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const Card
   v("target", words.target, "solver of the card");
   v("units", words.units.empty() ? "SI" : words.units, "unit system");
   v("out", words.out, "the card; empty: stdout");
-  v("law", name_of(file.law.form), "name of the law");
+  v("law", name_of(file), "name of the law");
   v("E0_Pa", file.E0_Pa, "Young's modulus at rest, at once");
   v("E_inf_Pa", file.E_inf_Pa, "Young's modulus at rest after all relaxation; E0_Pa without terms");
   v("terms", words.elastic_only.empty() ? file.terms.size() : 0,

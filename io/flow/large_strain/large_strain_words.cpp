@@ -18,6 +18,9 @@ void take_model(const LargeStrainWords& words, LargeStrainOptions& options) {
   if (!words.model) return;
   const std::string damage = kMullinsName, behind = "+" + damage;
   std::string law = *words.model;
+  if (law == kFoamName) options.foam_terms = {1, 2, 3};
+  if (const auto n_terms = foam_terms_of(law)) options.foam_terms = {*n_terms};
+  if (!options.foam_terms.empty()) return;
   options.with_damage = law == damage || law.ends_with(behind);
   if (law == damage) return;
   if (options.with_damage) law.resize(law.size() - behind.size());
@@ -27,10 +30,41 @@ void take_model(const LargeStrainWords& words, LargeStrainOptions& options) {
       return;
     }
   }
-  throw OptionError("--model " + *words.model + " is no law of rubber" +
-                    did_you_mean(law, hyperelastic_names()) + " Use " +
-                    listed(hyperelastic_names()) + "; LAW" + behind +
-                    " adds the damage of the first loading, " + damage + " alone adds it to all");
+  throw OptionError(
+      "--model " + *words.model + " is no law of rubber" + did_you_mean(law, hyperelastic_names()) +
+      " Use " + listed(hyperelastic_names()) + "; LAW" + behind +
+      " adds the damage of the first loading, " + damage + " alone adds it to all; " + kFoamName +
+      " and " + foam_name(1) + " to " + foam_name(kMostFoamTerms) + " are foams");
+}
+
+// What belongs to foams alone, and what does not belong to them.
+void check_foam(const LargeStrainWords& words, const LargeStrainRequest& request) {
+  if (request.options.foam_terms.empty()) {
+    if (words.poisson_ratio) {
+      throw OptionError(
+          "--poisson-ratio is for foams at large strain; rubber keeps its volume. Omit it, or add "
+          "--model hyperfoam");
+    }
+    for (const LargeStrainFile& file : request.files) {
+      if (!file.is_foam_only) continue;
+      throw OptionError(name_of(file.foam_test) + "=" + file.path +
+                        " is a test of a foam, whose volume changes; add --model hyperfoam");
+    }
+    return;
+  }
+  const auto refuse = [](bool is_given, const char* option, const char* why) {
+    if (!is_given) return;
+    throw OptionError(std::string(option) + " does not belong to foams: " + why + "; omit it");
+  };
+  refuse(words.terms.value_or(0) > 0 || words.max_terms.value_or(0) > 0, "--terms",
+         "they have no relaxation here");
+  refuse(words.youngs_modulus.has_value(), "--youngs-modulus", "it follows from all constants");
+  refuse(request.options.weight == StressWeight::kRelative, "--weight relative",
+         "stresses count by the largest one of their test");
+  if (!words.poisson_ratio) return;
+  if (*words.poisson_ratio > -0.45 && *words.poisson_ratio < 0.495) return;
+  throw OptionError("--poisson-ratio " + text_of(*words.poisson_ratio) +
+                    " of a foam must be between -0.45 and 0.495");
 }
 
 // Damage is a matter of whole records, and never stands beside terms.
@@ -132,6 +166,7 @@ LargeStrainWords with_shared_options(LargeStrainWords words, const FitWords& fit
   words.column = fit.column;
   words.terms = fit.terms;
   words.max_terms = fit.max_terms;
+  words.poisson_ratio = fit.poisson_ratio;
   return words;
 }
 
@@ -159,6 +194,8 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   check_both(request.options);
   request.cycle = cycle_from(words);
   check_damage(request);
+  check_foam(words, request);
+  request.options.poisson_ratio = words.poisson_ratio;
   return request;
 }
 

@@ -173,6 +173,7 @@ class RubberFit(Compared):
         stretch : array
             Length over length at rest, above 0; NaN beyond the limit of a law that has one.
         deformation : "uniaxial", "planar" or "equibiaxial"
+            Of a foam also "confined", "volumetric" and "shear" (then `stretch` is the tangent of the angle).
         time_s : array
             Of the shape of `stretch`; times do not decrease. Two equal times are a jump.
 
@@ -184,7 +185,7 @@ class RubberFit(Compared):
         True
         """
         at = _arrays.numbers(stretch, "stretch")
-        if not np.all(at > 0.0):
+        if deformation != "shear" and not np.all(at > 0.0):
             raise Error("stretch must be above 0", "input")
         times = None if time_s is None else _arrays.numbers(time_s, "time_s")
         if times is not None and times.shape != at.shape:

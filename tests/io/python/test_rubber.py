@@ -192,3 +192,22 @@ def test_a_record_of_cycles_gives_the_damage_of_the_first_loading(tmp_path):
     assert "*MULLINS EFFECT" in rubber.card("abaqus").text
     with pytest.raises(viscard.Error, match="calculix cannot take the damage"):
         rubber.card("calculix")
+
+
+def test_tests_of_a_foam_give_its_law(tmp_path):
+    # One term, nu = 0.2: the side is s^-0.2, and the force follows from the energy.
+    s = np.linspace(0.5, 1.1, 40)
+    volume = s**0.6
+    stress = 2 * 5e4 / 8 * (s**8 - volume ** (-8 / 3)) / s
+    path = tmp_path / "foam.csv"
+    np.savetxt(path, np.column_stack([s, s**-0.2, stress]), delimiter=",", comments="",
+               header="stretch,lateral_stretch,nominal_stress_Pa")
+    foam = viscard.fit([f"uniaxial={path}"], model="hyperfoam-1")
+    assert foam.law == "hyperfoam-1"
+    assert foam.parameters["mu_1_Pa"].value == pytest.approx(5e4, rel=1e-6)
+    assert foam.parameters["nu"].value == pytest.approx(0.2, rel=1e-6)
+    assert foam.stress(0.5) == pytest.approx(stress[0], rel=1e-6)
+    assert foam.stress([0.1, 0.2], "shear") == pytest.approx([5125.75125, 11024.16], rel=1e-5)
+    assert "*HYPERFOAM, N=2" in foam.card("calculix").text
+    with pytest.raises(viscard.Error, match="no card of a foam"):
+        foam.card("febio")

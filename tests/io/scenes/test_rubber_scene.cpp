@@ -93,6 +93,16 @@ TEST_CASE("a law of rubber with damage is refused by scenes, with the way on", "
                         Catch::Contains("viscard fit --model neo-hooke --cycle N"));
 }
 
+TEST_CASE("a foam is refused by scenes", "[io][foam]") {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder / "foam.json";
+  std::ofstream(path) << R"({"schema": "viscard-hyperelastic/1", "law": "hyperfoam-1", "laws": [
+    {"name": "hyperfoam-1", "parameters": [{"name": "mu_1_Pa", "value": 5e4}, {"name": "alpha_1",
+     "value": 8}, {"name": "nu", "value": 0.2}], "trustworthy": true, "flags": []}], "tests": []})";
+  CHECK_THROWS_WITH(pillar_of(scene_with("file = \"" + path.string() + "\", nu = 0.2")),
+                    Catch::Contains("holds a foam"));
+}
+
 TEST_CASE("the terms of a law of rubber relax the pillar", "[io][plan]") {
   const ScratchFolder folder;
   const PillarScene creep = pillar_of(

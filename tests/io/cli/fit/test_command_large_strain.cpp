@@ -1,5 +1,6 @@
 // Tests of rubber at large strain: viscard fit uniaxial=a.csv planar=b.csv equibiaxial=c.csv.
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/mullins_damage.h"
 #include "tests/io/cli/fit/table_folder.h"
 #include "tests/support/run_command.h"
@@ -345,6 +346,81 @@ TEST_CASE("a record of cycles gives the damage of its first loading, which goes 
       run_command({"fit", "uniaxial=" + treloar("uniaxial"), "--model", "yeoh+mullins-or"});
   CHECK(virgin.status == 1);
   CHECK_THAT(virgin.err, Contains("leave mullins-or out of --model"));
+}
+
+TEST_CASE("tests of a foam give its law, a file and cards", "[cli][foam]") {
+  const TableFolder folder;
+  FoamLaw law{Eigen::VectorXd::Constant(1, 5e4), Eigen::VectorXd::Constant(1, 8.0),
+              Eigen::VectorXd::Constant(1, 0.2)};
+  std::ostringstream sides, pressures, shear;
+  for (std::ostringstream* table : {&sides, &pressures, &shear}) table->precision(12);
+  sides << "strain,lateral_strain,nominal_stress_kPa\n";
+  pressures << "volume_ratio,pressure_kPa\n";
+  shear << "shear strain,shear stress (kPa)\n";
+  for (int i = 0; i <= 40; ++i) {
+    const double s = 1.0 - 0.0125 * i, v = 1.0 - 0.005 * i, gamma = 0.02 * i;
+    const FoamState side = foam_state(law, FoamTest::kUniaxial, s);
+    sides << s - 1.0 << "," << side.lateral_stretch() - 1.0 << "," << 1e-3 * side.nominal_stress_Pa
+          << "\n";
+    const FoamState body = foam_state(law, FoamTest::kVolumetric, v);
+    pressures << v * v * v << "," << -1e-3 * body.nominal_stress_Pa / (v * v) << "\n";
+    shear << gamma << "," << 1e-3 * foam_state(law, FoamTest::kShear, gamma).nominal_stress_Pa
+          << "\n";
+  }
+  const std::string with_sides = "compression=" + folder.write("sides.csv", sides.str());
+  const std::string volumetric = "volumetric=" + folder.write("pressures.csv", pressures.str());
+  const std::string sheared = "shear=" + folder.write("shear.csv", shear.str());
+  const std::string made = folder.file("foam.json"), card = folder.file("foam.inp");
+  const auto run = run_command({"fit", with_sides, volumetric, sheared, "--model", "hyperfoam",
+                                "--out", made, "--svg", folder.file("foam.svg"), "--json"});
+  CAPTURE(run.err);
+  REQUIRE(run.status == 0);
+  const auto json = nlohmann::json::parse(run.out);
+  CHECK(json["law"] == "hyperfoam-1");
+  CHECK(json["laws"].size() == 3);
+  const auto& chosen = json["laws"][0];
+  CHECK(chosen["parameters"][0]["value"].get<double>() == Approx(5e4).epsilon(1e-5));
+  CHECK(chosen["parameters"][1]["value"].get<double>() == Approx(8.0).epsilon(1e-5));
+  CHECK(chosen["parameters"][2]["value"].get<double>() == Approx(0.2).epsilon(1e-5));
+  CHECK(chosen["foam"]["K_Pa"].get<double>() == Approx(0.0666666667e6).epsilon(1e-5));
+  CHECK(chosen["E0_Pa"].get<double>() == Approx(0.12e6).epsilon(1e-5));
+  CHECK(json["tests"][1]["deformation"] == "volumetric");
+  CHECK(json["tests"][2]["deformation"] == "shear");
+  for (const char* target : {"abaqus", "calculix", "lsdyna", "openradioss"}) {
+    CAPTURE(target);
+    REQUIRE(run_command({"card", made, "--for", target, "--units", "mm-t-s", "--density",
+                         "30 kg/m3", "--force", "--out", card})
+                .status == 0);
+    const auto check = run_command({"card", made, "--check", card, "--json"});
+    CHECK(check.status == 0);
+    CHECK(nlohmann::json::parse(check.out)["law"] == "hyperfoam-1");
+  }
+  CHECK_THAT(run_command({"card", made, "--for", "febio"}).err, Contains("no card of a foam"));
+  CHECK_THAT(run_command({"card", made, "--for", "abaqus", "--bulk-modulus", "1 MPa"}).err,
+             Contains("bulk modulus of a foam follows"));
+  CHECK_THAT(run_command({"fit", with_sides, "--model", "hyperfoam-1"}).out,
+             Contains("Poisson's ratio 0.2"));
+  const auto refused = [&](std::vector<std::string> words, const std::string& reason) {
+    words.insert(words.begin(), "fit");
+    const auto wrong = run_command(words);
+    CHECK(wrong.status != 0);
+    CHECK_THAT(wrong.err, Contains(reason));
+  };
+  refused({sheared}, "is a test of a foam");
+  refused({sheared, "--model", "yeoh"}, "add --model hyperfoam");
+  refused({sheared, "--model", "hyperfoam-2"}, "do not show the Poisson ratio");
+  refused({with_sides, "--model", "hyperfoam-4"}, "is no law of rubber");
+  refused({with_sides, "--model", "yeoh", "--poisson-ratio", "0.3"},
+          "--poisson-ratio is for foams");
+  refused({with_sides, "--model", "hyperfoam", "--terms", "2"}, "--terms does not belong to foams");
+  refused({with_sides, "--model", "hyperfoam", "--weight", "relative"},
+          "--weight relative does not");
+  CHECK(run_command({"fit", sheared, "--model", "hyperfoam-1", "--poisson-ratio", "0.2"}).status ==
+        0);
+  const auto true_stress =
+      folder.write("true.csv", "stretch,true_stress_Pa\n1,0\n0.9,-5\n0.8,-9\n0.7,-15\n");
+  refused({"compression=" + true_stress, "--model", "hyperfoam-1", "--poisson-ratio", "0"},
+          "has the true stress alone");
 }
 
 TEST_CASE("a damaged file of a rubber is refused with its name and what is wrong", "[cli]") {
