@@ -65,13 +65,14 @@ double free_side(const FoamLaw& law, FoamTest test, double measured) {
   for (int i = 0; i < kMost; ++i) {
     const Vector3d strain = strains_of(test, measured, side);
     const double stress = kirchhoff_Pa(law, strain)[2];
-    (stress > 0.0 ? high : low) = side;
     const Matrix3d tangent = kirchhoff_tangent_Pa(law, strain);
     const double slope = tangent(2, 2) + (test == FoamTest::kUniaxial ? tangent(2, 1) : 0.0);
-    double next = side - stress / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - side) <= 1e-16 + 4e-16 * std::abs(side)) return next;
-    side = next;
+    // Newton's steps square the error: behind one of this size only rounding is left.
+    constexpr double kLastStep = 1e-9;
+    const double next = side - stress / slope;
+    if (std::abs(next - side) <= kLastStep) return next;
+    (stress > 0.0 ? high : low) = side;
+    side = next > low && next < high ? next : 0.5 * (low + high);
   }
   return side;
 }
