@@ -146,6 +146,7 @@ bool looks_like_rubber_card(const std::string& text) {
                                                "/MAT/LAW82",
                                                "/MAT/LAW92",
                                                "/MAT/LAW94",
+                                               "/MAT/LAW100",
                                                "\"OGDEN\"",
                                                "\"YEOH\"",
                                                "\"ARRUDA-BOYCE\"",

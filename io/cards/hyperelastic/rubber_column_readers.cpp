@@ -228,10 +228,52 @@ RubberText read_lsdyna_rubber(const std::string& text) {
   return out;
 }
 
+namespace {
+
+// LAW100: N_net, Flag_HE, Flag_Cr, then the constants of the law (hm_read_mat100.F).
+void read_law100(const Lines& rows, RubberText& out) {
+  const auto flags = rows.empty() ? std::vector<std::string>{} : columns(rows[0].text, kTen);
+  const auto flag = [&](std::size_t i, const char* name) {
+    return i < flags.size() && !flags[i].empty() ? cell_integer(flags, i, rows[0], name) : 0;
+  };
+  if (flag(0, "N_net") != 0 || flag(2, "Flag_Cr") != 0) {
+    out.findings.push_back(
+        {"other-law", at_line(rows[0], "networks of flow or creep of LAW100 are not read"), true});
+  }
+  const int form = flag(1, "Flag_HE");
+  auto first = row_at(rows, 1, kTwenty);
+  first.resize(5, 0.0);
+  RubberNumbers& law = out.numbers;
+  if (form == 1) {
+    auto second = row_at(rows, 2, kTwenty);
+    second.resize(4, 0.0);
+    first.insert(first.end(), second.begin(), second.end());
+    take_invariant_law(first, law);
+    law.bulk = bulk_from(at_or_zero(row_at(rows, 3, kTwenty), 0));
+  } else if (form == 2) {
+    law.form = ColumnForm::kArrudaBoyce;
+    law.moduli = {first[0]};
+    law.shapes = {first[2]};
+    law.bulk = bulk_from(first[1]);
+  } else if (form >= 3 && form <= 5) {
+    law.form = form == 3   ? ColumnForm::kNeoHooke
+               : form == 4 ? ColumnForm::kMooneyRivlin
+                           : ColumnForm::kYeoh;
+    const auto n = n_moduli(law.form);
+    law.moduli.assign(first.begin(), first.begin() + n);
+    law.bulk = bulk_from(first[static_cast<std::size_t>(n)]);
+  } else {
+    throw std::runtime_error("LAW100 has Flag_HE " + std::to_string(form) + "; 1 to 5 are read");
+  }
+}
+
+}  // namespace
+
 RubberText read_openradioss_rubber(const std::string& text) {
   const Lines all = card_lines(text, "#");
-  const Lines lines = lines_from(all, {"/MAT/LAW62", "/MAT/LAW82", "/MAT/LAW92", "/MAT/LAW94"},
-                                 "/MAT/LAW62, 82, 92 or 94");
+  const Lines lines =
+      lines_from(all, {"/MAT/LAW62", "/MAT/LAW82", "/MAT/LAW92", "/MAT/LAW94", "/MAT/LAW100"},
+                 "/MAT/LAW62, 82, 92, 94 or 100");
   if (lines.size() < 4) throw std::runtime_error("the card ends before its last row");
   RubberText out;
   out.units = radioss_units(all);
@@ -246,6 +288,10 @@ RubberText read_openradioss_rubber(const std::string& text) {
   }
   Lines rows(lines.begin() + 3, lines.end());
   std::erase_if(rows, [](const CardLine& line) { return trimmed(line.text).empty(); });
+  if (upper(lines[0].text).rfind("/MAT/LAW100", 0) == 0) {
+    read_law100(rows, out);
+    return out;
+  }
   if (number == "82") {
     const auto n = static_cast<std::size_t>(
         rows.empty() ? 0 : cell_integer(columns(rows[0].text, kTen), 0, rows[0], "N"));

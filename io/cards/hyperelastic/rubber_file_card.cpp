@@ -51,9 +51,11 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
   if (!file.terms.empty() && options.elastic_only.empty()) {
     lines.push_back("terms: " + target.terms);
   }
-  lines.push_back(
-      "conventions: " +
-      (file.foam ? target.laws.foam : target.laws.of(file.law.form) + "; volume " + target.volume));
+  const std::string& laws = file.damage && !target.damage.laws.empty()
+                                ? target.damage.laws
+                                : target.laws.of(file.law.form);
+  lines.push_back("conventions: " +
+                  (file.foam ? target.laws.foam : laws + "; volume " + target.volume));
   if (file.damage) {
     lines.push_back(std::string("damage by the first loading, ") + kMullinsName +
                     ": eta = 1 - erf((W_m - W)/(m + beta W_m))/r. " + target.damage.convention);

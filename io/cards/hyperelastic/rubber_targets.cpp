@@ -158,8 +158,10 @@ std::vector<RubberTarget> table() {
                 "Simo's rule at large "
                 "strain (its source), not run",
        .damage = {"/FAIL/MULLINS_OR: R, beta, m",
-                  "its /FAIL/MULLINS_OR acts on LAW92, 95 and 100 only",
-                  {HyperelasticForm::kArrudaBoyce}}},
+                  "its /FAIL/MULLINS_OR acts on LAW92, 95 and 100 only, which have no such law",
+                  {HyperelasticForm::kNeoHooke, HyperelasticForm::kMooneyRivlin,
+                   HyperelasticForm::kYeoh, HyperelasticForm::kArrudaBoyce},
+                  "LAW100 without networks: C10, C01 or C10, C20, C30; LAW92: mu, lambda_m = s_m"}},
       {.name = "sfepy",
        .comment = "#",
        .write = [](const RubberNumbers& law, const std::string&) { return sfepy_rubber(law); },

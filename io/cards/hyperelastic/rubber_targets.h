@@ -22,6 +22,7 @@ struct RubberDamage {
   std::string convention;  // keyword and order of its constants; "": it is refused
   std::string refusal;     // why
   std::vector<HyperelasticForm> forms = {};  // beside these alone; empty: beside all
+  std::string laws = "";                     // how a law stands beside it, if otherwise than alone
   bool takes(HyperelasticForm form) const;
 };
 

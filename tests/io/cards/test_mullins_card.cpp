@@ -34,6 +34,10 @@ HyperelasticFile boyce_file() {
   return damaged_file(HyperelasticForm::kArrudaBoyce, {0.4e6}, {3.0});
 }
 
+HyperelasticFile ogden_file() {
+  return damaged_file(HyperelasticForm::kOgden1, {0.4e6}, {3.0});
+}
+
 RubberCardOptions options_for(const std::string& target, const std::string& units = "mm-t-s") {
   RubberCardOptions options{.target = target, .units = units};
   options.bulk_Pa = 1e9;
@@ -82,15 +86,24 @@ TEST_CASE("mullins cards: abaqus takes r, m, beta below the law", "[cards][mulli
         rubber_card(file.law, {}, options_for("abaqus"), std::nullopt));
 }
 
-TEST_CASE("mullins cards: openradioss takes R, beta, m beside LAW92 only", "[cards][mullins]") {
+TEST_CASE("mullins cards: openradioss takes R, beta, m beside LAW92 and LAW100",
+          "[cards][mullins]") {
   const HyperelasticFile file = boyce_file();
   const std::string card = rubber_card(file.law, {}, options_for("openradioss"), file.damage);
   CHECK_THAT(card, Contains("/MAT/LAW92/1/1\n") &&
                        Contains("/FAIL/MULLINS_OR/1/1\n#                  R                BETA"
                                 "                   m\n                 1.6                  .1"
                                 "                 .15\n"));
-  CHECK_THROWS_WITH(card_for(yeoh_file(), "openradioss"),
-                    Contains("openradioss cannot take the damage mullins-or beside yeoh") &&
+  const HyperelasticFile yeoh = yeoh_file();
+  CHECK_THAT(rubber_card(yeoh.law, {}, options_for("openradioss"), yeoh.damage),
+             Contains("/MAT/LAW100/1/1\nRUBBER\n") &&
+                 Contains("#    N_net   Flag_HE   Flag_Cr\n         0         5         0\n") &&
+                 Contains("                  .3                -.01                .001"
+                          "                .002\n") &&
+                 Contains("/FAIL/MULLINS_OR/1/1\n"));
+  CHECK_THAT(card_for(yeoh, "openradioss"), Contains("LAW100 without networks"));
+  CHECK_THROWS_WITH(card_for(ogden_file(), "openradioss"),
+                    Contains("openradioss cannot take the damage mullins-or beside ogden-1") &&
                         Contains("LAW92, 95 and 100 only") && Contains("arruda-boyce+mullins-or"));
 }
 
@@ -111,7 +124,10 @@ TEST_CASE("mullins cards: what was written is read back, in every unit system",
   for (const char* units : {"SI", "mm-t-s", "mm-kg-ms", "mm-g-ms", "um-kg-s", "cgs"}) {
     for (const auto& [file, target] :
          {std::pair{yeoh_file(), "abaqus"}, std::pair{boyce_file(), "abaqus"},
-          std::pair{boyce_file(), "openradioss"}}) {
+          std::pair{boyce_file(), "openradioss"}, std::pair{yeoh_file(), "openradioss"},
+          std::pair{damaged_file(HyperelasticForm::kNeoHooke, {0.3e6}), "openradioss"},
+          std::pair{damaged_file(HyperelasticForm::kMooneyRivlin, {0.2e6, 0.05e6}), "openradioss"},
+          std::pair{ogden_file(), "abaqus"}}) {
       CAPTURE(units, target);
       const std::string card = card_for(file, target, units);
       const RubberCheck check = check_rubber_card(card, &file, {.target = target});
@@ -181,6 +197,21 @@ TEST_CASE("mullins cards: cards by hand", "[cards][mullins]") {
       findings_of(law + "*MULLINS EFFECT\n1.6, .15, .1\n*VISCOELASTIC, TIME=PRONY\n0.2, 0, 1\n",
                   "abaqus", nullptr),
       Contains("damage-beside-terms: "));
+  // The general polynomial of LAW100, and networks that are not read.
+  const std::string law100 =
+      "/MAT/LAW100/1\nR\n             1.1E-9\n         0         1         0\n"
+      "                  .3                 .05                 0.0                 0.0"
+      "                 0.0\n                 0.0                 0.0                 0.0"
+      "                 0.0\n                .002                 0.0                 0.0\n"
+      "/FAIL/MULLINS_OR/1\n                 1.6                  .1                 .15\n";
+  const ReadRubber mooney = read_rubber_card(law100, "openradioss", "mm-t-s");
+  CHECK(mooney.law.form == HyperelasticForm::kMooneyRivlin);
+  CHECK(mooney.bulk_Pa == Approx(1e9));
+  REQUIRE(mooney.damage);
+  CHECK(mooney.damage->m_Pa == Approx(0.15e6));
+  CHECK_THAT(findings_of(replaced(law100, "         0         1", "         1         1"),
+                         "openradioss", nullptr),
+             Contains("other-law: line 4: networks"));
   // Beside LAW82 the starter knows no such damage.
   HyperelasticFile plain = file;
   plain.damage.reset();
