@@ -1,7 +1,12 @@
 #include "fit/large_strain/fit_large_strain.h"
 
+#include "fit/large_strain/damage_checks.h"
+#include "fit/large_strain/damage_search.h"
+#include "fit/large_strain/foam_fit.h"
 #include "fit/large_strain/hyperelastic_search.h"
+#include "fit/large_strain/inverse_normal.h"
 #include "fit/large_strain/rubber_band.h"
+#include "fit/large_strain/rubber_bounds.h"
 #include "fit/large_strain/rubber_checks.h"
 #include "fit/large_strain/rubber_intervals.h"
 #include "fit/large_strain/rubber_series.h"
@@ -9,7 +14,6 @@
 #include "fit/large_strain/series_choice.h"
 #include "fit/large_strain/series_refine.h"
 #include "fit/samples/noise_model.h"
-#include "models/maths/dense.h"
 #include "models/maths/distributions.h"
 #include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
@@ -37,115 +41,6 @@ double inflation_of(const std::vector<LargeStrainTest>& tests, const VectorXd& r
   return largest;
 }
 
-// Parameters that are held where they ended: a modulus at zero with its shape, a shape at its bound.
-std::vector<Index> free_parameters(HyperelasticForm form, const LargeStrainRows& rows,
-                                   const HyperelasticPoint& point) {
-  const ShapeBounds bounds = shape_bounds(form, rows);
-  constexpr double kTouch = 1e-6;
-  const Index n = n_moduli(form);
-  std::vector<Index> free;
-  for (Index j = 0; j < n; ++j) {
-    if (is_sign_free(form) || point.moduli[j] > 0.0) free.push_back(j);
-  }
-  for (Index k = 0; k < n_shapes(form); ++k) {
-    const double at = point.shapes[k];
-    const bool is_inside = at > bounds.low + kTouch * std::abs(bounds.low) &&
-                           at < bounds.high - kTouch * std::abs(bounds.high);
-    if (is_inside && point.moduli[std::min(k, n - 1)] != 0.0) free.push_back(n + k);
-  }
-  const Index first = n + n_shapes(form), n_terms = static_cast<Index>(point.terms.size());
-  for (Index i = 0; i < n_terms; ++i) {
-    if (point.terms[static_cast<std::size_t>(i)].g > kTouch) free.push_back(first + i);
-  }
-  for (Index i = 0; i < n_terms; ++i) {
-    if (point.terms[static_cast<std::size_t>(i)].g > kTouch) free.push_back(first + n_terms + i);
-  }
-  return free;
-}
-
-// Names of the parameters that are held, and what holds them: "mu_3 at 0".
-std::string held_parameters(HyperelasticForm form, const HyperelasticPoint& point,
-                            const std::vector<Index>& free) {
-  const std::vector<std::string> moduli = modulus_names(form), shapes = shape_names(form);
-  const Index n = n_moduli(form);
-  std::string text;
-  for (Index j = 0; j < n + n_shapes(form); ++j) {
-    if (std::find(free.begin(), free.end(), j) != free.end()) continue;
-    const bool is_shape = j >= n;
-    // The shape of a term without modulus means nothing.
-    if (is_shape && point.moduli[std::min(j - n, n - 1)] == 0.0) continue;
-    text += (text.empty() ? "" : ", ") + (is_shape ? shapes[static_cast<std::size_t>(j - n)] +
-                                                         " at " + text_of(point.shapes[j - n], 4)
-                                                   : moduli[static_cast<std::size_t>(j)] + " at 0");
-  }
-  return text;
-}
-
-// What binds, and by how much the sum of squares would fall with moduli of either sign.
-std::string bound_text(HyperelasticForm form, const LargeStrainRows& rows,
-                       const HyperelasticPoint& point, const std::vector<Index>& free) {
-  std::string text = held_parameters(form, point, free);
-  const bool is_held = !is_sign_free(form) && (point.moduli.array() == 0.0).any();
-  if (!is_held || !point.terms.empty()) return text;
-  const HyperelasticPoint any = best_point(form, rows, ModulusSigns::kAny);
-  const double lower = 1.0 - any.rss / point.rss;
-  constexpr double kVisible = 0.01;
-  text += " (moduli are kept from negative values, which make a law unstable";
-  if (lower > kVisible) {
-    text +=
-        "; with either sign the sum of squares would be " + text_of(100.0 * lower, 2) + " % lower";
-  }
-  return text + ")";
-}
-
-// Inverse of J^T J over the free parameters, zero elsewhere.
-Eigen::MatrixXd inverse_normal(const Eigen::MatrixXd& slopes, const std::vector<Index>& free,
-                               UnseenDirections& unseen) {
-  Eigen::MatrixXd used(slopes.rows(), static_cast<Index>(free.size()));
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    used.col(static_cast<Index>(i)) = slopes.col(free[i]);
-  }
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(slopes.cols(), slopes.cols());
-  if (free.empty()) return all;
-  const VectorXd length = used.colwise().norm().cwiseMax(1e-300);
-  const Eigen::MatrixXd pseudo = pseudo_inverse(used * length.cwiseInverse().asDiagonal());
-  const Eigen::MatrixXd inverse = pseudo * pseudo.transpose();
-  const Eigen::MatrixXd seen = pseudo * used * length.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(seen.rows(), seen.cols()) - seen;
-  constexpr double kRounding = 1e-4;  // a direction that is not seen has the length 1
-  if (rest.norm() > kRounding) {
-    unseen.columns = Eigen::MatrixXd::Zero(slopes.cols(), rest.cols());
-    unseen.step = VectorXd::Zero(slopes.cols());
-    for (std::size_t i = 0; i < free.size(); ++i) {
-      const auto a = static_cast<Index>(i);
-      unseen.step[free[i]] = 1.0 / length[a];
-      unseen.columns.row(free[i]) = rest.row(a) / length[a];
-    }
-  }
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    for (std::size_t j = 0; j < free.size(); ++j) {
-      const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
-      all(free[i], free[j]) = inverse(a, b) / (length[a] * length[b]);
-    }
-  }
-  return all;
-}
-
-// Sum of squared residuals and stresses, in Pa^2.
-void add_residuals(const std::vector<LargeStrainTest>& tests, FittedRubber& fitted) {
-  double of_stress = 0.0;
-  for (const LargeStrainTest& test : tests) {
-    const std::vector<double> stress_Pa = stresses_Pa(fitted, test);
-    for (std::size_t i = 0; i < test.stretch.size(); ++i) {
-      const double measured = test.nominal_stress_Pa[i];
-      const double left = measured - stress_Pa[i];
-      fitted.rss += left * left;
-      of_stress += measured * measured;
-    }
-  }
-  fitted.rms_relative = std::sqrt(fitted.rss / of_stress);
-}
-
 // Weighted residuals of the readings, without the row of a known modulus.
 VectorXd residuals_of(HyperelasticForm form, const LargeStrainRows& rows,
                       const HyperelasticPoint& point) {
@@ -153,17 +48,42 @@ VectorXd residuals_of(HyperelasticForm form, const LargeStrainRows& rows,
   return (columns.values * point.moduli - rows.data()).head(rows.n_readings());
 }
 
+// Scatter of the readings about a law, with the memory of that scatter.
+double scatter_about(HyperelasticForm form, const LargeStrainRows& rows,
+                     const std::vector<LargeStrainTest>& tests, const HyperelasticPoint& point) {
+  const VectorXd residual = residuals_of(form, rows, point);
+  const double variance = residual.squaredNorm() / static_cast<double>(residual.size());
+  return std::sqrt(variance * inflation_of(tests, residual));
+}
+
+bool has_uncertain_modulus(const LargeStrainOptions& options) {
+  return options.modulus && options.modulus->se_Pa > 0.0;
+}
+
 // The best point. A modulus that is known with an error counts by the scatter of the readings about
-// the law that has it exactly, with the memory of that scatter.
+// the law that has it exactly.
 HyperelasticPoint point_of_form(HyperelasticForm form, LargeStrainRows& rows,
                                 const std::vector<LargeStrainTest>& tests,
                                 const LargeStrainOptions& options) {
   HyperelasticPoint point = best_point(form, rows);
-  if (!options.modulus || !(options.modulus->se_Pa > 0.0)) return point;
-  const VectorXd residual = residuals_of(form, rows, point);
-  const double variance = residual.squaredNorm() / static_cast<double>(residual.size());
-  rows.set_scatter(std::sqrt(variance * inflation_of(tests, residual)));
+  if (!has_uncertain_modulus(options)) return point;
+  rows.set_scatter(scatter_about(form, rows, tests, point));
   return best_point(form, rows);
+}
+
+// The best point with damage: the law of the first loading, then all readings.
+HyperelasticPoint point_with_damage(HyperelasticForm form, LargeStrainRows& rows,
+                                    const std::vector<LargeStrainTest>& tests,
+                                    const LargeStrainOptions& options) {
+  const std::vector<LargeStrainTest> first = first_loading_of(tests);
+  LargeStrainRows of_first(first, options);
+  HyperelasticPoint law = point_of_form(form, of_first, first, options);
+  const double change = of_first.stress_scale_Pa() / rows.stress_scale_Pa();
+  if (has_uncertain_modulus(options)) {
+    rows.set_scatter(change * scatter_about(form, of_first, first, law));
+  }
+  law.moduli *= change;
+  return best_damaged_point(form, DamageRows(rows, tests), law);
 }
 
 // Independent readings, by the memory of the residuals of the point.
@@ -180,11 +100,9 @@ HyperelasticPoint point_of_series(HyperelasticForm form, LargeStrainRows& rows,
                                   const LargeStrainOptions& options, int most_terms,
                                   std::vector<RubberOrder>& orders) {
   std::vector<HyperelasticPoint> path = series_path(form, rows, options.n_terms, most_terms);
-  if (options.modulus && options.modulus->se_Pa > 0.0) {
+  if (has_uncertain_modulus(options)) {
     rows.set_terms(path.back().terms);
-    const VectorXd residual = residuals_of(form, rows, path.back());
-    const double variance = residual.squaredNorm() / static_cast<double>(residual.size());
-    rows.set_scatter(std::sqrt(variance * inflation_of(tests, residual)));
+    rows.set_scatter(scatter_about(form, rows, tests, path.back()));
     rows.set_terms({});
     path = series_path(form, rows, options.n_terms, most_terms);
   }
@@ -196,7 +114,22 @@ HyperelasticPoint point_of_series(HyperelasticForm form, LargeStrainRows& rows,
 void add_covariance(const Eigen::MatrixXd& all, FittedRubber& fitted) {
   const Index n = fitted.law.moduli_Pa.size() + fitted.law.shapes.size();
   fitted.covariance = all.topLeftCorner(n, n);
-  if (all.rows() > n) fitted.series_covariance = all;
+  if (!fitted.terms.empty()) fitted.series_covariance = all;
+}
+
+// The derivative of the rows' model at a point by all its parameters, and what it leaves of the readings.
+struct Linearised {
+  Eigen::MatrixXd slopes;
+  VectorXd residual;
+};
+Linearised linearised(HyperelasticForm form, const LargeStrainRows& rows,
+                      const std::vector<LargeStrainTest>& tests, const HyperelasticPoint& point) {
+  if (point.damage) {
+    const auto model = DamageRows(rows, tests).model(form, point, true);
+    return {model.slopes, (model.values - rows.data()).head(rows.n_readings())};
+  }
+  return {point.terms.empty() ? jacobian(form, rows, point) : series_jacobian(form, rows, point),
+          residuals_of(form, rows, point)};
 }
 
 FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
@@ -204,18 +137,20 @@ FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
                       int most_terms) {
   FittedRubber fitted;
   const HyperelasticPoint point =
-      most_terms > 0 ? point_of_series(form, rows, tests, options, most_terms, fitted.orders)
-                     : point_of_form(form, rows, tests, options);
+      options.with_damage ? point_with_damage(form, rows, tests, options)
+      : most_terms > 0    ? point_of_series(form, rows, tests, options, most_terms, fitted.orders)
+                          : point_of_form(form, rows, tests, options);
   const double scale_Pa = rows.stress_scale_Pa();
   fitted.law = {form, scale_Pa * point.moduli, point.shapes};
   for (const RubberTerm& term : point.terms) fitted.terms.push_back({term.g, 0.0, term.tau_s});
   rows.set_terms(point.terms);
-  const Eigen::MatrixXd slopes =
-      point.terms.empty() ? jacobian(form, rows, point) : series_jacobian(form, rows, point);
-  const VectorXd residual = residuals_of(form, rows, point);
+  const auto [slopes, residual] = linearised(form, rows, tests, point);
   fitted.inflation = inflation_of(tests, residual);
   const std::vector<Index> free = free_parameters(form, rows, point);
   fitted.n_parameters = static_cast<int>(slopes.cols());
+  if (point.damage) {
+    fitted.n_parameters -= (point.damage->fits_m ? 0 : 1) + (point.damage->fits_beta ? 0 : 1);
+  }
   const double freedom = static_cast<double>(rows.data().size()) - fitted.n_parameters;
   const double variance = freedom > 0.0 ? residual.squaredNorm() / freedom : 0.0;
   Eigen::MatrixXd covariance =
@@ -226,14 +161,25 @@ FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
   const double own = std::max(kLeastFreedom, independent - fitted.n_parameters);
   covariance *= std::pow(student_t_975(own) / kNormal95, 2);
   const Index n = n_moduli(form);
-  covariance.topRows(n) *= scale_Pa;
-  covariance.leftCols(n) *= scale_Pa;
+  const auto to_Pa = [&](auto&& rows_of) { rows_of *= scale_Pa; };
+  to_Pa(covariance.topRows(n));
+  to_Pa(covariance.leftCols(n));
   if (fitted.unseen.columns.size() > 0) {
-    fitted.unseen.columns.topRows(n) *= scale_Pa;
-    fitted.unseen.step.head(n) *= scale_Pa;
+    to_Pa(fitted.unseen.columns.topRows(n));
+    to_Pa(fitted.unseen.step.head(n));
+  }
+  if (point.damage) {
+    const Index m = n + n_shapes(form) + 1;
+    to_Pa(covariance.row(m));
+    to_Pa(covariance.col(m));
+    if (fitted.unseen.columns.size() > 0) {
+      to_Pa(fitted.unseen.columns.row(m));
+      fitted.unseen.step[m] *= scale_Pa;
+    }
   }
   add_covariance(covariance, fitted);
   add_intervals(fitted);
+  if (point.damage) add_damage(tests, *point.damage, scale_Pa, covariance, fitted);
   add_residuals(tests, fitted);
   for (std::size_t d = 0; d < fitted.stable.size(); ++d) {
     fitted.stable[d] = stable_range(fitted.law, static_cast<Deformation>(d));
@@ -283,27 +229,15 @@ double inflation_of_others(const LargeStrainRows& rows, const std::vector<LargeS
   return least;
 }
 
-std::size_t choice(const std::vector<FittedRubber>& laws) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < laws.size(); ++i) {
-    const bool is_better = laws[i].bic < laws[best].bic;
-    if (laws[i].is_trustworthy != laws[best].is_trustworthy) {
-      if (laws[i].is_trustworthy) best = i;
-    } else if (is_better) {
-      best = i;
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
 LargeStrainResult fit_large_strain(const std::vector<LargeStrainTest>& tests,
                                    const LargeStrainOptions& options) {
   check_large_strain(tests, options);
+  if (!options.foam_terms.empty()) return fit_foam(tests, options);
   LargeStrainResult result;
   std::vector<MaterialFlag> notes;
-  const int most_terms = most_terms_of(tests, options, notes);
+  const int most_terms = options.with_damage ? 0 : most_terms_of(tests, options, notes);
   std::vector<LargeStrainTest> used = tests;
   for (LargeStrainTest& test : used) {
     if (most_terms == 0) test.time_s.clear();  // they may not even ascend
@@ -312,10 +246,11 @@ LargeStrainResult fit_large_strain(const std::vector<LargeStrainTest>& tests,
   for (const HyperelasticForm form : options.forms) {
     result.laws.push_back(fit_form(form, rows, tests, options, most_terms));
   }
-  const double least_inflation = most_terms > 0 ? std::numeric_limits<double>::infinity()
-                                                : inflation_of_others(rows, tests, options);
+  const bool is_elastic = most_terms == 0 && !options.with_damage;
+  const double least_inflation = is_elastic ? inflation_of_others(rows, tests, options)
+                                            : std::numeric_limits<double>::infinity();
   add_criteria(tests, least_inflation, result.laws);
-  result.chosen = choice(result.laws);
+  result.chosen = best_law(result.laws);
   result.tests = summaries_of(tests, result.best());
   result.notes = notes_of(tests);
   result.notes.insert(result.notes.end(), notes.begin(), notes.end());

@@ -11,7 +11,7 @@ namespace viscard {
 // measured range and do not end on a bound (all of them, if none is left). Intervals are from the
 // covariance at the best point, with the scatter of the residuals and its memory. Tests with times give
 // terms of relaxation beside each law too (models/hyperelastic/finite_viscoelasticity.h), their number by
-// BIC; flags of terms: rubber_term_checks.h. Flags of a law:
+// BIC; flags of terms: rubber_term_checks.h, of damage: damage_checks.h. Flags of a law:
 // unstable-in-range, misfit, on-bound (a shape ended at the end of its range), not-converged, undetermined;
 // notes: unstable-beyond, one-deformation, few-readings, modulus-disagrees. The first five make the
 // law untrustworthy.

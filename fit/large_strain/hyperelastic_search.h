@@ -1,15 +1,25 @@
 #pragma once
 
 #include "fit/large_strain/large_strain_rows.h"
+#include "models/hyperelastic/mullins_damage.h"
 
 #include <limits>
+#include <optional>
 
 namespace viscard {
+
+// Damage beside a law, and which of its constants were fitted; the others are held.
+struct FoundDamage {
+  MullinsDamage constants;  // m in the unit of the rows' stress
+  bool fits_m = true, fits_beta = true;
+  bool has_one_maximum = false;  // so that beta is held at 0
+};
 
 // Parameters of a form in units of the rows' stress, with what the least squares left.
 struct HyperelasticPoint {
   Eigen::VectorXd moduli, shapes;
   std::vector<RubberTerm> terms;  // of relaxation, by ascending time; empty: elastic
+  std::optional<FoundDamage> damage = std::nullopt;
   double rss = std::numeric_limits<double>::infinity();  // weighted, with the row of the modulus
   bool is_converged = false;
 };

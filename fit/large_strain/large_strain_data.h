@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 
 #include <cstddef>
@@ -18,6 +19,10 @@ struct LargeStrainTest {
   std::vector<double> stretch, nominal_stress_Pa;
   std::vector<double> time_s = {};  // of the readings; empty: not known
   StretchHistory before = {};       // what the body went through before the first reading
+  // Of a foam: the kind of test, in which `stretch` is the measured quantity, and the stretch of the side of
+  // each reading; empty: not measured.
+  FoamTest foam_test = FoamTest::kUniaxial;
+  std::vector<double> lateral_stretch = {};
 };
 
 // True if the readings have times, so that a relaxation can be fitted.
@@ -46,6 +51,13 @@ struct LargeStrainOptions {
   // Terms of relaxation beside the law: this number, or up to max_terms by BIC. Without both: up to 6
   // if the tests have times and show more than one rate, otherwise none.
   std::optional<int> n_terms, max_terms;
+  // Damage by the first loading beside every law (models/hyperelastic/mullins_damage.h), instead of terms.
+  // The tests are then whole records in the order of time, each of a specimen never loaded before.
+  bool with_damage = false;
+  // Foams of these numbers of terms (models/hyperelastic/foam_law.h) instead of laws of rubber, with the nu of
+  // all terms if it is known.
+  std::vector<Eigen::Index> foam_terms = {};
+  std::optional<double> poisson_ratio = {};
 };
 
 }  // namespace viscard

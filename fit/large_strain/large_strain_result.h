@@ -2,13 +2,16 @@
 
 #include "fit/intervals/fitted_law.h"
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/law_stability.h"
+#include "models/hyperelastic/mullins_damage.h"
 #include "models/material/material.h"
 #include "models/maths/interval.h"
 
 #include <Eigen/Core>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +47,23 @@ struct UnseenDirections {
   }
 };
 
+// Damage beside a law. Misfits are root mean squares relative to the stresses of their branch; nothing
+// without readings on it.
+struct FittedDamage {
+  MullinsDamage constants;
+  std::vector<LawParameter> parameters;  // r, m_Pa, beta; those that are held have no error
+  Eigen::MatrixXd covariance;            // of the law's parameters, then r, m_Pa, beta
+  bool has_one_maximum = false;          // all unloading is from one maximum: beta is held at 0
+  std::optional<double> misfit_first_loading, misfit_unloading, misfit_reloading;
+};
+
+// A foam, which stands in the place of a law of rubber.
+struct FittedFoam {
+  FoamLaw law;
+  bool has_one_nu = true;  // of all terms: one of each is no better by BIC
+  bool nu_is_given = false;
+};
+
 // One law fitted to all tests. With terms it is the instantaneous law, of which 1 - sum g is left after
 // all relaxation.
 struct FittedRubber {
@@ -55,6 +75,8 @@ struct FittedRubber {
   std::vector<FittedRubberTerm> terms;  // of relaxation, by ascending time; empty: elastic
   // Of the parameters, the g and the ln tau, in that order; empty without terms.
   Eigen::MatrixXd series_covariance;
+  std::optional<FittedDamage> damage;        // softening by the first loading; never beside terms
+  std::optional<FittedFoam> foam;            // then `law` means nothing
   UnseenDirections unseen;                   // quantities along them have infinite intervals
   double E_inf_Pa = 0.0, E_inf_se_Pa = 0.0;  // Young's modulus at rest after all relaxation
   Interval E_inf_interval_95;
@@ -76,10 +98,16 @@ inline std::vector<RubberTerm> relaxation_of(const FittedRubber& fitted) {
   return terms;
 }
 
+// Name of a fitted law, "yeoh" or "hyperfoam-2".
+inline std::string name_of(const FittedRubber& fitted) {
+  return fitted.foam ? foam_name(fitted.foam->law.mu_Pa.size()) : name_of(fitted.law.form);
+}
+
 // What one test shows of the chosen law.
 struct RubberTestSummary {
   std::string name;
   Deformation deformation = Deformation::kUniaxial;
+  std::string kind;  // name of the deformation, or of the test of a foam
   std::size_t n_readings = 0;
   double least_stretch = 1.0, largest_stretch = 1.0;
   double rms_Pa = 0.0;  // of its residuals

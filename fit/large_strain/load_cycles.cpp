@@ -82,6 +82,7 @@ LargeStrainTest sorted_by_stretch(const LargeStrainTest& test) {
     out.stretch[i] = test.stretch[order[i]];
     out.nominal_stress_Pa[i] = test.nominal_stress_Pa[order[i]];
     if (has_times(test)) out.time_s[i] = test.time_s[order[i]];
+    if (!test.lateral_stretch.empty()) out.lateral_stretch[i] = test.lateral_stretch[order[i]];
   }
   return out;
 }
@@ -118,8 +119,10 @@ std::optional<double> softening(const LargeStrainTest& test, const std::vector<L
 
 LargeStrainTest loading_of(const LargeStrainTest& test, const LoadCycle& cycle) {
   LargeStrainTest out{test.name, test.deformation, {}, {}};
+  out.foam_test = test.foam_test;
   for (std::size_t i = cycle.first; i <= cycle.peak; ++i) {
     out.stretch.push_back(test.stretch[i]);
+    if (!test.lateral_stretch.empty()) out.lateral_stretch.push_back(test.lateral_stretch[i]);
     out.nominal_stress_Pa.push_back(test.nominal_stress_Pa[i]);
     if (has_times(test)) out.time_s.push_back(test.time_s[i]);
   }

@@ -1,6 +1,6 @@
 #include "fit/large_strain/rubber_band.h"
 
-#include "fit/large_strain/rubber_series.h"
+#include "fit/large_strain/series_refine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,15 @@ double nominal_stress_se_Pa(const FittedRubber& fitted, Deformation deformation,
 
 std::vector<double> stresses_Pa(const FittedRubber& fitted, const LargeStrainTest& test) {
   std::vector<double> stress_Pa;
+  if (fitted.foam) {
+    for (const double measured : test.stretch) {
+      stress_Pa.push_back(foam_state(fitted.foam->law, test.foam_test, measured).nominal_stress_Pa);
+    }
+    return stress_Pa;
+  }
+  if (fitted.damage) {
+    return nominal_stress_Pa(fitted.law, fitted.damage->constants, test.deformation, test.stretch);
+  }
   if (fitted.terms.empty()) {
     for (const double stretch : test.stretch) {
       stress_Pa.push_back(nominal_stress_Pa(fitted.law, test.deformation, stretch));

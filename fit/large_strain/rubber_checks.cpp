@@ -20,7 +20,8 @@ std::string percent(double share) {
 
 void check_reading(const LargeStrainTest& test, std::size_t i) {
   const double stretch = test.stretch[i];
-  if (std::isfinite(stretch) && stretch > 0.0 && std::isfinite(test.nominal_stress_Pa[i])) return;
+  const bool is_possible = stretch > 0.0 || test.foam_test == FoamTest::kShear;
+  if (std::isfinite(stretch) && is_possible && std::isfinite(test.nominal_stress_Pa[i])) return;
   throw std::runtime_error("reading " + std::to_string(i + 1) + " of the " + test.name +
                            " test has the stretch " + text_of(stretch) + " and the stress " +
                            text_of(test.nominal_stress_Pa[i]) +
@@ -30,8 +31,9 @@ void check_reading(const LargeStrainTest& test, std::size_t i) {
 // A stress that has the sign of the strain in most readings.
 void check_signs(const LargeStrainTest& test) {
   double work = 0.0;
+  const double rest = test.foam_test == FoamTest::kShear ? 0.0 : 1.0;
   for (std::size_t i = 0; i < test.stretch.size(); ++i) {
-    work += test.nominal_stress_Pa[i] * (test.stretch[i] - 1.0);
+    work += test.nominal_stress_Pa[i] * (test.stretch[i] - rest);
   }
   if (work > 0.0) return;
   const auto is_zero = [](double stress_Pa) { return stress_Pa == 0.0; };
@@ -69,7 +71,9 @@ void check_test(const LargeStrainTest& test) {
 
 bool is_stable_in_tests(const std::vector<LargeStrainTest>& tests, const FittedRubber& fitted) {
   return std::all_of(tests.begin(), tests.end(), [&](const LargeStrainTest& test) {
-    const StableRange& range = fitted.stable[static_cast<std::size_t>(test.deformation)];
+    const StableRange range = fitted.foam
+                                  ? stable_range(fitted.foam->law, test.foam_test)
+                                  : fitted.stable[static_cast<std::size_t>(test.deformation)];
     const auto [low, high] = std::minmax_element(test.stretch.begin(), test.stretch.end());
     return range.contains(*low) && range.contains(*high);
   });
@@ -78,11 +82,13 @@ bool is_stable_in_tests(const std::vector<LargeStrainTest>& tests, const FittedR
 // "uniaxial 0.31 to 6.2; equibiaxial up to 2.2"; empty if the law is stable everywhere.
 std::string text_of_ends(const FittedRubber& fitted) {
   std::string text;
-  for (std::size_t d = 0; d < fitted.stable.size(); ++d) {
-    const StableRange& range = fitted.stable[d];
+  const auto& names = fitted.foam ? foam_test_names() : deformation_names();
+  for (std::size_t d = 0; d < names.size(); ++d) {
+    const StableRange range =
+        fitted.foam ? stable_range(fitted.foam->law, static_cast<FoamTest>(d)) : fitted.stable[d];
     if (range.low_is_open && range.high_is_open) continue;
     text += text.empty() ? "" : "; ";
-    text += deformation_names()[d];
+    text += names[d];
     if (!range.low_is_open) text += " from " + text_of(range.low, 3);
     if (!range.high_is_open) text += " up to " + text_of(range.high, 3);
   }
@@ -102,6 +108,11 @@ void check_large_strain(const std::vector<LargeStrainTest>& tests,
   if (tests.empty()) throw std::runtime_error("there is no test to fit");
   if (options.forms.empty()) throw std::runtime_error("there is no law to fit");
   for (const LargeStrainTest& test : tests) check_test(test);
+  if (options.with_damage && options.n_terms.value_or(options.max_terms.value_or(0)) > 0) {
+    throw std::runtime_error(
+        "damage and terms of relaxation are asked for together, but solvers let the damage act on "
+        "different parts of such a law; fit one of the two");
+  }
   if (options.modulus && !(options.modulus->value_Pa > 0.0)) {
     throw std::runtime_error("the known modulus is " + text_of(options.modulus->value_Pa) +
                              " Pa; it must be positive");
@@ -168,7 +179,12 @@ std::vector<RubberTestSummary> summaries_of(const std::vector<LargeStrainTest>& 
   for (const LargeStrainTest& test : tests) {
     const std::vector<double> stress_Pa = stresses_Pa(fitted, test);
     const auto [low, high] = std::minmax_element(test.stretch.begin(), test.stretch.end());
-    RubberTestSummary one{test.name, test.deformation, test.stretch.size(), *low, *high};
+    RubberTestSummary one{test.name,
+                          test.deformation,
+                          fitted.foam ? name_of(test.foam_test) : name_of(test.deformation),
+                          test.stretch.size(),
+                          *low,
+                          *high};
     double sum = 0.0;
     for (std::size_t i = 0; i < test.stretch.size(); ++i) {
       const double left = test.nominal_stress_Pa[i] - stress_Pa[i];
@@ -178,6 +194,33 @@ std::vector<RubberTestSummary> summaries_of(const std::vector<LargeStrainTest>& 
     out.push_back(one);
   }
   return out;
+}
+
+void add_residuals(const std::vector<LargeStrainTest>& tests, FittedRubber& fitted) {
+  double of_stress = 0.0;
+  for (const LargeStrainTest& test : tests) {
+    const std::vector<double> stress_Pa = stresses_Pa(fitted, test);
+    for (std::size_t i = 0; i < test.stretch.size(); ++i) {
+      const double measured = test.nominal_stress_Pa[i];
+      const double left = measured - stress_Pa[i];
+      fitted.rss += left * left;
+      of_stress += measured * measured;
+    }
+  }
+  fitted.rms_relative = std::sqrt(fitted.rss / of_stress);
+}
+
+std::size_t best_law(const std::vector<FittedRubber>& laws) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < laws.size(); ++i) {
+    const bool is_better = laws[i].bic < laws[best].bic;
+    if (laws[i].is_trustworthy != laws[best].is_trustworthy) {
+      if (laws[i].is_trustworthy) best = i;
+    } else if (is_better) {
+      best = i;
+    }
+  }
+  return best;
 }
 
 std::vector<MaterialFlag> notes_of(const std::vector<LargeStrainTest>& tests) {

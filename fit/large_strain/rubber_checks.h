@@ -18,6 +18,12 @@ void add_rubber_flags(const std::vector<LargeStrainTest>& tests, const LargeStra
 std::vector<RubberTestSummary> summaries_of(const std::vector<LargeStrainTest>& tests,
                                             const FittedRubber& fitted);
 
+// Sum of squared residuals and stresses, in Pa^2.
+void add_residuals(const std::vector<LargeStrainTest>& tests, FittedRubber& fitted);
+
+// Index of the law with the lowest BIC among those to be trusted, or of all if none is.
+std::size_t best_law(const std::vector<FittedRubber>& laws);
+
 // What the data cannot show by themselves.
 std::vector<MaterialFlag> notes_of(const std::vector<LargeStrainTest>& tests);
 

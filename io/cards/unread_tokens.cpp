@@ -78,9 +78,11 @@ std::vector<CardLine> column_lines(const std::vector<CardLine>& lines, bool is_d
     if (!word.empty() && word[0] == (is_dyna ? '*' : '/')) {
       const std::string keyword = word.substr(1);
       const bool is_added = is_dyna && keyword.rfind("MAT_ADD", 0) == 0;
-      is_inside = !is_added && (keyword.rfind(is_dyna ? "MAT_" : "MAT/", 0) == 0 ||
+      const bool is_damage = !is_dyna && keyword.rfind("FAIL/MULLINS_OR/", 0) == 0;
+      is_inside = !is_added && (keyword.rfind(is_dyna ? "MAT_" : "MAT/", 0) == 0 || is_damage ||
                                 (!is_dyna && keyword.rfind("UNIT/", 0) == 0));
-      is_title = is_inside && (!is_dyna || word.find("_TITLE") != std::string::npos);
+      is_title = is_inside && !is_damage && (!is_dyna || word.find("_TITLE") != std::string::npos);
+      if (is_damage) out.push_back(line);
       if (!is_inside && !is_one_of(keyword, is_dyna ? kDynaModel : kRadiossModel))
         out.push_back(line);
       continue;

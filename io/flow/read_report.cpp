@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 RubberReport rubber_report(const std::string& path) {
   const HyperelasticFile file = read_hyperelastic(path);
   RubberReport out{fs::path(path).filename().string(),
-                   name_of(file.law.form),
+                   name_of(file) + (file.damage ? std::string("+") + kMullinsName : std::string()),
                    file.E0_Pa,
                    file.E_inf_Pa,
                    file.E0_interval_95,
@@ -32,11 +32,16 @@ RubberReport rubber_report(const std::string& path) {
                    "",
                    file.is_trustworthy};
   for (const RubberTerm& term : file.terms) out.terms.push_back({term.g, 0.0, term.tau_s});
+  out.stretches = file.foam_tests;
   for (std::size_t d = 0; d < file.measured.size(); ++d) {
     if (!file.measured[d]) continue;
     out.stretches += (out.stretches.empty() ? "" : ", ") + deformation_names()[d] + " " +
                      text_of(file.measured[d]->low, 3) + " to " +
                      text_of(file.measured[d]->high, 3);
+  }
+  if (file.damage) {
+    out.stretches += "; softened by its first loading to no less than " +
+                     text_of(100.0 * (1.0 - 1.0 / file.damage->r), 3) + " %";
   }
   return out;
 }

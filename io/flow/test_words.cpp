@@ -49,11 +49,20 @@ std::optional<TestFile> test_from_word(const std::string& word) {
 }  // namespace
 
 std::span<const LargeStrainKind> large_strain_kinds() {
+  using enum FoamTest;
   static constexpr LargeStrainKind kKinds[] = {
-      {"uniaxial", Deformation::kUniaxial},          {"tension", Deformation::kUniaxial},
-      {"compression", Deformation::kUniaxial, true}, {"planar", Deformation::kPlanar},
-      {"pure-shear", Deformation::kPlanar},          {"equibiaxial", Deformation::kEquibiaxial},
-      {"biaxial", Deformation::kEquibiaxial}};
+      {"uniaxial", Deformation::kUniaxial, kUniaxial},
+      {"tension", Deformation::kUniaxial, kUniaxial},
+      {"compression", Deformation::kUniaxial, kUniaxial, true},
+      {"planar", Deformation::kPlanar, kPlanar},
+      {"pure-shear", Deformation::kPlanar, kPlanar},
+      {"equibiaxial", Deformation::kEquibiaxial, kEquibiaxial},
+      {"biaxial", Deformation::kEquibiaxial, kEquibiaxial},
+      {"confined", Deformation::kUniaxial, kConfined, true, true},
+      {"oedometer", Deformation::kUniaxial, kConfined, true, true},
+      {"volumetric", Deformation::kUniaxial, kVolumetric, true, true},
+      {"hydrostatic", Deformation::kUniaxial, kVolumetric, true, true},
+      {"shear", Deformation::kUniaxial, kShear, false, true}};
   return kKinds;
 }
 

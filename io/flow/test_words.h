@@ -2,6 +2,7 @@
 
 #include "io/flow/fit_request.h"
 #include "models/hyperelastic/deformation.h"
+#include "models/hyperelastic/foam_law.h"
 
 #include <span>
 #include <string>
@@ -9,11 +10,13 @@
 
 namespace viscard {
 
-// The words of tests at large strain: "uniaxial" (or "tension"), "compression", "planar" ...
+// The words of tests at large strain: "uniaxial" (or "tension"), "compression", "planar" ... and those of
+// foams alone: "confined", "volumetric", "shear".
 struct LargeStrainKind {
   const char* word;
   Deformation deformation;
-  bool is_compression = false;
+  FoamTest foam_test;
+  bool is_compression = false, is_foam_only = false;
 };
 std::span<const LargeStrainKind> large_strain_kinds();
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/hyperelastic/mullins_damage.h"
 #include "models/maths/interval.h"
 #include "models/quantities/plausible.h"
 
@@ -16,8 +18,10 @@ namespace viscard {
 // A law of rubber as `viscard fit uniaxial=a.csv ... --out FILE` writes it, schema
 // "viscard-hyperelastic/1".
 struct HyperelasticFile {
-  HyperelasticLaw law;            // the chosen one, at once
-  std::vector<RubberTerm> terms;  // its relaxation; empty: elastic
+  HyperelasticLaw law;                       // the chosen one, at once
+  std::optional<FoamLaw> foam = {};          // stands in its place, which then means nothing
+  std::vector<RubberTerm> terms;             // its relaxation; empty: elastic
+  std::optional<MullinsDamage> damage = {};  // its softening by the first loading
   // Young's modulus at rest: at once, and after all relaxation.
   double E0_Pa = 0.0, E_inf_Pa = 0.0;
   Interval E0_interval_95, E_inf_interval_95;
@@ -31,6 +35,8 @@ struct HyperelasticFile {
     double low = 1.0, high = 1.0;
   };
   std::array<std::optional<Range>, 3> measured;
+  // Of a foam the tests of its own kinds, in words: "confined 0.5 to 1".
+  std::string foam_tests = {};
   // A table that was fitted.
   struct RawFile {
     std::string file, sha256;
@@ -39,6 +45,9 @@ struct HyperelasticFile {
   // Of a law that was read from a card.
   std::optional<double> bulk_Pa = {}, density_kg_m3 = {};
 };
+
+// Name of its law: "yeoh", "hyperfoam-2".
+std::string name_of(const HyperelasticFile& file);
 
 // A file of the law of a card that somebody sent, without tests; raw_files names the card.
 std::string json_from_card_of_rubber(const HyperelasticFile& file);

@@ -1,4 +1,5 @@
 #include "fit/large_strain/rubber_band.h"
+#include "io/basics/words.h"
 #include "io/cards/hyperelastic/rubber_file_card.h"
 #include "io/flow/large_strain/large_strain_words.h"
 #include "io/options/option.h"
@@ -68,7 +69,19 @@ Deformation deformation_from(const std::string& name) {
 py::array rubber_stress(const HyperelasticFile& rubber, const std::string& deformation,
                         std::vector<double> stretch,
                         const std::optional<std::vector<double>>& time_s) {
+  if (rubber.foam) {
+    const auto& names = foam_test_names();
+    const auto found = std::find(names.begin(), names.end(), deformation);
+    if (found == names.end())
+      throw OptionError("deformation of a foam is '" + deformation + "'; use " + listed(names));
+    const auto test = static_cast<FoamTest>(found - names.begin());
+    for (double& value : stretch) value = foam_state(*rubber.foam, test, value).nominal_stress_Pa;
+    return array_of(std::move(stretch));
+  }
   const Deformation kind = deformation_from(deformation);
+  if (rubber.damage) {
+    return array_of(nominal_stress_Pa(rubber.law, *rubber.damage, kind, stretch));
+  }
   if (time_s) {
     return array_of(nominal_stress_Pa(rubber.law, rubber.terms, kind, {*time_s, stretch}));
   }

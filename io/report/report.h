@@ -71,7 +71,7 @@ struct MixingLaw {
 // A law of rubber from tests at large strain, to stand beside the linear tests of its material.
 struct RubberReport {
   std::string name;  // of its file
-  std::string law;   // "yeoh"
+  std::string law;   // "yeoh", "yeoh+mullins-or"
   // Young's modulus at rest: at once, and after all relaxation. Equal without terms.
   double E0_Pa = 0.0, E_inf_Pa = 0.0;
   Interval E0_Pa_95, E_inf_Pa_95;

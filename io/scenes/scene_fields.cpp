@@ -215,6 +215,19 @@ std::optional<HyperelasticFile> pillar_rubber(const SceneFile& file, const std::
                                           "' is not to be trusted" + why +
                                           "; fit another law, or more tests");
   }
+  if (rubber.foam) {
+    throw SceneMistake(key + ".file", "'" + raw.file +
+                                          "' holds a foam, which scenes do not compute; give E and "
+                                          "nu, or a law of rubber");
+  }
+  if (rubber.damage) {
+    throw SceneMistake(key + ".file",
+                       "the law of rubber in '" + raw.file + "' softens by its first loading (" +
+                           kMullinsName +
+                           "), which scenes do not compute; fit the loading of one cycle without "
+                           "it: viscard fit --model " +
+                           name_of(rubber.law.form) + " --cycle N");
+  }
   if (raw.E_Pa > 0.0 || raw.ratio > 0.0) {
     throw SceneMistake(key, "the modulus comes from the law of rubber; leave out E and ratio");
   }

@@ -20,14 +20,13 @@ struct OfInvariant {
 };
 
 OfInvariant arruda_boyce(double invariant, double limit) {
-  constexpr double kC[] = {1.0 / 2.0, 1.0 / 20.0, 11.0 / 1050.0, 19.0 / 7000.0, 519.0 / 673750.0};
   OfInvariant out;
   const double ratio = invariant / (limit * limit);
   double power = 1.0;  // ratio^(i - 1)
   for (int i = 1; i <= 5; ++i, power *= ratio) {
-    out.first += i * kC[i - 1] * power;
-    out.second += i * (i - 1) * kC[i - 1] * power / invariant;
-    out.first_by_shape -= i * (2 * i - 2) * kC[i - 1] * power / limit;
+    out.first += i * kArrudaBoyceSeries[i - 1] * power;
+    out.second += i * (i - 1) * kArrudaBoyceSeries[i - 1] * power / invariant;
+    out.first_by_shape -= i * (2 * i - 2) * kArrudaBoyceSeries[i - 1] * power / limit;
   }
   return out;
 }

@@ -35,6 +35,10 @@ enum class HyperelasticForm {
   kGent
 };
 
+// C_i of arruda-boyce.
+inline constexpr double kArrudaBoyceSeries[] = {1.0 / 2.0, 1.0 / 20.0, 11.0 / 1050.0, 19.0 / 7000.0,
+                                                519.0 / 673750.0};
+
 // In the order of HyperelasticForm, as on the command line.
 const std::vector<std::string>& hyperelastic_names();
 const std::string& name_of(HyperelasticForm form);

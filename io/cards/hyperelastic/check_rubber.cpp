@@ -25,6 +25,8 @@ struct RubberParts {
   std::optional<double> bulk_Pa = {};  // 0: incompressible; none: not compared
   double density_kg_m3 = 0.0;          // 0: not compared
   double poisson = 0.0;                // of a card that states it for the bulk modulus; 0 else
+  std::optional<MullinsDamage> damage = {};
+  std::optional<FoamLaw> foam = {};  // stands in the place of the law
 };
 
 // Neo-Hooke and Mooney-Rivlin as the law of Ogden that they equal, for cards that have only that.
@@ -53,10 +55,27 @@ struct RubberPair {
   double found = 0.0, expected = 0.0;
 };
 
+// Of two foams; empty if one is none, or their numbers of terms differ.
+std::vector<RubberPair> foam_pairs(const RubberParts& found, const RubberParts& expected) {
+  std::vector<RubberPair> out;
+  if (!found.foam || !expected.foam || found.foam->mu_Pa.size() != expected.foam->mu_Pa.size())
+    return out;
+  for (Eigen::Index i = 0; i < found.foam->mu_Pa.size(); ++i) {
+    out.push_back({fmt::format("mu_{}_Pa", i + 1), found.foam->mu_Pa[i], expected.foam->mu_Pa[i]});
+    out.push_back({fmt::format("alpha_{}", i + 1), found.foam->alpha[i], expected.foam->alpha[i]});
+    out.push_back({fmt::format("nu_{}", i + 1), found.foam->nu[i], expected.foam->nu[i]});
+  }
+  if (expected.density_kg_m3 > 0.0)
+    out.push_back({"density", found.density_kg_m3, expected.density_kg_m3});
+  return out;
+}
+
 // Empty if law or number of terms differ.
 std::vector<RubberPair> pairs_between(const RubberParts& found, const RubberParts& expected) {
   std::vector<RubberPair> out;
-  if (found.law.form != expected.law.form || found.terms.size() != expected.terms.size())
+  if (found.foam || expected.foam) return foam_pairs(found, expected);
+  if (found.law.form != expected.law.form || found.terms.size() != expected.terms.size() ||
+      found.damage.has_value() != expected.damage.has_value())
     return out;
   const auto moduli = modulus_names(found.law.form), shapes = shape_names(found.law.form);
   for (Eigen::Index i = 0; i < found.law.moduli_Pa.size(); ++i)
@@ -69,6 +88,11 @@ std::vector<RubberPair> pairs_between(const RubberParts& found, const RubberPart
   for (std::size_t i = 0; i < a.size(); ++i) {
     out.push_back({fmt::format("g_{}", i + 1), a[i].g, b[i].g});
     out.push_back({fmt::format("tau_{}_s", i + 1), a[i].tau_s, b[i].tau_s});
+  }
+  if (expected.damage) {
+    out.push_back({"r", found.damage->r, expected.damage->r});
+    out.push_back({"m_Pa", found.damage->m_Pa, expected.damage->m_Pa});
+    out.push_back({"beta", found.damage->beta, expected.damage->beta});
   }
   if (expected.poisson != 0.0)
     out.push_back({"Poisson's ratio", found.poisson, expected.poisson});
@@ -100,6 +124,7 @@ struct RubberMistake {
 };
 
 void scale_law(RubberParts& parts, double factor) {
+  if (parts.foam) parts.foam->mu_Pa *= factor;
   parts.law.moduli_Pa *= factor;
 }
 
@@ -196,6 +221,25 @@ void add_law_mistakes(HyperelasticForm form, const std::string& target,
   }
 }
 
+void add_damage_mistakes(const UnitSystem& units, std::vector<RubberMistake>& list) {
+  list.push_back({"damage-order-exchanged",
+                  "m and beta of the damage stand in the wrong order (Abaqus takes r, m, beta, "
+                  "OpenRadioss R, beta, m)",
+                  [&units](RubberParts& p) {
+                    const double m = to_card(p.damage->m_Pa, units.stress_exponent);
+                    p.damage->m_Pa = from_card(p.damage->beta, units.stress_exponent);
+                    p.damage->beta = m;
+                  }});
+  list.push_back({"one-over-r", "1/r, the largest damage, stands where the solver takes r",
+                  [](RubberParts& p) { p.damage->r = 1.0 / p.damage->r; }});
+  for (const UnitSystem& other : unit_systems()) {
+    const int shift = other.stress_exponent - units.stress_exponent;
+    if (shift == 0) continue;
+    list.push_back({"damage-unit", fmt::format("m of the damage is in the unit of {}", other.name),
+                    [shift](RubberParts& p) { p.damage->m_Pa = to_card(p.damage->m_Pa, shift); }});
+  }
+}
+
 void add_volume_and_unit_mistakes(const UnitSystem& units, std::vector<RubberMistake>& list) {
   list.push_back({"K-for-D", "the bulk modulus stands where the solver takes D = 2/K",
                   [&units](RubberParts& p) {
@@ -212,6 +256,7 @@ void add_volume_and_unit_mistakes(const UnitSystem& units, std::vector<RubberMis
     list.push_back({"stress-unit", fmt::format("the moduli are in the unit of {}", other.name),
                     [shift](RubberParts& p) {
                       scale_law(p, to_card(1.0, shift));
+                      if (p.damage) p.damage->m_Pa = to_card(p.damage->m_Pa, shift);
                       if (p.bulk_Pa) p.bulk_Pa = to_card(*p.bulk_Pa, shift);
                     }});
   }
@@ -222,25 +267,52 @@ void add_volume_and_unit_mistakes(const UnitSystem& units, std::vector<RubberMis
   }
 }
 
+void add_foam_mistakes(std::vector<RubberMistake>& list) {
+  list.push_back(
+      {"foam-own-constants",
+       "the constants are 2 mu/alpha (as in ANSYS and LS-DYNA), where the solver takes mu",
+       [](RubberParts& p) { p.foam->mu_Pa.array() *= 2.0 / p.foam->alpha.array(); }});
+  list.push_back({"foam-shear-moduli",
+                  "the constants are shear moduli mu, where the solver takes 2 mu/alpha",
+                  [](RubberParts& p) { p.foam->mu_Pa.array() *= p.foam->alpha.array() / 2.0; }});
+  list.push_back(
+      {"beta-for-nu", "beta = nu/(1 - 2 nu) stands where the solver takes nu", [](RubberParts& p) {
+         for (double& nu : p.foam->nu) nu = nu / (1.0 - 2.0 * nu);
+       }});
+  list.push_back(
+      {"nu-for-beta", "nu stands where the solver takes beta = nu/(1 - 2 nu)", [](RubberParts& p) {
+         for (double& nu : p.foam->nu) nu = nu / (1.0 + 2.0 * nu);
+       }});
+}
+
 // The mistake whose numbers are the card's.
 std::vector<CardFinding> explained(const RubberParts& found, const RubberParts& expected,
                                    const std::string& target, const UnitSystem& units) {
-  if (found.law.form != expected.law.form)
-    return {
-        {"other-law",
-         "the card has the law " + name_of(found.law.form) + ", not " + name_of(expected.law.form),
-         true}};
+  const auto name_of_parts = [](const RubberParts& parts) {
+    return parts.foam ? foam_name(parts.foam->mu_Pa.size()) : name_of(parts.law.form);
+  };
+  const std::string found_name = name_of_parts(found), expected_name = name_of_parts(expected);
+  if (found_name != expected_name)
+    return {{"other-law", "the card has the law " + found_name + ", not " + expected_name, true}};
   if (found.terms.size() != expected.terms.size())
     return {{"other-terms",
              fmt::format("the card has {} terms of relaxation, the law has {}", found.terms.size(),
                          expected.terms.size()),
              true}};
+  if (found.damage.has_value() != expected.damage.has_value())
+    return {{"other-damage",
+             std::string(found.damage ? "the card has the damage by the first loading "
+                                      : "the card lacks the damage by the first loading ") +
+                 kMullinsName + (found.damage ? ", which the law has not" : " of the law"),
+             true}};
   std::vector<RubberMistake> list;
+  if (expected.damage) add_damage_mistakes(units, list);
   if (!expected.terms.empty()) {
     add_basis_mistakes(list);
     add_term_mistakes(units, list);
   }
-  add_law_mistakes(expected.law.form, target, list);
+  if (expected.foam) add_foam_mistakes(list);
+  if (!expected.foam) add_law_mistakes(expected.law.form, target, list);
   add_volume_and_unit_mistakes(units, list);
   const RubberMistake* best = nullptr;
   double smallest = std::min(kHandTyped, 0.2 * largest_mismatch(found, expected));
@@ -294,6 +366,14 @@ void take_volume(const std::string& text, const HyperelasticFile* file,
     ((out = out ? out : all), ...);
     return out;
   };
+  const std::optional<double> of_density = file == nullptr ? std::nullopt : file->density_kg_m3;
+  if (expected.foam) {
+    const auto first_density = options.density_kg_m3 ? options.density_kg_m3
+                               : of_density          ? of_density
+                                                     : stated_number(text, " density ");
+    expected.density_kg_m3 = first_density.value_or(0.0);
+    return;
+  }
   const std::optional<double> of_file = file == nullptr ? std::nullopt : file->bulk_Pa;
   const auto has = [&](const char* words) {
     return !stated_rubber_target(text).empty() && text.find(words) != std::string::npos;
@@ -325,13 +405,24 @@ std::vector<CardFinding> header_findings(const std::string& text, const RubberPa
                    true});
   };
   if (const auto E = stated_number(text, "Young's modulus at rest "))
-    compare("Young's modulus at rest", youngs_modulus_Pa(found.law), *E);
+    compare("Young's modulus at rest",
+            found.foam ? youngs_modulus_Pa(*found.foam) : youngs_modulus_Pa(found.law), *E);
   if (expected.bulk_Pa && expected.poisson == 0.0)
     compare("the bulk modulus", found.bulk_Pa.value_or(0.0), *expected.bulk_Pa);
   // Ten columns cut Poisson's ratio off, not the bulk modulus.
   constexpr double kCut = 2e-5;
   if (expected.poisson != 0.0 && relative_mismatch(found.poisson, expected.poisson) > kCut)
     compare("the bulk modulus, by Poisson's ratio", *found.bulk_Pa, *expected.bulk_Pa);
+  if (found.damage) {
+    const double values[] = {found.damage->r, found.damage->m_Pa, found.damage->beta};
+    const char* const marks[] = {" damage r ", " damage m ", " damage beta "};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (const auto stated = stated_number(text, marks[i]))
+        compare(
+            std::string("the") + std::string(marks[i]).substr(0, std::string(marks[i]).size() - 1),
+            values[i], *stated);
+    }
+  }
   if (expected.density_kg_m3 > 0.0)
     compare("the density", found.density_kg_m3, expected.density_kg_m3);
   return out;
@@ -339,6 +430,7 @@ std::vector<CardFinding> header_findings(const std::string& text, const RubberPa
 
 // Rubber hardly changes its volume.
 std::optional<CardFinding> soft_volume(const std::string& text, const ReadRubber& read) {
+  if (read.foam) return std::nullopt;
   constexpr double kLeastRatio = 10.0;
   const double ratio = read.bulk_Pa / (youngs_modulus_Pa(read.law) / 3.0);
   if (read.bulk_Pa == 0.0 || ratio >= kLeastRatio) return std::nullopt;
@@ -359,6 +451,15 @@ double rounding_of(const RubberParts& expected, const RubberCheckOptions& option
   writing.density_kg_m3 = read.density_kg_m3 > 0.0 ? read.density_kg_m3 : kAnyDensity_kg_m3;
   if (read.bulk_Pa > 0.0) writing.bulk_Pa = read.bulk_Pa;
   writing.may_approximate = true;
+  if (expected.foam) {
+    writing.bulk_Pa.reset();
+    RubberParts rounded;
+    rounded.foam =
+        read_rubber_card(foam_card(*expected.foam, writing), options.target, read.units->name).foam;
+    RubberParts law_alone = expected;
+    law_alone.density_kg_m3 = 0.0;
+    return std::min(kMost, largest_mismatch(rounded, law_alone));
+  }
   const ReadRubber own = read_rubber_card(rubber_card(expected.law, expected.terms, writing),
                                           options.target, read.units->name);
   const RubberParts rounded{own.law, own.terms};
@@ -372,10 +473,13 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
   RubberCheck check{.read = read_rubber_card(text, options.target, options.units)};
   check.findings = check.read.findings;
   check.tolerance = options.tolerance.value_or(1e-6);
-  const RubberParts found{check.read.law, check.read.terms, check.read.bulk_Pa,
-                          check.read.density_kg_m3, check.read.poisson};
+  const RubberParts found{check.read.law,           check.read.terms,   check.read.bulk_Pa,
+                          check.read.density_kg_m3, check.read.poisson, check.read.damage,
+                          check.read.foam};
   if (file != nullptr) {
     RubberParts expected{file->law, file->terms};
+    expected.damage = file->damage;
+    expected.foam = file->foam;
     if (!options.elastic_only.empty()) {
       expected.law = law_without_terms(file->law, file->terms, options.elastic_only);
       expected.terms.clear();
@@ -386,7 +490,7 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
           std::max(check.tolerance, kMore * rounding_of(expected, options, check.read));
     }
     take_volume(text, file, options, check.read, expected);
-    expected = in_form(expected, found.law.form);
+    if (!expected.foam && !found.foam) expected = in_form(expected, found.law.form);
     check.difference = largest_mismatch(found, expected);
     if (*check.difference > check.tolerance) {
       const auto why = explained(found, expected, options.target, *check.read.units);
@@ -394,10 +498,14 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
     }
   } else {
     RubberParts expected{check.read.law, check.read.terms};
+    expected.damage = check.read.damage;
+    expected.foam = check.read.foam;
     take_volume(text, file, options, check.read, expected);
     const auto differ = header_findings(text, found, expected);
     check.findings.insert(check.findings.end(), differ.begin(), differ.end());
-    const CardScale scale{youngs_modulus_Pa(found.law), found.density_kg_m3, check.read.units};
+    const CardScale scale{
+        found.foam ? youngs_modulus_Pa(*found.foam) : youngs_modulus_Pa(found.law),
+        found.density_kg_m3, check.read.units};
     const auto doubt = implausible_finding(text, scale, options.plausible);
     if (check.findings.empty() && doubt) check.findings.push_back(*doubt);
   }

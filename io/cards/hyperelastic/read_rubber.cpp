@@ -23,13 +23,65 @@ std::string reading_of(const RubberText& read) {
   const auto add = [&](double value) { out += fmt::format(" {}", value); };
   for (const double modulus : read.numbers.moduli) add(modulus);
   for (const double shape : read.numbers.shapes) add(shape);
+  for (const RubberNumbers::FoamTerm& term : read.numbers.foam) {
+    add(term.mu);
+    add(term.alpha);
+    add(term.nu);
+  }
   for (const RubberNumbers::Term& term : read.numbers.terms) {
     add(term.g);
     add(term.time);
   }
+  if (const auto& damage = read.numbers.damage) {
+    out += fmt::format(" damage {} {} {}", damage->r, damage->m, damage->beta);
+  }
   out += (read.is_long_term ? " long" : " once") + read.also_read + read.units;
   for (const CardFinding& finding : read.findings) out += " " + finding.text;
   return out;
+}
+
+// A foam; terms of one alpha and nu are one term, such as the halves that CalculiX needs.
+void take_foam(const RubberNumbers& numbers, double stress_Pa, ReadRubber& out) {
+  std::vector<RubberNumbers::FoamTerm> terms;
+  for (const RubberNumbers::FoamTerm& term : numbers.foam) {
+    const auto same = std::find_if(terms.begin(), terms.end(), [&](const auto& other) {
+      return other.alpha == term.alpha && other.nu == term.nu;
+    });
+    if (same != terms.end()) {
+      same->mu += term.mu;
+    } else {
+      terms.push_back(term);
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(terms.size());
+  FoamLaw law{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& term = terms[static_cast<std::size_t>(i)];
+    law.mu_Pa[i] = term.mu * stress_Pa;
+    law.alpha[i] = term.alpha;
+    law.nu[i] = term.nu;
+  }
+  validate(law);
+  out.foam = law;
+  out.bulk_Pa = bulk_modulus_Pa(law);
+}
+
+// The damage of a card in SI, and what is wrong with it.
+void take_damage(const RubberNumbers& numbers, double stress_Pa, ReadRubber& out) {
+  if (!numbers.damage) return;
+  out.damage =
+      MullinsDamage{numbers.damage->r, numbers.damage->m * stress_Pa, numbers.damage->beta};
+  try {
+    validate(*out.damage);
+  } catch (const std::invalid_argument& error) {
+    out.findings.push_back({"damage-out-of-range", error.what(), true});
+  }
+  if (out.terms.empty()) return;
+  out.findings.push_back(
+      {"damage-beside-terms",
+       "damage stands beside terms of relaxation: solvers let it act on different "
+       "parts of such a law, and viscard has none with both",
+       true});
 }
 
 RubberText text_of_target(const std::string& text, const std::string& target) {
@@ -75,10 +127,17 @@ void take_at_once(const RubberText& read, double stress_Pa, ReadRubber& out) {
 
 }  // namespace
 
+std::string name_of(const ReadRubber& read) {
+  return read.foam ? foam_name(read.foam->mu_Pa.size()) : name_of(read.law.form);
+}
+
 bool looks_like_rubber_card(const std::string& text) {
   if (!stated_rubber_target(text).empty()) return true;
   // Abaqus/CAE writes "*Hyperelastic", MAPDL "TB,HYPE".
   static const std::vector<std::string> kWords{"*HYPERELASTIC",
+                                               "*HYPERFOAM",
+                                               "*MAT_HILL_FOAM",
+                                               "*MAT_177",
                                                "TB,HYPE",
                                                "*MAT_OGDEN_RUBBER",
                                                "*MAT_077",
@@ -87,6 +146,7 @@ bool looks_like_rubber_card(const std::string& text) {
                                                "/MAT/LAW82",
                                                "/MAT/LAW92",
                                                "/MAT/LAW94",
+                                               "/MAT/LAW100",
                                                "\"OGDEN\"",
                                                "\"YEOH\"",
                                                "\"ARRUDA-BOYCE\"",
@@ -155,7 +215,10 @@ ReadRubber read_rubber_card(const std::string& text, const std::string& target,
                                    return reading_of(text_of_target(changed, target));
                                  }),
                    out.findings);
-  take_at_once(read, from_card(1.0, out.units->stress_exponent), out);
+  const double stress_Pa = from_card(1.0, out.units->stress_exponent);
+  if (read.numbers.foam.empty()) take_at_once(read, stress_Pa, out);
+  if (!read.numbers.foam.empty()) take_foam(read.numbers, stress_Pa, out);
+  take_damage(read.numbers, stress_Pa, out);
   return out;
 }
 

@@ -2,8 +2,11 @@
 
 #include "io/cards/read_card.h"
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/hyperelastic/mullins_damage.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +14,10 @@ namespace viscard {
 
 // A law of rubber as a solver takes it from a card, in SI.
 struct ReadRubber {
-  HyperelasticLaw law;            // at once
-  std::vector<RubberTerm> terms;  // shares of the law at once
+  HyperelasticLaw law;                       // at once
+  std::optional<FoamLaw> foam = {};          // stands in its place
+  std::vector<RubberTerm> terms;             // shares of the law at once
+  std::optional<MullinsDamage> damage = {};  // by the first loading
   // The law that stands in the card is the one after all relaxation.
   bool is_long_term = false;
   double bulk_Pa = 0.0;        // 0: incompressible
@@ -22,6 +27,9 @@ struct ReadRubber {
   bool units_were_stated = false;
   std::vector<CardFinding> findings;
 };
+
+// Name of the law of a card: "yeoh", "hyperfoam-2".
+std::string name_of(const ReadRubber& read);
 
 // True for a text with a law of rubber of any of them, or a card of rubber by viscard. A Mooney-Rivlin of
 // FEBio alone is not: it may be the child of a linear card.

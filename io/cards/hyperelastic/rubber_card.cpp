@@ -39,6 +39,24 @@ void require_terms_taken(const RubberNumbers& law, const RubberTarget& target,
       way_out);
 }
 
+// Throws std::invalid_argument, with the way on, if the target cannot take the damage of the law.
+void require_damage_taken(HyperelasticForm form, const RubberTarget& target) {
+  if (target.damage.takes(form)) return;
+  std::string takers;
+  for (const RubberTarget& other : rubber_targets()) {
+    if (other.damage.takes(form)) takers += (takers.empty() ? "" : ", ") + other.name;
+  }
+  std::string others;
+  for (const HyperelasticForm other : target.damage.forms)
+    others += (others.empty() ? "" : ", ") + name_of(other) + "+" + kMullinsName;
+  throw std::invalid_argument(
+      target.name + " cannot take the damage " + kMullinsName + " beside " + name_of(form) + ": " +
+      target.damage.refusal + (takers.empty() ? "" : ". Write the card for " + takers) +
+      (others.empty() ? "" : ", fit " + others) + (takers.empty() ? ". Fit" : ", or fit") +
+      " the loading of one cycle without damage: viscard fit --model " + name_of(form) +
+      " --cycle N");
+}
+
 RubberNumbers numbers_of(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
                          const RubberTarget& target, const RubberCardOptions& options) {
   const UnitSystem& units = unit_system(options.units);
@@ -85,21 +103,56 @@ HyperelasticLaw law_without_terms(const HyperelasticLaw& law, const std::vector<
   return out;
 }
 
+std::string foam_card(const FoamLaw& law, const RubberCardOptions& options) {
+  validate(law);
+  const RubberTarget& target = rubber_target(options.target);
+  if (target.laws.foam.empty()) {
+    std::string takers;
+    for (const RubberTarget& other : rubber_targets()) {
+      if (!other.laws.foam.empty()) takers += (takers.empty() ? "" : ", ") + other.name;
+    }
+    throw std::invalid_argument(
+        "viscard writes no card of a foam (" + foam_name(law.mu_Pa.size()) + ") for " +
+        target.name +
+        ": no public text states that it has this law with these constants. "
+        "Write the card for " +
+        takers);
+  }
+  require(!options.bulk_Pa, "the bulk modulus of a foam follows from its constants; omit it");
+  const UnitSystem& units = unit_system(options.units);
+  RubberNumbers numbers;
+  numbers.units = &units;
+  for (Eigen::Index i = 0; i < law.mu_Pa.size(); ++i)
+    numbers.foam.push_back({to_card(law.mu_Pa[i], units.stress_exponent), law.alpha[i], law.nu[i]});
+  numbers.shear = to_card(shear_modulus_Pa(law), units.stress_exponent);
+  numbers.bulk = to_card(bulk_modulus_Pa(law), units.stress_exponent);
+  if (options.density_kg_m3) {
+    require_positive("the density", *options.density_kg_m3, "kg/m3");
+    numbers.density = to_card(*options.density_kg_m3, units.density_exponent);
+  }
+  require(!target.needs_density || numbers.density > 0.0,
+          target.name + " needs a density: --density \"30 kg/m3\"");
+  return target.write(numbers, options.material_name);
+}
+
 std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& options) {
   return rubber_card(law, {}, options);
 }
 
 std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
-                        const RubberCardOptions& options) {
+                        const RubberCardOptions& options,
+                        const std::optional<MullinsDamage>& damage) {
   validate(law);
   validate(terms);
+  if (damage) validate(*damage);
+  require(!damage || terms.empty(), "damage and terms of relaxation never stand beside one law");
   if (!options.elastic_only.empty() && !terms.empty()) {
     RubberCardOptions elastic = options;
     elastic.elastic_only.clear();
     return rubber_card(law_without_terms(law, terms, options.elastic_only), elastic);
   }
   const RubberTarget& target = rubber_target(options.target);
-  const RubberNumbers numbers = numbers_of(law, terms, target, options);
+  RubberNumbers numbers = numbers_of(law, terms, target, options);
   if (target.laws.of(law.form).empty()) {
     std::string others;
     for (const HyperelasticForm form : hyperelastic_forms()) {
@@ -111,6 +164,11 @@ std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm
   require(!target.needs_density || numbers.density > 0.0,
           target.name + " needs a density: --density \"1.1 g/cm3\"");
   require_terms_taken(numbers, target, options.may_approximate);
+  if (damage) {
+    require_damage_taken(law.form, target);
+    numbers.damage = {damage->r, to_card(damage->m_Pa, numbers.units->stress_exponent),
+                      damage->beta};
+  }
   return target.write(numbers, options.material_name);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/hyperelastic/mullins_damage.h"
 #include "models/quantities/plausible.h"
 
 #include <optional>
@@ -40,10 +42,16 @@ struct RubberCardOptions {
 // missing density, a bulk modulus or density that is not positive, and numbers that calculix or
 // frontistr would replace silently.
 std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& options);
-// The law at once with terms of relaxation (Simo 1987); conventions in rubber_terms.cpp. Throws the
-// same, and std::invalid_argument for terms that the target cannot take.
+// The law at once with terms of relaxation (Simo 1987), or with damage by the first loading; conventions in
+// rubber_terms.cpp and rubber_targets.cpp. Throws the same, and std::invalid_argument for terms or damage
+// that the target cannot take.
 std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
-                        const RubberCardOptions& options);
+                        const RubberCardOptions& options,
+                        const std::optional<MullinsDamage>& damage = {});
+
+// The card of a foam: its volume is a part of the law, so that it takes no bulk modulus. Throws
+// std::invalid_argument for a target without foams, unequal nu for lsdyna, and a missing density.
+std::string foam_card(const FoamLaw& law, const RubberCardOptions& options);
 
 // The law without terms: at once, or after all relaxation ("long-term").
 HyperelasticLaw law_without_terms(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,

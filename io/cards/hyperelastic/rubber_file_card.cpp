@@ -44,14 +44,28 @@ std::string relaxation_line(const HyperelasticFile& file, const RubberCardOption
 std::vector<std::string> header_lines(const HyperelasticFile& file, const RubberTarget& target,
                                       const RubberCardOptions& options) {
   std::vector<std::string> lines{
-      "viscard card: " + name_of(file.law.form) + " for " + options.target,
+      "viscard card: " + name_of(file) + (file.damage ? std::string("+") + kMullinsName : "") +
+          " for " + options.target,
       fmt::format("units: {} ({})", options.units, unit_system(options.units).description),
       relaxation_line(file, options)};
   if (!file.terms.empty() && options.elastic_only.empty()) {
     lines.push_back("terms: " + target.terms);
   }
-  lines.push_back("conventions: " + target.laws.of(file.law.form) + "; volume " + target.volume);
-  lines.push_back("evidence: " + target.evidence);
+  const std::string& laws = file.damage && !target.damage.laws.empty()
+                                ? target.damage.laws
+                                : target.laws.of(file.law.form);
+  lines.push_back("conventions: " +
+                  (file.foam ? target.laws.foam : laws + "; volume " + target.volume));
+  if (file.damage) {
+    lines.push_back(std::string("damage by the first loading, ") + kMullinsName +
+                    ": eta = 1 - erf((W_m - W)/(m + beta W_m))/r. " + target.damage.convention);
+    lines.push_back("damage r " + text_of(file.damage->r, kDigits));
+    lines.push_back("damage m " + text_of(file.damage->m_Pa, kDigits) + " Pa");
+    lines.push_back("damage beta " + text_of(file.damage->beta, kDigits));
+  }
+  lines.push_back("evidence: " + (file.foam && options.target == "calculix"
+                                      ? std::string("one cube run in CalculiX 2.20, all tests")
+                                      : target.evidence));
   if (options.density_kg_m3) {
     lines.push_back("density " + text_of(*options.density_kg_m3, kDigits) + " kg/m3");
   }
@@ -63,6 +77,9 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
     lines.push_back("bulk modulus " + text_of(*options.bulk_Pa, kDigits) + " Pa");
     const std::string doubt = doubtful_bulk_modulus(file, options);
     if (!doubt.empty()) lines.push_back("warning: " + doubt);
+  } else if (file.foam) {
+    lines.push_back("at rest: shear modulus " + text_of(shear_modulus_Pa(*file.foam), kDigits) +
+                    " Pa, Poisson's ratio " + text_of(poisson_ratio(*file.foam), kDigits));
   } else if (target.may_be_incompressible) {
     lines.push_back("incompressible: use hybrid (mixed) elements, or --bulk-modulus");
   } else {
@@ -74,7 +91,17 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
                     text_of(file.E_inf_interval_95.low) + ", " +
                     text_of(file.E_inf_interval_95.high) + "] Pa");
   }
-  for (std::size_t d = 0; d < file.measured.size(); ++d) {
+  if (file.foam) {
+    lines.push_back("measured: " + (file.foam_tests.empty() ? "nothing" : file.foam_tests));
+    for (std::size_t t = 0; t < foam_test_names().size(); ++t) {
+      const StableRange stable = stable_range(*file.foam, static_cast<FoamTest>(t));
+      if (stable.low_is_open && stable.high_is_open) continue;
+      lines.push_back(
+          fmt::format("{}: stable {} to {}", foam_test_names()[t], text_of(stable.low, 3),
+                      text_of(stable.high, 3) + (stable.high_is_open ? " and more" : "")));
+    }
+  }
+  for (std::size_t d = 0; d < file.measured.size() && !file.foam; ++d) {
     const auto& measured = file.measured[d];
     const StableRange stable = stable_range(file.law, static_cast<Deformation>(d));
     lines.push_back(
@@ -124,6 +151,8 @@ double shear_modulus_Pa(const HyperelasticFile& file) {
 }  // namespace
 
 void refuse_bulk_modulus(const HyperelasticFile& file, const RubberCardOptions& options) {
+  if (options.bulk_Pa && file.foam)
+    throw std::invalid_argument("the bulk modulus of a foam follows from its constants; omit it");
   if (!options.bulk_Pa || options.plausible == Plausible::kOff) return;
   const double least_Pa = 2.0 * shear_modulus_Pa(file) / 3.0;
   if (*options.bulk_Pa >= least_Pa) return;
@@ -153,7 +182,8 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
   }
   refuse_bulk_modulus(file, options);
   const RubberTarget& target = rubber_target(options.target);
-  const std::string card = rubber_card(file.law, file.terms, options);
+  const std::string card = file.foam ? foam_card(*file.foam, options)
+                                     : rubber_card(file.law, file.terms, options, file.damage);
   const std::string text =
       sealed(as_comments(header_lines(file, target, options), target.comment) + card);
   read_back(text, file, name, options);

@@ -7,6 +7,9 @@
 //   ansys     Ogden's own mu_i/alpha_i; NEO takes the shear modulus 2 C10; d = 2/K, 0 is incompressible.
 //             Source: Mechanical APDL Structural Analysis Guide, TB,HYPER (OGDEN and NEO with examples);
 //             order of BOYCE, GENT and YEOH: Material Reference 4.6.
+// Damage by the first loading (models/hyperelastic/mullins_damage.h) of abaqus: *MULLINS EFFECT below the law,
+//   with r, m, beta as here. Source: Analysis User's Guide, Mullins effect; order: CAE User's Guide, Mullins
+//   effect, columns of its table. Not run. ansys has it as TB,CDM,,,3,PSE2, whose order no public text states.
 // febio: rubber_febio.cpp; frontistr, lsdyna and openradioss: rubber_rows.cpp; comsol, moose and sfepy: rubber_models.cpp;
 // mfront: rubber_mfront.cpp;
 // terms of relaxation: rubber_terms.cpp.
@@ -47,6 +50,7 @@ std::string rows_of_eight(const Numbers& numbers) {
 
 std::string keyword_rubber(const RubberNumbers& law, bool is_calculix,
                            const std::string& material) {
+  if (!law.foam.empty()) return keyword_foam(law, is_calculix, material);
   // calculix takes a smaller D for a missing one.
   constexpr double kLeast = 1e-10;
   require(!is_calculix || law.d() >= kLeast,
@@ -74,7 +78,11 @@ std::string keyword_rubber(const RubberNumbers& law, bool is_calculix,
   if (!law.terms.empty()) keyword += ", MODULI=INSTANTANEOUS";
   std::string text = "*MATERIAL, NAME=" + material + "\n";
   if (law.density > 0.0) text += "*DENSITY\n" + number_of_20(law.density) + ",\n";
-  return text + "*HYPERELASTIC, " + keyword + "\n" + rows_of_eight(numbers) + abaqus_terms(law);
+  text += "*HYPERELASTIC, " + keyword + "\n" + rows_of_eight(numbers) + abaqus_terms(law);
+  if (law.damage) {
+    text += "*MULLINS EFFECT\n" + row({law.damage->r, law.damage->m, law.damage->beta});
+  }
+  return text;
 }
 
 std::string ansys_rubber(const RubberNumbers& law) {

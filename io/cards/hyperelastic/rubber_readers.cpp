@@ -128,6 +128,64 @@ void take_keyword_law(const KeywordBlock& block, RubberText& out) {
   }
 }
 
+// *HYPERFOAM of Abaqus and CalculiX: mu and alpha of each term, then the nu of each.
+void take_keyword_foam(const KeywordBlock& block, bool is_calculix, RubberText& out) {
+  const std::vector<double> numbers = all_numbers(block);
+  const std::size_t n = order_of(block);
+  require_count(numbers, 2 * n, block.keyword.c_str());
+  std::vector<double> mu, alpha, nu;
+  for (std::size_t i = 0; i < n; ++i) {
+    mu.push_back(numbers[2 * i]);
+    alpha.push_back(numbers[2 * i + 1]);
+    nu.push_back(2 * n + i < numbers.size() ? numbers[2 * n + i] : 0.0);
+  }
+  take_foam_terms(mu, alpha, nu, out.numbers);
+  if (is_calculix && n == 1) {
+    out.findings.push_back({"calculix-one-term",
+                            at_line(block.line,
+                                    "ccx gives *HYPERFOAM with N = 1 no stiffness; write N=2 with "
+                                    "half of mu twice"),
+                            true});
+  }
+  if (numbers.size() <= 3 * n) return;
+  out.findings.push_back(
+      {"other-count",
+       at_line(block.line, fmt::format("{} numbers stand below {}, which takes {}", numbers.size(),
+                                       block.keyword, 3 * n)),
+       true});
+  for (std::size_t i = 3 * n; i < numbers.size(); ++i)
+    out.also_read += fmt::format(" {}", numbers[i]);
+}
+
+// *MULLINS EFFECT of Abaqus: r, m, beta.
+void take_mullins(const KeywordBlock& block, RubberText& out) {
+  const bool is_direct = std::none_of(
+      block.parameters.begin(), block.parameters.end(), [](const std::string& parameter) {
+        return parameter == "USER" || parameter == "TESTDATAINPUT" ||
+               parameter.rfind("DEPENDENCIES", 0) == 0;
+      });
+  if (!is_direct) {
+    out.findings.push_back(
+        {"other-law",
+         at_line(block.line, block.keyword + " is given by test data, fields or a subroutine "
+                                             "and is not read; only r, m, beta are"),
+         true});
+    return;
+  }
+  const std::vector<double> numbers = all_numbers(block);
+  constexpr std::size_t kConstants = 3;
+  require_count(numbers, 2, block.keyword.c_str());
+  out.numbers.damage = {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : 0.0};
+  if (numbers.size() <= kConstants) return;
+  out.findings.push_back(
+      {"other-count",
+       at_line(block.line, fmt::format("{} numbers stand below {}, and {} are read: r, m, beta",
+                                       numbers.size(), block.keyword, kConstants)),
+       true});
+  for (std::size_t i = kConstants; i < numbers.size(); ++i)
+    out.also_read += fmt::format(" {}", numbers[i]);
+}
+
 // Constants of MAPDL's tables by their locations.
 struct TableOfMapdl {
   std::string option;
@@ -166,6 +224,14 @@ std::map<std::string, TableOfMapdl> mapdl_tables(const std::string& text) {
 }
 
 }  // namespace
+
+void take_foam_terms(const std::vector<double>& mu, const std::vector<double>& alpha,
+                     const std::vector<double>& nu, RubberNumbers& out) {
+  constexpr std::size_t kMost = 6;
+  if (mu.empty() || mu.size() > kMost)
+    throw std::runtime_error("a foam has 1 to 6 terms, this has " + std::to_string(mu.size()));
+  for (std::size_t i = 0; i < mu.size(); ++i) out.foam.push_back({mu[i], alpha[i], nu[i]});
+}
 
 void take_ogden(const std::vector<double>& moduli, const std::vector<double>& shapes,
                 RubberNumbers& out) {
@@ -210,8 +276,19 @@ RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
       take_keyword_law(block, out);
       has_law = true;
       is_at_once = block.has("MODULI=INSTANTANEOUS");
+    } else if (block.keyword == "*HYPERFOAM") {
+      take_keyword_foam(block, is_calculix, out);
+      has_law = true;
     } else if (block.keyword == "*DENSITY") {
       out.numbers.density = density_in(block);
+    } else if (block.keyword == "*MULLINS EFFECT" && is_calculix) {
+      out.findings.push_back({"ignored-damage",
+                              at_line(block.line,
+                                      "ccx skips *MULLINS EFFECT with a warning: the "
+                                      "law has no damage"),
+                              true});
+    } else if (block.keyword == "*MULLINS EFFECT") {
+      take_mullins(block, out);
     } else if (block.keyword == "*VISCOELASTIC" && is_calculix) {
       out.findings.push_back({"ignored-viscoelastic",
                               at_line(block.line, "ccx ignores *VISCOELASTIC: the law is elastic"),
@@ -231,12 +308,17 @@ RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
     }
   }
   require_in_card(has_law, "*HYPERELASTIC");
+  if (!out.numbers.foam.empty() && !out.numbers.terms.empty()) {
+    out.findings.push_back(
+        {"foam-with-terms",
+         "terms of relaxation stand beside *HYPERFOAM, and viscard's foams have none", true});
+  }
   for (const CardFinding& finding : material_findings(blocks, false))
     out.findings.push_back(finding);
   for (const KeywordBlock& block : blocks) {
-    for (const char* other : {"*ELASTIC", "*PLASTIC", "*CREEP", "*HYPERFOAM", "*MULLINS EFFECT",
-                              "*HYSTERESIS", "*DAMPING", "*USER MATERIAL", "*VISCOUS",
-                              "*DAMAGE INITIATION", "*CONCRETE", "*RATE DEPENDENT"}) {
+    for (const char* other :
+         {"*ELASTIC", "*PLASTIC", "*CREEP", "*HYSTERESIS", "*DAMPING", "*USER MATERIAL", "*VISCOUS",
+          "*DAMAGE INITIATION", "*CONCRETE", "*RATE DEPENDENT"}) {
       if (block.keyword != other) continue;
       out.findings.push_back(
           {"other-law", at_line(block.line, block.keyword + " changes the stress and is not read"),
@@ -244,7 +326,7 @@ RubberText read_keyword_rubber(const std::string& text, bool is_calculix) {
     }
   }
   out.is_long_term = !is_at_once && !out.numbers.terms.empty();
-  if (is_calculix && out.numbers.bulk == 0.0) {
+  if (is_calculix && out.numbers.bulk == 0.0 && out.numbers.foam.empty()) {
     out.findings.push_back(
         {"replaced-D", "ccx replaces D = 0 by 0.1/mu, a Poisson's ratio of 0.475", true});
   }

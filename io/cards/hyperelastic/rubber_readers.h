@@ -31,6 +31,10 @@ void take_ogden(const std::vector<double>& moduli, const std::vector<double>& sh
 // are 0. Throws std::runtime_error naming a constant that none of them has.
 void take_invariant_law(const std::vector<double>& constants, RubberNumbers& out);
 
+// A foam of these numbers; Throws std::runtime_error for other than 1 to 6 terms.
+void take_foam_terms(const std::vector<double>& mu, const std::vector<double>& alpha,
+                     const std::vector<double>& nu, RubberNumbers& out);
+
 RubberText read_keyword_rubber(const std::string& text, bool is_calculix);
 RubberText read_ansys_rubber(const std::string& text);
 RubberText read_febio_rubber(const std::string& text);

@@ -9,7 +9,9 @@
 //                vol. II; fields as in PyDYNA. Not run.
 //   openradioss  LAW82: mu_i, alpha_i of ours, nu = 0 and D_1 = 2/K; LAW94 (Yeoh) and LAW92
 //                (Arruda-Boyce) with the same D. Mooney-Rivlin is LAW82 with exponents 2 and -2, mu = 2 C.
-//                Source: Radioss Reference Guide 2021. Not run.
+//                Damage by the first loading: /FAIL/MULLINS_OR, which acts on LAW92, 95 and 100 only, so that
+//                the laws of the invariants become LAW100 (hm_read_mat100.F: K = 2/D_1, no networks).
+//                Source: Radioss Reference Guide 2021; fail_mullins_or.cfg. Not run.
 #include "io/cards/hyperelastic/rubber_rows.h"
 
 #include "io/cards/column_fields.h"
@@ -66,6 +68,32 @@ std::string relaxation_rows(const RubberNumbers& law, ShortRows& rows) {
   for (const RubberNumbers::Term& term : law.terms)
     text += rows.row({term.g * law.shear, 1.0 / term.time});
   return text;
+}
+
+// LAW100 without networks of flow: the law of the invariants alone, D_1 = 2/K.
+std::string radioss_law100(const RubberNumbers& law, const std::string& material) {
+  const bool is_yeoh = law.form == Law::kYeoh, is_mooney = law.form == Law::kMooneyRivlin;
+  Row constants = law.moduli;
+  constants.push_back(law.d());
+  const char* const names =
+      is_yeoh ? "#                C10                 C20                 C30                  D1\n"
+      : is_mooney ? "#                C10                 C01                  D1\n"
+                  : "#                C10                  D1\n";
+  return radioss_unit_block(law) + "/MAT/LAW100/1/1\n" + material + "\n#              RHO_I\n" +
+         row_of({law.density}, kWide) + "#    N_net   Flag_HE   Flag_Cr\n" + right("0", kShort) +
+         right(is_yeoh     ? "5"
+               : is_mooney ? "4"
+                           : "3",
+               kShort) +
+         right("0", kShort) + "\n" + names + row_of(constants, kWide);
+}
+
+// R, beta, m: another order than that of Abaqus. m is converted as an energy, not as one per volume.
+std::string radioss_damage(const RubberNumbers::Damage& damage) {
+  return "# /BEGIN needs the units of /UNIT/1: m would be converted as an energy, without the "
+         "volume\n"
+         "/FAIL/MULLINS_OR/1/1\n#                  R                BETA                   m\n" +
+         row_of({damage.r, damage.beta, damage.m}, kWide);
 }
 
 }  // namespace
@@ -127,6 +155,7 @@ std::string frontistr_rubber(const RubberNumbers& law, const std::string& materi
 }
 
 std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& material) {
+  if (!at_once.foam.empty()) return lsdyna_foam(at_once, material);
   const RubberNumbers law = relaxed(at_once);
   const bool ogden = is_ogden(law.form);
   ShortRows rows;
@@ -157,7 +186,9 @@ std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& mater
 }
 
 std::string openradioss_rubber(const RubberNumbers& law, const std::string& material) {
+  if (!law.foam.empty()) return openradioss_foam(law, material);
   const bool is_yeoh = law.form == Law::kYeoh, is_boyce = law.form == Law::kArrudaBoyce;
+  if (law.damage && !is_boyce) return radioss_law100(law, material) + radioss_damage(*law.damage);
   std::string text = radioss_unit_block(law) +
                      fmt::format("/MAT/LAW{}/1/1\n{}\n",
                                  is_yeoh    ? 94
@@ -175,7 +206,8 @@ std::string openradioss_rubber(const RubberNumbers& law, const std::string& mate
     return text + "#                 mu                   D            lambda_m\n" +
            row_of({law.moduli[0], law.d(), law.shapes[0]}, kWide) +
            "#    Itype    fct_ID                  nu              Fscale\n" + right("0", kShort) +
-           right("0", kShort) + row_of({0.0, 0.0}, kWide);
+           right("0", kShort) + row_of({0.0, 0.0}, kWide) +
+           (law.damage ? radioss_damage(*law.damage) : "");
   }
   const RubberNumbers ogden = as_ogden(law);
   Row d(ogden.moduli.size(), 0.0);

@@ -3,6 +3,7 @@
 #include "io/cards/unit_system.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,17 @@ struct RubberNumbers {
     double g = 0.0, time = 0.0;
   };
   std::vector<Term> terms;
+  // Softening by the first loading (mullins_damage.h); m in the unit of stress.
+  struct Damage {
+    double r = 0.0, m = 0.0, beta = 0.0;
+  };
+  std::optional<Damage> damage = std::nullopt;
+  // A foam (foam_law.h), which stands in the place of form, moduli and shapes; mu in the unit of stress.
+  struct FoamTerm {
+    double mu = 0.0, alpha = 0.0, nu = 0.0;
+    double beta() const { return nu / (1.0 - 2.0 * nu); }
+  };
+  std::vector<FoamTerm> foam = {};
 
   // Share that is left after all relaxation.
   double long_term_share() const {
@@ -51,6 +63,11 @@ std::string febio_rubber(const RubberNumbers& law, const std::string& material);
 std::string frontistr_rubber(const RubberNumbers& law, const std::string& material);
 std::string lsdyna_rubber(const RubberNumbers& at_once, const std::string& material);
 std::string openradioss_rubber(const RubberNumbers& law, const std::string& material);
+
+// Cards of foams. Conventions and sources stand in foam_cards.cpp.
+std::string keyword_foam(const RubberNumbers& foam, bool is_calculix, const std::string& material);
+std::string lsdyna_foam(const RubberNumbers& foam, const std::string& material);
+std::string openradioss_foam(const RubberNumbers& foam, const std::string& material);
 
 // Cards that are a part of a model's text: a Python module, blocks of an input file, parameters.
 // Conventions and sources stand in rubber_models.cpp and rubber_mfront.cpp. They throw std::invalid_argument

@@ -15,9 +15,13 @@ constexpr const char* kArrudaVolume = "; of Arruda-Boyce ((J^2 - 1)/2 - ln J)";
 const std::string kOwnMu = "Ogden's own 2 mu_i/alpha_i, alpha_i";
 
 RubberLaws keyword_laws() {
-  return {"NEO HOOKE: C10",        "MOONEY-RIVLIN: C10, C01",
-          "YEOH: C10, C20, C30",   "OGDEN: mu_i, alpha_i of sum 2 mu_i/alpha_i^2 (...)",
-          "ARRUDA-BOYCE: mu, s_m", ""};
+  return {"NEO HOOKE: C10",
+          "MOONEY-RIVLIN: C10, C01",
+          "YEOH: C10, C20, C30",
+          "OGDEN: mu_i, alpha_i of sum 2 mu_i/alpha_i^2 (...)",
+          "ARRUDA-BOYCE: mu, s_m",
+          "",
+          "HYPERFOAM: mu_i, alpha_i, nu_i of sum 2 mu_i/alpha_i^2 (...)"};
 }
 
 std::vector<RubberTarget> table() {
@@ -34,7 +38,8 @@ std::vector<RubberTarget> table() {
        .takes_terms = true,
        .terms = "the law at once, g_i of its deviator, constant bulk modulus, "
                 "tau_i; Simo's rule at "
-                "large strain (Theory Guide 4.8.2), not run"},
+                "large strain (Theory Guide 4.8.2), not run",
+       .damage = {"*MULLINS EFFECT: r, m, beta", ""}},
       {.name = "ansys",
        .comment = "!",
        .write = [](const RubberNumbers& law, const std::string&) { return ansys_rubber(law); },
@@ -47,7 +52,8 @@ std::vector<RubberTarget> table() {
        .most_terms = 100,
        .terms = "the law at once, g_i of its deviator, constant bulk modulus, "
                 "tau_i; NOT CHECKED: no "
-                "public text with its rule at large strain was found"},
+                "public text with its rule at large strain was found",
+       .damage = {"", "no public text states the order of the constants of its TB,CDM,,,3,PSE2"}},
       {.name = "calculix",
        .comment = "**",
        .write = [](const RubberNumbers& law,
@@ -56,6 +62,7 @@ std::vector<RubberTarget> table() {
        .laws = keyword_laws(),
        .volume = std::string("(J - 1)^2/D_1") + kArrudaVolume + "/D_1; D_1 = 2/K",
        .terms = "ccx has no Prony series beside *HYPERELASTIC and ignores one",
+       .damage = {"", "ccx skips *MULLINS EFFECT with a warning and runs the law without it"},
        .evidence = "run by viscard's tests in CalculiX 2.20, laws without terms"},
       {.name = "comsol",
        .comment = "%",
@@ -63,7 +70,8 @@ std::vector<RubberTarget> table() {
        .read = read_comsol_rubber,
        .laws = {"Lame parameter mu = 2 C10", "C10, C01", "", "", "", ""},
        .volume = "by kappa = K of a nearly incompressible material",
-       .terms = "the parameters are those of the law alone"},
+       .terms = "the parameters are those of the law alone",
+       .damage = {"", "its node Mullins Effect has no beta, and its page states no formula"}},
       {.name = "febio",
        .comment = "<!--",
        .write = febio_rubber,
@@ -77,6 +85,7 @@ std::vector<RubberTarget> table() {
        .terms = "the law at once with g0 = 1 - sum g, g_i, t_i = tau_i, "
                 "constant bulk modulus; "
                 "Simo's rule at large strain, run in FEBio 4.11 with Ogden",
+       .damage = {"", "its elastic damage softens the first loading, too, and is another law"},
        .evidence = "Ogden, Mooney-Rivlin and Gent run in FEBio 4.11; of "
                    "'uncoupled hyperelastic' "
                    "(Yeoh, Arruda-Boyce) FEBio's parser and derivatives of W "
@@ -95,8 +104,8 @@ std::vector<RubberTarget> table() {
        .comment = "$",
        .write = lsdyna_rubber,
        .read = read_lsdyna_rubber,
-       .laws = {"077_H: C10", "077_H: C10, C01", "077_H: C10, C20, C30", "077_O: " + kOwnMu, "",
-                ""},
+       .laws = {"077_H: C10", "077_H: C10, C01", "077_H: C10, C20, C30", "077_O: " + kOwnMu, "", "",
+                "HILL_FOAM: C_i = 2 mu_i/alpha_i, B_i = alpha_i, N = nu/(1 - 2 nu)"},
        .volume = "by Poisson's ratio of K and the law's shear modulus at rest",
        .needs_density = true,
        .takes_terms = true,
@@ -139,14 +148,20 @@ std::vector<RubberTarget> table() {
        .read = read_openradioss_rubber,
        .laws = {"as Ogden: mu = 2 C10, alpha = 2", "as Ogden: mu = 2 C10, 2 C01, alpha = 2, -2",
                 "LAW94: C10, C20, C30", "LAW82 (with terms LAW62): mu_i, alpha_i",
-                "LAW92: mu, lambda_m = s_m", ""},
+                "LAW92: mu, lambda_m = s_m", "",
+                "LAW62: mu_i, alpha_i, nu_i of sum 2 mu_i/alpha_i^2 (...)"},
        .volume = "by D_1 = 2/K (LAW62: by Poisson's ratio)",
        .needs_density = true,
        .takes_terms = true,
        .most_terms = 50,
        .terms = "LAW62: the law at once, gamma_i = g_i of its deviator, tau_i; "
                 "Simo's rule at large "
-                "strain (its source), not run"},
+                "strain (its source), not run",
+       .damage = {"/FAIL/MULLINS_OR: R, beta, m",
+                  "its /FAIL/MULLINS_OR acts on LAW92, 95 and 100 only, which have no such law",
+                  {HyperelasticForm::kNeoHooke, HyperelasticForm::kMooneyRivlin,
+                   HyperelasticForm::kYeoh, HyperelasticForm::kArrudaBoyce},
+                  "LAW100 without networks: C10, C01 or C10, C20, C30; LAW92: mu, lambda_m = s_m"}},
       {.name = "sfepy",
        .comment = "#",
        .write = [](const RubberNumbers& law, const std::string&) { return sfepy_rubber(law); },
@@ -173,6 +188,11 @@ const std::string& RubberLaws::of(HyperelasticForm form) const {
          : form == kYeoh         ? yeoh
          : form == kArrudaBoyce  ? arruda_boyce
                                  : gent;
+}
+
+bool RubberDamage::takes(HyperelasticForm form) const {
+  return !convention.empty() &&
+         (forms.empty() || std::find(forms.begin(), forms.end(), form) != forms.end());
 }
 
 const std::vector<RubberTarget>& rubber_targets() {

@@ -12,8 +12,18 @@ namespace viscard {
 // "": it is refused.
 struct RubberLaws {
   std::string neo_hooke, mooney_rivlin, yeoh, ogden, arruda_boyce, gent;
+  std::string foam = "";
 
   const std::string& of(HyperelasticForm form) const;
+};
+
+// Damage by the first loading (mullins-or) in a target.
+struct RubberDamage {
+  std::string convention;  // keyword and order of its constants; "": it is refused
+  std::string refusal;     // why
+  std::vector<HyperelasticForm> forms = {};  // beside these alone; empty: beside all
+  std::string laws = "";                     // how a law stands beside it, if otherwise than alone
+  bool takes(HyperelasticForm form) const;
 };
 
 // A solver that cards of rubber are written for. A target is one row of the
@@ -29,6 +39,7 @@ struct RubberTarget {
   bool takes_terms = false, is_for_small_strain = false;
   std::size_t most_terms = 0;  // 0: any number
   std::string terms;
+  RubberDamage damage = {"", "it has no such law"};
   std::string evidence = "not run in its solver: by its manual or its source";
 };
 

@@ -85,11 +85,13 @@ ImportedCard import_rubber(const std::string& text, const CardWords& words) {
   require_right(check.findings, read.units_were_stated || !words.units.empty(), words.material);
   HyperelasticFile file;
   file.law = read.law;
+  file.foam = read.foam;
   file.terms = read.terms;
-  if (read.bulk_Pa > 0.0) file.bulk_Pa = read.bulk_Pa;
+  file.damage = read.damage;
+  if (read.bulk_Pa > 0.0 && !read.foam) file.bulk_Pa = read.bulk_Pa;
   if (read.density_kg_m3 > 0.0) file.density_kg_m3 = read.density_kg_m3;
   file.raw_files = {{words.material, sha256_of_text(text)}};
-  return {json_from_card_of_rubber(file), name_of(read.law.form), check.findings};
+  return {json_from_card_of_rubber(file), name_of(read), check.findings};
 }
 
 }  // namespace

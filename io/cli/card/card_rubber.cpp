@@ -27,11 +27,13 @@ void show_rubber_card(ResultVisitor& v, const HyperelasticFile& file, const Card
   v("target", words.target, "solver of the card");
   v("units", words.units.empty() ? "SI" : words.units, "unit system");
   v("out", words.out, "the card; empty: stdout");
-  v("law", name_of(file.law.form), "name of the law");
+  v("law", name_of(file), "name of the law");
   v("E0_Pa", file.E0_Pa, "Young's modulus at rest, at once");
   v("E_inf_Pa", file.E_inf_Pa, "Young's modulus at rest after all relaxation; E0_Pa without terms");
   v("terms", words.elastic_only.empty() ? file.terms.size() : 0,
     "number of terms of relaxation in the card; 0 for an elastic law and with --elastic-only");
+  v.when(file.damage.has_value(),
+         [&] { v("damage", kMullinsName, "softening by the first loading, beside the law"); });
   v("warnings", doubt.empty() ? Words{} : Words{doubt}, "what is doubtful about the card");
   v.when(words.out.empty(), [&] { v("card", text, "the card itself, without --out"); });
 }

@@ -16,8 +16,16 @@ namespace viscard {
 namespace {
 
 // Parameters by name, in Pa where they are moduli.
-std::vector<CardValue> parameters_of(const HyperelasticLaw& law) {
+std::vector<CardValue> parameters_of(const ReadRubber& read) {
   std::vector<CardValue> out;
+  const HyperelasticLaw& law = read.law;
+  for (Eigen::Index i = 0; read.foam && i < read.foam->mu_Pa.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    out.push_back({"mu_" + number + "_Pa", read.foam->mu_Pa[i]});
+    out.push_back({"alpha_" + number, read.foam->alpha[i]});
+    out.push_back({"nu_" + number, read.foam->nu[i]});
+  }
+  if (read.foam) return out;
   const auto moduli = modulus_names(law.form), shapes = shape_names(law.form);
   for (std::size_t i = 0; i < moduli.size(); ++i)
     out.push_back({moduli[i], law.moduli_Pa[static_cast<Eigen::Index>(i)]});
@@ -32,16 +40,24 @@ void show_check(ResultVisitor& v, const RubberCheck& check, const CardWords& wor
   v("target", words.target, "its solver");
   v("units", read.units == nullptr ? "" : read.units->name, "its unit system");
   v("agrees", check.agrees, "whether card and material agree");
-  v("law", name_of(read.law.form), "name of the law");
+  v("law", name_of(read), "name of the law");
   v.word("basis", read.is_long_term ? "long-term" : "instantaneous", {"instantaneous", "long-term"},
          "which law stands in the card");
-  v.list("parameters", "the law at once", parameters_of(read.law), [&](const CardValue& value) {
+  v.list("parameters", "the law at once", parameters_of(read), [&](const CardValue& value) {
     v("name", value.name, "its name; moduli in Pa");
     v("value", value.value, "its value");
   });
   v.list("terms", "its terms of relaxation", read.terms, [&](const RubberTerm& term) {
     v("g", term.g, "share of the law at once");
     v("tau_s", term.tau_s, "its time");
+  });
+  v.when(read.damage.has_value(), [&] {
+    const MullinsDamage damage = read.damage.value_or(MullinsDamage{});
+    v.object("damage", "softening by the first loading (mullins-or)", [&] {
+      v("r", damage.r, "pure number");
+      v("m_Pa", damage.m_Pa, "energy per volume");
+      v("beta", damage.beta, "pure number");
+    });
   });
   v("bulk_modulus_Pa",
     number_or_null(read.bulk_Pa > 0.0 ? std::optional(read.bulk_Pa) : std::nullopt),
@@ -54,15 +70,19 @@ void show_check(ResultVisitor& v, const RubberCheck& check, const CardWords& wor
 
 void print_rubber_check(const RubberCheck& check, const CardWords& words, std::ostream& out) {
   const ReadRubber& read = check.read;
-  out << words.check << ": " << name_of(read.law.form) << " for " << words.target << ", units "
+  out << words.check << ": " << name_of(read) << " for " << words.target << ", units "
       << read.units->name << (read.units_were_stated || !words.units.empty() ? "" : " (not stated)")
       << "\n";
   if (read.is_long_term) out << "the card has the law after all relaxation; here it is at once:\n";
-  for (const CardValue& value : parameters_of(read.law))
+  for (const CardValue& value : parameters_of(read))
     out << fmt::format("  {} = {:.9g}\n", value.name, value.value);
   for (std::size_t i = 0; i < read.terms.size(); ++i) {
     out << fmt::format("  term {}: g = {:.9g}, tau = {:.9g} s\n", i + 1, read.terms[i].g,
                        read.terms[i].tau_s);
+  }
+  if (read.damage) {
+    out << fmt::format("  damage {}: r = {:.9g}, m = {:.9g} Pa, beta = {:.9g}\n", kMullinsName,
+                       read.damage->r, read.damage->m_Pa, read.damage->beta);
   }
   out << (read.bulk_Pa > 0.0 ? fmt::format("  bulk modulus = {:.9g} Pa\n", read.bulk_Pa)
                              : std::string("  incompressible\n"));

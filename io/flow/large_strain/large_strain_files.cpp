@@ -30,7 +30,8 @@ std::optional<LargeStrainFile> large_strain_file(const std::string& word) {
   for (const LargeStrainKind& known : large_strain_kinds()) {
     if (kind != known.word) continue;
     if (path.empty()) throw std::invalid_argument(word + " names no file; write " + kind + "=FILE");
-    return LargeStrainFile{known.deformation, known.is_compression, path};
+    return LargeStrainFile{known.deformation, known.is_compression, path,
+                           nullptr,           known.foam_test,      known.is_foam_only};
   }
   return std::nullopt;
 }
@@ -96,13 +97,60 @@ void turn_compression(LargeStrainTest& test, const std::string& file) {
   for (double& stress : test.nominal_stress_Pa) stress = -stress;
 }
 
+// A volumetric test by pressure and change of volume: stretches and nominal stresses of its three sides.
+void take_volumetric(const CsvTable& table, const ColumnMap& columns, LargeStrainTest& test) {
+  const Column ratio = column_SI(table, "volume_ratio", columns);
+  const Column pressure_Pa = column_SI(table, "pressure_Pa", columns);
+  for (std::size_t i = 0; i < ratio.size(); ++i) {
+    const double stretch = std::cbrt(ratio[i]);
+    test.stretch.push_back(stretch);
+    test.nominal_stress_Pa.push_back(-pressure_Pa[i] * stretch * stretch);
+  }
+}
+
+// The measured quantities of a test of a foam, and its lateral stretches.
+void take_foam_columns(const CsvTable& table, const ColumnMap& columns, LargeStrainTest& test) {
+  if (test.foam_test == FoamTest::kVolumetric && find_column(table, "volume_ratio", columns)) {
+    take_volumetric(table, columns, test);
+    return;
+  }
+  if (test.foam_test == FoamTest::kShear) {
+    test.stretch = column_SI(table, "strain", columns);
+  } else {
+    test.stretch = stretches_of(table, columns);
+  }
+  test.nominal_stress_Pa = stresses_of(table, columns);
+  if (find_column(table, "lateral_stretch", columns)) {
+    test.lateral_stretch = column_SI(table, "lateral_stretch", columns);
+  } else if (find_column(table, "lateral_strain", columns)) {
+    test.lateral_stretch = column_SI(table, "lateral_strain", columns);
+    for (double& value : test.lateral_stretch) value += 1.0;
+  }
+  const bool has_side = test.foam_test == FoamTest::kUniaxial ||
+                        test.foam_test == FoamTest::kPlanar ||
+                        test.foam_test == FoamTest::kEquibiaxial;
+  if (!has_side) test.lateral_stretch.clear();
+}
+
 LargeStrainTest test_of_file(const LargeStrainFile& file, const CsvTable& table,
                              const LargeStrainRequest& request) {
-  LargeStrainTest test{file.is_compression ? "compression" : name_of(file.deformation),
-                       file.deformation, stretches_of(table, request.columns),
-                       stresses_of(table, request.columns)};
+  const bool is_foam = !request.options.foam_terms.empty();
+  LargeStrainTest test{file.is_foam_only     ? name_of(file.foam_test)
+                       : file.is_compression ? "compression"
+                                             : name_of(file.deformation),
+                       file.deformation,
+                       {},
+                       {}};
+  test.foam_test = file.foam_test;
+  if (is_foam) {
+    take_foam_columns(table, request.columns, test);
+  } else {
+    test.stretch = stretches_of(table, request.columns);
+    test.nominal_stress_Pa = stresses_of(table, request.columns);
+  }
   const TableModulusKind kind = modulus_kind_of(table, request.columns, {"stress_Pa", "strain"});
-  if (kind.kind == ModulusKind::kShear && !kind.from.empty()) {
+  const bool is_shear = is_foam && test.foam_test == FoamTest::kShear;
+  if (kind.kind == ModulusKind::kShear && !kind.from.empty() && !is_shear) {
     throw std::runtime_error(file.path + ": " + kind.from +
                              " speaks of shear, but this is a test in " + test.name);
   }
@@ -129,6 +177,18 @@ void check_order(const LargeStrainTest& test, const std::string& file, std::size
       "--cycle all");
 }
 
+// The volume of a foam changes, so that its area while loaded is not known.
+void refuse_true_stress(const CsvTable& table, const ColumnMap& columns) {
+  const bool has_nominal =
+      find_column(table, "nominal_stress_Pa", columns) || find_column(table, "stress_Pa", columns);
+  if (has_nominal || !find_column(table, "true_stress_Pa", columns)) return;
+  throw std::runtime_error(
+      table.file +
+      ": has the true stress alone, but the area of a foam while loaded does "
+      "not follow from its stretch; give nominal_stress_Pa (force over area at "
+      "rest)");
+}
+
 // Puts the rows of a table without times in order, where they are one curve. Throws for rows that jump back
 // and forth and are none: neither cycles nor a loading can be told from them.
 void check_rows(LargeStrainTest& test, const std::string& file) {
@@ -145,21 +205,32 @@ void check_rows(LargeStrainTest& test, const std::string& file) {
   }
 }
 
+// What rises while a test loads: the stretch, of shear one that rises with the size of its tangent.
+Column loading_measure(const LargeStrainTest& test) {
+  Column measure = test.stretch;
+  if (test.foam_test == FoamTest::kShear) {
+    for (double& value : measure) value = 1.0 + std::abs(value);
+  }
+  return measure;
+}
+
 // Keeps the loading of one cycle, if the record has unloading. Relaxation is fitted to all rows of a
-// record with one cycle.
+// record with one cycle, damage to all rows of any.
 CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
-                         const std::optional<int>& wanted, bool relaxes) {
+                         const std::optional<int>& wanted, bool relaxes, bool with_damage) {
   if (!wanted || *wanted != 0) check_rows(test, file);
-  const std::vector<LoadCycle> cycles = load_cycles(test.stretch);
+  const std::vector<LoadCycle> cycles = load_cycles(loading_measure(test));
   const bool is_one_loading =
       cycles.empty() ||
       (cycles.size() == 1 && cycles[0].last == cycles[0].peak && cycles[0].first == 0);
-  CycleChoice choice{cycles.size(), 0, 0, softening(test, cycles)};
+  CycleChoice choice{cycles.size(), 0, 0, std::nullopt};
+  if (test.foam_test != FoamTest::kShear) choice.softening = softening(test, cycles);
   if (wanted && *wanted > static_cast<int>(cycles.size())) {
     throw std::runtime_error(file + ": has " + counted(cycles.size(), "cycle") +
                              " of loading, so there is no --cycle " + std::to_string(*wanted));
   }
-  if (is_one_loading || (wanted && *wanted == 0)) return choice;
+  if (with_damage) check_order(test, file, cycles.size());
+  if (is_one_loading || with_damage || (wanted && *wanted == 0)) return choice;
   if (relaxes && !wanted && cycles.size() == 1) return choice;
   check_order(test, file, cycles.size());
   choice.fitted = wanted ? static_cast<std::size_t>(*wanted) : cycles.size();
@@ -172,15 +243,18 @@ CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
 void add_mullins_note(const std::string& name, const CycleChoice& choice,
                       LargeStrainResult& result) {
   constexpr double kLeast = 0.05;
-  if (!choice.softening || *choice.softening < kLeast) return;
-  result.notes.push_back({"mullins", 0,
-                          "the " + name + " test softens by " +
-                              text_of(100.0 * *choice.softening, 2) +
-                              " % from its first to its last cycle at equal stretch (Mullins "
-                              "effect): the law is that of " +
-                              (choice.fitted == 0 ? std::string("all rows together")
-                                                  : "cycle " + std::to_string(choice.fitted)) +
-                              "; choose another with --cycle"});
+  if (!choice.softening || *choice.softening < kLeast || result.best().damage) return;
+  result.notes.push_back(
+      {"mullins", 0,
+       "the " + name + " test softens by " + text_of(100.0 * *choice.softening, 2) +
+           " % from its first to its last cycle at equal stretch (Mullins "
+           "effect): the law is that of " +
+           (choice.fitted == 0 ? std::string("all rows together")
+                               : "cycle " + std::to_string(choice.fitted)) +
+           "; choose another with --cycle" +
+           (result.best().foam ? std::string()
+                               : ", or fit the softening with --model " +
+                                     name_of(result.best().law.form) + "+" + kMullinsName)});
 }
 
 // "uniaxial", "uniaxial 2" ...
@@ -247,10 +321,13 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
     tables.push_back(file.in_memory ? *file.in_memory : read_csv(file.path, request.table));
     tables.back().judged = request.plausible;
     std::size_t n_gaps = 0;
+    if (!request.options.foam_terms.empty()) refuse_true_stress(tables.back(), request.columns);
     derive_columns(tables.back(), request.columns, size_from_notes(tables.back(), request.size));
-    tables.back() = rows_without_gaps(
-        std::move(tables.back()), {"time_s", "strain", "stretch", "stress_Pa", "nominal_stress_Pa"},
-        request.columns, n_gaps);
+    tables.back() =
+        rows_without_gaps(std::move(tables.back()),
+                          {"time_s", "strain", "stretch", "stress_Pa", "nominal_stress_Pa",
+                           "lateral_stretch", "lateral_strain", "volume_ratio", "pressure_Pa"},
+                          request.columns, n_gaps);
     if (n_gaps > 0) {
       tables.back().notes.push_back(counted(n_gaps, "row") + " without a number left out");
     }
@@ -259,10 +336,13 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   refuse_copies(fitted.tests, request.files);
   number_names(fitted.tests);
   std::vector<MaterialFlag> notes;  // those of the fitted rows are made by the fit
-  const bool relaxes = most_terms_of(fitted.tests, request.options, notes) > 0;
+  const bool with_damage = request.options.with_damage;
+  const bool is_foam = !request.options.foam_terms.empty();
+  const bool relaxes =
+      !with_damage && !is_foam && most_terms_of(fitted.tests, request.options, notes) > 0;
   for (std::size_t i = 0; i < fitted.tests.size(); ++i) {
     fitted.cycles.push_back(
-        choose_cycle(fitted.tests[i], request.files[i].path, request.cycle, relaxes));
+        choose_cycle(fitted.tests[i], request.files[i].path, request.cycle, relaxes, with_damage));
   }
   fitted.result = fit_large_strain(fitted.tests, request.options);
   for (std::size_t i = 0; i < fitted.tests.size(); ++i) {

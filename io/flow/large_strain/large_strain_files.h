@@ -23,10 +23,13 @@ struct LargeStrainFile {
   bool is_compression = false;
   std::string path;
   std::shared_ptr<const CsvTable> in_memory = nullptr;  // stands for the file, if it is given
+  FoamTest foam_test = FoamTest::kUniaxial;             // of a foam
+  bool is_foam_only = false;                            // no test of a rubber
 };
 
 // The words of a command that name tests at large strain: "planar=b.csv". Kinds: uniaxial (or
-// tension), compression, planar (or pure-shear), equibiaxial (or biaxial). Empty if no word does. A
+// tension), compression, planar (or pure-shear), equibiaxial (or biaxial); of foams confined (or oedometer),
+// volumetric (or hydrostatic), shear. Empty if no word does. A
 // word is a plain file if a file of that name exists. Throws std::invalid_argument for other files
 // beside tests at large strain, and for a test without a file.
 std::vector<LargeStrainFile> large_strain_from_words(const std::vector<std::string>& words);
@@ -59,9 +62,10 @@ struct FittedLargeStrain {
 };
 
 // Reads the tables and fits the laws. A table has the stretch (or nominal strain) and the nominal
-// stress: force over area at rest. The strains and stresses of a compression test may be counted
+// stress: force over area at rest. Of a foam it may have lateral_stretch (or lateral_strain); a volumetric test
+// may have volume_ratio and pressure_Pa, and shear has strain (the tangent of its angle) and stress. The strains and stresses of a compression test may be counted
 // positive. Times (time_s) in all tables give terms of relaxation beside the law. Of a record with
-// unloading one loading is fitted, of one with times and a single cycle all rows; softening by more than 5 % gives the note mullins. Throws std::runtime_error with the name
+// unloading one loading is fitted, of one with times and a single cycle, or with damage, all rows; softening by more than 5 % that is not fitted gives the note mullins. Throws std::runtime_error with the name
 // of the file, also for stretches, stresses and a modulus that are not plausible.
 FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request);
 

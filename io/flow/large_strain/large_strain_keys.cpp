@@ -20,6 +20,16 @@ Interval interval_of(const StableRange& range) {
   return {range.low_is_open ? -kOpen : range.low, range.high_is_open ? kOpen : range.high};
 }
 
+void show_parameters(ResultVisitor& v, const char* meaning,
+                     const std::vector<LawParameter>& parameters) {
+  v.list("parameters", meaning, parameters, [&](const LawParameter& one) {
+    v("name", one.name, "with its unit");
+    v("value", one.value, "its value");
+    v("se", one.se, "standard error");
+    v("interval_95", one.interval_95, "95 % interval");
+  });
+}
+
 void show_series(ResultVisitor& v, const FittedRubber& fitted) {
   v.list("terms", "terms of relaxation, by ascending time; empty: elastic", fitted.terms,
          [&](const FittedRubberTerm& term) {
@@ -40,21 +50,47 @@ void show_series(ResultVisitor& v, const FittedRubber& fitted) {
          });
 }
 
+void show_damage(ResultVisitor& v, const FittedDamage& damage) {
+  v("name", kMullinsName, "mullins-or: Ogden and Roxburgh");
+  show_parameters(v, "r, m_Pa and beta", damage.parameters);
+  v("covariance", damage.covariance, "of the parameters of the law, then of r, m_Pa and beta");
+  v("one_maximum", damage.has_one_maximum,
+    "all unloading is from one maximum: beta is held at 0, and m holds for this maximum");
+  v("misfit_first_loading", number_or_null(damage.misfit_first_loading),
+    "root mean square over that of the stresses of the first loading");
+  v("misfit_unloading", number_or_null(damage.misfit_unloading), "the same of unloading");
+  v("misfit_reloading", number_or_null(damage.misfit_reloading),
+    "the same of reloading; null without readings");
+}
+
+void show_foam(ResultVisitor& v, const FittedFoam& foam) {
+  const bool is_fitted = foam.law.mu_Pa.size() > 0;
+  v("G_Pa", is_fitted ? shear_modulus_Pa(foam.law) : 0.0, "shear modulus at rest");
+  v("K_Pa", is_fitted ? bulk_modulus_Pa(foam.law) : 0.0, "bulk modulus at rest");
+  v("poisson_ratio", is_fitted ? poisson_ratio(foam.law) : 0.0, "at rest, of both moduli");
+  v("one_poisson_ratio", foam.has_one_nu, "all terms have one");
+  v("poisson_ratio_given", foam.nu_is_given, "it was not measured");
+}
+
 void show_law(ResultVisitor& v, const FittedRubber& fitted) {
-  v("name", name_of(fitted.law.form),
-    "neo-hooke, mooney-rivlin, yeoh, ogden-1, ogden-2, ogden-3, arruda-boyce or gent");
-  v.list("parameters", "moduli, then shapes", fitted.parameters, [&](const LawParameter& one) {
-    v("name", one.name, "with its unit");
-    v("value", one.value, "its value");
-    v("se", one.se, "standard error");
-    v("interval_95", one.interval_95, "95 % interval");
-  });
+  v("name", name_of(fitted),
+    "neo-hooke, mooney-rivlin, yeoh, ogden-1, ogden-2, ogden-3, arruda-boyce, gent, or a foam: "
+    "hyperfoam-1, -2 or -3");
+  show_parameters(v, "moduli, then shapes", fitted.parameters);
   v("covariance", fitted.covariance, "of the parameters, in their order");
   v("E0_Pa", fitted.E0_Pa, "Young's modulus at rest; with terms, at once");
   v("E0_interval_95", fitted.E0_interval_95, "its 95 % interval");
   v("E_inf_Pa", fitted.E_inf_Pa, "Young's modulus at rest after all relaxation");
   v("E_inf_interval_95", fitted.E_inf_interval_95, "its 95 % interval");
   show_series(v, fitted);
+  v.when(fitted.foam.has_value(), [&] {
+    v.object("foam", "what only a foam has (--model hyperfoam)",
+             [&] { show_foam(v, fitted.foam.value_or(FittedFoam{})); });
+  });
+  v.when(fitted.damage.has_value(), [&] {
+    v.object("damage", "softening by the first loading, with --model LAW+mullins-or",
+             [&] { show_damage(v, fitted.damage.value_or(FittedDamage{})); });
+  });
   v("n_parameters", fitted.n_parameters, "number of parameters");
   v("rss_Pa2", fitted.rss, "sum of squared residuals, unweighted");
   v("rms_relative", fitted.rms_relative, "root of it over the sum of squared stresses");
@@ -91,12 +127,13 @@ struct ShownTest {
 
 void show_test(ResultVisitor& v, const ShownTest& test) {
   v("name", test.summary.name, "uniaxial, uniaxial 2 ...");
-  v("deformation", name_of(test.summary.deformation), "uniaxial, planar or equibiaxial");
+  v("deformation", test.summary.kind,
+    "uniaxial, planar or equibiaxial; of a foam also confined, volumetric or shear");
   v("file", test.file, "its table");
   v("sha256", test.sha256, "of the table");
   v("n_readings", test.summary.n_readings, "fitted readings");
   v("stretch", Interval{test.summary.least_stretch, test.summary.largest_stretch},
-    "least and largest");
+    "least and largest; of shear the tangent of its angle");
   v("rms_Pa", test.summary.rms_Pa, "left by the chosen law");
   v.or_null("time_s", test.times, "shortest step and duration; null without times");
   v("n_cycles", test.cycles.n_cycles, "cycles of loading");
@@ -118,7 +155,7 @@ void show_keys(ResultVisitor& v, const FittedLargeStrain& fitted) {
                      fitted.files[i].in_memory ? "" : sha256_of_file(path),
                      times_of(fitted.tests[i]), fitted.cycles[i]});
   }
-  v("law", name_of(best.law.form), "the chosen law");
+  v("law", name_of(best), "the chosen law");
   v("trustworthy", best.is_trustworthy, "it may be used");
   v.list("laws", "all laws", result.laws, [&](const FittedRubber& law) { show_law(v, law); });
   v.list("tests", "the tests, in their order", tests,

@@ -1,3 +1,4 @@
+#include "fit/large_strain/load_cycles.h"
 #include "fit/large_strain/rubber_band.h"
 #include "io/flow/large_strain/large_strain_files.h"
 #include "models/maths/text_of_number.h"
@@ -53,7 +54,7 @@ PlotSeries band_of(const FittedRubber& fitted, Deformation deformation, const Pl
   return band;
 }
 
-// The fitted stress along each test, with its relaxation.
+// The fitted stress along each test, with its relaxation or damage.
 PlotSeries course_line(const FittedLargeStrain& fitted, Deformation deformation) {
   PlotSeries line;
   for (const LargeStrainTest& test : fitted.tests) {
@@ -140,16 +141,39 @@ void add_deformation(const FittedLargeStrain& fitted, std::size_t index, double 
     panel.series.push_back(std::move(beyond));
   }
   if (!is_measured) return;
-  const bool relaxes = !best.terms.empty();
-  PlotSeries line = relaxes ? course_line(fitted, deformation)
-                            : law_line(best, deformation, measured.low, measured.high);
-  if (!relaxes) add(band_of(best, deformation, line));
+  const bool is_course = !best.terms.empty() || best.damage;
+  PlotSeries line = is_course ? course_line(fitted, deformation)
+                              : law_line(best, deformation, measured.low, measured.high);
+  if (!is_course) add(band_of(best, deformation, line));
   line.label = name_of(deformation) + ", " + name_of(best.law.form) +
-               (relaxes ? " with " + counted(best.terms.size(), "term") : "");
+               (best.damage ? std::string("+") + kMullinsName
+                : is_course ? " with " + counted(best.terms.size(), "term")
+                            : "");
   add(std::move(line));
   PlotSeries points = readings_of(fitted, deformation);
   points.label = name_of(deformation) + ", measured";
   add(std::move(points));
+}
+
+// The tests of a foam: readings, and the law at their readings.
+void add_foam_tests(const FittedLargeStrain& fitted, PlotPanel& panel) {
+  for (std::size_t t = 0; t < fitted.tests.size(); ++t) {
+    const LargeStrainTest test = sorted_by_stretch(fitted.tests[t]);
+    PlotSeries line, points;
+    points.mark = Mark::kPoints;
+    points.size = 1.5;
+    line.x = points.x = test.stretch;
+    for (const double stress : stresses_Pa(fitted.result.best(), test))
+      line.y.push_back(kMPa * stress);
+    for (const double stress : test.nominal_stress_Pa) points.y.push_back(kMPa * stress);
+    line.label = test.name + ", " + name_of(fitted.result.best());
+    points.label = test.name + ", measured";
+    for (PlotSeries* series : {&line, &points}) {
+      series->ink = ink_of_series(t);
+      series->pattern = static_cast<int>(t);
+      panel.series.push_back(std::move(*series));
+    }
+  }
 }
 
 }  // namespace
@@ -169,6 +193,13 @@ Plot plot_of_large_strain(const FittedLargeStrain& fitted) {
   PlotPanel panel;
   panel.x.label = "stretch";
   panel.y.label = "nominal stress (MPa)";
+  if (fitted.result.best().foam) {
+    panel.x.label = "stretch (shear: tangent of the angle)";
+    plot.description = "Readings of all tests and the chosen foam.";
+    add_foam_tests(fitted, panel);
+    plot.panels = {panel};
+    return plot;
+  }
   for (std::size_t d = 0; d < deformation_names().size(); ++d) {
     add_deformation(fitted, d, highest, panel);
   }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 namespace viscard {
@@ -37,18 +38,21 @@ void print_tests(const FittedLargeStrain& fitted, std::ostream& out) {
 
 // "yeoh + 2": with two terms.
 std::string name_with_terms(const FittedRubber& fitted) {
-  const std::string name = name_of(fitted.law.form);
+  const std::string name = name_of(fitted);
+  if (fitted.damage) return name + "+" + kMullinsName;
   return fitted.terms.empty() ? name : name + " + " + std::to_string(fitted.terms.size());
 }
 
 void print_laws(const LargeStrainResult& result, std::ostream& out) {
-  out << fmt::format("\n  {:<14} {:>10} {:>9} {:>10} {:>10} {:>22}   {}\n", "law", "parameters",
-                     "rms %", "BIC", "E0 kPa", "95 %", "stable stretches (uniaxial)");
+  std::size_t width = 14;
+  for (const FittedRubber& law : result.laws) width = std::max(width, name_with_terms(law).size());
+  out << fmt::format("\n  {:<{}} {:>10} {:>9} {:>10} {:>10} {:>22}   {}\n", "law", width,
+                     "parameters", "rms %", "BIC", "E0 kPa", "95 %", "stable stretches (uniaxial)");
   for (std::size_t i = 0; i < result.laws.size(); ++i) {
     const FittedRubber& law = result.laws[i];
-    out << fmt::format("{} {:<14} {:>10} {:>9.3g} {:>10.2f} {:>10.5g} {:>22}   {}{}\n",
-                       i == result.chosen ? "*" : " ", name_with_terms(law), law.n_parameters,
-                       100.0 * law.rms_relative, law.bic, 1e-3 * law.E0_Pa,
+    out << fmt::format("{} {:<{}} {:>10} {:>9.3g} {:>10.2f} {:>10.5g} {:>22}   {}{}\n",
+                       i == result.chosen ? "*" : " ", name_with_terms(law), width,
+                       law.n_parameters, 100.0 * law.rms_relative, law.bic, 1e-3 * law.E0_Pa,
                        fmt::format("{:.5g} to {:.5g}", 1e-3 * law.E0_interval_95.low,
                                    1e-3 * law.E0_interval_95.high),
                        stretches(law.stable[0]), law.is_trustworthy ? "" : "   !");
@@ -79,14 +83,43 @@ void print_terms(const FittedRubber& best, std::ostream& out) {
       1e-3 * best.E_inf_interval_95.high);
 }
 
+// marks_held: a parameter without error was not fitted.
+void print_parameters(const std::vector<LawParameter>& parameters, bool marks_held,
+                      std::ostream& out) {
+  for (const LawParameter& one : parameters) {
+    const bool is_held = marks_held && one.se == 0.0;
+    out << fmt::format("    {:<16} {:>14.6g}   ", one.name, one.value)
+        << (is_held ? std::string("held\n")
+                    : fmt::format("95 % {:.6g} to {:.6g}\n", one.interval_95.low,
+                                  one.interval_95.high));
+  }
+}
+
+void print_damage(const FittedDamage& damage, std::ostream& out) {
+  out << "    damage by the first loading: eta = 1 - erf((W_m - W)/(m + beta W_m))/r\n";
+  print_parameters(damage.parameters, true, out);
+  out << "    left by the law, share of the stresses:";
+  const auto add = [&](const char* branch, const std::optional<double>& misfit) {
+    if (misfit) out << fmt::format(" {} {:.2g} %", branch, 100.0 * *misfit);
+  };
+  add("first loading", damage.misfit_first_loading);
+  add("unloading", damage.misfit_unloading);
+  add("reloading", damage.misfit_reloading);
+  out << "\n";
+}
+
 void print_best(const LargeStrainResult& result, std::ostream& out) {
   const FittedRubber& best = result.best();
-  out << "\n  " << name_of(best.law.form) << "\n";
-  for (const LawParameter& one : best.parameters) {
-    out << fmt::format("    {:<16} {:>14.6g}   95 % {:.6g} to {:.6g}\n", one.name, one.value,
-                       one.interval_95.low, one.interval_95.high);
-  }
+  out << "\n  " << name_of(best) << "\n";
+  print_parameters(best.parameters, best.foam.has_value(), out);
   print_terms(best, out);
+  if (best.damage) print_damage(*best.damage, out);
+  if (best.foam) {
+    const FoamLaw& foam = best.foam->law;
+    out << fmt::format("    at rest: G {:.5g} kPa, K {:.5g} kPa, Poisson's ratio {:.4g}\n",
+                       1e-3 * shear_modulus_Pa(foam), 1e-3 * bulk_modulus_Pa(foam),
+                       poisson_ratio(foam));
+  }
   if (best.inflation > 1.0) {
     out << fmt::format(
         "    (variances times {:.3g}: the law leaves a structure in the residuals)\n",

@@ -3,6 +3,7 @@
 #include "io/basics/option_quantity.h"
 #include "io/basics/units.h"
 #include "io/basics/words.h"
+#include "models/hyperelastic/mullins_damage.h"
 #include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 
@@ -12,15 +13,74 @@
 namespace viscard {
 namespace {
 
-std::vector<HyperelasticForm> forms_from(const LargeStrainWords& words) {
-  const auto& model = words.model;
-  if (!model) return hyperelastic_forms();
+// "yeoh", "yeoh+mullins-or" (with damage) or "mullins-or" (every law with it).
+void take_model(const LargeStrainWords& words, LargeStrainOptions& options) {
+  if (!words.model) return;
+  const std::string damage = kMullinsName, behind = "+" + damage;
+  std::string law = *words.model;
+  if (law == kFoamName) options.foam_terms = {1, 2, 3};
+  if (const auto n_terms = foam_terms_of(law)) options.foam_terms = {*n_terms};
+  if (!options.foam_terms.empty()) return;
+  options.with_damage = law == damage || law.ends_with(behind);
+  if (law == damage) return;
+  if (options.with_damage) law.resize(law.size() - behind.size());
   for (const HyperelasticForm form : hyperelastic_forms()) {
-    if (*model == name_of(form)) return {form};
+    if (law == name_of(form)) {
+      options.forms = {form};
+      return;
+    }
   }
-  throw OptionError("--model " + *model + " is no law of rubber" +
-                    did_you_mean(*model, hyperelastic_names()) + " Use " +
-                    listed(hyperelastic_names()));
+  throw OptionError(
+      "--model " + *words.model + " is no law of rubber" + did_you_mean(law, hyperelastic_names()) +
+      " Use " + listed(hyperelastic_names()) + "; LAW" + behind +
+      " adds the damage of the first loading, " + damage + " alone adds it to all; " + kFoamName +
+      " and " + foam_name(1) + " to " + foam_name(kMostFoamTerms) + " are foams");
+}
+
+// What belongs to foams alone, and what does not belong to them.
+void check_foam(const LargeStrainWords& words, const LargeStrainRequest& request) {
+  if (request.options.foam_terms.empty()) {
+    if (words.poisson_ratio) {
+      throw OptionError(
+          "--poisson-ratio is for foams at large strain; rubber keeps its volume. Omit it, or add "
+          "--model hyperfoam");
+    }
+    for (const LargeStrainFile& file : request.files) {
+      if (!file.is_foam_only) continue;
+      throw OptionError(name_of(file.foam_test) + "=" + file.path +
+                        " is a test of a foam, whose volume changes; add --model hyperfoam");
+    }
+    return;
+  }
+  const auto refuse = [](bool is_given, const char* option, const char* why) {
+    if (!is_given) return;
+    throw OptionError(std::string(option) + " does not belong to foams: " + why + "; omit it");
+  };
+  refuse(words.terms.value_or(0) > 0 || words.max_terms.value_or(0) > 0, "--terms",
+         "they have no relaxation here");
+  refuse(words.youngs_modulus.has_value(), "--youngs-modulus", "it follows from all constants");
+  refuse(request.options.weight == StressWeight::kRelative, "--weight relative",
+         "stresses count by the largest one of their test");
+  if (!words.poisson_ratio) return;
+  if (*words.poisson_ratio > -0.45 && *words.poisson_ratio < 0.495) return;
+  throw OptionError("--poisson-ratio " + text_of(*words.poisson_ratio) +
+                    " of a foam must be between -0.45 and 0.495");
+}
+
+// Damage is a matter of whole records, and never stands beside terms.
+void check_damage(const LargeStrainRequest& request) {
+  const LargeStrainOptions& options = request.options;
+  if (!options.with_damage) return;
+  if (request.cycle.value_or(0) != 0) {
+    throw OptionError("--cycle " + std::to_string(*request.cycle) + " keeps one loading, and " +
+                      kMullinsName + " needs the whole record; omit one of the two");
+  }
+  if (options.n_terms.value_or(options.max_terms.value_or(0)) > 0) {
+    throw OptionError(std::string("terms of relaxation do not stand beside ") + kMullinsName +
+                      ": solvers let the damage act on different parts of such a law; omit "
+                      "--terms and --max-terms, or " +
+                      kMullinsName);
+  }
 }
 
 StressWeight weight_from(const LargeStrainWords& words) {
@@ -106,6 +166,7 @@ LargeStrainWords with_shared_options(LargeStrainWords words, const FitWords& fit
   words.column = fit.column;
   words.terms = fit.terms;
   words.max_terms = fit.max_terms;
+  words.poisson_ratio = fit.poisson_ratio;
   return words;
 }
 
@@ -120,7 +181,7 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   }
   request.table = words.table;
   request.size = words.size;
-  request.options.forms = forms_from(words);
+  take_model(words, request.options);
   request.options.weight = weight_from(words);
   try {
     request.plausible = plausible_from_word(words.plausible.value_or("on"), Plausible::kMeasured);
@@ -132,6 +193,9 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   request.options.max_terms = terms_from(words.max_terms, "--max-terms");
   check_both(request.options);
   request.cycle = cycle_from(words);
+  check_damage(request);
+  check_foam(words, request);
+  request.options.poisson_ratio = words.poisson_ratio;
   return request;
 }
 

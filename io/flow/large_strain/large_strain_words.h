@@ -19,6 +19,7 @@ struct LargeStrainWords {
   SpecimenSize size;
   std::vector<std::string> column;
   std::optional<int> terms, max_terms;  // of relaxation
+  std::optional<double> poisson_ratio;  // of a foam
 };
 
 // Its options that tests at small strain do not have.

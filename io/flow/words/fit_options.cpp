@@ -18,7 +18,9 @@ void add_model(OptionList& list, FitWords& words) {
   list.add("model", &words.model,
            "answer with this law: kww, springpot, fractional-maxwell, fractional-kelvin-voigt or "
            "fractional-zener; its Prony series goes to --out. At large strain: neo-hooke, "
-           "mooney-rivlin, yeoh, ogden-1, ogden-2, ogden-3, arruda-boyce or gent")
+           "mooney-rivlin, yeoh, ogden-1, ogden-2, ogden-3, arruda-boyce or gent; yeoh+mullins-or "
+           "adds the softening by the first loading, mullins-or alone adds it to all; hyperfoam is "
+           "a foam, with the number of terms by BIC or hyperfoam-1 to hyperfoam-3")
       .such_as(all_model_names());
   list.add("diagnose", &words.diagnose,
            "compare by BIC with laws of few parameters: stretched exponential, springpot, "

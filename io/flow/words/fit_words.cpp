@@ -7,7 +7,9 @@
 #include "io/basics/timestamp.h"
 #include "io/basics/words.h"
 #include "io/config/config_file.h"
+#include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/hyperelastic/mullins_damage.h"
 
 #include <algorithm>
 #include <cctype>
@@ -192,6 +194,9 @@ void add_chosen_part(const FitWords& words, FitRequest& request) {
 std::vector<std::string> all_model_names() {
   std::vector<std::string> names = law_names();
   for (const auto& name : hyperelastic_names()) names.emplace_back(name);
+  names.emplace_back(kMullinsName);
+  names.emplace_back(kFoamName);
+  for (Eigen::Index n = 1; n <= kMostFoamTerms; ++n) names.push_back(foam_name(n));
   return names;
 }
 

@@ -118,7 +118,7 @@ def _fit_rubber(given: _arrays.Given, keywords: Dict[str, Any]) -> RubberFit:
     for name, value in keywords.items():
         if name not in _RUBBER_ONLY + (
                 "model", "column", "sheet", "table", "skip", "gauge_length", "area", "youngs_modulus", "terms",
-                "max_terms", "plausible") and value is not False:
+                "max_terms", "plausible", "poisson_ratio") and value is not False:
             raise Error(f"{name} does not belong to tests at large strain; omit it", "usage")
     if isinstance(keywords.get("cycle"), int):
         keywords["cycle"] = str(keywords["cycle"])

@@ -199,7 +199,7 @@ def plot_rubber(rubber: Any, ax: Any) -> Any:
         low, high = test["stretch"]
         at = np.linspace(low, high, 200)
         stress = rubber.stress(at, test["deformation"])
-        if rubber.terms and rubber.fitted:  # along the test, with its relaxation
+        if (rubber.terms or rubber.damage) and rubber.fitted:  # along the test, with its relaxation or damage
             at, stress = rubber.tests[i][0], rubber.fitted[i]
         if i == 0:
             factor, unit = _scale("Pa", float(np.nanmax(np.abs(stress))))

@@ -84,6 +84,8 @@ class RubberFit(Compared):
         Of the parameters, the g and the ln tau_s, in that order; empty without terms.
     parameters : dict of Parameter
         Of the chosen law, by name.
+    damage : dict of Parameter
+        r, m_Pa and beta of the softening by the first loading (``model="yeoh+mullins-or"``); empty without it.
     covariance : array, shape (parameters, parameters)
         In the units of the parameters.
     laws : dict of dict
@@ -93,7 +95,7 @@ class RubberFit(Compared):
     times : list of array
         time_s of the readings; arrays of no length for tests without times.
     fitted : list of array
-        Nominal stress of the law, with its terms, at the readings.
+        Nominal stress of the law, with its terms or damage, at the readings.
     flags : list of Flag
         Of the chosen law, and notes about the data.
     is_trustworthy : bool
@@ -130,6 +132,8 @@ class RubberFit(Compared):
         self.series_covariance: Floats = np.array(chosen.get("series_covariance", []), dtype=float)
         self.parameters = {one["name"]: Parameter(one["name"], one["value"], _arrays.pair(one["interval_95"]))
                            for one in chosen["parameters"]}
+        self.damage = {one["name"]: Parameter(one["name"], one["value"], _arrays.pair(one.get("interval_95")))
+                       for one in chosen.get("damage", {}).get("parameters", [])}
         self.covariance: Floats = np.array(chosen["covariance"], dtype=float)
         self.flags: List[Flag] = [Flag(f["name"], f.get("term", 0), f["text"])
                                   for f in chosen["flags"] + self.json["flags"]]
@@ -161,13 +165,15 @@ class RubberFit(Compared):
         """Nominal stress in Pa (force over area at rest) at these stretches, shape of `stretch`.
 
         Without `time_s` it is that of the law at once. With `time_s` the stretches are a history, linear
-        between its times and at rest before the first, and the terms relax.
+        between its times and at rest before the first, and the terms relax. Of a law with damage the
+        stretches are always a path from rest, in their order.
 
         Parameters
         ----------
         stretch : array
             Length over length at rest, above 0; NaN beyond the limit of a law that has one.
         deformation : "uniaxial", "planar" or "equibiaxial"
+            Of a foam also "confined", "volumetric" and "shear" (then `stretch` is the tangent of the angle).
         time_s : array
             Of the shape of `stretch`; times do not decrease. Two equal times are a jump.
 
@@ -179,7 +185,7 @@ class RubberFit(Compared):
         True
         """
         at = _arrays.numbers(stretch, "stretch")
-        if not np.all(at > 0.0):
+        if deformation != "shear" and not np.all(at > 0.0):
             raise Error("stretch must be above 0", "input")
         times = None if time_s is None else _arrays.numbers(time_s, "time_s")
         if times is not None and times.shape != at.shape:

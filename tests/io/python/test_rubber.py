@@ -1,5 +1,6 @@
 """Tests at large strain: beside the command line, and stresses beside their closed forms."""
 import json
+import math
 import pathlib
 import subprocess
 
@@ -170,3 +171,43 @@ def test_relaxation_beside_the_law(tmp_path):
     with pytest.raises(viscard.Error, match="time_s has the shape"):
         rubber.stress([1.0, 2.0], time_s=[0.0])
     assert viscard.fit([word], model="neo-hooke", terms=0).terms == []
+
+
+def test_a_record_of_cycles_gives_the_damage_of_the_first_loading(tmp_path):
+    # Neo-Hooke of C10 = 0.3 MPa with r 1.5, m 0.05 MPa, from one maximum: beta is held at 0.
+    up = np.linspace(1.0, 1.8, 40)
+    stretch = np.concatenate([up, up[::-1], up])
+    energy = 3e5 * (stretch**2 + 2.0 / stretch - 3.0)
+    drop = (np.maximum.accumulate(energy) - energy) / 5e4
+    eta = 1.0 - np.array([math.erf(x) for x in drop]) / 1.5
+    stress = eta * 6e5 * (stretch - stretch**-2)
+    path = tmp_path / "cycles.csv"
+    np.savetxt(path, np.column_stack([stretch, stress]), delimiter=",", header="stretch,nominal_stress_Pa", comments="")
+    rubber = viscard.fit([f"uniaxial={path}"], model="neo-hooke+mullins-or")
+    assert rubber.damage["r"].value == pytest.approx(1.5, rel=1e-6)
+    assert rubber.damage["m_Pa"].value == pytest.approx(5e4, rel=1e-5)
+    assert rubber.damage["beta"].value == 0.0
+    assert "one-maximum" in [flag.name for flag in rubber.flags]
+    assert rubber.stress(stretch) == pytest.approx(stress, rel=1e-5, abs=1.0)
+    assert "*MULLINS EFFECT" in rubber.card("abaqus").text
+    with pytest.raises(viscard.Error, match="calculix cannot take the damage"):
+        rubber.card("calculix")
+
+
+def test_tests_of_a_foam_give_its_law(tmp_path):
+    # One term, nu = 0.2: the side is s^-0.2, and the force follows from the energy.
+    s = np.linspace(0.5, 1.1, 40)
+    volume = s**0.6
+    stress = 2 * 5e4 / 8 * (s**8 - volume ** (-8 / 3)) / s
+    path = tmp_path / "foam.csv"
+    np.savetxt(path, np.column_stack([s, s**-0.2, stress]), delimiter=",", comments="",
+               header="stretch,lateral_stretch,nominal_stress_Pa")
+    foam = viscard.fit([f"uniaxial={path}"], model="hyperfoam-1")
+    assert foam.law == "hyperfoam-1"
+    assert foam.parameters["mu_1_Pa"].value == pytest.approx(5e4, rel=1e-6)
+    assert foam.parameters["nu"].value == pytest.approx(0.2, rel=1e-6)
+    assert foam.stress(0.5) == pytest.approx(stress[0], rel=1e-6)
+    assert foam.stress([0.1, 0.2], "shear") == pytest.approx([5125.75125, 11024.16], rel=1e-5)
+    assert "*HYPERFOAM, N=2" in foam.card("calculix").text
+    with pytest.raises(viscard.Error, match="no card of a foam"):
+        foam.card("febio")

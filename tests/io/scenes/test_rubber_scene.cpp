@@ -61,6 +61,16 @@ std::string relaxing_file(const ScratchFolder& folder) {
   return path.string();
 }
 
+// A file of a law with damage, as viscard fit --model neo-hooke+mullins-or writes it.
+std::string damaged_law_file(const ScratchFolder& folder) {
+  const std::filesystem::path path = folder / "damaged.json";
+  std::ofstream(path) << R"({"schema": "viscard-hyperelastic/1", "law": "neo-hooke", "laws": [
+    {"name": "neo-hooke", "parameters": [{"name": "C10_Pa", "value": 3e5}], "trustworthy": true,
+     "damage": {"name": "mullins-or", "parameters": [{"name": "r", "value": 1.6},
+     {"name": "m_Pa", "value": 1e5}, {"name": "beta", "value": 0}]}, "flags": []}], "tests": []})";
+  return path.string();
+}
+
 double value_of(const SceneAnswer& answer, const std::string& name) {
   for (const SceneResult& result : answer.results) {
     if (result.name == name) return result.value;
@@ -75,6 +85,23 @@ std::string notes_of(const PillarScene& scene) {
 }
 
 }  // namespace
+
+TEST_CASE("a law of rubber with damage is refused by scenes, with the way on", "[io][mullins]") {
+  const ScratchFolder folder;
+  CHECK_THROWS_WITH(pillar_of(scene_with("file = \"" + damaged_law_file(folder) + "\", nu = 0.49")),
+                    Catch::Contains("scenes do not compute") &&
+                        Catch::Contains("viscard fit --model neo-hooke --cycle N"));
+}
+
+TEST_CASE("a foam is refused by scenes", "[io][foam]") {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder / "foam.json";
+  std::ofstream(path) << R"({"schema": "viscard-hyperelastic/1", "law": "hyperfoam-1", "laws": [
+    {"name": "hyperfoam-1", "parameters": [{"name": "mu_1_Pa", "value": 5e4}, {"name": "alpha_1",
+     "value": 8}, {"name": "nu", "value": 0.2}], "trustworthy": true, "flags": []}], "tests": []})";
+  CHECK_THROWS_WITH(pillar_of(scene_with("file = \"" + path.string() + "\", nu = 0.2")),
+                    Catch::Contains("holds a foam"));
+}
 
 TEST_CASE("the terms of a law of rubber relax the pillar", "[io][plan]") {
   const ScratchFolder folder;

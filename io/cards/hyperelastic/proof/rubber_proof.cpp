@@ -377,6 +377,17 @@ RubberProof prove_rubber_card(const std::string& card, const std::string& target
         "the card has no terms of relaxation and the law has " +
         std::to_string(wanted.terms.size()) +
         "; --elastic-only instantaneous or long-term states which law without them it should be");
+  if (read.foam || (file != nullptr && file->foam)) {
+    throw std::runtime_error(
+        "the law is a foam, whose cubes viscard does not run, so that nothing would be proven of "
+        "it; --check compares its constants");
+  }
+  if (read.damage || (file != nullptr && file->damage)) {
+    throw std::runtime_error(std::string("the law has the damage by the first loading ") +
+                             kMullinsName +
+                             ", which no solver that viscard runs has, so that nothing would be "
+                             "proven of it; --check compares its constants");
+  }
   const CubeRunner* runner = runner_of(found.solver.name);
   wanted.rule = runner == nullptr ? VolumeRule::kWholeOgden : runner->rule;
   if (found.solver.name == "calculix" && wanted.law.form == HyperelasticForm::kArrudaBoyce)

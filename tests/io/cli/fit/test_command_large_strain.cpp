@@ -1,5 +1,7 @@
 // Tests of rubber at large strain: viscard fit uniaxial=a.csv planar=b.csv equibiaxial=c.csv.
 #include "models/hyperelastic/finite_viscoelasticity.h"
+#include "models/hyperelastic/foam_law.h"
+#include "models/hyperelastic/mullins_damage.h"
 #include "tests/io/cli/fit/table_folder.h"
 #include "tests/support/run_command.h"
 
@@ -271,13 +273,154 @@ TEST_CASE("of a record with cycles at large strain one loading is fitted", "[cli
   const auto run = run_command({"fit", word, "--model", "neo-hooke"});
   CHECK(run.status == 0);
   CHECK_THAT(run.out, Contains("the loading of cycle 2 of 2 is fitted; 61 rows left out") &&
-                          Contains("softens by 20 %"));
+                          Contains("softens by 20 %") &&
+                          Contains("fit the softening with --model neo-hooke+mullins-or"));
   const auto first = nlohmann::json::parse(
       run_command({"fit", word, "--model", "neo-hooke", "--cycle", "1", "--json"}).out);
   CHECK(first["laws"][0]["E0_Pa"].get<double>() == Approx(6e5).epsilon(1e-6));
   CHECK(first["tests"][0]["softening"].get<double>() == Approx(0.2));
   CHECK_THAT(run_command({"fit", word, "--cycle", "3"}).err, Contains("has 2 cycles of loading"));
   CHECK(run_command({"fit", word, "--cycle", "0"}).status == 2);
+}
+
+TEST_CASE("a record of cycles gives the damage of its first loading, which goes into a card",
+          "[cli][mullins]") {
+  const TableFolder folder;
+  const HyperelasticLaw law{HyperelasticForm::kNeoHooke, Eigen::VectorXd::Constant(1, 0.3e6), {}};
+  std::vector<double> stretch;
+  for (const double top : {1.4, 1.8}) {
+    for (int i = 0; i <= 80; ++i)
+      stretch.push_back(1.0 + (top - 1.0) * (i <= 40 ? i : 80 - i) / 40);
+  }
+  const auto stress_Pa =
+      nominal_stress_Pa(law, MullinsDamage{1.5, 2e4, 0.2}, Deformation::kUniaxial, stretch);
+  std::ostringstream table;
+  table.precision(12);
+  table << "time_s,stretch,nominal_stress_Pa\n";
+  for (std::size_t i = 0; i < stretch.size(); ++i)
+    table << i << "," << stretch[i] << "," << stress_Pa[i] << "\n";
+  const std::string word = "uniaxial=" + folder.write("cycles.csv", table.str());
+  const std::string made = folder.file("rubber.json"), card = folder.file("rubber.inp");
+  const auto run =
+      run_command({"fit", word, "--model", "neo-hooke+mullins-or", "--out", made, "--json"});
+  REQUIRE(run.status == 0);
+  const auto json = nlohmann::json::parse(run.out);
+  const auto& damage = json["laws"][0]["damage"];
+  const double truth[] = {1.5, 2e4, 0.2};
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(damage["parameters"][k]["value"].get<double>() == Approx(truth[k]).epsilon(1e-4));
+  CHECK(damage["covariance"].size() == 4);
+  CHECK(damage["misfit_reloading"].get<double>() < 1e-6);
+  CHECK_FALSE(damage["one_maximum"].get<bool>());
+  CHECK(json["tests"][0]["cycle"] == 0);
+  CHECK(json["tests"][0]["n_left_out"] == 0);
+  CHECK(json["laws"][0]["terms"].empty());
+  // The file makes a card, the card is checked against it, and comes back as a file.
+  REQUIRE(
+      run_command({"card", made, "--for", "abaqus", "--units", "mm-t-s", "--out", card}).status ==
+      0);
+  CHECK_THAT(text_of_file(card), Contains("*MULLINS EFFECT\n"));
+  CHECK(run_command({"card", made, "--check", card}).status == 0);
+  const std::string back = folder.file("back.json");
+  REQUIRE(run_command({"card", card, "--import", back}).status == 0);
+  CHECK_THAT(text_of_file(back), Contains("mullins-or"));
+  // Other doors say what they cannot do with it.
+  const auto calculix = run_command({"card", made, "--for", "calculix"});
+  CHECK(calculix.status != 0);
+  CHECK_THAT(calculix.err, Contains("calculix cannot take the damage mullins-or"));
+  // All laws with it; text.
+  const auto all = run_command({"fit", word, "--model", "mullins-or"});
+  CHECK(all.status == 0);
+  CHECK_THAT(all.out, Contains("neo-hooke+mullins-or") && Contains("damage by the first loading") &&
+                          Contains("reloading"));
+  const auto refused = [&](std::vector<std::string> more, const std::string& reason) {
+    more.insert(more.begin(), {"fit", word});
+    const auto wrong = run_command(more);
+    CHECK(wrong.status == 2);
+    CHECK_THAT(wrong.err, Contains(reason));
+  };
+  refused({"--model", "neo-hooke+mullins-or", "--cycle", "1"}, "needs the whole record");
+  refused({"--model", "yeoh+mullins-or", "--terms", "2"}, "do not stand beside mullins-or");
+  refused({"--model", "yeo+mullins-or"}, "did you mean 'yeoh'");
+  const auto virgin =
+      run_command({"fit", "uniaxial=" + treloar("uniaxial"), "--model", "yeoh+mullins-or"});
+  CHECK(virgin.status == 1);
+  CHECK_THAT(virgin.err, Contains("leave mullins-or out of --model"));
+}
+
+TEST_CASE("tests of a foam give its law, a file and cards", "[cli][foam]") {
+  const TableFolder folder;
+  FoamLaw law{Eigen::VectorXd::Constant(1, 5e4), Eigen::VectorXd::Constant(1, 8.0),
+              Eigen::VectorXd::Constant(1, 0.2)};
+  std::ostringstream sides, pressures, shear;
+  for (std::ostringstream* table : {&sides, &pressures, &shear}) table->precision(12);
+  sides << "strain,lateral_strain,nominal_stress_kPa\n";
+  pressures << "volume_ratio,pressure_kPa\n";
+  shear << "shear strain,shear stress (kPa)\n";
+  for (int i = 0; i <= 40; ++i) {
+    const double s = 1.0 - 0.0125 * i, v = 1.0 - 0.005 * i, gamma = 0.02 * i;
+    const FoamState side = foam_state(law, FoamTest::kUniaxial, s);
+    sides << s - 1.0 << "," << side.lateral_stretch() - 1.0 << "," << 1e-3 * side.nominal_stress_Pa
+          << "\n";
+    const FoamState body = foam_state(law, FoamTest::kVolumetric, v);
+    pressures << v * v * v << "," << -1e-3 * body.nominal_stress_Pa / (v * v) << "\n";
+    shear << gamma << "," << 1e-3 * foam_state(law, FoamTest::kShear, gamma).nominal_stress_Pa
+          << "\n";
+  }
+  const std::string with_sides = "compression=" + folder.write("sides.csv", sides.str());
+  const std::string volumetric = "volumetric=" + folder.write("pressures.csv", pressures.str());
+  const std::string sheared = "shear=" + folder.write("shear.csv", shear.str());
+  const std::string made = folder.file("foam.json"), card = folder.file("foam.inp");
+  const auto run = run_command({"fit", with_sides, volumetric, sheared, "--model", "hyperfoam",
+                                "--out", made, "--svg", folder.file("foam.svg"), "--json"});
+  CAPTURE(run.err);
+  REQUIRE(run.status == 0);
+  const auto json = nlohmann::json::parse(run.out);
+  CHECK(json["law"] == "hyperfoam-1");
+  CHECK(json["laws"].size() == 3);
+  const auto& chosen = json["laws"][0];
+  CHECK(chosen["parameters"][0]["value"].get<double>() == Approx(5e4).epsilon(1e-5));
+  CHECK(chosen["parameters"][1]["value"].get<double>() == Approx(8.0).epsilon(1e-5));
+  CHECK(chosen["parameters"][2]["value"].get<double>() == Approx(0.2).epsilon(1e-5));
+  CHECK(chosen["foam"]["K_Pa"].get<double>() == Approx(0.0666666667e6).epsilon(1e-5));
+  CHECK(chosen["E0_Pa"].get<double>() == Approx(0.12e6).epsilon(1e-5));
+  CHECK(json["tests"][1]["deformation"] == "volumetric");
+  CHECK(json["tests"][2]["deformation"] == "shear");
+  for (const char* target : {"abaqus", "calculix", "lsdyna", "openradioss"}) {
+    CAPTURE(target);
+    REQUIRE(run_command({"card", made, "--for", target, "--units", "mm-t-s", "--density",
+                         "30 kg/m3", "--force", "--out", card})
+                .status == 0);
+    const auto check = run_command({"card", made, "--check", card, "--json"});
+    CHECK(check.status == 0);
+    CHECK(nlohmann::json::parse(check.out)["law"] == "hyperfoam-1");
+  }
+  CHECK_THAT(run_command({"card", made, "--for", "febio"}).err, Contains("no card of a foam"));
+  CHECK_THAT(run_command({"card", made, "--for", "abaqus", "--bulk-modulus", "1 MPa"}).err,
+             Contains("bulk modulus of a foam follows"));
+  CHECK_THAT(run_command({"fit", with_sides, "--model", "hyperfoam-1"}).out,
+             Contains("Poisson's ratio 0.2"));
+  const auto refused = [&](std::vector<std::string> words, const std::string& reason) {
+    words.insert(words.begin(), "fit");
+    const auto wrong = run_command(words);
+    CHECK(wrong.status != 0);
+    CHECK_THAT(wrong.err, Contains(reason));
+  };
+  refused({sheared}, "is a test of a foam");
+  refused({sheared, "--model", "yeoh"}, "add --model hyperfoam");
+  refused({sheared, "--model", "hyperfoam-2"}, "do not show the Poisson ratio");
+  refused({with_sides, "--model", "hyperfoam-4"}, "is no law of rubber");
+  refused({with_sides, "--model", "yeoh", "--poisson-ratio", "0.3"},
+          "--poisson-ratio is for foams");
+  refused({with_sides, "--model", "hyperfoam", "--terms", "2"}, "--terms does not belong to foams");
+  refused({with_sides, "--model", "hyperfoam", "--weight", "relative"},
+          "--weight relative does not");
+  CHECK(run_command({"fit", sheared, "--model", "hyperfoam-1", "--poisson-ratio", "0.2"}).status ==
+        0);
+  const auto true_stress =
+      folder.write("true.csv", "stretch,true_stress_Pa\n1,0\n0.9,-5\n0.8,-9\n0.7,-15\n");
+  refused({"compression=" + true_stress, "--model", "hyperfoam-1", "--poisson-ratio", "0"},
+          "has the true stress alone");
 }
 
 TEST_CASE("a damaged file of a rubber is refused with its name and what is wrong", "[cli]") {
