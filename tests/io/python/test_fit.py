@@ -49,7 +49,7 @@ def test_every_option_of_the_command_is_a_keyword(program):
 
 def test_every_option_of_predict_is_a_keyword(program):
     options = set(re.findall(r"^  (?:-\w \[ )?--([a-z-]+)", of_program(program, "predict", "--help"), re.M))
-    options -= {"help", "json", "force", "csv", "svg", "accept-flags", "version", "color"}
+    options -= {"help", "json", "force", "csv", "svg", "accept-flags", "version", "color", "strip-paths"}
     names = {"from_" if one == "from" else one.replace("-", "_") for one in options}
     assert names <= set(inspect.signature(viscard.predict).parameters)
 
