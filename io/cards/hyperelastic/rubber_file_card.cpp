@@ -64,7 +64,7 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
     lines.push_back("damage beta " + text_of(file.damage->beta, kDigits));
   }
   lines.push_back("evidence: " + (file.foam && options.target == "calculix"
-                                      ? std::string("one cube run in CalculiX 2.20, all tests")
+                                      ? std::string("one cube run in CalculiX 2.20")
                                       : target.evidence));
   if (options.density_kg_m3) {
     lines.push_back("density " + text_of(*options.density_kg_m3, kDigits) + " kg/m3");

@@ -89,7 +89,8 @@ CommandSyntax fit_syntax(FitCommand& command) {
       "unless it is given. Several tests of one material are fitted together if each states its "
       "kind: relaxation=a.csv creep=b.csv dma=c.csv indentation=d.csv. Tests at large strain give "
       "a law of rubber: uniaxial=a.csv compression=b.csv planar=c.csv equibiaxial=d.csv (stretch "
-      "or nominal strain, and nominal stress).",
+      "or nominal strain, and nominal stress); foams (--model hyperfoam) also confined=e.csv "
+      "volumetric=f.csv shear=g.csv.",
       "viscard fit data/demo/example_relaxation.csv --out material.json"};
   syntax.positional.add("file", &command.files, "captures and tables");
   OptionList& options = syntax.options;

@@ -154,7 +154,12 @@ LargeStrainTest test_of_file(const LargeStrainFile& file, const CsvTable& table,
     throw std::runtime_error(file.path + ": " + kind.from +
                              " speaks of shear, but this is a test in " + test.name);
   }
-  if (file.is_compression) turn_compression(test, file.path);
+  // Tests that only foams have may go to both sides of rest; a strain that is counted positive does not.
+  const bool has_compression = std::any_of(test.stretch.begin(), test.stretch.end(),
+                                           [](double stretch) { return stretch < 1.0; });
+  const bool has_signs =
+      has_compression || find_column(table, "volume_ratio", request.columns).has_value();
+  if (file.is_compression && !(file.is_foam_only && has_signs)) turn_compression(test, file.path);
   if (find_column(table, "time_s", request.columns)) {
     test.time_s = column_SI(table, "time_s", request.columns);
   }

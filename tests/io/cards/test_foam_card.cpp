@@ -200,4 +200,9 @@ TEST_CASE("foam cards: CalculiX runs one cube to the stress of the law", "[cards
       cube_deck(foam_card(*two_terms().foam, with_units("calculix")), Deformation::kPlanar, 0.7);
   deck = with_change(deck, "BACK,2,2\n", "BACK,2,2\nRIGHT,1,1\n");
   CHECK(run_in_calculix(deck) == Approx(-0.0606201943).epsilon(2e-6));
+  // Volumetric: all three sides are moved alike.
+  deck = cube_deck(foam_card(*two_terms().foam, with_units("calculix")), Deformation::kEquibiaxial,
+                   0.7);
+  deck = with_change(deck, "RIGHT,1,1,-0.3\n", "RIGHT,1,1,-0.3\nBACK,2,2,-0.3\n");
+  CHECK(run_in_calculix(deck) == Approx(-0.3252024).epsilon(2e-6));
 }

@@ -417,6 +417,25 @@ TEST_CASE("tests of a foam give its law, a file and cards", "[cli][foam]") {
           "--weight relative does not");
   CHECK(run_command({"fit", sheared, "--model", "hyperfoam-1", "--poisson-ratio", "0.2"}).status ==
         0);
+  // Confined compression that is counted positive is the same.
+  std::ostringstream confined, turned;
+  confined << "stretch,nominal_stress_kPa\n";
+  turned << "strain,nominal_stress_kPa\n";
+  for (int i = 0; i <= 30; ++i) {
+    const double s = 1.01 - 0.01 * i, t = 1.0 - 0.01 * i;
+    confined << s << "," << 1e-3 * foam_state(law, FoamTest::kConfined, s).nominal_stress_Pa
+             << "\n";
+    turned << 1.0 - t << "," << -1e-3 * foam_state(law, FoamTest::kConfined, t).nominal_stress_Pa
+           << "\n";
+  }
+  for (const auto& [name, text] :
+       {std::pair{"c.csv", confined.str()}, std::pair{"t.csv", turned.str()}}) {
+    const auto fit = run_command({"fit", sheared, "confined=" + folder.write(name, text), "--model",
+                                  "hyperfoam-1", "--json"});
+    REQUIRE(fit.status == 0);
+    const auto found = nlohmann::json::parse(fit.out)["laws"][0]["parameters"];
+    CHECK(found[2]["value"].get<double>() == Approx(0.2).epsilon(1e-3));
+  }
   const auto true_stress =
       folder.write("true.csv", "stretch,true_stress_Pa\n1,0\n0.9,-5\n0.8,-9\n0.7,-15\n");
   refused({"compression=" + true_stress, "--model", "hyperfoam-1", "--poisson-ratio", "0"},
