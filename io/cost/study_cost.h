@@ -64,7 +64,7 @@ struct CostStudy {
   std::vector<CostLaw> laws;  // that predicted them, of the kinds that have two rows or more
   std::vector<CostAdvice> advice;
   std::vector<std::string> notes;  // remarks for the reader, plain sentences
-  std::string reference;  // discretisation of the answer that errors refer to
+  std::string reference;           // discretisation of the answer that errors refer to
   // Relative: the change of the reference from a lower degree, and what every mesh has (steps, modes left out).
   double reference_error = 0.0;
   std::string why_alone;   // why there is no lower degree; empty if there is

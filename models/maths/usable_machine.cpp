@@ -34,10 +34,10 @@ void require_memory(double unknowns, double needed_B) {
   const double usable_B = usable_memory_B();
   if (needed_B <= usable_B) return;
   throw NotEnoughMemory("the next mesh has " + text_of(unknowns, 3) +
-                           " unknowns, which need about " + text_of(1e-9 * needed_B, 2) +
-                           " GB of memory; " + text_of(1e-9 * usable_B, 2) +
-                           " GB can be used. Ask for a larger tolerance or fewer results, or use a "
-                           "machine with more memory");
+                        " unknowns, which need about " + text_of(1e-9 * needed_B, 2) +
+                        " GB of memory; " + text_of(1e-9 * usable_B, 2) +
+                        " GB can be used. Ask for a larger tolerance or fewer results, or use a "
+                        "machine with more memory");
 }
 
 }  // namespace viscard
