@@ -127,6 +127,8 @@ TEST_CASE("the rig is checked with lights, and its file is set up on the page", 
   Browser browser(scratch / "profile");
   browser.set_window(1280, 1000, false, false);
   browser.open(server.address());
+  REQUIRE(
+      browser.wait_until("return document.getElementById('link').textContent === 'connected'", 20));
   browser.click("#check");
   REQUIRE(browser.wait_until(
       "return document.querySelectorAll('#check-result .light').length === 4", 30));
@@ -135,7 +137,7 @@ TEST_CASE("the rig is checked with lights, and its file is set up on the page", 
   REQUIRE(browser.wait_until(
       "return document.getElementById('setup-text').value.includes('[stage]')", 20));
   CHECK(browser.run("return document.getElementById('setup-keep').disabled") == true);
-  look_at(browser, "8_setup");
+  look_at(browser, "9_setup");
   const auto choose = [&](const std::string& id, const std::string& value) {
     browser.run("const s = document.getElementById('" + id + "'); s.value = '" + value +
                 "'; s.dispatchEvent(new Event('change'));");

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <regex>
 #include <set>
 #include <string>
 #include <thread>
@@ -33,6 +34,26 @@ int status_with(ServedRig& rig, const httplib::Headers& headers) {
 
 std::string code_of(const test::ApiAnswer& answer) {
   return answer.json.at("error").at("code");
+}
+
+TEST_CASE("every module that the pages import is served", "[serve]") {
+  ServedRig rig;
+  std::set<std::string> seen;
+  std::vector<std::string> open = {"/app.js", "/desk.js"};
+  while (!open.empty()) {
+    const std::string name = open.back();
+    open.pop_back();
+    if (!seen.insert(name).second) continue;
+    CAPTURE(name);
+    const auto module = rig.client().Get(name);
+    REQUIRE(module);
+    CHECK(module->status == 200);
+    static const std::regex kImport(R"(from "\./([a-z_]+\.js)\")");
+    for (std::sregex_iterator at(module->body.begin(), module->body.end(), kImport), end; at != end;
+         ++at)
+      open.push_back("/" + (*at)[1].str());
+  }
+  CHECK(seen.size() > 20);
 }
 
 TEST_CASE("only the own page with the token is answered", "[serve]") {
