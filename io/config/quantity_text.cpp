@@ -46,6 +46,11 @@ std::string distribution_mistake(const std::string& right) {
 double half_width_from(const std::string& text, const char* unit, double value) {
   const std::string trimmed_text(trimmed(text));
   if (!trimmed_text.empty() && trimmed_text.back() == '%') {
+    if (std::string(unit) == "degC") {
+      throw std::invalid_argument(
+          "a temperature has no percentage, whose zero would depend on its "
+          "unit; give the width as a difference, such as +- 2 K");
+    }
     const std::string number = trimmed_text.substr(0, trimmed_text.size() - 1);
     return 0.01 * si_from_text(number, "1") * std::abs(value);
   }

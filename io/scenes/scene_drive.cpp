@@ -301,6 +301,10 @@ void show_bow(FieldVisitor& v, PillarScene& scene) {
   v.after_all_keys([&scene, bowed] {
     const bool is_taken = set(scene.drive, kBow, bowed.bow_m);
     set(scene.drive, kStrain, bowed.collapse_strain);
+    if (bowed.bow_m == 0.0 && bowed.collapse_strain != BucklingDrive{}.collapse_strain) {
+      throw SceneMistake("analysis.collapse_strain",
+                         "is that of a pillar that is not straight; add bow, such as \"1 um\"");
+    }
     if (is_taken || bowed.bow_m == 0.0) return;
     throw SceneMistake("analysis.bow", only(kBow, "answer a pillar that is not straight"));
   });

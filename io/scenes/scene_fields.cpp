@@ -50,10 +50,39 @@ const NamedMaterial& named(const SceneFile& file, const std::string& name) {
 
 namespace {
 
+// Keys that mean nothing without others are refused.
+void check_surroundings(const Surroundings& around, bool has_film) {
+  const Surroundings usual;
+  const bool expands = around.pillar_expansion_1_K != 0.0 || around.film_expansion_1_K != 0.0 ||
+                       around.pyroelectric_C_m2K != 0.0;
+  const bool is_made = !std::isnan(around.made_at_C);
+  if ((expands || is_made) && (std::isnan(around.temperature_C) || !is_made)) {
+    throw SceneMistake("surroundings",
+                       "expansion and pyroelectric charge need temperature and made_at, such as "
+                       "temperature = \"33 degC\" and made_at = \"23 degC\"");
+  }
+  if (is_made && !expands) {
+    throw SceneMistake("surroundings.made_at",
+                       "needs pillar_expansion, film_expansion or pyroelectric, such as "
+                       "pillar_expansion = \"3e-4 1/K\"");
+  }
+  if (!has_film && (around.film_expansion_1_K != 0.0 || around.pyroelectric_C_m2K != 0.0)) {
+    throw SceneMistake("surroundings", "film_expansion and pyroelectric need a film");
+  }
+  if (!around.air && (around.air_density_kg_m3 != usual.air_density_kg_m3 ||
+                      around.air_viscosity_Pa_s != usual.air_viscosity_Pa_s)) {
+    throw SceneMistake("surroundings.air", "air_density and air_viscosity need air = true");
+  }
+}
+
 // Only a single pillar has all of it.
 void show_surroundings(FieldVisitor& v, SceneFile& file) {
   Surroundings& around = common(file.scene).surroundings;
-  const bool is_pillar = std::holds_alternative<PillarScene>(file.scene);
+  const auto* pillar = std::get_if<PillarScene>(&file.scene);
+  const bool is_pillar = pillar != nullptr;
+  v.after_all_keys([&around, pillar] {
+    if (pillar != nullptr) check_surroundings(around, pillar->film.has_value());
+  });
   v.section("surroundings", [&](FieldVisitor& s) {
     s.quantity({.key = "temperature", .unit = "degC"}, around.temperature_C);
     if (!is_pillar) return;

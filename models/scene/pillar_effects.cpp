@@ -170,6 +170,14 @@ EffectEstimate finite_strain_estimate(const PillarScene& scene) {
       strain = std::max(strain, std::abs(point.value) / scene.geometry.length_m);
     }
   }
+  const Surroundings& around = scene.surroundings;
+  if (!analysis_of(scene).has_inertia) {
+    strain += std::abs(around.pillar_expansion_1_K * around.heated_K()) +
+              scene.pillar.rho_kg_m3 * std::abs(around.gravity_m_s2) * scene.geometry.length_m /
+                  scene.pillar.E0_Pa;
+  }
+  if (const auto* bowed = std::get_if<BucklingDrive>(&scene.drive); bowed && bowed->bow_m > 0.0)
+    strain = std::max(strain, bowed->collapse_strain);
   if (strain == 0.0) {
     return {.reason = analysis_of(scene).has_inertia ? "small vibrations about the unloaded shape"
                                                      : "no load strains the pillar"};

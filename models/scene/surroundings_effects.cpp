@@ -72,6 +72,26 @@ void leave_out_temperature(SceneCommon& scene) {
 
 namespace {
 
+constexpr const char* kNotOfRubber = "large strains of a law of rubber are answered without it";
+
+// The weight of the film over its electrode, per area of the pillar: an electrode adds up what presses on it.
+double film_weight_Pa(const PillarScene& scene) {
+  if (!scene.film) return 0.0;
+  const double own_Pa = scene.film->rho_kg_m3 * std::abs(scene.surroundings.gravity_m_s2) *
+                        scene.geometry.film->thickness_m;
+  const double read_m = scene.electrodes ? scene.electrodes->electrode_radius_m : 0.0;
+  return own_Pa * std::max(1.0, std::pow(2.0 * read_m / scene.geometry.diameter_m, 2));
+}
+
+// A flat pillar is held by its foot: it expands more along its axis, and yields less to a load, up to the modulus of a
+// body without sideways strain. Source: Gent & Lindley, Proc. Inst. Mech. Eng. 173 (1959) 111.
+double apparent_modulus_Pa(const PillarScene& scene) {
+  const double nu = scene.pillar.nu, E_Pa = scene.pillar.E0_Pa;
+  const double shape = scene.geometry.diameter_m / (4.0 * scene.geometry.length_m);
+  const double held = (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+  return E_Pa * std::min(1.0 + 2.0 * shape * shape, held > 0.0 ? held : HUGE_VAL);
+}
+
 constexpr const char* kChangeOnly = "it has acted for long: the answer is the change by the load";
 
 bool is_axial_static(const PillarScene& scene) {
@@ -84,18 +104,25 @@ EffectEstimate weight_estimate(const PillarScene& scene) {
   const double gravity_m_s2 = std::abs(scene.surroundings.gravity_m_s2);
   if (gravity_m_s2 == 0.0) return {.reason = "surroundings.gravity is not given"};
   const double weight_Pa = scene.pillar.rho_kg_m3 * gravity_m_s2 * scene.geometry.length_m;
+  if (scene.rubber) {
+    const double load_Pa = largest_pressure_Pa(scene);
+    const double share = load_Pa > 0.0 ? weight_Pa / load_Pa : 1.0;
+    return {EffectRole::kOutside, share, "rho g L/p", share, kNotOfRubber};
+  }
   if (is_axial_static(scene)) {
     const double load_Pa = largest_pressure_Pa(scene);
     const bool is_all = !(load_Pa > 0.0) || drive_V(scene) != 0.0;
-    return {EffectRole::kOptional, is_all ? 1.0 : weight_Pa / load_Pa, "rho g L/p",
-            is_all ? 0.0 : weight_Pa / load_Pa, "the pillar's weight over the load"};
+    const double all_Pa = weight_Pa + film_weight_Pa(scene);
+    return {EffectRole::kOptional, is_all ? 1.0 : all_Pa / load_Pa, "rho g L/p",
+            is_all ? 0.0 : all_Pa / load_Pa, "the weight of pillar and film over the load"};
   }
   if (!analysis_of(scene).bends && !is_lateral(scene)) return {.reason = kChangeOnly};
   // A column buckles under its own weight at rho g L = 7.837 E I/(A L^2), under a load at 2.467: the weight counts
   // as 0.315 of it on the top. Source: Timoshenko & Gere, Theory of Elastic Stability (1961), 2.12.
   const double share = 0.315 * weight_Pa / engesser_pressure_Pa(scene);
   return {EffectRole::kOutside, std::min(1.0, share), "0.315 rho g L/p_cr", share,
-          "the weight softens the pillar sideways"};
+          scene.surroundings.gravity_m_s2 > 0.0 ? "the weight softens the pillar sideways"
+                                                : "the weight stiffens the pillar sideways"};
 }
 
 EffectEstimate thermal_strain_estimate(const PillarScene& scene) {
@@ -108,7 +135,11 @@ EffectEstimate thermal_strain_estimate(const PillarScene& scene) {
   const double strain =
       std::max(std::abs(around.pillar_expansion_1_K), std::abs(around.film_expansion_1_K)) *
       std::abs(around.heated_K());
-  const double by_strain = load_Pa > 0.0 ? strain * scene.pillar.E0_Pa / load_Pa : 1.0;
+  const double held = (1.0 + scene.pillar.nu) / (1.0 - scene.pillar.nu);
+  const double by_strain =
+      load_Pa > 0.0 ? strain * held * apparent_modulus_Pa(scene) / load_Pa : 1.0;
+  if (scene.rubber)
+    return {EffectRole::kOutside, by_strain, "alpha dT E/p", by_strain, kNotOfRubber};
   EffectEstimate estimate{EffectRole::kOptional, by_strain, "alpha dT E/p", by_strain,
                           "expansion over the load's strain"};
   if (!scene.electrodes) return estimate;

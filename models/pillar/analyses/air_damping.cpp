@@ -72,10 +72,9 @@ void add_air_errors(const PillarScene& scene, SceneAnswer& answer) {
   if (!scene.surroundings.air) return;
   for (SceneMode& mode : answer.modes) {
     const AirLoad air = air_load(scene, motion_of(mode.family), mode.frequency_Hz);
-    const double unknown =
-        motion_of(mode.family) == AirMotion::kOvalling
-            ? 1.0
-            : std::min(1.0, 0.5 * scene.geometry.diameter_m / scene.geometry.length_m);
+    const double unknown = motion_of(mode.family) == AirMotion::kOvalling
+                               ? 1.0
+                               : 0.5 * scene.geometry.diameter_m / scene.geometry.length_m;
     mode.error_estimate += unknown * air.frequency_share * mode.frequency_Hz;
     mode.damping_error += unknown * air.damping_ratio;
   }

@@ -24,7 +24,7 @@ void check_buckling(const PillarScene& scene) {
   require(!scene.plane, "buckling is computed for a cylinder, not for a strip");
   const BucklingDrive& drive = buckling_drive(scene);
   if (drive.bow_m == 0.0) return;
-  at_key("analysis.bow", [&] { collapse(scene, 1.0, drive.bow_m, drive.collapse_strain); });
+  at_key("analysis.bow", [&] { check_bow(scene, drive.bow_m, drive.collapse_strain); });
 }
 
 // Names of what a bowed pillar adds.

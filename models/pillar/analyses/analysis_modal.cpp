@@ -1,3 +1,4 @@
+#include "models/answer/scene_mistake.h"
 #include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
@@ -31,6 +32,14 @@ const ModalDrive& modal_drive(const PillarScene& scene) {
 void check_modal(const PillarScene& scene) {
   const int modes = modal_drive(scene).modes;
   require_value(modes >= 1 && modes <= 40, "modes per family", modes, "", "from 1 to 40");
+  if (!scene.surroundings.air) return;
+  if (scene.plane)
+    throw SceneMistake("surroundings.air", "is answered around cylinders, not strips");
+  // Heavier fluids change the modes, whose own frequencies would have to enter the formula.
+  constexpr double kMostOfPillar = 0.05;
+  if (scene.surroundings.air_density_kg_m3 <= kMostOfPillar * scene.pillar.rho_kg_m3) return;
+  throw SceneMistake("surroundings.air_density",
+                     "a gas of at most a twentieth of the pillar's density is answered, no liquid");
 }
 
 std::vector<std::string> modal_names(const PillarScene& scene) {

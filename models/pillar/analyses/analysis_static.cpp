@@ -104,6 +104,19 @@ void check_displacement(const PillarScene& scene) {
   }
 }
 
+void check_heat(const PillarScene& scene) {
+  if (!scene.surroundings.strains_by_heat()) return;
+  if (scene.plane == PlaneState::kStress) {
+    throw SceneMistake("surroundings.made_at",
+                       "expansion by heat is answered for cylinders and in plane strain");
+  }
+  if (scene.pillar.nu == 0.5) {
+    throw SceneMistake("surroundings.made_at",
+                       "an incompressible pillar cannot expand by heat where it is held; the "
+                       "pillar's nu must lie below 0.5, such as 0.4999");
+  }
+}
+
 void check_static(const PillarScene& scene) {
   const bool is_held = displacement_m(scene) == 0.0;
   const bool is_loaded =
@@ -113,6 +126,7 @@ void check_static(const PillarScene& scene) {
                        "a static analysis needs a pressure on the top, a displacement of it or a "
                        "voltage");
   }
+  check_heat(scene);
   if (!scene.fixed_bottom && scene.surroundings.gravity_m_s2 != 0.0) {
     throw SceneMistake("surroundings.gravity", "nothing holds the free bottom against the weight");
   }
@@ -278,7 +292,6 @@ const char* static_why_small_strain(const PillarScene& scene) {
   if (scene.plane) return "only round pillars are answered at large strain";
   if (!scene.fixed_bottom) return "a free bottom is answered at small strain";
   if (drive_V(scene) != 0.0) return "a driven film is answered at small strain";
-  if (moves_unloaded(scene)) return "weight and heat are answered at small strain";
   if (scene.directional_film) return "a film with a direction is answered at small strain";
   if (wants("displacement_per_volt")) return "the motion per volt is that of small strain";
   if (wants("base_stress_rim_mean")) return "the stress at the rim is that of small strain";

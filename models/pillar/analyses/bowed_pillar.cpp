@@ -1,5 +1,6 @@
 #include "models/pillar/analyses/bowed_pillar.h"
 
+#include "models/answer/scene_mistake.h"
 #include "models/maths/require.h"
 
 #include <algorithm>
@@ -62,11 +63,16 @@ BentElastica bent_elastica(double curvature, double bow) {
   return {load / straight, curvature / load};
 }
 
-Collapse collapse(const PillarScene& scene, double buckling_Pa, double bow_m, double strain) {
+void check_bow(const PillarScene& scene, double bow_m, double strain) {
   const double L_m = scene.geometry.length_m;
   require(bow_m > 0.0 && bow_m < 0.5 * L_m,
           "a bow of " + micrometres(bow_m) + " is not between 0 and half the pillar's length");
   require(strain > 0.0, "the strain at which a bowed pillar collapses must be positive");
+}
+
+Collapse collapse(const PillarScene& scene, double buckling_Pa, double bow_m, double strain) {
+  check_bow(scene, bow_m, strain);
+  const double L_m = scene.geometry.length_m;
   const double arm = top_end(scene) == TopEnd::kFree ? 1.0 : 0.5;
   const double arm_over_radius = 4.0 * arm * L_m / (0.5 * scene.geometry.diameter_m);
   const double critical = buckling_Pa / scene.pillar.E0_Pa;
@@ -76,6 +82,12 @@ Collapse collapse(const PillarScene& scene, double buckling_Pa, double bow_m, do
   };
   // The curvature per bow is between that of a load far below buckling and that of a top that points downward.
   const double low = std::log(1e-12 * bow_m / L_m), high = std::log(kQuarterWave * kQuarterWave);
+  if (strain_at(high) < strain) {
+    throw SceneMistake("analysis.collapse_strain",
+                       "the foot reaches a strain of " + text_of(strain_at(high), 3) +
+                           " when the top points downward, and never " + text_of(strain, 3) +
+                           ": such a slender pillar lies down first; write a smaller strain");
+  }
   const double log_curvature =
       -root_of([&](double minus) { return strain_at(-minus) - strain; }, -high, -low);
   const BentElastica bent = bent_elastica(std::exp(log_curvature), bow_m / L_m);

@@ -20,6 +20,8 @@ struct Collapse {
 };
 
 // Throws std::invalid_argument unless bow and strain are positive and the bow is shorter than half the pillar.
+void check_bow(const PillarScene& scene, double bow_m, double strain);
+// The same, and SceneMistake for a strain that the foot never reaches.
 Collapse collapse(const PillarScene& scene, double buckling_Pa, double bow_m, double strain);
 
 // A clamped elastica of length 1 that is bowed by `bow` at its top, and whose foot a load bends further by a curvature.

@@ -84,4 +84,22 @@ TEST_CASE("every key of the examples stands in the table of keys", "[io][scenes]
   CHECK(table.find("one of: equipotential, sampled") != std::string::npos);
 }
 
+TEST_CASE("keys of surroundings that mean nothing without others are refused", "[io][scenes]") {
+  const std::string scene = read_file(kScenes / "pillar_press.toml");
+  const auto refusal = [&](const std::string& keys) {
+    return test::error_text([&] {
+      scene_from_toml(scene + "\n[surroundings]\n" + keys + "\n", kScenes / "pillar_press.toml");
+    });
+  };
+  const auto contains = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
+  CHECK(contains(refusal("made_at = \"23 degC\""), "need temperature and made_at"));
+  CHECK(contains(refusal("temperature = \"33 degC\"\npillar_expansion = \"3e-4 1/K\""),
+                 "need temperature and made_at"));
+  CHECK(contains(refusal("temperature = \"33 degC\"\nmade_at = \"23 degC\""), "pillar_expansion"));
+  CHECK(contains(refusal("air_density = \"1 kg/m3\""), "air = true"));
+  CHECK(contains(refusal("temperature = \"33 degC +- 5 %\""), "no percentage"));
+}
+
 }  // namespace viscard

@@ -120,6 +120,74 @@ TEST_CASE("a pillar that is warmed expands by alpha dT", "[pillar][plan]") {
   }
 }
 
+TEST_CASE("what heat and weight change is within their estimates on flat pillars and wide films",
+          "[pillar][plan]") {
+  PillarScene scene = bare_pillar(0.499);
+  scene.geometry.diameter_m = 1e-3;
+  scene.geometry.length_m = 20e-6;
+  as<StaticDrive>(scene).pressure_Pa = 1e4;
+  scene.tolerance = 1e-3;
+  std::string name = "thermal_strain";
+  SECTION("a flat pillar is held by its foot") {
+    scene.surroundings.temperature_C = 23.09;
+    scene.surroundings.made_at_C = 23.0;
+    scene.surroundings.pillar_expansion_1_K = 3e-4;
+  }
+  SECTION("a slender one less") {
+    scene.geometry.diameter_m = 40e-6;
+    scene.geometry.length_m = 120e-6;
+    scene.surroundings.temperature_C = 23.1;
+    scene.surroundings.made_at_C = 23.0;
+    scene.surroundings.pillar_expansion_1_K = 3e-4;
+  }
+  SECTION("an electrode adds up the weight of its film") {
+    name = "weight";
+    scene.geometry.diameter_m = 40e-6;
+    scene.geometry.length_m = 120e-6;
+    scene.pillar.nu = 0.33;
+    scene.geometry.film = FilmGeometry{400e-6, 400e-6};
+    scene.film = piezo_film();
+    scene.electrodes = ElectrodeOptions{FilmFace::kTop, 200e-6};
+    scene.surroundings.gravity_m_s2 = 9.81;
+    as<StaticDrive>(scene).pressure_Pa = 200.0;
+    scene.wanted = {"electrode_voltage"};
+  }
+  const std::string result_name = scene.wanted.front();
+  PillarScene with = scene, without = scene;
+  with.effects[name] = EffectChoice::kOn;
+  without.effects[name] = EffectChoice::kOff;
+  const double on = result(simulate(with), result_name),
+               off = result(simulate(without), result_name);
+  CAPTURE(on, off, effect(scene, name).estimate);
+  CHECK(std::abs(on - off) <= 1.01 * effect(scene, name).estimate * std::abs(off));
+}
+
+TEST_CASE("a pillar that its own weight buckles is refused", "[pillar][plan]") {
+  PillarScene scene = bare_pillar(0.49);
+  scene.geometry.diameter_m = 1e-3;
+  scene.geometry.length_m = 90e-3;
+  scene.surroundings.gravity_m_s2 = 9.81;
+  CHECK_THROWS_WITH(simulate(scene), Contains("buckles"));
+  scene.surroundings.gravity_m_s2 = -9.81;  // it hangs
+  CHECK_NOTHROW(simulate(scene));
+}
+
+TEST_CASE("strips and liquids have no formula here, and are refused", "[pillar][plan]") {
+  PillarScene scene = bare_pillar(0.33);
+  scene.surroundings.temperature_C = 33.0;
+  scene.surroundings.made_at_C = 23.0;
+  scene.surroundings.pillar_expansion_1_K = 3e-4;
+  scene.plane = PlaneState::kStress;
+  CHECK_THROWS_WITH(simulate(scene), Contains("plane strain"));
+  scene.surroundings = {};
+  scene.plane.reset();
+  scene.drive = ModalDrive{.modes = 1};
+  scene.wanted = {};
+  scene.surroundings.air = true;
+  scene.surroundings.air_density_kg_m3 = 1000.0;
+  CHECK_THROWS_WITH(simulate(scene), Contains("no liquid"));
+}
+
 TEST_CASE("heat strains no incompressible pillar that is held, and the message says so",
           "[pillar][stability]") {
   PillarScene scene = bare_pillar(0.5);

@@ -92,3 +92,11 @@ TEST_CASE("a larger bow collapses earlier, and its scene states so", "[pillar][p
   as<BucklingDrive>(scene).bow_m = 70e-6;
   CHECK_THROWS_WITH(simulate(scene), Contains("half the pillar"));
 }
+
+TEST_CASE("a strain that a slender pillar never reaches is refused with the one it reaches",
+          "[pillar]") {
+  PillarScene scene = slender_pillar();
+  scene.geometry.length_m = 1200e-6;
+  as<BucklingDrive>(scene) = BucklingDrive{.bow_m = 1e-6};
+  CHECK_THROWS_WITH(simulate(scene), Contains("when the top points downward"));
+}
