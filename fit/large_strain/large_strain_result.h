@@ -54,6 +54,7 @@ struct FittedDamage {
   std::vector<LawParameter> parameters;  // r, m_Pa, beta; those that are held have no error
   Eigen::MatrixXd covariance;            // of the law's parameters, then r, m_Pa, beta
   bool has_one_maximum = false;          // all unloading is from one maximum: beta is held at 0
+  // Relative to the stresses of the branch, pure numbers.
   std::optional<double> misfit_first_loading, misfit_unloading, misfit_reloading;
 };
 

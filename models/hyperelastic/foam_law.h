@@ -33,7 +33,9 @@ std::optional<Eigen::Index> foam_terms_of(const std::string& name);
 // stiffness at rest.
 void validate(const FoamLaw& law);
 
+// Of shape and of volume, at rest.
 double shear_modulus_Pa(const FoamLaw& law);
+// The same of volume alone.
 double bulk_modulus_Pa(const FoamLaw& law);
 // At rest, of both moduli.
 double poisson_ratio(const FoamLaw& law);
@@ -65,7 +67,7 @@ struct FoamState {
       0.0;  // force over area at rest; of shear the shear stress, true and nominal
   double lateral_stretch() const;  // of the first free or held side
 };
-// Free sides are solved to rounding; nan where a law that is not stable has no such state.
+// `measured`: stretch, volume ratio or the tangent of shear, a pure number. Free sides are solved to rounding; nan where a law that is not stable has no such state.
 FoamState foam_state(const FoamLaw& law, FoamTest test, double measured);
 
 // True if the tangent is positive definite: every change of the strains does positive work on the change of
