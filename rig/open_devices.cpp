@@ -6,6 +6,7 @@
 #include "rig/cells/hx711_load_cell.h"
 #include "rig/cells/mark10_stream.h"
 #include "rig/lines/rig_error.h"
+#include "rig/lines/tcp_port.h"
 #include "rig/stages/apt_stage.h"
 #include "rig/stages/grbl_stage.h"
 #include "rig/stages/marlin_stage.h"
@@ -114,6 +115,10 @@ std::vector<std::string> load_cell_drivers() {
 // A wrong word of the rig file is reported before a missing port, because the word must be
 // corrected in any case.
 void check_devices(const RigConfig& rig) {
+  for (const std::string& port : {rig.stage.port, rig.load_cell.port}) {
+    if (is_tcp_port(port) && !tcp_address(port))
+      throw RigError("port '" + port + "' of the rig file " + trouble_of_tcp_port(port));
+  }
   row_of(kStages, rig.stage.driver, "stage").check(rig.stage);
   const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");
   cell.check(rig.load_cell);

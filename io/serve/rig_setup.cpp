@@ -49,7 +49,10 @@ Json RigSetup::take(const Json& request) {
   const RigConfig rig = rig_of_text(text, file, judged_by(request));
   check_devices(rig);
   Json answer = {{"name", rig.name}, {"kept_before", ""}};
-  if (!request.contains("keep") || request.at("keep") != true) return answer;
+  if (!request.contains("keep")) return answer;
+  if (!request.at("keep").is_boolean())
+    throw ApiError(400, "bad-value", "'keep' must be true or false");
+  if (!request.at("keep").get<bool>()) return answer;
   if (!options_.rig_file) {
     throw ApiError(422, "emulated",
                    "the page shows the rig of the demonstration; begin with viscard serve FOLDER "

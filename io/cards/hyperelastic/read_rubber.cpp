@@ -69,6 +69,13 @@ void take_foam(const RubberNumbers& numbers, double stress_Pa, ReadRubber& out) 
 // The damage of a card in SI, and what is wrong with it.
 void take_damage(const RubberNumbers& numbers, double stress_Pa, ReadRubber& out) {
   if (!numbers.damage) return;
+  if (out.foam) {
+    out.findings.push_back({"damage-beside-foam",
+                            "damage by the first loading stands beside a foam: its energy would be "
+                            "the whole one, with the volume, "
+                            "which is not computed here",
+                            true});
+  }
   out.damage =
       MullinsDamage{numbers.damage->r, numbers.damage->m * stress_Pa, numbers.damage->beta};
   try {

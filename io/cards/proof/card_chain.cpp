@@ -1,6 +1,7 @@
 #include "io/cards/proof/card_chain.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/written_path.h"
 #include "io/cards/card_sum.h"
 #include "models/maths/result_visitor.h"
 
@@ -94,7 +95,7 @@ std::vector<std::string> CardChain::missing() const {
 }
 
 void show_keys(ResultVisitor& v, const ChainLink& link) {
-  v("path", link.path, "the file");
+  v("path", written_path(link.path), "the file");
   v("sha256_in_card", link.stated, "its sum as stated");
   v.or_null("sha256_now", link.now.empty() ? std::nullopt : std::optional(link.now),
             "its sum now; null: not here");

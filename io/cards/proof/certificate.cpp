@@ -4,6 +4,7 @@
 #include "io/basics/json_string.h"
 #include "io/basics/program.h"
 #include "io/basics/sha256.h"
+#include "io/basics/written_path.h"
 #include "io/results/result_json.h"
 
 namespace viscard {
@@ -61,9 +62,9 @@ void show_head(ResultVisitor& v, const CertificateRequest& request, const std::s
                const FoundSolver& found) {
   v("statement", statement.empty() ? "the solver read the card itself" : statement,
     "which text was run");
-  v("card", request.card_path, "the card");
+  v("card", written_path(request.card_path), "the card");
   v("target", request.target, "its solver");
-  v.or_null("compared_with", unless_empty(request.material_path),
+  v.or_null("compared_with", unless_empty(written_path(request.material_path)),
             "the material file or that of the law; null: the card as read");
   v("solver", found.solver.code, "that ran it");
   v("solver_version", found.version, "its version");

@@ -62,13 +62,14 @@ bool has_flagged_term(const fs::path& material_file) {
 class Demo {
  public:
   Demo(Streams& streams, const CommandRunner& run_command, fs::path out, fs::path data,
-       std::string speed, bool is_forced)
+       std::string speed, bool is_forced, bool strips_paths)
       : streams_(streams),
         run_command_(run_command),
         out_(std::move(out)),
         data_(std::move(data)),
         speed_(std::move(speed)),
-        is_forced_(is_forced) {}
+        is_forced_(is_forced),
+        strips_paths_(strips_paths) {}
 
   // Runs one command unless its outputs are up to date. Throws std::runtime_error if it fails.
   void step(const Words& words, const std::vector<fs::path>& outputs,
@@ -81,6 +82,7 @@ class Demo {
     streams_.err << "$ " << quoted_command_line(words[0], {words.begin() + 1, words.end()}) << "\n";
     std::vector<std::string> forced = words;
     forced.push_back("--force");  // replaces only files of an earlier demo
+    if (strips_paths_) forced.push_back("--strip-paths");
     std::ostringstream printed;
     Streams inner{printed, streams_.err, streams_.err_is_terminal};
     if (run_command_(forced, inner) != kDone) {
@@ -148,6 +150,7 @@ class Demo {
   fs::path data_;
   std::string speed_;
   bool is_forced_;
+  bool strips_paths_;
   int n_kept_ = 0;
 };
 
@@ -218,7 +221,8 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
   fs::create_directories(out);
   const fs::path data = own_data ? fs::path(*own_data) : data_folder() / "demo";
   streams.err << depth_explained(data);
-  Demo demo(streams, run_command, out, data, text_from_number(speed), overwrite);
+  Demo demo(streams, run_command, out, data, text_from_number(speed), overwrite,
+            is_given(syntax, "strip-paths"));
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();

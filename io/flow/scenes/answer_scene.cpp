@@ -3,6 +3,7 @@
 #include "io/flow/scenes/array_sweep.h"
 #include "io/flow/scenes/wanted_results.h"
 #include "io/materials/material_json.h"
+#include "models/maths/usable_machine.h"
 #include "models/quantities/plausible.h"
 #include "models/scene/simulate.h"
 
@@ -47,6 +48,8 @@ std::string note_of_edited(const Scene& scene) {
 SceneAnswer simulate_file(const Scene& scene, const std::string& path) {
   try {
     return simulate(scene);
+  } catch (const NotEnoughMemory& error) {
+    throw NotEnoughMemory(path + ": " + error.what());  // which is no answer of a sweep
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(text_with_line(path, mistake));
   } catch (const std::runtime_error& error) {

@@ -166,6 +166,11 @@ TEST_CASE("foam cards: edited numbers and common mistakes are named", "[cards][f
                          "0.2, 0.2, 1\n",
                          "abaqus", nullptr),
              Contains("foam-with-terms: "));
+  CHECK_THAT(
+      findings_in(
+          "*MATERIAL, NAME=F\n*HYPERFOAM, N=1\n0.05, 8, 0.2\n*MULLINS EFFECT\n1.5, 0.004, 0.1\n",
+          "abaqus", &one),
+      Contains("damage-beside-foam: "));
 }
 
 TEST_CASE("foam cards: a file of a foam is read again", "[io][foam]") {

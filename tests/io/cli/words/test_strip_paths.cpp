@@ -37,6 +37,25 @@ TEST_CASE("with --strip-paths no file states a folder of this computer", "[cli]"
   CHECK_THAT(read_file(material), Contains("miller"));
 }
 
+TEST_CASE("cards and laws of rubber of materials with folders are stripped, too", "[cli]") {
+  const ScratchFolder scratch;
+  const std::string folder = (scratch / "home/miller").string();
+  std::filesystem::create_directories(folder);
+  const std::string table = folder + "/uniaxial.csv", law = folder + "/law.json",
+                    card = folder + "/card.inp";
+  write_file(table, read_file(VISCARD_SOURCE_DIR "/data/reference/treloar_uniaxial.csv"), false);
+  const CommandOutcome fit =
+      run_command({"fit", "uniaxial=" + table, "--model", "yeoh", "--out", law, "--strip-paths"});
+  CAPTURE(fit.err);
+  CHECK_THAT(read_file(law), !Contains("miller"));
+  run_command({"fit", "uniaxial=" + table, "--model", "yeoh", "--out", law, "--force"});
+  const CommandOutcome written =
+      run_command({"card", law, "--for", "abaqus", "--units", "mm-t-s", "--bulk-modulus", "1 GPa",
+                   "--accept-flags", "--out", card, "--strip-paths"});
+  CAPTURE(written.err);
+  CHECK_THAT(read_file(card), !Contains("miller"));
+}
+
 TEST_CASE("only absolute paths are cut, in words too", "[cli]") {
   strip_written_paths(true);
   CHECK(written_path("/home/a/b.csv") == "b.csv");
