@@ -74,11 +74,13 @@ namespace {
 
 constexpr const char* kNotOfRubber = "large strains of a law of rubber are answered without it";
 
-// The weight of the film over its electrode, per area of the pillar: an electrode adds up what presses on it.
+// The weight of the film over its electrode, per area of the pillar: an electrode adds up what presses on it. A pressure
+// without end reads up to 4 times that under a pillar (67.8 against 18.8 mV per 10 kPa at 40 um on 25 um), and half of the
+// film's weight lies above its middle.
 double film_weight_Pa(const PillarScene& scene) {
   if (!scene.film) return 0.0;
   const double own_Pa = scene.film->rho_kg_m3 * std::abs(scene.surroundings.gravity_m_s2) *
-                        scene.geometry.film->thickness_m;
+                        scene.geometry.film->thickness_m * 2.0;
   const double read_m = scene.electrodes ? scene.electrodes->electrode_radius_m : 0.0;
   return own_Pa * std::max(1.0, std::pow(2.0 * read_m / scene.geometry.diameter_m, 2));
 }
