@@ -149,10 +149,10 @@ TEST_CASE("the rig is checked with lights, and its file is set up on the page", 
       "return document.getElementById('setup-kept').textContent.includes('rig.toml.1')", 20));
   CHECK(contains(read_file(scratch / "rig.toml"), "driver = \"zaber\""));
   CHECK(read_file(scratch / "rig.toml.1") == before);
+  CHECK(browser.errors() == nlohmann::json::array());
   browser.type("#setup-text", "[stage");
   REQUIRE(browser.wait_until("return !document.getElementById('setup-trouble').hidden", 20));
   CHECK(browser.run("return document.getElementById('setup-keep').disabled") == true);
-  CHECK(browser.errors() == nlohmann::json::array());
 }
 
 TEST_CASE("three specimens go through the page one after another, with the fit of each",
