@@ -51,11 +51,28 @@ bool runs_through_rest(const std::vector<double>& stretch) {
   return is_one_way && (stretch.front() - 1.0) * (stretch.back() - 1.0) < 0.0;
 }
 
+// True for two tests below each other, one in compression and one in tension, each away from rest: nothing is unloaded.
+bool leaves_rest_twice(const std::vector<double>& stretch) {
+  const bool begins_above = stretch.front() > 1.0;
+  const auto change = std::find_if(stretch.begin(), stretch.end(),
+                                   [&](double s) { return s != 1.0 && (s > 1.0) != begins_above; });
+  if (change == stretch.begin() || change == stretch.end()) return false;
+  const auto goes_away = [](auto from, auto to) {
+    return std::is_sorted(from, to, [](double one, double next) {
+      return std::abs(std::log(one)) < std::abs(std::log(next));
+    });
+  };
+  const bool stays =
+      std::all_of(change, stretch.end(), [&](double s) { return (s > 1.0) != begins_above; });
+  return stays && goes_away(stretch.begin(), change) && goes_away(change, stretch.end());
+}
+
 }  // namespace
 
 std::vector<LoadCycle> load_cycles(const std::vector<double>& stretch) {
   if (stretch.size() < 2) return {};
-  if (runs_through_rest(stretch)) return {{0, stretch.size() - 1, stretch.size() - 1}};
+  if (runs_through_rest(stretch) || leaves_rest_twice(stretch))
+    return {{0, stretch.size() - 1, stretch.size() - 1}};
   std::vector<double> strain;
   for (const double s : stretch) strain.push_back(std::abs(std::log(s)));
   const auto [low, high] = std::minmax_element(strain.begin(), strain.end());

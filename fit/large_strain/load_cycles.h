@@ -15,7 +15,8 @@ struct LoadCycle {
 
 // The cycles of a test by the turning points of its strain |ln s|; a change of direction counts if it
 // is more than a twentieth of the range. A record that begins with unloading has no cycle for it. A stretch that
-// goes one way through 1, such as a sorted table from compression to tension, is one cycle of all rows.
+// goes one way through 1, such as a sorted table from compression to tension, is one cycle of all rows, and so are a
+// compression and a tension below each other, each from rest.
 std::vector<LoadCycle> load_cycles(const std::vector<double>& stretch);
 
 // A table without times in any order of its rows: no stretch stands twice, and the stress never falls with

@@ -170,6 +170,23 @@ TEST_CASE("large strain: 95 % of the intervals hold", "[fit]") {
   CHECK(held < all);  // intervals that never miss are too wide
 }
 
+TEST_CASE("large strain: a compression and a tension below each other are no cycles", "[fit]") {
+  std::vector<double> both;
+  for (int i = 0; i <= 20; ++i) both.push_back(1.0 - 0.025 * i);
+  for (int i = 1; i <= 20; ++i) both.push_back(1.0 + 0.015 * i);
+  const std::vector<LoadCycle> one = load_cycles(both);
+  REQUIRE(one.size() == 1);
+  CHECK(one.front().first == 0);
+  CHECK(one.front().peak == both.size() - 1);
+  // Loaded twice in tension they are cycles, as they were.
+  std::vector<double> twice;
+  for (int n = 0; n < 2; ++n) {
+    for (int i = 0; i <= 20; ++i) twice.push_back(1.0 + 0.05 * i);
+    for (int i = 19; i >= 0; --i) twice.push_back(1.0 + 0.05 * i);
+  }
+  CHECK(load_cycles(twice).size() == 2);
+}
+
 TEST_CASE("large strain: a known modulus is kept", "[fit]") {
   LargeStrainOptions options;
   options.modulus = KnownModulus{1.2e6, 0.0};
