@@ -305,6 +305,6 @@ TEST_CASE("a shift of the times is left out where it changes nothing", "[pillar]
   const SceneEffect shift = effect(scene, "temperature");
   CHECK(shift.on == (scene.surroundings.shift_factor == 0.1));
   CHECK(shift.estimate <= 0.1);
-  const auto& reduced = std::get<PillarScene>(plan_effects(scene).reduced);
+  const PillarScene reduced = std::get<PillarScene>(plan_effects(scene).reduced);
   CHECK(reduced.pillar.terms[0].tau_s == Approx(shift.on ? 1.0 : 1.0 / 0.999));
 }
