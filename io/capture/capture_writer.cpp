@@ -4,9 +4,10 @@
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
 #include "io/capture/cut_watch.h"
-#include "io/capture/disk_room.h"
 #include "io/capture/side_file_check.h"
 #include "io/capture/sync_schedule.h"
+
+#include <sys/statvfs.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -18,6 +19,18 @@
 
 namespace viscard {
 namespace {
+
+// Throws std::runtime_error if the disk of this file has less room than a capture needs.
+void refuse_full_disk(const std::filesystem::path& path, std::size_t needed_bytes) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  struct statvfs disk {};
+  if (statvfs(folder.c_str(), &disk) != 0) return;
+  const auto free_bytes = static_cast<std::size_t>(disk.f_bavail) * disk.f_frsize;
+  if (free_bytes >= needed_bytes) return;
+  throw std::runtime_error(path.string() + ": only " + std::to_string(free_bytes >> 20) +
+                           " MiB are left on that disk; a capture needs at least " +
+                           std::to_string(needed_bytes >> 20) + " MiB. Make room first");
+}
 
 using Clock = std::chrono::steady_clock;
 

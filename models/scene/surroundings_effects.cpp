@@ -79,8 +79,10 @@ constexpr const char* kNotOfRubber = "large strains of a law of rubber are answe
 // film's weight lies above its middle.
 double film_weight_Pa(const PillarScene& scene) {
   if (!scene.film) return 0.0;
-  const double own_Pa = scene.film->rho_kg_m3 * std::abs(scene.surroundings.gravity_m_s2) *
-                        scene.geometry.film->thickness_m * 2.0;
+  constexpr double kWideOverNarrow = 4.0, kAboveMiddle = 0.5;
+  const double own_Pa = kWideOverNarrow * kAboveMiddle * scene.film->rho_kg_m3 *
+                        std::abs(scene.surroundings.gravity_m_s2) *
+                        scene.geometry.film->thickness_m;
   const double read_m = scene.electrodes ? scene.electrodes->electrode_radius_m : 0.0;
   return own_Pa * std::max(1.0, std::pow(2.0 * read_m / scene.geometry.diameter_m, 2));
 }
@@ -119,9 +121,7 @@ EffectEstimate weight_estimate(const PillarScene& scene) {
             is_all ? 0.0 : all_Pa / load_Pa, "the weight of pillar and film over the load"};
   }
   if (!analysis_of(scene).bends && !is_lateral(scene)) return {.reason = kChangeOnly};
-  // A column buckles under its own weight at rho g L = 7.837 E I/(A L^2), under a load at 2.467: the weight counts
-  // as 0.315 of it on the top. Source: Timoshenko & Gere, Theory of Elastic Stability (1961), 2.12.
-  const double share = 0.315 * weight_Pa / engesser_pressure_Pa(scene);
+  const double share = std::abs(weight_on_top_Pa(scene)) / engesser_pressure_Pa(scene);
   return {EffectRole::kOutside, std::min(1.0, share), "0.315 rho g L/p_cr", share,
           scene.surroundings.gravity_m_s2 > 0.0 ? "the weight softens the pillar sideways"
                                                 : "the weight stiffens the pillar sideways"};

@@ -28,17 +28,14 @@ RequiredValue answered(double value, double error, const std::string& how) {
   return {true, value, error, how};
 }
 
+// Throws std::runtime_error if the answer has none.
 const SceneResult& named(const SceneAnswer& answer, const std::string& name) {
-  for (const SceneResult& result : answer.results) {
-    if (result.name == name) return result;
-  }
+  if (const SceneResult* found = result_in(answer, name)) return *found;
   throw std::runtime_error("the scene gives no " + name);
 }
 
 const SceneCurve& curve_named(const SceneAnswer& answer, const std::string& name) {
-  for (const SceneCurve& curve : answer.curves) {
-    if (curve.name == name) return curve;
-  }
+  if (const SceneCurve* found = curve_in(answer, name)) return *found;
   throw std::runtime_error("the scene gives no curve " + name);
 }
 

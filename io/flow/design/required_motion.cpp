@@ -20,18 +20,6 @@ RequiredValue no_motion(const std::string& why) {
   return {.how = why};
 }
 
-const SceneResult* result_of(const SceneAnswer& answer, const std::string& name) {
-  const auto found = std::find_if(answer.results.begin(), answer.results.end(),
-                                  [&](const SceneResult& one) { return one.name == name; });
-  return found == answer.results.end() ? nullptr : &*found;
-}
-
-const SceneCurve* curve_of(const SceneAnswer& answer, const std::string& name) {
-  const auto found = std::find_if(answer.curves.begin(), answer.curves.end(),
-                                  [&](const SceneCurve& one) { return one.name == name; });
-  return found == answer.curves.end() ? nullptr : &*found;
-}
-
 // A curve and its error between the points; the ends' values beyond them.
 struct ValueAt {
   double value = 0.0, error = 0.0;
@@ -54,7 +42,7 @@ double noise_V(const SpaceScene& given, const SceneSolver& solve) {
   at_rest.pressure_Pa = 1.0;
   at_rest.effects.clear();
   at_rest.wanted = {"noise_voltage"};
-  const SceneResult* noise = result_of(solve(at_rest), "noise_voltage");
+  const SceneResult* noise = result_in(solve(at_rest), "noise_voltage");
   return noise == nullptr ? std::numeric_limits<double>::quiet_NaN() : noise->value;
 }
 
@@ -100,7 +88,7 @@ Sight first_sight(const SceneAnswer& slides, const SceneAnswer& sticks, double f
   Sight seen;
   for (const SceneCurve& curve : slides.curves) {
     if (!curve.name.starts_with("reading_")) continue;
-    const SceneCurve* stuck = curve_of(sticks, curve.name);
+    const SceneCurve* stuck = curve_in(sticks, curve.name);
     if (stuck == nullptr) continue;
     for (std::size_t i = 1; i < curve.x.size(); ++i) {
       if (curve.x[i] <= from_s) continue;
@@ -168,15 +156,15 @@ RequiredValue required_texture_amplitude(const Scene& scene, const Requirements&
   pressed.effects.clear();
   pressed.wanted = {"resolution_pressure", "electrode_capacitance"};
   const SceneAnswer reading = solve(pressed);
-  const SceneResult* resolution = result_of(reading, "resolution_pressure");
-  const SceneResult* capacitance = result_of(reading, "electrode_capacitance");
+  const SceneResult* resolution = result_in(reading, "resolution_pressure");
+  const SceneResult* capacitance = result_in(reading, "electrode_capacitance");
   if (resolution == nullptr || capacitance == nullptr) {
     return no_motion("the electrodes read no pressure");
   }
   one->drive = HarmonicDrive{.pressure_Pa = 1.0, .frequencies_Hz = {frequency_Hz}};
   const SceneAnswer swing = solve(*one);
-  const SceneCurve* real = curve_of(swing, "top_displacement_real");
-  const SceneCurve* imaginary = curve_of(swing, "top_displacement_imaginary");
+  const SceneCurve* real = curve_in(swing, "top_displacement_real");
+  const SceneCurve* imaginary = curve_in(swing, "top_displacement_imaginary");
   if (real == nullptr || imaginary == nullptr) return no_motion("the pillar gives no motion");
   const ValueAt re = at_time(*real, frequency_Hz), im = at_time(*imaginary, frequency_Hz);
   const double m_per_Pa = std::hypot(re.value, im.value);

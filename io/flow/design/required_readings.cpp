@@ -22,11 +22,10 @@ struct Reading {
   double value = 0.0, error = 0.0;
 };
 
-std::optional<Reading> result_in(const SceneAnswer& answer, const std::string& name) {
-  for (const SceneResult& one : answer.results) {
-    if (one.name == name) return Reading{one.value, one.error_estimate};
-  }
-  return std::nullopt;
+std::optional<Reading> reading_in(const SceneAnswer& answer, const std::string& name) {
+  const SceneResult* found = result_in(answer, name);
+  if (found == nullptr) return std::nullopt;
+  return Reading{found->value, found->error_estimate};
 }
 
 std::optional<Reading> at_pillar(const SceneAnswer& answer, const std::string& map,
@@ -131,7 +130,7 @@ RequiredValue all_of(const ArrayScene& given, const SceneSolver& solve) {
   ArrayScene row = pressed(given, std::nullopt);
   const std::string name = "neighbours_percent_" + std::to_string(middle_of(row));
   row.wanted = {"neighbours_percent"};
-  const auto found = result_in(solve(row), name);
+  const auto found = reading_in(solve(row), name);
   if (!found) return no_reading("the row gives no " + name);
   return {true, 0.01 * std::abs(found->value), 0.01 * found->error,
           "all pillars loaded, at the middle"};
@@ -167,7 +166,7 @@ std::optional<Reading> volts_of(const PillarScene& given, const SceneSolver& sol
   const char* const name =
       given.electrodes->electrode_radius_m > 0.0 ? "electrode_voltage" : "potential_mean";
   one.wanted = {name};
-  return result_in(solve(one), name);
+  return reading_in(solve(one), name);
 }
 
 std::optional<Reading> volts_of(const ArrayScene& given, const SceneSolver& solve) {
@@ -175,7 +174,7 @@ std::optional<Reading> volts_of(const ArrayScene& given, const SceneSolver& solv
   ArrayScene row = pressed(given, std::nullopt);
   const std::string stem = row.electrodes.is_equipotential ? "electrode_voltage" : "mean_voltage";
   row.wanted = {stem};
-  return result_in(solve(row), stem + "_" + std::to_string(middle_of(row)));
+  return reading_in(solve(row), stem + "_" + std::to_string(middle_of(row)));
 }
 
 std::optional<Reading> volts_of(const SpaceScene& given, const SceneSolver& solve) {
@@ -204,7 +203,7 @@ constexpr const char* kNoNoise =
 RequiredValue noise_result(const Scene& scene, const char* name, const SceneSolver& solve) {
   const auto* array = std::get_if<SpaceScene>(&scene);
   if (array == nullptr || !array->noise) return no_reading(kNoNoise);
-  const auto found = result_in(sensing_answer(*array, {name}, solve), name);
+  const auto found = reading_in(sensing_answer(*array, {name}, solve), name);
   if (!found) return no_reading(kNoNoise);
   return {true, found->value, found->error, "noise of the electrode and its amplifier"};
 }
@@ -258,7 +257,7 @@ RequiredValue required_pressure_per_kelvin(const Scene& scene, const Requirement
   }
   const bool has_electrodes = array->electrode == SpaceElectrode::kEquipotential;
   const std::string name = has_electrodes ? "heat_electrode_pressure" : "heat_mean_pressure";
-  const auto found = result_in(sensing_answer(*array, {name}, solve), name);
+  const auto found = reading_in(sensing_answer(*array, {name}, solve), name);
   if (!found) return no_reading("the scene gives no " + name);
   const double T_K = std::abs(array->heat->temperature_K);
   return {true, std::abs(found->value) / T_K, found->error / T_K,
@@ -274,7 +273,7 @@ RequiredValue required_lowest_frequency(const Scene& scene, const Requirements&,
     one.drive = StaticDrive{.pressure_Pa = kUnit_Pa};
     one.effects.clear();
     one.wanted = {"readout_time_constant"};
-    const auto found = result_in(solve(one), "readout_time_constant");
+    const auto found = reading_in(solve(one), "readout_time_constant");
     if (!found) return {true, 0.0, 0.0, "nothing leaks: the readout states no resistance"};
     return cut_off(found->value, found->error);
   }
@@ -284,7 +283,7 @@ RequiredValue required_lowest_frequency(const Scene& scene, const Requirements&,
         "needs an electrode and [readout] (one pillar), or an array in the plane with [noise]");
   }
   const auto found =
-      result_in(sensing_answer(*array, {"electrode_capacitance"}, solve), "electrode_capacitance");
+      reading_in(sensing_answer(*array, {"electrode_capacitance"}, solve), "electrode_capacitance");
   if (!found || !(found->value > 0.0)) return no_reading(kNoNoise);
   const ReadoutFilter filter = readout_filter(*array->noise_readout, found->value);
   if (std::isinf(filter.time_constant_s)) return {true, 0.0, 0.0, "nothing leaks"};

@@ -63,14 +63,6 @@ BucklingLimit buckling_limit(const PillarScene& scene, bool has_plate,
 }
 
 // A plate holds the top upright, so that the pillar buckles between the two.
-// What the pillar's weight is worth as a pressure on the top: it buckles under rho g L = 7.837 E I/(A L^2), under a load
-// at 2.467. Source: Timoshenko & Gere, Theory of Elastic Stability (1961), 2.12.
-double weight_on_top_Pa(const PillarScene& scene) {
-  constexpr double kShare = 2.467 / 7.837;
-  return kShare * std::max(0.0, scene.surroundings.gravity_m_s2) * scene.pillar.rho_kg_m3 *
-         scene.geometry.length_m;
-}
-
 BucklingShare share_under_plate(const PillarScene& scene) {
   // A pillar that would be longer is pressed by a top that is held.
   const double moved_m = *displacement_m(scene) - scene.surroundings.pillar_expansion_1_K *
@@ -87,6 +79,12 @@ BucklingShare share_under_plate(const PillarScene& scene) {
 }
 
 }  // namespace
+
+double weight_on_top_Pa(const PillarScene& scene) {
+  constexpr double kShare = 2.467 / 7.837;
+  return kShare * scene.surroundings.gravity_m_s2 * scene.pillar.rho_kg_m3 *
+         scene.geometry.length_m;
+}
 
 TopEnd top_end(const PillarScene& scene) {
   return moves_top(scene) || plate_on_top(scene) ? TopEnd::kSlides : TopEnd::kFree;
@@ -151,7 +149,7 @@ BucklingShare buckling_share(const PillarScene& scene) {
   const Analysis& analysis = analysis_of(scene);
   if (analysis.push_Pa == nullptr || is_lateral(scene) || !scene.fixed_bottom) return {};
   if (moves_top(scene)) return share_under_plate(scene);
-  const double largest_Pa = analysis.push_Pa(scene) + weight_on_top_Pa(scene);
+  const double largest_Pa = analysis.push_Pa(scene) + std::max(0.0, weight_on_top_Pa(scene));
   if (largest_Pa < rough_buckling_pressure_Pa(scene)) return {};
   double critical_Pa = pillar_buckling_pressure_Pa(scene);
   if (!scene.plane && std::abs(largest_Pa - critical_Pa) < kCoarseLimit * critical_Pa) {

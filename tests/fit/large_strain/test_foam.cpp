@@ -1,4 +1,5 @@
 #include "fit/large_strain/fit_large_strain.h"
+#include "tests/models/hyperelastic/foam_of.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,26 +10,12 @@
 
 using namespace viscard;
 using Catch::Matchers::Contains;
+using viscard::test::foam_of;
 
 namespace {
 
-FoamLaw foam_with(std::initializer_list<std::array<double, 3>> terms) {
-  FoamLaw law;
-  const auto n = static_cast<Eigen::Index>(terms.size());
-  law.mu_Pa.resize(n);
-  law.alpha.resize(n);
-  law.nu.resize(n);
-  Eigen::Index i = 0;
-  for (const auto& [mu_MPa, alpha, nu] : terms) {
-    law.mu_Pa[i] = 1e6 * mu_MPa;
-    law.alpha[i] = alpha;
-    law.nu[i++] = nu;
-  }
-  return law;
-}
-
 const FoamLaw& two_ratios() {
-  static const FoamLaw kLaw = foam_with({{0.05, 8.0, 0.2}, {0.01, -2.0, 0.05}});
+  static const FoamLaw kLaw = foam_of({{0.05, 8.0, 0.2}, {0.01, -2.0, 0.05}});
   return kLaw;
 }
 
@@ -101,7 +88,7 @@ TEST_CASE("foam fit: terms with a nu of each are found again", "[fit][foam]") {
 
 TEST_CASE("foam fit: one term by its lateral stretch, and with nu = 0", "[fit][foam]") {
   for (const double nu : {0.0, 0.2, 0.4}) {
-    const FoamLaw law = foam_with({{0.05, 8.0, nu}});
+    const FoamLaw law = foam_of({{0.05, 8.0, nu}});
     const FittedRubber fitted =
         fit_large_strain({foam_record(law, {FoamTest::kUniaxial, 0.4, 1.1, true})},
                          foam_options({1}))
@@ -135,7 +122,7 @@ TEST_CASE("foam fit: standard errors are those of the reference", "[fit][foam]")
 
 TEST_CASE("foam fit: a given Poisson ratio is kept and named; without any the fit asks for it",
           "[fit][foam]") {
-  const FoamLaw law = foam_with({{0.05, 8.0, 0.0}});
+  const FoamLaw law = foam_of({{0.05, 8.0, 0.0}});
   const std::vector<LargeStrainTest> tests{foam_record(law, {FoamTest::kUniaxial, 0.4, 1.0})};
   LargeStrainOptions options = foam_options({1, 2});
   CHECK_THROWS_WITH(fit_large_strain(tests, options),
@@ -153,7 +140,7 @@ TEST_CASE("foam fit: a given Poisson ratio is kept and named; without any the fi
 
 TEST_CASE("foam fit: confined and volumetric tests beside another one show the volume",
           "[fit][foam]") {
-  const FoamLaw law = foam_with({{0.05, 8.0, 0.3}});
+  const FoamLaw law = foam_of({{0.05, 8.0, 0.3}});
   for (const FoamTest volume : {FoamTest::kConfined, FoamTest::kVolumetric}) {
     const FittedRubber fitted = fit_large_strain({foam_record(law, {FoamTest::kUniaxial, 0.5, 1.0}),
                                                   foam_record(law, {volume, 0.8, 1.0})},
@@ -165,7 +152,7 @@ TEST_CASE("foam fit: confined and volumetric tests beside another one show the v
 
 TEST_CASE("foam fit: BIC keeps few terms, and a lateral stretch that is none is refused",
           "[fit][foam]") {
-  const FoamLaw law = foam_with({{0.05, 8.0, 0.2}});
+  const FoamLaw law = foam_of({{0.05, 8.0, 0.2}});
   LargeStrainTest record = foam_record(law, {FoamTest::kUniaxial, 0.4, 1.2, true}, 0.005, 7);
   const LargeStrainResult result = fit_large_strain({record}, foam_options({1, 2, 3}));
   CHECK(result.laws.size() == 3);

@@ -4,6 +4,8 @@
 #include "io/cards/hyperelastic/rubber_file_card.h"
 #include "io/materials/hyperelastic_file.h"
 #include "tests/io/cards/rubber_cube.h"
+#include "tests/io/cards/rubber_findings.h"
+#include "tests/models/hyperelastic/foam_of.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,19 +13,15 @@
 
 using namespace viscard;
 using Catch::Matchers::Contains;
+using viscard::test::foam_of;
+using viscard::test::rubber_findings;
+using viscard::test::with_last;
 
 namespace {
 
 HyperelasticFile foam_file(std::initializer_list<std::array<double, 3>> terms) {
   HyperelasticFile file;
-  const auto n = static_cast<Eigen::Index>(terms.size());
-  FoamLaw law{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
-  Eigen::Index i = 0;
-  for (const auto& [mu_MPa, alpha, nu] : terms) {
-    law.mu_Pa[i] = 1e6 * mu_MPa;
-    law.alpha[i] = alpha;
-    law.nu[i++] = nu;
-  }
+  const FoamLaw law = foam_of(terms);
   file.foam = law;
   file.E0_Pa = file.E_inf_Pa = youngs_modulus_Pa(law);
   file.density_kg_m3 = 30.0;
@@ -49,21 +47,6 @@ RubberCardOptions with_units(const std::string& target, const std::string& units
 std::string foam_text(const HyperelasticFile& file, const std::string& target,
                       const std::string& units = "mm-t-s") {
   return rubber_file_card(file, "foam.json", with_units(target, units));
-}
-
-std::string with_change(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.rfind(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-std::string findings_in(const std::string& card, const std::string& target,
-                        const HyperelasticFile* file) {
-  std::string out;
-  for (const CardFinding& finding :
-       check_rubber_card(card, file, {.target = target, .units = "mm-t-s"}).findings)
-    out += finding.name + ": " + finding.text + "|";
-  return out;
 }
 
 }  // namespace
@@ -134,40 +117,42 @@ TEST_CASE("foam cards: what was written is read back, in every unit system",
 TEST_CASE("foam cards: edited numbers and common mistakes are named", "[cards][foam]") {
   const HyperelasticFile file = two_terms(), one = one_term();
   const std::string right = foam_text(file, "abaqus"), dyna = foam_text(one, "lsdyna");
-  CHECK_THAT(findings_in(with_change(right, "0.05, 8,", "0.06, 8,"), "abaqus", &file),
+  CHECK_THAT(rubber_findings(with_last(right, "0.05, 8,", "0.06, 8,"), "abaqus", &file),
              Contains("numbers-differ: mu_1_Pa is 60000, 1.2 times"));
-  CHECK_THAT(findings_in(with_change(right, "-2, 0.2, 0.05", "-2, 0.2, 0.06"), "abaqus", &file),
+  CHECK_THAT(rubber_findings(with_last(right, "-2, 0.2, 0.05", "-2, 0.2, 0.06"), "abaqus", &file),
              Contains("nu_2 is 0.06"));
   // 2 mu/alpha: 0.0125 and -0.01.
-  CHECK_THAT(
-      findings_in(with_change(right, "0.05, 8, 0.01, -2", "0.0125, 8, -0.01, -2"), "abaqus", &file),
-      Contains("foam-own-constants: "));
+  CHECK_THAT(rubber_findings(with_last(right, "0.05, 8, 0.01, -2", "0.0125, 8, -0.01, -2"),
+                             "abaqus", &file),
+             Contains("foam-own-constants: "));
   // beta = 1/3 and 0.0555...
-  CHECK_THAT(findings_in(with_change(right, "-2, 0.2, 0.05", "-2, 0.3333333333, 0.05555555556"),
-                         "abaqus", &file),
+  CHECK_THAT(rubber_findings(with_last(right, "-2, 0.2, 0.05", "-2, 0.3333333333, 0.05555555556"),
+                             "abaqus", &file),
              Contains("beta-for-nu: "));
-  CHECK_THAT(findings_in(with_change(dyna, ".33333333", "       .2"), "lsdyna", &one),
+  CHECK_THAT(rubber_findings(with_last(dyna, ".33333333", "       .2"), "lsdyna", &one),
              Contains("nu-for-beta: "));
-  CHECK_THAT(findings_in(with_change(dyna, "     .0125", "       .05"), "lsdyna", &one),
+  CHECK_THAT(rubber_findings(with_last(dyna, "     .0125", "       .05"), "lsdyna", &one),
              Contains("foam-shear-moduli: "));
-  CHECK_THAT(
-      findings_in(with_change(right, "0.05, 8, 0.01, -2", "50000, 8, 10000, -2"), "abaqus", &file),
-      Contains("stress-unit: "));
-  CHECK_THAT(findings_in(right, "abaqus", &one),
+  CHECK_THAT(rubber_findings(with_last(right, "0.05, 8, 0.01, -2", "50000, 8, 10000, -2"), "abaqus",
+                             &file),
+             Contains("stress-unit: "));
+  CHECK_THAT(rubber_findings(right, "abaqus", &one),
              Contains("other-law: the card has the law hyperfoam-2, not hyperfoam-1"));
-  CHECK_THAT(findings_in(with_change(right, "0.05, 8,", "0.06, 8,"), "abaqus", nullptr),
+  CHECK_THAT(rubber_findings(with_last(right, "0.05, 8,", "0.06, 8,"), "abaqus", nullptr),
              Contains("header-differs: Young's modulus"));
   // CalculiX with one term.
-  CHECK_THAT(findings_in("*MATERIAL, NAME=F\n*HYPERFOAM, N=1\n0.05, 8, 0.2\n", "calculix", &one),
-             Contains("calculix-one-term: line 2"));
-  CHECK_THAT(findings_in("*MATERIAL, NAME=F\n*HYPERFOAM\n0.05, 8, 0.2, 7\n", "abaqus", &one),
-             Contains("other-count: "));
-  CHECK_THAT(findings_in("*MATERIAL, NAME=F\n*HYPERFOAM\n0.05, 8, 0.2\n*VISCOELASTIC, TIME=PRONY\n"
-                         "0.2, 0.2, 1\n",
-                         "abaqus", nullptr),
-             Contains("foam-with-terms: "));
   CHECK_THAT(
-      findings_in(
+      rubber_findings("*MATERIAL, NAME=F\n*HYPERFOAM, N=1\n0.05, 8, 0.2\n", "calculix", &one),
+      Contains("calculix-one-term: line 2"));
+  CHECK_THAT(rubber_findings("*MATERIAL, NAME=F\n*HYPERFOAM\n0.05, 8, 0.2, 7\n", "abaqus", &one),
+             Contains("other-count: "));
+  CHECK_THAT(
+      rubber_findings("*MATERIAL, NAME=F\n*HYPERFOAM\n0.05, 8, 0.2\n*VISCOELASTIC, TIME=PRONY\n"
+                      "0.2, 0.2, 1\n",
+                      "abaqus", nullptr),
+      Contains("foam-with-terms: "));
+  CHECK_THAT(
+      rubber_findings(
           "*MATERIAL, NAME=F\n*HYPERFOAM, N=1\n0.05, 8, 0.2\n*MULLINS EFFECT\n1.5, 0.004, 0.1\n",
           "abaqus", &one),
       Contains("damage-beside-foam: "));
@@ -203,11 +188,11 @@ TEST_CASE("foam cards: CalculiX runs one cube to the stress of the law", "[cards
   // Confined: all sides held.
   std::string deck =
       cube_deck(foam_card(*two_terms().foam, with_units("calculix")), Deformation::kPlanar, 0.7);
-  deck = with_change(deck, "BACK,2,2\n", "BACK,2,2\nRIGHT,1,1\n");
+  deck = with_last(deck, "BACK,2,2\n", "BACK,2,2\nRIGHT,1,1\n");
   CHECK(run_in_calculix(deck) == Approx(-0.0606201943).epsilon(2e-6));
   // Volumetric: all three sides are moved alike.
   deck = cube_deck(foam_card(*two_terms().foam, with_units("calculix")), Deformation::kEquibiaxial,
                    0.7);
-  deck = with_change(deck, "RIGHT,1,1,-0.3\n", "RIGHT,1,1,-0.3\nBACK,2,2,-0.3\n");
+  deck = with_last(deck, "RIGHT,1,1,-0.3\n", "RIGHT,1,1,-0.3\nBACK,2,2,-0.3\n");
   CHECK(run_in_calculix(deck) == Approx(-0.3252024).epsilon(2e-6));
 }

@@ -3,11 +3,14 @@
 #include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/hyperelastic/rubber_file_card.h"
 #include "io/materials/hyperelastic_file.h"
+#include "tests/io/cards/rubber_findings.h"
 
 #include <catch2/catch.hpp>
 
 using namespace viscard;
 using Catch::Matchers::Contains;
+using viscard::test::rubber_findings;
+using viscard::test::with_last;
 
 namespace {
 
@@ -48,21 +51,6 @@ RubberCardOptions options_for(const std::string& target, const std::string& unit
 std::string card_for(const HyperelasticFile& file, const std::string& target,
                      const std::string& units = "mm-t-s") {
   return rubber_file_card(file, "rubber.json", options_for(target, units));
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.rfind(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-std::string findings_of(const std::string& card, const std::string& target,
-                        const HyperelasticFile* file) {
-  std::string out;
-  for (const CardFinding& finding :
-       check_rubber_card(card, file, {.target = target, .units = "mm-t-s"}).findings)
-    out += finding.name + ": " + finding.text + "|";
-  return out;
 }
 
 }  // namespace
@@ -143,40 +131,41 @@ TEST_CASE("mullins cards: what was written is read back, in every unit system",
 TEST_CASE("mullins cards: edited constants are named", "[cards][mullins]") {
   const HyperelasticFile file = yeoh_file(), boyce = boyce_file();
   const std::string right = card_for(file, "abaqus"), radioss = card_for(boyce, "openradioss");
-  CHECK_THAT(findings_of(replaced(right, "1.6, 0.15", "1.7, 0.15"), "abaqus", &file),
+  CHECK_THAT(rubber_findings(with_last(right, "1.6, 0.15", "1.7, 0.15"), "abaqus", &file),
              Contains("numbers-differ: r is 1.7, 1.0625 times the expected 1.6"));
-  CHECK_THAT(findings_of(replaced(right, "0.15, 0.1", "0.16, 0.1"), "abaqus", &file),
+  CHECK_THAT(rubber_findings(with_last(right, "0.15, 0.1", "0.16, 0.1"), "abaqus", &file),
              Contains("m_Pa is 160000"));
-  CHECK_THAT(findings_of(replaced(right, "0.15, 0.1\n", "0.15, 0.2\n"), "abaqus", &file),
+  CHECK_THAT(rubber_findings(with_last(right, "0.15, 0.1\n", "0.15, 0.2\n"), "abaqus", &file),
              Contains("beta is 0.2"));
-  CHECK_THAT(findings_of(replaced(right, "0.15, 0.1\n", "0.1, 0.15\n"), "abaqus", &file),
+  CHECK_THAT(rubber_findings(with_last(right, "0.15, 0.1\n", "0.1, 0.15\n"), "abaqus", &file),
              Contains("damage-order-exchanged: "));
-  CHECK_THAT(findings_of(replaced(right, "1.6, 0.15", "1.6, 150000"), "abaqus", &file),
+  CHECK_THAT(rubber_findings(with_last(right, "1.6, 0.15", "1.6, 150000"), "abaqus", &file),
              Contains("damage-unit: m of the damage is in the unit of SI"));
-  CHECK_THAT(findings_of(replaced(right, "1.6, 0.15", "0.625, 0.15"), "abaqus", &file),
+  CHECK_THAT(rubber_findings(with_last(right, "1.6, 0.15", "0.625, 0.15"), "abaqus", &file),
              Contains("damage-out-of-range: r of mullins-or is 0.625") && Contains("one-over-r: "));
-  CHECK_THAT(findings_of(replaced(right, "*MULLINS EFFECT\n1.6, 0.15, 0.1\n", ""), "abaqus", &file),
-             Contains("other-damage: the card lacks the damage"));
-  CHECK_THAT(findings_of(replaced(right, "0.15, 0.1\n", "0.15, 0.1, 23\n"), "abaqus", &file),
+  CHECK_THAT(
+      rubber_findings(with_last(right, "*MULLINS EFFECT\n1.6, 0.15, 0.1\n", ""), "abaqus", &file),
+      Contains("other-damage: the card lacks the damage"));
+  CHECK_THAT(rubber_findings(with_last(right, "0.15, 0.1\n", "0.15, 0.1, 23\n"), "abaqus", &file),
              Contains("other-count: "));
   // OpenRadioss: R, beta, m.
-  CHECK_THAT(findings_of(replaced(radioss, "                 .15", "                 .19"),
-                         "openradioss", &boyce),
+  CHECK_THAT(rubber_findings(with_last(radioss, "                 .15", "                 .19"),
+                             "openradioss", &boyce),
              Contains("m_Pa is 190000"));
-  CHECK_THAT(findings_of(replaced(radioss, "                  .1                 .15",
-                                  "                 .15                  .1"),
-                         "openradioss", &boyce),
+  CHECK_THAT(rubber_findings(with_last(radioss, "                  .1                 .15",
+                                       "                 .15                  .1"),
+                             "openradioss", &boyce),
              Contains("damage-order-exchanged: "));
-  CHECK_THAT(findings_of(replaced(radioss, "/FAIL/MULLINS_OR/1/1", "/FAIL/MULLINS_OR/1"),
-                         "openradioss", &boyce),
+  CHECK_THAT(rubber_findings(with_last(radioss, "/FAIL/MULLINS_OR/1/1", "/FAIL/MULLINS_OR/1"),
+                             "openradioss", &boyce),
              Contains("unit-block: "));
-  CHECK_THAT(findings_of(replaced(radioss, "/FAIL/MULLINS_OR/1/1", "/FAIL/MULLINS_OR/2/1"),
-                         "openradioss", &boyce),
+  CHECK_THAT(rubber_findings(with_last(radioss, "/FAIL/MULLINS_OR/1/1", "/FAIL/MULLINS_OR/2/1"),
+                             "openradioss", &boyce),
              Contains("other-damage: "));
   // Without the file the header has the constants.
-  CHECK_THAT(findings_of(replaced(right, "1.6, 0.15", "1.7, 0.15"), "abaqus", nullptr),
+  CHECK_THAT(rubber_findings(with_last(right, "1.6, 0.15", "1.7, 0.15"), "abaqus", nullptr),
              Contains("header-differs: the damage r is 1.7"));
-  CHECK_THAT(findings_of(replaced(right, "0.15, 0.1\n", "0.15, 0.3\n"), "abaqus", nullptr),
+  CHECK_THAT(rubber_findings(with_last(right, "0.15, 0.1\n", "0.15, 0.3\n"), "abaqus", nullptr),
              Contains("the damage beta is 0.3"));
 }
 
@@ -188,14 +177,14 @@ TEST_CASE("mullins cards: cards by hand", "[cards][mullins]") {
   REQUIRE(read.damage);
   CHECK(read.damage->r == 1.6);
   CHECK(read.findings.empty());
-  CHECK_THAT(findings_of(law + "*MULLINS EFFECT, TEST DATA INPUT, R=1.5\n*UNIAXIAL TEST DATA\n",
-                         "abaqus", &file),
+  CHECK_THAT(rubber_findings(law + "*MULLINS EFFECT, TEST DATA INPUT, R=1.5\n*UNIAXIAL TEST DATA\n",
+                             "abaqus", &file),
              Contains("other-law: line 4: *MULLINS EFFECT is given by test data"));
-  CHECK_THAT(findings_of(law + "*MULLINS EFFECT\n1.6, .15, .1\n", "calculix", nullptr),
+  CHECK_THAT(rubber_findings(law + "*MULLINS EFFECT\n1.6, .15, .1\n", "calculix", nullptr),
              Contains("ignored-damage: line 4: ccx skips"));
   CHECK_THAT(
-      findings_of(law + "*MULLINS EFFECT\n1.6, .15, .1\n*VISCOELASTIC, TIME=PRONY\n0.2, 0, 1\n",
-                  "abaqus", nullptr),
+      rubber_findings(law + "*MULLINS EFFECT\n1.6, .15, .1\n*VISCOELASTIC, TIME=PRONY\n0.2, 0, 1\n",
+                      "abaqus", nullptr),
       Contains("damage-beside-terms: "));
   // The general polynomial of LAW100, and networks that are not read.
   const std::string law100 =
@@ -209,17 +198,18 @@ TEST_CASE("mullins cards: cards by hand", "[cards][mullins]") {
   CHECK(mooney.bulk_Pa == Approx(1e9));
   REQUIRE(mooney.damage);
   CHECK(mooney.damage->m_Pa == Approx(0.15e6));
-  CHECK_THAT(findings_of(replaced(law100, "         0         1", "         1         1"),
-                         "openradioss", nullptr),
+  CHECK_THAT(rubber_findings(with_last(law100, "         0         1", "         1         1"),
+                             "openradioss", nullptr),
              Contains("other-law: line 4: networks"));
   // Beside LAW82 the starter knows no such damage.
   HyperelasticFile plain = file;
   plain.damage.reset();
   const std::string law82 = rubber_card(plain.law, {}, options_for("openradioss"));
-  CHECK_THAT(findings_of(law82 + "/FAIL/MULLINS_OR/1/1\n                 1.6                 0.1"
-                                 "                 .15\n",
-                         "openradioss", &file),
-             Contains("ignored-damage: "));
+  CHECK_THAT(
+      rubber_findings(law82 + "/FAIL/MULLINS_OR/1/1\n                 1.6                 0.1"
+                              "                 .15\n",
+                      "openradioss", &file),
+      Contains("ignored-damage: "));
 }
 
 TEST_CASE("mullins cards: a file of a law keeps its damage", "[io][mullins]") {
@@ -231,8 +221,8 @@ TEST_CASE("mullins cards: a file of a law keeps its damage", "[io][mullins]") {
   CHECK(read.damage->m_Pa == file.damage->m_Pa);
   CHECK(read.damage->beta == file.damage->beta);
   CHECK_THROWS_WITH(
-      hyperelastic_from_json(replaced(json, "mullins-or", "mullins-xy"), "rubber.json"),
+      hyperelastic_from_json(with_last(json, "mullins-or", "mullins-xy"), "rubber.json"),
       Contains("there is no damage \"mullins-xy\""));
-  CHECK_THROWS_WITH(hyperelastic_from_json(replaced(json, "1.6", "0.9"), "rubber.json"),
+  CHECK_THROWS_WITH(hyperelastic_from_json(with_last(json, "1.6", "0.9"), "rubber.json"),
                     Contains("r of mullins-or is 0.9"));
 }

@@ -88,4 +88,10 @@ class ServedRig {
   httplib::Client client_;
 };
 
+// Message and hint of a refusal.
+inline std::string message_of(const ApiAnswer& answer) {
+  const Json& error = answer.json.at("error");
+  return error.at("message").get<std::string>() + " " + error.at("hint").get<std::string>();
+}
+
 }  // namespace viscard::test

@@ -17,20 +17,11 @@ namespace fs = std::filesystem;
 using test::ApiAnswer;
 using test::contains;
 using test::Json;
+using test::message_of;
+using test::names_in;
 using test::run_command;
 using test::ScratchFolder;
 using test::ServedDesk;
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
-
-std::string message_of(const ApiAnswer& answer) {
-  const Json& error = answer.json.at("error");
-  return error.at("message").get<std::string>() + " " + error.at("hint").get<std::string>();
-}
 
 TEST_CASE("a dropped file is written into the folder only, and replaces nothing", "[serve][desk]") {
   ServedDesk desk;

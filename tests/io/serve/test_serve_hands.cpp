@@ -18,13 +18,9 @@ namespace {
 using test::ApiAnswer;
 using test::contains;
 using test::Json;
+using test::message_of;
 using test::ScratchFolder;
 using test::ServedRig;
-
-std::string message_of(const ApiAnswer& answer) {
-  const Json& error = answer.json.at("error");
-  return error.at("message").get<std::string>() + " " + error.at("hint").get<std::string>();
-}
 
 // Watches a move to its end, as the page does.
 Json watched(ServedRig& rig) {

@@ -1,4 +1,4 @@
-#include "models/hyperelastic/foam_law.h"
+#include "tests/models/hyperelastic/foam_of.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,23 +7,9 @@
 
 using namespace viscard;
 using Catch::Matchers::Contains;
+using viscard::test::foam_of;
 
 namespace {
-
-FoamLaw foam_of(std::initializer_list<std::array<double, 3>> terms) {
-  FoamLaw law;
-  const auto n = static_cast<Eigen::Index>(terms.size());
-  law.mu_Pa.resize(n);
-  law.alpha.resize(n);
-  law.nu.resize(n);
-  Eigen::Index i = 0;
-  for (const auto& [mu_MPa, alpha, nu] : terms) {
-    law.mu_Pa[i] = 1e6 * mu_MPa;
-    law.alpha[i] = alpha;
-    law.nu[i++] = nu;
-  }
-  return law;
-}
 
 // Reference numbers in MPa, computed with numpy from formula (4) of the header, independently of this
 // program. The second law was run in CalculiX 2.20 (one cube), which agrees in all seven digits it prints.
