@@ -3,6 +3,7 @@
 #include "models/experiment/sample_force.h"
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
+#include "rig/lines/tcp_port.h"
 #include "rig/run/preflight.h"
 #include "rig/run/rest_findings.h"
 
@@ -61,6 +62,22 @@ int baud_for(double bytes_per_s) {
   return kBauds.back();
 }
 
+// The same over TCP, where only a device server has a baud rate, and the rig file does not know it.
+std::string network_trouble(const LoadCellConfig& cell, const RigCheck& check,
+                            const std::string& needs, double needed_B_s) {
+  const std::string late =
+      check.falls_behind > 0.0
+          ? "each second the readings fall behind by " + text_from_number(check.falls_behind, 3) + " s"
+          : "the readings come at " + text_from_number(check.rate_Hz, 1) + "/s and not at the " +
+                text_from_number(cell.expected_rate_Hz, 1) + "/s of expected_rate";
+  return late + ": " + needs +
+         ". Look for the slow part of the way: the network, or the serial line behind a device server, which "
+         "needs " +
+         std::to_string(baud_for(needed_B_s)) +
+         " baud or more. If the amplifier makes no more readings, set expected_rate under [load_cell] of the "
+         "rig file to their number";
+}
+
 // Describes a line that is too slow for an amplifier sending by itself: its readings become older
 // and older. "" if the line is fast enough.
 std::string lag_trouble(const RigConfig& rig, const RigCheck& check) {
@@ -72,6 +89,9 @@ std::string lag_trouble(const RigConfig& rig, const RigCheck& check) {
   const std::string needs = text_from_number(rate_Hz, 0) + " lines/s of " +
                             text_from_number(check.line_bytes, 1) + " bytes need " +
                             text_from_number(needed_B_s, 0) + " bytes/s";
+  if (is_tcp_port(cell.port)) {
+    return check.falls_behind > 0.0 || is_slow ? network_trouble(cell, check, needs, needed_B_s) : "";
+  }
   const std::string remedy = "Set the amplifier, and baud under [load_cell] of the rig file, to " +
                              std::to_string(std::max(baud_for(needed_B_s), cell.baud)) +
                              " baud or more";

@@ -4,6 +4,7 @@
 #include "io/basics/missing_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -215,6 +216,20 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
   }
 }
 
+namespace {
+
+// A program that writes into a named pipe is there at once, or the pipe was left over.
+void await_writer(const std::filesystem::path& path, int fd) {
+  constexpr int kWait_ms = 5000;
+  pollfd pipe{fd, POLLIN, 0};
+  if (::poll(&pipe, 1, kWait_ms) != 0) return;
+  throw std::runtime_error(path.string() +
+                           ": cannot read: it is a pipe into which no program writes; name a file, or "
+                           "start the program that writes first");
+}
+
+}  // namespace
+
 constexpr std::size_t kLongestPipe = std::size_t{512} << 20, kLongestDevice = std::size_t{64} << 20;
 
 std::string read_file(const std::filesystem::path& path) {
@@ -236,10 +251,13 @@ std::string read_own_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     throw std::runtime_error(path.string() + ": cannot read: Is a directory; name a file in it");
   }
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+  // A named pipe without a writer would not even open otherwise.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   if (file.get() < 0) {
     throw std::runtime_error(path.string() + ": " + why_not_opened(path, errno));
   }
+  if (std::filesystem::is_fifo(path, ignored)) await_writer(path, file.get());
+  ::fcntl(file.get(), F_SETFL, ::fcntl(file.get(), F_GETFL) & ~O_NONBLOCK);
   std::string contents;
   std::size_t size = 0;
   const auto expected = std::filesystem::file_size(path, ignored);  // fails for a pipe

@@ -62,9 +62,15 @@ Json RigSetup::take(const Json& request) {
   const JobEnd at_end(job_);
   const std::string before = read_file(file);
   if (before == text) return answer;
+  if (request.contains("based_on") && text_at(request, "based_on") != before) {
+    throw ApiError(409, "changed",
+                   file.string() +
+                       " was changed since the page showed it, and nothing is written; open the set-up "
+                       "again to see the text of now");
+  }
   const fs::path kept = free_name(file);
   write_file(kept, before, false);
-  write_file(file, text, true);
+  write_file(fs::canonical(file), text, true);  // a link goes on to name the file
   answer["kept_before"] = kept.filename().string();
   return answer;
 }

@@ -96,9 +96,10 @@ void GaugeLoadCell::connect(const Pump& pump) {
   const std::string words = identity_.empty() ? "" : " (it calls itself '" + identity_ + "')";
   throw RigError("no reading came from the " + protocol_.name + " instrument on '" +
                  transport_.name() + "'" + words + ". " +
-                 (is_noise ? "The bytes received are mostly unreadable: are baud and framing right?"
-                           : "Is this its port, is it switched on, and is its interface set to "
-                             "RS-232 with the baud rate of the rig file?"));
+                 (is_noise ? "The bytes received are mostly unreadable: is framing right, and " +
+                                 transport_.question()
+                           : "Is this its port, is it switched on, is its interface set to it, and " +
+                                 transport_.question()));
 }
 
 void GaugeLoadCell::service() {

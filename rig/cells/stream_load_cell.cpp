@@ -34,8 +34,7 @@ bool StreamLoadCell::await_readings(const Pump& pump, double wall_s, bool is_tex
   }
   if (is_text && splitter_.unprintable_fraction() > 0.2) {
     throw RigError("the bytes from the load cell on " + where +
-                   " are mostly unreadable: is the baud rate of " +
-                   std::to_string(transport_.baud()) + " right?");
+                   " are mostly unreadable: " + transport_.question());
   }
   return false;
 }

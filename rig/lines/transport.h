@@ -22,6 +22,10 @@ class Transport {
 
   virtual std::string name() const = 0;
   virtual int baud() const = 0;
+  // What to check if nothing, or nothing readable, comes: "is the baud rate of 115200 right?".
+  virtual std::string question() const {
+    return "is the baud rate of " + std::to_string(baud()) + " right?";
+  }
   // For poll().
   virtual int descriptor() const = 0;
   // The bytes that have arrived, without waiting. Throws PortHungUp once the other end is gone and

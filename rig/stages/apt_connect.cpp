@@ -122,8 +122,7 @@ void AptStage::connect(const Pump& pump) {
     throw;
   } catch (const RigError&) {
     throw_no_answer(
-        "Thorlabs APT controller",
-        "is the baud rate of " + std::to_string(transport_.baud()) + " right? APT needs 115200",
+        "Thorlabs APT controller", transport_.question() + " APT needs 115200",
         "Is this the stage's port, and is the controller switched on? After a quick "
         "reopening some need their supply off and on");
   }

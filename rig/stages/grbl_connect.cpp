@@ -38,8 +38,7 @@ void GrblStage::await_welcome(const Pump& pump) {
     is_welcome = wait_for(is_there, pump, kReset_wall_s);
   }
   if (is_welcome) return refuse_old_firmware();
-  throw_no_answer("GRBL controller",
-                  "is the baud rate of " + std::to_string(transport_.baud()) + " right?",
+  throw_no_answer("GRBL controller", transport_.question(),
                   "Is this the stage's port, and is it switched on?");
 }
 

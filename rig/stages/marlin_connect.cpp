@@ -120,9 +120,8 @@ void MarlinStage::connect(const Pump& pump) {
   } catch (const RigError&) {
     if (!firmware_.empty()) throw;
     throw_no_answer("Marlin controller",
-                    "is the baud rate of " + std::to_string(transport_.baud()) +
-                        " right? Boards built for 250000 baud need another BAUDRATE, such as "
-                        "115200",
+                    transport_.question() +
+                        " Boards built for 250000 baud need another BAUDRATE, such as 115200",
                     "Is this the stage's port, and is it switched on?");
   }
   exact_m_ = reported_m_;

@@ -60,7 +60,7 @@ async function open() {
 
 async function keep() {
   try {
-    const { kept_before: before } = await order("/api/rig", { text: text(), keep: true, plausible: plausible() });
+    const { kept_before: before } = await order("/api/rig", { text: text(), based_on: saved, keep: true, plausible: plausible() });
     saved = text();
     showText(element("setup-kept"), before ? `Kept; the text of before is ${before}. Check the rig now.` : "Kept.");
     showText(element("setup-trouble"), "");

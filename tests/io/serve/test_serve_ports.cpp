@@ -7,6 +7,9 @@
 #include "tests/support/error_text.h"
 
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
+
+#include <filesystem>
 
 namespace viscard {
 namespace {
@@ -80,6 +83,28 @@ TEST_CASE("the rig file is set up from the page, and the text of before stays be
     }
     CHECK(read_file(file) == before);
     CHECK_FALSE(std::filesystem::exists(file + ".1"));
+  }
+  SECTION("a file that somebody else changed meanwhile is not overwritten") {
+    write_file(file, before + "# by hand\n", true);
+    const auto answer =
+        rig.order("/api/rig", {{"text", other}, {"based_on", before}, {"keep", true}});
+    CHECK(answer.status == 409);
+    CHECK(read_file(file) == before + "# by hand\n");
+  }
+  SECTION("a link to the file stays a link") {
+    const std::string real = file + ".real";
+    std::filesystem::rename(file, real);
+    std::filesystem::create_symlink(real, file);
+    CHECK(rig.order("/api/rig", {{"text", other}, {"based_on", before}, {"keep", true}}).status ==
+          200);
+    CHECK(std::filesystem::is_symlink(file));
+    CHECK(read_file(real) == other);
+  }
+  SECTION("a pipe in its place does not hold up the page") {
+    std::filesystem::remove(file);
+    REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
+    CHECK(rig.ask("/api/rig").status >= 400);
+    CHECK(rig.ask("/api/state").status >= 400);
   }
   SECTION("it is kept, more than once") {
     CHECK(rig.order("/api/rig", {{"text", other}, {"keep", true}}).json.at("kept_before") ==

@@ -118,6 +118,13 @@ TEST_CASE("bytes pass both ways over TCP, in pieces or together", "[rig]") {
   CHECK(read_all(line, 12) == "DEL\n1.0\n2.0\n");
 }
 
+TEST_CASE("a port behind TCP is not asked for a baud rate that it does not have", "[rig]") {
+  Instrument instrument;
+  const auto line = open_line(instrument.port(), 9600, wall());
+  CHECK_THAT(line->question(), Contains("port number") && Contains("device server"));
+  CHECK_THAT(line->question(), !Contains("00 right"));
+}
+
 TEST_CASE("an instrument that closes the connection is gone, and may come back", "[rig]") {
   Instrument instrument;
   TcpLine line(instrument.port(), wall());
