@@ -183,7 +183,9 @@ void sync_folder(const std::filesystem::path& folder) {
   }
 }
 
-void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite) {
+namespace {
+
+void put_file(const std::filesystem::path& path, const std::string& contents, bool overwrite) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail(path, "cannot write", EISDIR);
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
@@ -216,8 +218,6 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
   }
 }
 
-namespace {
-
 // A program that writes into a named pipe is there at once, or the pipe was left over.
 void await_writer(const std::filesystem::path& path, int fd) {
   constexpr int kWait_ms = 5000;
@@ -229,6 +229,21 @@ void await_writer(const std::filesystem::path& path, int fd) {
 }
 
 }  // namespace
+
+void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite) {
+  if (overwrite) refuse_input(path);
+  put_file(path, contents, overwrite);
+}
+
+void refuse_input(const std::filesystem::path& path) {
+  if (!is_input(path)) return;
+  throw std::runtime_error(path.string() +
+                           " is read by this command, so it is not replaced; choose another name");
+}
+
+void rewrite_file(const std::filesystem::path& path, const std::string& contents) {
+  put_file(path, contents, true);
+}
 
 constexpr std::size_t kLongestPipe = std::size_t{512} << 20, kLongestDevice = std::size_t{64} << 20;
 

@@ -14,8 +14,12 @@ namespace viscard {
 // overwrite is false, if it is a folder, device or pipe, or if a step fails. The temporary file is
 // removed in every case; one that a power cut or kill has left behind is removed by the next call for
 // the same file. A folder that cannot be synced is an error too: the file is there, but a power cut
-// may lose it.
+// may lose it. A file that the running command has read (is_input()) is never replaced.
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite);
+// Throws std::runtime_error if write_file() would not replace this file because it is read.
+void refuse_input(const std::filesystem::path& path);
+// The same for a file that is read to be changed, such as a rig file that gets its calibration.
+void rewrite_file(const std::filesystem::path& path, const std::string& contents);
 
 // The rights of a file that will be replaced (as for chmod), if there is one: what was private stays
 // private.

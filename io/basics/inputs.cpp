@@ -30,6 +30,17 @@ void* this_thread() {
   return &mark;
 }
 
+std::vector<InputFile> files_of_innermost() {
+  const InputRecorder* innermost = nullptr;
+  {
+    const std::lock_guard<std::mutex> lock(list_mutex());
+    for (const InputRecorder* one : recorders()) {
+      if (one->is_of_process()) innermost = one;
+    }
+  }
+  return innermost != nullptr ? innermost->files() : std::vector<InputFile>();
+}
+
 }  // namespace
 
 InputRecorder::InputRecorder(Of of) : thread_(of == Of::kThread ? this_thread() : nullptr) {
@@ -52,17 +63,17 @@ std::vector<InputFile> InputRecorder::files() const {
 }
 
 std::vector<InputFile> provenance_of_inputs() {
-  const InputRecorder* innermost = nullptr;
-  {
-    const std::lock_guard<std::mutex> lock(list_mutex());
-    for (const InputRecorder* one : recorders()) {
-      if (one->is_of_process()) innermost = one;
-    }
-  }
-  std::vector<InputFile> files;
-  if (innermost != nullptr) files = innermost->files();
+  std::vector<InputFile> files = files_of_innermost();
   for (InputFile& file : files) file.path = written_path(file.path);
   return files;
+}
+
+bool is_input(const std::filesystem::path& path) {
+  const std::vector<InputFile> files = files_of_innermost();
+  return std::any_of(files.begin(), files.end(), [&](const InputFile& file) {
+    std::error_code none;
+    return std::filesystem::equivalent(file.path, path, none) && !none;
+  });
 }
 
 void record_input(const std::filesystem::path& path, const std::string& contents) {
@@ -80,6 +91,15 @@ void record_input(const std::filesystem::path& path, const std::string& contents
   }
 }
 
+void note_input(const std::filesystem::path& path, const std::string& note) {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  for (InputRecorder* one : recorders()) {
+    for (InputFile& file : one->files_) {
+      if (file.path == path.string()) file.note = note;
+    }
+  }
+}
+
 bool is_recording_inputs() {
   const std::lock_guard<std::mutex> lock(list_mutex());
   return !recorders().empty();
@@ -94,6 +114,7 @@ std::string json_from_inputs(const std::vector<InputFile>& files, bool is_record
                                  {"files", nlohmann::ordered_json::array()}};
   for (const InputFile& file : files) {
     json["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});
+    if (!file.note.empty()) json["files"].back()["note"] = file.note;
   }
   return printable_text_from_json(json, 2) + "\n";
 }

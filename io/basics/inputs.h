@@ -10,6 +10,7 @@ namespace viscard {
 struct InputFile {
   std::string path;  // as it was named
   std::string sha256;
+  std::string note = {};  // what must be known of it, such as that it was edited
 };
 
 // Records every file that read_file() reads while it lives, in all threads or in its own thread only. A
@@ -28,6 +29,7 @@ class InputRecorder {
 
  private:
   friend void record_input(const std::filesystem::path& path, const std::string& contents);
+  friend void note_input(const std::filesystem::path& path, const std::string& note);
   void* thread_ = nullptr;  // whose files count; null: all
   std::vector<InputFile> files_;
 };
@@ -36,13 +38,18 @@ class InputRecorder {
 // or prints about its inputs comes from here.
 std::vector<InputFile> provenance_of_inputs();
 
+// Whether that recorder has seen this file, under any name of it.
+bool is_input(const std::filesystem::path& path);
+
 // Called by what reads files.
 void record_input(const std::filesystem::path& path, const std::string& contents);
+// Adds a note to a recorded file; commands print it and --json has it beside the file.
+void note_input(const std::filesystem::path& path, const std::string& note);
 // Whether there is any recorder.
 bool is_recording_inputs();
 
 // The object {"schema": "viscard-inputs/1", "created_by", "is_recorded", "table_sha256", "files": [{"path",
-// "sha256"}]} that lies beside a table. is_recorded false: of some rows the inputs are not known. The sum of
+// "sha256", perhaps "note"}]} that lies beside a table. is_recorded false: of some rows the inputs are not known. The sum of
 // the table shows which table it belongs to.
 std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded,
                              const std::string& table);

@@ -136,9 +136,30 @@ int run_viscard(const Words& words, Streams& streams) {
   return with_exit_status("viscard", words, streams, [&] { return dispatch(words, streams); });
 }
 
+namespace {
+
+// Whatever the command is, and whether it ends well.
+class NotesAtEnd {
+ public:
+  explicit NotesAtEnd(Streams& streams) : streams_(streams) {}
+  ~NotesAtEnd() {
+    for (const InputFile& file : provenance_of_inputs()) {
+      if (!file.note.empty()) streams_.err << "viscard: note: " << file.path << ": " << file.note << "\n";
+    }
+  }
+  NotesAtEnd(const NotesAtEnd&) = delete;
+  NotesAtEnd& operator=(const NotesAtEnd&) = delete;
+
+ private:
+  Streams& streams_;
+};
+
+}  // namespace
+
 int with_exit_status(const char* program, const Words& words, Streams& streams,
                      const std::function<int()>& work) {
   const InputRecorder recorder;
+  const NotesAtEnd notes(streams);
   const AsItIs who{bold_red(program + std::string(":"), streams.is_err_coloured) + " "};
   try {
     return with_json_errors(words, streams, [&] {

@@ -1,5 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/inputs.h"
+#include "io/basics/sha256.h"
 #include "io/config/config_file.h"
 #include "io/config/config_show.h"
 
@@ -27,9 +29,24 @@ void show_frame_numbers(FieldVisitor& fields, FrameConfig& frame) {
   fields.text({"date", "2026-11-21"}, frame.date);
 }
 
+constexpr const char* kBodySum = "body_sha256";
+constexpr const char* kEditedMark = " (edited)";
+
+// The first line of a record states the sum of what follows. False for a record without it, which was written
+// by hand or before.
+bool is_edited_since(const std::string& text) {
+  const std::string begin = kBodySum + std::string(" = \"");
+  const std::size_t end = text.find('\n');
+  if (!text.starts_with(begin) || end == std::string::npos)
+    return text.find(kBodySum) != std::string::npos;
+  return text.substr(0, end) != begin + sha256_of_text(text.substr(end + 1)) + "\"";
+}
+
 // A record has one of the two sections, and the contributions to its uncertainty.
 void show_record(FieldVisitor& fields, LoadCellCalibration& calibration, FrameConfig& frame,
                  std::vector<UncertaintyRow>& budget) {
+  std::string sum;
+  fields.text({kBodySum, "64 digits"}, sum);
   fields.section("calibration", [&](FieldVisitor& inner) {
     LoadCellCalibration found = calibration;
     found.file = "-";  // a record need not have this section, so none of its keys is required
@@ -86,12 +103,19 @@ CalibrationRecord calibration_from_toml(const std::string& text, const std::stri
 
 CalibrationRecord read_calibration(const std::filesystem::path& path) {
   const std::string text = read_file(path);
-  return read_as(FileKind::kCalibration, text, path.string(),
-                 [&] { return calibration_from_toml(text, path.string()); });
+  CalibrationRecord record =
+      read_as(FileKind::kCalibration, text, path.string(),
+              [&] { return calibration_from_toml(text, path.string()); });
+  if (!is_edited_since(text)) return record;
+  note_input(path, "the record was edited since viscard calibrate wrote it");
+  // It goes wherever the name of the calibration goes: into captures, fits and reports.
+  if (record.calibration) record.calibration->id += kEditedMark;
+  if (record.frame) record.frame->id += kEditedMark;
+  return record;
 }
 
 std::string toml_from_calibration(const CalibrationRecord& record) {
-  return toml_from_fields([&](FieldVisitor& fields) {
+  const std::string body = toml_from_fields([&](FieldVisitor& fields) {
     LoadCellCalibration calibration = record.calibration.value_or(LoadCellCalibration{});
     FrameConfig frame = record.frame.value_or(FrameConfig{});
     std::vector<UncertaintyRow> budget = record.budget;
@@ -104,6 +128,7 @@ std::string toml_from_calibration(const CalibrationRecord& record) {
     }
     show_budget(fields, budget);
   });
+  return kBodySum + std::string(" = \"") + sha256_of_text(body) + "\"\n" + body;
 }
 
 }  // namespace viscard

@@ -88,7 +88,7 @@ void write_in_section(const std::filesystem::path& file, const std::string& sect
     throw std::runtime_error(file.string() + ": has no section [" + section + "]; write " + line +
                              " there yourself");
   }
-  write_file(file, out, true);
+  rewrite_file(file, out);
 }
 
 }  // namespace

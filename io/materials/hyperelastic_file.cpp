@@ -237,7 +237,7 @@ HyperelasticFile hyperelastic_from_json(const std::string& text, const std::stri
       add_moduli(law, file);
       file.is_trustworthy = law.at("trustworthy");
       for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
-      file.is_edited = is_edited(ordered);
+      file.is_edited = is_edited(ordered, name);
       add_tests(json, file);
       if (json.contains("bulk_modulus_Pa")) file.bulk_Pa = json["bulk_modulus_Pa"].get<double>();
       if (json.contains("density_kg_m3")) file.density_kg_m3 = json["density_kg_m3"].get<double>();

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
 #include "io/materials/json_watch.h"
 #include "io/materials/material_json.h"
@@ -147,6 +148,13 @@ std::string sum_of_body(Json json) {
   return sha256_of_text(text_from_json(json));
 }
 
+// Materials have it in "provenance"; what typed numbers come from begins with other words.
+bool is_by_viscard(const Json& json) {
+  const Json& origin = json.contains("provenance") ? json["provenance"] : json;
+  return origin.is_object() && origin.contains("created_by") && origin["created_by"].is_string() &&
+         origin["created_by"].get<std::string>().starts_with("viscard ");
+}
+
 }  // namespace
 
 void add_body_sum(Json& json) {
@@ -154,9 +162,19 @@ void add_body_sum(Json& json) {
   json[kBodySum] = sum_of_body(json);
 }
 
-bool is_edited(const Json& json) {
-  if (!json.is_object() || !json.contains(kBodySum)) return false;
-  return json[kBodySum] != sum_of_body(json);
+bool is_edited(const Json& json, const std::string& name) {
+  if (!json.is_object()) return false;
+  if (!json.contains(kBodySum)) {
+    if (is_by_viscard(json)) {
+      note_input(name,
+                 "has no sum of its contents, because it was written before 2026-12 or the sum was removed; "
+                 "whether it was edited cannot be seen");
+    }
+    return false;
+  }
+  if (json[kBodySum] == sum_of_body(json)) return false;
+  note_input(name, kEditedText);
+  return true;
 }
 
 void carry_unknown_keys(const Json& original, Json& fresh) {

@@ -13,7 +13,7 @@ MaterialFile material_from_json(const std::string& text, const std::string& name
   MaterialFile file = read_as(FileKind::kMaterial, text, name, [&] {
     const Json json = parse_json(text, name);
     MaterialFile read{material_from(json, name), text};
-    if (is_edited(json)) read.material.flags.push_back({kEdited, 0, kEditedText});
+    if (is_edited(json, name)) read.material.flags.push_back({kEdited, 0, kEditedText});
     return read;
   });
   try {

@@ -35,7 +35,9 @@ void add_body_sum(Json& json);
 inline constexpr const char* kEdited = "edited";
 inline constexpr const char* kEditedText =
     "the file was edited since it was written by viscard fit";
-bool is_edited(const Json& json);
+// The same of a file that was just read, whose doubts are noted (note_input()): edited, or written by viscard
+// and without the key.
+bool is_edited(const Json& json, const std::string& name);
 
 // Copies to `fresh` the values in `original` whose keys viscard does not know.
 void carry_unknown_keys(const Json& original, Json& fresh);

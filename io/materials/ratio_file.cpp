@@ -267,7 +267,7 @@ RatioFit ratio_fit_from(const std::string& text, const std::string& name) {
     throw std::runtime_error(name +
                              ": common.terms: must be empty; the terms are those of the law");
   }
-  if (is_edited(json)) {
+  if (is_edited(json, name)) {
     fit.flags.push_back({kEdited, 0, kEditedText});
     fit.common.flags.push_back({kEdited, 0, kEditedText});
   }

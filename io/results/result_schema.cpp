@@ -261,6 +261,8 @@ Json schema_of(const DescribedResult& result) {
   file["properties"]["path"] = {{"type", "string"}, {"description", "its name"}};
   file["properties"]["sha256"] = {{"type", "string"},
                                   {"description", "the SHA-256 of what was read"}};
+  file["properties"]["note"] = {
+      {"type", "string"}, {"description", "what must be known of it, such as that it was edited"}};
   file["required"] = {"path", "sha256"};
   head["properties"]["input_files"] = {
       {"type", "array"},

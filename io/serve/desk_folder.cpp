@@ -214,7 +214,7 @@ std::string DeskFolder::keep_scene(const std::string& name, const std::string& t
   const bool has_head = text.starts_with(kSceneHead);
   const std::string all = has_head ? text : std::string(kSceneHead) + ", of " + name + "\n" + text;
   if (!read_own_file(path_ / name).starts_with(kSceneHead)) return keep_new(name, all);
-  write_file(path_ / name, all, true);
+  rewrite_file(path_ / name, all);
   return name;
 }
 
@@ -242,7 +242,11 @@ void DeskFolder::keep_words(const std::string& table, const std::vector<std::str
                      quoted_for_shell({"viscard", "fit", table, "@" + file.filename().string()}) +
                      "\n";
   for (const std::string& word : words) text += word + "\n";
-  write_file(file, text, is_there);
+  if (is_there) {
+    rewrite_file(file, text);
+  } else {
+    write_file(file, text, false);
+  }
 }
 
 }  // namespace viscard

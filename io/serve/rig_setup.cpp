@@ -70,7 +70,7 @@ Json RigSetup::take(const Json& request) {
   }
   const fs::path kept = free_name(file);
   write_file(kept, before, false);
-  write_file(fs::canonical(file), text, true);  // a link goes on to name the file
+  rewrite_file(fs::canonical(file), text);  // a link goes on to name the file
   answer["kept_before"] = kept.filename().string();
   return answer;
 }

@@ -220,12 +220,12 @@ void SeriesFolder::check_test(const TestPlan& plan) const {
 
 void SeriesFolder::save_test(const TestPlan& plan) const {
   check_test(plan);
-  write_file(test_file(), toml_from_test(plan), true);
+  rewrite_file(test_file(), toml_from_test(plan));
 }
 
 void SeriesFolder::save_test_text(const std::string& text, const TestPlan& plan) const {
   check_test(plan);
-  write_file(test_file(), text, true);
+  rewrite_file(test_file(), text);
 }
 
 std::string SeriesFolder::test_text() const {
@@ -306,7 +306,7 @@ std::string SeriesFolder::rename_specimen(const std::string& name, const std::st
       number > 0 ? fmt::format("{:02}_{}", number, file_name_from(id)) : file_name_from(id);
   if (!is_specimen_file(other + kSpecimenEnding)) other = "specimen-" + other;
   if (other == name) {
-    write_file(specimen_file(name), toml, true);
+    rewrite_file(specimen_file(name), toml);
     return name;
   }
   for (const fs::path& taken : {specimen_file(other), folder_ / (other + kTruthTomlEnding)}) {
@@ -369,7 +369,7 @@ void SeriesFolder::note_capture(const std::string& file, const std::string& note
     fs::remove(note_file(folder_ / file));
     sync_folder(folder_);
   } else {
-    write_file(note_file(folder_ / file), note, true);
+    rewrite_file(note_file(folder_ / file), note);
   }
 }
 

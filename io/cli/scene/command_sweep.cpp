@@ -165,10 +165,10 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
   }
   const Plausible judged = given_plausible(syntax, Plausible::kScene);
   const Study study = read_study(path);
+  if (asked.csv) refuse_input(*asked.csv);  // before hours of work
   // A mistake in the study or its scene is reported here, not once for each point.
   check_values(study, judged);
   const std::string edited = note_of_first_point(study, judged);
-  if (!edited.empty()) streams.err << "viscard: note: " << edited << "\n";
   const std::string file =
       asked.out.value_or(std::filesystem::path(path).stem().string() + ".sqlite");
   const bool answers = asked.merge.empty();

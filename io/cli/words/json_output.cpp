@@ -56,6 +56,9 @@ void show_input_files(ResultVisitor& v) {
            [&](const InputFile& file) {
              v("path", file.path, "its name");
              v("sha256", file.sha256, "the SHA-256 of what was read");
+             v.when(!file.note.empty(), [&] {
+               v("note", file.note, "what must be known of it, such as that it was edited");
+             });
            });
   });
 }
