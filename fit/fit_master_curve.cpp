@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 namespace viscard {
@@ -103,6 +104,28 @@ void flag_left_out(const MasterSegments& all, FitResult& result) {
                           counted(all.left_out.size(), "isotherm") +
                               (all.left_out.size() == 1 ? " was" : " were") +
                               " left out of the master curve: " + names});
+}
+
+// Isotherms without a modulus in common lie as far apart as the others let a law or a smooth curve say, or else as
+// far as was given.
+void flag_apart(const MasterStart& start, MasterCurve& curve) {
+  if (start.apart.empty()) return;
+  std::string names;
+  for (const std::string& one : start.apart) names += (names.empty() ? "" : ", ") + one;
+  const std::string what = "the isotherms at " + names + " have no modulus in common. ";
+  const std::size_t needed = curve.form == "wlf" ? 2 : 1;  // parameters of the form
+  if (curve.form != "free" && start.n_overlaps >= needed) {
+    curve.fit.flags.push_back(
+        {"isotherms-apart", 0,
+         what + "How far apart they lie follows from the temperature law of the other shifts "
+                "alone; measure a temperature in between, or longer records"});
+    return;
+  }
+  curve.fit.flags.push_back(
+      {"shifts-not-determined", 0,
+       what + "No row and no law shows how far apart they lie; this follows from the start values. "
+              "Measure a temperature in between, or longer records"});
+  curve.fit.is_trustworthy = false;
 }
 
 // Flags free shifts that no smooth curve describes, or that clearly differ from the smooth ones.
@@ -210,13 +233,30 @@ void flag_vertical(MasterCurve& curve) {
 
 }  // namespace
 
+void validate(const std::vector<StartShift>& shifts) {
+  constexpr double kMost = 40.0;  // glass to rubber is 15 to 30 decades
+  for (const StartShift& one : shifts) {
+    const std::string option =
+        "--start-shift " + text_of(one.temperature_C) + "=" + text_of(one.log10_a);
+    if (!std::isfinite(one.temperature_C)) {
+      throw std::invalid_argument(option + ": the temperature is no number");
+    }
+    if (std::abs(one.log10_a) <= kMost) continue;
+    throw std::invalid_argument(option + ": log10 a_T lies between -" + text_of(kMost) + " and " +
+                                text_of(kMost) +
+                                " decades; write the logarithm of the shift factor, such as "
+                                "--start-shift 40=-1.2");
+  }
+}
+
 bool has_several_temperatures(const std::vector<double>& temperature_C) {
   return n_isotherms(temperature_C) > 1;
 }
 
 MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) {
+  validate(data.start_shifts);
   MasterSegments all = segments_of(data);
-  const MasterStart start = master_start(all, data.T_ref_C, options);
+  const MasterStart start = master_start(all, data, options);
   const ShiftFits shifts = fit_shifts(all.segments, start, blocks_of(all.segments), options);
   const SpectralFit& fit = shifts.fit;
 
@@ -235,6 +275,8 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
   curve.residual = shifts.taken_rms;
   curve.free_residual = shifts.free_rms;
   curve.left_out = all.left_out;
+  curve.start_given = data.start_shifts;
+  curve.is_start_as_given = start.is_as_given;
 
   FitResult& result = curve.fit;
   result.kind = data.loss_Pa.empty() ? FitKind::kRelaxation : FitKind::kDma;
@@ -250,6 +292,7 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
     report_highest_storage(1.0 / (2.0 * std::numbers::pi * result.fit_from_s), result);
   }
   flag_left_out(all, result);
+  flag_apart(start, curve);
   widen_by_scatter(curve);
   flag_shifts(shifts, curve);
   flag_law(curve);

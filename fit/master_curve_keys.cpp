@@ -61,6 +61,15 @@ void show_keys(ResultVisitor& v, const MasterCurve& curve) {
   v("residual_relative", curve.residual, "root mean square of the residuals with these factors");
   show_factors(v, "free_factors", "one free value for each temperature", curve, curve.free_factors);
   v("free_residual_relative", curve.free_residual, "the same with free factors");
+  v.when(!curve.start_given.empty(), [&] {
+    v.list("start_shifts", "start values that were given", curve.start_given,
+           [&](const StartShift& one) {
+             v("temperature_C", one.temperature_C, "of the isotherm");
+             v("log10_a", one.log10_a, "decimal logarithm of the factor on time");
+           });
+    v.word("started_from", curve.is_start_as_given ? "given" : "rows", {"given", "rows"},
+           "given: these; rows: the rows led elsewhere, with a clearly smaller scatter");
+  });
   v("left_out", curve.left_out, "isotherms that are not part of it, and why");
   show_laws(v, curve.laws);
 }

@@ -115,16 +115,33 @@ void leave_out(MasterSegments& all, std::size_t first, std::size_t last,
                      begin + static_cast<std::ptrdiff_t>(last));
 }
 
+std::optional<std::size_t> segment_at(const std::vector<MasterSegment>& segments,
+                                      double temperature_C) {
+  std::optional<std::size_t> nearest;
+  double least_K = kSameTemperature_K;
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    const double apart_K = std::abs(segments[k].temperature_C - temperature_C);
+    if (!(apart_K <= least_K)) continue;
+    least_K = apart_K;
+    nearest = k;
+  }
+  return nearest;
+}
+
+std::string temperatures_of(const std::vector<MasterSegment>& segments) {
+  std::string text;
+  for (const MasterSegment& segment : segments) {
+    text += (text.empty() ? "" : ", ") + celsius(segment.temperature_C);
+  }
+  return text;
+}
+
 std::size_t reference_of(const std::vector<MasterSegment>& segments,
                          const std::optional<double>& T_ref_C) {
   if (!T_ref_C) return segments.size() / 2;
-  std::string there;
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    if (std::abs(segments[k].temperature_C - *T_ref_C) <= kSameTemperature_K) return k;
-    there += (k > 0 ? ", " : "") + celsius(segments[k].temperature_C);
-  }
+  if (const auto k = segment_at(segments, *T_ref_C)) return *k;
   throw std::runtime_error("no segment was measured at " + celsius(*T_ref_C) + "; there are " +
-                           there);
+                           temperatures_of(segments));
 }
 
 }  // namespace viscard

@@ -31,6 +31,13 @@ MasterSegments segments_of(const MasterData& data);
 // Removes the segments from `first` to before `last`, and names them with the reason.
 void leave_out(MasterSegments& all, std::size_t first, std::size_t last, const std::string& reason);
 
+// The segment nearest to a temperature, within 1 K; none: nothing was measured there.
+std::optional<std::size_t> segment_at(const std::vector<MasterSegment>& segments,
+                                      double temperature_C);
+
+// "0 C, 20 C"
+std::string temperatures_of(const std::vector<MasterSegment>& segments);
+
 // The segment at T_ref_C, or the middle one. Throws std::runtime_error if none is there.
 std::size_t reference_of(const std::vector<MasterSegment>& segments,
                          const std::optional<double>& T_ref_C);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -114,6 +116,18 @@ std::vector<Step> steps_of(const std::vector<MasterSegment>& segments) {
   return steps;
 }
 
+constexpr const char* kApart = "no modulus in common with the isotherms around the reference";
+
+[[noreturn]] void refuse_apart(const std::vector<MasterSegment>& segments,
+                               const std::vector<Step>& steps) {
+  std::size_t gap = 0;
+  while (steps[gap].is_known()) ++gap;
+  throw std::runtime_error("the moduli at " + celsius(segments[gap].temperature_C) + " and " +
+                           celsius(segments[gap + 1].temperature_C) +
+                           " have no value in common, so they cannot be shifted onto each "
+                           "other; measure a temperature in between, or longer records");
+}
+
 // Keeps the sequence of overlapping segments that contains the reference, or else the longest one.
 void keep_connected(MasterSegments& all, std::vector<Step>& steps,
                     const std::optional<double>& T_ref_C) {
@@ -131,19 +145,100 @@ void keep_connected(MasterSegments& all, std::vector<Step>& steps,
     from = to;
   }
   if (last - first == all.segments.size()) return;
-  if (last - first < 2) {
-    std::size_t gap = 0;
-    while (steps[gap].is_known()) ++gap;
-    throw std::runtime_error("the moduli at " + celsius(all.segments[gap].temperature_C) + " and " +
-                             celsius(all.segments[gap + 1].temperature_C) +
-                             " have no value in common, so they cannot be shifted onto each "
-                             "other; measure a temperature in between, or longer records");
-  }
-  const std::string reason = "no modulus in common with the isotherms around the reference";
-  leave_out(all, last, all.segments.size(), reason);
-  leave_out(all, 0, first, reason);
+  if (last - first < 2) refuse_apart(all.segments, steps);
+  leave_out(all, last, all.segments.size(), kApart);
+  leave_out(all, 0, first, kApart);
   steps = {steps.begin() + static_cast<std::ptrdiff_t>(first),
            steps.begin() + static_cast<std::ptrdiff_t>(last) - 1};
+}
+
+// "40=1.2", as the option is written.
+std::string text_of_shift(const StartShift& shift) {
+  return text_of(shift.temperature_C) + "=" + text_of(shift.log10_a);
+}
+
+// ln a at the segments that have a given shift, and 0 at the reference.
+std::vector<std::optional<double>> given_shifts(const std::vector<StartShift>& given,
+                                                const std::vector<MasterSegment>& segments,
+                                                std::size_t reference) {
+  std::vector<std::optional<double>> ln_a(segments.size());
+  for (const StartShift& one : given) {
+    const std::string option = "--start-shift " + text_of_shift(one);
+    const auto k = segment_at(segments, one.temperature_C);
+    if (!k) {
+      throw std::runtime_error(option + ": no isotherm was measured at " +
+                               celsius(one.temperature_C) + "; there are " +
+                               temperatures_of(segments));
+    }
+    const std::string name = celsius(segments[*k].temperature_C);
+    if (*k == reference && one.log10_a != 0.0) {
+      throw std::runtime_error(option + ": " + name +
+                               " is the reference temperature, whose shift is 0; omit it, or "
+                               "choose another one with --reference-temperature");
+    }
+    if (ln_a[*k]) {
+      throw std::runtime_error(option + ": the isotherm at " + name +
+                               " has a start value already, " +
+                               text_of(*ln_a[*k] / std::numbers::ln10) + "; give one");
+    }
+    ln_a[*k] = one.log10_a * std::numbers::ln10;
+  }
+  ln_a[reference] = 0.0;
+  return ln_a;
+}
+
+// Sign of a step in ln(argument) as a step of ln a from a segment to the next warmer one.
+double sign_of(const std::vector<MasterSegment>& segments) {
+  return segments.front().loss.empty() ? 1.0 : -1.0;
+}
+
+// Segments without a shift follow their neighbour, first the one on the side of the reference.
+void follow_neighbours(const std::vector<Step>& steps, double sign, std::size_t reference,
+                       std::vector<std::optional<double>>& ln_a) {
+  const auto follow = [&](std::size_t from, std::size_t to) {
+    const Step& step = steps[std::min(from, to)];
+    if (ln_a[to] || !ln_a[from] || !step.is_known()) return;
+    const double later = step.crossing ? *step.crossing : *step.overlay;
+    ln_a[to] = *ln_a[from] + (to > from ? sign : -sign) * later;
+  };
+  const std::size_t last = ln_a.size() - 1;
+  for (std::size_t k = reference; k < last; ++k) follow(k, k + 1);
+  for (std::size_t k = reference; k > 0; --k) follow(k, k - 1);
+  for (std::size_t k = last; k > reference; --k) follow(k, k - 1);
+  for (std::size_t k = 0; k < reference; ++k) follow(k, k + 1);
+}
+
+// Keeps the segments that given shifts or their neighbours place, and returns ln a of these. Neighbours that have
+// no modulus in common get the step between their given shifts.
+Eigen::VectorXd keep_given(MasterSegments& all, std::vector<Step>& steps,
+                           const std::vector<StartShift>& given, std::size_t reference,
+                           MasterStart& start) {
+  std::vector<std::optional<double>> ln_a = given_shifts(given, all.segments, reference);
+  const double sign = sign_of(all.segments);
+  follow_neighbours(steps, sign, reference, ln_a);
+  if (std::count_if(ln_a.begin(), ln_a.end(), [](const auto& one) { return one.has_value(); }) <
+      2) {
+    refuse_apart(all.segments, steps);
+  }
+  for (std::size_t k = ln_a.size(); k-- > 0;) {
+    if (!ln_a[k]) leave_out(all, k, k + 1, kApart);
+  }
+  std::erase_if(ln_a, [](const auto& one) { return !one.has_value(); });
+  steps = steps_of(all.segments);
+  Eigen::VectorXd kept(static_cast<Index>(ln_a.size()));
+  for (std::size_t k = 0; k < ln_a.size(); ++k) {
+    kept[static_cast<Index>(k)] = *ln_a[k];
+    if (k == 0) continue;
+    Step& step = steps[k - 1];
+    if (step.is_known()) {
+      ++start.n_overlaps;
+      continue;
+    }
+    step.crossing = sign * (*ln_a[k] - *ln_a[k - 1]);
+    start.apart.push_back(celsius(all.segments[k - 1].temperature_C) + " and " +
+                          celsius(all.segments[k].temperature_C));
+  }
+  return kept;
 }
 
 Eigen::VectorXd chain_of(const std::vector<Step>& steps, bool is_dma, bool by_overlay,
@@ -213,32 +308,44 @@ std::vector<Eigen::VectorXd> law_starts(const ShiftForm& form, const Eigen::Vect
 
 }  // namespace
 
-MasterStart master_start(MasterSegments& all, const std::optional<double>& T_ref_C,
-                         const FitOptions& options) {
-  if (T_ref_C) reference_of(all.segments, T_ref_C);  // refuses one that is not there
+MasterStart master_start(MasterSegments& all, const MasterData& data, const FitOptions& options) {
+  const std::vector<StartShift>& given = data.start_shifts;
+  std::optional<double> T_ref_C = data.T_ref_C;
+  std::size_t reference = reference_of(all.segments, T_ref_C);  // refuses one that is not there
   std::vector<Step> steps = steps_of(all.segments);
-  keep_connected(all, steps, T_ref_C);
   MasterStart start;
-  start.reference = reference_of(all.segments, T_ref_C);
+  Eigen::VectorXd of_given;
+  if (given.empty()) {
+    keep_connected(all, steps, T_ref_C);
+  } else {
+    T_ref_C = all.segments[reference].temperature_C;  // given shifts are relative to it
+    of_given = keep_given(all, steps, given, reference, start);
+  }
+  reference = reference_of(all.segments, T_ref_C);
+  start.reference = reference;
   const bool is_dma = !all.segments.front().loss.empty();
   std::vector<double> temperature_C;
   for (const MasterSegment& segment : all.segments) temperature_C.push_back(segment.temperature_C);
-  const SpectrumScatter scatter(all.segments, start.reference, options);
-  ShiftCandidate chain;
+  const SpectrumScatter scatter(all.segments, reference, options);
+  ShiftCandidate as_given, chain;
+  if (!given.empty()) chain = as_given = scatter.at(of_given);
   for (const bool by_overlay : {false, true}) {
-    const Eigen::VectorXd ln_a = chain_of(steps, is_dma, by_overlay, start.reference);
+    const Eigen::VectorXd ln_a = chain_of(steps, is_dma, by_overlay, reference);
     const ShiftCandidate next = scatter.at(ln_a);
     if (next.scatter < chain.scatter) chain = next;
   }
   ShiftCandidate best = chain;
+  constexpr double kPreferred = 1.1;  // a law is smooth where the chain follows the noise
   for (const ShiftFormKind law : {ShiftFormKind::kArrhenius, ShiftFormKind::kWlf}) {
     if (law == ShiftFormKind::kWlf && all.segments.size() < 4) continue;
-    const ShiftForm form(law, temperature_C, start.reference);
+    const ShiftForm form(law, temperature_C, reference);
     const ShiftCandidate of_law =
-        best_of_law(form, law_starts(form, chain.ln_a, temperature_C, start.reference), scatter);
-    constexpr double kPreferred = 1.1;  // a law is smooth where the chain follows the noise
+        best_of_law(form, law_starts(form, chain.ln_a, temperature_C, reference), scatter);
     if (of_law.scatter < (best.ln_a == chain.ln_a ? kPreferred : 1.0) * best.scatter) best = of_law;
   }
+  // What a person gives counts as much as a law where the rows tell little.
+  start.is_as_given = !given.empty() && as_given.scatter < kPreferred * best.scatter;
+  if (start.is_as_given) best = as_given;
   start.ln_a = {best.ln_a.begin(), best.ln_a.end()};
   start.ln_b = {best.ln_b.begin(), best.ln_b.end()};
   start.noise = best.scatter;

@@ -79,6 +79,12 @@ struct DmaData {
   std::vector<double> loss_Pa;
 };
 
+// First value of the shift of one isotherm of a master curve.
+struct StartShift {
+  double temperature_C = 0.0;
+  double log10_a = 0.0;  // log10 a_T; 0 at the reference temperature
+};
+
 // Rows at several temperatures: relaxation modulus over time, or storage and loss moduli over
 // frequency. Rows whose temperatures lie within 1 K of each other form one segment.
 struct MasterData {
@@ -87,6 +93,8 @@ struct MasterData {
   std::vector<double> modulus_Pa;  // relaxation or storage modulus
   std::vector<double> loss_Pa;
   std::optional<double> T_ref_C;  // temperature of a segment; none: the middle one
+  // Of some isotherms or all, from which the fit starts; empty: the rows alone give the start.
+  std::vector<StartShift> start_shifts;
 };
 
 // A parameter held fixed (low == high) or kept within bounds. Names and rules:

@@ -55,11 +55,11 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   }
   if (!request.columns.empty() || !request.segments.empty() || request.time_zero_s ||
       request.from_s || request.to_s || request.hold > 0 || request.crop || request.depth_m ||
-      request.modulus_kind) {
+      request.modulus_kind || !request.start_shifts.empty()) {
     throw std::runtime_error(
         path +
         ": --column, --segment, --time-zero, --from, --to, --hold, --crop, "
-        "--depth and --modulus-kind apply only to tables; omit them for a capture");
+        "--depth, --modulus-kind and --start-shift apply only to tables; omit them for a capture");
   }
   CapturedRun run = read_capture(path, {.accepts_damage = request.accepts_unverified});
   // The geometry may be replaced, this value may not.

@@ -118,9 +118,10 @@ FittedFile fit_tests(const std::vector<TestFile>& tests, const FitRequest& reque
     throw std::runtime_error(
         "--model and --diagnose compare laws in one test; omit them for several");
   }
-  if (request.T_ref_C) {
+  if (request.T_ref_C || !request.start_shifts.empty()) {
     throw std::runtime_error(
-        "--reference-temperature is for a master curve of one file; omit it for several tests");
+        std::string(request.T_ref_C ? "--reference-temperature" : "--start-shift") +
+        " is for a master curve of one file; omit it for several tests");
   }
   refuse_repeated_files(paths_of(tests));
   std::vector<FittedFile> own(tests.size());

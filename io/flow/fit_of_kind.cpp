@@ -171,9 +171,10 @@ FitResult fit_indentation_table(const CsvTable& table, const FitRequest& request
   return fit_indentation(data, request.options);
 }
 
-// Fits a master curve if a table of relaxation moduli or frequency sweeps has several temperatures.
-std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
-                                            const FitRequest& request) {
+}  // namespace
+
+std::optional<MasterData> master_data(const CsvTable& table, FitKind kind,
+                                      const FitRequest& request) {
   const bool is_step =
       kind == FitKind::kRelaxation && find_column(table, "modulus_Pa", request.columns);
   const bool has_temperature = find_column(table, "temperature_C", request.columns).has_value();
@@ -183,9 +184,11 @@ std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
     data.temperature_C = column_SI(table, "temperature_C", request.columns);
   }
   if (!may_have_several || !has_several_temperatures(data.temperature_C)) {
-    if (!request.T_ref_C) return std::nullopt;
+    const bool has_start = !request.start_shifts.empty();
+    if (!request.T_ref_C && !has_start) return std::nullopt;
     throw std::runtime_error(
-        "--reference-temperature applies only to tables of modulus_Pa, or of storage and loss "
+        std::string(has_start ? "--start-shift" : "--reference-temperature") +
+        " applies only to tables of modulus_Pa, or of storage and loss "
         "moduli, with several temperatures in a column temperature_C; omit it");
   }
   if (is_step) {
@@ -197,15 +200,14 @@ std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
     data.loss_Pa = moduli_of(table, "loss_modulus_Pa", request);
   }
   data.T_ref_C = request.T_ref_C;
-  return fit_master_curve(data, request.options);
+  data.start_shifts = request.start_shifts;
+  return data;
 }
-
-}  // namespace
 
 TableFit fit_of_kind(const CsvTable& table, FitKind kind, const FitRequest& request) {
   TableFit fit;
-  fit.master = fit_temperatures(table, kind, request);
-  if (fit.master) {
+  if (const auto data = master_data(table, kind, request)) {
+    fit.master = fit_master_curve(*data, request.options);
     fit.result = fit.master->fit;
     fit.unit = "Pa";
     return fit;

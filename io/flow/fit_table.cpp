@@ -253,6 +253,20 @@ FittedFile fit_table(const std::string& path, const FitRequest& request) {
   return fit_csv(read_csv(path, request.table), request);
 }
 
+std::vector<MasterSegment> isotherms_of(CsvTable all, const FitRequest& request) {
+  const FitKind kind = kind_of_table(all, request);
+  const bool may_have_several = kind == FitKind::kRelaxation || kind == FitKind::kDma;
+  if (!may_have_several || !find_column(all, "temperature_C", request.columns)) return {};
+  CsvTable table = rows_of_segments(std::move(all), request);
+  std::vector<std::string> used = columns_of_kind(kind, table, request);
+  used.emplace_back("temperature_C");
+  std::size_t n_gaps = 0;
+  table = rows_without_gaps(std::move(table), used, request.columns, n_gaps);
+  choose_part(table, request);
+  const auto data = master_data(table, kind, request);
+  return data ? segments_of(*data).segments : std::vector<MasterSegment>{};
+}
+
 FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   const auto [maker, n_all] = std::pair(all.maker, all.lines.size());
   const std::vector<IntegrityNote> damage = accepted_damage(all, asked.accepts_unverified);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fit/master_segments.h"
 #include "io/flow/fit_request.h"
 #include "io/tables/csv_table.h"
 #include "models/maths/interval.h"
@@ -15,6 +16,10 @@ FittedFile fit_csv(CsvTable all, const FitRequest& request);
 
 // fit_file() for a table. Throws std::runtime_error, which may lack the name of the file.
 FittedFile fit_table(const std::string& path, const FitRequest& request);
+
+// The isotherms that the master curve of this table is fitted to, in the unit of its columns in SI; empty for a table of
+// one temperature. Its computed columns exist already (derive_columns). Throws what fit_csv() throws.
+std::vector<MasterSegment> isotherms_of(CsvTable all, const FitRequest& request);
 
 // What --from, --to, --hold and --crop chose.
 struct ChosenPart {

@@ -147,6 +147,10 @@ TableView view_table(const std::string& path, const FitRequest& request) {
   view.notes = table.notes;
   for (const IntegrityNote& note : damage_of_table(table)) view.notes.push_back(note.text);
   add_quantities(table, request, used, view);
+  try {
+    if (!view.kind.empty()) view.isotherms = isotherms_of(std::move(table), request);
+  } catch (const std::exception&) {  // the fit states why there are none
+  }
   return view;
 }
 
@@ -178,6 +182,13 @@ void show_keys(ResultVisitor& v, const TableView& view) {
     v("first_gap", column.first_gap, "line and text of the first of them");
     v("cells", column.cells, "of the first rows, in the unit of the table");
   });
+  v.list("isotherms", "rows at each temperature, if the fit makes a master curve", view.isotherms,
+         [&](const MasterSegment& one) {
+           v("temperature_C", one.temperature_C, "mean of its rows");
+           v("argument", one.argument, "time in s; of a frequency sweep, frequency in Hz");
+           v("modulus_Pa", one.value, "relaxation or storage modulus");
+           v("loss_modulus_Pa", one.loss, "of a frequency sweep; else empty");
+         });
 }
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fit/master_segments.h"
 #include "io/flow/fit_request.h"
 
 #include <cstddef>
@@ -35,6 +36,7 @@ struct TableView {
   std::vector<std::string> notes;               // how it was read, where that was not plain
   std::vector<std::size_t> lines;               // of the file, of the rows that `cells` show
   std::vector<ViewedColumn> columns;
+  std::vector<MasterSegment> isotherms;  // of a table that makes a master curve
 };
 
 // Reads a table, or the table of a capture, as fit_file() does. Columns of no known quantity, or of none

@@ -78,11 +78,21 @@ void validate(const Material& material) {
 }
 
 bool is_defect(const std::string& flag_name) {
-  constexpr std::array kDefects{
-      "not-converged",      "saturated",        "gap-in-ramp",    "contact-lost",
-      "E0-unknown",         "contradicts-data", "misfit",         "modulus-rises",
-      "rows-lost",          "law-not-a-series", "tests-disagree", "history-missing",
-      "time-zero-doubtful", "unverified"};
+  constexpr std::array kDefects{"not-converged",
+                                "saturated",
+                                "gap-in-ramp",
+                                "contact-lost",
+                                "E0-unknown",
+                                "contradicts-data",
+                                "misfit",
+                                "modulus-rises",
+                                "rows-lost",
+                                "law-not-a-series",
+                                "tests-disagree",
+                                "history-missing",
+                                "time-zero-doubtful",
+                                "unverified",
+                                "shifts-not-determined"};
   return std::find(kDefects.begin(), kDefects.end(), flag_name) != kDefects.end();
 }
 

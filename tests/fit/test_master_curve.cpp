@@ -320,3 +320,151 @@ TEST_CASE("isotherms that are left out are named", "[fit][master]") {
     CHECK(flag.text.find("-60 C (no modulus in common") != std::string::npos);
   }
 }
+
+TEST_CASE("start shifts that are far off lead to the same master curve as none", "[fit][master]") {
+  MasterData data = relaxation_data(kWlf, 0.005, 7);
+  const MasterCurve plain = fit_master_curve(data, {.n_terms = 4});
+  CHECK(plain.start_given.empty());
+  double off = 2.0;  // decades, to alternating sides
+  for (const double T_C : {0.0, 10.0, 30.0, 45.0, 60.0}) {
+    data.start_shifts.push_back({T_C, ln_shift_factor(kWlf, T_C) / std::numbers::ln10 + off});
+    off = -off;
+  }
+  const MasterCurve curve = fit_master_curve(data, {.n_terms = 4});
+  CHECK(curve.start_given.size() == 5);
+  CHECK_FALSE(curve.is_start_as_given);
+  CHECK(curve.form == plain.form);
+  REQUIRE(curve.factors.size() == plain.factors.size());
+  for (std::size_t k = 0; k < curve.factors.size(); ++k) {
+    CAPTURE(curve.factors[k].temperature_C);
+    // The same start: the same numbers.
+    CHECK(curve.factors[k].ln_a == Approx(plain.factors[k].ln_a).margin(1e-9));
+  }
+  CHECK(curve.fit.E0_Pa == Approx(plain.fit.E0_Pa).epsilon(1e-9));
+}
+
+TEST_CASE("start shifts near the truth are taken, and lead to the same master curve as none",
+          "[fit][master]") {
+  MasterData data = relaxation_data(kWlf, 0.005, 7);
+  const MasterCurve plain = fit_master_curve(data, {.n_terms = 4});
+  for (const ShiftFactor& factor : plain.free_factors) {  // to 0.01 decade, as a person drags
+    data.start_shifts.push_back({factor.temperature_C, 0.01 * std::round(factor.ln_a / 0.023026)});
+  }
+  const MasterCurve curve = fit_master_curve(data, {.n_terms = 4});
+  CHECK(curve.is_start_as_given);
+  REQUIRE(curve.factors.size() == plain.factors.size());
+  for (std::size_t k = 0; k < curve.factors.size(); ++k) {
+    CAPTURE(curve.factors[k].temperature_C);
+    // Searches stop when the sum of squares is known to 1e-9 of itself.
+    CHECK(curve.factors[k].ln_a ==
+          Approx(plain.factors[k].ln_a).margin(0.1 * plain.factors[k].ln_a_se + 1e-6));
+  }
+  CHECK(curve.fit.E_inf_Pa == Approx(plain.fit.E_inf_Pa).epsilon(1e-3));
+}
+
+namespace {
+
+// Steps of 0.3 to 30 s, with a decade of reduced time between 0 and 30 C that no isotherm shows.
+MasterData relaxation_with_gap() {
+  std::mt19937_64 dice(3);
+  std::normal_distribution<double> normal;
+  MasterData data;
+  for (const double T_C : {-10.0, 0.0, 30.0, 40.0, 50.0}) {
+    const double a = std::exp(ln_shift_factor(kWlf, T_C));
+    for (int i = 0; i < 40; ++i) {
+      const double t_s = 0.3 * std::pow(10.0, 2.0 * i / 39.0);
+      data.temperature_C.push_back(T_C);
+      data.argument.push_back(t_s);
+      data.modulus_Pa.push_back(relaxation_modulus_Pa(kTruth, t_s / a) *
+                                (1.0 + 0.002 * normal(dice)));
+    }
+  }
+  data.T_ref_C = 40.0;
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("a start shift keeps isotherms without a modulus in common, and the law places them",
+          "[fit][master]") {
+  MasterData data = relaxation_with_gap();
+  const MasterCurve without = fit_master_curve(data);
+  CHECK(without.factors.size() == 3);
+  CHECK(has_flag(without.fit, "isotherms-left-out"));
+  const auto from_reference = [](double T_C) {
+    return ln_shift_factor(kWlf, T_C) - ln_shift_factor(kWlf, 40.0);
+  };
+  // -10 C follows its neighbour.
+  data.start_shifts = {{0.0, from_reference(0.0) / std::numbers::ln10}};
+  const MasterCurve curve = fit_master_curve(data);
+  CAPTURE(curve.form, curve.is_start_as_given);
+  CHECK(curve.left_out.empty());
+  CHECK_FALSE(has_flag(curve.fit, "isotherms-left-out"));
+  CHECK(has_flag(curve.fit, "isotherms-apart"));
+  CHECK_FALSE(has_flag(curve.fit, "shifts-not-determined"));
+  REQUIRE(curve.factors.size() == 5);
+  for (const ShiftFactor& factor : curve.factors) {
+    CAPTURE(factor.temperature_C, factor.ln_a, factor.ln_a_se);
+    // Across the gap the law extrapolates: within half a decade.
+    CHECK(factor.ln_a ==
+          Approx(from_reference(factor.temperature_C)).margin(0.5 * std::numbers::ln10));
+  }
+}
+
+TEST_CASE("two isotherms without a modulus in common are joined by a start shift, and not trusted",
+          "[fit][master]") {
+  const MasterData all = relaxation_with_gap();
+  MasterData data;
+  for (std::size_t i = 0; i < all.argument.size(); ++i) {
+    if (all.temperature_C[i] != 0.0 && all.temperature_C[i] != 30.0) continue;
+    data.temperature_C.push_back(all.temperature_C[i]);
+    data.argument.push_back(all.argument[i]);
+    data.modulus_Pa.push_back(all.modulus_Pa[i]);
+  }
+  data.T_ref_C = 30.0;
+  CHECK(error_text([&] { fit_master_curve(data); }).find("have no value in common") !=
+        std::string::npos);
+  data.start_shifts = {{0.0, 3.0}};
+  const MasterCurve curve = fit_master_curve(data);
+  CHECK(curve.factors.size() == 2);
+  CHECK(has_flag(curve.fit, "shifts-not-determined"));
+  CHECK_FALSE(curve.fit.is_trustworthy);
+}
+
+TEST_CASE("start shifts of a frequency sweep have the sign of the factors of the result",
+          "[fit][master]") {
+  MasterData data = glassy_sweeps(0.005, 0.0, 4);
+  const TemperatureShift wlf{.law = ShiftLaw::kWlf, .T_ref_C = 110.0, .C1 = 12.0, .C2_K = 55.0};
+  for (double T_C = 80.0; T_C < 141.0; T_C += 5.0) {
+    data.start_shifts.push_back({T_C, ln_shift_factor(wlf, T_C) / std::numbers::ln10});
+  }
+  const MasterCurve curve = fit_master_curve(data);
+  CHECK(curve.is_start_as_given);
+  REQUIRE(curve.factors.size() == 13);
+  for (const ShiftFactor& factor : curve.factors) {
+    CAPTURE(factor.temperature_C);
+    CHECK(factor.ln_a == Approx(ln_shift_factor(wlf, factor.temperature_C)).margin(0.5));
+  }
+}
+
+TEST_CASE("bad start shifts are refused with how to write them", "[fit][master]") {
+  const MasterData data = relaxation_data(kWlf, 0.0, 1);
+  const auto refused = [&](const std::vector<StartShift>& shifts) {
+    MasterData with = data;
+    with.start_shifts = shifts;
+    return error_text([&] { fit_master_curve(with); });
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    INFO(text);
+    CHECK(text.find(part) != std::string::npos);
+  };
+  has(refused({{25.0, 1.0}}),
+      "--start-shift 25=1: no isotherm was measured at 25 C; there are 0 C");
+  has(refused({{30.0, -1.0}, {30.4, -2.0}}),
+      "--start-shift 30.4=-2: the isotherm at 30 C has a start value already, -1; give one");
+  has(refused({{20.0, 0.5}}), "--start-shift 20=0.5: 20 C is the reference temperature");
+  has(refused({{30.0, 41.0}}), "--start-shift 30=41: log10 a_T lies between -40 and 40 decades");
+  has(refused({{30.0, std::nan("")}}), "--start-shift 30=nan: log10 a_T lies between");
+  has(refused({{std::nan(""), 1.0}}), "the temperature is no number");
+  CHECK(refused({{20.0, 0.0}}).empty());  // the reference itself
+}

@@ -40,6 +40,9 @@ void print_table(const TableView& view, std::ostream& out) {
     }
     out << "\n";
   }
+  if (!view.isotherms.empty()) {
+    out << "isotherms: " << temperatures_of(view.isotherms) << "\n";
+  }
   for (const std::string& note : view.notes) out << "note: " << note << "\n";
 }
 

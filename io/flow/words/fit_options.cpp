@@ -83,6 +83,11 @@ void add_table(OptionList& list, FitWords& words) {
            "of the master curve of a table with several temperatures (temperature_C), such as "
            "\"20 degC\"; default: the middle one")
       .of("degC");
+  list.add(
+      "start-shift", &words.start_shift,
+      "TEMPERATURE=DECADES: of a master curve, log10 a_T of the isotherm at this temperature from "
+      "which the fit starts, such as 40=-1.2 (repeatable; other isotherms follow their "
+      "neighbours); needed where isotherms have no modulus in common");
   list.add("vertical-shift", &words.vertical_shift,
            "factors on the moduli of each isotherm of a master curve: auto (if the data clearly "
            "need them), on or off")

@@ -24,7 +24,8 @@ std::vector<Given> options_of_single_tests(const FitWords& words) {
           {"allow-negative", words.allow_negative},
           {"model", words.model.has_value()},
           {"diagnose", words.diagnose},
-          {"reference-temperature", words.reference_temperature.has_value()}};
+          {"reference-temperature", words.reference_temperature.has_value()},
+          {"start-shift", !words.start_shift.empty()}};
 }
 
 void refuse_for_tests(const FitWords& words, const std::vector<TestFile>& tests) {

@@ -136,6 +136,12 @@ void print_master(const MasterCurve& curve, std::ostream& out) {
   out << fmt::format(
       "  shift factors by {} (relative residual {:.2g} %), beside free ones ({:.2g} %)\n",
       text_of_form(curve), 100.0 * curve.residual, 100.0 * curve.free_residual);
+  if (!curve.start_given.empty()) {
+    out << (curve.is_start_as_given
+                ? "  started from the shifts that were given\n"
+                : "  the shifts that were given scatter clearly more than those of the rows, from "
+                  "which the fit started\n");
+  }
   const double ln_10 = std::log(10.0);
   for (std::size_t k = 0; k < curve.factors.size(); ++k) {
     const ShiftFactor &factor = curve.factors[k], &free = curve.free_factors[k];

@@ -10,6 +10,7 @@
 #include "models/hyperelastic/foam_law.h"
 #include "models/hyperelastic/hyperelastic_law.h"
 #include "models/hyperelastic/mullins_damage.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cctype>
@@ -60,6 +61,31 @@ VerticalShift vertical_shift_from_word(const std::string& word) {
   if (word == "on") return VerticalShift::kOn;
   if (word == "off") return VerticalShift::kOff;
   throw OptionError("--vertical-shift " + word + " is not known; use auto, on or off");
+}
+
+// "40=-1.2" or "313 K=-1.2". Throws OptionError.
+std::vector<StartShift> start_shifts_from(const FitWords& words) {
+  std::vector<StartShift> shifts;
+  try {
+    for (const std::string& text : words.start_shift) {
+      const std::size_t equals = text.find('=');
+      const std::string temperature = text.substr(0, equals);
+      const auto decades =
+          equals == std::string::npos ? std::nullopt : number_from_text(text.substr(equals + 1));
+      if (!decades || trimmed(temperature).empty()) {
+        throw OptionError("--start-shift " + text +
+                          ": write TEMPERATURE=DECADES, log10 a_T of the isotherm at this "
+                          "temperature, such as 40=-1.2 or \"313 K=-1.2\"");
+      }
+      shifts.push_back({option_quantity("--start-shift " + text, temperature,
+                                        quantities::kTemperature, plausible_of(words)),
+                        *decades});
+    }
+    validate(shifts);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+  return shifts;
 }
 
 // The constraints from --fix, --bound and the lines of the --constraints file.
@@ -264,6 +290,7 @@ FitRequest fit_request(const FitWords& words) {
   add_chosen_part(words, request);
   request.T_ref_C =
       quantity(words, &FitWords::reference_temperature, "reference-temperature", "degC");
+  request.start_shifts = start_shifts_from(words);
   request.specimen = specimen_from(words);
   request.nu = words.poisson_ratio;
   if (words.modulus_kind) {

@@ -22,7 +22,7 @@ struct FitWords {
   bool full_data = false, profiles = false, spectrum = false, diagnose = false;
   std::vector<std::string> fix, bound;
   // What the data are.
-  std::vector<std::string> column, segment;
+  std::vector<std::string> column, segment, start_shift;
   Text sheet, time_zero, from, to, crop, depth, modulus_kind, gauge_length, area, youngs_modulus;
   std::optional<int> hold, skip, table;
   Text plausible, specimen, punch_diameter, layer_thickness, frame_stiffness, reference_temperature,

@@ -16,8 +16,8 @@ function shortNumber(value) {
 
 // One chart. options: labels of the columns, colors by name, right: label of the column on the right
 // axis, titles: {xlabel, ylabel, y2label}, limits: [{value, text, color}], range() of the left axis, window()
-// of the time, onWindow([from, to]) when that changes, readout(row), points, band, logs() = {x, y}: which axes are
-// logarithmic.
+// of the time, onWindow([from, to]) when that changes, readout(row), points, sizeOf(label) of their points, band, logs() =
+// {x, y}: which axes are logarithmic, isStill: dragging does not choose a part.
 export class Chart {
   constructor(node, options) {
     this.node = node;
@@ -83,7 +83,8 @@ export class Chart {
     const logs = this.options.logs ? this.options.logs() : { x: false, y: false };
     return {
       axes: {
-        x: { drawGrid: false, pixelsPerLabel: 45, logscale: logs.x },
+        x: { drawGrid: false, pixelsPerLabel: 45, logscale: logs.x,
+             ...(this.options.isStill ? { axisLabelFormatter: (x) => shortNumber(x) } : {}) },
         y: { ...label, valueRange: left, logscale: logs.y },
         y2: { ...label, drawGrid: false, independentTicks: true,
               valueRange: scale > 0 ? left.map((end) => end * scale) : null },
@@ -93,13 +94,13 @@ export class Chart {
   }
 
   build() {
-    const { labels, colors, right, points, titles, onWindow } = this.options;
+    const { labels, colors, right, points, sizeOf, titles, onWindow } = this.options;
     const series = {};
     labels.slice(1).forEach((name, i) => {
       series[name] = { color: color(colors[i]), strokeWidth: 1.75 };
       if (name === right) series[name].axis = "y2";
       if (points && points.includes(name)) {
-        Object.assign(series[name], { strokeWidth: 0, drawPoints: true, pointSize: 2.2 });
+        Object.assign(series[name], { strokeWidth: 0, drawPoints: true, pointSize: sizeOf ? sizeOf(name) : 2.2 });
       }
     });
     this.graph = new Dygraph(this.node, this.data, {
@@ -110,7 +111,7 @@ export class Chart {
       digitsAfterDecimal: 4, xLabelHeight: 16, yLabelWidth: 16, ...titles, ...this.ranges(),
       ...(onWindow ? { drawCallback: (graph) => onWindow(graph.xAxisRange()) } : {}),
       // A finger must be able to scroll the page over a chart.
-      ...(isTouch ? { interactionModel: {} } : {}),
+      ...(isTouch || this.options.isStill ? { interactionModel: {} } : {}),
       underlayCallback: (context, area, graph) => this.drawUnder(context, area, graph),
       highlightCallback: (event, x, row) => this.options.readout && this.options.readout(x, row),
       unhighlightCallback: () => this.options.readout && this.options.readout(null),

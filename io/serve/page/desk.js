@@ -4,6 +4,7 @@ import { askRatio, chosenCard, showCard, showCardState, startCard } from "./desk
 import { checkCard, startCheck } from "./desk_check.js";
 import { alsoCompare, compare, showCompareTables, startCompare } from "./desk_compare.js";
 import { forgetOrders, redrawFit, showFit, showFitState, shownRange } from "./desk_fit.js";
+import { placeIsotherms, showEarlier, showIsotherms, startIsotherms, undoMove } from "./desk_isotherms.js";
 import { keywordOf, pythonOf, showFields, showSame, startOptions } from "./desk_options.js";
 import { chosenPrediction, showOtherTables, showPrediction, showPredictState, startPredict } from "./desk_predict.js";
 import { redrawRatios, showRatios } from "./desk_ratios.js";
@@ -100,6 +101,7 @@ function pythonData() {
 async function readTable(isNow) {
   if (together[table]) {
     showTableError("");
+    showIsotherms([], {});
     return showFields({ kind: "", modulus_kind: "tension" }, chosen());
   }
   const answer = await order("/api/desk/table", request());
@@ -108,6 +110,7 @@ async function readTable(isNow) {
   if (answer.result) showTable(answer.result, chosen().column ?? []);
   else showTableError(answer.trouble);
   showFields(answer.result ?? { kind: "", modulus_kind: "" }, chosen());
+  showIsotherms(answer.result?.isotherms ?? [], chosen());
 }
 
 function readAndFit() {
@@ -121,6 +124,7 @@ function readAndFit() {
     choices[table] = options;
     if (isByRatio()) showRatios(result);
     else showFit(result, chosen().terms, (terms) => setOption("terms", terms));
+    placeIsotherms(result);
     showSame(element("fit-same"), command, pythonOf(pythonData(), pythonKeywords()));
     if (view === "card") makeCard();
     if (view === "predict") predict();
@@ -167,10 +171,12 @@ const setOption = (name, value) => setOptions({ [name]: value });
 
 function showUndo() {
   element("undo").disabled = before.length === 0;
+  showEarlier(before.length > 0);
   element("fit-all").disabled = chosen().from === undefined && chosen().to === undefined;
 }
 
 function undo() {
+  if (view === "fit" && undoMove()) return;
   if (before.length === 0) return;
   choices[table] = before.pop();
   forgetOrders();
@@ -181,6 +187,7 @@ function open(name) {
   table = name;
   before = [];
   forgetOrders();
+  showIsotherms([], {});
   if (!together[name]) alsoCompare(name);
   askRatio(together[name]?.[0].ratio);
   showTables();
@@ -242,6 +249,7 @@ async function start() {
   startTabs();
   const described = await ask("/api/desk/choices");
   startOptions(described.options, setOption);
+  startIsotherms({ onFit: setOptions, onUndo: undo });
   startCard(described, makeCard);
   startTable(described, (words) => setOption("column", words));
   startPredict(described, predict);

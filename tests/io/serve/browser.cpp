@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -187,6 +188,26 @@ bool Browser::is_shown(const std::string& selector) {
 void Browser::press_key(const std::string& key) {
   const json keys = {{{"type", "keyDown"}, {"value", key}}, {{"type", "keyUp"}, {"value", key}}};
   ask("POST", "/actions", {{"actions", {{{"type", "key"}, {"id", "keys"}, {"actions", keys}}}}});
+}
+
+void Browser::drag(double x_px, double y_px, double by_px, bool is_touch) {
+  json steps = json::array();
+  const auto move = [&](double share) {
+    const auto x = static_cast<int>(std::lround(x_px + share * by_px));
+    const auto y = static_cast<int>(std::lround(y_px));
+    steps.push_back({{"type", "pointerMove"}, {"duration", 30}, {"x", x}, {"y", y}});
+  };
+  move(0.0);
+  steps.push_back({{"type", "pointerDown"}, {"button", 0}});
+  for (const double share : {0.2, 0.4, 0.6, 0.8, 1.0}) move(share);
+  steps.push_back({{"type", "pointerUp"}, {"button", 0}});
+  json pointer{{"type", "pointer"}, {"id", is_touch ? "finger" : "mouse"}};
+  pointer["parameters"] = {{"pointerType", is_touch ? "touch" : "mouse"}};
+  pointer["actions"] = steps;
+  json all;
+  all["actions"] = json::array();
+  all["actions"].push_back(pointer);
+  ask("POST", "/actions", all);
 }
 
 json Browser::run(const std::string& script) {

@@ -29,6 +29,8 @@ class Browser {
   std::string text(const std::string& selector);
   bool is_shown(const std::string& selector);
   void press_key(const std::string& key);
+  // With the mouse, or a finger, from a place of the window sideways.
+  void drag(double x_px, double y_px, double by_px, bool is_touch);
 
   // The value of a script "return ...".
   nlohmann::json run(const std::string& script);

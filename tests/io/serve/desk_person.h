@@ -100,6 +100,21 @@ inline std::string has_line(const std::string& chart, const std::string& color) 
          "return n > 100";
 }
 
+// The place in the window, [x, y], where a chart shows the first point in this colour of the page; null: nowhere.
+inline std::string place_of_color(const std::string& chart, const std::string& color) {
+  return "const c = document.querySelector('" + chart +
+         " canvas'), probe = document.createElement('canvas').getContext('2d'); probe.fillStyle = "
+         "getComputedStyle(document.documentElement).getPropertyValue('--" +
+         color +
+         "').trim(); probe.fillRect(0, 0, 1, 1); const want = probe.getImageData(0, 0, 1, 1).data, "
+         "d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data, box = "
+         "c.getBoundingClientRect(); for (let i = 0; i < d.length; i += 4) if (d[i] === want[0] && "
+         "d[i + 1] === want[1] && d[i + 2] === want[2] && d[i + 3] > 200) return [box.left + (i / "
+         "4) "
+         "% c.width * box.width / c.width, box.top + Math.floor(i / 4 / c.width) * box.height / "
+         "c.height]; return null";
+}
+
 // Sets a field as a person does, who then leaves it.
 inline void set_field(Browser& browser, const std::string& selector, const std::string& value) {
   browser.run("const s = document.querySelector('" + selector +

@@ -8,6 +8,7 @@
 #include <httplib.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -51,6 +52,20 @@ class ServedDesk {
       scaled += '\n';
     }
     return factor == 1.0 ? text : scaled;
+  }
+  // Relaxation at 10, 20 and 30 degC, each a decade slower than the warmer one.
+  static std::string isotherms() {
+    std::string text = "time_s,modulus_Pa,temperature_C\n";
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i <= 40; ++i) {
+        const double t_s = std::pow(10.0, i / 20.0), reduced_s = t_s * std::pow(10.0, k);
+        const double E_Pa =
+            1e6 * (0.4 + 0.3 * std::exp(-reduced_s / 30.0) + 0.3 * std::exp(-reduced_s / 1000.0));
+        text += std::to_string(t_s) + "," + std::to_string(E_Pa) + "," +
+                std::to_string(10 + 10 * k) + "\n";
+      }
+    }
+    return text;
   }
 
  private:

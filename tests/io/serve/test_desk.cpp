@@ -178,6 +178,42 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("the desk starts a master curve from given shifts as the command does, and keeps them",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("warm.csv", ServedDesk::isotherms());
+  const Json read = desk.order("table", {{"table", "warm.csv"}}).json;
+  INFO(read.dump());
+  REQUIRE(read.at("result").at("isotherms").size() == 3);
+  CHECK(read.at("result").at("isotherms").at(0).at("modulus_Pa").size() == 41);
+  Json options = {{"reference-temperature", "20 degC"}};
+  options["start-shift"] = Json::array({"10=0.9", "30=-1.1"});
+  const Json fitted = desk.order("fit", {{"table", "warm.csv"}, {"options", options}}).json;
+  INFO(fitted.dump());
+  const std::string command =
+      "viscard fit warm.csv '--reference-temperature=20 degC' --start-shift=10=0.9 "
+      "--start-shift=30=-1.1";
+  CHECK(fitted.at("command") == command);
+  CHECK(fitted.at("options") == options);
+  const auto typed =
+      run_command({"fit", (desk.folder() / "warm.csv").string(), "--reference-temperature",
+                   "20 degC", "--start-shift", "10=0.9", "--start-shift", "30=-1.1", "--json"});
+  const Json own = Json::parse(typed.out);
+  for (const char* key : {"E0_Pa", "terms", "flags", "shift"}) {
+    CAPTURE(key);
+    CHECK(fitted.at("result").at(key) == own.at(key));
+  }
+  CHECK(own.at("shift").at("start_shifts").size() == 2);
+  // Kept beside the table, they hold without options in the request.
+  desk.order("table", {{"table", "warm.csv"}, {"options", options}});
+  CHECK(contains(read_file(desk.folder() / "warm.csv.options"), "--start-shift=30=-1.1\n"));
+  CHECK(desk.order("fit", {{"table", "warm.csv"}}).json.at("command") == command);
+  options["start-shift"] = Json::array({"15=1"});
+  const ApiAnswer bad = desk.order("fit", {{"table", "warm.csv"}, {"options", options}});
+  CHECK(bad.status == 422);
+  CHECK(contains(message_of(bad), "no isotherm was measured at 15 C"));
+}
+
 TEST_CASE("the page sets options of a fit, and none that reads or writes another file",
           "[serve][desk]") {
   ServedDesk desk;

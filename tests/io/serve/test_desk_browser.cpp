@@ -147,6 +147,84 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   for (const auto& error : errors) CHECK(contains(error.get<std::string>(), "422"));
 }
 
+TEST_CASE(
+    "isotherms are dragged by mouse and finger, moved by keys, fitted from there and taken back",
+    "[desk][slow]") {
+  if (has_no_browser()) return;
+  ServedDesk desk;
+  ScratchFolder scratch;
+  desk.drop("warm.csv", ServedDesk::isotherms());
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 800, false, false);
+  browser.open(desk.server().address());
+  browser.click("#tables li:first-child button");
+  browser.click("#tab-fit");
+  const std::string cold = "#isotherm-list .isotherm:nth-child(1)";
+  const std::string warm = "#isotherm-list .isotherm:nth-child(3)";
+  REQUIRE(shows(browser, cold, "1.00"));  // as fitted
+  REQUIRE(shows(browser, warm, "−1.00"));
+  CHECK(shows(browser, "#isotherm-list .isotherm:nth-child(2)", "reference"));
+  look_at_desk(browser, "desk_isotherms");
+  const auto shift_of = [&](const std::string& slider) {
+    return browser
+        .run("return Number(document.querySelector('" + slider +
+             "').getAttribute('aria-valuenow'))")
+        .get<double>();
+  };
+  const auto drag_warm = [&](double by_px, bool is_touch) {
+    const std::string find = place_of_color("#isotherm-chart", "series-3");
+    REQUIRE(browser.wait_until(  // as wide as the window lets it be, and drawn
+        "const box = document.querySelector('#isotherm-chart canvas').getBoundingClientRect(); "
+        "return box.right <= innerWidth && (() => { " +
+            find + " })() !== null",
+        20));
+    browser.run("document.getElementById('isotherm-body').scrollIntoView()");
+    const nlohmann::json place = browser.run(find);
+    REQUIRE(place.is_array());
+    browser.drag(place.at(0), place.at(1), by_px, is_touch);
+  };
+  drag_warm(100.0, false);
+  const double dragged = shift_of(warm);
+  CHECK(dragged < -1.1);  // t/aT grows
+  CHECK(shift_of(cold) == Approx(1.0).margin(0.01));
+  CHECK(shows(browser, "#isotherm-readout", "30 °C: log10 aT"));
+  browser.press_key("\uE014");  // right
+  CHECK(shift_of(warm) == Approx(dragged - 0.05).margin(0.002));
+  browser.press_key("\uE013");  // up
+  CHECK(shift_of(warm) == Approx(dragged).margin(0.002));
+  browser.run(
+      "document.activeElement.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowLeft', "
+      "shiftKey: true, bubbles: true}))");
+  CHECK(shift_of(warm) == Approx(dragged + 0.5).margin(0.002));
+  CHECK(contains(browser
+                     .run("return document.activeElement.getAttribute('aria-label') + ' ' + "
+                          "document.activeElement.getAttribute('aria-valuetext')")
+                     .get<std::string>(),
+                 "Isotherm at 30 °C log10 of the shift factor"));
+  browser.click("#isotherm-undo");
+  CHECK(shift_of(warm) == Approx(dragged).margin(0.002));
+  browser.click("#isotherm-fit");
+  REQUIRE(shows(browser, "#fit-same", "--start-shift=30=-1."));
+  CHECK(shows(browser, "#fit-same", "start_shift=["));
+  CHECK(shows(browser, "#isotherm-note", "The fit did not start from the shifts"));
+  CHECK(shift_of(warm) == Approx(-1.0).margin(0.01));
+  CHECK(contains(read_file(desk.folder() / "warm.csv.options"), "--start-shift=10=1\n"));
+  browser.click("#isotherm-zero");
+  CHECK(shift_of(cold) == 0.0);
+  browser.click("#isotherm-undo");
+  CHECK(shift_of(cold) == Approx(1.0).margin(0.01));
+  browser.click("#isotherm-undo");
+  CHECK(browser.wait_until(
+      "return !document.getElementById('fit-same').textContent.includes('--start-shift')", 20));
+  REQUIRE(shows(browser, warm, "−1.00"));
+  browser.set_window(390, 844, false, true);
+  drag_warm(40.0, true);
+  CHECK(browser.wait_until(
+      "return Number(document.querySelector('" + warm + "').getAttribute('aria-valuenow')) < -1.1",
+      10));
+  CHECK(browser.errors() == nlohmann::json::array());
+}
+
 TEST_CASE("the voltage of a pillar with what its accuracy costs, and a report", "[desk][slow]") {
   if (has_no_browser()) return;
   ServedDesk desk;

@@ -4,29 +4,12 @@
 
 #include <catch2/catch.hpp>
 
-#include <cmath>
-
 namespace viscard {
 namespace {
 
 using namespace test;  // of the browser
 
 constexpr int kMostClicks = 6;
-
-// Relaxation at three temperatures, 10 K apart, each a decade slower than the warmer one.
-std::string isotherms() {
-  std::string text = "time_s,modulus_Pa,temperature_C\n";
-  for (int k = 0; k < 3; ++k) {
-    for (int i = 0; i <= 40; ++i) {
-      const double t_s = std::pow(10.0, i / 20.0), reduced_s = t_s * std::pow(10.0, k);
-      const double E_Pa =
-          1e6 * (0.4 + 0.3 * std::exp(-reduced_s / 30.0) + 0.3 * std::exp(-reduced_s / 1000.0));
-      text += std::to_string(t_s) + "," + std::to_string(E_Pa) + "," + std::to_string(10 + 10 * k) +
-              "\n";
-    }
-  }
-  return text;
-}
 
 void wait_for_rows(Browser& browser, int tables) {
   REQUIRE(browser.wait_until(
@@ -62,7 +45,7 @@ int two_specimens(Browser& browser, bool may_scroll) {
 
 int master_curve(Browser& browser, bool may_scroll) {
   Person person(browser, may_scroll);
-  drop_on_page(browser, "warm.csv", isotherms());
+  drop_on_page(browser, "warm.csv", ServedDesk::isotherms());
   wait_for_rows(browser, 3);
   person.click("#tab-fit");
   REQUIRE(shows(browser, "#fit-shift", "(reference)"));
