@@ -38,12 +38,16 @@ const char* colour(Ink ink) {
   return kColours[static_cast<std::size_t>(ink)];
 }
 
-// A gnuplot string in single quotes: no escapes, no command substitution.
+// A gnuplot string in single quotes: no escapes, no command substitution. A doubled quote at its beginning
+// ends the string for gnuplot 5.4, so quotes become typographic ones.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    if (c == '\'') {
+      out += "\u2019";
+    } else {
+      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
   }
   return out + "'";
 }

@@ -112,8 +112,8 @@ Json object_from_text(const std::string& text) {
   Json object;
   try {
     object = Json::parse(text, is_flat);
-  } catch (const Json::exception& error) {
-    throw ApiError(400, "bad-json", std::string("the request is not JSON: ") + error.what());
+  } catch (const Json::exception&) {
+    throw ApiError(400, "bad-json", "the request is not JSON");
   }
   if (!object.is_object()) throw ApiError(400, "bad-json", "the request is not a JSON object");
   return object;
