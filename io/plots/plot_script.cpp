@@ -38,16 +38,14 @@ const char* colour(Ink ink) {
   return kColours[static_cast<std::size_t>(ink)];
 }
 
-// A gnuplot string in single quotes: no escapes, no command substitution. A doubled quote at its beginning
-// ends the string for gnuplot 5.4, so quotes become typographic ones.
+// A gnuplot string in single quotes: no escapes, no command substitution. A doubled quote at its beginning ends
+// the string for gnuplot 5.4, so quotes there stand in a string of their own.
 std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      out += "\u2019";
-    } else {
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
+  const std::size_t begin = std::min(text.find_first_not_of('\''), text.size());
+  std::string out = begin > 0 ? '"' + text.substr(0, begin) + "\".'" : "'";
+  for (const char c : text.substr(begin)) {
+    if (c == '\'') out += '\'';
+    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return out + "'";
 }

@@ -115,7 +115,8 @@ TEST_CASE("two figures on one page share no id and refer only to their own", "[i
 }
 
 TEST_CASE("names of any spelling stay text in a plot", "[io][report]") {
-  const std::string nasty = "</text><script>alert('1')</script> & \"q\" _a^b {x} @ ~ `date` \\n";
+  const std::string nasty = GENERATE(as<std::string>(), "", "'", "''", "\"'", "'\"") +
+                            "</text><script>alert('1')</script> & \"q\" _a^b {x} @ ~ `date` \\n'";
   Plot plot = small_plot();
   plot.title = plot.description = nasty;
   plot.panels[0].title = plot.panels[0].x.label = plot.panels[0].series[0].label = nasty;

@@ -78,6 +78,38 @@ TEST_CASE("no name of a table leads out of the folder of the desk", "[serve][des
   }
 }
 
+TEST_CASE("the name of a table is never read as words of a command", "[serve][desk]") {
+  ServedDesk desk;
+  const fs::path outside = desk.folder().parent_path() / "outside.json";
+  write_file(desk.folder() / "words.csv", "--out=" + outside.string() + "\n--force\n", false);
+  for (const char* name : {"@words.csv", "--out=b.csv", "relaxation=c.csv"}) {
+    CAPTURE(name);
+    write_file(desk.folder() / name, ServedDesk::example(), false);
+    const ApiAnswer answer = desk.order("fit", {{"table", name}});
+    INFO(answer.json.dump());
+    CHECK(answer.status == 200);
+  }
+  CHECK_FALSE(fs::exists(outside));
+}
+
+TEST_CASE("a request that is no JSON, or of other values, is refused without words of a library",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  for (const Json& odd : {Json(1), Json::array({1}), Json(nullptr), Json{{"x", 1}}}) {
+    for (const char* key : {"table", "tests", "options", "card", "files"}) {
+      for (const char* path : {"table", "fit", "card", "predict", "check", "scene", "report"}) {
+        Json request = {{"table", "a.csv"}};
+        request[key] = odd;
+        const ApiAnswer answer = desk.order(path, request);
+        CAPTURE(path, request.dump(), answer.json.dump());
+        CHECK_FALSE(contains(answer.json.dump(), "json.exception"));
+        if (answer.status != 200) CHECK(answer.status / 100 == 4);
+      }
+    }
+  }
+}
+
 TEST_CASE("a table that kills or exhausts its fit leaves the desk alive", "[serve][desk]") {
 #ifdef __SANITIZE_ADDRESS__  // whose shadow takes more memory than there is
   const ChildLimits limits = GENERATE(ChildLimits{.clock = std::chrono::seconds(0)});

@@ -1,3 +1,4 @@
+#include "io/basics/atomic_file.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/config/config_file.h"
 #include "tests/support/scratch_folder.h"
@@ -83,6 +84,13 @@ TEST_CASE("dead weights on the emulated rig recover gain and hysteresis within t
   CHECK(rig.calibration.volts_per_newton == gain);
   CHECK(rig.calibration.id == record.calibration->id);
   CHECK(rig_from_toml(toml_from_rig(rig), "again").calibration.volts_per_newton == gain);
+  // What was edited since carries that in its name wherever the calibration goes.
+  std::string text = read_file(out);
+  text.insert(text.find("capacity"), "# by hand\n");
+  write_file(out, text, true);
+  CHECK(read_rig(folder / "rig.toml").calibration.id == record.calibration->id + " (edited)");
+  write_file(out, text.substr(text.find('\n') + 1), true);  // without the sum: of before, or by hand
+  CHECK(read_rig(folder / "rig.toml").calibration.id == record.calibration->id);
 }
 
 TEST_CASE("a rigid block on the emulated rig recovers the frame's stiffness within its interval",

@@ -43,6 +43,9 @@ load = { pressure = "1 kPa", on = "top" }
                                                      {"cost", scene, "--budget", "2s"},
                                                      {"cost", scene, "--budget", "2s", "--json"},
                                                      {"sweep", study, "--out", store, "--json"},
+                                                     {"plan", scene, "--json"},
+                                                     {"predict", material, "--test", "creep",
+                                                      "--stress", "1kPa", "--hold", "1s", "--json"},
                                                      {"validate", material},
                                                      {"validate", material, "--json"}};
   const char* const kWords = "edited since it was written";
@@ -60,6 +63,27 @@ load = { pressure = "1 kPa", on = "top" }
     CAPTURE(words);
     CHECK_THAT(run_command(words).out, Contains(kWords));
   }
+}
+
+TEST_CASE("a material whose sum was taken away is noted, and is not if it was typed", "[cli]") {
+  const ScratchFolder scratch;
+  const std::string material = (scratch / "m.json").string();
+  REQUIRE(run_command({"fit", VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv", "--out", material})
+              .status == 0);
+  const std::vector<std::string> words = {"predict", material, "--test", "creep", "--stress", "1kPa",
+                                          "--hold", "1s"};
+  const auto is_noted = Contains("m.json: has no sum of its contents");
+  CHECK_THAT(run_command(words).err, !is_noted);
+  std::string text = read_file(material);
+  const std::size_t at = text.find("\"body_sha256\"");
+  REQUIRE(at != std::string::npos);
+  const std::size_t comma = text.rfind(',', at), end = text.find('\n', at);
+  text.erase(comma, end - comma);
+  write_file(material, text, true);
+  CHECK_THAT(run_command(words).err, is_noted);
+  text.replace(text.find("\"created_by\": \"viscard"), 23, "\"created_by\": \"typed");
+  write_file(material, text, true);
+  CHECK_THAT(run_command(words).err, !is_noted);
 }
 
 TEST_CASE("a command that is stopped prints how to go on before it ends", "[cli]") {

@@ -107,6 +107,31 @@ TEST_CASE(
   CHECK(contains(existing.err, "exists already; pass --force"));
 }
 
+TEST_CASE("an input that only another input names is not replaced either", "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string scene = (folder / "scene.toml").string(),
+                    study = (folder / "study.toml").string(), card = (folder / "card.inp").string(),
+                    material = VISCARD_SOURCE_DIR "/data/materials/pdms_1to10_seed.json";
+  std::filesystem::copy_file(VISCARD_SOURCE_DIR "/data/scenes/pillar_creep.toml", scene);
+  write_file(study,
+             "scene = \"scene.toml\"\n[[parameter]]\nkey = \"geometry.diameter\"\nvalues = [\"40 "
+             "um\"]\n",
+             false);
+  REQUIRE(run_command({"card", material, "--for", "abaqus", "--units", "mm-t-s", "--out", card}).status == 0);
+  const std::vector<std::vector<std::string>> lines{
+      {"sweep", study, "--out", (folder / "s.sqlite").string(), "--csv", scene, "--force"},
+      {"card", card, "--for", "abaqus", "--units", "mm-t-s", "--import", card, "--force"},
+  };
+  for (const std::vector<std::string>& words : lines) {
+    const std::string before = read_file(words.front() == "sweep" ? scene : card);
+    const auto outcome = run_command(words);
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.status != 0);
+    CHECK(contains(outcome.err, "is read by this command"));
+    CHECK(read_file(words.front() == "sweep" ? scene : card) == before);
+  }
+}
+
 TEST_CASE("a folder that cannot be made is one clear line", "[cli]") {
   const auto outcome = run_command({"demo", "--out", "/proc/viscard"});
   CHECK(outcome.status == kFailed);
