@@ -9,6 +9,8 @@ namespace viscard {
 namespace {
 
 constexpr double kLong_s = 0.5;
+// Unknowns of a row: its pieces are condensed as full matrices, gigabytes beyond this.
+constexpr double kLargestRow = 2e4;
 
 struct TimedRun {
   double cpu_s = 0.0;
@@ -41,6 +43,9 @@ std::vector<EffectSaving> effect_savings(const Scene& scene, double limit_s,
   try {
     std::vector<CostTrial> trials = effect_trials_on(scene, 2, 1);
     if (trials.size() < 2) return {};
+    if (std::holds_alternative<ArrayScene>(scene) &&
+        mesh_size(scene, trials.front().mesh) > kLargestRow)
+      return {};
     TimedRun with = timed(trials.front(), clock);
     if (with.cpu_s < kLong_s / 10.0) {  // degree 4 takes about ten times as long as degree 2
       trials = effect_trials_on(scene, 4, 2);

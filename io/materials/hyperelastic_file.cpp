@@ -196,6 +196,7 @@ std::string json_from_card_of_rubber(const HyperelasticFile& file) {
   }
   law["trustworthy"] = true;
   law["flags"] = Json::array();
+  if (file.is_edited) law["flags"].push_back({{"name", kEdited}, {"text", kEditedText}});
   Json json{{"schema", kHyperelasticSchema}, {"law", name_of(file)}};
   json["trustworthy"] = true;
   json["laws"] = Json::array({law});
@@ -236,8 +237,11 @@ HyperelasticFile hyperelastic_from_json(const std::string& text, const std::stri
         throw std::invalid_argument("damage and terms of relaxation stand beside one law");
       add_moduli(law, file);
       file.is_trustworthy = law.at("trustworthy");
-      for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
       file.is_edited = is_edited(ordered, name);
+      for (const RubberJson& flag : law.at("flags")) {
+        file.defects.push_back(flag.at("text"));
+        if (flag.value("name", "") == kEdited) file.is_edited = true;
+      }
       add_tests(json, file);
       if (json.contains("bulk_modulus_Pa")) file.bulk_Pa = json["bulk_modulus_Pa"].get<double>();
       if (json.contains("density_kg_m3")) file.density_kg_m3 = json["density_kg_m3"].get<double>();

@@ -10,12 +10,15 @@
 #include "io/cli/words/json_output.h"
 #include "io/materials/hyperelastic_file.h"
 #include "io/materials/material_file.h"
+#include "io/materials/material_json.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <regex>
+#include <sstream>
 #include <stdexcept>
 
 namespace viscard {
@@ -51,6 +54,20 @@ void require_right(const std::vector<CardFinding>& findings, bool units_are_know
   }
 }
 
+// The flags that the header of a card by viscard states: "flag edited: ...", "flag few-rows (term 2): ...".
+std::vector<MaterialFlag> flags_of_header(const std::string& card) {
+  static const std::regex kFlag(R"(^[^A-Za-z]*flag ([a-zA-Z0-9-]+)(?: \(term (\d{1,3})\))?: (.*[^\s*/>-]))");
+  std::vector<MaterialFlag> flags;
+  std::istringstream lines(card);
+  for (std::string line; std::getline(lines, line);) {
+    constexpr std::size_t kLongest = 1000;  // of a line of a header
+    std::smatch found;
+    if (line.size() > kLongest || !std::regex_search(line, found, kFlag)) continue;
+    flags.push_back({found[1], found[2].matched ? std::stoi(found[2]) : 0, found[3]});
+  }
+  return flags;
+}
+
 ImportedCard import_linear(const std::string& text, const CardWords& words) {
   const CardTarget& target = card_target(words.target);
   if (!states_material(target)) {
@@ -64,6 +81,7 @@ ImportedCard import_linear(const std::string& text, const CardWords& words) {
   Material material = check.read.material;
   if (material.name.empty()) material.name = std::filesystem::path(words.material).stem().string();
   if (material.shift) material.T_ref_C = material.shift->T_ref_C;
+  material.flags = flags_of_header(text);
   material.flags.push_back({"imported", 0,
                             "read from a card for " + check.read.understood.code +
                                 "; no data and no intervals stand behind it"});
@@ -91,6 +109,7 @@ ImportedCard import_rubber(const std::string& text, const CardWords& words) {
   if (read.bulk_Pa > 0.0 && !read.foam) file.bulk_Pa = read.bulk_Pa;
   if (read.density_kg_m3 > 0.0) file.density_kg_m3 = read.density_kg_m3;
   file.raw_files = {{words.material, sha256_of_text(text)}};
+  file.is_edited = text.find(kEditedText) != std::string::npos;  // as its header states
   return {json_from_card_of_rubber(file), name_of(read), check.findings};
 }
 

@@ -203,6 +203,7 @@ auto BlockFactor<Scalar>::forward(const Matrix& right_sides) const -> Matrix {
   x(position_, Eigen::all) = right_sides;
   Matrix outside;
   for (const Block& block : blocks_) {
+    may_stop();
     auto own = x.middleRows(block.first, block.count);
     block.L.topRows(block.count).template triangularView<Eigen::UnitLower>().solveInPlace(own);
     outside.noalias() = block.L.bottomRows(block.L.rows() - block.count) * own;

@@ -63,6 +63,11 @@ load = { pressure = "1 kPa", on = "top" }
     CAPTURE(words);
     CHECK_THAT(run_command(words).out, Contains(kWords));
   }
+  // A card carries it, and what a card becomes again.
+  const std::string card = (scratch / "card.inp").string(), back = (scratch / "back.json").string();
+  REQUIRE(run_command({"card", material, "--for", "abaqus", "--units", "mm-t-s", "--out", card}).status == 0);
+  REQUIRE(run_command({"card", card, "--import", back, "--for", "abaqus"}).status == 0);
+  CHECK_THAT(read_file(back), Contains(kWords));
 }
 
 TEST_CASE("a material whose sum was taken away is noted, and is not if it was typed", "[cli]") {
