@@ -21,6 +21,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -228,6 +229,35 @@ void await_writer(const std::filesystem::path& path, int fd) {
                            "start the program that writes first");
 }
 
+int open_to_read(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw std::runtime_error(path.string() + ": cannot read: Is a directory; name a file in it");
+  }
+  // A named pipe without a writer would not even open otherwise.
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
+  if (file.get() < 0) {
+    throw std::runtime_error(path.string() + ": " + why_not_opened(path, errno));
+  }
+  if (std::filesystem::is_fifo(path, ignored)) await_writer(path, file.get());
+  ::fcntl(file.get(), F_SETFL, ::fcntl(file.get(), F_GETFL) & ~O_NONBLOCK);
+  return file.release();
+}
+
+// 0 at the end.
+std::size_t read_some(const std::filesystem::path& path, int fd, char* bytes, std::size_t n_bytes) {
+  while (true) {
+    const ssize_t count = ::read(fd, bytes, n_bytes);
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno != EINTR) fail(path, "cannot read", errno);
+  }
+}
+
+[[noreturn]] void refuse_size(const std::filesystem::path& path, std::size_t most) {
+  throw std::runtime_error(path.string() + ": did not end after " + std::to_string(most >> 20) +
+                           " MiB, the limit of such a file; save a part of it to another file");
+}
+
 }  // namespace
 
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite) {
@@ -245,57 +275,47 @@ void rewrite_file(const std::filesystem::path& path, const std::string& contents
   put_file(path, contents, true);
 }
 
-constexpr std::size_t kLongestPipe = std::size_t{512} << 20, kLongestDevice = std::size_t{64} << 20;
-
-std::string read_file(const std::filesystem::path& path) {
-  std::string contents = read_own_file(path);
+std::string read_file(const std::filesystem::path& path, std::size_t most) {
+  std::string contents = read_own_file(path, most);
   record_input(path, contents);
   return contents;
 }
 
-std::string sha256_of_file(const std::filesystem::path& path) {
-  return sha256_of_text(read_file(path));
-}
-
-void record_input_file(const std::filesystem::path& path) {
-  if (is_recording_inputs()) read_file(path);
-}
-
-std::string read_own_file(const std::filesystem::path& path) {
+std::string read_own_file(const std::filesystem::path& path, std::size_t most) {
+  const Descriptor file(open_to_read(path));
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw std::runtime_error(path.string() + ": cannot read: Is a directory; name a file in it");
-  }
-  // A named pipe without a writer would not even open otherwise.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
-  if (file.get() < 0) {
-    throw std::runtime_error(path.string() + ": " + why_not_opened(path, errno));
-  }
-  if (std::filesystem::is_fifo(path, ignored)) await_writer(path, file.get());
-  ::fcntl(file.get(), F_SETFL, ::fcntl(file.get(), F_GETFL) & ~O_NONBLOCK);
-  std::string contents;
-  std::size_t size = 0;
+  if (std::filesystem::is_character_file(path, ignored)) most = std::min(most, kLongestText);
   const auto expected = std::filesystem::file_size(path, ignored);  // fails for a pipe
+  if (!ignored && expected > most) refuse_size(path, most);
+  std::string contents;
   contents.resize(
       ignored ? 0 : static_cast<std::size_t>(expected) + 1);  // one more byte, to detect the end
-  // Devices and pipes may never end.
-  const std::size_t most = std::filesystem::is_regular_file(path, ignored) ? SIZE_MAX
-                           : std::filesystem::is_fifo(path, ignored)       ? kLongestPipe
-                                                                           : kLongestDevice;
+  std::size_t size = 0;
   while (true) {
-    if (size >= most) {
-      throw std::runtime_error(path.string() + ": did not end after " + std::to_string(most >> 20) +
-                               " MiB and is no ordinary file; save a part of it to a file first");
-    }
+    if (size > most) refuse_size(path, most);  // devices and pipes may never end
     if (size == contents.size()) contents.resize(size + std::max<std::size_t>(size, 1 << 16));
-    const ssize_t count = ::read(file.get(), contents.data() + size, contents.size() - size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail(path, "cannot read", errno);
+    const std::size_t count =
+        read_some(path, file.get(), contents.data() + size, contents.size() - size);
     if (count == 0) break;
-    size += static_cast<std::size_t>(count);
+    size += count;
   }
   contents.resize(size);
   return contents;
+}
+
+std::string sha256_of_file(const std::filesystem::path& path) {
+  const Descriptor file(open_to_read(path));
+  Sha256 sum;
+  std::vector<char> piece(std::size_t{1} << 20);
+  while (const std::size_t count = read_some(path, file.get(), piece.data(), piece.size()))
+    sum.add(piece.data(), count);
+  const std::string digits = sum.digits();
+  record_input_sum(path, digits);
+  return digits;
+}
+
+void record_input_file(const std::filesystem::path& path) {
+  if (is_recording_inputs()) sha256_of_file(path);
 }
 
 }  // namespace viscard

@@ -2,6 +2,7 @@
 
 #include "io/basics/sha256.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -30,14 +31,17 @@ std::optional<unsigned> rights_of_file(const std::filesystem::path& path);
 // network shares) are accepted.
 void sync_folder(const std::filesystem::path& folder);
 
-// Returns the contents of a file, which inputs.h records. Throws std::runtime_error naming the file and
-// the reason.
-std::string read_file(const std::filesystem::path& path);
-// The same for a file that this program wrote itself for its own use; it is no input.
-std::string read_own_file(const std::filesystem::path& path);
+// What anybody writes by hand or for one material is far smaller; tables and captures are not.
+inline constexpr std::size_t kLongestText = std::size_t{64} << 20, kLongestTable = std::size_t{512} << 20;
 
-// SHA-256 (FIPS 180-4) of a file as 64 lower-case hexadecimal digits. Throws std::runtime_error
-// naming the file if it cannot be read.
+// Returns the contents of a file, which inputs.h records. Throws std::runtime_error naming the file and
+// the reason, such as that it has more than `most` bytes.
+std::string read_file(const std::filesystem::path& path, std::size_t most = kLongestText);
+// The same for a file that this program wrote itself for its own use; it is no input.
+std::string read_own_file(const std::filesystem::path& path, std::size_t most = kLongestTable);
+
+// SHA-256 (FIPS 180-4) of a file of any size, as 64 lower-case hexadecimal digits; inputs.h records it.
+// Throws std::runtime_error naming the file if it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
 
 // Records a file that is not read as a whole, such as a capture (inputs.h). Reads it only if somebody records.

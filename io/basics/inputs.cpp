@@ -77,17 +77,18 @@ bool is_input(const std::filesystem::path& path) {
 }
 
 void record_input(const std::filesystem::path& path, const std::string& contents) {
+  if (is_recording_inputs()) record_input_sum(path, sha256_of_text(contents));
+}
+
+void record_input_sum(const std::filesystem::path& path, const std::string& sha256) {
   const std::lock_guard<std::mutex> lock(list_mutex());
-  std::string sum;
   for (InputRecorder* one : recorders()) {
     if (one->thread_ != nullptr && one->thread_ != this_thread()) continue;
-    if (sum.empty()) sum = sha256_of_text(contents);
-    const InputFile file{path.string(), sum};
     const bool is_known =
         std::any_of(one->files_.begin(), one->files_.end(), [&](const InputFile& other) {
-          return other.path == file.path && other.sha256 == file.sha256;
+          return other.path == path.string() && other.sha256 == sha256;
         });
-    if (!is_known) one->files_.push_back(file);
+    if (!is_known) one->files_.push_back({path.string(), sha256});
   }
 }
 

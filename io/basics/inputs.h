@@ -28,7 +28,7 @@ class InputRecorder {
   bool is_of_process() const { return thread_ == nullptr; }
 
  private:
-  friend void record_input(const std::filesystem::path& path, const std::string& contents);
+  friend void record_input_sum(const std::filesystem::path& path, const std::string& sha256);
   friend void note_input(const std::filesystem::path& path, const std::string& note);
   void* thread_ = nullptr;  // whose files count; null: all
   std::vector<InputFile> files_;
@@ -43,6 +43,7 @@ bool is_input(const std::filesystem::path& path);
 
 // Called by what reads files.
 void record_input(const std::filesystem::path& path, const std::string& contents);
+void record_input_sum(const std::filesystem::path& path, const std::string& sha256);
 // Adds a note to a recorded file; commands print it and --json has it beside the file.
 void note_input(const std::filesystem::path& path, const std::string& note);
 // Whether there is any recorder.

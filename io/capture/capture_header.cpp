@@ -46,7 +46,7 @@ std::size_t read_header(const fs::path& path, Header& header) {
 }
 
 [[noreturn]] void refuse_text(const fs::path& path) {
-  const FileKind kind = kind_of_file(read_file(path));
+  const FileKind kind = kind_of_file(read_file(path, kLongestTable));
   // By its name viscard fit takes it for a capture, so that its use would lead back to here.
   const bool is_misnamed = kind == FileKind::kTable && path.extension() == ".viscap";
   const std::string use =

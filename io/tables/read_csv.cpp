@@ -56,7 +56,7 @@ CsvTable csv_from_text(std::string_view bytes, const std::string& name, const Ta
 }
 
 CsvTable read_csv(const std::filesystem::path& path, const TableChoice& choice) {
-  return csv_from_text(read_file(path), path.string(), choice);
+  return csv_from_text(read_file(path, kLongestTable), path.string(), choice);
 }
 
 }  // namespace viscard

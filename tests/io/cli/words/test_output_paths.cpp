@@ -132,6 +132,26 @@ TEST_CASE("an input that only another input names is not replaced either", "[cli
   }
 }
 
+TEST_CASE("a file beyond any use is refused before it is read, and its sum takes no memory", "[cli][io]") {
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "huge.csv";
+  write_file(file, "time_s,force_N\n", false);
+  CHECK(sha256_of_file(file) == sha256_of_text(read_file(file)));
+  std::filesystem::resize_file(file, std::uintmax_t{3} << 30);  // a hole: takes no disk
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"fit", file},
+           {"fit", VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv", "--constraints", file},
+           {"card", "--check", file, "--for", "abaqus"},
+           {"card", "--verify", file},
+           {"simulate", file},
+           {"report", file}}) {
+    CAPTURE(words);
+    const auto outcome = run_command(words);
+    CHECK(outcome.status != 0);
+    CHECK(contains(outcome.err, "the limit of such a file"));
+  }
+}
+
 TEST_CASE("a folder that cannot be made is one clear line", "[cli]") {
   const auto outcome = run_command({"demo", "--out", "/proc/viscard"});
   CHECK(outcome.status == kFailed);
