@@ -68,6 +68,14 @@ std::vector<InputFile> provenance_of_inputs() {
   return files;
 }
 
+std::string head_of_table(const std::string& command) {
+  std::string head = "# " + command + " (viscard " VISCARD_VERSION ")\n";
+  for (const InputFile& file : provenance_of_inputs()) {
+    if (!file.note.empty()) head += "# note: " + file.path + ": " + file.note + "\n";
+  }
+  return head;
+}
+
 bool is_input(const std::filesystem::path& path) {
   const std::vector<InputFile> files = files_of_innermost();
   return std::any_of(files.begin(), files.end(), [&](const InputFile& file) {
@@ -96,7 +104,8 @@ void note_input(const std::filesystem::path& path, const std::string& note) {
   const std::lock_guard<std::mutex> lock(list_mutex());
   for (InputRecorder* one : recorders()) {
     for (InputFile& file : one->files_) {
-      if (file.path == path.string()) file.note = note;
+      if (file.path != path.string() || file.note.find(note) != std::string::npos) continue;
+      file.note += (file.note.empty() ? "" : "; ") + note;
     }
   }
 }

@@ -41,6 +41,10 @@ std::vector<InputFile> provenance_of_inputs();
 // Whether that recorder has seen this file, under any name of it.
 bool is_input(const std::filesystem::path& path);
 
+// The first lines of a table that this command writes: "# COMMAND (viscard VERSION)", and the notes of what was
+// read.
+std::string head_of_table(const std::string& command);
+
 // Called by what reads files.
 void record_input(const std::filesystem::path& path, const std::string& contents);
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256);

@@ -1,4 +1,5 @@
 #include "io/basics/failure_text.h"
+#include "io/basics/inputs.h"
 #include "io/basics/number_text.h"
 #include "io/flow/fit_file.h"
 #include "models/maths/result_visitor.h"
@@ -18,10 +19,6 @@ struct FittedColumn {
   std::string name;
   const std::vector<double>&measured, &fitted, &sigma;
 };
-
-std::string first_of(const std::string& name) {
-  return "# " + name + " (viscard " VISCARD_VERSION ")\n";
-}
 
 std::string name_of_column(const FittedFile& fitted) {
   const bool is_force = fitted.result.kind == FitKind::kIndentation || fitted.has_no_depth;
@@ -97,7 +94,7 @@ void show_curves(ResultVisitor& v, const FittedFile& fitted) {
 std::string csv_from_fit(const FittedFile& fitted, const std::string& command) {
   const FitCurves& curves = fitted.result.curves;
   const std::vector<FittedColumn> columns = columns_of(fitted);
-  std::string text = first_of(command) + argument_of(fitted);
+  std::string text = head_of_table(command) + argument_of(fitted);
   std::vector<double> least_sigma;  // of each column
   for (const FittedColumn& column : columns) {
     text += "," + column.name;
@@ -125,7 +122,7 @@ std::string csv_from_fit(const FittedFile& fitted, const std::string& command) {
 
 std::string csv_from_fits(const std::vector<FileOutcome>& outcomes, const std::string& command) {
   std::string text =
-      first_of(command) +
+      head_of_table(command) +
       "file,kind,unit,E0,E0_low,E0_high,E_inf,E_inf_low,E_inf_high,n_terms,n_samples,"
       "trustworthy,flags,error\n";
   for (const FileOutcome& outcome : outcomes) {

@@ -1,7 +1,9 @@
+#include "io/basics/written_path.h"
 #include "io/capture/capture_header.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/input_files.h"
 #include "io/materials/material_file.h"
+#include "io/materials/material_json.h"
 #include "models/material/liquid.h"
 #include "models/maths/text_of_number.h"
 
@@ -131,6 +133,18 @@ void refuse_repeated_records(const std::vector<JointRecord>& records) {
   }
 }
 
+// What is known against a record goes on into the joint fit and its cards.
+void add_doubts(const std::vector<JointRecord>& records, RatioFit& fit) {
+  for (const JointRecord& one : records) {
+    for (const MaterialFlag& flag : one.material.flags) {
+      if (!is_doubt_of_record(flag)) continue;
+      const MaterialFlag named{flag.name, 0, written_path(one.file) + ": " + flag.text};
+      fit.flags.push_back(named);
+      fit.common.flags.push_back(named);
+    }
+  }
+}
+
 }  // namespace
 
 RatioFit fit_jointly(const JointRequest& request) {
@@ -158,7 +172,9 @@ RatioFit fit_jointly(const JointRequest& request) {
     materials.push_back(one.material);
   }
   refuse_repeated_records(records);
-  return fit_mixing_ratio(materials, request.options);
+  RatioFit fit = fit_mixing_ratio(materials, request.options);
+  add_doubts(records, fit);
+  return fit;
 }
 
 }  // namespace viscard

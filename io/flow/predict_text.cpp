@@ -1,3 +1,4 @@
+#include "io/basics/inputs.h"
 #include "io/basics/number_text.h"
 #include "io/basics/written_path.h"
 #include "io/flow/predict_file.h"
@@ -90,7 +91,7 @@ void show_keys(ResultVisitor& v, const PredictedFile& predicted) {
 std::string csv_from_prediction(const PredictedFile& predicted, const std::string& command) {
   const TestPrediction& prediction = predicted.prediction;
   const std::vector<NamedColumn> columns = columns_of(prediction);
-  std::string text = "# " + command + " (viscard " VISCARD_VERSION ")\n";
+  std::string text = head_of_table(command);
   for (const NamedColumn& column : columns) text += column.name + ",";
   text += "inside_window\n";
   for (std::size_t i = 0; i < prediction.at.size(); ++i) {

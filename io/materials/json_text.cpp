@@ -162,12 +162,17 @@ void add_body_sum(Json& json) {
   json[kBodySum] = sum_of_body(json);
 }
 
+bool is_doubt_of_record(const MaterialFlag& flag) {
+  return flag.name == kEdited || flag.name == "unverified";
+}
+
 bool is_edited(const Json& json, const std::string& name) {
   if (!json.is_object()) return false;
   if (!json.contains(kBodySum)) {
     if (is_by_viscard(json)) {
       note_input(name,
-                 "has no sum of its contents, because it was written before 2026-12 or the sum was removed; "
+                 "has no sum of its contents, because it was written before 2026-12 or the sum was "
+                 "removed; "
                  "whether it was edited cannot be seen");
     }
     return false;

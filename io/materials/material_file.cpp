@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
 #include "io/materials/material_json.h"
 #include "io/materials/plausible_numbers.h"
@@ -20,6 +21,9 @@ MaterialFile material_from_json(const std::string& text, const std::string& name
     validate(file.material);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name + ": " + error.what());
+  }
+  for (const MaterialFlag& flag : file.material.flags) {
+    if (is_doubt_of_record(flag)) note_input(name, flag.text);
   }
   if (judged == Plausible::kOff) flag_plausible_off(file.material.flags);
   if (!accepts_implausible(file.material.flags)) refuse_implausible(name, file.material, judged);

@@ -35,6 +35,9 @@ void add_body_sum(Json& json);
 inline constexpr const char* kEdited = "edited";
 inline constexpr const char* kEditedText =
     "the file was edited since it was written by viscard fit";
+// Whether a flag states that the record behind a material may not be what was written: edited, or fitted from a
+// damaged capture. Such a flag goes into whatever is made of the material.
+bool is_doubt_of_record(const MaterialFlag& flag);
 // The same of a file that was just read, whose doubts are noted (note_input()): edited, or written by viscard
 // and without the key.
 bool is_edited(const Json& json, const std::string& name);

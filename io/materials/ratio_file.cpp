@@ -1,6 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/failure_text.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
@@ -270,6 +271,9 @@ RatioFit ratio_fit_from(const std::string& text, const std::string& name) {
   if (is_edited(json, name)) {
     fit.flags.push_back({kEdited, 0, kEditedText});
     fit.common.flags.push_back({kEdited, 0, kEditedText});
+  }
+  for (const MaterialFlag& flag : fit.flags) {
+    if (is_doubt_of_record(flag)) note_input(name, flag.text);
   }
   return fit;
 }

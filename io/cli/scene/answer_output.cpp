@@ -1,6 +1,7 @@
 #include "io/cli/scene/answer_output.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/map_output.h"
@@ -81,8 +82,8 @@ namespace {
 std::string csv_of(const SceneCurve& curve, const std::string& command) {
   const std::string column = curve.unit == "1" ? curve.name : curve.name + "_" + curve.unit;
   const bool has_error = curve.error.size() == curve.x.size();
-  std::string text = fmt::format("# {} (viscard {})\n{},{}{}\n", command, VISCARD_VERSION,
-                                 curve.x_name, column, has_error ? ",error_" + column : "");
+  std::string text = fmt::format("{}{},{}{}\n", head_of_table(command), curve.x_name, column,
+                                 has_error ? ",error_" + column : "");
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     text += fmt::format("{},{}", curve.x[i], curve.value[i]);
     if (has_error) text += fmt::format(",{:.3g}", curve.error[i]);
@@ -92,8 +93,7 @@ std::string csv_of(const SceneCurve& curve, const std::string& command) {
 }
 
 std::string csv_of_results(const std::vector<SceneResult>& results, const std::string& command) {
-  std::string text =
-      fmt::format("# {} (viscard {})\nresult,value,unit,error\n", command, VISCARD_VERSION);
+  std::string text = fmt::format("{}result,value,unit,error\n", head_of_table(command));
   for (const SceneResult& r : results) {
     const bool is_quoted = r.name.find(',') != std::string::npos;  // of a sweep: "at d, s"
     text += fmt::format("{0}{1}{0},{2:.9g},{3},{4:.3g}\n", is_quoted ? "\"" : "", r.name, r.value,
@@ -106,8 +106,8 @@ std::string csv_of_modes(const std::vector<SceneMode>& modes, const std::string&
   const bool is_damped = std::any_of(
       modes.begin(), modes.end(), [](const SceneMode& m) { return m.damping_ratio.has_value(); });
   std::string text =
-      fmt::format("# {} (viscard {})\nfamily,harmonic,frequency_Hz,error_Hz{}\n", command,
-                  VISCARD_VERSION, is_damped ? ",damping_ratio,damping_error" : "");
+      fmt::format("{}family,harmonic,frequency_Hz,error_Hz{}\n", head_of_table(command),
+                  is_damped ? ",damping_ratio,damping_error" : "");
   for (const SceneMode& m : modes) {
     text +=
         fmt::format("{},{},{:.9g},{:.3g}", m.family, m.harmonic, m.frequency_Hz, m.error_estimate);
@@ -123,10 +123,10 @@ std::string csv_of_modes(const std::vector<SceneMode>& modes, const std::string&
 std::string csv_of_shapes(const RowShapes& shapes, const std::vector<SceneMode>& modes,
                           const std::string& command) {
   std::string text = fmt::format(
-      "# {} (viscard {})\n# motion: mean of the top, sideways along x or up along z; the largest "
+      "{}# motion: mean of the top, sideways along x or up along z; the largest "
       "of "
       "a mode is 1\nfamily,mode,frequency_Hz,pillar,motion\n",
-      command, VISCARD_VERSION);
+      head_of_table(command));
   std::map<std::string, int> number;
   for (std::size_t i = 0; i < std::min(shapes.modes.size(), modes.size()); ++i) {
     const RowShape& shape = shapes.modes[i];

@@ -1,5 +1,6 @@
 #include "io/cli/scene/cost_output.h"
 
+#include "io/basics/inputs.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -57,9 +58,9 @@ void print_legend(const CostStudy& study, std::ostream& out) {
 
 std::string csv_from_study(const CostStudy& study, const std::string& command) {
   std::string text = fmt::format(
-      "# {} (viscard {})\n# {}\n"
+      "{}# {}\n"
       "discretisation,effects,unknowns,wall_s,memory_B,error,pareto,cpu_s,predicted\n",
-      command, VISCARD_VERSION, text_of_machine(study.machine));
+      head_of_table(command), text_of_machine(study.machine));
   for (const CostRow& row : study.rows) {
     text += fmt::format("\"{}\",\"{}\",{},{},{},{},{},{},0\n", row.discretisation, row.effects,
                         row.unknowns, row.wall_s, row.memory_B, row.error, row.is_on_front ? 1 : 0,

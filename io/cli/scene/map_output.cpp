@@ -1,6 +1,7 @@
 #include "io/cli/scene/map_output.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/pictures/map_picture.h"
 #include "io/tables/npy_file.h"
 
@@ -22,9 +23,9 @@ std::string column_of(const SceneMap& map) {
 
 std::string csv_of_pillars(const SceneAnswer& answer, const std::string& command) {
   std::string text = fmt::format(
-      "# {} (viscard {})\nrow,column,x_m,y_m,pressure_Pa,shear_x_Pa,"
+      "{}row,column,x_m,y_m,pressure_Pa,shear_x_Pa,"
       "shear_y_Pa",
-      command, VISCARD_VERSION);
+      head_of_table(command));
   std::vector<std::pair<std::vector<double>, std::vector<double>>> columns;
   for (const SceneMap& map : answer.maps) {
     text += fmt::format(",{0},{0}_error", column_of(map));

@@ -1,3 +1,4 @@
+#include "io/basics/inputs.h"
 #include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/cli/scene/answer_output.h"
@@ -91,8 +92,7 @@ void print_compared(const ComparedAnswers& compared, std::ostream& out) {
 
 std::string csv_of_compared(const ComparedAnswers& compared, const std::string& command) {
   std::string text =
-      fmt::format("# {} (viscard {})\nresult,value,other,unit,ratio,error,other_error\n", command,
-                  VISCARD_VERSION);
+      fmt::format("{}result,value,other,unit,ratio,error,other_error\n", head_of_table(command));
   for (const ComparedValue& row : compared.values) {
     text += fmt::format("{},{:.9g},{:.9g},{},{},{:.3g},{:.3g}\n", row.name, row.value, row.other,
                         row.unit, row.ratio ? fmt::format("{:.9g}", *row.ratio) : "", row.error,

@@ -1,6 +1,7 @@
 #include "io/cli/scene/uncertainty_output.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/pictures/share_picture.h"
 #include "models/maths/text_of_number.h"
 
@@ -38,9 +39,9 @@ std::string derivative_words(const SceneUncertainty& all) {
 
 std::string csv_of(const SceneUncertainty& uncertainty, const std::string& command) {
   std::string text = fmt::format(
-      "# {} (viscard {})\nresult,unit,value,low_95,high_95,standard_uncertainty,numerical_error,"
+      "{}result,unit,value,low_95,high_95,standard_uncertainty,numerical_error,"
       "input,share,share_with_others,share_standard_error\n",
-      command, VISCARD_VERSION);
+      head_of_table(command));
   for (const ResultUncertainty& r : uncertainty.results) {
     for (std::size_t i = 0; i < r.causes.size(); ++i) {
       const CauseShare& cause = r.causes[i];

@@ -1,5 +1,6 @@
 #include "io/flow/planning/study_output.h"
 
+#include "io/basics/inputs.h"
 #include "io/config/config_file.h"
 #include "models/maths/result_visitor.h"
 
@@ -97,9 +98,9 @@ void show_keys(ResultVisitor& v, const TestStudy& study) {
 std::string csv_from_test_study(const TestStudy& study, const std::string& command) {
   const ProtocolStudy& protocols = study.protocols;
   std::string text = fmt::format(
-      "# {} (viscard {})\ntime_s,touches,depth_m,ramp_s,hold_s,"
+      "{}time_s,touches,depth_m,ramp_s,hold_s,"
       "unload_to_fraction,recovery_s,shortfall,pareto,given",
-      command, VISCARD_VERSION);
+      head_of_table(command));
   for (const WantedQuantity& one : protocols.wanted) {
     text += fmt::format(",{0}_half_width_95,{0}_worst_half_width_95", one.name);
   }

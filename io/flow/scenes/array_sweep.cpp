@@ -1,6 +1,7 @@
 #include "io/flow/scenes/array_sweep.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/flow/scenes/wanted_results.h"
 #include "models/maths/leading_number.h"
 #include "models/scene/simulate.h"
@@ -223,7 +224,7 @@ SceneAnswer joined(const ArraySweep& sweep, const std::vector<SweepPoint>& point
 std::string csv_from_sweep(const std::vector<SweepPoint>& points,
                            const std::map<std::size_t, SweepRow>& rows,
                            const std::string& command) {
-  std::string text = fmt::format("# {} (viscard {})\n", command, VISCARD_VERSION);
+  std::string text = head_of_table(command);
   text += "diameter_m,spacing_m,thickness_m";
   const auto unit = [](const std::string& u) { return u == "%" ? std::string() : "_" + u; };
   for (const SceneResult& r : rows.begin()->second) {

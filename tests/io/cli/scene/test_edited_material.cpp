@@ -38,16 +38,16 @@ load = { pressure = "1 kPa", on = "top" }
   const std::string scene = (scratch / "scene.toml").string(),
                     study = (scratch / "study.toml").string(),
                     store = (scratch / "store.sqlite").string();
-  const std::vector<std::vector<std::string>> all = {{"simulate", scene},
-                                                     {"simulate", scene, "--json"},
-                                                     {"cost", scene, "--budget", "2s"},
-                                                     {"cost", scene, "--budget", "2s", "--json"},
-                                                     {"sweep", study, "--out", store, "--json"},
-                                                     {"plan", scene, "--json"},
-                                                     {"predict", material, "--test", "creep",
-                                                      "--stress", "1kPa", "--hold", "1s", "--json"},
-                                                     {"validate", material},
-                                                     {"validate", material, "--json"}};
+  const std::vector<std::vector<std::string>> all = {
+      {"simulate", scene},
+      {"simulate", scene, "--json"},
+      {"cost", scene, "--budget", "2s"},
+      {"cost", scene, "--budget", "2s", "--json"},
+      {"sweep", study, "--out", store, "--json"},
+      {"plan", scene, "--json"},
+      {"predict", material, "--test", "creep", "--stress", "1kPa", "--hold", "1s", "--json"},
+      {"validate", material},
+      {"validate", material, "--json"}};
   const char* const kWords = "edited since it was written";
   for (const auto& words : all) {
     CAPTURE(words);
@@ -63,9 +63,23 @@ load = { pressure = "1 kPa", on = "top" }
     CAPTURE(words);
     CHECK_THAT(run_command(words).out, Contains(kWords));
   }
+  // So does a table that is written, a joint fit and a card of a ratio.
+  const std::string csv = (scratch / "p.csv").string(), joint = (scratch / "joint.json").string();
+  REQUIRE(run_command({"predict", material, "--test", "creep", "--stress", "1kPa", "--hold", "1s",
+                       "--csv", csv})
+              .status == 0);
+  CHECK_THAT(read_file(csv), Contains("\n# note: " + material + ": the file was edited"));
+  const std::string seeds = VISCARD_SOURCE_DIR "/data/materials/pdms_1to";
+  REQUIRE(run_command({"fit", "--joint", material, seeds + "13_seed.json", seeds + "20_seed.json",
+                       "--ratio", "10", "--ratio", "13", "--ratio", "20", "--out", joint})
+              .status == 0);
+  CHECK_THAT(read_file(joint), Contains(kWords));
+  CHECK_THAT(run_command({"card", joint, "--ratio", "12", "--for", "abaqus", "--units", "SI"}).out,
+             Contains(kWords));
   // A card carries it, and what a card becomes again.
   const std::string card = (scratch / "card.inp").string(), back = (scratch / "back.json").string();
-  REQUIRE(run_command({"card", material, "--for", "abaqus", "--units", "mm-t-s", "--out", card}).status == 0);
+  REQUIRE(run_command({"card", material, "--for", "abaqus", "--units", "mm-t-s", "--out", card})
+              .status == 0);
   REQUIRE(run_command({"card", card, "--import", back, "--for", "abaqus"}).status == 0);
   CHECK_THAT(read_file(back), Contains(kWords));
 }
@@ -73,10 +87,11 @@ load = { pressure = "1 kPa", on = "top" }
 TEST_CASE("a material whose sum was taken away is noted, and is not if it was typed", "[cli]") {
   const ScratchFolder scratch;
   const std::string material = (scratch / "m.json").string();
-  REQUIRE(run_command({"fit", VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv", "--out", material})
+  REQUIRE(run_command(
+              {"fit", VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv", "--out", material})
               .status == 0);
-  const std::vector<std::string> words = {"predict", material, "--test", "creep", "--stress", "1kPa",
-                                          "--hold", "1s"};
+  const std::vector<std::string> words = {"predict",  material, "--test", "creep",
+                                          "--stress", "1kPa",   "--hold", "1s"};
   const auto is_noted = Contains("m.json: has no sum of its contents");
   CHECK_THAT(run_command(words).err, !is_noted);
   std::string text = read_file(material);
