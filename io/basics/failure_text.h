@@ -6,15 +6,22 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace viscard {
+
+// A lack of memory, or of threads: the same question may have an answer later.
+inline bool is_lack_of_memory(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         dynamic_cast<const std::length_error*>(&error) != nullptr ||
+         (system != nullptr && system->code() == std::errc::resource_unavailable_try_again);
+}
 
 // The text of an exception for a user. The library has none for a lack of memory: "memory does not suffice
 // for TASK; ...".
 inline std::string failure_text(const std::exception& error, const std::string& task) {
-  const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
-                         dynamic_cast<const std::length_error*>(&error) != nullptr;
-  if (!is_memory) return error.what();
+  if (!is_lack_of_memory(error)) return error.what();
   return "memory does not suffice for " + task +
          "; check sizes and their units, or ask for less accuracy, fewer points or fewer terms";
 }

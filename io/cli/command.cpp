@@ -165,9 +165,8 @@ int with_exit_status(const char* program, const Words& words, Streams& streams,
     return with_json_errors(words, streams, [&] {
       try {
         return work();
-      } catch (const std::bad_alloc& error) {
-        throw std::runtime_error(failure_text(error, "this command"));
-      } catch (const std::length_error& error) {
+      } catch (const std::exception& error) {
+        if (!is_lack_of_memory(error)) throw;
         throw std::runtime_error(failure_text(error, "this command"));
       }
     });

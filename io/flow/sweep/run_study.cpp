@@ -68,8 +68,7 @@ bool has_all_inputs(const Study& study) {
 // What a program cannot answer for lack of memory or disk may be answered tomorrow. What the models refuse
 // in words would be refused again: those errors are std::runtime_error and std::invalid_argument.
 PointKind kind_of_failure(const std::exception& error) {
-  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return PointKind::kPassing;
-  if (dynamic_cast<const std::length_error*>(&error) != nullptr) return PointKind::kPassing;
+  if (is_lack_of_memory(error)) return PointKind::kPassing;
   if (dynamic_cast<const std::system_error*>(&error) != nullptr) return PointKind::kPassing;
   if (dynamic_cast<const NotEnoughMemory*>(&error) != nullptr) return PointKind::kPassing;
   if (dynamic_cast<const std::runtime_error*>(&error) != nullptr) return PointKind::kRefused;
