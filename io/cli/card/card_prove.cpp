@@ -11,6 +11,7 @@
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -132,6 +133,8 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   }
   material = with_bulk_rule(material, read.understood.bulk);
   const FoundSolver found = find_solver(solver, words.solver_path);
+  const WordsOnSignal words_on_signal(
+      "the proof was stopped, and no certificate is written; the same command begins it again");
   const CardProof proof = prove_card(request.card_text, read, material, found);
   const CardChain chain = chain_of(request);
   return finish_proof(

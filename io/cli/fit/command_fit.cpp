@@ -7,6 +7,7 @@
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/flow/command_error.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/test_words.h"
@@ -284,6 +285,7 @@ int run_fit(const Words& words, Streams& streams) {
   if (asked.show_table) return show_tables(files, request, as_json, streams);
   request.needs_modulus = out.has_value();
   if (tests.size() == 1) request.kind = tests.front().kind;
+  const WordsOnSignal words_on_signal("the fit was stopped, and nothing is written");
   Progress progress(streams, "fit");
   const FlowProgress show = [&](double done, const std::string& file) {
     progress.show(done, file);

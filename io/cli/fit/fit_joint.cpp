@@ -4,6 +4,7 @@
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/words/fit_text.h"
 #include "io/materials/material_file.h"
@@ -94,6 +95,7 @@ void print(const RatioFit& fit, std::ostream& out) {
 }  // namespace
 
 int run_joint_fit(JointRequest request, const FitOutput& output, Streams& streams) {
+  const WordsOnSignal words_on_signal("the joint fit was stopped, and nothing is written");
   Progress progress(streams, "fit");
   request.progress = [&](double done, const std::string& file) { progress.show(done, file); };
   request.note = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; };

@@ -4,6 +4,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/config/config_file.h"
 #include "io/flow/capture_setup.h"
 #include "io/materials/material_file.h"
@@ -221,6 +222,8 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
   fs::create_directories(out);
   const fs::path data = own_data ? fs::path(*own_data) : data_folder() / "demo";
   streams.err << depth_explained(data);
+  const WordsOnSignal words_on_signal(
+      "the demo was stopped; the same command keeps what is finished and goes on");
   Demo demo(streams, run_command, out, data, text_from_number(speed), overwrite,
             is_given(syntax, "strip-paths"));
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);

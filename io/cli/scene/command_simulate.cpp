@@ -29,6 +29,7 @@ namespace viscard {
 namespace {
 
 SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
+  const WordsOnSignal words_on_signal("the simulation was stopped, and nothing is written");
   Progress progress(streams, "simulate");
   common(scene).progress = [&](double done, const std::string& what) {
     progress.announce(done, what);

@@ -4,6 +4,7 @@
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/flow/validation_keys.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
@@ -73,6 +74,7 @@ int run_validate(const Words& words, Streams& streams) {
   const Material material = read_material(path, given_plausible(syntax)).material;
   refuse_liquid(material, path);
   const std::string name = material.name.empty() ? path : material.name;
+  const WordsOnSignal words_on_signal("the validation was stopped, and nothing is written");
   Progress progress(streams, "validate");
   options.progress = [&](double fraction) { progress.show(fraction, name); };
   ValidationResult result = validate_material(material, options);

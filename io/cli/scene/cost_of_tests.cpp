@@ -6,6 +6,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/flow/planning/study_output.h"
 
 #include <filesystem>
@@ -60,6 +61,9 @@ int run_cost_of_tests(const CostOfTestsWords& words, const StudyFiles& files,
       throw UsageError(error.what());
     }
   }
+  const WordsOnSignal words_on_signal(
+      "the comparison of tests was stopped, and nothing is written; a shorter --at-most ends "
+      "earlier");
   const TestStudy study = study_tests(request);
   const JsonHead head{"viscard-cost-tests/1",
                       given_words(syntax, {"rig", "specimen", "test", "guess", "scene"})};

@@ -5,6 +5,7 @@
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
+#include "io/cli/words/stop_on_signal.h"
 #include "io/flow/scenes/array_sweep.h"
 
 #include <fmt/format.h>
@@ -36,6 +37,11 @@ SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const Swee
     streams.err << fmt::format("continuing: {} of {} points are done\n", store.done().size(),
                                points.size());
   }
+  const WordsOnSignal words_on_signal(
+      folder.empty() ? "the sweep was stopped, and nothing is written; --out FOLDER keeps the "
+                       "points that are done"
+                     : "the sweep was stopped; the points that are done are in " + folder +
+                           ", and the same command goes on with the others");
   Progress progress(streams, "sweep");
   SceneAnswer sum = solve_sweep(
       file, store, [&](double done, const std::string& label) { progress.show(done, label); });

@@ -24,8 +24,8 @@ extern "C" void print_and_end(int number) {
 
 }  // namespace
 
-WordsOnSignal::WordsOnSignal(const std::string& words) {
-  words_of_signal = "\nviscard: " + words + "\n";
+WordsOnSignal::WordsOnSignal(const std::string& words) : outer_(words_of_signal) {
+  words_of_signal = "\nviscard: " + words + (outer_.empty() ? "\n" : outer_);
   struct sigaction action {};
   action.sa_handler = print_and_end;
   std::size_t n = 0;
@@ -35,6 +35,7 @@ WordsOnSignal::WordsOnSignal(const std::string& words) {
 WordsOnSignal::~WordsOnSignal() {
   std::size_t n = 0;
   for (const int number : kEnding) sigaction(number, &before_[n++], nullptr);
+  words_of_signal = outer_;
 }
 
 StopOnSignal::StopOnSignal() {

@@ -27,7 +27,7 @@ class StopOnSignal {
 };
 
 // During its lifetime, Ctrl-C and a termination request print "viscard: " and the words (how to go on, what is kept)
-// before they end the program as they do otherwise. One at a time.
+// before they end the program as they do otherwise. Within another, whose words follow.
 class WordsOnSignal {
  public:
   explicit WordsOnSignal(const std::string& words);
@@ -37,6 +37,7 @@ class WordsOnSignal {
 
  private:
   static constexpr std::array<int, 2> kEnding{SIGINT, SIGTERM};
+  std::string outer_;
   std::array<struct sigaction, kEnding.size()> before_{};
 };
 
