@@ -1,5 +1,6 @@
 #include "rig/move_stage.h"
 
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
 #include "rig/run/approach_phase.h"
@@ -86,7 +87,7 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     const double back_m =
         order.is_home ? stage.position_m() : std::min(moved.from_m, stage.position_m());
     const SafeEnd end = session.make_safe(back_m, order.speed_m_s);
-    throw StageStands((is_asked_for ? "the move was stopped" : std::string(error.what())) +
+    throw StageStands((is_asked_for ? "the move was stopped" : failure_text(error, "this move")) +
                           ". The stage was stopped at " + in_mm(stage.position_m()) +
                           (end.trouble.empty() ? "" : "; " + end.trouble),
                       stage.position_m());

@@ -1,6 +1,7 @@
 #include "rig/run_indentation.h"
 
 #include "models/experiment/test_phases.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 #include "rig/run/approach_phase.h"
 #include "rig/run/force_phases.h"
@@ -226,7 +227,7 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
                const std::exception& error) {
   RunOutcome& outcome = run.outcome;
   outcome.status = status;
-  outcome.cause = error.what();
+  outcome.cause = failure_text(error, "this run");
   outcome.reason = outcome.cause;
   // After a delay of this computer the rig may not be the cause of what follows.
   const std::string late = run.session.lateness_text();

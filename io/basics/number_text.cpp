@@ -74,7 +74,13 @@ std::string nearest_number(double value, int columns) {
 }
 
 std::string csv_cell(std::string_view text) {
-  std::string cell = "\"";
+  // What a spreadsheet would carry out is text for it behind an apostrophe; "-5 um" is none.
+  const bool is_number =
+      text.size() > 1 && std::string_view("0123456789.").find(text[1]) != std::string_view::npos;
+  const bool is_formula =
+      !text.empty() && (std::string_view("=@\t\r").find(text[0]) != std::string_view::npos ||
+                        ((text[0] == '+' || text[0] == '-') && !is_number));
+  std::string cell = is_formula ? "\"'" : "\"";
   for (const char c : text) {
     cell += c;
     if (c == '"') cell += c;

@@ -1,6 +1,6 @@
 #include "io/basics/units.h"
 
-#include "io/basics/failure_text.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 
 #include <locale.h>

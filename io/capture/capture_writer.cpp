@@ -1,4 +1,3 @@
-#include "io/basics/failure_text.h"
 #include "io/basics/number_text.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
@@ -6,6 +5,7 @@
 #include "io/capture/cut_watch.h"
 #include "io/capture/side_file_check.h"
 #include "io/capture/sync_schedule.h"
+#include "models/maths/failure_text.h"
 
 #include <sys/statvfs.h>
 

@@ -159,6 +159,8 @@ Database::Database(const std::filesystem::path& path, Access access) : file_(pat
   // The file may come from anywhere, so no code in it may run.
   sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  constexpr int kLongestValue_B = 256 << 20;  // far more than any row of ours
+  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLongestValue_B);
 }
 
 void Database::execute(const char* sql) {
@@ -177,7 +179,12 @@ Statement Database::prepare(const char* sql) {
 std::string Database::first_foreign_object() {
   return text_of(
       "SELECT type || ' ' || name FROM sqlite_schema WHERE type NOT IN ('table', 'index') OR "
-      "sql LIKE 'CREATE VIRTUAL%' LIMIT 1");
+      "sql LIKE 'CREATE VIRTUAL%' "
+      "UNION ALL SELECT 'column ' || s.name || '.' || x.name || ', which is computed' "
+      "FROM sqlite_schema s, pragma_table_xinfo(s.name) x WHERE s.type = 'table' AND x.hidden > 1 "
+      "UNION ALL SELECT 'index ' || s.name || ', which is computed' "
+      "FROM sqlite_schema s, pragma_index_xinfo(s.name) x WHERE s.type = 'index' AND x.cid = -2 "
+      "LIMIT 1");
 }
 
 std::string Database::text_of(const char* sql) {

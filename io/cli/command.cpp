@@ -1,6 +1,5 @@
 #include "io/cli/command.h"
 
-#include "io/basics/failure_text.h"
 #include "io/basics/inputs.h"
 #include "io/basics/program.h"
 #include "io/basics/words.h"
@@ -16,6 +15,7 @@
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/printable_stream.h"
 #include "io/cli/words/terminal.h"
+#include "models/maths/failure_text.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -144,7 +144,8 @@ class NotesAtEnd {
   explicit NotesAtEnd(Streams& streams) : streams_(streams) {}
   ~NotesAtEnd() {
     for (const InputFile& file : provenance_of_inputs()) {
-      if (!file.note.empty()) streams_.err << "viscard: note: " << file.path << ": " << file.note << "\n";
+      if (!file.note.empty())
+        streams_.err << "viscard: note: " << file.path << ": " << file.note << "\n";
     }
   }
   NotesAtEnd(const NotesAtEnd&) = delete;

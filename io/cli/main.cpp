@@ -1,7 +1,7 @@
-#include "io/basics/failure_text.h"
 #include "io/cli/command.h"
 #include "io/cli/words/printable_stream.h"
 #include "io/cli/words/terminal.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/kept_memory.h"
 
 #include <signal.h>

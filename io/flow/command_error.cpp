@@ -1,6 +1,6 @@
 #include "io/flow/command_error.h"
 
-#include "io/basics/failure_text.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/result_visitor.h"
 #include "models/quantities/plausible.h"
 #include "rig/lines/rig_error.h"

@@ -1,7 +1,7 @@
-#include "io/basics/failure_text.h"
 #include "io/basics/inputs.h"
 #include "io/basics/number_text.h"
 #include "io/flow/fit_file.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/result_visitor.h"
 
 #include <cmath>

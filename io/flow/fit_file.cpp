@@ -3,7 +3,6 @@
 #include "fit/fit_indentation.h"
 #include "fit/indentation_from_capture.h"
 #include "fit/laws/law_fit.h"
-#include "io/basics/failure_text.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/integrity_notes.h"
@@ -12,6 +11,7 @@
 #include "io/flow/plausible_record.h"
 #include "io/flow/table_from_capture.h"
 #include "io/materials/plausible_numbers.h"
+#include "models/maths/failure_text.h"
 
 #include <algorithm>
 #include <stdexcept>

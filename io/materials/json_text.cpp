@@ -163,7 +163,14 @@ void add_body_sum(Json& json) {
 }
 
 bool is_doubt_of_record(const MaterialFlag& flag) {
-  return flag.name == kEdited || flag.name == "unverified";
+  static const std::set<std::string> kDoubts = {kEdited,
+                                                "unverified",
+                                                "samples-damaged",
+                                                "reports-damaged",
+                                                "temperatures-damaged",
+                                                "side-file-torn",
+                                                "side-file-missing"};
+  return kDoubts.count(flag.name) > 0;
 }
 
 bool is_edited(const Json& json, const std::string& name) {

@@ -36,7 +36,7 @@ inline constexpr const char* kEdited = "edited";
 inline constexpr const char* kEditedText =
     "the file was edited since it was written by viscard fit";
 // Whether a flag states that the record behind a material may not be what was written: edited, or fitted from a
-// damaged capture. Such a flag goes into whatever is made of the material.
+// damaged capture (integrity_notes()). Such a flag goes into whatever is made of the material.
 bool is_doubt_of_record(const MaterialFlag& flag);
 // The same of a file that was just read, whose doubts are noted (note_input()): edited, or written by viscard
 // and without the key.

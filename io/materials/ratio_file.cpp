@@ -1,5 +1,4 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/failure_text.h"
 #include "io/basics/file_kind.h"
 #include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
@@ -8,6 +7,7 @@
 #include "io/materials/plausible_numbers.h"
 #include "io/materials/scatter_json.h"
 #include "io/results/result_json.h"
+#include "models/maths/failure_text.h"
 
 #include <algorithm>
 #include <fstream>

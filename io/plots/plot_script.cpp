@@ -38,14 +38,16 @@ const char* colour(Ink ink) {
   return kColours[static_cast<std::size_t>(ink)];
 }
 
-// A gnuplot string in single quotes: no escapes, no command substitution. A doubled quote at its beginning ends
-// the string for gnuplot 5.4, so quotes there stand in a string of their own.
+// A gnuplot string in single quotes: no escapes, no command substitution. gnuplot 5.4 ends the string at some
+// doubled quotes, so quotes stand in strings of their own.
 std::string quoted(const std::string& text) {
-  const std::size_t begin = std::min(text.find_first_not_of('\''), text.size());
-  std::string out = begin > 0 ? '"' + text.substr(0, begin) + "\".'" : "'";
-  for (const char c : text.substr(begin)) {
-    if (c == '\'') out += '\'';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      out += "'.\"'\".'";
+    } else {
+      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
   }
   return out + "'";
 }

@@ -1,11 +1,11 @@
 // The compiled module viscard._core.
-#include "io/basics/failure_text.h"
 #include "io/basics/words.h"
 #include "io/flow/command_error.h"
 #include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
+#include "models/maths/failure_text.h"
 
 #include <pybind11/stl.h>
 

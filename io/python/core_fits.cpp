@@ -1,5 +1,4 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/failure_text.h"
 #include "io/basics/timestamp.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
@@ -15,6 +14,7 @@
 #include "io/python/parts.h"
 #include "io/python/values.h"
 #include "io/report/report.h"
+#include "models/maths/failure_text.h"
 
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>

@@ -101,6 +101,8 @@ std::string plain_file_name(const std::string& name) {
         byte >= 0x80 || std::isalnum(byte) != 0 || std::strchr("._-+() ,", c) != nullptr;
     if (!is_kept || c == '\0') c = '_';
   }
+  // What the desk keeps beside a table must not come from elsewhere.
+  if (plain.ends_with(kKeptEnding)) plain[plain.size() - std::strlen(kKeptEnding)] = '_';
   const std::size_t begin = plain.find_first_not_of(" .-_");
   if (begin == std::string::npos) return "";
   plain.erase(0, begin);

@@ -1,6 +1,6 @@
 #include "io/serve/live_move.h"
 
-#include "io/basics/failure_text.h"
+#include "models/maths/failure_text.h"
 
 #include <utility>
 

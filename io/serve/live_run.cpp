@@ -1,7 +1,7 @@
 #include "io/serve/live_run.h"
 
-#include "io/basics/failure_text.h"
 #include "io/flow/command_error.h"
+#include "models/maths/failure_text.h"
 
 #include <algorithm>
 #include <utility>

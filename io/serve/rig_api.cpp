@@ -2,7 +2,6 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/data_folder.h"
-#include "io/basics/failure_text.h"
 #include "io/basics/program.h"
 #include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
@@ -16,6 +15,7 @@
 #include "io/results/result_json.h"
 #include "io/serve/api_error.h"
 #include "io/serve/series_json.h"
+#include "models/maths/failure_text.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/lines/port_probe.h"
 

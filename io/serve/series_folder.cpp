@@ -1,7 +1,6 @@
 #include "io/serve/series_folder.h"
 
 #include "io/basics/atomic_file.h"
-#include "io/basics/failure_text.h"
 #include "io/basics/file_kind.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
@@ -10,6 +9,7 @@
 #include "io/materials/material_file.h"
 #include "io/serve/api_error.h"
 #include "models/experiment/test_phases.h"
+#include "models/maths/failure_text.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "io/serve/series_json.h"
 
-#include "io/basics/failure_text.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
 #include "io/serve/api_error.h"
+#include "models/maths/failure_text.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 #include "rig/run/test_run.h"
 
@@ -127,7 +128,7 @@ void conclude(RunSession& session, const RigConfig& rig, RunOutcome& outcome,
                   outcome.reason.empty() ? "The run is complete" : outcome.reason);
   } catch (const std::exception& error) {
     if (outcome.reason.empty()) throw;
-    outcome.reason += std::string("; besides: ") + error.what();
+    outcome.reason += "; besides: " + failure_text(error, "the end of the run");
   }
 }
 

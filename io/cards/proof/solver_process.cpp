@@ -82,7 +82,7 @@ void keep_signal(int signal) {
 }
 
 // While it lives, SIGINT, SIGTERM and SIGHUP do not end this process at once, so that solver and folder can
-// be removed; its destructor lets them end it. Signals that the program handles itself are left alone.
+// be removed; its destructor hands them on to whoever handled them before. Ignored signals stay ignored.
 class EndAfterCleaning {
  public:
   EndAfterCleaning() {
@@ -90,14 +90,14 @@ class EndAfterCleaning {
     for (const int signal : kSignals) {
       struct sigaction old {
       }, ours{};
-      if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler != SIG_DFL) continue;
+      if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;
       ours.sa_handler = keep_signal;
       ::sigaction(signal, &ours, nullptr);
-      changed_.push_back(signal);
+      changed_.emplace_back(signal, old);
     }
   }
   ~EndAfterCleaning() {
-    for (const int signal : changed_) ::signal(signal, SIG_DFL);
+    for (const auto& [signal, old] : changed_) ::sigaction(signal, &old, nullptr);
     const int signal = caught_signal.exchange(0);
     if (signal != 0) ::raise(signal);
   }
@@ -106,7 +106,7 @@ class EndAfterCleaning {
 
  private:
   static constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
-  std::vector<int> changed_;
+  std::vector<std::pair<int, struct sigaction>> changed_;
 };
 
 std::uintmax_t size_of_folder(const std::filesystem::path& folder) {

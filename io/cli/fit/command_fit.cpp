@@ -1,6 +1,5 @@
 #include "fit/intervals/flags.h"
 #include "io/basics/atomic_file.h"
-#include "io/basics/failure_text.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
@@ -15,6 +14,7 @@
 #include "io/materials/material_file.h"
 #include "io/plots/plot.h"
 #include "io/report/report_figures.h"
+#include "models/maths/failure_text.h"
 
 #include <exception>
 #include <functional>

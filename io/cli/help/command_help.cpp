@@ -73,19 +73,20 @@ std::vector<DescribedResult> common_results() {
 }
 
 // A file for each schema, keys.md and keys.txt about all of them, and scenes.md about scene files.
-void write_schemas(const std::filesystem::path& folder, const CommandDocuments& documents) {
+void write_schemas(const std::filesystem::path& folder, bool overwrite,
+                   const CommandDocuments& documents) {
   std::filesystem::create_directories(folder);
   std::vector<DescribedResult> results;
   for (const CommandDocument& one : documents) {
     for (const DescribedResult& result : one.syntax.results) {
       results.push_back(result);
       write_file(folder / (result.name + ".schema.json"),
-                 text_from_json(schema_of(result), 1) + "\n", true);
+                 text_from_json(schema_of(result), 1) + "\n", overwrite);
     }
   }
-  write_file(folder / "keys.md", table_of_keys(results), true);
-  write_file(folder / "keys.txt", list_of_keys(results), true);
-  write_file(folder / "scenes.md", table_of_scene_keys(), true);
+  write_file(folder / "keys.md", table_of_keys(results), overwrite);
+  write_file(folder / "keys.txt", list_of_keys(results), overwrite);
+  write_file(folder / "scenes.md", table_of_scene_keys(), overwrite);
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ void write_schemas(const std::filesystem::path& folder, const CommandDocuments& 
 int run_help(const Words& words, Streams& streams, const Words& names,
              const AskDocuments& ask_documents, const std::string& overview) {
   std::optional<std::string> name, what, schemas;
-  bool is_page = false;
+  bool is_page = false, overwrite = false;
   CommandSyntax syntax{"viscard help [COMMAND] [OPTIONS]",
                        "Explains a command, as --help of the command does, or lists all commands. "
                        "--man prints the source of the manual page instead.",
@@ -105,6 +106,7 @@ int run_help(const Words& words, Streams& streams, const Words& names,
   syntax.options.add("schemas", &schemas,
                      "folder to write JSON Schemas of what --json prints into, with tables of all "
                      "keys, also those of scene files");
+  syntax.options.add("force", &overwrite, "overwrite existing files").only_with({"schemas"});
   syntax.may_exist = {"schemas"};
   syntax.results = common_results();
   if (!parse_words(syntax, words, streams)) return kDone;
@@ -113,7 +115,7 @@ int run_help(const Words& words, Streams& streams, const Words& names,
                      " 'viscard help' lists the commands");
   }
   const CommandDocuments documents = ask_documents();
-  if (schemas) write_schemas(*schemas, documents);
+  if (schemas) write_schemas(*schemas, overwrite, documents);
   const CommandDocument* one = name ? &named(*name, documents) : nullptr;
   if (what) check_subcommand(*one, *what);
   const std::string page = !is_page         ? ""

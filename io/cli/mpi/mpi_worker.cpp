@@ -1,7 +1,7 @@
 #include "io/cli/mpi/mpi_worker.h"
 
-#include "io/basics/failure_text.h"
 #include "io/flow/sweep/run_study.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/leading_number.h"
 
 #include <chrono>

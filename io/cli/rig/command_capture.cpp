@@ -1,4 +1,3 @@
-#include "io/basics/failure_text.h"
 #include "io/cli/rig/capture_summary.h"
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/rig/rig_commands.h"
@@ -9,6 +8,7 @@
 #include "io/flow/capture_setup.h"
 #include "io/flow/command_error.h"
 #include "io/flow/rig_keys.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "io/flow/design/judge_scene.h"
 
-#include "io/basics/failure_text.h"
 #include "io/basics/parallel.h"
 #include "io/flow/scenes/answer_scene.h"
 #include "io/flow/sweep/study.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>

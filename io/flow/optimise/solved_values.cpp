@@ -1,10 +1,10 @@
 #include "io/flow/optimise/solved_values.h"
 
-#include "io/basics/failure_text.h"
 #include "io/basics/parallel.h"
 #include "io/flow/design/judge_scene.h"
 #include "io/flow/optimise/nearby_answers.h"
 #include "io/flow/scenes/uncertain_scene.h"
+#include "models/maths/failure_text.h"
 #include "models/uncertainty/linear_propagation.h"
 
 #include <algorithm>

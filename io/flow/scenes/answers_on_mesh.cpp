@@ -1,7 +1,7 @@
 #include "io/flow/scenes/answers_on_mesh.h"
 
-#include "io/basics/failure_text.h"
 #include "io/basics/parallel.h"
+#include "models/maths/failure_text.h"
 #include "models/scene/simulate.h"
 
 #include <limits>

@@ -1,10 +1,10 @@
 #include "io/flow/sweep/run_study.h"
 
-#include "io/basics/failure_text.h"
 #include "io/basics/missing_file.h"
 #include "io/basics/parallel.h"
 #include "io/flow/scenes/answer_scene.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/usable_machine.h"
 
 #include <algorithm>

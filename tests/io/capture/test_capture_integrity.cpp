@@ -187,6 +187,21 @@ TEST_CASE("a capture with a view in the place of a table is refused, even one wi
   CHECK(contains(error_text([&] { check_capture(path); }), "holds the view load_samples"));
 }
 
+TEST_CASE("a capture whose columns or indexes are computed is refused before they are",
+          "[io][capture]") {
+  const ScratchFolder folder;
+  const auto path = capture_of(folder, "run.viscap", 20);
+  SECTION("a column") {
+    change(path, "ALTER TABLE moves ADD COLUMN x GENERATED ALWAYS AS (hex(zeroblob(200000000)))");
+    CHECK(contains(error_text([&] { read_capture(path); }), "holds the column moves.x"));
+    CHECK(contains(error_text([&] { check_capture(path); }), "holds the column moves.x"));
+  }
+  SECTION("an index") {
+    change(path, "CREATE INDEX long ON moves(hex(zeroblob(seq)))");
+    CHECK(contains(error_text([&] { read_capture(path); }), "holds the index long"));
+  }
+}
+
 // The files of a run that is not finished, as kill -9 leaves them.
 void copy_as_killed(const std::filesystem::path& from, const std::filesystem::path& to) {
   for (const char* part : {"", "-wal"}) {

@@ -115,7 +115,7 @@ TEST_CASE("two figures on one page share no id and refer only to their own", "[i
 }
 
 TEST_CASE("names of any spelling stay text in a plot", "[io][report]") {
-  const std::string nasty = GENERATE(as<std::string>(), "", "'", "''", "\"'", "'\"") +
+  const std::string nasty = GENERATE(as<std::string>(), "", "'", "''", "a''b", "\"'", "'\"") +
                             "</text><script>alert('1')</script> & \"q\" _a^b {x} @ ~ `date` \\n'";
   Plot plot = small_plot();
   plot.title = plot.description = nasty;

@@ -40,6 +40,7 @@ TEST_CASE("a dropped file is written into the folder only, and replaces nothing"
   CHECK(name_of("--out=x.csv") == "out_x.csv");
   CHECK(name_of("uniaxial=c.csv") == "uniaxial_c.csv");
   CHECK(name_of(".hidden.csv") == "hidden.csv");
+  CHECK(name_of("a.csv.options") == "a.csv_options");
   CHECK(name_of("two\nlines\x01.csv") == "two_lines_.csv");
   CHECK(name_of("\xc3\xa4 b.csv") == "\xc3\xa4 b.csv");
   CHECK(name_of(std::string(300, 'x') + ".csv").size() <= 100);
@@ -52,7 +53,7 @@ TEST_CASE("a dropped file is written into the folder only, and replaces nothing"
   CHECK(scene.status == 422);
   CHECK(contains(message_of(scene), "the desk takes tables, captures and scenes"));
   CHECK(names_in(desk.folder().parent_path()) == std::set<std::string>{"tables"});
-  CHECK(desk.ask("/api/desk").json.at("tables").size() == 11);
+  CHECK(desk.ask("/api/desk").json.at("tables").size() == 12);
 }
 
 TEST_CASE("a link that lies in the place of a dropped file is not written through",

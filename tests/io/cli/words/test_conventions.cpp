@@ -1,6 +1,6 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/failure_text.h"
 #include "io/cli/words/command_line.h"
+#include "models/maths/failure_text.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
