@@ -2,6 +2,7 @@
 
 #include "io/cli/words/streams.h"
 #include "io/flow/capture_to_file.h"
+#include "models/quantities/plausible.h"
 #include "rig/run/run_outcome.h"
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
@@ -20,8 +21,8 @@ namespace {
 
 std::string csv_from_curve(const ValidationCurve& curve, const char* quantity,
                            const std::string& command) {
-  std::string text = fmt::format("# {} ({})\ntime_s,{},exact_{}\n", command,
-                                 "viscard " VISCARD_VERSION, quantity, quantity);
+  std::string text =
+      head_of_table(command) + fmt::format("time_s,{},exact_{}\n", quantity, quantity);
   for (std::size_t i = 0; i < curve.time_s.size(); ++i) {
     text += fmt::format("{},{},{}\n", curve.time_s[i], curve.solver[i], curve.exact[i]);
   }

@@ -260,7 +260,7 @@ Study read_study(const std::filesystem::path& path) {
   }
   record_scene_files(study);
   for (const InputFile& file : recorder.files()) {
-    study.inputs.push_back({input_name(study, file.path), file.sha256});
+    study.inputs.push_back({input_name(study, file.path), file.sha256, file.note});
   }
   return study;
 }
