@@ -117,7 +117,8 @@ TEST_CASE("an input that only another input names is not replaced either", "[cli
              "scene = \"scene.toml\"\n[[parameter]]\nkey = \"geometry.diameter\"\nvalues = [\"40 "
              "um\"]\n",
              false);
-  REQUIRE(run_command({"card", material, "--for", "abaqus", "--units", "mm-t-s", "--out", card}).status == 0);
+  REQUIRE(run_command({"card", material, "--for", "abaqus", "--units", "mm-t-s", "--out", card})
+              .status == 0);
   const std::vector<std::vector<std::string>> lines{
       {"sweep", study, "--out", (folder / "s.sqlite").string(), "--csv", scene, "--force"},
       {"card", card, "--for", "abaqus", "--units", "mm-t-s", "--import", card, "--force"},
@@ -132,7 +133,8 @@ TEST_CASE("an input that only another input names is not replaced either", "[cli
   }
 }
 
-TEST_CASE("a file beyond any use is refused before it is read, and its sum takes no memory", "[cli][io]") {
+TEST_CASE("a file beyond any use is refused before it is read, and its sum takes no memory",
+          "[cli][io]") {
   const test::ScratchFolder folder;
   const std::filesystem::path file = folder / "huge.csv";
   write_file(file, "time_s,force_N\n", false);
@@ -144,7 +146,7 @@ TEST_CASE("a file beyond any use is refused before it is read, and its sum takes
            {"card", "--check", file, "--for", "abaqus"},
            {"card", "--verify", file},
            {"simulate", file},
-           {"report", file}}) {
+           {"report", file, "--out", (folder / "page.html").string()}}) {
     CAPTURE(words);
     const auto outcome = run_command(words);
     CHECK(outcome.status != 0);
