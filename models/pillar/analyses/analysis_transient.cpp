@@ -94,9 +94,8 @@ struct OutputCurve {
 // A curve at `outputs` + 1 equal times, its spectrum, its peak and its end. The curve is judged over
 // a period of the first resonance, the spectrum over half the distance between two modes of a rod.
 void add_curve(const OutputCurve& of, const std::vector<double>& time_s,
-               const std::vector<double>& values, double tolerance, double first_Hz,
-               SceneAnswer& answer) {
-  const MotionPeak peak = peak_of_motion(of.time_s, of.values, of.rates, tolerance);
+               const std::vector<double>& values, double first_Hz, SceneAnswer& answer) {
+  const MotionPeak peak = peak_of_motion(of.time_s, of.values, of.rates);
   answer.results.push_back({.name = of.name + "_peak",
                             .value = peak.value,
                             .unit = of.unit,
@@ -129,8 +128,8 @@ TransientResult run_to_peaks(const ViscoelasticSystem& small, TransientRequest r
     TransientResult run = run_transient(small, request, observers);
     double error = 0.0;
     for (Eigen::Index row = 0; row < observers.rows(); ++row) {
-      const MotionPeak peak = peak_of_motion(run.motion.time_s, run.motion.values.row(row),
-                                             run.motion.rates.row(row), tolerance);
+      const MotionPeak peak =
+          peak_of_motion(run.motion.time_s, run.motion.values.row(row), run.motion.rates.row(row));
       if (peak.value != 0.0) error = std::max(error, peak.error / std::abs(peak.value));
     }
     int finer = 1;  // the error falls as the fourth power
@@ -247,7 +246,7 @@ void add_curves(const PillarScene& scene, const SceneBody& body, const Transient
                       body.outputs[i].unit, run.motion.time_s, run.motion.values.row(row),
                       run.motion.rates.row(row)};
     const std::vector<double> values(at_run.begin(), at_run.end());
-    add_curve(curve, time_s, at_outputs(values, outputs), scene.tolerance, first_Hz, answer);
+    add_curve(curve, time_s, at_outputs(values, outputs), first_Hz, answer);
     if (i != 1 || !scene.readout) continue;
     const ReadoutFilter filter = readout_of(scene, body, answer);
     const std::vector<double> open_V(curve.values.begin(), curve.values.end());
@@ -257,7 +256,7 @@ void add_curves(const PillarScene& scene, const SceneBody& body, const Transient
     curve.name = "reading";
     curve.unit = "V";
     const std::vector<double> at_times = reading_of(filter, run.time_s, values);
-    add_curve(curve, time_s, at_outputs(at_times, outputs), scene.tolerance, first_Hz, answer);
+    add_curve(curve, time_s, at_outputs(at_times, outputs), first_Hz, answer);
   }
 }
 

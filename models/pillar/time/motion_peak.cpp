@@ -92,13 +92,14 @@ class SampledMotion {
 }  // namespace
 
 MotionPeak peak_of_motion(const std::vector<double>& time_s, const Eigen::VectorXd& values,
-                          const Eigen::VectorXd& rates, double tolerance) {
+                          const Eigen::VectorXd& rates) {
+  constexpr double kEqual = 0.02;
   const std::vector<CubicStretch> all = SampledMotion(time_s, values, rates).stretches();
   const auto size_of = [](const CubicStretch& s) { return std::max(-s.low.value, s.high.value); };
   double size = 0.0;
   for (const CubicStretch& s : all) size = std::max(size, size_of(s));
   const auto first = std::find_if(all.begin(), all.end(), [&](const CubicStretch& s) {
-    return size_of(s) >= (1.0 - 4.0 * tolerance) * size;
+    return size_of(s) >= (1.0 - kEqual) * size;
   });
   if (size == 0.0 || first == all.end()) return {};
   const double sign = -first->low.value > first->high.value ? -1.0 : 1.0;
