@@ -1,8 +1,10 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/capture/capture_check.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
+#include "io/capture/integrity_notes.h"
 #include "io/capture/open_capture.h"
 #include "io/capture/possible_values.h"
 #include "io/config/config_file.h"
@@ -183,6 +185,7 @@ CapturedRun read_capture(const std::filesystem::path& path, const CaptureReading
   } catch (const SqliteError& error) {
     capture.explain(error);
   }
+  for (const IntegrityNote& note : integrity_notes(run)) note_input(path, note.text);
   return run;
 }
 

@@ -1,6 +1,7 @@
 #include "io/flow/read_report.h"
 
 #include "io/basics/data_uri.h"
+#include "io/basics/inputs.h"
 #include "io/basics/program.h"
 #include "io/flow/test_words.h"
 #include "io/materials/hyperelastic_file.h"
@@ -95,6 +96,9 @@ ReportInput read_report(const ReportRequest& request, const std::string& title,
   input.specimens = read_specimens(request, progress);
   input.law = mixing_law_of(request.files, input.specimens);
   for (const std::string& rubber : request.rubbers) input.rubbers.push_back(rubber_report(rubber));
+  for (const InputFile& file : provenance_of_inputs()) {
+    if (!file.note.empty()) input.doubts.push_back(file.path + ": " + file.note);
+  }
   return input;
 }
 

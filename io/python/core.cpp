@@ -1,5 +1,7 @@
 // The compiled module viscard._core.
+#include "io/basics/inputs.h"
 #include "io/basics/words.h"
+#include "io/basics/written_path.h"
 #include "io/flow/command_error.h"
 #include "io/options/option.h"
 #include "io/python/job.h"
@@ -47,6 +49,16 @@ void translate(
 void add_errors(py::module_& module) {
   py::register_local_exception_translator(translate);
   module.def("jobs_left", &jobs_left);
+  // What is in doubt of the files that were read while this lives.
+  py::class_<InputRecorder>(module, "InputRecorder")
+      .def(py::init<>())
+      .def("notes", [](const InputRecorder& recorder) {
+        std::vector<std::string> notes;
+        for (const InputFile& file : recorder.files()) {
+          if (!file.note.empty()) notes.push_back(written_path(file.path) + ": " + file.note);
+        }
+        return notes;
+      });
   module.def("no_such_word", &no_such_word);
   module.attr("version") = VISCARD_VERSION;
 }

@@ -1,4 +1,5 @@
 #include "fit/large_strain/rubber_band.h"
+#include "io/basics/atomic_file.h"
 #include "io/basics/words.h"
 #include "io/cards/hyperelastic/rubber_file_card.h"
 #include "io/flow/large_strain/large_strain_words.h"
@@ -123,6 +124,12 @@ void add_rubber(py::module_& module) {
   module.def("fit_rubber", &fit_rubber);
   module.def("rubber_from_json", [](const std::string& text, const std::string& name) {
     return hyperelastic_from_json(text, name);
+  });
+  // The text of a file that is a law.
+  module.def("text_of_rubber", [](const std::string& path) {
+    std::string text = read_file(path);
+    hyperelastic_from_json(text, path);
+    return text;
   });
   module.def("rubber_stress", &rubber_stress);
   module.def("rubber_card", &rubber_card_text);

@@ -78,6 +78,9 @@ std::string html_from_page(const ReportInput& input, const Page& page) {
   if (!input.introduction.empty()) {
     html += "<p class=\"lead\">" + escaped_markup(input.introduction) + "</p>\n";
   }
+  if (!input.doubts.empty()) html += "<ul class=\"flags\">\n";
+  for (const std::string& doubt : input.doubts) html += "<li>" + escaped_markup(doubt) + "</li>\n";
+  if (!input.doubts.empty()) html += "</ul>\n";
   html += page.contents_html() + "</header>\n<main>\n" + page.body() + "</main>\n<footer>\n";
   if (!input.command.empty()) {
     html += "<p>Made by <code>" + escaped_markup(input.command) + "</code></p>\n";

@@ -225,13 +225,13 @@ Database opened(const std::filesystem::path& path, const Study& study, const Sto
 }
 
 Database opened_to_read(const std::filesystem::path& path, const Study& study,
-                        const StoreOptions& options) {
+                        const StoreOptions& options, bool& is_recorded) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path.string() + ": no such file");
   refuse_other_kind(path);
   Database database(path, Database::Access::kReadOnly);
   refuse_damage(database, path);
   if (!has_table(database, "study")) refuse_other_file(path);
-  check_study(database, path, study, options);
+  is_recorded = check_study(database, path, study, options);
   return database;
 }
 
@@ -269,9 +269,10 @@ StudyPoint point_from(std::int64_t number, const nlohmann::ordered_json& values,
 
 constexpr const char* kColumns = "point, parameters, results, failure, kind, crc32";
 
-// Of a row with these columns. Rows of before there were checksums have none.
-bool is_sound(const Statement& row) {
-  if (!row.maybe_number(5)) return row.text(4).empty();
+// Of a row with these columns. Rows of before there were checksums have none; stores that state their inputs
+// had them from the beginning.
+bool is_sound(const Statement& row, bool has_recorded_inputs) {
+  if (!row.maybe_number(5)) return !has_recorded_inputs && row.text(4).empty();
   return checksum_of(row.integer(0), row.text(1), row.text(2), row.text(3), row.text(4)) ==
          row.integer(5);
 }
@@ -288,11 +289,11 @@ std::string columns_of(Database& database) {
                                        : "point, parameters, results, failure, NULL, NULL";
 }
 
-std::vector<std::int64_t> damaged_rows(Database& database) {
+std::vector<std::int64_t> damaged_rows(Database& database, bool has_recorded_inputs) {
   std::vector<std::int64_t> damaged;
   Statement row = database.prepare(("SELECT " + columns_of(database) + " FROM points").c_str());
   while (row.step()) {
-    if (!is_sound(row)) damaged.push_back(row.integer(0));
+    if (!is_sound(row, has_recorded_inputs)) damaged.push_back(row.integer(0));
   }
   return damaged;
 }
@@ -326,7 +327,7 @@ StudyStore::StudyStore(const std::filesystem::path& path, const Study& study,
       database_(opened(path, study, options, has_recorded_inputs_)),
       insert_(database_.prepare(kInsert)) {
   Statement forget = database_.prepare("DELETE FROM points WHERE point = ?");
-  for (const std::int64_t point : damaged_rows(database_)) {
+  for (const std::int64_t point : damaged_rows(database_, has_recorded_inputs_)) {
     forget.run_with(point);
     ++n_damaged_;
   }
@@ -368,7 +369,8 @@ void StudyStore::add(const std::vector<StudyPoint>& points) {
 
 std::int64_t StudyStore::merge(const std::filesystem::path& other, const Study& study,
                                const StoreOptions& options) {
-  Database from = opened_to_read(other, study, options);
+  bool is_recorded = false;
+  Database from = opened_to_read(other, study, options, is_recorded);
   const std::set<std::int64_t> here = done();
   std::int64_t taken = 0;
   std::size_t n_damaged = 0;
@@ -376,7 +378,7 @@ std::int64_t StudyStore::merge(const std::filesystem::path& other, const Study& 
   Statement row =
       from.prepare(("SELECT " + columns_of(from) + " FROM points ORDER BY point").c_str());
   while (row.step()) {
-    if (!is_sound(row)) {
+    if (!is_sound(row, is_recorded)) {
       ++n_damaged;
       continue;
     }
@@ -393,7 +395,7 @@ void StudyStore::for_each(const std::function<void(const StudyPoint&)>& take) {
   const std::string sql = "SELECT " + std::string(kColumns) + " FROM points ORDER BY point";
   Statement rows = database_.prepare(sql.c_str());
   while (rows.step()) {
-    if (is_sound(rows)) take(point_in(rows));
+    if (is_sound(rows, has_recorded_inputs_)) take(point_in(rows));
   }
 }
 

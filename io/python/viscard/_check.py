@@ -9,13 +9,16 @@ import math
 import numbers
 import operator
 import os
+import threading
 import types
 import typing
+import warnings
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 
-from ._error import Error
+from . import _core
+from ._error import DoubtWarning, Error
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -141,6 +144,24 @@ def _listed(signature: inspect.Signature, options: Any) -> inspect.Signature:
     return signature.replace(parameters=named + listed)
 
 
+_calls = threading.local()
+
+
+def _with_doubts(function: Callable[..., Any], given: Sequence[Any], keywords: Mapping[str, Any]) -> Any:
+    """Calls the function. What is in doubt of the files that it read, such as that one was edited, is a warning."""
+    if getattr(_calls, "is_within", False):  # one public function called another
+        return function(*given, **keywords)
+    recorder = _core.InputRecorder()
+    _calls.is_within = True
+    try:
+        found = function(*given, **keywords)
+    finally:
+        _calls.is_within = False
+    for note in recorder.notes():
+        warnings.warn(note, DoubtWarning, stacklevel=4)
+    return found
+
+
 def arguments(function: _Function) -> _Function:
     """The function, with the types of its arguments checked. Those without annotation it checks itself.
 
@@ -172,7 +193,7 @@ def arguments(function: _Function) -> _Function:
             hint = hints().get(name if name in positional else str(others))
             if hint is not None:
                 value(name, one, hint)
-        return function(*given, **keywords)
+        return _with_doubts(function, given, keywords)
 
     if options:
         checked.__signature__ = _listed(inspect.signature(function), options)  # type: ignore[attr-defined]

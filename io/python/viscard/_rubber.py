@@ -144,13 +144,7 @@ class RubberFit(Compared):
     def load(cls, path: Path) -> "RubberFit":
         """The law of a file that `save` or ``viscard fit uniaxial=a.csv --out`` has written."""
         name = os.fspath(path)
-        try:
-            with open(name, encoding="utf-8") as file:
-                text = file.read()
-        except OSError as failure:
-            raise Error(f"{name}: {failure.strerror}", "file", failure.strerror, name) from failure
-        _core.rubber_from_json(text, name)  # refuses what is no law
-        return cls(text, name, "", [])
+        return cls(_core.text_of_rubber(name), name, "", [])
 
     @property
     def _law(self) -> _core.Rubber:

@@ -1,6 +1,8 @@
 """Materials against closed forms."""
 import locale
+import re
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -123,3 +125,25 @@ def test_a_decimal_comma_in_the_language_changes_no_card_and_no_message(decimal_
     with_comma = texts()
     decimal_comma()
     assert with_comma == texts()
+
+
+def test_what_is_in_doubt_of_a_file_is_a_warning_of_every_call_that_reads_it(tmp_path):
+    path = tmp_path / "m.json"
+    viscard.fit("data/demo/example_relaxation.csv").material.save(path)
+
+    def doubts(call):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            call()
+        return [str(one.message) for one in caught if one.category is viscard.DoubtWarning]
+
+    calls = [lambda: viscard.Material.load(path),
+             lambda: viscard.predict(path, test="creep", stress="1 kPa", hold="1 s"),
+             lambda: viscard.report([path], tmp_path / "page.html", overwrite=True)]
+    assert not [text for call in calls for text in doubts(call)]
+    path.write_text(path.read_text().replace('"E0_Pa": 1', '"E0_Pa": 2', 1))
+    for call in calls:
+        assert [text for text in doubts(call) if text.startswith(f"{path}: the file was edited")], call
+    path.write_text(re.sub(r',\s*"body_sha256": "\w+"', "", path.read_text()))
+    for call in calls:
+        assert [text for text in doubts(call) if "has no sum of its contents" in text], call

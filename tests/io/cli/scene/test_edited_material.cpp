@@ -90,6 +90,9 @@ load = { pressure = "1 kPa", on = "top" }
   CHECK_THAT(read_file(joint), Contains(kWords));
   CHECK_THAT(run_command({"card", joint, "--ratio", "12", "--for", "abaqus", "--units", "SI"}).out,
              Contains(kWords));
+  const std::string page = (scratch / "page.html").string();
+  run_command({"report", material, "--out", page});
+  CHECK_THAT(read_file(page), Contains("<li>" + material + ": the file was edited"));
   // A card carries it, and what a card becomes again.
   const std::string card = (scratch / "card.inp").string(), back = (scratch / "back.json").string();
   REQUIRE(run_command({"card", material, "--for", "abaqus", "--units", "mm-t-s", "--out", card})

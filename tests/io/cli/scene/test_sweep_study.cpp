@@ -362,6 +362,8 @@ TEST_CASE("a damaged row of a store is not an answer", "[cli][scene][sweep]") {
                         "UPDATE points SET failure = 'x' WHERE point = 1",
                         "UPDATE points SET kind = 'refused' WHERE point = 1",
                         "UPDATE points SET crc32 = NULL WHERE point = 1",
+                        "UPDATE points SET results = replace(results, '1', '2'), kind = NULL, crc32 "
+                        "= NULL WHERE point = 1",
                         "UPDATE points SET point = 7 WHERE point = 1"));
   const CommandOutcome outcome = files.sweep({"--out", files.store});
   CHECK(outcome.status == 0);
