@@ -2,6 +2,7 @@
 #include "fit/intervals/uncertainty.h"
 #include "fit/search/separable.h"
 #include "models/maths/interval.h"
+#include "models/maths/may_stop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,7 @@ void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
   const Eigen::VectorXd prior_sd = model.of_nuisances(&Nuisance::prior_sd);
   Drawn drawn;
   for (int draw = 0; draw < options.n_resamples; ++draw) {
+    may_stop();
     Eigen::VectorXd data = fitted;
     for (Index begin = 0; begin < rows; begin += length) {
       const auto from = static_cast<Index>(random() % static_cast<std::uint64_t>(rows));

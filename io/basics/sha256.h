@@ -11,6 +11,7 @@ class Sha256 {
  public:
   Sha256();
   ~Sha256();
+  // The next piece, of n_bytes bytes.
   void add(const char* bytes, std::size_t n_bytes);
   // 64 lower-case hexadecimal digits; once.
   std::string digits();

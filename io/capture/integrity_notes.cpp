@@ -1,5 +1,6 @@
 #include "io/capture/integrity_notes.h"
 
+#include "io/config/config_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -10,9 +11,9 @@ namespace viscard {
 namespace {
 
 constexpr std::string_view kDamageMark = "damage: ";
-constexpr std::string_view kNoteNames[] = {"unverified",      "samples-damaged",
-                                           "reports-damaged", "temperatures-damaged",
-                                           "side-file-torn",  "side-file-missing"};
+constexpr std::string_view kNoteNames[] = {
+    "unverified",     "samples-damaged",   "reports-damaged",   "temperatures-damaged",
+    "side-file-torn", "side-file-missing", "calibration-edited"};
 
 }  // namespace
 
@@ -27,6 +28,11 @@ std::vector<IntegrityNote> integrity_notes(const CapturedRun& run, CapturePart p
   if (integrity.is_damage_accepted) {
     notes.push_back({"unverified", "the capture is damaged and was read with --unverified: " +
                                        integrity.faults.front()});
+  }
+  if (run.rig.calibration.id.ends_with(kEditedMark) || run.rig.frame.id.ends_with(kEditedMark)) {
+    notes.push_back(
+        {"calibration-edited",
+         "the record of its load cell or frame was edited since viscard calibrate wrote it"});
   }
   const auto left_out = [&notes](const char* name, std::size_t count, const char* what) {
     if (count == 0) return;

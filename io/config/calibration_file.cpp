@@ -30,7 +30,6 @@ void show_frame_numbers(FieldVisitor& fields, FrameConfig& frame) {
 }
 
 constexpr const char* kBodySum = "body_sha256";
-constexpr const char* kEditedMark = " (edited)";
 
 // The first line of a record states the sum of what follows. False for a record without it, which was written
 // by hand or before.
@@ -103,9 +102,8 @@ CalibrationRecord calibration_from_toml(const std::string& text, const std::stri
 
 CalibrationRecord read_calibration(const std::filesystem::path& path) {
   const std::string text = read_file(path);
-  CalibrationRecord record =
-      read_as(FileKind::kCalibration, text, path.string(),
-              [&] { return calibration_from_toml(text, path.string()); });
+  CalibrationRecord record = read_as(FileKind::kCalibration, text, path.string(),
+                                     [&] { return calibration_from_toml(text, path.string()); });
   if (!is_edited_since(text)) return record;
   note_input(path, "the record was edited since viscard calibrate wrote it");
   // It goes wherever the name of the calibration goes: into captures, fits and reports.

@@ -30,6 +30,9 @@ TestPlan read_test(const std::filesystem::path& path, Plausible judged = Plausib
 Specimen read_specimen(const std::filesystem::path& path, Plausible judged = Plausible::kMeasured);
 EmulatedTruth read_truth(const std::filesystem::path& path);
 
+// Ends the id of a calibration or frame whose record was edited since it was written.
+inline constexpr const char* kEditedMark = " (edited)";
+
 // A record written by `viscard calibrate`. A rig file names it by file = "..." in [calibration] or
 // [frame]; the path is relative to the rig file. It has the keys of those sections, and [[budget]].
 struct CalibrationRecord {

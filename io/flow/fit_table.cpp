@@ -1,6 +1,7 @@
 #include "io/flow/fit_table.h"
 
 #include "fit/intervals/left_out.h"
+#include "fit/master_segments.h"
 #include "io/basics/words.h"
 #include "io/flow/damaged_table.h"
 #include "io/flow/fit_of_kind.h"

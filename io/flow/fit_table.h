@@ -1,6 +1,5 @@
 #pragma once
 
-#include "fit/master_segments.h"
 #include "io/flow/fit_request.h"
 #include "io/tables/csv_table.h"
 #include "models/maths/interval.h"
@@ -10,6 +9,8 @@
 #include <vector>
 
 namespace viscard {
+
+struct MasterSegment;  // fit/master_segments.h
 
 // fit_file() for a table that was read already.
 FittedFile fit_csv(CsvTable all, const FitRequest& request);

@@ -169,7 +169,8 @@ bool is_doubt_of_record(const MaterialFlag& flag) {
                                                 "reports-damaged",
                                                 "temperatures-damaged",
                                                 "side-file-torn",
-                                                "side-file-missing"};
+                                                "side-file-missing",
+                                                "calibration-edited"};
   return kDoubts.count(flag.name) > 0;
 }
 

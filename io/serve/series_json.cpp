@@ -95,6 +95,9 @@ Json json_of_material(const std::filesystem::path& file) {
   try {
     const Material material = read_material(file).material;
     Json json = {{"file", file.filename().string()}, {"E0_Pa", material.E0_Pa}};
+    for (const MaterialFlag& flag : material.flags) {
+      if (is_doubt_of_record(flag)) json["doubts"].push_back(flag.text);
+    }
     if (material.uncertainty) json["E0_interval_95"] = json_from(material.uncertainty->E0_Pa_95);
     return json;
   } catch (const std::exception& error) {

@@ -262,6 +262,9 @@ Study read_study(const std::filesystem::path& path) {
   for (const InputFile& file : recorder.files()) {
     study.inputs.push_back({input_name(study, file.path), file.sha256, file.note});
   }
+  // However the study was named: all machines see one order.
+  std::sort(study.inputs.begin(), study.inputs.end(),
+            [](const InputFile& a, const InputFile& b) { return a.path < b.path; });
   return study;
 }
 

@@ -134,6 +134,7 @@ function rowOf(entry) {
   const material = entry.material && entry.material.E0_interval_95
     ? { title: `95 %: ${range(entry.material.E0_interval_95, 1e-6)} MPa` } : {};
   const state = make("td", { class: "state" }, kStates[entry.state], ...actionsOf(entry));
+  for (const doubt of entry.material?.doubts ?? []) state.append(make("div", { class: "alert" }, sentence(doubt)));
   if (entry.trouble) state.append(make("div", { class: "alert" }, sentence(entry.trouble)));
   const row = make("tr", { "data-name": entry.name },
                    make("td", {}, make("label", {}, radio, make("span", {}, entry.name))),

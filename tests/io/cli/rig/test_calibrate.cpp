@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/capture/integrity_notes.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/config/config_file.h"
 #include "tests/support/scratch_folder.h"
@@ -88,8 +89,14 @@ TEST_CASE("dead weights on the emulated rig recover gain and hysteresis within t
   std::string text = read_file(out);
   text.insert(text.find("capacity"), "# by hand\n");
   write_file(out, text, true);
-  CHECK(read_rig(folder / "rig.toml").calibration.id == record.calibration->id + " (edited)");
-  write_file(out, text.substr(text.find('\n') + 1), true);  // without the sum: of before, or by hand
+  CapturedRun captured;
+  captured.rig = read_rig(folder / "rig.toml");
+  CHECK(captured.rig.calibration.id == record.calibration->id + " (edited)");
+  captured.integrity.has_checksums = true;
+  REQUIRE(integrity_notes(captured).size() == 1);
+  CHECK(integrity_notes(captured)[0].name == "calibration-edited");
+  write_file(out, text.substr(text.find('\n') + 1),
+             true);  // without the sum: of before, or by hand
   CHECK(read_rig(folder / "rig.toml").calibration.id == record.calibration->id);
 }
 
