@@ -70,6 +70,7 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   RigDevices devices = open_ports(rig, clock);
   CaptureOptions options;
   options.overwrite = request.overwrite;
+  if (request.overwrite) refuse_input(request.path);
   PreviousCapture previous(request.path, request.overwrite);
   options.rights = previous.rights();
   CaptureWriter writer(request.path, about_run(request, rig), options);

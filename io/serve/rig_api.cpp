@@ -333,11 +333,22 @@ Json RigApi::fit(const Json& request) {
 
 std::string RigApi::save_material(const FittedFile& fitted, const std::string& specimen) const {
   const std::filesystem::path file = folder_.path() / (specimen + ".json");
+  MaterialRequest wanted;
+  wanted.command = options_.command;
+  wanted.created_at = now_iso8601();
+  const Material material = material_from_fitted(fitted, wanted);
   if (!std::filesystem::exists(file)) {
-    MaterialRequest wanted;
-    wanted.command = options_.command;
-    wanted.created_at = now_iso8601();
-    write_file(file, json_from_material(material_from_fitted(fitted, wanted)), false);
+    write_file(file, json_from_material(material), false);
+    return file.filename().string();
+  }
+  const auto sum_of = [](const Material& of) {
+    const auto& raw = of.provenance.raw_files;
+    return raw.empty() ? std::string() : raw.front().sha256;
+  };
+  if (sum_of(read_material(file).material) != sum_of(material)) {
+    throw std::runtime_error(file.filename().string() +
+                             " is the material of another record; rename it, then open this result "
+                             "again");
   }
   return file.filename().string();
 }

@@ -137,6 +137,17 @@ void set_all(const OptionList& options, const CommandSyntax& syntax) {
   }
 }
 
+// "--out --json": a value was forgotten, and the next option would become the name of a file.
+void refuse_forgotten_values(const CommandSyntax& syntax) {
+  for (const auto& [name, values] : syntax.given) {
+    for (const std::string& value : values) {
+      const bool is_option = value.starts_with("--") &&
+                             syntax.options.find(value.substr(2, value.find('=') - 2)) != nullptr;
+      if (is_option) throw UsageError("--" + name + " needs a value; '" + value + "' is an option");
+    }
+  }
+}
+
 // --help, or its object with --json, or the receiver of the syntax.
 void show_help(const CommandSyntax& syntax, Streams& streams) {
   if (streams.on_help) return streams.on_help(syntax);
@@ -183,6 +194,7 @@ bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
     show_help(syntax, streams);
     return false;
   }
+  refuse_forgotten_values(syntax);
   take_positional(free, syntax);
   streams.accepts_implausible = given_plausible(syntax) == Plausible::kOff;
   check_output_paths(syntax);

@@ -47,14 +47,19 @@ void check_values(const Study& study, Plausible judged) {
 
 namespace {
 
+// The same point may have an answer once its files are what they were.
+class InputChanged : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // Throws if a file is not what it was when the study was read.
 void refuse_changed_inputs(const Study& study, const std::vector<InputFile>& files) {
   for (const InputFile& file : files) {
     const std::string name = input_name(study, file.path);
     for (const InputFile& known : study.inputs) {
       if (known.path != name || known.sha256 == file.sha256) continue;
-      throw std::system_error(std::make_error_code(std::errc::operation_canceled),
-                              name + " has changed while the sweep ran");
+      throw InputChanged(name + " has changed while the sweep ran");
     }
   }
 }
@@ -70,6 +75,7 @@ bool has_all_inputs(const Study& study) {
 PointKind kind_of_failure(const std::exception& error) {
   if (is_lack_of_memory(error)) return PointKind::kPassing;
   if (dynamic_cast<const std::system_error*>(&error) != nullptr) return PointKind::kPassing;
+  if (dynamic_cast<const InputChanged*>(&error) != nullptr) return PointKind::kPassing;
   if (dynamic_cast<const NotEnoughMemory*>(&error) != nullptr) return PointKind::kPassing;
   if (dynamic_cast<const std::runtime_error*>(&error) != nullptr) return PointKind::kRefused;
   if (dynamic_cast<const std::invalid_argument*>(&error) != nullptr) return PointKind::kRefused;

@@ -51,9 +51,9 @@ class Card:
     def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Write the card and its companions; existing files are kept unless `overwrite` is True."""
         to = pathlib.Path(path)
+        _core.write_file(str(to), self.text, overwrite)
         for suffix, text in self.companions:
             _core.write_file(str(to.with_suffix("")) + suffix, text, overwrite)
-        _core.write_file(str(to), self.text, overwrite)
 
     def __str__(self) -> str:
         return self.text

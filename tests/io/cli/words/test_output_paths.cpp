@@ -103,6 +103,9 @@ TEST_CASE(
     CHECK(contains(run_command(words).err, "it is a device or pipe"));
   }
   write_file(folder / "old.json", "{}", false);
+  const auto forgotten = run_command({"fit", "missing.csv", "--out", "--json"});
+  CHECK(forgotten.status == kBadWords);
+  CHECK(contains(forgotten.err, "--out needs a value; '--json' is an option"));
   const auto existing = run_command({"fit", "missing.csv", "--out", folder / "old.json"});
   CHECK(contains(existing.err, "exists already; pass --force"));
 }
