@@ -147,23 +147,9 @@ def _listed(signature: inspect.Signature, options: Any) -> inspect.Signature:
 _calls = threading.local()
 
 
-def _with_doubts(function: Callable[..., Any], given: Sequence[Any], keywords: Mapping[str, Any]) -> Any:
-    """Calls the function. What is in doubt of the files that it read, such as that one was edited, is a warning."""
-    if getattr(_calls, "is_within", False):  # one public function called another
-        return function(*given, **keywords)
-    recorder = _core.InputRecorder()
-    _calls.is_within = True
-    try:
-        found = function(*given, **keywords)
-    finally:
-        _calls.is_within = False
-    for note in recorder.notes():
-        warnings.warn(note, DoubtWarning, stacklevel=4)
-    return found
-
-
 def arguments(function: _Function) -> _Function:
-    """The function, with the types of its arguments checked. Those without annotation it checks itself.
+    """The function, with the types of its arguments checked. Those without annotation it checks itself. What is in doubt
+    of the files that it read is a warning.
 
     Options that a TypedDict lists (`**options: Unpack[FitOptions]`) stand in its signature and its docstring.
     """
@@ -193,7 +179,17 @@ def arguments(function: _Function) -> _Function:
             hint = hints().get(name if name in positional else str(others))
             if hint is not None:
                 value(name, one, hint)
-        return _with_doubts(function, given, keywords)
+        if getattr(_calls, "is_within", False):  # one public function called another
+            return function(*given, **keywords)
+        recorder = _core.InputRecorder()
+        _calls.is_within = True
+        try:
+            found = function(*given, **keywords)
+        finally:
+            _calls.is_within = False
+        for note in recorder.notes():  # such as that a file was edited
+            warnings.warn(note, DoubtWarning, stacklevel=2)
+        return found
 
     if options:
         checked.__signature__ = _listed(inspect.signature(function), options)  # type: ignore[attr-defined]
