@@ -154,20 +154,26 @@ TEST_CASE("two captures cannot share a port or a file", "[cli][capture][pty]") {
 }
 
 TEST_CASE("a capture that is frozen while it presses names the computer", "[cli][capture][pty]") {
-  OutsideRig rig(0.05e-3);
-  Program program(rig.words());
-  REQUIRE(rig.wait_for(program, [&] { return rig.is_moving_beyond(0.1e-3); }));  // in the ramp
-  program.send(SIGSTOP);
-  std::this_thread::sleep_for(std::chrono::milliseconds(800));
-  program.send(SIGCONT);
-  const int status = program.wait();
-  INFO(program.said());
-  REQUIRE(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 1);
-  CHECK(contains(program.said(), "this computer was late by "));
-  CHECK_FALSE(contains(program.said(), "modulus_guess"));
-  CHECK_FALSE(rig.emulated.outcome().is_moving);
-  CHECK(rig.emulated.outcome().final_position_m < 0.05e-3);
+  for (int tries = 1;; ++tries) {
+    OutsideRig rig(0.05e-3);
+    Program program(rig.words());
+    const bool is_in_ramp = rig.wait_for(program, [&] { return rig.is_moving_beyond(0.1e-3); });
+    if (is_in_ramp) {
+      program.send(SIGSTOP);
+      std::this_thread::sleep_for(std::chrono::milliseconds(800));
+      program.send(SIGCONT);
+    }
+    const int status = program.wait();
+    INFO(program.said());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 1);
+    CHECK(contains(program.said(), "this computer was late by "));
+    CHECK_FALSE(contains(program.said(), "modulus_guess"));
+    CHECK_FALSE(rig.emulated.outcome().is_moving);
+    CHECK(rig.emulated.outcome().final_position_m < 0.05e-3);
+    if (is_in_ramp) return;
+    REQUIRE(tries < 10);  // a busy computer is late by itself, before the ramp
+  }
 }
 
 TEST_CASE("a frozen capture of the emulated rig is the capture that was not frozen",
