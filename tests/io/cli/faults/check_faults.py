@@ -130,7 +130,8 @@ class Study:
         found = {}
         for pattern in command.outputs:
             for path in sorted(folder.glob(pattern)):
-                if path.is_file():
+                # What kill leaves of a file in the making, ".x.csv.123.tmp", is removed by the next run.
+                if path.is_file() and not path.name.startswith("."):
                     found[str(path.relative_to(folder))] = path.read_bytes()
         return found
 
