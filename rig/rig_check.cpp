@@ -67,14 +67,17 @@ std::string network_trouble(const LoadCellConfig& cell, const RigCheck& check,
                             const std::string& needs, double needed_B_s) {
   const std::string late =
       check.falls_behind > 0.0
-          ? "each second the readings fall behind by " + text_from_number(check.falls_behind, 3) + " s"
+          ? "each second the readings fall behind by " + text_from_number(check.falls_behind, 3) +
+                " s"
           : "the readings come at " + text_from_number(check.rate_Hz, 1) + "/s and not at the " +
                 text_from_number(cell.expected_rate_Hz, 1) + "/s of expected_rate";
   return late + ": " + needs +
-         ". Look for the slow part of the way: the network, or the serial line behind a device server, which "
+         ". Look for the slow part of the way: the network, or the serial line behind a device "
+         "server, which "
          "needs " +
          std::to_string(baud_for(needed_B_s)) +
-         " baud or more. If the amplifier makes no more readings, set expected_rate under [load_cell] of the "
+         " baud or more. If the amplifier makes no more readings, set expected_rate under "
+         "[load_cell] of the "
          "rig file to their number";
 }
 
@@ -90,7 +93,8 @@ std::string lag_trouble(const RigConfig& rig, const RigCheck& check) {
                             text_from_number(check.line_bytes, 1) + " bytes need " +
                             text_from_number(needed_B_s, 0) + " bytes/s";
   if (is_tcp_port(cell.port)) {
-    return check.falls_behind > 0.0 || is_slow ? network_trouble(cell, check, needs, needed_B_s) : "";
+    return check.falls_behind > 0.0 || is_slow ? network_trouble(cell, check, needs, needed_B_s)
+                                               : "";
   }
   const std::string remedy = "Set the amplifier, and baud under [load_cell] of the rig file, to " +
                              std::to_string(std::max(baud_for(needed_B_s), cell.baud)) +

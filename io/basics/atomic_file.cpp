@@ -224,9 +224,10 @@ void await_writer(const std::filesystem::path& path, int fd) {
   constexpr int kWait_ms = 5000;
   pollfd pipe{fd, POLLIN, 0};
   if (::poll(&pipe, 1, kWait_ms) != 0) return;
-  throw std::runtime_error(path.string() +
-                           ": cannot read: it is a pipe into which no program writes; name a file, or "
-                           "start the program that writes first");
+  throw std::runtime_error(
+      path.string() +
+      ": cannot read: it is a pipe into which no program writes; name a file, or "
+      "start the program that writes first");
 }
 
 int open_to_read(const std::filesystem::path& path) {

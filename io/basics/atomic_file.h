@@ -32,7 +32,8 @@ std::optional<unsigned> rights_of_file(const std::filesystem::path& path);
 void sync_folder(const std::filesystem::path& folder);
 
 // What anybody writes by hand or for one material is far smaller; tables and captures are not.
-inline constexpr std::size_t kLongestText = std::size_t{64} << 20, kLongestTable = std::size_t{512} << 20;
+inline constexpr std::size_t kLongestText = std::size_t{64} << 20,
+                             kLongestTable = std::size_t{512} << 20;
 
 // Returns the contents of a file, which inputs.h records. Throws std::runtime_error naming the file and
 // the reason, such as that it has more than `most` bytes.

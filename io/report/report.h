@@ -85,7 +85,8 @@ struct ReportInput {
   std::string title;
   std::string introduction;  // one paragraph, may be empty
   std::string logo_uri;      // data_uri_of_picture(), may be empty
-  std::vector<std::string> doubts;  // of the files that were read: "m.json: the file was edited ..."
+  std::vector<std::string>
+      doubts;  // of the files that were read: "m.json: the file was edited ..."
   std::vector<SpecimenReport> specimens;
   std::optional<MixingLaw> law;
   std::vector<RubberReport> rubbers;

@@ -205,7 +205,8 @@ Texts fit_words(const DeskTables& tables, const Texts& more) {
 
 std::string word_of_file(const std::string& name) {
   // "-x" would be an option, "@x" a file of options, "kind=x" a kind of test.
-  const bool is_plain = name.front() != '-' && name.front() != '@' && name.find('=') == std::string::npos;
+  const bool is_plain =
+      name.front() != '-' && name.front() != '@' && name.find('=') == std::string::npos;
   return is_plain ? name : "./" + name;
 }
 

@@ -59,8 +59,9 @@ void carry_out(httplib::Response& response, const std::function<ordered_json()>&
   } catch (const ApiError& error) {
     answer_error(response, error.status(), command_error(error.code(), error.what()));
   } catch (const ordered_json::exception&) {
-    answer_error(response, 400,
-                 command_error("bad-value", "the request has a value of another kind than the page sends"));
+    answer_error(
+        response, 400,
+        command_error("bad-value", "the request has a value of another kind than the page sends"));
   } catch (const std::exception& error) {
     answer_error(response, 422, command_error(error));
   }

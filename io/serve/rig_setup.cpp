@@ -63,10 +63,11 @@ Json RigSetup::take(const Json& request) {
   const std::string before = read_file(file);
   if (before == text) return answer;
   if (request.contains("based_on") && text_at(request, "based_on") != before) {
-    throw ApiError(409, "changed",
-                   file.string() +
-                       " was changed since the page showed it, and nothing is written; open the set-up "
-                       "again to see the text of now");
+    throw ApiError(
+        409, "changed",
+        file.string() +
+            " was changed since the page showed it, and nothing is written; open the set-up "
+            "again to see the text of now");
   }
   const fs::path kept = free_name(file);
   write_file(kept, before, false);

@@ -96,10 +96,11 @@ void GaugeLoadCell::connect(const Pump& pump) {
   const std::string words = identity_.empty() ? "" : " (it calls itself '" + identity_ + "')";
   throw RigError("no reading came from the " + protocol_.name + " instrument on '" +
                  transport_.name() + "'" + words + ". " +
-                 (is_noise ? "The bytes received are mostly unreadable: is framing right, and " +
-                                 transport_.question()
-                           : "Is this its port, is it switched on, is its interface set to it, and " +
-                                 transport_.question()));
+                 (is_noise
+                      ? "The bytes received are mostly unreadable: is framing right, and " +
+                            transport_.question()
+                      : "Is this its port, is it switched on, is its interface set to it, and " +
+                            transport_.question()));
 }
 
 void GaugeLoadCell::service() {

@@ -21,7 +21,8 @@ class TcpLine final : public Transport {
   std::string name() const override { return port_; }
   int baud() const override { return 10'000'000; }  // about what the slowest network carries
   std::string question() const override {
-    return "is this the port number of the instrument, and has its device server the baud rate of the instrument?";
+    return "is this the port number of the instrument, and has its device server the baud rate of "
+           "the instrument?";
   }
   int descriptor() const override { return descriptor_; }
   Chunk read_available() override;

@@ -121,10 +121,9 @@ void AptStage::connect(const Pump& pump) {
   } catch (const PortHungUp&) {
     throw;
   } catch (const RigError&) {
-    throw_no_answer(
-        "Thorlabs APT controller", transport_.question() + " APT needs 115200",
-        "Is this the stage's port, and is the controller switched on? After a quick "
-        "reopening some need their supply off and on");
+    throw_no_answer("Thorlabs APT controller", transport_.question() + " APT needs 115200",
+                    "Is this the stage's port, and is the controller switched on? After a quick "
+                    "reopening some need their supply off and on");
   }
   identify(pump);
   halt(apt::kWithRamp, pump);

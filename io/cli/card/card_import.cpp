@@ -56,7 +56,8 @@ void require_right(const std::vector<CardFinding>& findings, bool units_are_know
 
 // The flags that the header of a card by viscard states: "flag edited: ...", "flag few-rows (term 2): ...".
 std::vector<MaterialFlag> flags_of_header(const std::string& card) {
-  static const std::regex kFlag(R"(^[^A-Za-z]*flag ([a-zA-Z0-9-]+)(?: \(term (\d{1,3})\))?: (.*[^\s*/>-]))");
+  static const std::regex kFlag(
+      R"(^[^A-Za-z]*flag ([a-zA-Z0-9-]+)(?: \(term (\d{1,3})\))?: (.*[^\s*/>-]))");
   std::vector<MaterialFlag> flags;
   std::istringstream lines(card);
   for (std::string line; std::getline(lines, line);) {

@@ -357,14 +357,15 @@ TEST_CASE("a damaged row of a store is not an answer", "[cli][scene][sweep]") {
     StudyStore store(files.store, study);
     return csv_from_study(store, study);
   }();
-  change_store(files.store,
-               GENERATE("UPDATE points SET results = replace(results, '1', '2') WHERE point = 1",
-                        "UPDATE points SET failure = 'x' WHERE point = 1",
-                        "UPDATE points SET kind = 'refused' WHERE point = 1",
-                        "UPDATE points SET crc32 = NULL WHERE point = 1",
-                        "UPDATE points SET results = replace(results, '1', '2'), kind = NULL, crc32 "
-                        "= NULL WHERE point = 1",
-                        "UPDATE points SET point = 7 WHERE point = 1"));
+  change_store(
+      files.store,
+      GENERATE("UPDATE points SET results = replace(results, '1', '2') WHERE point = 1",
+               "UPDATE points SET failure = 'x' WHERE point = 1",
+               "UPDATE points SET kind = 'refused' WHERE point = 1",
+               "UPDATE points SET crc32 = NULL WHERE point = 1",
+               "UPDATE points SET results = replace(results, '1', '2'), kind = NULL, crc32 "
+               "= NULL WHERE point = 1",
+               "UPDATE points SET point = 7 WHERE point = 1"));
   const CommandOutcome outcome = files.sweep({"--out", files.store});
   CHECK(outcome.status == 0);
   CHECK(says(outcome.err, "1 row damaged"));
