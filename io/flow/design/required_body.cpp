@@ -39,6 +39,12 @@ const SceneCurve& curve_named(const SceneAnswer& answer, const std::string& name
   throw std::runtime_error("the scene gives no curve " + name);
 }
 
+// Of an answer that nobody keeps: a copy, or nothing.
+SceneResult named(SceneAnswer&& answer, const std::string& name) {
+  return named(std::as_const(answer), name);
+}
+const SceneCurve& curve_named(SceneAnswer&&, const std::string&) = delete;
+
 bool relaxes(const PillarScene& one) {
   return !one.pillar.terms.empty();
 }

@@ -42,7 +42,8 @@ double noise_V(const SpaceScene& given, const SceneSolver& solve) {
   at_rest.pressure_Pa = 1.0;
   at_rest.effects.clear();
   at_rest.wanted = {"noise_voltage"};
-  const SceneResult* noise = result_in(solve(at_rest), "noise_voltage");
+  const SceneAnswer answer = solve(at_rest);
+  const SceneResult* noise = result_in(answer, "noise_voltage");
   return noise == nullptr ? std::numeric_limits<double>::quiet_NaN() : noise->value;
 }
 
