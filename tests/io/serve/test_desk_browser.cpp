@@ -182,7 +182,8 @@ TEST_CASE(
         "return box.right <= innerWidth && (() => { " +
             find + " })() !== null",
         20));
-    browser.run("document.getElementById('isotherm-body').scrollIntoView()");
+    browser.run(
+        "document.querySelector('#isotherm-chart canvas').scrollIntoView({block: 'center'})");
     const nlohmann::json place = browser.run(find);
     REQUIRE(place.is_array());
     browser.drag(place.at(0), place.at(1), by_px, is_touch);
