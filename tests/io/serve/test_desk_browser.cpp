@@ -188,7 +188,7 @@ TEST_CASE(
     REQUIRE(place.is_array());
     browser.drag(place.at(0), place.at(1), by_px, is_touch);
   };
-  drag_warm(100.0, false);
+  drag_warm(30.0, false);
   const double dragged = shift_of(warm);
   CHECK(dragged < -1.1);  // t/aT grows
   CHECK(shift_of(cold) == Approx(1.0).margin(0.01));
