@@ -255,7 +255,10 @@ std::size_t read_some(const std::filesystem::path& path, int fd, char* bytes, st
 }
 
 [[noreturn]] void refuse_size(const std::filesystem::path& path, std::size_t most) {
-  throw std::runtime_error(path.string() + ": did not end after " + std::to_string(most >> 20) +
+  std::error_code ignored;
+  const bool has_end = std::filesystem::is_regular_file(path, ignored);
+  throw std::runtime_error(path.string() + (has_end ? ": has more than " : ": did not end after ") +
+                           std::to_string(most >> 20) +
                            " MiB, the limit of such a file; save a part of it to another file");
 }
 

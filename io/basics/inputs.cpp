@@ -3,6 +3,7 @@
 #include "io/basics/json_string.h"
 #include "io/basics/program.h"
 #include "io/basics/sha256.h"
+#include "io/basics/words.h"
 #include "io/basics/written_path.h"
 
 #include <nlohmann/json.hpp>
@@ -71,7 +72,8 @@ std::vector<InputFile> provenance_of_inputs() {
 std::string head_of_table(const std::string& command) {
   std::string head = "# " + command + " (viscard " VISCARD_VERSION ")\n";
   for (const InputFile& file : provenance_of_inputs()) {
-    if (!file.note.empty()) head += "# note: " + file.path + ": " + file.note + "\n";
+    if (!file.note.empty())
+      head += "# note: " + utf8_on_one_line(file.path + ": " + file.note) + "\n";
   }
   return head;
 }

@@ -143,9 +143,12 @@ class NotesAtEnd {
  public:
   explicit NotesAtEnd(Streams& streams) : streams_(streams) {}
   ~NotesAtEnd() {
-    for (const InputFile& file : provenance_of_inputs()) {
-      if (!file.note.empty())
-        streams_.err << "viscard: note: " << file.path << ": " << file.note << "\n";
+    try {
+      for (const InputFile& file : provenance_of_inputs()) {
+        if (!file.note.empty())
+          streams_.err << "viscard: note: " << file.path << ": " << file.note << "\n";
+      }
+    } catch (const std::bad_alloc&) {  // the command has stated the lack of memory
     }
   }
   NotesAtEnd(const NotesAtEnd&) = delete;

@@ -105,7 +105,10 @@ CalibrationRecord read_calibration(const std::filesystem::path& path) {
   CalibrationRecord record = read_as(FileKind::kCalibration, text, path.string(),
                                      [&] { return calibration_from_toml(text, path.string()); });
   if (!is_edited_since(text)) return record;
-  note_input(path, "the record was edited since viscard calibrate wrote it");
+  note_input(path,
+             "the record was edited since viscard calibrate wrote it; calibrate again, or, if the "
+             "numbers are yours, "
+             "remove its line body_sha256");
   // It goes wherever the name of the calibration goes: into captures, fits and reports.
   if (record.calibration) record.calibration->id += kEditedMark;
   if (record.frame) record.frame->id += kEditedMark;

@@ -35,8 +35,8 @@ std::string json_from_material(const MaterialFile& file);
 std::string json_from_material(const Material& material);
 
 // Files of joint fits over mixing ratios, schema "viscard-joint/1": JSON with the best form, the
-// best law, the forms that were compared, and one material per measured ratio; README.md of this
-// room lists the keys. Reading gives the same law, every double exactly.
+// best law, the forms that were compared, and one material per measured ratio; keys.md
+// (viscard help --schemas) lists the keys. Reading gives the same law, every double exactly.
 
 // Throws std::invalid_argument if the material at a measured ratio is unphysical.
 std::string json_from_ratio_fit(const RatioFit& fit);

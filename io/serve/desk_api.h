@@ -22,7 +22,7 @@ struct DeskOptions {
   ChildLimits limits;
 };
 
-// The requests of the desk, as functions from JSON to JSON (README.md lists them). Each carries out a command of viscard
+// The requests of the desk, as functions from JSON to JSON. Each carries out a command of viscard
 // in a process of its own, in the folder, and answers {"command", "result"}: what a person would type, and
 // its --json object. All state is files of the folder. Functions throw ApiError, or std::exception with a message
 // for a person. Any thread may call them.

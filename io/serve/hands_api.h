@@ -11,7 +11,7 @@
 namespace viscard {
 
 // What a person does at the bench between runs: moves of the stage, weights on the load cell. The requests are
-// functions from JSON to JSON (README.md lists them). They throw ApiError, or std::exception with a message for a
+// functions from JSON to JSON. They throw ApiError, or std::exception with a message for a
 // person. Any thread may call them.
 class HandsApi {
  public:

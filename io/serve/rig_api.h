@@ -29,7 +29,7 @@ struct ServeOptions {
   std::string command;           // recorded in the captures as their origin
 };
 
-// The requests of the page, as functions from JSON to JSON (README.md lists them). All state is in
+// The requests of the page, as functions from JSON to JSON. All state is in
 // the folder and in the running capture; files are read again for each request. Functions throw
 // ApiError, or std::exception with a message for a person. Any thread may call them.
 class RigApi {

@@ -7,8 +7,8 @@
 
 namespace viscard {
 
-// The rig file on the page: which drivers and ports it names. The requests are functions from JSON to JSON (README.md
-// lists them). They throw ApiError, or std::exception with a message for a person. Any thread may call them.
+// The rig file on the page: which drivers and ports it names. The requests are functions from JSON to JSON. They
+// throw ApiError, or std::exception with a message for a person. Any thread may call them.
 class RigSetup {
  public:
   // job: the one that the runs have, too; the file does not change while one goes on.

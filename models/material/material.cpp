@@ -1,8 +1,9 @@
 #include "models/material/material.h"
 
-#include "models/material/lasting_share.h"
+#include "models/material/liquid.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/maths/require.h"
+#include "models/maths/result_visitor.h"
 
 #include <algorithm>
 #include <array>
@@ -190,6 +191,12 @@ RelaxationTimes relaxation_times(const std::vector<MaterialTerm>& terms) {
 RelativeModuli relative_moduli(const std::vector<MaterialTerm>& terms, std::complex<double> s) {
   return {relative_modulus(terms, &MaterialTerm::g, s),
           relative_modulus(terms, &MaterialTerm::k, s)};
+}
+
+void show_keys(ResultVisitor& v, const MaterialFlag& flag) {
+  v("name", flag.name, "name of the flag");
+  v.when(flag.term > 0, [&] { v("term", flag.term, "number of the term, from 1"); });
+  v("text", flag.text, "the flag in words");
 }
 
 }  // namespace viscard

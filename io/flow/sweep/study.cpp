@@ -20,6 +20,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 namespace viscard {
 namespace {
@@ -263,8 +264,9 @@ Study read_study(const std::filesystem::path& path) {
     study.inputs.push_back({input_name(study, file.path), file.sha256, file.note});
   }
   // However the study was named: all machines see one order.
-  std::sort(study.inputs.begin(), study.inputs.end(),
-            [](const InputFile& a, const InputFile& b) { return a.path < b.path; });
+  std::sort(study.inputs.begin(), study.inputs.end(), [](const InputFile& a, const InputFile& b) {
+    return std::tie(a.path, a.sha256) < std::tie(b.path, b.sha256);
+  });
   return study;
 }
 

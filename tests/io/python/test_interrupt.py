@@ -39,6 +39,11 @@ def test_a_simulation_ends_at_once_and_by_the_signal():
     assert status == -signal.SIGINT
 
 
+def test_a_bootstrap_ends_at_once():
+    status, out, err = interrupted("print('ready', flush=True); viscard.fit('data/demo/example_relaxation.csv', bootstrap=100000)")
+    assert out == "interrupted\n" and status == -signal.SIGINT, err
+
+
 def test_a_capture_brakes_the_stage_and_keeps_the_record(tmp_path):
     file = tmp_path / "run.viscap"
     status, out, err = interrupted(f"viscard.capture({str(file)!r}, emulate=True, speed=5, sample=working)")

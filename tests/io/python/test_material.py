@@ -147,3 +147,12 @@ def test_what_is_in_doubt_of_a_file_is_a_warning_of_every_call_that_reads_it(tmp
     path.write_text(re.sub(r',\s*"body_sha256": "\w+"', "", path.read_text()))
     for call in calls:
         assert [text for text in doubts(call) if "has no sum of its contents" in text], call
+
+
+def test_a_card_that_is_refused_leaves_no_companions(tmp_path):
+    card = viscard.Material.load("data/materials/pdms_1to10_seed.json").card("mfront", "SI")
+    assert card.companions
+    (tmp_path / "x.mfront").write_text("mine")
+    with pytest.raises(viscard.Error, match="exists already"):
+        card.save(tmp_path / "x.mfront")
+    assert [file.name for file in tmp_path.iterdir()] == ["x.mfront"]

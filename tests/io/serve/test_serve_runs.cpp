@@ -176,6 +176,23 @@ TEST_CASE("a material that cannot be saved does not hide the fit", "[serve][pty]
   CHECK(contains(fit.json.at("material_trouble"), name + ".json"));
 }
 
+TEST_CASE("the material of another record is not stated as that of this run", "[serve][pty]") {
+  ServedRig rig;
+  const std::string name = rig.prepare();
+  REQUIRE(rig.order("/api/run", {{"specimen", name}}).status == 200);
+  REQUIRE(rig.wait_for_end().at("outcome").at("status") == "finished");
+  const Json wanted = {{"capture", name + ".viscap"}};
+  for (int i = 0; i < 2; ++i)
+    CHECK(rig.order("/api/fit", wanted).json.at("material_file") == name + ".json");
+  std::filesystem::copy_file(VISCARD_SOURCE_DIR "/data/materials/pdms_1to10_seed.json",
+                             rig.folder() / (name + ".json"),
+                             std::filesystem::copy_options::overwrite_existing);
+  const auto fit = rig.order("/api/fit", wanted);
+  INFO(fit.json.dump());
+  CHECK(fit.json.at("material_file").is_null());
+  CHECK(contains(fit.json.at("material_trouble"), "is the material of another record"));
+}
+
 TEST_CASE("the page checks the rig without moving anything", "[serve][pty]") {
   ServedRig rig(1.0);
   const auto found = rig.order("/api/check", Json::object());

@@ -373,6 +373,22 @@ TEST_CASE("a damaged row of a store is not an answer", "[cli][scene][sweep]") {
   CHECK(csv_from_study(store, study) == whole);
 }
 
+TEST_CASE("the inputs of a study have one order, however it is named", "[cli][scene][sweep]") {
+  const test::ScratchFolder folder;
+  std::filesystem::create_directory(folder / "z");
+  std::filesystem::create_directory(folder / "a");
+  std::filesystem::copy_file(VISCARD_SOURCE_DIR "/data/scenes/pillar_creep.toml",
+                             folder / "a" / "s.toml");
+  const std::filesystem::path study = folder / "z" / "study.toml";
+  write_file(study,
+             "scene = \"" + (folder / "a" / "s.toml").string() +
+                 "\"\n[[parameter]]\nkey = \"geometry.diameter\"\nvalues = [\"40 um\"]\n",
+             false);
+  const std::filesystem::path near = std::filesystem::relative(study);
+  REQUIRE(near.is_relative());
+  CHECK(fingerprint_with_inputs(read_study(study)) == fingerprint_with_inputs(read_study(near)));
+}
+
 TEST_CASE("a database that is not the store of a study is not changed", "[cli][scene][sweep]") {
   const FilmStudy files;
   const std::string other = files.scene.beside("other.sqlite");

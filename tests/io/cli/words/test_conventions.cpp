@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/number_text.h"
 #include "io/cli/words/command_line.h"
 #include "models/maths/failure_text.h"
 #include "tests/support/error_text.h"
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 
 namespace viscard {
@@ -19,6 +21,21 @@ using test::run_command;
 
 bool is_one_line(const std::string& text) {
   return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+TEST_CASE("a lack of threads is stated as one of memory, which may pass", "[cli]") {
+  const std::system_error error(EAGAIN, std::generic_category());
+  CHECK(is_lack_of_memory(error));
+  CHECK(failure_text(error, "this").starts_with("memory does not suffice for this"));
+  CHECK_FALSE(is_lack_of_memory(std::system_error(ENOSPC, std::generic_category())));
+}
+
+TEST_CASE("a cell of a table is no formula of a spreadsheet", "[cli]") {
+  CHECK(csv_cell("=HYPERLINK(\"x\")") == "\"'=HYPERLINK(\"\"x\"\")\"");
+  for (const char* formula : {"@x", "+x", "-x", "-", "\t=1"})
+    CHECK(csv_cell(formula).starts_with("\"'"));
+  for (const char* plain : {"", "a=b", "-5 um", "+.5", "-.5"})
+    CHECK(csv_cell(plain) == "\"" + std::string(plain) + "\"");
 }
 
 TEST_CASE("the overview lists every command in the order of the flow", "[cli]") {

@@ -153,7 +153,7 @@ TEST_CASE("a file beyond any use is refused before it is read, and its sum takes
     CAPTURE(words);
     const auto outcome = run_command(words);
     CHECK(outcome.status != 0);
-    CHECK(contains(outcome.err, "the limit of such a file"));
+    CHECK(contains(outcome.err, "MiB, the limit of such a file"));
   }
 }
 

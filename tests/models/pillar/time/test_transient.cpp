@@ -173,6 +173,22 @@ TEST_CASE("a peak between known times is within its error", "[pillar]") {
   CHECK(peak_of_motion(time_s, 0.0 * y, 0.0 * rate).value == 0.0);
 }
 
+TEST_CASE("of two sides that are alike the peak is on the first, and else on the larger",
+          "[pillar]") {
+  const double growth = GENERATE(1.0, 1.015, 1.03);
+  std::vector<double> time_s;
+  Eigen::VectorXd y(81), rate(81);
+  for (int i = 0; i < y.size(); ++i) {
+    const double t = i / 40.0, w = 2.0 * std::numbers::pi;  // two periods: down, then up
+    const double size = t < 0.5 ? 1.0 : growth;
+    time_s.push_back(t);
+    y[i] = -size * std::sin(w * t);
+    rate[i] = -size * w * std::cos(w * t);
+  }
+  const MotionPeak peak = peak_of_motion(time_s, y, rate);
+  CHECK((peak.value < 0.0) == (growth < 1.02));
+}
+
 TEST_CASE("exact modes and increasingly fine steps give one answer", "[pillar]") {
   // Under a jump, a ramp and a jump back, with two relaxation times near the resonance.
   const Body body(rod_material({{0.3, 0.3, 1e-6}, {0.2, 0.2, 2e-5}}));
