@@ -6,10 +6,6 @@
 
 namespace viscard {
 
-// The share of a modulus that never relaxes, 1 - sum: exactly 0 if the relaxing shares add up to 1
-// within 1e-12, which is a liquid whose shares were rounded.
-double lasting_share(double sum);
-
 // True when the shares g add up to 1 within 1e-12: E_inf = 0. Its moduli can be predicted, but it
 // has no equilibrium for a solver to start from.
 bool is_liquid(const Material& material);

@@ -1,6 +1,6 @@
 #include "models/material/material.h"
 
-#include "models/material/liquid.h"
+#include "models/material/lasting_share.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/maths/require.h"
 #include "models/maths/result_visitor.h"
