@@ -55,11 +55,25 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   }
   if (!request.columns.empty() || !request.segments.empty() || request.time_zero_s ||
       request.from_s || request.to_s || request.hold > 0 || request.crop || request.depth_m ||
-      request.modulus_kind || !request.start_shifts.empty()) {
+      request.modulus_kind) {
     throw std::runtime_error(
         path +
         ": --column, --segment, --time-zero, --from, --to, --hold, --crop, "
-        "--depth, --modulus-kind and --start-shift apply only to tables; omit them for a capture");
+        "--depth and --modulus-kind apply only to tables; omit them for a capture");
+  }
+  const SpecimenSize& size = request.size;
+  const bool has_size = size.gauge_length_m > 0.0 || size.area_m2 > 0.0 || size.E0_Pa > 0.0;
+  const bool has_choice =
+      !request.table.sheet.empty() || request.table.table > 0 || request.table.skip > 0;
+  const bool is_drift_fitted = request.options.drift == TableDrift::kFitted;
+  if (!request.is_one_of_several &&
+      (request.T_ref_C || !request.start_shifts.empty() || has_size || has_choice ||
+       is_drift_fitted || request.options.vertical_shift != VerticalShift::kAuto)) {
+    throw std::runtime_error(
+        path +
+        ": --sheet, --table, --skip, --gauge-length, --area, --youngs-modulus, --drift, "
+        "--reference-temperature, --start-shift and --vertical-shift apply only to tables; omit "
+        "them for a capture");
   }
   CapturedRun run = read_capture(path, {.accepts_damage = request.accepts_unverified});
   // The geometry may be replaced, this value may not.

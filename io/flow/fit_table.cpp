@@ -92,19 +92,37 @@ void refuse_several_parts(const CsvTable& table, FitKind kind, const FitRequest&
                            ". Choose one with --segment " + quoted_for_shell({names.back()}));
 }
 
-// Refuses options that this kind of table cannot use, because the user expects them to have an
-// effect.
+// An option that needs something of a table.
+struct OptionUse {
+  const char* option;
+  bool is_given, has_effect;
+  const char* of;  // what it is for
+};
+
+// Refuses options that this table cannot use, because the user expects them to have an effect.
 void check_options(const CsvTable& table, FitKind kind, const FitRequest& request) {
+  const bool is_indentation = kind == FitKind::kIndentation;
   const bool is_alone = kind == FitKind::kRelaxation && is_force_alone(table, request);
-  if (request.depth_m && !is_alone) {
-    throw std::runtime_error(
-        "--depth is for a record of force at constant depth, without a column of depth; omit it");
-  }
-  const bool has_drift = kind == FitKind::kRelaxation || kind == FitKind::kIndentation;
-  if (request.options.drift == TableDrift::kFitted && !has_drift) {
-    throw std::runtime_error(
-        "--drift is for tables of relaxation and indentation: in creep a drift is flow, and in an "
-        "oscillation there is none; omit it");
+  const bool has_shape = request.specimen && request.specimen->id.empty();  // not by --specimen
+  const bool has_vertical = request.options.vertical_shift != VerticalShift::kAuto;
+  for (const OptionUse& use :
+       {OptionUse{"--depth", request.depth_m.has_value(), is_alone,
+                  "a record of force at constant depth, without a column of depth"},
+        OptionUse{"--drift", request.options.drift == TableDrift::kFitted,
+                  is_indentation || kind == FitKind::kRelaxation,
+                  "tables of relaxation and indentation: in creep a drift is flow, and in an "
+                  "oscillation there is none"},
+        OptionUse{"--punch-diameter", has_shape, is_indentation || is_alone,
+                  "records of force, and this table has none that is fitted"},
+        OptionUse{"--frame-stiffness", request.frame_stiffness_N_m > 0.0, is_indentation,
+                  "tables of force and depth"},
+        OptionUse{"--time-zero", request.time_zero_s.has_value(), kind != FitKind::kDma,
+                  "records in time, and this table has frequencies"},
+        OptionUse{"--vertical-shift", has_vertical,
+                  !has_vertical || master_data(table, kind, request).has_value(),
+                  "a master curve: a table with several temperatures"}}) {
+    if (!use.is_given || use.has_effect) continue;
+    throw std::runtime_error(std::string(use.option) + " is for " + use.of + "; omit it");
   }
 }
 
@@ -116,6 +134,8 @@ FitRequest of_this_test(const CsvTable& table, const FitRequest& request) {
   const bool is_alone = *request.kind == FitKind::kRelaxation && is_force_alone(table, request);
   if (!is_alone) one.depth_m.reset();
   if (*request.kind != FitKind::kIndentation && !one.depth_m) one.specimen.reset();
+  if (*request.kind != FitKind::kIndentation) one.frame_stiffness_N_m = 0.0;
+  if (*request.kind == FitKind::kDma) one.time_zero_s.reset();
   const bool may_drift =
       *request.kind == FitKind::kRelaxation || *request.kind == FitKind::kIndentation;
   if (!may_drift) one.options.drift = TableDrift::kNone;
@@ -274,7 +294,8 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   FitRequest request = asked;
   all.judged = request.plausible;
   if (!request.specimen && !request.depth_m) request.size = size_from_notes(all, request.size);
-  derive_columns(all, request.columns, request.size);
+  const SpecimenSize used_size = derive_columns(all, request.columns, request.size);
+  if (!request.is_one_of_several) refuse_unused(asked.size, used_size);
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
   std::size_t n_gaps = 0;

@@ -150,7 +150,7 @@ void derive_strains(Derivation& made) {
            "true_stress_Pa", "true stress over the stretch (incompressible)");
 }
 
-void derive_from_load(const SpecimenSize& size, Derivation& made) {
+void derive_from_load(const SpecimenSize& size, Derivation& made, SpecimenSize& used) {
   const bool has_stress = made.has("stress_Pa") || made.has("nominal_stress_Pa");
   const bool has_load = made.has("force_N") && size.area_m2 > 0.0;
   if (!has_load && !has_stress) return;
@@ -158,6 +158,7 @@ void derive_from_load(const SpecimenSize& size, Derivation& made) {
   if (!has_strain && made.has("depth_m") && size.gauge_length_m > 0.0) {
     Values strain = made.of("depth_m");
     for (double& value : strain) value /= size.gauge_length_m;
+    used.gauge_length_m = size.gauge_length_m;
     made.add("strain", std::move(strain), "depth_m",
              "extension over the length of " + text_with_unit(size.gauge_length_m, "m"));
   } else if (!has_strain) {
@@ -166,12 +167,14 @@ void derive_from_load(const SpecimenSize& size, Derivation& made) {
   if (has_stress) return;
   Values stress_Pa = made.of("force_N");
   for (double& value : stress_Pa) value /= size.area_m2;
+  used.area_m2 = size.area_m2;
   made.add("stress_Pa", std::move(stress_Pa), "force_N",
            "load over the area of " + text_of(1e6 * size.area_m2, 6) + " mm2");
   made.state_tension();
 }
 
-void derive_from_ratio(CsvTable& table, const SpecimenSize& size, Derivation& made) {
+void derive_from_ratio(CsvTable& table, const SpecimenSize& size, Derivation& made,
+                       SpecimenSize& used) {
   if (!made.has("relative_modulus") || made.has("modulus_Pa")) return;
   if (!(size.E0_Pa > 0.0)) {
     throw std::runtime_error(table.file + ": column '" + made.column("relative_modulus").header +
@@ -180,6 +183,7 @@ void derive_from_ratio(CsvTable& table, const SpecimenSize& size, Derivation& ma
   }
   Values modulus_Pa = made.of("relative_modulus");
   for (double& value : modulus_Pa) value *= size.E0_Pa;
+  used.E0_Pa = size.E0_Pa;
   const std::string from =
       "'" + made.column("relative_modulus").header + "' times --youngs-modulus";
   made.add("modulus_Pa", std::move(modulus_Pa), "relative_modulus", from);
@@ -220,12 +224,27 @@ std::vector<std::string> cells_of_note(const std::string& note) {
 
 }  // namespace
 
-void derive_columns(CsvTable& table, const ColumnMap& map, const SpecimenSize& size) {
+SpecimenSize derive_columns(CsvTable& table, const ColumnMap& map, const SpecimenSize& size) {
   Derivation made(table, map);
+  SpecimenSize used;
   derive_moduli(table, made);
   derive_strains(made);
-  derive_from_load(size, made);
-  derive_from_ratio(table, size, made);
+  derive_from_load(size, made, used);
+  derive_from_ratio(table, size, made, used);
+  return used;
+}
+
+void refuse_unused(const SpecimenSize& given, const SpecimenSize& used) {
+  const auto check = [](const char* option, double given_SI, double used_SI, const char* tables) {
+    if (!(given_SI > 0.0) || used_SI > 0.0) return;
+    throw std::runtime_error(std::string(option) + " is for " + tables + "; omit it");
+  };
+  check("--gauge-length", given.gauge_length_m, used.gauge_length_m,
+        "tables with an extension beside a load or stress, and without a strain");
+  check("--area", given.area_m2, used.area_m2,
+        "tables with a load beside a strain or an extension, and without a stress");
+  check("--youngs-modulus", given.E0_Pa, used.E0_Pa,
+        "tables of a relative modulus (E/E0), and for tests at large strain");
 }
 
 SpecimenSize size_from_notes(CsvTable& table, SpecimenSize known) {

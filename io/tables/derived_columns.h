@@ -16,9 +16,12 @@ struct SpecimenSize {
 // tan delta, or from a complex viscosity (eta* = G*/(i omega)); stress and nominal strain from true ones
 // (incompressible) or from load and extension; a modulus from its ratio to E0. Ferry, Viscoelastic
 // Properties of Polymers (1980), ch. 1. The notes of the table state each. Quantities that the table
-// has stay. Throws std::runtime_error if a quantity that is needed is missing (the text names its
+// has stay. Returns the sizes that it used, and 0 for the others. Throws std::runtime_error if a quantity that is needed is missing (the text names its
 // option), or if a phase is none.
-void derive_columns(CsvTable& table, const ColumnMap& map, const SpecimenSize& size);
+SpecimenSize derive_columns(CsvTable& table, const ColumnMap& map, const SpecimenSize& size);
+
+// Refuses sizes that were given and not used, by their options: the user expects them to have an effect.
+void refuse_unused(const SpecimenSize& given, const SpecimenSize& used);
 
 // The sizes that lines of notes above a table state, "Gauge length (mm);25", "Width: 6 mm"; for those
 // that `known` lacks. Each that was read is noted.

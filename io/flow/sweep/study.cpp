@@ -168,6 +168,71 @@ std::string meant_key(const std::string& scene, const std::filesystem::path& pat
   }
 }
 
+// A value in TOML: a number, or a text.
+std::string toml_value(const std::string& value) {
+  std::ostringstream text;
+  const auto number = split(value);
+  if (number && number->unit.empty()) {
+    text << toml::value<double>(number->number);
+  } else {
+    text << toml::value<std::string>(value);
+  }
+  return text.str();
+}
+
+// The value at a key, if the scene has it.
+const toml::node* value_of_key(const toml::table& root, const std::string& key) {
+  const toml::node* node = &root;
+  std::istringstream parts(key);
+  for (std::string part; node != nullptr && std::getline(parts, part, '.');) {
+    if (const toml::table* const table = node->as_table()) {
+      node = table->get(part);
+    } else if (const toml::array* const list = node->as_array()) {
+      const auto entry = entry_of(*list, part);
+      node = entry ? list->get(*entry) : nullptr;
+    } else {
+      return nullptr;
+    }
+  }
+  return node != nullptr && node->is_value() ? node : nullptr;
+}
+
+// Where a position of toml++, which counts characters, lies in a text.
+std::size_t offset_of(const std::string& text, const toml::source_position& position) {
+  std::size_t offset = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte-order mark
+  for (toml::source_index line = 1; line < position.line; ++line) {
+    offset = text.find('\n', offset) + 1;
+  }
+  for (toml::source_index column = 1; column < position.column; ++column) {
+    do {
+      ++offset;
+    } while (offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0U) == 0x80U);
+  }
+  return offset;
+}
+
+// The scene with other values in their places, so that lines keep their numbers; nothing if it lacks
+// one of the keys.
+std::optional<std::string> with_values_in_place(const std::string& scene, const toml::table& table,
+                                                const StudyValues& values) {
+  struct Place {
+    std::size_t begin, end;
+    std::string text;
+  };
+  std::vector<Place> places;
+  for (const auto& [key, value] : values) {
+    const toml::node* const node = value_of_key(table, key);
+    if (node == nullptr) return std::nullopt;
+    places.push_back({offset_of(scene, node->source().begin), offset_of(scene, node->source().end),
+                      toml_value(value)});
+  }
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.begin > b.begin; });
+  std::string text = scene;
+  for (const Place& place : places) text.replace(place.begin, place.end - place.begin, place.text);
+  return text;
+}
+
 // Sets a key such as "geometry.film.thickness", or an entry of a list, such as "shape.at.2" and
 // "analysis.history.1.2".
 void set_key(toml::table& root, const std::string& key, const std::string& value,
@@ -310,6 +375,7 @@ std::string scene_text_with(const Study& study, const StudyValues& values) {
 std::string scene_text_with(const std::string& scene, const std::filesystem::path& path,
                             const StudyValues& values) {
   toml::table table = table_from_toml(scene, path.string());
+  if (auto text = with_values_in_place(scene, table, values)) return *text;
   for (const auto& [key, value] : values) {
     set_key(table, key, value, [&, &name = key] { return meant_key(scene, path, name); });
   }

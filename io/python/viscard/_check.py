@@ -104,11 +104,12 @@ def value(name: str, given: Any, hint: Any) -> None:
             raise Error(f"{name} is {shown(number)}; it must be a finite number", "usage")
 
 
-def texts(name: str, given: Any) -> None:
-    """Raises Error for a text or a path that no file and no message can hold: with a NUL, or not to be written in UTF-8."""
+def texts(name: str, given: Any, deepest: int = 3) -> None:
+    """Raises Error for a text or a path that no file and no message can hold: with a NUL, or not to be written in UTF-8.
+    What takes lists looks at those within lists within lists itself."""
     if isinstance(given, (list, tuple)):
-        for one in given:
-            texts(name, one)
+        for one in given if deepest else ():
+            texts(name, one, deepest - 1)
     elif isinstance(given, (str, os.PathLike)):
         text = os.fspath(given)
         if "\0" in text or any("\ud800" <= letter <= "\udfff" for letter in text):
@@ -185,6 +186,9 @@ def arguments(function: _Function) -> _Function:
         _calls.is_within = True
         try:
             found = function(*given, **keywords)
+        except RecursionError:
+            raise Error(f"{function.__qualname__}(): a value is nested too deep, or contains itself; write lists of numbers, "
+                        "texts or dicts", "usage") from None
         finally:
             _calls.is_within = False
         for note in recorder.notes():  # such as that a file was edited

@@ -40,10 +40,10 @@ def data_file(name: Path = "") -> str:
         raise Error(f"the files that come with viscard were not found in '{roots[-2]}' nor beside the module; install the "
                     "package viscard", "file")
     path = root / wanted
-    if path.exists() and not os.path.isabs(wanted):
+    if os.path.exists(path) and not os.path.isabs(wanted):  # pathlib's raises for a name that is too long
         return str(path)
     folder = root if os.path.isabs(wanted) else path.parent
-    while not folder.is_dir():
+    while not os.path.isdir(folder):
         folder = folder.parent
     there = ", ".join(sorted(os.listdir(folder)))
     raise Error(f"no file '{wanted}' comes with viscard; '{folder}' has {there}", "file")

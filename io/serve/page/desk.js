@@ -125,7 +125,7 @@ function readAndFit() {
     if (isByRatio()) showRatios(result);
     else showFit(result, chosen().terms, (terms) => setOption("terms", terms));
     placeIsotherms(result);
-    showSame(element("fit-same"), command, pythonOf(pythonData(), pythonKeywords()));
+    showSame(element("fit-same"), command, pythonOf(pythonData(), pythonKeywords()), result);
     if (view === "card") makeCard();
     if (view === "predict") predict();
     if (view === "compare") compare();
@@ -142,7 +142,7 @@ function makeCard() {
     showCard(answer);
     const { for: target, units, ratio } = chosenCard();
     showSame(element("card-same"), `${answer.fit_command}\n${answer.command}`,
-             `${pythonOf(pythonData(), pythonKeywords())}\nprint(result.material${isByRatio() ? `(${ratio})` : ""}.card(${JSON.stringify(target)}, ${JSON.stringify(units)}))`);
+             `${pythonOf(pythonData(), pythonKeywords())}\nprint(result.material${isByRatio() ? `(${ratio})` : ""}.card(${JSON.stringify(target)}, ${JSON.stringify(units)}))`, answer.result);
   }, (text) => showCardState(text, "alert"));
 }
 
@@ -156,7 +156,7 @@ function predict() {
     const { predict: words, against } = chosenPrediction();
     const keywords = Object.entries({ ...words, ...(against ? { against } : {}) }).filter(([, value]) => value !== "")
       .map(([name, value]) => `, ${keywordOf(name)}=${JSON.stringify(value)}`).join("");
-    showSame(element("predict-same"), answer.command, `${pythonOf(pythonData(), chosen())}\nprint(viscard.predict(result.material${keywords}))`);
+    showSame(element("predict-same"), answer.command, `${pythonOf(pythonData(), chosen())}\nprint(viscard.predict(result.material${keywords}))`, answer.result);
   }, (text) => showPredictState(text, "alert"));
 }
 

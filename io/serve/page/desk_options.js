@@ -1,5 +1,5 @@
 // The options of a fit as fields. What they are, the program itself says: names, values, meanings.
-import { element, make } from "./format.js";
+import { element, make, sentence } from "./format.js";
 
 // Fields that stand above the rows, by the kind of test; all others are behind "All options".
 const kAlways = ["kind", "from", "to"];
@@ -79,8 +79,9 @@ export function pythonOf(data, chosen) {
   return `import viscard\nresult = viscard.fit(${JSON.stringify(data)}${words.join("")})`;
 }
 
-// Command and Python lines with a button each that copies them.
-export function showSame(node, command, python) {
+// What is in doubt of the files that were read, such as that one was edited; command and Python lines with a button each
+// that copies them.
+export function showSame(node, command, python, result) {
   const line = (what, text) => {
     const button = make("button", { type: "button", "aria-label": `Copy the ${what}` }, "Copy");
     button.addEventListener("click", async () => {
@@ -90,5 +91,7 @@ export function showSame(node, command, python) {
     });
     return make("div", {}, make("code", {}, text), button);
   };
-  node.replaceChildren(line("command", command), line("Python lines", python));
+  const doubts = (result?.input_files ?? []).filter((file) => file.note)
+    .map((file) => make("p", { class: "note" }, sentence(`${file.path}: ${file.note}`)));
+  node.replaceChildren(...doubts, line("command", command), line("Python lines", python));
 }

@@ -35,7 +35,7 @@ async function makeReport() {
     tell(`Written as ${made.name} in the folder.`, "good");
     show(element("report-link"), true);
     const files = [...chosen].map((name) => JSON.stringify(name)).join(", ");
-    showSame(element("report-same"), made.command, `import viscard\nviscard.report([${files}], ${JSON.stringify(made.name)}${title ? `, title=${JSON.stringify(title)}` : ""})`);
+    showSame(element("report-same"), made.command, `import viscard\nviscard.report([${files}], ${JSON.stringify(made.name)}${title ? `, title=${JSON.stringify(title)}` : ""})`, made.result);
   } catch (error) {
     tell(sentence(error.message), "alert");
   }

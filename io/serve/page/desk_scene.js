@@ -69,7 +69,7 @@ function plan() {
   if (!scene) return undefined;
   return about("plan", "Choosing the effects …", ({ command, result }) => {
     showEffects(result.effects);
-    showSame(element("scene-same"), command, pythonOf("plan"));
+    showSame(element("scene-same"), command, pythonOf("plan"), result);
   });
 }
 
@@ -78,7 +78,7 @@ function solve() {
     showResults(result);
     showEffects(result.effects);
     showPictures(pictures);
-    showSame(element("scene-same"), command, pythonOf("simulate"));
+    showSame(element("scene-same"), command, pythonOf("simulate"), result);
     tell(result.within_tolerance ? `Every error is within the tolerance; ${result.unknowns} unknowns, ${significant(result.wall_s, 2)} s.`
       : "Some errors are above the tolerance.", result.within_tolerance ? "good" : "alert");
   });
@@ -87,7 +87,7 @@ function solve() {
 function cost() {
   return about("cost", "Measuring for ten seconds …", ({ command, result }) => {
     showCost(result);
-    showSame(element("scene-same"), command, pythonOf("cost"));
+    showSame(element("scene-same"), command, pythonOf("cost"), result);
   });
 }
 

@@ -34,7 +34,7 @@ std::map<std::string, std::vector<std::string>> rows_of_table() {
   return rows;
 }
 
-// The material that the README states for the table.
+// What tests/README.md lists targets for: each writes this material.
 Material material_for(const CardTarget& target) {
   Material material;
   material.name = "example";

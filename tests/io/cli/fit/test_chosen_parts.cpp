@@ -2,10 +2,12 @@
 #include "tests/support/run_command.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 using namespace viscard;
@@ -236,7 +238,41 @@ TEST_CASE("options that a table cannot use are refused, not ignored", "[cli]") {
   for (int i = 0; i < 50; ++i) {
     creep += std::to_string(i) + "," + std::to_string(2.0 - std::exp(-0.1 * i)) + "\n";
   }
-  ran = run_command({"fit", folder.write("creep.csv", creep), "--drift"});
+  const std::string creep_file = folder.write("creep.csv", creep);
+  ran = run_command({"fit", creep_file, "--drift"});
   CHECK(ran.status == kFailed);
   CHECK_THAT(ran.err, Contains("--drift is for tables of relaxation"));
+  std::string dma = "frequency_Hz,storage_modulus_Pa,loss_modulus_Pa\n";
+  for (int i = 0; i < 30; ++i) {
+    const double f = std::pow(10.0, 0.1 * i - 1.5), x = f * f;
+    dma += fmt::format("{},{},{}\n", f, 1e6 + 2e5 * x / (1 + x), 2e5 * f / (1 + x) + 1e3);
+  }
+  const std::string dma_file = folder.write("dma.csv", dma);
+  const std::string capture = folder.write("run.viscap", "");
+  std::filesystem::remove(capture);
+  REQUIRE(run_command({"capture", "--emulate", "--speed", "500", "--out", capture}).status ==
+          kDone);
+  const std::string uniaxial =
+      std::string("uniaxial=") + (VISCARD_SOURCE_DIR "/data/reference/treloar_uniaxial.csv");
+  struct Without {
+    const std::string& file;
+    const char *option, *value;
+  };
+  for (const auto& [file, option, value] :
+       {Without{creep_file, "--gauge-length", "25 mm"}, Without{creep_file, "--area", "12 mm2"},
+        Without{creep_file, "--youngs-modulus", "1.5 MPa"},
+        Without{creep_file, "--punch-diameter", "4 mm"},
+        Without{creep_file, "--frame-stiffness", "10 N/mm"},
+        Without{dma_file, "--time-zero", "0.1"}, Without{dma_file, "--vertical-shift", "on"},
+        Without{depth, "--vertical-shift", "off"}, Without{depth, "--area", "12 mm2"},
+        Without{capture, "--area", "12 mm2"}, Without{capture, "--sheet", "x"},
+        Without{capture, "--skip", "2"}, Without{capture, "--reference-temperature", "20 degC"},
+        Without{capture, "--vertical-shift", "on"}, Without{uniaxial, "--gauge-length", "25 mm"},
+        Without{uniaxial, "--area", "12 mm2"}}) {
+    INFO(file << " " << option);
+    ran = run_command({"fit", file, option, value});
+    CHECK(ran.status == kFailed);
+    CHECK_THAT(ran.err, Contains(option));
+    CHECK_THAT(ran.err, Contains("omit"));
+  }
 }

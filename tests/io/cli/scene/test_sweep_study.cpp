@@ -110,6 +110,37 @@ TEST_CASE("a parameter may be an entry of a list of the scene", "[cli][scene][sw
   CHECK_THROWS_WITH(with("analysis.history.5.1", "1 s"), Catch::Contains("no section or list"));
 }
 
+TEST_CASE("values take the places of those of the scene, so that all lines keep their numbers",
+          "[cli][scene][sweep]") {
+  const std::string begin = GENERATE("", "\xEF\xBB\xBF");
+  const std::string scene = begin +
+                            "tolerance = 1e-3  # of \"all\"\r\n[geometry]\n"
+                            "\"diameter\"= '40 \u00b5m'# \u00b5\nlength = \"\u00b5\"\n"
+                            "film = { a = \"\u00b5\", thickness = \"25 um\", b = +2_0 }\n"
+                            "at = [\n  1,# one\n  0x10 ]\nnote = \"\"\"\ntwo\nlines\"\"\" # end\n"
+                            "last = true";
+  const auto with = [&](const StudyValues& values) {
+    return scene_text_with(scene, "scene.toml", values);
+  };
+  CHECK(with({{"tolerance", "0.5"},
+              {"geometry.diameter", "9 \u00b5m"},
+              {"geometry.film.thickness", "a \"b\""},
+              {"geometry.film.b", "3"},
+              {"geometry.at.2", "1 um"},
+              {"geometry.note", "x"},
+              {"geometry.last", "y"}}) ==
+        begin +
+            "tolerance = 0.5  # of \"all\"\r\n[geometry]\n"
+            "\"diameter\"= '9 \u00b5m'# \u00b5\nlength = \"\u00b5\"\n"
+            "film = { a = \"\u00b5\", thickness = 'a \"b\"', b = 3.0 }\n"
+            "at = [\n  1,# one\n  '1 um' ]\nnote = 'x' # end\n"
+            "last = 'y'");
+  // A key that the scene lacks.
+  const auto added = toml::parse(with({{"geometry.film.c", "1"}, {"geometry.at.1", "2"}}));
+  CHECK(added["geometry"]["film"]["c"].value<double>() == 1.0);
+  CHECK(added["geometry"]["at"][0].value<double>() == 2.0);
+}
+
 TEST_CASE("a parameter in a section that the scene lacks is refused with the key that was meant",
           "[cli][scene][sweep]") {
   const auto error = [](const char* key) {
