@@ -1,3 +1,4 @@
+#include "io/basics/atomic_file.h"
 #include "tests/io/cli/fit/table_folder.h"
 #include "tests/support/run_command.h"
 
@@ -226,6 +227,36 @@ TEST_CASE("a file that never ends is refused in one line", "[cli]") {
   CHECK(ran.status == kFailed);
   CHECK_THAT(ran.err, Contains("did not end"));
   CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+  CHECK_THAT(run_command({"export", "/dev/zero"}).err, Contains("is not a plain file"));
+}
+
+TEST_CASE("losses far beyond the storage moduli end in words", "[cli]") {
+  const TableFolder folder;
+  for (const char* row : {"{},1e6,1e300\n", "1,1,1e300\n", "{},1,1e-300\n", "{},1e-300,1\n"}) {
+    std::string table = "frequency_Hz,storage_modulus_Pa,loss_modulus_Pa\n";
+    for (int i = 1; i <= 60; ++i) table += fmt::format(fmt::runtime(row), i);
+    const CommandOutcome ran =
+        run_command({"fit", folder.write("c.csv", table), "--plausible", "off", "--json"});
+    INFO(row << ran.out.substr(0, 200));
+    CHECK((ran.status == kDone || ran.status == kFailed));
+  }
+}
+
+TEST_CASE("a table is written under every name that a file may have", "[cli]") {
+  const TableFolder folder;
+  std::string text = "time_s,modulus_Pa\n";
+  for (int i = 1; i < 20; ++i) text += fmt::format("{},{}\n", i, 1e6 + 1e6 / i);
+  const std::string two_lines = folder.write("a\nb.csv", text);
+  const std::string longest = folder.write(std::string(251, 'x') + ".csv", "");
+  const CommandOutcome ran = run_command({"fit", two_lines, "--csv", longest, "--force"});
+  INFO(ran.err);
+  REQUIRE(ran.status == kDone);
+  std::istringstream lines(read_file(longest));
+  std::string head, second;
+  std::getline(lines, head);
+  std::getline(lines, second);
+  CHECK(head.starts_with("# viscard fit"));
+  CHECK(second.starts_with("time_s"));
 }
 
 TEST_CASE("options that a table cannot use are refused, not ignored", "[cli]") {
