@@ -10,8 +10,8 @@ namespace viscard {
 
 void refuse_implausible_option(const std::string& name, double value, const Quantity& quantity,
                                Plausible judged) {
-  // --plausible off accepts any size, but no sign that cannot be right: later checks do not know the
-  // name of the option.
+  // --plausible off accepts any size, but no sign that cannot be right: later checks do not know
+  // the name of the option.
   const auto doubt = value < 0.0 && quantity.sign != Sign::kAny
                          ? doubt_about_sign(quantity, value)
                          : doubt_about(quantity, value, judged);

@@ -37,7 +37,8 @@ void write_answer(const std::filesystem::path& rig_file, const std::string& day)
 // Writes file = "RECORD" under [calibration]; the other keys there become comments. Throws likewise.
 void write_calibration_file(const std::filesystem::path& rig_file, const std::string& record);
 
-// How a message begins that refuses a number: "--away is '1', without a unit (in m)". Empty: "the way is 1000 mm".
+// How a message begins that refuses a number: "--away is '1', without a unit (in m)". Empty: "the
+// way is 1000 mm".
 struct OrderTexts {
   std::string way, speed, limit;
 };

@@ -38,8 +38,8 @@ struct Doubt {
 std::optional<Doubt> doubt_about(const Quantity& quantity, double value, Plausible judged);
 // Nothing if a number can have that sign, at whatever size.
 std::optional<Doubt> doubt_about_sign(const Quantity& quantity, double value);
-// The same of a column, by the kind of the quantity; values: in its SI unit. If all of them have the wrong sign,
-// the factor of the doubt flips them.
+// The same of a column, by the kind of the quantity; values: in its SI unit. If all of them have
+// the wrong sign, the factor of the doubt flips them.
 std::optional<Doubt> doubt_about(const Quantity& quantity, const std::vector<double>& values,
                                  Plausible judged);
 

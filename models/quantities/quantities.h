@@ -12,8 +12,8 @@ enum class QuantityKind {
   kLargest,  // the largest magnitude: a record may begin at 0
 };
 
-// Which signs a number by itself can have. A column may have the other sign of its instrument, and its reader
-// proposes to flip it.
+// Which signs a number by itself can have. A column may have the other sign of its instrument, and
+// its reader proposes to flip it.
 enum class Sign { kAny, kNotNegative, kPositive };
 
 // From a lowest number of 0 or above, the range is that of the magnitude.

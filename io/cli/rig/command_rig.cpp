@@ -277,7 +277,8 @@ int touch_and_write(const RigWords& words, bool as_json, Streams& streams) {
   return kDone;
 }
 
-// An option of a quantity as it was typed; a missing unit is the most frequent mistake. Empty: not given.
+// An option of a quantity as it was typed; a missing unit is the most frequent mistake. Empty: not
+// given.
 std::string as_typed(const CommandSyntax& syntax, const char* option, const char* si) {
   const Words typed = given_words(syntax, {option});
   if (typed.empty()) return "";
