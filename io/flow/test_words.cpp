@@ -33,11 +33,10 @@ FitKind kind_of_test(const std::string& kind, const std::string& word, bool take
     if (kind == large.word) {
       throw std::invalid_argument(
           word +
-          " is a test at large strain, not a linear one. Fit it to a law of "
-          "rubber (viscard fit " +
-          word +
-          " --out law.json); viscard report takes law.json beside a capture, "
-          "a table or a material file");
+          " is a test at large strain, not a linear one. Fit it to a law of rubber (viscard fit " +
+          quoted_for_shell({word}) +
+          " --out law.json); viscard report takes law.json beside a capture, a table or a material "
+          "file");
     }
     if (takes_large_strain) names.emplace_back(large.word);
   }

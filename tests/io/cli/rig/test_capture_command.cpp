@@ -206,6 +206,23 @@ TEST_CASE("every command of a rig names the file and line of a port that it cann
                  "rig.toml:29: port under [load_cell] 'tcp://bench' needs a host and a number"));
 }
 
+TEST_CASE("a capture that is given as another kind of test is refused with the words that fit it",
+          "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string capture = folder / "run.viscap";
+  leave_interrupted(capture);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"relaxation=" + capture}, {capture, "--kind", "creep"}}) {
+    std::vector<std::string> line{"fit"};
+    line.insert(line.end(), words.begin(), words.end());
+    const auto outcome = run_command(line);
+    CAPTURE(line, outcome.err);
+    CHECK(contains(outcome.err,
+                   "write indentation=" + capture + ", or give the file without a kind"));
+    CHECK_FALSE(contains(outcome.err, "omit --kind"));
+  }
+}
+
 TEST_CASE("--force of a capture replaces captures and empty files, and nothing else",
           "[cli][capture][pty]") {
   const ScratchFolder folder;
