@@ -51,7 +51,8 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
                              "indentation=" + path);
   }
   if (request.kind && *request.kind != FitKind::kIndentation) {
-    throw std::runtime_error(path + ": a capture is an indentation; omit --kind");
+    throw std::runtime_error(path + ": is a captured run, which is an indentation; write " +
+                             "indentation=" + path + ", or give the file without a kind");
   }
   if (!request.columns.empty() || !request.segments.empty() || request.time_zero_s ||
       request.from_s || request.to_s || request.hold > 0 || request.crop || request.depth_m ||
