@@ -38,7 +38,8 @@ void refuse_for_tests(const FitWords& words) {
 // Material files are fitted already. Density and Poisson ratio would go into a material.
 void refuse_for_materials(const FitWords& words) {
   FitWords given = words;
-  for (const Option& option : options_of(given).all()) {
+  const OptionList list = options_of(given);
+  for (const Option& option : list.all()) {
     const bool is_of_joint = option.group == "Several specimens" || option.name == "plausible";
     const bool is_of_material = option.name == "density" || option.name == "poisson-ratio";
     if (is_of_joint || is_of_material || option.name == "unverified") continue;
