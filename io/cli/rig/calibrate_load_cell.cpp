@@ -149,7 +149,7 @@ void check_weights(const CalibrateWords& words, double capacity_N) {
   for (std::size_t i = 0; i < words.masses_kg.size(); ++i) {
     const double mass_kg = words.masses_kg[i];
     if (weight_N(mass_kg, words.request) <= capacity_N) continue;
-    const std::string mass(i < typed.size() ? trimmed(typed[i]) : text_with_unit(mass_kg, "kg"));
+    const std::string mass(trimmed(typed[i]));
     const bool has_unit = !number_from_text(mass);
     throw UsageError(fmt::format("--weights: {}{} is more than the load cell's {:.4f} N{}", mass,
                                  has_unit ? "" : " without a unit, in kg,", capacity_N,
@@ -170,7 +170,10 @@ void check_weights(const CalibrateWords& words, double capacity_N) {
 WeightReadings readings_on_rig(const RigConfig& rig, const CalibrateWords& asked, double capacity_N,
                                Streams& streams) {
   CalibrateWords words = asked;
-  if (words.is_emulated && words.masses_kg.empty()) words.masses_kg = {0.05, 0.1, 0.15, 0.2};
+  if (words.is_emulated && words.masses_kg.empty()) {
+    words.weights = "50 g, 100 g, 150 g, 200 g";
+    words.masses_kg = {0.05, 0.1, 0.15, 0.2};
+  }
   check_weights(words, capacity_N);
   std::unique_ptr<EmulatedRig> emulated;
   if (words.is_emulated) {
