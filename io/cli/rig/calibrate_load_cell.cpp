@@ -1,6 +1,5 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/option_use.h"
-#include "io/basics/units.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/cli/rig/calibrate_words.h"

@@ -60,9 +60,9 @@ int run_design_optimise(const DesignWords& asked, const CommandSyntax& syntax, c
   {
     Progress progress(streams, "design");
     const WordsOnSignal words_on_signal(
-        "the design was stopped; nothing is written. Fewer free values, a larger tolerance or a "
-        "smaller budget in " +
-        path + " end earlier");
+        "the design was stopped; nothing is written. Fewer ranges and choices or a smaller front "
+        "in " +
+        path + ", or a larger tolerance in its scene, end earlier");
     front = design_front(
         spec, [&](double done, const std::string& what) { progress.announce(done, what); });
   }
