@@ -147,7 +147,8 @@ void check_weights(const CalibrateWords& words, double capacity_N) {
   const std::vector<std::string_view> typed = split(words.weights, ',');
   for (std::size_t i = 0; i < words.masses_kg.size(); ++i) {
     const double mass_kg = words.masses_kg[i];
-    if (weight_N(mass_kg, words.request) <= capacity_N) continue;
+    constexpr double kRounding = 1e-3;  // 250 g on a cell of 250 gf
+    if (weight_N(mass_kg, words.request) <= (1.0 + kRounding) * capacity_N) continue;
     const std::string mass(trimmed(typed[i]));
     const bool has_unit = !number_from_text(mass);
     throw UsageError(fmt::format("--weights: {}{} is more than the load cell's {:.4f} N{}", mass,
