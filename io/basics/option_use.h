@@ -14,8 +14,8 @@ struct OptionUse {
 };
 using OptionUses = std::vector<OptionUse>;
 
-// Why the first option that is given without an effect is refused, "--depth is for tables of force and
-// depth; omit it"; empty: there is none.
+// Why the first option that is given without an effect is refused, "--depth is for tables of force
+// and depth; omit it"; empty: there is none.
 std::string idle_option(const OptionUses& uses);
 
 // Refuses such an option, because the user expects it to have an effect.

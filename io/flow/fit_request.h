@@ -59,8 +59,8 @@ struct FitRequest {
   double frame_stiffness_N_m = 0.0;  // for tables whose depth_m is the position of the stage
   // The user stated the kind of test of this file: other columns are refused.
   bool is_one_of_several = false;
-  // The request is for other files, too: options that this one cannot use are not refused, but stand
-  // in FittedFile::uses.
+  // The request is for other files, too: options that this one cannot use are not refused, but
+  // stand in FittedFile::uses.
   bool is_beside_others = false;
   // Of the moduli, compliances and stresses in a table; none: its headers or its format decide.
   std::optional<ModulusKind> modulus_kind;
