@@ -31,7 +31,8 @@ struct PredictFileRequest {
   double time_zero_s = 0.0;                    // time in the tables where t = 0
   std::optional<double> temperature_C;         // by the material's temperature shift
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the prediction
-  // Names of the options that were given, "recovery"; those without an effect on the test are refused.
+  // Names of the options that were given, "recovery"; those without an effect on the test are
+  // refused.
   std::vector<std::string> given;
 };
 

@@ -11,8 +11,8 @@
 namespace viscard {
 namespace {
 
-// Options that state how one test is fitted; a joint fit takes series and their covariances alone, on
-// which the first ones have no effect.
+// Options that state how one test is fitted; a joint fit takes series and their covariances alone,
+// on which the first ones have no effect.
 OptionUses options_of_single_tests(const FitWords& words) {
   const char* const kWhat = "single tests, and these are fitted together";
   const bool in_joint = words.joint;
