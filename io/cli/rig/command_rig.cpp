@@ -1,3 +1,4 @@
+#include "io/basics/option_use.h"
 #include "io/basics/timestamp.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
@@ -371,6 +372,12 @@ int run_rig(const Words& words, Streams& streams) {
     throw UsageError("--" + option + " belongs to 'viscard rig " +
                      (is_of_move ? "jog'" : "check'"));
   }
+  const bool is_home = asked.what == "home";
+  const char* const kJog =
+      "rig jog and rig lift; the controller homes at its own speed, and only "
+      "the force limits of the rig file stop it";
+  refuse_idle<UsageError>({{"--speed", is_given(syntax, "speed"), !is_home, kJog},
+                           {"--limit", is_given(syntax, "limit"), !is_home, kJog}});
   if (asked.what == "list") {
     std::optional<RigConfig> rig;
     if (asked.rig_file) rig = read_rig(*asked.rig_file, asked.plausible);

@@ -306,4 +306,32 @@ TEST_CASE("options that a table cannot use are refused, not ignored", "[cli]") {
     CHECK_THAT(ran.err, Contains(option));
     CHECK_THAT(ran.err, Contains("omit"));
   }
+  ran = run_command({"fit", creep_file, "--terms", "1", "--max-terms", "5"});
+  CHECK(ran.status == kBadWords);
+  CHECK_THAT(ran.err, Contains("--max-terms is for the choice of a number of terms"));
+}
+
+TEST_CASE("of several files together an option is refused if none of them uses it", "[cli]") {
+  const TableFolder folder;
+  const std::string relaxation = "relaxation=" + folder.write("r.csv", relaxation_table());
+  std::string table = "time_s,compliance_1_Pa\n", loads = "time_s,force_N,strain\n";
+  for (int i = 0; i < 80; ++i) {
+    const double t = std::pow(10.0, -2.0 + 0.05 * i);
+    table += fmt::format("{},{}\n", t, 1e-6 * (1.5 - 0.5 * std::exp(-t)) + 1e-11 * ((7 * i) % 11));
+    loads += fmt::format("{},{},0.01\n", t, 0.1 * (1.0 + std::exp(-t)) + 1e-6 * ((7 * i) % 11));
+  }
+  const std::string creep = "creep=" + folder.write("c.csv", table);
+  for (const auto& [option, value] :
+       {std::pair{"--depth", "0.1 mm"}, std::pair{"--gauge-length", "25 mm"},
+        std::pair{"--area", "12 mm2"}, std::pair{"--punch-diameter", "4 mm"},
+        std::pair{"--frame-stiffness", "10 N/mm"}, std::pair{"--youngs-modulus", "1.5 MPa"},
+        std::pair{"--vertical-shift", "on"}}) {
+    const CommandOutcome ran = run_command({"fit", relaxation, creep, option, value});
+    CHECK(ran.status == kFailed);
+    CHECK_THAT(ran.err, Contains(std::string(option) + " is for") && Contains("omit it"));
+  }
+  // The loads become stresses by it.
+  const CommandOutcome used =
+      run_command({"fit", "relaxation=" + folder.write("l.csv", loads), creep, "--area", "12 mm2"});
+  CHECK_THAT(used.err, !Contains("--area"));
 }

@@ -358,6 +358,15 @@ TEST_CASE("options of rig check are refused by the other subcommands", "[cli][ri
   CHECK(contains(outcome.err, "--rig belongs to 'viscard rig check'"));
 }
 
+TEST_CASE("rig home has no speed and no limit of its own", "[cli][rig]") {
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--speed", "1 mm/s"}, {"--limit", "0.5 N"}}) {
+    const auto outcome = run_command({"rig", "home", "--emulate", option[0], option[1]});
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, option[0] + " is for rig jog and rig lift"));
+  }
+}
+
 TEST_CASE("rig list and rig check report what they find and what is wrong", "[cli][rig][pty]") {
   CHECK(run_command({"rig", "list"}).status == kDone);
   CHECK(nlohmann::json::parse(run_command({"rig", "list", "--json"}).out)["ports"].is_array());
