@@ -80,7 +80,7 @@ export function showCard(answer) {
   if (card.law) showText(status, `Written of the law ${card.law} in ${answer.material}.`);
   else showText(status, `Written of the material in ${answer.material} and read back: ${card.n_terms} term${card.n_terms === 1 ? "" : "s"}, `
     + (card.largest_difference === 0 ? "E(t) is the same." : `E(t) within ${card.largest_difference.toExponential(1)} of it.`));
-  element("card-advice").textContent = sentence(targetNow().advice);
+  element("card-advice").textContent = card.law ? "" : sentence(targetNow().advice);  // which is of linear materials
   list(element("card-losses"), [...card.warnings, ...(card.fidelity ?? []).filter((one) => one.mapping !== "exact")
     .map((one) => `${one.item} ${one.mapping}: ${one.text}`)].map(sentence));
   element("card-text").textContent = card.card;

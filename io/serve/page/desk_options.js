@@ -30,7 +30,7 @@ function valueOf(option, input) {
 }
 
 // What an empty field stands for, or how it is written. unit: another one than the program names.
-export const hintOf = (option, unit = option.unit) => (unit === "1" ? "such as 0.01 or 1 %" : unit ? `in ${unit}, or with unit`
+export const hintOf = (option, unit = option.unit) => (unit === "1" ? "0.01, or 1 %" : unit ? `in ${unit}, or with unit`
   : option.is_list ? "several: a; b" : option.default ?? "");
 
 function controlOf(option, value, id) {
