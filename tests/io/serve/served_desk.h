@@ -73,9 +73,9 @@ class ServedDesk {
   // True if a shell in the folder carries out these lines, as a person copies them.
   bool runs(const std::string& lines) const {
     const std::filesystem::path programs = std::filesystem::path(VISCARD_PROGRAM).parent_path();
-    const std::string command = "cd '" + folder().string() + "' && PATH='" + programs.string() +
-                                "':$PATH && set -e\n" + lines + "\n";
-    return std::system((command + " >/dev/null").c_str()) == 0;
+    const std::string script = "exec >/dev/null\nset -e\ncd '" + folder().string() + "'\nPATH='" +
+                               programs.string() + "':$PATH\n" + lines + "\n";
+    return std::system(script.c_str()) == 0;
   }
   // Relaxation at 10, 20 and 30 degC, each a decade slower than the warmer one.
   static std::string isotherms() {
