@@ -73,7 +73,7 @@ def _toml(value: Any, key: str, folder: str) -> str:
 
 def _key(key: Any) -> str:
     if not isinstance(key, str):
-        raise TypeError(f"a key of the scene is {key!r}; keys are texts")
+        raise TypeError(f"a key of the scene is {_check.shown(key)}; keys are texts")
     if re.fullmatch("[A-Za-z0-9_-]+", key):
         return key
     return '"' + key.replace("\\", "\\\\").replace('"', '\\"') + '"'
