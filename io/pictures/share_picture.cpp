@@ -1,6 +1,6 @@
 #include "io/pictures/share_picture.h"
 
-#include "io/plots/plot_names.h"
+#include "io/plots/plot_svg.h"
 
 #include <fmt/format.h>
 

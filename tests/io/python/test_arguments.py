@@ -92,6 +92,7 @@ WRONG_VALUES = [
     (lambda: viscard.simulate(PRESS, tol=10**400), "tol is 10+...; it must be a finite number"),
     (rows_of([0.0, 0.0, 0.0, float("inf")]), r"voltages\[0, 0\] is .*inf.*four NaN where no pillar stands"),
     (rows_of([0.0, float("nan"), 0.0, 0.0]), r"voltages\[0, 0\] is .*nan"),
+    (lambda: viscard.check_scene(PRESS, svg="x.png"), "svg is 'x.png'; the drawing is an SVG file, so end its name with .svg"),
     (lambda: viscard.data_file("/etc"), "no file '/etc' comes with viscard"),
 ]
 
