@@ -63,7 +63,7 @@ void draw_load(SceneDrawing& d, const PillarScene& scene, double low_m) {
     d.base_arrow(0.0, low_m, is_sideways);
     const std::string words =
         history(scene).empty()
-            ? fmt::format("base shaken, {:.4g} m/s2", base_acceleration_m_s2(scene))
+            ? with_minus(fmt::format("base shaken, {:.4g} m/s2", base_acceleration_m_s2(scene)))
             : std::string("base shaken, a history in time");
     d.text(d.x(0.0) + 52.0, d.y(low_m) + 26.0, words);
   } else if (is_driven) {
