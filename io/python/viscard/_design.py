@@ -92,7 +92,7 @@ class Designs(Result):
         rows = [{"feasible": one["feasible"], **{of["quantity"]: of["value"] for of in one["objectives"]}, **one["values"],
                  "held by": ", ".join(one["active"])} for one in self.designs]
         units = {of["quantity"]: of["unit"] for one in self.designs for of in one["objectives"] if of["quantity"] not in one["values"]}
-        return _show.of_dicts("designs", list(rows[0]) if rows else [], rows)._replace(units=units)
+        return _show.of_dicts("designs", list(dict.fromkeys(key for row in rows for key in row)), rows)._replace(units=units)
 
     def __repr__(self) -> str:
         return f"<viscard.Designs: {len(self.designs)}, {'feasible' if self.feasible else 'not feasible'}>"

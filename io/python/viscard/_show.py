@@ -73,7 +73,8 @@ def html_of(table: Columns) -> str:
     def cells(row: Iterable[Any], tag: str) -> str:
         return "<tr>" + "".join(f"<{tag}>{html.escape(shown(one))}</{tag}>" for one in row) + "</tr>"
 
-    heads = [f"{name} ({table.units[name]})" if table.units.get(name) else _HEADS.get(name, name) for name in table.columns]
+    units = {name: unit for name, unit in table.units.items() if unit not in ("", "1")}
+    heads = [f"{name} ({units[name]})" if name in units else _HEADS.get(name, name) for name in table.columns]
     text = f"<table><caption>{html.escape(table.title)}</caption><thead>{cells(heads, 'th')}</thead><tbody>"
     text += "".join(cells(["..." if row is None else column[row] for column in columns], "td") for row in rows)
     text += "</tbody></table>"
