@@ -72,8 +72,8 @@ TEST_CASE("a scene is drawn with its sizes", "[cli][scene]") {
   REQUIRE(run_command({"scene", "check", scene.path(), "--svg", svg}).status == 0);
   std::stringstream text;
   text << std::ifstream(svg).rdbuf();
-  for (const char* part : {"<svg", "d 40 um", "l 120 um", "t 25 um", "film radius 60 um",
-                           "electrode, radius 20 um", "10 kPa", "</svg>"}) {
+  for (const char* part : {"<svg", "d 40 µm", "l 120 µm", "t 25 µm", "film radius 60 µm",
+                           "electrode, radius 20 µm", "10 kPa", "</svg>"}) {
     CAPTURE(part);
     CHECK(text.str().find(part) != std::string::npos);
   }
