@@ -229,6 +229,7 @@ film_compliance = "on"
     CHECK(count_of(text_of(name), R"(stroke-dasharray="4 3")") == 2);  // at rest
     CHECK(text_of(name).find(" kHz") != std::string::npos);
     CHECK(text_of(name).find(" ± ") != std::string::npos);
+    CHECK(text_of(name).find(" kHz (scene") != std::string::npos);  // the name of the file
     CHECK(text_of(name).find("the 2 modes of this cluster lie within ") != std::string::npos);
   }
   // One mode of the two has both tops move alike, the other one against each other.

@@ -79,6 +79,10 @@ TEST_CASE("a scene is drawn with its sizes", "[cli][scene]") {
   }
   CHECK(run_command({"scene", "check", scene.path(), "--svg", svg}).status == 1);  // is there
   CHECK(run_command({"scene", "check", scene.path(), "--svg", svg, "--force"}).status == 0);
+  const auto as_png =
+      run_command({"scene", "check", scene.path(), "--svg", scene.beside("scene.png")});
+  CHECK(as_png.status == 2);
+  CHECK_THAT(as_png.err, Catch::Contains("end its name with .svg"));
 }
 
 TEST_CASE("an effect that is not computed and exceeds the tolerance stands in the first line",
