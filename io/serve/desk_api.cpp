@@ -249,7 +249,14 @@ Json DeskApi::table(const Json& request) {
     const std::lock_guard<std::mutex> lock(writing_);
     folder_.keep_words(tables.names.front(), words_to_keep(tables));
   }
-  const Texts words = command_words("fit", tables.names.front(), tables.options, {"--show-table"});
+  Texts of_reading = tables.options;
+  if (tables.is_rubber) {  // how a law is fitted does not belong to the table
+    std::erase_if(of_reading, [](const std::string& word) {
+      return word.starts_with("--model=") || word.starts_with("--weight=") ||
+             word.starts_with("--cycle=");
+    });
+  }
+  const Texts words = command_words("fit", tables.names.front(), of_reading, {"--show-table"});
   Json answer = answered(words, Json());
   answer["options"] = chosen_options(tables);
   try {

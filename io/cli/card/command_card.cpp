@@ -231,6 +231,7 @@ std::string deeds_in_words(unsigned deeds) {
 // An option that would change nothing is refused by name.
 void refuse_idle_options(const CommandSyntax& syntax, CardWords& words) {
   const Deed deed = deed_of(words);
+  if ((deed == kWrite || deed == kDeck) && words.material.empty()) return;  // check_words() asks
   const bool is_law =
       (deed == kCheck && is_rubber_check(words)) || (deed == kProve && is_rubber_proof(words)) ||
       ((deed == kWrite || deed == kDeck) && looks_like_hyperelastic_file(words.material));

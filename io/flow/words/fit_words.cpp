@@ -261,9 +261,17 @@ FitRequest fit_request(const FitWords& words) {
   request.diagnose = words.diagnose;
   if (words.model) {
     const std::vector<std::string>& names = law_names();
-    if (std::find(names.begin(), names.end(), *words.model) == names.end()) {
+    const std::vector<std::string> all = all_model_names();
+    const bool is_known = std::find(all.begin(), all.end(), *words.model) != all.end();
+    const bool is_here = std::find(names.begin(), names.end(), *words.model) != names.end();
+    if (is_known && !is_here) {
+      throw OptionError("--model " + *words.model +
+                        " is a law of large strain; name the tests as such: uniaxial=FILE, "
+                        "compression=FILE, planar=FILE or equibiaxial=FILE");
+    }
+    if (!is_here) {
       throw OptionError("--model " + *words.model + " is not known" +
-                        did_you_mean(*words.model, all_model_names()) + " Use " + listed(names) +
+                        did_you_mean(*words.model, all) + " Use " + listed(names) +
                         "; at large strain (uniaxial=FILE ...): " + listed(hyperelastic_names()));
     }
     request.model = *words.model;

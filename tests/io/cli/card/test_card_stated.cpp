@@ -180,7 +180,7 @@ TEST_CASE("card --solver and --solver-path are explained when they do not fit", 
   CHECK(command.run({"--prove", card, "--solver", "abacus"}) == kBadWords);
   CHECK_THAT(command.err, Contains("there are calculix, febio"));
   CHECK(command.run({file, "--for", "abaqus", "--solver", "sfepy"}) == kBadWords);
-  CHECK_THAT(command.err, Contains("--prove CARD"));
+  CHECK_THAT(command.err, Contains("belongs to --prove"));
   CHECK(command.run({"--prove", card, "--solver", "sfepy", "--solver-path", "/bin/true"}) ==
         kFailed);
   CHECK_THAT(command.err, Contains("does not answer as SfePy"));
