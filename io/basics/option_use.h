@@ -12,7 +12,7 @@ struct OptionUse {
   bool is_given = false, has_effect = false;
   std::string of;  // what it is for: "tables of force and depth"
 };
-using OptionUses = std::vector<OptionUse>;
+using OptionUses = std::vector<OptionUse>;  // of one command or file
 
 // Why the first option that is given without an effect is refused, "--depth is for tables of force
 // and depth; omit it"; empty: there is none.
