@@ -318,6 +318,11 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   return digits;
 }
 
+std::string sha256_as_read(const std::filesystem::path& path) {
+  const std::optional<std::string> recorded = recorded_sum(path);
+  return recorded ? *recorded : sha256_of_file(path);
+}
+
 void record_input_file(const std::filesystem::path& path) {
   if (is_recording_inputs()) sha256_of_file(path);
 }

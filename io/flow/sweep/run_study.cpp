@@ -87,7 +87,7 @@ PointKind kind_of_failure(const std::exception& error) {
 
 StudyPoint answer_point(const Study& study, std::int64_t number, Plausible judged) {
   StudyPoint point{.point = number, .values = values_at(study, number)};
-  const InputRecorder recorder(InputRecorder::Of::kThread);
+  const InputRecorder recorder(InputRecorder::Of::kPart);
   try {
     const SceneFile file =
         scene_from_toml(scene_text_with(study, point.values), study.scene_path, {}, judged);
