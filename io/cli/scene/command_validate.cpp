@@ -8,7 +8,6 @@
 #include "io/cli/words/stop_on_signal.h"
 #include "io/flow/validation_keys.h"
 #include "io/materials/material_file.h"
-#include "io/materials/material_json.h"
 #include "models/material/liquid.h"
 #include "models/pillar/validate_material.h"
 
