@@ -108,7 +108,7 @@ std::string head_of_table(const std::string& command) {
   std::string head = "# " + command + " (viscard " VISCARD_VERSION ")\n";
   for (const InputFile& file : provenance_of_inputs()) {
     if (!file.note.empty())
-      head += "# note: " + utf8_on_one_line(file.path + ": " + file.note) + "\n";
+      head += "# note: " + utf8_on_one_line(written_text(file.path + ": " + file.note)) + "\n";
   }
   return head;
 }
@@ -126,6 +126,7 @@ void record_input(const std::filesystem::path& path, const std::string& contents
 }
 
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256) {
+  remember_folder_of(path);
   const std::lock_guard<std::mutex> lock(list_mutex());
   for (InputRecorder* one : recorders()) {
     if (!InputRecords::sees_this_thread(*one)) continue;
@@ -178,8 +179,8 @@ std::string json_from_inputs(const std::vector<InputFile>& files, bool is_record
                                  {"table_sha256", sha256_of_text(table)},
                                  {"files", nlohmann::ordered_json::array()}};
   for (const InputFile& file : files) {
-    json["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});
-    if (!file.note.empty()) json["files"].back()["note"] = file.note;
+    json["files"].push_back({{"path", written_path(file.path)}, {"sha256", file.sha256}});
+    if (!file.note.empty()) json["files"].back()["note"] = written_text(file.note);
   }
   return printable_text_from_json(json, 2) + "\n";
 }
