@@ -357,7 +357,7 @@ OptionUses uses_in(PredictedTest test, const PredictFileRequest& request) {
   uses.push_back({"--to", is_given(request, "to"), !is_given(request, "hold"),
                   "tests without --hold, which also ends the curve"});
   const bool has_table = !request.history.empty() || !request.against.empty();
-  for (const char* option : {"column", "modulus-kind"}) {
+  for (const char* option : {"column", "modulus-kind", "unverified"}) {
     uses.push_back({std::string("--") + option, is_given(request, option), has_table,
                     "the tables of --history and --against"});
   }
