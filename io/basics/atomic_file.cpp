@@ -2,6 +2,7 @@
 
 #include "io/basics/inputs.h"
 #include "io/basics/missing_file.h"
+#include "io/basics/written_path.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -200,6 +201,7 @@ void put_file(const std::filesystem::path& path, const std::string& contents, bo
     throw std::runtime_error(
         path.string() + " is a device or pipe, which the file would replace; choose another name");
   }
+  remember_folder_of(path);
   if (!overwrite && std::filesystem::exists(path, ignored)) {
     throw std::runtime_error(path.string() +
                              " exists already; pass --force to replace it, or choose another name");
@@ -329,6 +331,11 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   const std::string digits = sum.digits();
   record_input_sum(path, digits);
   return digits;
+}
+
+std::string sha256_as_read(const std::filesystem::path& path) {
+  const std::optional<std::string> recorded = recorded_sum(path);
+  return recorded ? *recorded : sha256_of_file(path);
 }
 
 void record_input_file(const std::filesystem::path& path) {

@@ -44,6 +44,9 @@ std::string read_own_file(const std::filesystem::path& path, std::size_t most = 
 // SHA-256 (FIPS 180-4) of a file of any size, as 64 lower-case hexadecimal digits; inputs.h records it.
 // Throws std::runtime_error naming the file if it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
+// That of what was read last from the file, which may have changed since (inputs.h); that of its contents now only if
+// no recorder has seen it. What a result states of its inputs.
+std::string sha256_as_read(const std::filesystem::path& path);
 
 // Records a file that is not read as a whole, such as a capture (inputs.h). Reads it only if somebody records.
 void record_input_file(const std::filesystem::path& path);

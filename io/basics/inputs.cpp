@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <mutex>
 #include <tuple>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -25,18 +26,37 @@ std::vector<InputRecorder*>& recorders() {
   return all;
 }
 
-// A different address in every thread.
-void* this_thread() {
-  thread_local char mark = 0;
-  return &mark;
+using Numbers = std::vector<std::uint64_t>;
+
+// The recorders that see what this thread reads, beside those of the process.
+Numbers& recorders_of_thread() {
+  thread_local Numbers numbers;
+  return numbers;
 }
+
+}  // namespace
+
+// The innards of recorders; the caller holds the lock.
+struct InputRecords {
+  static bool sees_this_thread(const InputRecorder& one) {
+    const Numbers& numbers = recorders_of_thread();
+    return one.of_ == InputRecorder::Of::kProcess ||
+           std::find(numbers.begin(), numbers.end(), one.number_) != numbers.end();
+  }
+  static bool is_of_command(const InputRecorder& one) {
+    return one.of_ != InputRecorder::Of::kPart && sees_this_thread(one);
+  }
+  static std::vector<InputFile>& files(InputRecorder& one) { return one.files_; }
+};
+
+namespace {
 
 std::vector<InputFile> files_of_innermost() {
   const InputRecorder* innermost = nullptr;
   {
     const std::lock_guard<std::mutex> lock(list_mutex());
     for (const InputRecorder* one : recorders()) {
-      if (one->is_of_process()) innermost = one;
+      if (InputRecords::is_of_command(*one)) innermost = one;
     }
   }
   return innermost != nullptr ? innermost->files() : std::vector<InputFile>();
@@ -44,14 +64,29 @@ std::vector<InputFile> files_of_innermost() {
 
 }  // namespace
 
-InputRecorder::InputRecorder(Of of) : thread_(of == Of::kThread ? this_thread() : nullptr) {
+InputRecorder::InputRecorder(Of of) : of_(of) {
+  static std::uint64_t n_made = 0;
   const std::lock_guard<std::mutex> lock(list_mutex());
+  number_ = ++n_made;
   recorders().push_back(this);
+  if (of != Of::kProcess) recorders_of_thread().push_back(number_);
 }
 
 InputRecorder::~InputRecorder() {
   const std::lock_guard<std::mutex> lock(list_mutex());
   std::erase(recorders(), this);
+  std::erase(recorders_of_thread(), number_);
+}
+
+std::function<void()> recorded_as_here(std::function<void()> work) {
+  return [work = std::move(work), here = recorders_of_thread()] {
+    struct Before {
+      Numbers numbers = recorders_of_thread();
+      ~Before() { recorders_of_thread() = std::move(numbers); }
+    } const before;
+    recorders_of_thread() = here;
+    work();
+  };
 }
 
 std::vector<InputFile> InputRecorder::files() const {
@@ -73,7 +108,7 @@ std::string head_of_table(const std::string& command) {
   std::string head = "# " + utf8_on_one_line(command) + " (viscard " VISCARD_VERSION ")\n";
   for (const InputFile& file : provenance_of_inputs()) {
     if (!file.note.empty())
-      head += "# note: " + utf8_on_one_line(file.path + ": " + file.note) + "\n";
+      head += "# note: " + utf8_on_one_line(written_text(file.path + ": " + file.note)) + "\n";
   }
   return head;
 }
@@ -91,21 +126,40 @@ void record_input(const std::filesystem::path& path, const std::string& contents
 }
 
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256) {
+  remember_folder_of(path);
   const std::lock_guard<std::mutex> lock(list_mutex());
   for (InputRecorder* one : recorders()) {
-    if (one->thread_ != nullptr && one->thread_ != this_thread()) continue;
-    const bool is_known =
-        std::any_of(one->files_.begin(), one->files_.end(), [&](const InputFile& other) {
-          return other.path == path.string() && other.sha256 == sha256;
-        });
-    if (!is_known) one->files_.push_back({path.string(), sha256});
+    if (!InputRecords::sees_this_thread(*one)) continue;
+    std::vector<InputFile>& files = InputRecords::files(*one);
+    const auto known = std::find_if(files.begin(), files.end(), [&](const InputFile& other) {
+      return other.path == path.string() && other.sha256 == sha256;
+    });
+    if (known == files.end()) {
+      files.push_back({path.string(), sha256});
+    } else {
+      std::rotate(known, known + 1, files.end());
+    }
   }
+}
+
+std::optional<std::string> recorded_sum(const std::filesystem::path& path) {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  for (auto one = recorders().rbegin(); one != recorders().rend(); ++one) {
+    if (!InputRecords::sees_this_thread(**one)) continue;
+    const std::vector<InputFile>& files = InputRecords::files(**one);
+    const auto last = std::find_if(files.rbegin(), files.rend(), [&](const InputFile& file) {
+      return file.path == path.string();
+    });
+    if (last != files.rend()) return last->sha256;
+  }
+  return std::nullopt;
 }
 
 void note_input(const std::filesystem::path& path, const std::string& note) {
   const std::lock_guard<std::mutex> lock(list_mutex());
   for (InputRecorder* one : recorders()) {
-    for (InputFile& file : one->files_) {
+    if (!InputRecords::sees_this_thread(*one)) continue;
+    for (InputFile& file : InputRecords::files(*one)) {
       if (file.path != path.string() || file.note.find(note) != std::string::npos) continue;
       file.note += (file.note.empty() ? "" : "; ") + note;
     }
@@ -125,8 +179,8 @@ std::string json_from_inputs(const std::vector<InputFile>& files, bool is_record
                                  {"table_sha256", sha256_of_text(table)},
                                  {"files", nlohmann::ordered_json::array()}};
   for (const InputFile& file : files) {
-    json["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});
-    if (!file.note.empty()) json["files"].back()["note"] = file.note;
+    json["files"].push_back({{"path", written_path(file.path)}, {"sha256", file.sha256}});
+    if (!file.note.empty()) json["files"].back()["note"] = written_text(file.note);
   }
   return printable_text_from_json(json, 2) + "\n";
 }

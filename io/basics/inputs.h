@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +16,13 @@ struct InputFile {
   std::string note = {};  // what must be known of it, such as that it was edited
 };
 
-// Records every file that read_file() reads while it lives, in all threads or in its own thread only. A
-// file whose contents change meanwhile is there once for each.
+// Records every file that read_file() reads while it lives. A file whose contents change meanwhile is there once for
+// each.
 class InputRecorder {
  public:
-  enum class Of { kProcess, kThread };
+  // Whose files: of all threads; of this thread and those that work for it (recorded_as_here()), as one command; of
+  // the same threads, as a part of a command.
+  enum class Of { kProcess, kCall, kPart };
   explicit InputRecorder(Of of = Of::kProcess);
   ~InputRecorder();
   InputRecorder(const InputRecorder&) = delete;
@@ -25,16 +30,18 @@ class InputRecorder {
 
   // In the order of their names.
   std::vector<InputFile> files() const;
-  bool is_of_process() const { return thread_ == nullptr; }
 
  private:
-  friend void record_input_sum(const std::filesystem::path& path, const std::string& sha256);
-  friend void note_input(const std::filesystem::path& path, const std::string& note);
-  void* thread_ = nullptr;  // whose files count; null: all
-  std::vector<InputFile> files_;
+  friend struct InputRecords;
+  Of of_;
+  std::uint64_t number_;          // no two recorders have the same
+  std::vector<InputFile> files_;  // in the order in which they were read last
 };
 
-// The files that the innermost recorder of the process has seen; none without one. What a command writes
+// The work, whose files are recorded as if this thread read them, in whichever thread it runs.
+std::function<void()> recorded_as_here(std::function<void()> work);
+
+// The files that the innermost recorder of a command has seen; none without one. What a command writes
 // or prints about its inputs comes from here.
 std::vector<InputFile> provenance_of_inputs();
 
@@ -48,6 +55,8 @@ std::string head_of_table(const std::string& command);
 // Called by what reads files.
 void record_input(const std::filesystem::path& path, const std::string& contents);
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256);
+// The sum of what was read last from the file of this name; nothing if no recorder of this thread has seen it.
+std::optional<std::string> recorded_sum(const std::filesystem::path& path);
 // Adds a note to a recorded file; commands print it and --json has it beside the file.
 void note_input(const std::filesystem::path& path, const std::string& note);
 // Whether there is any recorder.

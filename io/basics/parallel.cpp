@@ -1,10 +1,12 @@
 #include "io/basics/parallel.h"
 
+#include "io/basics/inputs.h"
 #include "models/maths/usable_machine.h"
 
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <thread>
 #include <vector>
 
@@ -13,7 +15,7 @@ namespace viscard {
 void for_each_in_parallel(std::size_t n, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> failures(n);
-  const auto run = [&] {
+  const std::function<void()> run = recorded_as_here([&] {
     for (std::size_t i = next++; i < n; i = next++) {
       try {
         work(i);
@@ -24,7 +26,7 @@ void for_each_in_parallel(std::size_t n, const std::function<void(std::size_t)>&
         failures[i] = std::current_exception();
       }
     }
-  };
+  });
   {
     std::vector<std::jthread> threads;
     const std::size_t cores = std::min(usable_cores(), n);

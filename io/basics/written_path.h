@@ -1,16 +1,23 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace viscard {
 
-// What files and messages state of places on this computer. With --strip-paths, nothing but names: a folder often has
+// What files and results state of places on this computer. With --strip-paths, nothing but names: a folder often has
 // the name of a person, a client or a project.
 void strip_written_paths(bool strips);
 
-// The path as it is written: with --strip-paths the name of a file behind an absolute path.
+// The path as it is written: with --strip-paths the name of a file behind an absolute path, or behind one that leaves
+// the folder of the command (../x).
 std::string written_path(const std::string& path);
 // The same of a word of a command line, such as "--out=/home/a/b.json" or "relaxation=/home/a/b.csv".
 std::string written_word(const std::string& word);
+
+// With --strip-paths, remembers the folder of a file that the command reads or writes ...
+void remember_folder_of(const std::filesystem::path& file);
+// ... and takes all these folders, the one of the command and that of the user out of a text, such as a message.
+std::string written_text(const std::string& text);
 
 }  // namespace viscard

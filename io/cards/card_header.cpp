@@ -67,7 +67,8 @@ void add_uncertainty(std::vector<std::string>& lines, const Material& material) 
   }
   for (const MaterialFlag& flag : material.flags) {
     lines.push_back("flag " + flag.name +
-                    (flag.term > 0 ? fmt::format(" (term {})", flag.term) : "") + ": " + flag.text);
+                    (flag.term > 0 ? fmt::format(" (term {})", flag.term) : "") + ": " +
+                    written_text(flag.text));
   }
 }
 

@@ -8,6 +8,7 @@ namespace viscard {
 namespace {
 
 constexpr const char* kMark = "card sha256 ";
+constexpr const char* kEditedCard = "card-edited";
 constexpr std::size_t kMarkLength = 12, kDigits = 64;
 
 // Where the digits of the sum begin; npos if the card states none.
@@ -32,6 +33,24 @@ std::string card_sum(const std::string& card) {
   if (const std::size_t at = digits_at(card); at != std::string::npos) rest.erase(at, kDigits);
   std::erase(rest, '\r');
   return sha256_of_text(rest);
+}
+
+bool is_card_edited(const std::string& card) {
+  const std::string stated = stated_card_sum(card);
+  return !stated.empty() && stated != card_sum(card);
+}
+
+CardFinding edited_card_finding(bool is_compared) {
+  const std::string text =
+      "the card is not as viscard wrote it (the sum in its header differs)" +
+      std::string(is_compared ? ", and no number of it differs from the material's"
+                              : ": numbers or words of it were changed since");
+  return {kEditedCard, text, false};
+}
+
+bool has_edited_finding(const std::vector<CardFinding>& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const CardFinding& finding) { return finding.name == kEditedCard; });
 }
 
 std::string sealed(const std::string& card) {

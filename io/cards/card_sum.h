@@ -1,6 +1,9 @@
 #pragma once
 
+#include "io/cards/read_card.h"
+
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -16,5 +19,10 @@ std::string sealed(const std::string& card);
 std::string stated_card_sum(const std::string& card);
 // The sum of the text as it is.
 std::string card_sum(const std::string& card);
+// True if the card states a sum that is not its own: a number or a word of it was changed since.
+bool is_card_edited(const std::string& card);
+// The note "card-edited". is_compared: with a material, from which no number of the card differs.
+CardFinding edited_card_finding(bool is_compared);
+bool has_edited_finding(const std::vector<CardFinding>& findings);
 
 }  // namespace viscard

@@ -322,13 +322,11 @@ CardCheck check_card(const std::string& text, const CardTarget& target, const Ch
                      const Material* reference) {
   const std::string plain = without_byte_order_mark(text);
   CardCheck check = check_plain_card(plain, target, options, reference);
-  const std::string stated = stated_card_sum(plain);
-  if (check.findings.empty() && !stated.empty() && stated != card_sum(plain)) {
-    check.findings.push_back({"card-edited",
-                              "the card is not as viscard wrote it (the sum in its header "
-                              "differs), and no number of it differs",
-                              false});
-  }
+  // What was found in a comparison explains the edit.
+  const bool is_explained =
+      reference != nullptr ? !check.findings.empty() : has_mistake(check.findings);
+  if (!is_explained && is_card_edited(plain))
+    check.findings.push_back(edited_card_finding(reference != nullptr));
   if (plain.size() == text.size()) return check;
   check.findings.insert(check.findings.begin(), byte_order_mark_finding(target));
   check.agrees = check.agrees && !check.findings.front().is_mistake;

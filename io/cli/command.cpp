@@ -12,6 +12,7 @@
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/serve/serve_command.h"
 #include "io/cli/words/fitted_text.h"
+#include "io/cli/words/folderless_stream.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/printable_stream.h"
 #include "io/cli/words/terminal.h"
@@ -133,7 +134,19 @@ const std::vector<Command>& commands() {
 }
 
 int run_viscard(const Words& words, Streams& streams) {
-  return with_exit_status("viscard", words, streams, [&] { return dispatch(words, streams); });
+  const bool strips = std::find(words.begin(), words.end(), "--strip-paths") != words.end();
+  // The screen shows where the files are.
+  if (!strips || dynamic_cast<PrintableStream*>(&streams.out) != nullptr)
+    return with_exit_status("viscard", words, streams, [&] { return dispatch(words, streams); });
+  FolderlessStream out(streams.out);
+  Streams inner{.out = out,
+                .err = streams.err,
+                .err_is_terminal = streams.err_is_terminal,
+                .columns = streams.columns,
+                .is_out_coloured = streams.is_out_coloured,
+                .is_err_coloured = streams.is_err_coloured,
+                .on_help = streams.on_help};
+  return with_exit_status("viscard", words, inner, [&] { return dispatch(words, inner); });
 }
 
 namespace {

@@ -184,7 +184,7 @@ PreparedMaterial prepare_card_material(const CardMaterialRequest& request) {
     prepared.material = read_material(request.material, request.plausible).material;
     refuse_liquid(prepared.material, request.material);
   }
-  prepared.sha256 = sha256_of_file(request.material);
+  prepared.sha256 = sha256_as_read(request.material);
   prepared.file = std::filesystem::path(request.material).filename().string();
   take_changes(request, prepared);
   return prepared;

@@ -105,7 +105,7 @@ SpecimenReport specimen_of_tests(const ReportRequest& request, const FlowProgres
     report.specimen.id = std::filesystem::path(request.tests.front().path).stem().string();
   }
   for (const TestFile& test : request.tests) {
-    report.files.push_back({written_path(test.path), sha256_of_file(test.path)});
+    report.files.push_back({written_path(test.path), sha256_as_read(test.path)});
   }
   if (!fitted.result.is_stiffness) {
     report.material = material_from_fitted(

@@ -2,6 +2,7 @@
 
 #include "fit/samples/noise_model.h"
 #include "io/basics/words.h"
+#include "io/flow/damaged_table.h"
 #include "io/flow/plausible_record.h"
 #include "io/materials/material_file.h"
 #include "io/materials/plausible_numbers.h"
@@ -279,7 +280,10 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
   std::optional<ReadTable> history, measured;
   const auto read = [&](const std::string& path, const CsvTable* in_memory,
                         std::optional<ReadTable>& table) {
-    if (!path.empty()) table.emplace(read_compared(path, in_memory, request, material.nu));
+    if (path.empty()) return;
+    table.emplace(read_compared(path, in_memory, request, material.nu));
+    for (const IntegrityNote& note : accepted_damage(table->table, request.accepts_unverified))
+      out.flags.push_back({note.name, 0, path + ": " + note.text});
   };
   read(request.history, request.history_in_memory.get(), history);
   read(request.against, request.against_in_memory.get(), measured);
@@ -353,7 +357,7 @@ OptionUses uses_in(PredictedTest test, const PredictFileRequest& request) {
   uses.push_back({"--to", is_given(request, "to"), !is_given(request, "hold"),
                   "tests without --hold, which also ends the curve"});
   const bool has_table = !request.history.empty() || !request.against.empty();
-  for (const char* option : {"column", "modulus-kind"}) {
+  for (const char* option : {"column", "modulus-kind", "unverified"}) {
     uses.push_back({std::string("--") + option, is_given(request, option), has_table,
                     "the tables of --history and --against"});
   }

@@ -27,9 +27,10 @@ struct PredictFileRequest {
   std::shared_ptr<const CsvTable> history_in_memory, against_in_memory;
   bool is_driven_by_stress = false;  // of a table with strain and stress, which one is the input
   ColumnMap columns;                 // of both tables
-  std::optional<ModulusKind> modulus_kind;     // of both; none: their headers decide
-  double time_zero_s = 0.0;                    // time in the tables where t = 0
-  std::optional<double> temperature_C;         // by the material's temperature shift
+  std::optional<ModulusKind> modulus_kind;  // of both; none: their headers decide
+  bool accepts_unverified = false;          // of tables of damaged captures; the result is flagged
+  double time_zero_s = 0.0;                 // time in the tables where t = 0
+  std::optional<double> temperature_C;      // by the material's temperature shift
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the prediction
   // Names of the options that were given, "recovery"; those without an effect on the test are
   // refused.
@@ -62,7 +63,7 @@ struct PredictedFile {
   std::string path, name;  // of the material
   double systematic_relative = 0.0;
   bool has_band = false;
-  std::vector<MaterialFlag> flags;  // of the material
+  std::vector<MaterialFlag> flags;  // of the material, and of the tables
   bool is_trustworthy = true;       // none of them is a defect
   TestPrediction prediction;
   std::string against;               // table that was compared; empty: none

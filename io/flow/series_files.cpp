@@ -2,11 +2,15 @@
 
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
+#include "io/config/config_file.h"
+#include "io/flow/capture_to_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -15,16 +19,50 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An empty or damaged capture counts as unfinished.
-bool is_finished(const fs::path& path) {
+// Nothing for an empty or damaged capture, and for one that is not finished or lacks readings.
+std::optional<CapturedRun> finished_run(const fs::path& path) {
   try {
-    return read_capture(path).status == "finished";
+    CapturedRun run = read_capture(path);
+    const RecordIntegrity& found = run.integrity;
+    const bool is_whole = found.n_left_out_samples == 0 && found.n_left_out_reports == 0 &&
+                          found.n_left_out_temperatures == 0;
+    if (run.status == "finished" && is_whole) return run;
   } catch (const std::runtime_error&) {
-    return false;
   }
+  return std::nullopt;
 }
 
-NextCapture choose_capture(const fs::path& first, bool skips_finished) {
+// The first line in which two descriptions differ, in words; empty: none.
+std::string difference(const std::string& of_capture, const std::string& asked) {
+  std::istringstream kept_lines(of_capture), asked_lines(asked);
+  std::string section;
+  while (kept_lines || asked_lines) {
+    std::string kept, now;
+    std::getline(kept_lines, kept);
+    std::getline(asked_lines, now);
+    if (kept != now) {
+      const auto shown = [](const std::string& line) { return line.empty() ? "no more" : line; };
+      return (section.empty() ? "" : "in " + section + " ") + "it has " + shown(kept) +
+             ", and asked for is " + shown(now);
+    }
+    if (kept.starts_with("[")) section = kept;
+  }
+  return "";
+}
+
+void refuse_other(const fs::path& path, const CapturedRun& run, const CaptureSetup& asked) {
+  std::string what = "test";
+  std::string how = difference(toml_from_test(run.plan), toml_from_test(asked.plan));
+  if (how.empty()) {
+    what = "specimen";
+    how = difference(toml_from_specimen(run.specimen), toml_from_specimen(asked.specimen));
+  }
+  if (how.empty()) return;
+  throw std::runtime_error(path.string() + " is a finished capture of another " + what + ": " +
+                           how + ". Use the files of that capture to go on, or another --out");
+}
+
+NextCapture choose_capture(const fs::path& first, bool skips_finished, const CaptureSetup* asked) {
   const int n_attempts = last_attempt(first);
   for (int n = 1; n <= n_attempts; ++n) {
     const fs::path path = attempt_path(first, n);
@@ -33,7 +71,11 @@ NextCapture choose_capture(const fs::path& first, bool skips_finished) {
       throw std::runtime_error(path.string() +
                                " is being written by another capture. Wait for it to end");
     }
-    if (!skips_finished && is_finished(path)) return {{}, path};
+    if (skips_finished) continue;
+    const std::optional<CapturedRun> run = finished_run(path);
+    if (!run) continue;
+    if (asked != nullptr) refuse_other(path, *run, *asked);
+    return {{}, path};
   }
   return {attempt_path(first, n_attempts + 1), {}};
 }
@@ -65,12 +107,12 @@ int last_attempt(const fs::path& first) {
   return last;
 }
 
-NextCapture next_capture(const fs::path& first) {
-  return choose_capture(first, false);
+NextCapture next_capture(const fs::path& first, const CaptureSetup* asked) {
+  return choose_capture(first, false, asked);
 }
 
 fs::path further_capture(const fs::path& first) {
-  return choose_capture(first, true).file;
+  return choose_capture(first, true, nullptr).file;
 }
 
 }  // namespace viscard

@@ -4,6 +4,8 @@
 
 namespace viscard {
 
+struct CaptureSetup;
+
 // The captures of one specimen of a series: run.viscap, and run.2.viscap, run.3.viscap ... for
 // further attempts. Nothing is overwritten or continued in the middle.
 
@@ -19,9 +21,10 @@ struct NextCapture {
   std::filesystem::path finished;  // the first finished capture, or empty
 };
 
-// An empty or damaged capture counts as unfinished. Throws std::runtime_error if another program is
-// writing one of the captures.
-NextCapture next_capture(const std::filesystem::path& first);
+// An empty or damaged capture, or one with damaged readings, counts as unfinished. Throws std::runtime_error if another
+// program is writing one of the captures, and if `asked` has another test or specimen than a finished capture, naming
+// its file and what differs.
+NextCapture next_capture(const std::filesystem::path& first, const CaptureSetup* asked = nullptr);
 
 // The file after the last one, also if there is a finished capture. Throws likewise.
 std::filesystem::path further_capture(const std::filesystem::path& first);

@@ -137,7 +137,7 @@ SpecimenReport specimen_from_fit(const ReportRequest& request, const std::string
     report.run = read_capture(path, {.accepts_damage = request.accepts_unverified});
     put_on_one_clock(*report.run);
   }
-  report.files = {{written_path(path), sha256_of_file(path)}};
+  report.files = {{written_path(path), sha256_as_read(path)}};
   if (!report.fit->is_stiffness) {
     report.material = material_from_fitted(
         fitted, {.command = request.command, .created_at = request.created_at});
@@ -147,7 +147,7 @@ SpecimenReport specimen_from_fit(const ReportRequest& request, const std::string
 
 void add_truth(SpecimenReport& report, const std::string& path) {
   report.truth = truth_from_file(path);
-  report.files.push_back({written_path(path), sha256_of_file(path)});
+  report.files.push_back({written_path(path), sha256_as_read(path)});
 }
 
 SpecimenReport specimen_from_material(const ReportRequest& request, const std::string& path) {
@@ -156,7 +156,7 @@ SpecimenReport specimen_from_material(const ReportRequest& request, const std::s
   report.specimen.id =
       report.material->name.empty() ? fs::path(path).stem().string() : report.material->name;
   report.specimen.mixing_ratio = report.material->mixing_ratio;
-  report.files = {{written_path(path), sha256_of_file(path)}};
+  report.files = {{written_path(path), sha256_as_read(path)}};
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include "io/basics/file_kind.h"
 #include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
+#include "io/basics/written_path.h"
 #include "io/materials/material_json.h"
 #include "io/materials/plausible_numbers.h"
 
@@ -34,9 +35,20 @@ MaterialFile read_material(const std::filesystem::path& path, Plausible judged) 
   return material_from_json(read_file(path), path.string(), judged);
 }
 
+namespace {
+
+// Without folders where the user wants none.
+Material as_written(Material material) {
+  for (RawFile& file : material.provenance.raw_files) file.path = written_path(file.path);
+  for (MaterialFlag& flag : material.flags) flag.text = written_text(flag.text);
+  return material;
+}
+
+}  // namespace
+
 std::string json_from_material(const MaterialFile& file) {
   validate(file.material);
-  Json out = json_from(file.material);
+  Json out = json_from(as_written(file.material));
   if (!file.original_json.empty()) {
     carry_unknown_keys(parse_json(file.original_json, "the material it was read from"), out);
   }

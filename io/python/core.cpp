@@ -11,6 +11,7 @@
 
 #include <pybind11/stl.h>
 
+#include <memory>
 #include <new>
 #include <string>
 
@@ -49,9 +50,9 @@ void translate(
 void add_errors(py::module_& module) {
   py::register_local_exception_translator(translate);
   module.def("jobs_left", &jobs_left);
-  // What is in doubt of the files that were read while this lives.
+  // What is in doubt of the files that this call reads while it lives; other threads have their own.
   py::class_<InputRecorder>(module, "InputRecorder")
-      .def(py::init<>())
+      .def(py::init([] { return std::make_unique<InputRecorder>(InputRecorder::Of::kCall); }))
       .def("notes", [](const InputRecorder& recorder) {
         std::vector<std::string> notes;
         for (const InputFile& file : recorder.files()) {

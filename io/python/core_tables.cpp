@@ -40,6 +40,7 @@ py::dict table_dict(CsvTable table, const ColumnMap& map) {
   out["file"] = table.file;
   out["maker"] = table.maker;
   out["preamble"] = table.preamble;
+  out["comments"] = table.comments;
   out["quantities"] = quantities_of(table, map);
   py::list columns;
   for (CsvColumn& column : table.columns) {
@@ -139,6 +140,8 @@ CsvTable table_from_arrays(const py::dict& arrays, const std::string& name) {
   CsvTable table;
   table.file = name;
   table.has_header = true;
+  if (py::hasattr(arrays, "comments"))  // of a table that was read from a file
+    table.comments = arrays.attr("comments").cast<std::vector<std::string>>();
   for (const auto& [header, values] : arrays) {
     CsvColumn column;
     column.header = header.cast<std::string>();

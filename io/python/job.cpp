@@ -1,5 +1,6 @@
 #include "io/python/job.h"
 
+#include "io/basics/inputs.h"
 #include "models/maths/may_stop.h"
 
 #include <chrono>
@@ -36,24 +37,24 @@ class JobRunner {
   JobRunner(std::shared_ptr<Job> job, std::function<void()> work, const Listeners& listeners)
       : job_(std::move(job)), listeners_(listeners) {
     ++n_left;
-    thread_ =
-        std::thread([job = job_, work = std::move(work), is_rig = listeners.must_end]() mutable {
-          std::exception_ptr error;
-          const StopCheck stop([&] {
-            if (job->stop_ && !is_rig) throw Interrupted();  // a rig has its own way to stop
-          });
-          try {
-            work();
-          } catch (...) {
-            error = std::current_exception();
-          }
-          work = nullptr;  // destroys its values while somebody may still wait
-          const std::lock_guard lock(job->mutex_);
-          job->error_ = error;
-          job->is_done_ = true;
-          --n_left;
-          job->changed_.notify_one();
-        });
+    thread_ = std::thread([job = job_, work = recorded_as_here(std::move(work)),
+                           is_rig = listeners.must_end]() mutable {
+      std::exception_ptr error;
+      const StopCheck stop([&] {
+        if (job->stop_ && !is_rig) throw Interrupted();  // a rig has its own way to stop
+      });
+      try {
+        work();
+      } catch (...) {
+        error = std::current_exception();
+      }
+      work = nullptr;  // destroys its values while somebody may still wait
+      const std::lock_guard lock(job->mutex_);
+      job->error_ = error;
+      job->is_done_ = true;
+      --n_left;
+      job->changed_.notify_one();
+    });
   }
 
   void run() {

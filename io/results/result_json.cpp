@@ -1,6 +1,7 @@
 #include "io/results/result_json.h"
 
 #include "io/basics/json_string.h"
+#include "io/basics/written_path.h"
 
 #include <cmath>
 #include <utility>
@@ -20,17 +21,18 @@ Json array_of(const std::vector<double>& values) {
   return array;
 }
 
+// Texts without folders where the user wants none: paths and messages that quote them stand under many keys.
 class JsonWriter : public ResultVisitor {
  public:
   explicit JsonWriter(Json& object) : within_{&object} {}
 
   void document(std::string_view key, const std::string& json, const char* /*what*/) override {
-    set(key, ordered_json_from_text(json));
+    set(key, ordered_json_from_text(written_text(json)));
   }
   void documents(std::string_view key, const std::vector<std::string>& json,
                  const char* /*what*/) override {
     Json& list = set(key, Json::array());
-    for (const std::string& one : json) list.push_back(ordered_json_from_text(one));
+    for (const std::string& one : json) list.push_back(ordered_json_from_text(written_text(one)));
   }
 
  protected:
@@ -43,7 +45,7 @@ class JsonWriter : public ResultVisitor {
   void flag(std::string_view key, bool value, const char* /*what*/) override { set(key, value); }
   void text(std::string_view key, const std::string& value, const char* /*what*/,
             const std::vector<const char*>* /*words*/) override {
-    set(key, value);
+    set(key, written_text(value));
   }
   void pair(std::string_view key, const Interval& value, const char* /*what*/) override {
     set(key, array_of({value.low, value.high}));
@@ -58,7 +60,8 @@ class JsonWriter : public ResultVisitor {
   }
   void texts(std::string_view key, const std::vector<std::string>& values,
              const char* /*what*/) override {
-    set(key, values);
+    Json& list = set(key, Json::array());
+    for (const std::string& value : values) list.push_back(written_text(value));
   }
   void flags(std::string_view key, const std::vector<bool>& values, const char* /*what*/) override {
     set(key, values);

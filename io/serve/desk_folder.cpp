@@ -41,13 +41,18 @@ FileKind kind_of_beginning(const fs::path& path) {
   return kind_of_file(begin);
 }
 
+// In letters of any case: some file systems know no difference.
+bool has_ending(const std::string& name, const std::string& ending) {
+  if (name.size() < ending.size()) return false;
+  return std::equal(ending.rbegin(), ending.rend(), name.rbegin(), [](char lower, char c) {
+    return lower == (c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c);
+  });
+}
+
 bool has_table_ending(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  }
-  return std::find(std::begin(kTableEndings), std::end(kTableEndings), ending) !=
-         std::end(kTableEndings);
+  const std::string name = path.filename().string();
+  return std::any_of(std::begin(kTableEndings), std::end(kTableEndings),
+                     [&](const char* ending) { return has_ending(name, ending); });
 }
 
 // By its contents, and by its ending where they do not tell.
@@ -101,8 +106,6 @@ std::string plain_file_name(const std::string& name) {
         byte >= 0x80 || std::isalnum(byte) != 0 || std::strchr("._-+() ,", c) != nullptr;
     if (!is_kept || c == '\0') c = '_';
   }
-  // What the desk keeps beside a table must not come from elsewhere.
-  if (plain.ends_with(kKeptEnding)) plain[plain.size() - std::strlen(kKeptEnding)] = '_';
   const std::size_t begin = plain.find_first_not_of(" .-_");
   if (begin == std::string::npos) return "";
   plain.erase(0, begin);
@@ -113,7 +116,10 @@ std::string plain_file_name(const std::string& name) {
     // Not within a character of UTF-8.
     while (end > 0 && (static_cast<unsigned char>(plain[end]) & 0xc0u) == 0x80u) --end;
     plain = plain.substr(0, end) + ending;
+    plain.erase(plain.find_last_not_of(" .") + 1);
   }
+  // What the desk keeps beside a table must not come from elsewhere; last, of the name as it will stand there.
+  if (has_ending(plain, kKeptEnding)) plain[plain.size() - std::strlen(kKeptEnding)] = '_';
   return plain;
 }
 

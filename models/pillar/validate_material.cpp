@@ -119,6 +119,10 @@ ValidationResult validate_material(const Material& material, const ValidateOptio
       compare(creep, creep.displacement, options.pressure_Pa * pillar.top_area_m2(), exact.creep);
   result.passed = result.relaxation.largest_relative_error <= options.tolerance &&
                   result.creep.largest_relative_error <= options.tolerance;
+  for (const MaterialFlag& flag :
+       material.flags) {  // the solver is right, perhaps not the material
+    if (flag.term == 0) result.notes.push_back(flag.name + ": " + flag.text);
+  }
   if (material.terms.empty()) {
     result.notes.push_back("The material has no relaxation terms; both tests are elastic.");
   }

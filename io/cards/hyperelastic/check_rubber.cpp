@@ -185,16 +185,13 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
   }
   // Behind what may explain it.
   if (const auto soft = soft_volume(text, check.read)) check.findings.push_back(*soft);
-  const std::string stated = stated_card_sum(text);
-  if (check.findings.empty() && !stated.empty() && stated != card_sum(text)) {
-    check.findings.push_back({"card-edited",
-                              "the card is not as viscard wrote it (the sum in its header "
-                              "differs), and no number of it differs",
-                              false});
-  }
-  check.agrees = (!check.difference || *check.difference <= check.tolerance) &&
-                 std::none_of(check.findings.begin(), check.findings.end(),
-                              [](const CardFinding& finding) { return finding.is_mistake; });
+  const bool has_mistake =
+      std::any_of(check.findings.begin(), check.findings.end(),
+                  [](const CardFinding& finding) { return finding.is_mistake; });
+  const bool is_explained = file != nullptr ? !check.findings.empty() : has_mistake;
+  if (!is_explained && is_card_edited(text))
+    check.findings.push_back(edited_card_finding(file != nullptr));
+  check.agrees = (!check.difference || *check.difference <= check.tolerance) && !has_mistake;
   return check;
 }
 

@@ -121,7 +121,7 @@ void show_keys(ResultVisitor& v, const CardChain& chain) {
 
 CardChain chain_of(const std::string& card_path, const std::string& card_text,
                    const std::string& material_path) {
-  CardChain chain{.card_sha256 = card_path.empty() ? "" : sha256_of_file(card_path),
+  CardChain chain{.card_sha256 = card_path.empty() ? "" : sha256_as_read(card_path),
                   .stated_sum = stated_card_sum(card_text),
                   .found_sum = card_sum(card_text)};
   std::istringstream lines(card_text);

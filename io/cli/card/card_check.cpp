@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/cards/card_sum.h"
 #include "io/cards/check_card.h"
 #include "io/cards/hyperelastic/read_rubber.h"
 #include "io/cards/named_material.h"
@@ -182,7 +183,9 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
   } else if (check.E_difference) {
     out << fmt::format("the card agrees with the material (within {:.1e})\n", check.tolerance);
   } else {
-    out << "no mistake found; name a material to compare with\n";
+    out << (has_edited_finding(check.findings) ? "no known mistake found, but the card was edited"
+                                               : "no mistake found")
+        << "; name a material to compare with\n";
   }
 }
 

@@ -3,6 +3,9 @@
 #include "io/basics/sha256.h"
 #include "io/basics/timestamp.h"
 #include "io/basics/words.h"
+#include "io/basics/written_path.h"
+#include "io/cards/byte_order_mark.h"
+#include "io/cards/card_sum.h"
 #include "io/cards/check_card.h"
 #include "io/cards/hyperelastic/check_rubber.h"
 #include "io/cards/targets/card_targets.h"
@@ -23,6 +26,18 @@
 
 namespace viscard {
 namespace {
+
+// What was received: of several materials in a file the text of one, and what is known of the whole.
+struct ReceivedCard {
+  std::string text, sha256;
+  bool is_edited = false;
+};
+
+ReceivedCard received(const CardWords& words) {
+  const std::string whole = read_file(words.material);
+  return {card_text_of(words.material, words), sha256_of_text(whole),
+          is_card_edited(without_byte_order_mark(whole))};
+}
 
 // What a card became.
 struct ImportedCard {
@@ -69,20 +84,31 @@ std::vector<MaterialFlag> flags_of_header(const std::string& card) {
   return flags;
 }
 
-ImportedCard import_linear(const std::string& text, const CardWords& words) {
+// A card whose header states another sum, even if no reader notices what was changed.
+void note_edit(const ReceivedCard& card, std::vector<CardFinding>& findings) {
+  if (card.is_edited && !has_edited_finding(findings))
+    findings.push_back(edited_card_finding(false));
+}
+
+ImportedCard import_linear(const ReceivedCard& card, const CardWords& words) {
+  const std::string& text = card.text;
   const CardTarget& target = card_target(words.target);
   if (!states_material(target)) {
     throw std::runtime_error(words.material + ": a card for " + target.name +
                              " is a table or a reduction, from which no material can be read");
   }
-  const CardCheck check =
+  CardCheck check =
       check_card(text, target, {.units = words.units, .plausible = words.plausible}, nullptr);
   require_right(check.findings, check.read.units_were_stated || !words.units.empty(),
                 words.material);
+  note_edit(card, check.findings);
   Material material = check.read.material;
   if (material.name.empty()) material.name = std::filesystem::path(words.material).stem().string();
   if (material.shift) material.T_ref_C = material.shift->T_ref_C;
   material.flags = flags_of_header(text);
+  const auto states_edit = [](const MaterialFlag& flag) { return flag.name == kEdited; };
+  if (card.is_edited && std::none_of(material.flags.begin(), material.flags.end(), states_edit))
+    material.flags.push_back({kEdited, 0, "the card was edited since it was written by viscard"});
   material.flags.push_back({"imported", 0,
                             "read from a card for " + check.read.understood.code +
                                 "; no data and no intervals stand behind it"});
@@ -93,15 +119,17 @@ ImportedCard import_linear(const std::string& text, const CardWords& words) {
     material.provenance.created_at = now_iso8601();
     material.provenance.command = words.command_line;
   }
-  material.provenance.raw_files = {{words.material, sha256_of_text(text)}};
+  material.provenance.raw_files = {{written_path(words.material), card.sha256}};
   return {json_from_material(material), "linear", check.findings};
 }
 
-ImportedCard import_rubber(const std::string& text, const CardWords& words) {
-  const RubberCheck check = check_rubber_card(
+ImportedCard import_rubber(const ReceivedCard& card, const CardWords& words) {
+  const std::string& text = card.text;
+  RubberCheck check = check_rubber_card(
       text, nullptr, {.target = words.target, .units = words.units, .plausible = words.plausible});
   const ReadRubber& read = check.read;
   require_right(check.findings, read.units_were_stated || !words.units.empty(), words.material);
+  note_edit(card, check.findings);
   HyperelasticFile file;
   file.law = read.law;
   file.foam = read.foam;
@@ -109,8 +137,9 @@ ImportedCard import_rubber(const std::string& text, const CardWords& words) {
   file.damage = read.damage;
   if (read.bulk_Pa > 0.0 && !read.foam) file.bulk_Pa = read.bulk_Pa;
   if (read.density_kg_m3 > 0.0) file.density_kg_m3 = read.density_kg_m3;
-  file.raw_files = {{words.material, sha256_of_text(text)}};
-  file.is_edited = text.find(kEditedText) != std::string::npos;  // as its header states
+  file.raw_files = {{written_path(words.material), card.sha256}};
+  // As its sum shows or its header states.
+  file.is_edited = card.is_edited || text.find(kEditedText) != std::string::npos;
   return {json_from_card_of_rubber(file), name_of(read), check.findings};
 }
 
@@ -123,7 +152,8 @@ DescribedResult result_of_import() {
 }
 
 int import_card_file(CardWords words, Streams& streams) {
-  const std::string text = card_text_of(words.material, words);
+  const ReceivedCard card = received(words);
+  const std::string& text = card.text;
   const std::string rubber = stated_rubber_target(text);
   if (words.target.empty()) words.target = rubber;
   if (const CardTarget* linear = stated_card_target(text);
@@ -136,7 +166,7 @@ int import_card_file(CardWords words, Streams& streams) {
   }
   const ImportedCard imported = [&] {
     try {
-      return looks_like_rubber_card(text) ? import_rubber(text, words) : import_linear(text, words);
+      return looks_like_rubber_card(text) ? import_rubber(card, words) : import_linear(card, words);
     } catch (const std::runtime_error& error) {
       const std::string what = error.what();
       if (what.rfind(words.material, 0) == 0) throw;

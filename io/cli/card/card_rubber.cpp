@@ -60,7 +60,7 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
                      " have no place for a density, the solver that uses them has; omit --density");
   }
   RubberCardOptions options;
-  options.file_sha256 = sha256_of_file(words.material);
+  options.file_sha256 = sha256_as_read(words.material);
   options.file_name = std::filesystem::path(words.material).filename().string();
   if (!words.is_reproducible) {
     options.created_at = now_iso8601();

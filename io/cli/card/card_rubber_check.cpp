@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/cards/card_sum.h"
 #include "io/cards/hyperelastic/check_rubber.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/card/card_words.h"
@@ -102,7 +103,9 @@ void print_rubber_check(const RubberCheck& check, const CardWords& words, std::o
   } else if (check.difference) {
     out << fmt::format("the card agrees with the law (within {:.1e})\n", check.tolerance);
   } else {
-    out << "no mistake found; name the file of the law to compare with\n";
+    out << (has_edited_finding(check.findings) ? "no known mistake found, but the card was edited"
+                                               : "no mistake found")
+        << "; name the file of the law to compare with\n";
   }
 }
 

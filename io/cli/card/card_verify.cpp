@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
+#include "io/basics/sha256.h"
 #include "io/cards/proof/certificate.h"
 #include "io/cli/card/card_words.h"
 #include "io/cli/words/fitted_text.h"
@@ -89,7 +90,7 @@ Verified verified_by(const CardWords& words) {
         words.verify +
         ": the certificate has been edited: it is no JSON any more; prove the card again");
   }
-  std::string material = words.material;
+  std::string material = words.material, card = text;
   if (json.is_object() && json.contains("certificate_sha256")) {
     const auto text_at = [&](const nlohmann::json& object, const char* key) {
       return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
@@ -99,9 +100,10 @@ Verified verified_by(const CardWords& words) {
     if (material.empty()) material = text_at(json, "compared_with");
     const std::string stated =
         json.contains("chain") ? text_at(json["chain"], "card_sha256") : std::string();
-    out.is_card_of_certificate = sha256_of_file(out.card) == stated;
+    card = read_file(out.card);
+    out.is_card_of_certificate = sha256_of_text(card) == stated;
   }
-  out.chain = chain_of(out.card, read_file(out.card), material);
+  out.chain = chain_of(out.card, card, material);
   return out;
 }
 

@@ -16,9 +16,10 @@ namespace {
 // Options of `viscard fit` that have a meaning at large strain.
 void refuse_other_options(const CommandSyntax& syntax) {
   static const std::set<std::string> kKnown{
-      "file",      "json",        "out",   "force", "model",          "column", "sheet",
-      "cycle",     "weight",      "svg",   "color", "youngs-modulus", "terms",  "max-terms",
-      "plausible", "strip-paths", "table", "skip",  "gauge-length",   "area",   "poisson-ratio"};
+      "file",         "json",      "out",           "force",       "model", "column",
+      "sheet",        "cycle",     "weight",        "svg",         "color", "youngs-modulus",
+      "terms",        "max-terms", "plausible",     "strip-paths", "table", "skip",
+      "gauge-length", "area",      "poisson-ratio", "unverified"};
   for (const auto& [name, values] : syntax.given) {
     if (kKnown.count(name) > 0) continue;
     throw UsageError("--" + name + " does not belong to tests at large strain; omit it");

@@ -1,5 +1,6 @@
 #include "io/basics/data_folder.h"
 #include "io/basics/number_text.h"
+#include "io/cli/report/demo_record.h"
 #include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
@@ -40,20 +41,6 @@ struct CardChoice {
 constexpr CardChoice kCards[] = {
     {"abaqus", ".inp"}, {"ansys", ".mac"}, {"febio", ".feb"}, {"json", ".neutral.json"}};
 
-// True if every output exists and none is older than an input, as make(1) decides.
-bool is_up_to_date(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
-  std::error_code error;
-  for (const fs::path& output : outputs) {
-    const auto made = fs::last_write_time(output, error);
-    if (error) return false;
-    for (const fs::path& input : inputs) {
-      const auto changed = fs::last_write_time(input, error);
-      if (error || changed > made) return false;
-    }
-  }
-  return true;
-}
-
 bool has_flagged_term(const fs::path& material_file) {
   const std::vector<MaterialFlag> flags = read_material(material_file).material.flags;
   return std::any_of(flags.begin(), flags.end(),
@@ -68,18 +55,24 @@ class Demo {
         run_command_(run_command),
         out_(std::move(out)),
         data_(std::move(data)),
+        record_(out_),
         speed_(std::move(speed)),
         is_forced_(is_forced),
         strips_paths_(strips_paths) {}
 
-  // Runs one command unless its outputs are up to date. Throws std::runtime_error if it fails.
-  void step(const Words& words, const std::vector<fs::path>& outputs,
-            std::vector<fs::path> inputs) {
-    inputs.push_back("/proc/self/exe");  // a newer program makes the results out of date
-    if (!is_forced_ && is_up_to_date(outputs, inputs)) {
+  // Runs one command unless its output is up to date. Throws std::runtime_error if it fails.
+  void step(const Words& words, const fs::path& output, const std::vector<fs::path>& inputs) {
+    const std::string made_from = sum_of_inputs(inputs, strips_paths_ ? "--strip-paths" : "");
+    if (!is_forced_ && record_.is_up_to_date(output, made_from)) {
       ++n_kept_;
       return;
     }
+    if (!is_forced_ && !record_.knows(output) && fs::exists(output)) {
+      throw std::runtime_error(output.string() +
+                               " is not of an earlier demo. Name another folder with --out, or "
+                               "replace it with --force");
+    }
+    record_.begin(output);
     streams_.err << "$ " << quoted_command_line(words[0], {words.begin() + 1, words.end()}) << "\n";
     std::vector<std::string> forced = words;
     forced.push_back("--force");  // replaces only files of an earlier demo
@@ -87,8 +80,11 @@ class Demo {
     std::ostringstream printed;
     Streams inner{printed, streams_.err, streams_.err_is_terminal};
     if (run_command_(forced, inner) != kDone) {
-      throw std::runtime_error("the demo stopped, because the command above failed");
+      throw std::runtime_error(
+          "the demo stopped, because the command above failed or was stopped; the same command "
+          "keeps what is finished and goes on");
     }
+    record_.finish(output, made_from);
   }
 
   void run_specimen(const DemoSpecimen& specimen) {
@@ -99,17 +95,17 @@ class Demo {
     const fs::path truth = data_ / specimen.truth_file;
     step({"capture", "--emulate", "--truth", truth, "--test", test, "--specimen", what, "--speed",
           speed_, "--out", file(".viscap")},
-         {file(".viscap")}, {test, what, truth});
-    step({"export", file(".viscap"), "--out", file(".csv")}, {file(".csv")}, {file(".viscap")});
-    step({"fit", file(".viscap"), "--out", file(".json")}, {file(".json")}, {file(".viscap")});
+         file(".viscap"), {test, what, truth});
+    step({"export", file(".viscap"), "--out", file(".csv")}, file(".csv"), {file(".viscap")});
+    step({"fit", file(".viscap"), "--out", file(".json")}, file(".json"), {file(".viscap")});
     for (const CardChoice& card : kCards) {
       std::vector<std::string> words{"card",    file(".json"), "--for", card.target,
                                      "--units", "mm-t-s",      "--out", file(card.suffix)};
       // Rarely the noise makes a term doubtful. The card then has a warning in its header.
       if (has_flagged_term(file(".json"))) words.emplace_back("--accept-flags");
-      step(words, {file(card.suffix)}, {file(".json")});
+      step(words, file(card.suffix), {file(".json")});
     }
-    step({"validate", file(".json"), "--csv", file(".validation.csv")}, {file(".validation.csv")},
+    step({"validate", file(".json"), "--csv", file(".validation.csv")}, file(".validation.csv"),
          {file(".json")});
   }
 
@@ -122,11 +118,12 @@ class Demo {
       words.push_back(inputs.back());
     }
     for (const DemoSpecimen& specimen : kSpecimens) {
-      words.insert(words.end(), {"--truth", data_ / specimen.truth_file});
+      inputs.push_back(data_ / specimen.truth_file);
+      words.insert(words.end(), {"--truth", inputs.back()});
     }
     words.insert(words.end(),
                  {"--title", "Three mixing ratios of PDMS on the emulated rig", "--out", page});
-    step(words, {page}, inputs);
+    step(words, page, inputs);
     return page;
   }
 
@@ -149,6 +146,7 @@ class Demo {
   const CommandRunner& run_command_;
   fs::path out_;
   fs::path data_;
+  DemoRecord record_;
   std::string speed_;
   bool is_forced_;
   bool strips_paths_;

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/timestamp.h"
+#include "io/basics/written_path.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/report/report_commands.h"
@@ -108,7 +109,7 @@ std::vector<std::string> write_pictures(const RenderedReport& report, const fs::
   std::vector<std::string> paths;
   for (const ReportPicture& picture : report.pictures) {
     paths.push_back((folder / (picture.name + ".svg")).string());
-    write_file(paths.back(), picture.svg, is_forced);
+    write_file(paths.back(), written_text(picture.svg), is_forced);
   }
   return paths;
 }
@@ -174,7 +175,7 @@ int run_report(const Words& words, Streams& streams) {
   if (asked.pictures) {
     pictures = write_pictures(rendered, *asked.pictures, is_forced);
   }
-  write_file(page, rendered.html, is_forced);
+  write_file(page, written_text(rendered.html), is_forced);
   const std::vector<std::string> defects = defects_of(input);
   const std::vector<std::string> disagreements = rubber_disagreements(input);
   const WrittenReport written{page.string(), input.specimens, rendered.pictures.size(),

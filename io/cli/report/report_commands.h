@@ -17,8 +17,8 @@ int run_report(const Words& words, Streams& streams);
 using CommandRunner = std::function<int(const Words& words, Streams& streams)>;
 
 // viscard demo: runs the whole flow on the emulated rig for the three mixing ratios of data/demo.
-// Each step is a command as a user would type it, run by `run_command`. A step whose outputs are
-// newer than its inputs is skipped.
+// Each step is a command as a user would type it, run by `run_command`. A step is skipped whose output is
+// what a finished step made of the same inputs (demo_record.h).
 int run_demo(const Words& words, Streams& streams, const CommandRunner& run_command);
 
 // Truth, estimate and 95 % interval of one fitted number.

@@ -17,8 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void choose_file(SeriesStep& step) {
-  const NextCapture next = next_capture(step.out_file);
+void choose_file(const CaptureWords& words, SeriesStep& step) {
+  const CaptureSetup asked = capture_setup(words, step);
+  const NextCapture next = next_capture(step.out_file, &asked);
   if (next.finished.empty()) {
     step.out_file = next.file.string();
   } else {
@@ -86,7 +87,7 @@ std::vector<SeriesStep> series_from_words(const CaptureWords& words) {
     steps.push_back(step);
   }
   if (words.resumes) {
-    for (SeriesStep& step : steps) choose_file(step);
+    for (SeriesStep& step : steps) choose_file(words, step);
   }
   return steps;
 }

@@ -55,7 +55,8 @@ CaptureSetup capture_setup(const CaptureWords& words, const SeriesStep& step);
 // a folder, and the files in it are named by number and specimen file, 01_NAME.viscap. With --repeat
 // they are 01_NAME_touch01.viscap and so on, numbered on behind those that are there. With --resume a specimen with a finished capture is skipped, and one whose capture was interrupted
 // gets another file beside it, NAME.2.viscap and so on: nothing is overwritten or continued in the
-// middle. Throws std::runtime_error if another program is writing one of the captures.
+// middle. Throws std::runtime_error if another program is writing one of the captures, or a finished one
+// is of another test or specimen.
 std::vector<SeriesStep> series_from_words(const CaptureWords& words);
 
 // Waits before the next touch, while the punch is lifted; false if Ctrl-C or a signal ended the wait.

@@ -8,7 +8,6 @@
 #include "io/cli/words/stop_on_signal.h"
 #include "io/flow/validation_keys.h"
 #include "io/materials/material_file.h"
-#include "io/materials/material_json.h"
 #include "models/material/liquid.h"
 #include "models/pillar/validate_material.h"
 
@@ -78,10 +77,7 @@ int run_validate(const Words& words, Streams& streams) {
   const WordsOnSignal words_on_signal("the validation was stopped, and nothing is written");
   Progress progress(streams, "validate");
   options.progress = [&](double fraction) { progress.show(fraction, name); };
-  ValidationResult result = validate_material(material, options);
-  for (const MaterialFlag& flag : material.flags) {
-    if (flag.name == kEdited) result.notes.push_back(flag.text);
-  }
+  const ValidationResult result = validate_material(material, options);
   progress.clear();
 
   const std::string command = quoted_command_line("validate", words);

@@ -18,7 +18,7 @@ namespace {
 
 // Points that were stored under another key belong to another scene.
 std::string key_of(const ArrayScene& scene, const std::string& path) {
-  return fmt::format("sweep {} tolerance {:.9g} viscard {}", sha256_of_file(path), scene.tolerance,
+  return fmt::format("sweep {} tolerance {:.9g} viscard {}", sha256_as_read(path), scene.tolerance,
                      VISCARD_VERSION);
 }
 

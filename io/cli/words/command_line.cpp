@@ -148,6 +148,15 @@ void refuse_forgotten_values(const CommandSyntax& syntax) {
   }
 }
 
+// Of files that a command reads or writes, whose folders --strip-paths keeps out of what is written.
+void remember_folders(const Words& words) {
+  for (const std::string& word : words) {
+    remember_folder_of(word);
+    if (const std::size_t equals = word.find('='); equals != std::string::npos)
+      remember_folder_of(word.substr(equals + 1));
+  }
+}
+
 // --help, or its object with --json, or the receiver of the syntax.
 void show_help(const CommandSyntax& syntax, Streams& streams) {
   if (streams.on_help) return streams.on_help(syntax);
@@ -190,6 +199,7 @@ bool parse_words(CommandSyntax& syntax, const Words& words, Streams& streams) {
   const Words free = take_given(words, syntax);
   syntax.as_json = is_given(syntax, "json");
   strip_written_paths(is_given(syntax, "strip-paths"));
+  remember_folders(words);
   if (is_given(syntax, "help")) {
     show_help(syntax, streams);
     return false;

@@ -2,6 +2,8 @@
 
 #include "fit/large_strain/load_cycles.h"
 #include "fit/large_strain/rubber_term_checks.h"
+#include "io/basics/atomic_file.h"
+#include "io/flow/damaged_table.h"
 #include "io/flow/plausible_record.h"
 #include "io/flow/test_words.h"
 #include "io/materials/plausible_numbers.h"
@@ -51,6 +53,15 @@ void judge_rubber(const std::vector<CsvTable>& tables, const LargeStrainRequest&
   }
   if (request.plausible == Plausible::kOff) return flag_plausible_off(result.notes);
   refuse_modulus(result.best().E0_Pa, &tables.front(), request.columns, request.plausible);
+}
+
+void take_damage(const std::vector<MaterialFlag>& damage, LargeStrainResult& result) {
+  for (FittedRubber& law : result.laws) {
+    for (const MaterialFlag& flag : damage) {
+      law.flags.push_back(flag);
+      if (is_defect(flag.name)) law.is_trustworthy = false;
+    }
+  }
 }
 
 // Stretches of a table, from a column of stretches or of nominal strains.
@@ -322,9 +333,13 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   FittedLargeStrain fitted;
   fitted.files = request.files;
   std::vector<CsvTable> tables;
+  std::vector<MaterialFlag> damage;
   OptionUses uses;
   for (const LargeStrainFile& file : request.files) {
     tables.push_back(file.in_memory ? *file.in_memory : read_csv(file.path, request.table));
+    fitted.sums.push_back(file.in_memory ? "" : sha256_as_read(file.path));
+    for (const auto& note : accepted_damage(tables.back(), request.accepts_unverified))
+      damage.push_back({note.name, 0, file.path + ": " + note.text});
     tables.back().judged = request.plausible;
     std::size_t n_gaps = 0;
     if (!request.options.foam_terms.empty()) refuse_true_stress(tables.back(), request.columns);
@@ -358,6 +373,7 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
     add_mullins_note(fitted.tests[i].name, fitted.cycles[i], fitted.result);
   }
   judge_rubber(tables, request, fitted.result);
+  take_damage(damage, fitted.result);
   return fitted;
 }
 

@@ -44,6 +44,7 @@ struct LargeStrainRequest {
   // Of records with unloading: fit the loading of this cycle, from 1; 0: all rows; none: of the last.
   std::optional<int> cycle;
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the result
+  bool accepts_unverified = false;  // of tables of damaged captures; the result is flagged
 };
 
 // What was taken of a record with cycles.
@@ -58,6 +59,7 @@ struct FittedLargeStrain {
   std::vector<LargeStrainFile> files;
   std::vector<LargeStrainTest> tests;  // one for each file, with the fitted rows
   std::vector<CycleChoice> cycles;     // of each test
+  std::vector<std::string> sums;       // SHA-256 of each file as it was read; empty: in memory
   LargeStrainResult result;
 };
 

@@ -1,7 +1,6 @@
 // The keys of fits of rubber.
 #include "fit/intervals/fitted_law.h"
 #include "fit/large_strain/large_strain_result.h"
-#include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
 #include "io/basics/written_path.h"
 #include "io/flow/large_strain/large_strain_files.h"
@@ -150,9 +149,7 @@ void show_keys(ResultVisitor& v, const FittedLargeStrain& fitted) {
   const FittedRubber best = result.laws.empty() ? FittedRubber{} : result.best();
   std::vector<ShownTest> tests;
   for (std::size_t i = 0; i < result.tests.size(); ++i) {
-    const std::string& path = fitted.files[i].path;
-    tests.push_back({result.tests[i], written_path(path),
-                     fitted.files[i].in_memory ? "" : sha256_of_file(path),
+    tests.push_back({result.tests[i], written_path(fitted.files[i].path), fitted.sums[i],
                      times_of(fitted.tests[i]), fitted.cycles[i]});
   }
   v("law", name_of(best), "the chosen law");

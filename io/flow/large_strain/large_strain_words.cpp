@@ -156,6 +156,7 @@ LargeStrainWords with_shared_options(LargeStrainWords words, const FitWords& fit
   words.model = fit.model;
   words.table = table_choice(fit);
   words.plausible = fit.plausible;
+  words.unverified = fit.unverified;
   words.youngs_modulus = fit.youngs_modulus;
   words.size = specimen_size(fit);
   words.column = fit.column;
@@ -176,6 +177,7 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   }
   request.table = words.table;
   request.size = words.size;
+  request.accepts_unverified = words.unverified;
   take_model(words, request.options);
   request.options.weight = weight_from(words);
   try {

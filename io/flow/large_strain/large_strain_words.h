@@ -20,6 +20,7 @@ struct LargeStrainWords {
   std::vector<std::string> column;
   std::optional<int> terms, max_terms;  // of relaxation
   std::optional<double> poisson_ratio;  // of a foam
+  bool unverified = false;
 };
 
 // Its options that tests at small strain do not have.

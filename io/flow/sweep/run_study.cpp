@@ -2,6 +2,7 @@
 
 #include "io/basics/missing_file.h"
 #include "io/basics/parallel.h"
+#include "io/basics/written_path.h"
 #include "io/flow/scenes/answer_scene.h"
 #include "io/scenes/scene_file.h"
 #include "models/maths/failure_text.h"
@@ -87,7 +88,7 @@ PointKind kind_of_failure(const std::exception& error) {
 
 StudyPoint answer_point(const Study& study, std::int64_t number, Plausible judged) {
   StudyPoint point{.point = number, .values = values_at(study, number)};
-  const InputRecorder recorder(InputRecorder::Of::kThread);
+  const InputRecorder recorder(InputRecorder::Of::kPart);
   try {
     const SceneFile file =
         scene_from_toml(scene_text_with(study, point.values), study.scene_path, {}, judged);
@@ -95,7 +96,7 @@ StudyPoint answer_point(const Study& study, std::int64_t number, Plausible judge
     point.results = named_values(answer_scene(file, study.scene_path.string(), {}));
   } catch (const std::exception& error) {
     point.kind = has_all_inputs(study) ? kind_of_failure(error) : PointKind::kPassing;
-    point.failure = failure_text(error, "this point");
+    point.failure = written_text(failure_text(error, "this point"));
   }
   return point;
 }

@@ -292,7 +292,7 @@ void record_scene_files(const Study& study) {
 }  // namespace
 
 Study read_study(const std::filesystem::path& path) {
-  const InputRecorder recorder(InputRecorder::Of::kThread);
+  const InputRecorder recorder(InputRecorder::Of::kPart);
   Study study{.path = path};
   std::string scene;
   const std::string text = read_file(path);

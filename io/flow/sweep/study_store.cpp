@@ -3,6 +3,7 @@
 #include "io/basics/json_string.h"
 #include "io/basics/missing_file.h"
 #include "io/basics/number_text.h"
+#include "io/basics/written_path.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/row_checksum.h"
 
@@ -22,6 +23,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -151,21 +153,27 @@ bool has_column(Database& database, const char* name) {
   return found.step();
 }
 
+// By which files are compared: of one outside the folder of the study a store may state its name only (--strip-paths).
+std::string compared_name(const std::string& path) {
+  const bool is_outside = path.starts_with("../") || path.starts_with("/");
+  return is_outside ? std::filesystem::path(path).filename().string() : path;
+}
+
 // The first file that is not what it was, for a message; empty: all are.
 std::string changed_input(Database& database, const Study& study) {
-  std::map<std::string, std::string> kept, now;
+  std::map<std::string, std::set<std::string>> kept, now;  // sums by name
   Statement row = database.prepare("SELECT path, sha256 FROM inputs");
-  while (row.step()) kept[row.text(0)] = row.text(1);
-  for (const InputFile& file : study.inputs) now[file.path] = file.sha256;
-  for (const auto& [name, sum] : now) {
+  while (row.step()) kept[compared_name(row.text(0))].insert(row.text(1));
+  for (const InputFile& file : study.inputs) now[compared_name(file.path)].insert(file.sha256);
+  for (const auto& [name, sums] : now) {
     const auto old = kept.find(name);
     if (old == kept.end()) return name + " was not read then";
-    if (old->second != sum) {
-      return name + " has changed since (SHA-256 " + old->second.substr(0, 8) + "... then, " +
-             sum.substr(0, 8) + "... now)";
+    if (old->second != sums) {
+      return name + " has changed since (SHA-256 " + old->second.begin()->substr(0, 8) +
+             "... then, " + sums.begin()->substr(0, 8) + "... now)";
     }
   }
-  for (const auto& [name, sum] : kept) {
+  for (const auto& [name, sums] : kept) {
     if (now.count(name) == 0) return name + " is not read any more";
   }
   return {};
@@ -199,7 +207,7 @@ void create_tables(Database& database, const Study& study) {
   keep.run_with(std::string_view(fingerprint(study)));
   Statement input = database.prepare("INSERT INTO inputs VALUES (?, ?)");
   for (const InputFile& file : study.inputs) {
-    input.run_with(std::string_view(file.path), std::string_view(file.sha256));
+    input.run_with(std::string_view(written_path(file.path)), std::string_view(file.sha256));
   }
 }
 

@@ -3,6 +3,7 @@
 #include "io/basics/option_quantity.h"
 #include "io/basics/option_use.h"
 #include "io/basics/words.h"
+#include "io/flow/fit_request.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -154,6 +155,7 @@ OptionList options_of(PredictWords& words) {
            "result states it")
       .among({"on", "off"})
       .by_default("on");
+  list.add("unverified", &words.unverified, kUnverifiedHelp);
   list.add("time-zero", &words.time_zero, "time in the tables where t = 0").of("s").by_default("0");
   return list;
 }
@@ -174,6 +176,7 @@ PredictFileRequest predict_request(const PredictWords& words, const std::string&
     throw OptionError("--driven-by " + driver + " is not known; use strain or stress");
   }
   request.is_driven_by_stress = driver == "stress";
+  request.accepts_unverified = words.unverified;
   try {
     request.columns = column_map_from_words(words.column);
   } catch (const std::invalid_argument& error) {

@@ -17,6 +17,7 @@ struct PredictWords {
   Text time_zero, temperature, plausible, modulus_kind;
   std::optional<int> cycles, points;
   std::vector<std::string> column;
+  bool unverified = false;
 };
 // Its options.
 OptionList options_of(PredictWords& words);

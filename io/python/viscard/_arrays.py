@@ -96,10 +96,17 @@ def arguments(values: Any, name: str, unit: str) -> Floats:
     return array
 
 
-def table(columns: Any, name: str) -> Dict[str, Floats]:
+class Columns(Dict[str, Floats]):
+    """Numbers by header, with the comments at the begin of their file: they state damage of the capture they come from."""
+
+    comments: Sequence[str] = ()
+
+
+def table(columns: Any, name: str) -> Columns:
     """Columns of numbers of one length by header, of a dict, a Table or a DataFrame; what is missing is NaN."""
-    out: Dict[str, Floats] = {}
+    out = Columns()
     is_own = hasattr(columns, "preamble")  # a Table, whose segments and specimens are texts
+    out.comments = columns.comments if is_own else getattr(columns, "attrs", {}).get("comments", ())  # of a DataFrame
     for header in columns.keys():
         values = columns[header]
         if is_own and isinstance(values, list):

@@ -433,7 +433,7 @@ def predict(material: Union[Material, Path], **options: Unpack[PredictOptions]) 
     """
     keywords: Dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     plausible = options.get("plausible") or "on"
-    tables = {}
+    tables: Dict[str, Dict[str, Floats]] = {}
     for name in ("history", "against"):
         if _arrays.is_table(keywords.get(name)):
             tables[name] = _arrays.table(keywords[name], name)

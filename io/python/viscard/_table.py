@@ -76,6 +76,9 @@ class Table(Tabular, Mapping[str, Union[Floats, List[str]]]):
         All columns as the file writes them: header, name, unit, values (array), text (list or None).
     preamble : list of str
         Lines before the header.
+    comments : list of str
+        At the begin of the file, without their marks. An export of a damaged capture states its damage there, so a fit of
+        the table refuses it like one of the file.
 
     Examples
     --------
@@ -91,6 +94,7 @@ class Table(Tabular, Mapping[str, Union[Floats, List[str]]]):
         self.maker: str = found["maker"]
         self.columns: List[TableColumn] = found["columns"]
         self.preamble: List[str] = found["preamble"]
+        self.comments: List[str] = found["comments"]
         self._quantities: Dict[str, Any] = found["quantities"]
 
     @overload
@@ -116,7 +120,9 @@ class Table(Tabular, Mapping[str, Union[Floats, List[str]]]):
 
     def to_frame(self) -> Any:
         """The quantities in SI as a DataFrame of pandas."""
-        return _show.frame(self._quantities)
+        frame = _show.frame(self._quantities)
+        frame.attrs["comments"] = self.comments  # a fit of the frame refuses damage, too
+        return frame
 
     def __repr__(self) -> str:
         n_rows = len(self.columns[0]["values"]) if self.columns else 0

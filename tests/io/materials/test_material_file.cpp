@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/inputs.h"
+#include "io/basics/parallel.h"
 #include "io/materials/material_file.h"
 #include "models/contact/punch_contact.h"
 #include "tests/support/error_text.h"
@@ -12,6 +13,10 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -293,6 +298,58 @@ TEST_CASE("recorded inputs have the sums of what was read", "[io][file]") {
   rewrite_file(folder / "a", "abd");
   read_file(folder / "a");
   CHECK(provenance_of_inputs().size() == 2);  // it has changed meanwhile
+}
+
+TEST_CASE("the sum of a file that was read stays that of what was read", "[io][file]") {
+  const test::ScratchFolder folder;
+  write_file(folder / "a", "abc", false);
+  CHECK(sha256_as_read(folder / "a") == sha256_of_text("abc"));  // nobody records
+  const InputRecorder recorder(InputRecorder::Of::kCall);
+  CHECK_FALSE(recorded_sum(folder / "a"));
+  read_file(folder / "a");
+  rewrite_file(folder / "a", "abd");
+  CHECK(sha256_as_read(folder / "a") == sha256_of_text("abc"));
+  read_file(folder / "a");
+  CHECK(sha256_as_read(folder / "a") == sha256_of_text("abd"));
+  rewrite_file(folder / "a", "abc");
+  read_file(folder / "a");  // the old contents again, which are recorded
+  CHECK(sha256_as_read(folder / "a") == sha256_of_text("abc"));
+}
+
+TEST_CASE("the recorder of a call sees its own thread and those that work for it", "[io][file]") {
+  const test::ScratchFolder folder;
+  for (const char* name : {"own", "worker", "other"}) write_file(folder / name, name, false);
+  const InputRecorder recorder(InputRecorder::Of::kCall);
+  read_file(folder / "own");
+  std::thread(recorded_as_here([&] {
+    read_file(folder / "worker");
+    note_input(folder / "worker", "is edited");
+  })).join();
+  std::thread([&] {
+    const InputRecorder of_other(InputRecorder::Of::kCall);
+    read_file(folder / "other");
+    read_file(folder / "own");
+    note_input(folder / "own", "is odd");
+    CHECK(of_other.files().size() == 2);
+  }).join();
+  const std::vector<InputFile> files = recorder.files();
+  REQUIRE(files.size() == 2);
+  CHECK(files[0].path == (folder / "own").string());
+  CHECK(files[0].note.empty());
+  CHECK(files[1].note == "is edited");
+  CHECK(provenance_of_inputs().size() == 2);
+}
+
+TEST_CASE("all threads of a loop in parallel read for the call that started it", "[io][file]") {
+  const test::ScratchFolder folder;
+  for (int i = 0; i < 20; ++i) write_file(folder / std::to_string(i), std::to_string(i), false);
+  const InputRecorder recorder(InputRecorder::Of::kCall);
+  for_each_in_parallel(20, [&](std::size_t i) {
+    const InputRecorder part(InputRecorder::Of::kPart);
+    read_file(folder / std::to_string(i));
+    if (part.files().size() != 1) throw std::runtime_error("a part sees what others read");
+  });
+  CHECK(recorder.files().size() == 20);
 }
 
 }  // namespace

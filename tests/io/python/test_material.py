@@ -156,3 +156,29 @@ def test_a_card_that_is_refused_leaves_no_companions(tmp_path):
     with pytest.raises(viscard.Error, match="exists already"):
         card.save(tmp_path / "x.mfront")
     assert [file.name for file in tmp_path.iterdir()] == ["x.mfront"]
+
+
+def test_a_thread_is_warned_of_its_own_files_only(tmp_path):
+    import threading
+    good, edited = tmp_path / "good.json", tmp_path / "edited.json"
+    for path in (good, edited):
+        viscard.fit("data/demo/example_relaxation.csv").material.save(path)
+    edited.write_text(edited.read_text().replace('"E0_Pa": 1', '"E0_Pa": 2', 1))
+    from viscard import _core
+    recorders, both = {}, threading.Barrier(2)
+
+    def load(path):
+        recorder = recorders[path] = _core.InputRecorder()
+        both.wait()  # both record while both read
+        viscard.Material.load(path)
+        both.wait()
+        recorders[path] = recorder.notes()
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        threads = [threading.Thread(target=load, args=(path,)) for path in (good, edited)]
+        for one in threads:
+            one.start()
+        for one in threads:
+            one.join()
+    assert recorders[good] == [] and len(recorders[edited]) == 1

@@ -90,3 +90,31 @@ def test_an_exception_of_a_callback_ends_the_run_and_is_raised(tmp_path, short_t
     with pytest.raises(ZeroDivisionError, match="mine"):
         viscard.capture(path, test=short_test, emulate=True, speed=50, sample=sample)
     assert viscard.read_capture(path).status == "interrupted"
+
+
+def test_damage_of_a_capture_goes_with_its_table_into_every_use(tmp_path, relaxation):
+    time_s, modulus_Pa = relaxation
+    path = tmp_path / "damaged.csv"
+    head = "# load-cell samples of a capture, written by viscard 0.1.0\n# damage: unverified: its moves are damaged\n"
+    path.write_text(head + "time_s,modulus_Pa\n" + "".join(f"{t},{m}\n" for t, m in zip(time_s, modulus_Pa)))
+    table = viscard.read_table(path)
+    assert "damage: unverified: its moves are damaged" in table.comments
+    material = viscard.Material(1.5e6, 0.49, terms=[(1 / 3, 2.0)])
+    for one in (path, table):
+        with pytest.raises(viscard.Error, match="damaged capture"):
+            viscard.fit(one)
+        with pytest.raises(viscard.Error, match="damaged capture"):
+            viscard.predict(material, against=one)
+        with pytest.warns(viscard.DoubtWarning):
+            found = viscard.fit(one, unverified=True)
+        assert not found.is_trustworthy and "unverified" in [flag["name"] for flag in found.json["flags"]]
+        assert any("unverified" in note for note in viscard.predict(material, against=one, unverified=True).notes)
+
+
+def test_a_frame_of_pandas_keeps_the_damage_of_its_table(tmp_path):
+    pytest.importorskip("pandas")
+    path = tmp_path / "damaged.csv"
+    path.write_text("# load-cell samples of a capture, written by viscard 0.1.0\n# damage: unverified: its moves\n"
+                    "time_s,modulus_Pa\n" + "".join(f"{t},{1e6 + t}\n" for t in range(40)))
+    with pytest.raises(viscard.Error, match="damaged capture"):
+        viscard.fit(viscard.read_table(path).to_frame())

@@ -1,6 +1,7 @@
 // What no request of viscard desk may do: leave its folder, write over a file, or end the program.
 #include "io/materials/material_file.h"
 #include "io/serve/child_command.h"
+#include "io/serve/desk_folder.h"
 #include "tests/io/serve/raw_request.h"
 #include "tests/io/serve/served_desk.h"
 #include "tests/support/error_text.h"
@@ -189,6 +190,29 @@ TEST_CASE("desk refuses words that make no sense", "[serve][cli][desk]") {
   const auto outcome = run_command({"desk", (scratch / "file").string()});
   CHECK(outcome.status == kFailed);
   CHECK(contains(outcome.err, "name the folder that holds the tables"));
+}
+
+TEST_CASE("no dropped file takes a name of what the desk keeps, however the name is written",
+          "[serve]") {
+  for (const std::string stem : {"report", "r.csv"}) {
+    for (const std::string ending : {".options", ".OPTIONS", ".Options"}) {
+      for (const std::string tail :
+           {"", ".", " ", "..", ". .", "  .  ", "\\", "/", ". /", "\t", "\n", " \x01."}) {
+        const std::string name = stem + ending + tail;
+        CAPTURE(name);
+        std::string plain = plain_file_name(name);
+        CHECK(plain == plain_file_name(plain));  // nothing is left to reduce
+        for (char& c : plain) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        CHECK_FALSE(plain.ends_with(".options"));
+      }
+    }
+  }
+  // Cut to the longest name that is allowed.
+  const std::string cut = plain_file_name(std::string(200, 'a') + ".options  x");
+  CHECK(cut.size() <= 100);
+  CHECK_FALSE(cut.ends_with(".options"));
+  CHECK(plain_file_name("curve.csv. ") == "curve.csv");
+  CHECK(plain_file_name("my options.csv") == "my options.csv");
 }
 
 }  // namespace

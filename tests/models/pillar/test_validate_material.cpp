@@ -92,3 +92,11 @@ TEST_CASE("the validation refuses materials that it cannot run", "[pillar]") {
   options.geometry.length_m = -1.0;
   CHECK_THROWS_WITH(validate_material(pdms_1to10(0.33, 1.0), options), Catch::Contains("length"));
 }
+
+TEST_CASE("a validation states what is in doubt of the material", "[pillar]") {
+  Material material = pdms_1to10(0.33, 1.0);
+  material.flags = {{"edited", 0, "the file was edited"}, {"few-rows", 1, "of a term"}};
+  const ValidationResult result = validate_material(material);
+  REQUIRE(result.notes.size() == 1);
+  CHECK(result.notes[0] == "edited: the file was edited");
+}

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -258,4 +259,30 @@ TEST_CASE("card --import makes a law of rubber with its bulk modulus and density
   CHECK(card.run({sent, "--for", "febio", "--units", "mm-t-s", "--import", card.path("x.json")}) ==
         kFailed);
   CHECK_THAT(card.err, Contains("bulk_modulus_Pa"));
+}
+
+TEST_CASE("an edited card is no card without mistake, and its material states the edit",
+          "[cards][cli]") {
+  CardCommand card;
+  const std::string file = card.save(wlf_material()), sent = card.path("sent.inp"),
+                    made = card.path("made.json");
+  REQUIRE(card.run({file, "--for", "abaqus", "--units", "mm-t-s", "--out", sent}) == kDone);
+  REQUIRE(card.run({"--check", sent}) == kDone);
+  CHECK_THAT(card.out, Contains("no mistake found; name a material") && !Contains("card-edited"));
+  std::string text = read_file(sent);
+  const std::size_t at = text.rfind("2.403");
+  REQUIRE(at != std::string::npos);
+  text.replace(at, 5, "9.403");
+  write_file(sent, text, true);
+  card.run({"--check", sent});
+  CHECK_THAT(card.out, Contains("card-edited: the card is not as viscard wrote it") &&
+                           Contains("but the card was edited") &&
+                           !Contains("no number of it differs"));
+  REQUIRE(card.run({sent, "--import", made, "--json"}) == kDone);
+  CHECK_THAT(card.err, Contains("card-edited"));
+  const Material read = read_material(made).material;
+  CHECK(std::count_if(read.flags.begin(), read.flags.end(),
+                      [](const auto& flag) { return flag.name == "edited"; }) == 1);
+  REQUIRE(read.provenance.raw_files.size() == 1);
+  CHECK(read.provenance.raw_files[0].sha256 == sha256_of_file(sent));
 }

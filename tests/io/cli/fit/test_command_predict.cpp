@@ -1,5 +1,8 @@
 #include "fit/fit_relaxation.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
+#include "io/basics/sha256.h"
+#include "io/flow/fit_file.h"
 #include "io/flow/predict_file.h"
 #include "io/materials/material_file.h"
 #include "io/tables/csv_table.h"
@@ -316,4 +319,40 @@ TEST_CASE("bands of predicted creep cover the truth", "[cli]") {
   CAPTURE(n_inside, n_all);
   // 95 % of 210 correlated values; 88 % is three standard errors of about 60 independent ones less.
   CHECK(n_inside >= 0.88 * n_all);
+}
+
+TEST_CASE("a table of a damaged capture is not compared unless it is accepted", "[cli]") {
+  const TableFolder folder;
+  const std::string material = fitted_example(folder);
+  const std::string table = folder.write(
+      "damaged.csv",
+      "# load-cell samples of a capture, written by viscard 0.1.0\n"
+      "# damage: unverified: the capture is damaged and was read with --unverified: moves\n"
+      "time_s,modulus_Pa,strain\n0.1,1.87e6,0\n1,1.86e6,0.01\n10,1.85e6,0.01\n");
+  for (const char* option : {"--against", "--history"}) {
+    CAPTURE(option);
+    const CommandOutcome refused = run_command({"predict", material, option, table});
+    CHECK(refused.status == kFailed);
+    CHECK_THAT(refused.err,
+               Contains("was exported from a damaged capture") && Contains("add --unverified"));
+    const nlohmann::json json = predicted({material, option, table, "--unverified"});
+    REQUIRE(json["flags"].size() >= 1);
+    const auto is_about_table = [&](const nlohmann::json& flag) {
+      return flag["name"] == "unverified" && flag["text"].get<std::string>().starts_with(table);
+    };
+    CHECK(std::count_if(json["flags"].begin(), json["flags"].end(), is_about_table) == 1);
+    CHECK_THAT(json["notes"].dump(), Contains("unverified"));
+  }
+}
+
+TEST_CASE("a material states the sum of the contents that were fitted", "[cli]") {
+  const TableFolder folder;
+  const std::string first = read_file(kData + "demo/example_relaxation.csv");
+  const std::string table = folder.write("x.csv", first);
+  const InputRecorder recorder;
+  const FittedFile fitted = fit_file(table, {});
+  rewrite_file(table, first + "200,1.8\n");  // while the bootstrap runs, say
+  const Material material = material_from_fitted(fitted, {});
+  REQUIRE(material.provenance.raw_files.size() == 1);
+  CHECK(material.provenance.raw_files[0].sha256 == sha256_of_text(first));
 }

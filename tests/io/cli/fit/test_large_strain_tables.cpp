@@ -129,3 +129,24 @@ TEST_CASE("a damaged file of a rubber whose schema is its last key is not called
   CHECK(run.status == 1);
   CHECK_THAT(run.err, Contains("parameter 1 must be C10_Pa") && !Contains("is a material"));
 }
+
+TEST_CASE("a table of a damaged capture gives a law of rubber only with a flag", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream table;
+  table << "# load-cell samples of a capture, written by viscard 0.1.0\n"
+           "# damage: unverified: its moves are damaged\nstretch,nominal_stress_Pa\n";
+  for (int i = 1; i <= 20; ++i) {
+    const double s = 1.0 + 0.05 * i;
+    table << s << "," << 4e5 * (s - 1.0 / (s * s)) << "\n";
+  }
+  const std::string word = "uniaxial=" + folder.write("damaged.csv", table.str());
+  const auto refused = run_command({"fit", word, "--model", "neo-hooke"});
+  CHECK(refused.status == 1);
+  CHECK_THAT(refused.err, Contains("was exported from a damaged capture"));
+  const auto run = run_command({"fit", word, "--model", "neo-hooke", "--unverified", "--json"});
+  INFO(run.err);
+  CHECK(run.status == 1);  // as of a capture
+  const auto json = nlohmann::json::parse(run.out);
+  CHECK_FALSE(json["trustworthy"].get<bool>());
+  CHECK_THAT(json["laws"][0]["flags"].dump(), Contains("unverified"));
+}

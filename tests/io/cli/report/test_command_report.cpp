@@ -1,4 +1,5 @@
 #include "io/capture/capture_file.h"
+#include "io/cli/report/report_commands.h"
 #include "io/config/config_file.h"
 #include "io/flow/read_report.h"
 #include "io/materials/material_file.h"
@@ -12,9 +13,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 namespace viscard {
@@ -257,6 +260,93 @@ TEST_CASE("a table becomes a page without a pillar", "[cli][report]") {
   const std::string text = test::text_of(contents_of(page));
   CHECK_FALSE(contains(text, "pillar"));
   CHECK(contains(text, "Material cards"));
+}
+
+namespace {
+
+// Stands for the commands that a demo runs: keeps their words, and writes what they would.
+struct FakeCommands {
+  std::vector<Words> ran;
+  std::string failing;  // its result is begun, and it fails
+
+  int operator()(const Words& words, Streams& /*streams*/) {
+    ran.push_back(words);
+    const auto after = [&](const std::string& option) {
+      const auto found = std::find(words.begin(), words.end(), option);
+      return found == words.end() ? std::string() : *(found + 1);
+    };
+    const std::string out = words[0] == "validate" ? after("--csv") : after("--out");
+    if (words[0] == "fit") {
+      Material material;
+      material.E0_Pa = 1.8e6;
+      material.nu = 0.4;
+      material.terms = {{0.1, 0.1, 0.5}};
+      write_text(out, json_from_material(material));
+    } else {
+      write_text(out, words[0] == "capture" ? contents_of(after("--truth")) : words[0]);
+    }
+    return !failing.empty() && out.find(failing) != std::string::npos ? kFailed : kDone;
+  }
+  std::size_t count(const std::string& command) const {
+    return static_cast<std::size_t>(std::count_if(
+        ran.begin(), ran.end(), [&](const Words& words) { return words[0] == command; }));
+  }
+};
+
+// What the demo prints on stderr.
+std::string demo_of(FakeCommands& commands, const Words& words) {
+  std::ostringstream out, err;
+  Streams streams{out, err};
+  commands.ran.clear();
+  run_demo(words, streams, std::ref(commands));
+  return err.str();
+}
+
+}  // namespace
+
+TEST_CASE("a demo keeps what finished steps made of the same inputs, and nothing else", "[cli]") {
+  namespace fs = std::filesystem;
+  const test::ScratchFolder folder;
+  const fs::path data = folder / "data", truth = data / "03_pdms_1to10.truth.toml";
+  fs::copy(VISCARD_SOURCE_DIR "/data/demo", data, fs::copy_options::recursive);
+  const Words words{"--out", folder / "demo", "--data", data};
+  FakeCommands commands;
+
+  commands.failing = "pdms_1to13.viscap";  // as an interrupted capture does
+  CHECK_THROWS_WITH(demo_of(commands, words), Catch::Contains("keeps what is finished"));
+  CHECK(commands.count("capture") == 2);
+  commands.failing.clear();
+  demo_of(commands, words);
+  CHECK(commands.count("capture") == 2);  // again the second, and the third
+  CHECK(commands.count("fit") == 2);
+  CHECK(contains(demo_of(commands, words), "25 results were up to date"));
+  CHECK(commands.ran.empty());
+
+  // Other contents count, whatever the times of the files are.
+  const auto before = fs::last_write_time(truth);
+  write_text(truth, contents_of(truth) + "\n# another specimen\n");
+  fs::last_write_time(truth, before - std::chrono::hours(24));
+  demo_of(commands, words);
+  CHECK(commands.count("capture") == 1);
+  CHECK(commands.count("report") == 1);
+  CHECK(commands.ran.front()[0] == "capture");
+  write_text(folder / "demo/pdms_1to20.csv", "edited");
+  demo_of(commands, words);
+  REQUIRE(commands.ran.size() == 1);
+  CHECK(commands.ran[0][0] == "export");
+}
+
+TEST_CASE("a demo does not replace a file that is of no demo", "[cli]") {
+  const test::ScratchFolder folder;
+  std::filesystem::create_directories(folder / "mine");
+  const std::string mine = folder / "mine/pdms_1to10.json";
+  write_text(mine, "precious");
+  FakeCommands commands;
+  CHECK_THROWS_WITH(demo_of(commands, {"--out", folder / "mine"}),
+                    Catch::Contains("pdms_1to10.json is not of an earlier demo"));
+  CHECK(contents_of(mine) == "precious");
+  demo_of(commands, {"--out", folder / "mine", "--force"});
+  CHECK(contents_of(mine) != "precious");
 }
 
 }  // namespace viscard

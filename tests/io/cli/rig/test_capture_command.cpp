@@ -2,6 +2,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/sqlite_database.h"
+#include "io/config/config_file.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/emulator/pty_port.h"
@@ -139,6 +140,51 @@ TEST_CASE("capture --resume skips a single finished capture", "[cli][capture][pt
   const auto again = run_command(words);
   CHECK(again.status == kDone);
   CHECK(contains(again.out, "run.viscap: finished before"));
+}
+
+TEST_CASE("capture --resume does not take the capture of another test or specimen for finished",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::string out = folder / "run.viscap", test_file = folder / "test.toml",
+                    specimen_file = folder / "specimen.toml";
+  const std::string specimen = read_file(VISCARD_SOURCE_DIR "/data/demo/03_pdms_1to10.toml");
+  write_file(test_file, kShortTest, false);
+  write_file(specimen_file, specimen, false);
+  const std::vector<std::string> words{"capture", "--emulate", "--speed",    "100",
+                                       "--test",  test_file,   "--specimen", specimen_file,
+                                       "--out",   out,         "--resume"};
+  const auto first = run_command(words);
+  INFO(first.err);
+  REQUIRE(first.status == kDone);
+  REQUIRE(contains(run_command(words).out, "run.viscap: finished before"));
+
+  write_file(test_file, toml_from_test([&] {
+               TestPlan plan = read_test(test_file);
+               plan.depth_m *= 0.5;
+               return plan;
+             }()),
+             true);
+  const auto other_depth = run_command(words);
+  CHECK(other_depth.status == kFailed);
+  CHECK(contains(other_depth.err, "run.viscap is a finished capture of another test: "));
+  CHECK(contains(other_depth.err, "depth"));
+  write_file(test_file, kShortTest, true);
+
+  Specimen thicker = read_specimen(specimen_file);
+  thicker.contact.layer_thickness_m *= 1.25;
+  write_file(specimen_file, toml_from_specimen(thicker), true);
+  const auto other_layer = run_command(words);
+  CHECK(other_layer.status == kFailed);
+  CHECK(contains(other_layer.err, "of another specimen: "));
+  write_file(specimen_file, specimen, true);
+
+  // A reading that is not what was written.
+  Database(out, Database::Access::kReadWrite)
+      .execute("UPDATE load_samples SET counts = counts + 1 WHERE sample_index = 5");
+  const auto damaged = run_command(words);
+  INFO(damaged.err);
+  CHECK(damaged.status == kDone);
+  CHECK(read_capture(folder / "run.2.viscap").status == "finished");
 }
 
 TEST_CASE("a reading that was marked implausible is read as a glitch", "[cli][capture]") {

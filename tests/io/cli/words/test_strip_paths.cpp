@@ -6,6 +6,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
 using namespace viscard;
 using namespace viscard::test;
 using Catch::Matchers::Contains;
@@ -54,6 +59,91 @@ TEST_CASE("cards and laws of rubber of materials with folders are stripped, too"
                    "--accept-flags", "--out", card, "--strip-paths"});
   CAPTURE(written.err);
   CHECK_THAT(read_file(card), !Contains("miller"));
+}
+
+TEST_CASE("with --strip-paths no command states a folder in stdout or in a file", "[cli]") {
+  const ScratchFolder scratch;
+  const std::string mine = (scratch / "home/miller").string(), out = mine + "/out",
+                    other = (scratch / "home/osterkamp").string();
+  std::filesystem::create_directories(out);
+  std::filesystem::create_directories(other);
+  for (const char* name : {"demo", "scenes", "materials"}) {
+    std::filesystem::copy(std::string(VISCARD_SOURCE_DIR "/data/") + name, mine + "/" + name,
+                          std::filesystem::copy_options::recursive);
+  }
+  const std::string table = mine + "/demo/example_relaxation.csv", material = out + "/m.json",
+                    card = out + "/c.inp", capture = out + "/r.viscap", test = mine + "/short.toml",
+                    scene = mine + "/scenes/pillar_creep.toml", study = other + "/study.toml";
+  write_file(test,
+             "[approach]\nspeed = \"0.2 mm/s\"\nbaseline = \"1 s\"\n[ramp]\ndepth = \"0.13 mm\"\n"
+             "duration = \"1 s\"\nhold = \"3 s\"\n[recovery]\nhold = \"2 s\"\n",
+             false);
+  write_file(study,
+             "scene = \"../miller/scenes/pillar_press.toml\"\n[[parameter]]\n"
+             "key = \"geometry.diameter\"\nvalues = [\"40 um\"]\n",
+             false);
+  const std::vector<std::vector<std::string>> all{
+      {"fit", table, "--out", material, "--svg", out + "/m.svg"},
+      {"fit", table, "--show-table"},
+      {"fit", mine + "/missing.csv"},
+      {"predict", material, "--against", table, "--csv", out + "/p.csv", "--svg", out + "/p.svg"},
+      {"validate", material, "--csv", out + "/v.csv"},
+      {"card", material, "--for", "abaqus", "--units", "mm-t-s", "--out", card},
+      {"card", "--check", card, material},
+      {"card", "--verify", card, material},
+      {"card", card, "--import", out + "/imported.json"},
+      {"capture", "--emulate", "--speed", "200", "--test", test, "--specimen",
+       mine + "/demo/03_pdms_1to10.toml", "--out", capture},
+      {"export", capture, "--out", out + "/r.csv"},
+      {"report", capture, material, "--out", out + "/page.html"},
+      {"scene", "check", scene, "--svg", out + "/scene.svg"},
+      {"scene", "check", mine + "/scenes/missing.toml"},
+      {"plan", scene},
+      {"simulate", scene, "--compare", scene, "--out", out + "/answer"},
+      {"simulate", "../" + std::filesystem::path(mine).filename().string() + "/none.toml"},
+      {"sweep", study, "--out", out + "/s.sqlite", "--csv", out + "/s.csv"}};
+  const auto has_folder = [](const std::string& text) {
+    return text.find("miller") != std::string::npos || text.find("osterkamp") != std::string::npos;
+  };
+  for (const auto& one : all) {
+    for (const bool as_json : {false, true}) {
+      std::vector<std::string> words = one;
+      words.emplace_back("--strip-paths");
+      if (as_json) words.emplace_back("--json");
+      const bool writes = std::any_of(one.begin(), one.end(), [](const std::string& word) {
+        return word == "--out" || word == "--svg" || word == "--csv" || word == "--import";
+      });
+      if (as_json && writes) words.emplace_back("--force");
+      const CommandOutcome outcome = run_command(words);
+      CAPTURE(words, outcome.out, outcome.err);
+      CHECK_FALSE(has_folder(outcome.out));
+      CHECK(outcome.status != kBadWords);
+    }
+  }
+  std::size_t n_files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
+    if (!entry.is_regular_file()) continue;
+    CAPTURE(entry.path());
+    CHECK_FALSE(has_folder(read_file(entry.path())));
+    ++n_files;
+  }
+  CHECK(n_files > 15);
+  strip_written_paths(false);  // for the tests behind it
+}
+
+TEST_CASE("a text loses the folders of files that the command reads, and no others", "[cli]") {
+  strip_written_paths(true);
+  remember_folder_of("/home/Anna Miller/data/b.csv");
+  remember_folder_of("../secret/c.csv");
+  CHECK(written_text("/home/Anna Miller/data/b.csv: 3 rows") == "b.csv: 3 rows");
+  CHECK(written_text("see '/home/Anna Miller/data/sub/x'") == "see 'sub/x'");
+  CHECK(written_text("nothing in '/home/Anna Miller/data' is so") == "nothing in '.' is so");
+  CHECK(written_text("(../secret/c.csv)") == "(c.csv)");
+  CHECK(written_text("/home/Anna Miller/database/b.csv") == "/home/Anna Miller/database/b.csv");
+  CHECK(written_text("E/E0 in 1/Pa") == "E/E0 in 1/Pa");
+  CHECK(written_path("../secret/c.csv") == "c.csv");
+  strip_written_paths(false);
+  CHECK(written_text("/home/Anna Miller/data/b.csv") == "/home/Anna Miller/data/b.csv");
 }
 
 TEST_CASE("only absolute paths are cut, in words too", "[cli]") {
