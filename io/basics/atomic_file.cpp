@@ -212,6 +212,7 @@ void put_file(const std::filesystem::path& path, const std::string& contents, bo
     if (::fsync(file.get()) != 0) fail(path, "cannot sync", errno);
     if (::close(file.release()) != 0) fail(path, "cannot close", errno);
     put_in_place(temporary, path, overwrite);
+    note_output(path);
     sync_folder(folder);
   } catch (...) {
     ::unlink(temporary.c_str());
@@ -238,7 +239,9 @@ int open_to_read(const std::filesystem::path& path) {
   // A named pipe without a writer would not even open otherwise.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   if (file.get() < 0) {
-    throw std::runtime_error(path.string() + ": " + why_not_opened(path, errno));
+    const int error = errno;
+    if (error == ENOENT) refuse_lost_input(path);
+    throw std::runtime_error(path.string() + ": " + why_not_opened(path, error));
   }
   if (std::filesystem::is_fifo(path, ignored)) await_writer(path, file.get());
   ::fcntl(file.get(), F_SETFL, ::fcntl(file.get(), F_GETFL) & ~O_NONBLOCK);

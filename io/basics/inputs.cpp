@@ -6,9 +6,13 @@
 #include "io/basics/words.h"
 #include "io/basics/written_path.h"
 
+#include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <mutex>
 #include <tuple>
 
@@ -31,15 +35,34 @@ void* this_thread() {
   return &mark;
 }
 
+// The last one that was made of those of the process; null: there is none.
+InputRecorder* innermost() {
+  InputRecorder* last = nullptr;
+  for (InputRecorder* one : recorders()) {
+    if (one->is_of_process()) last = one;
+  }
+  return last;
+}
+
 std::vector<InputFile> files_of_innermost() {
-  const InputRecorder* innermost = nullptr;
+  const InputRecorder* last = nullptr;
   {
     const std::lock_guard<std::mutex> lock(list_mutex());
-    for (const InputRecorder* one : recorders()) {
-      if (one->is_of_process()) innermost = one;
-    }
+    last = innermost();
   }
-  return innermost != nullptr ? innermost->files() : std::vector<InputFile>();
+  return last != nullptr ? last->files() : std::vector<InputFile>();
+}
+
+// Whether its contents are to stay. A pipe ends when it was read, and a capture that is being written, whose
+// writer holds a lock, grows.
+bool is_settled(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) return true;
+  const bool is_held = ::flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(fd);
+  return !is_held;
 }
 
 }  // namespace
@@ -90,26 +113,84 @@ void record_input(const std::filesystem::path& path, const std::string& contents
   if (is_recording_inputs()) record_input_sum(path, sha256_of_text(contents));
 }
 
+// What follows holds list_mutex().
+struct InputRecords {
+  // Those that count what this thread reads.
+  static std::vector<InputRecorder*> listening() {
+    std::vector<InputRecorder*> all = recorders();
+    std::erase_if(all, [](const InputRecorder* one) {
+      return one->thread_ != nullptr && one->thread_ != this_thread();
+    });
+    return all;
+  }
+
+  // Whether one that refuses changes has read this file, with other contents than these.
+  static bool is_known_otherwise(const std::string& path, const std::string& sha256) {
+    for (const InputRecorder* one : listening()) {
+      const bool is_judge = !one->is_of_process() || one == innermost();
+      if (!is_judge || one->accepts_changes_ || one->written_.count(path) > 0) continue;
+      for (const InputFile& file : one->files_) {
+        if (file.path == path && file.sha256 != sha256) return true;
+      }
+    }
+    return false;
+  }
+
+  static void add(const std::string& path, const std::string& sha256) {
+    for (InputRecorder* one : listening()) {
+      const bool is_known = std::any_of(
+          one->files_.begin(), one->files_.end(),
+          [&](const InputFile& file) { return file.path == path && file.sha256 == sha256; });
+      if (!is_known) one->files_.push_back({path, sha256});
+    }
+  }
+
+  static void note(const std::string& path, const std::string& note) {
+    for (InputRecorder* one : recorders()) {
+      for (InputFile& file : one->files_) {
+        if (file.path != path || file.note.find(note) != std::string::npos) continue;
+        file.note += (file.note.empty() ? "" : "; ") + note;
+      }
+    }
+  }
+
+  static void add_written(const std::string& path) {
+    for (InputRecorder* one : recorders()) one->written_.insert(path);
+  }
+
+  static void accept_changes() {
+    if (InputRecorder* const last = innermost()) last->accepts_changes_ = true;
+  }
+};
+
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256) {
   const std::lock_guard<std::mutex> lock(list_mutex());
-  for (InputRecorder* one : recorders()) {
-    if (one->thread_ != nullptr && one->thread_ != this_thread()) continue;
-    const bool is_known =
-        std::any_of(one->files_.begin(), one->files_.end(), [&](const InputFile& other) {
-          return other.path == path.string() && other.sha256 == sha256;
-        });
-    if (!is_known) one->files_.push_back({path.string(), sha256});
+  if (InputRecords::is_known_otherwise(path.string(), sha256) && is_settled(path)) {
+    throw InputChanged(path.string() + " changed while viscard was working; start again");
   }
+  InputRecords::add(path.string(), sha256);
+}
+
+void refuse_lost_input(const std::filesystem::path& path) {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  if (!InputRecords::is_known_otherwise(path.string(), "")) return;
+  throw InputChanged(path.string() +
+                     " was removed while viscard was working; put it back and start again");
 }
 
 void note_input(const std::filesystem::path& path, const std::string& note) {
   const std::lock_guard<std::mutex> lock(list_mutex());
-  for (InputRecorder* one : recorders()) {
-    for (InputFile& file : one->files_) {
-      if (file.path != path.string() || file.note.find(note) != std::string::npos) continue;
-      file.note += (file.note.empty() ? "" : "; ") + note;
-    }
-  }
+  InputRecords::note(path.string(), note);
+}
+
+void note_output(const std::filesystem::path& path) {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  InputRecords::add_written(path.string());
+}
+
+void accept_changed_inputs() {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  InputRecords::accept_changes();
 }
 
 bool is_recording_inputs() {

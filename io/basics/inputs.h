@@ -1,6 +1,9 @@
 #pragma once
 
+#include "models/maths/failure_text.h"
+
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,8 +16,16 @@ struct InputFile {
   std::string note = {};  // what must be known of it, such as that it was edited
 };
 
-// Records every file that read_file() reads while it lives, in all threads or in its own thread only. A
-// file whose contents change meanwhile is there once for each.
+// A file is not what it was when the running work first read it.
+class InputChanged : public StopsWork {
+ public:
+  using StopsWork::StopsWork;
+};
+
+// Records every file that read_file() reads while it lives, in all threads or in its own thread only. A file
+// that somebody changes meanwhile is refused by the innermost recorder of the process, and by those of the thread:
+// InputChanged is thrown where it is read again. Files that this program writes itself, captures that are being
+// written, and what is no plain file (pipes) may change; such a file is there once for each contents.
 class InputRecorder {
  public:
   enum class Of { kProcess, kThread };
@@ -28,10 +39,11 @@ class InputRecorder {
   bool is_of_process() const { return thread_ == nullptr; }
 
  private:
-  friend void record_input_sum(const std::filesystem::path& path, const std::string& sha256);
-  friend void note_input(const std::filesystem::path& path, const std::string& note);
-  void* thread_ = nullptr;  // whose files count; null: all
+  friend struct InputRecords;  // the functions below
+  void* thread_ = nullptr;     // whose files count; null: all
   std::vector<InputFile> files_;
+  std::set<std::string> written_;  // by this program
+  bool accepts_changes_ = false;
 };
 
 // The files that the innermost recorder of the process has seen; none without one. What a command writes
@@ -48,6 +60,13 @@ std::string head_of_table(const std::string& command);
 // Called by what reads files.
 void record_input(const std::filesystem::path& path, const std::string& contents);
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256);
+// Called by what writes files: this one may be read again with other contents.
+void note_output(const std::filesystem::path& path);
+// Called when a file cannot be read. Throws InputChanged if it could be read before.
+void refuse_lost_input(const std::filesystem::path& path);
+// For work that shows files as they change, such as a live page: the innermost recorder of the process takes a file
+// once for each contents.
+void accept_changed_inputs();
 // Adds a note to a recorded file; commands print it and --json has it beside the file.
 void note_input(const std::filesystem::path& path, const std::string& note);
 // Whether there is any recorder.

@@ -6,6 +6,7 @@
 #include "io/config/config_fields.h"
 #include "io/config/toml_text.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 #include "models/uncertainty/sobol_points.h"
 
@@ -163,7 +164,9 @@ std::string meant_key(const std::string& scene, const std::filesystem::path& pat
     }
     const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
     return is_known ? "; give it in the scene, too" : did_you_mean(key, known);
-  } catch (const std::exception&) {  // the scene alone cannot be read
+  } catch (const std::exception& error) {
+    if (is_passing(error)) throw;
+    // The scene alone cannot be read.
     return "; give it in the scene, too";
   }
 }
@@ -262,31 +265,74 @@ void set_key(toml::table& root, const std::string& key, const std::string& value
   }
 }
 
-// A value that is no number may name a file.
-bool may_name_file(const std::string& value) {
-  const auto number = split(value);
-  return !number || number->unit.find_first_of("./") != std::string::npos;  // "1to10.json"
+bool is_file_key(const std::string& key) {
+  return key.substr(key.rfind('.') + 1) == "file";
 }
 
-// Reads the scene at the first point, and at every value that may name a file. What is wrong with the
-// scene is reported by check_values().
-void record_scene_files(const Study& study) {
-  const auto read = [&](const StudyValues& values) {
-    try {
-      scene_from_toml(scene_text_with(study, values), study.scene_path, {}, Plausible::kOff);
-    } catch (const std::exception&) {
+// A parameter with values that are no numbers with a unit. The name of a file may look like one: "20pdms".
+bool has_words(const StudyParameter& parameter) {
+  return std::any_of(parameter.values.begin(), parameter.values.end(), [&](const std::string& one) {
+    const auto number = split(one);
+    return !number || is_file_key(parameter.key) ||
+           number->unit.find_first_of("./") != std::string::npos;  // "1to10.json"
+  });
+}
+
+// The points that together have every value, and every combination of words, because two of them may name a
+// file that neither names alone.
+std::vector<StudyValues> values_to_read(const Study& study) {
+  std::vector<StudyValues> all;
+  if (study.is_rows) {
+    for (std::int64_t point = 0; point < count_points(study); ++point)
+      all.push_back(values_at(study, point));
+    return all;
+  }
+  all.push_back(values_at(study, 0));
+  // Adds the first n points with every other value of a parameter.
+  const auto add = [&](std::size_t n, std::size_t k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const std::string& value : study.parameters[k].values) {
+        if (value == all[i][k].second) continue;
+        all.push_back(all[i]);
+        all.back()[k].second = value;
+      }
     }
   };
-  const StudyValues first = values_at(study, 0);
-  read(first);
+  constexpr std::size_t kMost = 10'000;  // a file beyond them is refused at its points
+  std::vector<std::size_t> alone;
   for (std::size_t k = 0; k < study.parameters.size(); ++k) {
-    for (const std::string& value : study.parameters[k].values) {
-      if (!may_name_file(value)) continue;
-      StudyValues values = first;
-      values[k].second = value;
-      read(values);
+    const StudyParameter& parameter = study.parameters[k];
+    if (has_words(parameter) && all.size() * parameter.values.size() <= kMost) {
+      add(all.size(), k);
+    } else {
+      alone.push_back(k);
     }
   }
+  for (const std::size_t k : alone) add(1, k);
+  return all;
+}
+
+// What is wrong with the scene is reported by check_values().
+void record_scene_files(const Study& study) {
+  for (const StudyValues& values : values_to_read(study)) {
+    try {
+      scene_from_toml(scene_text_with(study, values), study.scene_path, {}, Plausible::kOff);
+    } catch (const std::exception& error) {
+      if (is_passing(error)) throw;
+    }
+  }
+}
+
+// Named relative to the study, in one order, so that all machines agree however the study was named.
+std::vector<InputFile> named_inputs(const Study& study, const InputRecorder& recorder) {
+  std::vector<InputFile> inputs;
+  for (const InputFile& file : recorder.files()) {
+    inputs.push_back({input_name(study, file.path), file.sha256, file.note});
+  }
+  std::sort(inputs.begin(), inputs.end(), [](const InputFile& a, const InputFile& b) {
+    return std::tie(a.path, a.sha256) < std::tie(b.path, b.sha256);
+  });
+  return inputs;
 }
 
 }  // namespace
@@ -325,13 +371,16 @@ Study read_study(const std::filesystem::path& path) {
     }
   }
   record_scene_files(study);
-  for (const InputFile& file : recorder.files()) {
-    study.inputs.push_back({input_name(study, file.path), file.sha256, file.note});
-  }
-  // However the study was named: all machines see one order.
-  std::sort(study.inputs.begin(), study.inputs.end(), [](const InputFile& a, const InputFile& b) {
-    return std::tie(a.path, a.sha256) < std::tie(b.path, b.sha256);
-  });
+  study.inputs = named_inputs(study, recorder);
+  return study;
+}
+
+Study study_of_scene(const std::filesystem::path& scene, const std::string& besides) {
+  const InputRecorder recorder(InputRecorder::Of::kThread);
+  Study study{.path = scene, .scene_path = scene, .besides = besides};
+  study.scene_text = read_file(scene);
+  scene_from_toml(study.scene_text, scene, {}, Plausible::kOff);
+  study.inputs = named_inputs(study, recorder);
   return study;
 }
 
@@ -409,7 +458,7 @@ std::string fingerprint(const Study& study) {
     return sha256_of_file(file);
   };
   return "viscard " VISCARD_VERSION " study " + sum_of(study.path) + " scene " +
-         sum_of(study.scene_path);
+         sum_of(study.scene_path) + (study.besides.empty() ? "" : " " + study.besides);
 }
 
 }  // namespace viscard

@@ -191,7 +191,9 @@ def arguments(function: _Function) -> _Function:
                         "texts or dicts", "usage") from None
         finally:
             _calls.is_within = False
-        for note in recorder.notes():  # such as that a file was edited
+            notes = recorder.notes()
+            del recorder  # a traceback would keep it, and it refuses files that change while it lives
+        for note in notes:  # such as that a file was edited
             warnings.warn(note, DoubtWarning, stacklevel=2)
         return found
 
