@@ -124,14 +124,14 @@ struct InputRecords {
     return all;
   }
 
-  // Whether one that refuses changes has read this file, with other contents than these.
+  // Whether one that refuses changes has read this file, last with other contents than these.
   static bool is_known_otherwise(const std::string& path, const std::string& sha256) {
     for (const InputRecorder* one : listening()) {
       const bool is_judge = !one->is_of_process() || one == innermost();
       if (!is_judge || one->accepts_changes_ || one->written_.count(path) > 0) continue;
-      for (const InputFile& file : one->files_) {
-        if (file.path == path && file.sha256 != sha256) return true;
-      }
+      const auto last = std::find_if(one->files_.rbegin(), one->files_.rend(),
+                                     [&](const InputFile& file) { return file.path == path; });
+      if (last != one->files_.rend() && last->sha256 != sha256) return true;
     }
     return false;
   }

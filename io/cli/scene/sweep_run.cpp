@@ -28,7 +28,7 @@ constexpr std::pair<const char*, int SweepRow::*> kOfMesh[] = {{"unknowns", &Swe
                                                                {"layers", &SweepRow::layers}};
 
 // How a row stands in a store: its results, then the mesh.
-StudyPoint stored(std::size_t number, const std::string& label, const SweepRow& row) {
+StudyPoint point_from_row(std::size_t number, const std::string& label, const SweepRow& row) {
   StudyPoint point{.point = static_cast<std::int64_t>(number), .values = {{"point", label}}};
   for (const SceneResult& r : row.results)
     point.results.push_back({r.name, r.value, r.unit, r.error_estimate});
@@ -37,7 +37,7 @@ StudyPoint stored(std::size_t number, const std::string& label, const SweepRow& 
   return point;
 }
 
-SweepRow row_from(const StudyPoint& point) {
+SweepRow row_from_point(const StudyPoint& point) {
   SweepRow row;
   for (const NamedValue& one : point.results) {
     const auto of_mesh = std::find_if(std::begin(kOfMesh), std::end(kOfMesh),
@@ -69,7 +69,7 @@ class PartOfSweep {
     std::map<std::size_t, SweepRow> rows;
     store_->for_each([&](const StudyPoint& point) {
       const auto number = static_cast<std::size_t>(point.point);
-      if (number < n_points) rows[number] = row_from(point);
+      if (number < n_points) rows[number] = row_from_point(point);
     });
     return rows;
   }
@@ -121,7 +121,7 @@ SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const Swee
   listener.progress = [&](double done, const std::string& label) { progress.show(done, label); };
   if (part) {
     listener.keep = [&](std::size_t number, const SweepRow& row) {
-      part->add(stored(number, points[number].label, row));
+      part->add(point_from_row(number, points[number].label, row));
     };
   }
   SceneAnswer sum = solve_sweep(file, rows, listener);

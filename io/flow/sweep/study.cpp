@@ -265,60 +265,26 @@ void set_key(toml::table& root, const std::string& key, const std::string& value
   }
 }
 
-bool is_file_key(const std::string& key) {
-  return key.substr(key.rfind('.') + 1) == "file";
-}
-
-// A parameter with values that are no numbers with a unit. The name of a file may look like one: "20pdms".
-bool has_words(const StudyParameter& parameter) {
-  return std::any_of(parameter.values.begin(), parameter.values.end(), [&](const std::string& one) {
-    const auto number = split(one);
-    return !number || is_file_key(parameter.key) ||
-           number->unit.find_first_of("./") != std::string::npos;  // "1to10.json"
-  });
-}
-
-// The points that together have every value, and every combination of words, because two of them may name a
-// file that neither names alone.
-std::vector<StudyValues> values_to_read(const Study& study) {
-  std::vector<StudyValues> all;
-  if (study.is_rows) {
-    for (std::int64_t point = 0; point < count_points(study); ++point)
-      all.push_back(values_at(study, point));
-    return all;
-  }
-  all.push_back(values_at(study, 0));
-  // Adds the first n points with every other value of a parameter.
-  const auto add = [&](std::size_t n, std::size_t k) {
-    for (std::size_t i = 0; i < n; ++i) {
-      for (const std::string& value : study.parameters[k].values) {
-        if (value == all[i][k].second) continue;
-        all.push_back(all[i]);
-        all.back()[k].second = value;
-      }
-    }
-  };
-  constexpr std::size_t kMost = 10'000;  // a file beyond them is refused at its points
-  std::vector<std::size_t> alone;
-  for (std::size_t k = 0; k < study.parameters.size(); ++k) {
-    const StudyParameter& parameter = study.parameters[k];
-    if (has_words(parameter) && all.size() * parameter.values.size() <= kMost) {
-      add(all.size(), k);
-    } else {
-      alone.push_back(k);
-    }
-  }
-  for (const std::size_t k : alone) add(1, k);
-  return all;
-}
-
-// What is wrong with the scene is reported by check_values().
+// Reads the scene at the first point and at every value beside it, or at every row. What is wrong with the
+// scene is reported by check_values(); a file that only several values name together is refused at its points.
 void record_scene_files(const Study& study) {
-  for (const StudyValues& values : values_to_read(study)) {
+  const auto read = [&](const StudyValues& values) {
     try {
       scene_from_toml(scene_text_with(study, values), study.scene_path, {}, Plausible::kOff);
     } catch (const std::exception& error) {
       if (is_passing(error)) throw;
+    }
+  };
+  const StudyValues first = values_at(study, 0);
+  read(first);
+  for (std::int64_t row = 1; study.is_rows && row < count_points(study); ++row) {
+    read(values_at(study, row));
+  }
+  for (std::size_t k = 0; !study.is_rows && k < study.parameters.size(); ++k) {
+    for (const std::string& value : study.parameters[k].values) {
+      StudyValues values = first;
+      values[k].second = value;
+      read(values);
     }
   }
 }

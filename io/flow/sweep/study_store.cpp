@@ -98,7 +98,7 @@ void write_ahead(Database& database) {
 void refuse_second_name(const std::filesystem::path& path) {
   std::error_code ignored;
   const auto n_names = std::filesystem::hard_link_count(path, ignored);
-  if (ignored || n_names < 2) return;
+  if (ignored || n_names < 2 || !std::filesystem::is_regular_file(path, ignored)) return;
   throw std::runtime_error(path.string() + ": the file has " + std::to_string(n_names) +
                            " names (hard links), by which its points would be lost; copy it (cp) "
                            "and name the copy, or remove the other names");
@@ -218,9 +218,9 @@ void create_tables(Database& database, const Study& study) {
 
 Database opened(const std::filesystem::path& path, const Study& study, const StoreOptions& options,
                 bool& is_recorded) {
+  refuse_second_name(path);
   refuse_other_kind(path);
   refuse_other_points(path, study, options);
-  refuse_second_name(path);
   if (!std::filesystem::exists(path)) std::ofstream(path).flush();
   Database database(path, Database::Access::kReadWrite);
   database.execute("PRAGMA busy_timeout = 10000;");
@@ -416,8 +416,8 @@ void StudyStore::for_each(const std::function<void(const StudyPoint&)>& take) {
 StudyLock::StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone,
                      double waits_s)
     : path_(std::move(path)), on_gone_(std::move(on_gone)) {
-  refuse_other_kind(path_);
   refuse_second_name(path_);
+  refuse_other_kind(path_);
   fd_ = ::open(path_.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0666);
   if (fd_ < 0) return;  // the store reports why
   const auto is_held = [this] {

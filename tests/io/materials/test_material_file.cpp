@@ -6,11 +6,14 @@
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 
 namespace viscard {
@@ -293,6 +296,53 @@ TEST_CASE("recorded inputs have the sums of what was read", "[io][file]") {
   rewrite_file(folder / "a", "abd");
   read_file(folder / "a");
   CHECK(provenance_of_inputs().size() == 2);  // it has changed meanwhile
+}
+
+TEST_CASE("a file that somebody changes or removes while a command works is refused",
+          "[io][file]") {
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "a";
+  const auto change = [&](const char* text) { std::ofstream(file) << text; };
+  change("abc");
+  const InputRecorder::Of of = GENERATE(InputRecorder::Of::kProcess, InputRecorder::Of::kThread);
+  const InputRecorder recorder(of);
+  read_file(file);
+  change("abd");
+  CHECK_THROWS_AS(read_file(file), InputChanged);
+  CHECK_THROWS_WITH(sha256_of_file(file),
+                    file.string() + " changed while viscard was working; start again");
+  change("abc");
+  CHECK(read_file(file) == "abc");
+  std::filesystem::remove(file);
+  CHECK_THROWS_WITH(read_file(file), Catch::Contains("was removed while viscard was working"));
+  CHECK(recorder.files().size() == 1);
+}
+
+TEST_CASE("a file may change for a live page, for the next command and while it is written",
+          "[io][file]") {
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "a";
+  const auto change = [&](const char* text) { std::ofstream(file) << text; };
+  change("abc");
+  const InputRecorder outer;
+  read_file(file);
+  change("abd");
+  {
+    const InputRecorder next;
+    CHECK(read_file(file) == "abd");
+    change("abe");
+    CHECK_THROWS_AS(read_file(file), InputChanged);
+    accept_changed_inputs();
+    CHECK(read_file(file) == "abe");
+  }
+  change("abf");
+  CHECK_THROWS_AS(read_file(file), InputChanged);
+  const int writer = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  REQUIRE(::flock(writer, LOCK_EX) == 0);  // as the writer of a capture does
+  CHECK(read_file(file) == "abf");
+  change("abg");
+  CHECK(read_file(file) == "abg");
+  ::close(writer);
 }
 
 }  // namespace
