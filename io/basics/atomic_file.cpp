@@ -239,9 +239,7 @@ int open_to_read(const std::filesystem::path& path) {
   // A named pipe without a writer would not even open otherwise.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   if (file.get() < 0) {
-    const int error = errno;
-    if (error == ENOENT) refuse_lost_input(path);
-    throw std::runtime_error(path.string() + ": " + why_not_opened(path, error));
+    throw std::runtime_error(path.string() + ": " + why_not_opened(path, errno));
   }
   if (std::filesystem::is_fifo(path, ignored)) await_writer(path, file.get());
   ::fcntl(file.get(), F_SETFL, ::fcntl(file.get(), F_GETFL) & ~O_NONBLOCK);
@@ -283,9 +281,16 @@ void rewrite_file(const std::filesystem::path& path, const std::string& contents
 }
 
 std::string read_file(const std::filesystem::path& path, std::size_t most) {
-  std::string contents = read_own_file(path, most);
-  record_input(path, contents);
-  return contents;
+  try {
+    std::string contents = read_own_file(path, most);
+    record_input(path, contents);
+    return contents;
+  } catch (const StopsWork&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    refuse_lost_input(path, error.what());
+    throw;
+  }
 }
 
 std::string read_own_file(const std::filesystem::path& path, std::size_t most) {

@@ -171,11 +171,11 @@ void record_input_sum(const std::filesystem::path& path, const std::string& sha2
   InputRecords::add(path.string(), sha256);
 }
 
-void refuse_lost_input(const std::filesystem::path& path) {
+void refuse_lost_input(const std::filesystem::path& path, const std::string& why) {
   const std::lock_guard<std::mutex> lock(list_mutex());
   if (!InputRecords::is_known_otherwise(path.string(), "")) return;
-  throw InputChanged(path.string() +
-                     " was removed while viscard was working; put it back and start again");
+  throw InputChanged(path.string() + " was read before and cannot be read now (" + why +
+                     "); start again");
 }
 
 void note_input(const std::filesystem::path& path, const std::string& note) {

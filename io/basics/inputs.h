@@ -62,8 +62,9 @@ void record_input(const std::filesystem::path& path, const std::string& contents
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256);
 // Called by what writes files: this one may be read again with other contents.
 void note_output(const std::filesystem::path& path);
-// Called when a file cannot be read. Throws InputChanged if it could be read before.
-void refuse_lost_input(const std::filesystem::path& path);
+// Called when a file cannot be read. Throws InputChanged if it could be read before, by which its absence is no
+// property of what was asked.
+void refuse_lost_input(const std::filesystem::path& path, const std::string& why);
 // For work that shows files as they change, such as a live page: the innermost recorder of the process takes a file
 // once for each contents.
 void accept_changed_inputs();

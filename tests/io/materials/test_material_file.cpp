@@ -314,7 +314,7 @@ TEST_CASE("a file that somebody changes or removes while a command works is refu
   change("abc");
   CHECK(read_file(file) == "abc");
   std::filesystem::remove(file);
-  CHECK_THROWS_WITH(read_file(file), Catch::Contains("was removed while viscard was working"));
+  CHECK_THROWS_WITH(read_file(file), Catch::Contains("was read before and cannot be read now"));
   CHECK(recorder.files().size() == 1);
 }
 
