@@ -8,6 +8,7 @@
 #include "rig/run/run_session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace viscard {
@@ -61,7 +62,9 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     session.begin_phase("rest", 0.0, "The force before a move outside of any test");
     session.forget_readings();
     const ForceMean rest = session.tare(kRest_s);
-    session.begin_phase(kMovePhase, 0.0, "A move outside of any test");
+    session.begin_phase(kMovePhase,
+                        order.is_home ? 0.0 : kRest_s + std::abs(order.toward_m) / order.speed_m_s,
+                        "A move outside of any test");
     moved.force_before_N = rest.force_N;
     moved.from_m = stage.position_m();
     if (order.is_home) {

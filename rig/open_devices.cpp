@@ -90,15 +90,21 @@ std::vector<std::string> names_of(const Row (&rows)[n]) {
   return names;
 }
 
-// The port of a device; a port that cannot be opened is named with its key.
+// "bench.toml:7: port under [stage]".
+template <class Config>
+std::string port_of(const char* section, const Config& device) {
+  const std::string key = std::string("port under [") + section + "]";
+  return device.port_place.empty() ? key + " of the rig file" : device.port_place + ": " + key;
+}
+
+// The port of a device; a port that cannot be opened is named with its place.
 template <class Config, class... Framing>
 std::unique_ptr<Transport> line_of(const char* section, const Config& device, const RigClock& clock,
                                    const Framing&... framing) {
   try {
     return open_line(device.port, device.baud, clock, framing...);
   } catch (const PortUnavailable& error) {
-    throw PortUnavailable(std::string("port under [") + section +
-                          "] of the rig file: " + error.what());
+    throw PortUnavailable(port_of(section, device) + ": " + error.what());
   }
 }
 
@@ -115,10 +121,13 @@ std::vector<std::string> load_cell_drivers() {
 // A wrong word of the rig file is reported before a missing port, because the word must be
 // corrected in any case.
 void check_devices(const RigConfig& rig) {
-  for (const std::string& port : {rig.stage.port, rig.load_cell.port}) {
-    if (is_tcp_port(port) && !tcp_address(port))
-      throw RigError("port '" + port + "' of the rig file " + trouble_of_tcp_port(port));
-  }
+  const auto check_port = [](const char* section, const auto& device) {
+    if (!is_tcp_port(device.port) || tcp_address(device.port)) return;
+    throw RigError(port_of(section, device) + " '" + device.port + "' " +
+                   trouble_of_tcp_port(device.port));
+  };
+  check_port("stage", rig.stage);
+  check_port("load_cell", rig.load_cell);
   row_of(kStages, rig.stage.driver, "stage").check(rig.stage);
   const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");
   cell.check(rig.load_cell);
@@ -149,7 +158,7 @@ std::unique_ptr<Thermometer> make_thermometer(const RigConfig& rig, const RigClo
   std::string trouble;
   try {
     if (has_own_port(config)) {
-      line = open_line(config.port, config.baud, clock, config.framing);
+      line = line_of("thermometer", config, clock, config.framing);
     }
   } catch (const RigError& error) {
     trouble = std::string("the thermometer is missing: ") + error.what();

@@ -218,9 +218,11 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   if (fit.options.constraints.empty()) {
     if (fit.options.with_profiles) add_profiles(model, fit, series_from_state, result);
     if (fit.options.n_bootstrap > 0) {
-      bootstrap_intervals(
-          model, fit.state, series_from_state,
-          {.n_resamples = fit.options.n_bootstrap, .inflation = fit.noise.inflation()}, result);
+      bootstrap_intervals(model, fit.state, series_from_state,
+                          {.n_resamples = fit.options.n_bootstrap,
+                           .inflation = fit.noise.inflation(),
+                           .progress = fit.options.resampled},
+                          result);
     }
     carry_order_doubt(model, fit, series_from_state, result);
     if (fit.options.with_spectrum && is_own_series(model, fit, series_from_state)) {

@@ -57,8 +57,9 @@ SpectrumFit spectrum_fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& 
     if (x[j] != 0.0) used.push_back(j);
   }
   SpectrumFit fit;
-  const PivotedQr qr(columns(Eigen::all, used));
-  fit.basis = qr.basis();
+  // None if weights of many decades leave nothing of the others.
+  fit.basis = used.empty() ? Eigen::MatrixXd(columns.rows(), 0)
+                           : PivotedQr(columns(Eigen::all, used)).basis();
   fit.fitted = fit.basis * (fit.basis.transpose() * data);
   fit.residual = data - fit.fitted;
   fit.rss = fit.residual.squaredNorm();
@@ -134,6 +135,7 @@ std::optional<KramersKronigBreak> kramers_kronig_break(const DmaModel& model,
   const Eigen::MatrixXd spectrum =
       normalised(model.columns(grid, Eigen::VectorXd(0), /*with_slopes=*/false).values);
   const SpectrumFit together = spectrum_fit(spectrum, model.data(), /*last_is_free=*/false);
+  if (together.basis.cols() == 0) return std::nullopt;
   const Index count = model.n_frequencies();
   const Range storage = best_range(model, together, 0);
   const Range loss = best_range(model, together, count);

@@ -91,6 +91,12 @@ FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_rel
         "force in contact, but there are " +
         std::to_string(n));
   }
+  const auto range = std::minmax_element(points.force_N.begin(), points.force_N.end());
+  if (!(*range.second > *range.first)) {
+    throw std::invalid_argument(
+        "the force is the same at every position, so the points show no stiffness. Does the punch "
+        "press on the block, and does the load cell measure?");
+  }
   const std::vector<Compliance> all = candidates(points);
   const Compliance& line = all.front();
   if (!(line.per_N > 0.0) || !std::isfinite(line.per_N)) {

@@ -60,6 +60,7 @@ void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
   Drawn drawn;
   for (int draw = 0; draw < options.n_resamples; ++draw) {
     may_stop();
+    if (options.progress) options.progress(static_cast<double>(draw) / options.n_resamples);
     Eigen::VectorXd data = fitted;
     for (Index begin = 0; begin < rows; begin += length) {
       const auto from = static_cast<Index>(random() % static_cast<std::uint64_t>(rows));

@@ -83,6 +83,7 @@ struct BootstrapOptions {
   int n_resamples = 200;
   double inflation = 1.0;
   std::uint64_t seed = 1;
+  std::function<void(double fraction)> progress;  // the share that is done; may be empty
 };
 void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
                          const SeriesFromState& series_from_state, const BootstrapOptions& options,

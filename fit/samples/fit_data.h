@@ -4,6 +4,7 @@
 #include "models/experiment/run_record.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -136,6 +137,8 @@ struct FitOptions {
   bool with_laws = false;                               // fill FitResult::laws
   VerticalShift vertical_shift = VerticalShift::kAuto;  // kAuto: if BIC prefers them clearly
   int n_bootstrap = 0;  // resamples for all intervals (0: intervals from the covariance)
+  // Called on the thread of the fit with the share of the resamples that are done. May be empty.
+  std::function<void(double fraction)> resampled;
 };
 
 }  // namespace viscard

@@ -61,8 +61,15 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporaryEnding = ".tmp";
 
+// The longest name that a file may have, less the other parts of the name of a temporary one.
+constexpr std::size_t kLongestName = 255;
+std::string name_in_temporary(const fs::path& path) {
+  constexpr std::size_t kOtherParts = 2 + 10;  // two dots and the number of a process
+  return path.filename().string().substr(0, kLongestName - kOtherParts - kTemporaryEnding.size());
+}
+
 fs::path temporary_for(const fs::path& folder, const fs::path& path) {
-  return folder / ("." + path.filename().string() + "." + std::to_string(::getpid()) +
+  return folder / ("." + name_in_temporary(path) + "." + std::to_string(::getpid()) +
                    std::string(kTemporaryEnding));
 }
 
@@ -119,7 +126,7 @@ void remove_leftovers(const fs::path& folder, const fs::path& path) {
   const std::string key = fs::absolute(folder, ignored).string();
   auto place = listed.find(key);
   if (place == listed.end()) place = listed.emplace(key, leftovers_in(folder)).first;
-  const auto [begin, end] = place->second.equal_range(path.filename().string());
+  const auto [begin, end] = place->second.equal_range(name_in_temporary(path));
   for (auto one = begin; one != end; ++one) {
     if (is_abandoned(one->second)) fs::remove(one->second.file, ignored);
   }
@@ -319,8 +326,14 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   const Descriptor file(open_to_read(path));
   Sha256 sum;
   std::vector<char> piece(std::size_t{1} << 20);
-  while (const std::size_t count = read_some(path, file.get(), piece.data(), piece.size()))
+  std::error_code ignored;
+  const bool has_end = std::filesystem::is_regular_file(path, ignored);
+  std::size_t n_read = 0;
+  while (const std::size_t count = read_some(path, file.get(), piece.data(), piece.size())) {
     sum.add(piece.data(), count);
+    n_read += count;
+    if (!has_end && n_read > kLongestText) refuse_size(path, kLongestText);
+  }
   const std::string digits = sum.digits();
   record_input_sum(path, digits);
   return digits;

@@ -93,7 +93,7 @@ std::vector<InputFile> provenance_of_inputs() {
 }
 
 std::string head_of_table(const std::string& command) {
-  std::string head = "# " + command + " (viscard " VISCARD_VERSION ")\n";
+  std::string head = "# " + utf8_on_one_line(command) + " (viscard " VISCARD_VERSION ")\n";
   for (const InputFile& file : provenance_of_inputs()) {
     if (!file.note.empty())
       head += "# note: " + utf8_on_one_line(file.path + ": " + file.note) + "\n";

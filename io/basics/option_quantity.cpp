@@ -10,7 +10,11 @@ namespace viscard {
 
 void refuse_implausible_option(const std::string& name, double value, const Quantity& quantity,
                                Plausible judged) {
-  const auto doubt = doubt_about(quantity, value, judged);
+  // --plausible off accepts any size, but no sign that cannot be right: later checks do not know
+  // the name of the option.
+  const auto doubt = value < 0.0 && quantity.sign != Sign::kAny
+                         ? doubt_about_sign(quantity, value)
+                         : doubt_about(quantity, value, judged);
   if (!doubt) return;
   throw std::invalid_argument(
       name + " " +
@@ -25,9 +29,12 @@ double option_quantity(const std::string& name, const std::string& text,
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + ": " + error.what());
   }
-  if (quantity.quantity != nullptr) {
-    refuse_implausible_option(name, value, *quantity.quantity, judged);
+  if (quantity.quantity == nullptr) return value;
+  const auto sign = value < 0.0 ? doubt_about_sign(*quantity.quantity, value) : std::nullopt;
+  if (sign && !number_from_text(text)) {  // with its unit: as it was typed
+    throw std::invalid_argument(name + " is " + text + "; " + sign->sign);
   }
+  refuse_implausible_option(name, value, *quantity.quantity, judged);
   return value;
 }
 

@@ -110,4 +110,15 @@ bool looks_like_capture(const std::filesystem::path& path) {
   return has_magic(header, read_header(path, header));
 }
 
+void refuse_other_than_capture(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return;  // the writer reports what is wrong
+  Header header{};
+  const std::size_t size = read_header(path, header);
+  if (size == 0) return;
+  const bool is_ours = big_endian(header, 68, 4) == kCaptureApplicationId;
+  if (has_magic(header, size) && (is_ours || path.extension() == ".viscap")) return;
+  fail(path, "is no capture, so --force does not replace it by one; choose another name");
+}
+
 }  // namespace viscard

@@ -19,4 +19,8 @@ bool is_log_expected(const std::filesystem::path& capture);
 // distinguish a capture, even a damaged one, from a table.
 bool looks_like_capture(const std::filesystem::path& path);
 
+// Throws std::runtime_error for a file with contents that are no capture (nor one that was
+// interrupted before its first record): a new capture does not replace it.
+void refuse_other_than_capture(const std::filesystem::path& path);
+
 }  // namespace viscard

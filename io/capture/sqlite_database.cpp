@@ -147,6 +147,14 @@ void Database::Close::operator()(sqlite3* database) const {
 }
 
 Database::Database(const std::filesystem::path& path, Access access) : file_(path.string()) {
+  std::error_code ignored;
+  const auto kind = std::filesystem::status(path, ignored).type();
+  if (kind != std::filesystem::file_type::regular &&
+      kind != std::filesystem::file_type::not_found) {  // a device or a pipe may never end
+    throw std::runtime_error(file_ +
+                             " is not a plain file, so neither a capture nor the answers of a "
+                             "study; choose another name");
+  }
   sqlite3* database = nullptr;
   const bool is_alone = access == Access::kMainFileOnly;
   const int flags = (access == Access::kReadWrite ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY) |

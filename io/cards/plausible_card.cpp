@@ -48,7 +48,8 @@ std::optional<CardFinding> implausible_finding(const std::string& text, const Ca
   std::string why =
       fmt::format("the {} of the card {}", is_stiff ? "modulus" : "density", doubt->text());
   if (scale.read_in != nullptr) why += other_units(scale, judged);
-  return CardFinding{"implausible", why + "; if the value is right, add --plausible off", true};
+  if (doubt->sign.empty()) why += "; if the value is right, add --plausible off";
+  return CardFinding{"implausible", why, true};
 }
 
 }  // namespace viscard

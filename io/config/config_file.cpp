@@ -186,8 +186,23 @@ void check_frame(const FrameConfig& frame, const std::string& toml, const std::s
 
 }  // namespace
 
+namespace {
+
+// Notes where the file states the ports.
+void place_ports(const std::string& text, const std::filesystem::path& path, RigConfig& rig) {
+  const auto place = [&](const std::string& key) {
+    return path.string() + ":" + std::to_string(line_of_key(text, key));
+  };
+  rig.stage.port_place = place("stage.port");
+  rig.load_cell.port_place = place("load_cell.port");
+  rig.thermometer.port_place = place("thermometer.port");
+}
+
+}  // namespace
+
 RigConfig read_rig_to_calibrate(const std::filesystem::path& path, Plausible judged) {
   RigConfig rig = read_for_use(path, judged, rig_from_toml);
+  place_ports(read_file(path), path, rig);
   LoadCellCalibration& calibration = rig.calibration;
   const std::filesystem::path record = path.parent_path() / calibration.file;
   if (calibration.file.empty() || calibration.capacity_N > 0.0 || !exists(record)) return rig;
@@ -201,6 +216,7 @@ namespace {
 // Checks a rig and takes what the records that it names have. text: of the rig file.
 RigConfig with_records(RigConfig rig, const std::string& text, const std::filesystem::path& path) {
   check_before_use(rig, text, path.string());
+  place_ports(text, path, rig);
   const std::filesystem::path folder = path.parent_path();
   // The record replaces the whole section, so that its numbers are never mixed with older ones.
   // Only the rated load of the cell may be in the rig file alone.

@@ -1,10 +1,17 @@
 #include "io/flow/capture_setup.h"
 
 #include "io/basics/timestamp.h"
+#include "io/basics/words.h"
 #include "io/config/config_file.h"
 #include "io/flow/command_error.h"
+#include "models/experiment/test_phases.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_touch.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -22,6 +29,14 @@ EmulatedTruth truth_like(const Specimen& specimen, std::uint64_t seed) {
   truth.contact = specimen.contact;
   truth.material.nu = specimen.contact.poisson_ratio;
   return truth;
+}
+
+// How long the plan lets a phase last; nothing for one that lasts as long as it needs.
+std::optional<double> planned_duration_s(const TestPhase& phase) {
+  using Kind = TestPhase::Kind;
+  if (phase.kind == Kind::kWait || phase.kind == Kind::kHoldForce) return phase.duration_s;
+  if (phase.kind == Kind::kMove && phase.move_s > 0.0) return phase.move_s;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -45,6 +60,25 @@ CaptureSetup setup_from_files(const SetupRequest& request) {
   }
   setup.rig.clock_speed = request.speed;
   return setup;
+}
+
+void check_fault(const RigFault& fault, const TestPlan& plan) {
+  if (fault.kind == RigFaultKind::kNone || fault.phase.empty()) return;
+  std::vector<std::string> names{"connect"};
+  if (fault.phase == names.front()) return;
+  for (const TestPhase& phase : phases_from_plan(plan)) {
+    names.push_back(phase.name);
+    if (phase.name != fault.phase) continue;
+    const auto lasts_s = planned_duration_s(phase);
+    if (!lasts_s || fault.after_s <= *lasts_s) return;
+    throw std::invalid_argument(fmt::format(
+        "fault '{}@{}+{:g}' comes too late: the phase '{}' of this test lasts {:g} s; give "
+        "fewer seconds, or a later phase",
+        name_of(fault.kind), fault.phase, fault.after_s, fault.phase, *lasts_s));
+  }
+  throw std::invalid_argument("fault '" + name_of(fault.kind) + "@" + fault.phase +
+                              "': this test has no phase '" + fault.phase + "'" +
+                              did_you_mean(fault.phase, names) + " It has " + listed(names));
 }
 
 Preflight safe_preflight(const CaptureSetup& setup) {

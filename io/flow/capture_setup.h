@@ -30,6 +30,10 @@ inline constexpr double kFastestEmulation = 500.0;
 // bad file.
 CaptureSetup setup_from_files(const SetupRequest& request);
 
+// Throws std::invalid_argument for a fault that this test never reaches: its phase is none of the
+// test, which are named, or it begins later than the plan lets that phase last.
+void check_fault(const RigFault& fault, const TestPlan& plan);
+
 // What the test is expected to do. Throws CodedError "preflight" if it would overload the cell or
 // cannot be carried out by this rig.
 Preflight safe_preflight(const CaptureSetup& setup);

@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/program.h"
+#include "io/capture/capture_header.h"
 #include "io/capture/capture_lock.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
@@ -107,12 +108,18 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
 
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch) {
   const RigConfig& rig = request.setup.rig;
+  if (request.overwrite) refuse_other_than_capture(request.path);
   if (!request.setup.truth) {
     return capture_with(rig, RigClock(rig.clock_speed), nullptr, request, watch);
   }
   EmulatedRig emulated(
       {.truth = *request.setup.truth, .config = rig, .fault = request.setup.fault});
-  return capture_with(emulated.config(), emulated.clock(), &emulated, request, watch);
+  RunOutcome outcome = capture_with(emulated.config(), emulated.clock(), &emulated, request, watch);
+  if (watch.note && emulated.awaits_fault()) {
+    watch.note("the fault '" + name_of(request.setup.fault.kind) +
+               "' was never reached: the run ended before it");
+  }
+  return outcome;
 }
 
 }  // namespace viscard

@@ -45,6 +45,7 @@ struct CaptureWatch {
   std::function<void(const RunProgress& now)> progress;
   std::function<void(const RunReading& reading)> reading;  // every one that is not doubtful
   std::function<void()> closing;                           // the run is over, also if it threw
+  std::function<void(const std::string& text)> note;       // after `closing`: what else to know
 };
 
 // Opens both ports (or makes an emulated rig), creates the file and runs one test. A capture that

@@ -107,8 +107,14 @@ CommandError command_error(const std::string& code, const std::string& whole_tex
     error.message = text.substr(0, cut);
     error.hint = text.substr(cut + 2);
   }
+  // Programs look for the port there, and people read in which line of the rig file it stands.
+  if (where.empty() && code == "port") {
+    for (const std::string& word : words_of(error.message)) {
+      if (error.where.empty() && is_port_name(word)) error.where = word;
+    }
+  }
   // An option that a hint recommends counts as the place only if the message names no other place.
-  if (where.empty()) error.where = place_in(error.message);
+  if (error.where.empty()) error.where = place_in(error.message);
   if (error.where.empty()) error.where = place_in(error.hint);
   return error;
 }

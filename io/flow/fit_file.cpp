@@ -45,13 +45,32 @@ FittedFile fit_as_table(const std::string& path, const CapturedRun& run,
   return fit_csv(std::move(table), of_table);
 }
 
+// The options that need something of a file, of which a capture has its own values.
+OptionUses uses_on_capture(const FitRequest& request) {
+  OptionUses uses = uses_of(request.size, {});
+  const bool is_drift_fitted = request.options.drift == TableDrift::kFitted;
+  const bool has_vertical = request.options.vertical_shift != VerticalShift::kAuto;
+  add_uses({{"--drift", is_drift_fitted, false, "tables"},
+            {"--reference-temperature", request.T_ref_C.has_value(), false, "tables"},
+            {"--start-shift", !request.start_shifts.empty(), false, "tables"},
+            {"--vertical-shift", has_vertical, false, "tables"},
+            {"--sheet", !request.table.sheet.empty(), false, "tables"},
+            {"--table", request.table.table > 0, false, "tables"},
+            {"--skip", request.table.skip > 0, false, "tables"},
+            {"--punch-diameter", request.specimen.has_value(), true, ""},
+            {"--frame-stiffness", request.frame_stiffness_N_m > 0.0, true, ""}},
+           uses);
+  return uses;
+}
+
 FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   if (request.kind && *request.kind != FitKind::kIndentation && request.is_one_of_several) {
     throw std::runtime_error(path + ": is a captured run, which is an indentation; write " +
                              "indentation=" + path);
   }
   if (request.kind && *request.kind != FitKind::kIndentation) {
-    throw std::runtime_error(path + ": a capture is an indentation; omit --kind");
+    throw std::runtime_error(path + ": is a captured run, which is an indentation; write " +
+                             "indentation=" + path + ", or give the file without a kind");
   }
   if (!request.columns.empty() || !request.segments.empty() || request.time_zero_s ||
       request.from_s || request.to_s || request.hold > 0 || request.crop || request.depth_m ||
@@ -61,20 +80,8 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
         ": --column, --segment, --time-zero, --from, --to, --hold, --crop, "
         "--depth and --modulus-kind apply only to tables; omit them for a capture");
   }
-  const SpecimenSize& size = request.size;
-  const bool has_size = size.gauge_length_m > 0.0 || size.area_m2 > 0.0 || size.E0_Pa > 0.0;
-  const bool has_choice =
-      !request.table.sheet.empty() || request.table.table > 0 || request.table.skip > 0;
-  const bool is_drift_fitted = request.options.drift == TableDrift::kFitted;
-  if (!request.is_one_of_several &&
-      (request.T_ref_C || !request.start_shifts.empty() || has_size || has_choice ||
-       is_drift_fitted || request.options.vertical_shift != VerticalShift::kAuto)) {
-    throw std::runtime_error(
-        path +
-        ": --sheet, --table, --skip, --gauge-length, --area, --youngs-modulus, --drift, "
-        "--reference-temperature, --start-shift and --vertical-shift apply only to tables; omit "
-        "them for a capture");
-  }
+  const OptionUses uses = uses_on_capture(request);
+  if (!request.is_beside_others) refuse_idle(uses);
   CapturedRun run = read_capture(path, {.accepts_damage = request.accepts_unverified});
   // The geometry may be replaced, this value may not.
   const std::string specimen_id = run.specimen.id;
@@ -86,6 +93,7 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   } else {
     fitted.result = fit_indentation(indentation_from_capture(run), request.options);
   }
+  add_uses(uses, fitted.uses);
   fitted.specimen = run.specimen;
   fitted.specimen_id = specimen_id;
   fitted.fitted_unit = "N";

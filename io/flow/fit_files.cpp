@@ -30,7 +30,7 @@ std::string name_of(const std::vector<TestFile>& tests, std::size_t k) {
 FitRequest request_of(const TestFile& test, const FitRequest& request) {
   FitRequest one = request;
   one.kind = test.kind;
-  one.is_one_of_several = true;
+  one.is_one_of_several = one.is_beside_others = true;
   one.needs_modulus = false;  // another test may supply it
   one.options.keep_rows = true;
   one.options.n_terms.reset();
@@ -139,6 +139,8 @@ FittedFile fit_tests(const std::vector<TestFile>& tests, const FitRequest& reque
   refuse_copies(all);
   std::vector<MaterialTest> together;
   FittedFile fitted;
+  for (const FittedFile& one : own) add_uses(one.uses, fitted.uses);
+  refuse_idle(fitted.uses);
   const bool tells_nu = tell_poisson_ratio(own, request);
   for (std::size_t k = 0; k < tests.size(); ++k) {
     together.push_back({name_of(tests, k), own[k].result});

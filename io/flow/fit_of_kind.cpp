@@ -183,14 +183,7 @@ std::optional<MasterData> master_data(const CsvTable& table, FitKind kind,
   if (has_temperature && may_have_several) {
     data.temperature_C = column_SI(table, "temperature_C", request.columns);
   }
-  if (!may_have_several || !has_several_temperatures(data.temperature_C)) {
-    const bool has_start = !request.start_shifts.empty();
-    if (!request.T_ref_C && !has_start) return std::nullopt;
-    throw std::runtime_error(
-        std::string(has_start ? "--start-shift" : "--reference-temperature") +
-        " applies only to tables of modulus_Pa, or of storage and loss "
-        "moduli, with several temperatures in a column temperature_C; omit it");
-  }
+  if (!may_have_several || !has_several_temperatures(data.temperature_C)) return std::nullopt;
   if (is_step) {
     data.argument = time_of(table, request);
     data.modulus_Pa = moduli_of(table, "modulus_Pa", request);

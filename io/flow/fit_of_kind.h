@@ -24,7 +24,6 @@ struct TableFit {
 TableFit fit_of_kind(const CsvTable& table, FitKind kind, const FitRequest& request);
 
 // What a master curve is fitted to, if a table of relaxation moduli or frequency sweeps has several temperatures.
-// Throws std::runtime_error for options of master curves with any other table.
 std::optional<MasterData> master_data(const CsvTable& table, FitKind kind,
                                       const FitRequest& request);
 

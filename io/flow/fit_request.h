@@ -4,6 +4,7 @@
 #include "fit/intervals/fit_result.h"
 #include "fit/laws/fractional_diagnosis.h"
 #include "fit/samples/fit_data.h"
+#include "io/basics/option_use.h"
 #include "io/tables/column_map.h"
 #include "io/tables/csv_table.h"
 #include "io/tables/derived_columns.h"
@@ -56,9 +57,11 @@ struct FitRequest {
   bool needs_specimen = false;       // a table of several specimens is refused
   bool needs_modulus = false;        // a stiffness is refused, because a material will be written
   double frame_stiffness_N_m = 0.0;  // for tables whose depth_m is the position of the stage
-  // The user stated the kind of test of this file: other columns are refused, options for other
-  // kinds are ignored.
+  // The user stated the kind of test of this file: other columns are refused.
   bool is_one_of_several = false;
+  // The request is for other files, too: options that this one cannot use are not refused, but
+  // stand in FittedFile::uses.
+  bool is_beside_others = false;
   // Of the moduli, compliances and stresses in a table; none: its headers or its format decide.
   std::optional<ModulusKind> modulus_kind;
   std::optional<double> nu;   // converts other moduli to Young's; none: 0.495
@@ -106,6 +109,7 @@ struct FittedFile {
   std::optional<FractionalDiagnosis> fractional;
   std::vector<TestFile> tests;  // the files of kSeveral; path joins their names
   std::string model;            // the law that `result` is written from; empty: a series
+  OptionUses uses;              // which options have an effect on this file
 };
 
 }  // namespace viscard

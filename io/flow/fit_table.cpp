@@ -92,53 +92,54 @@ void refuse_several_parts(const CsvTable& table, FitKind kind, const FitRequest&
                            ". Choose one with --segment " + quoted_for_shell({names.back()}));
 }
 
-// An option that needs something of a table.
-struct OptionUse {
-  const char* option;
-  bool is_given, has_effect;
-  const char* of;  // what it is for
-};
-
-// Refuses options that this table cannot use, because the user expects them to have an effect.
-void check_options(const CsvTable& table, FitKind kind, const FitRequest& request) {
+// The options that need something of a table, and whether they have an effect on this one.
+OptionUses uses_on(const CsvTable& table, FitKind kind, const FitRequest& request) {
   const bool is_indentation = kind == FitKind::kIndentation;
   const bool is_alone = kind == FitKind::kRelaxation && is_force_alone(table, request);
   const bool has_shape = request.specimen && request.specimen->id.empty();  // not by --specimen
   const bool has_vertical = request.options.vertical_shift != VerticalShift::kAuto;
-  for (const OptionUse& use :
-       {OptionUse{"--depth", request.depth_m.has_value(), is_alone,
-                  "a record of force at constant depth, without a column of depth"},
-        OptionUse{"--drift", request.options.drift == TableDrift::kFitted,
-                  is_indentation || kind == FitKind::kRelaxation,
-                  "tables of relaxation and indentation: in creep a drift is flow, and in an "
-                  "oscillation there is none"},
-        OptionUse{"--punch-diameter", has_shape, is_indentation || is_alone,
-                  "records of force, and this table has none that is fitted"},
-        OptionUse{"--frame-stiffness", request.frame_stiffness_N_m > 0.0, is_indentation,
-                  "tables of force and depth"},
-        OptionUse{"--time-zero", request.time_zero_s.has_value(), kind != FitKind::kDma,
-                  "records in time, and this table has frequencies"},
-        OptionUse{"--vertical-shift", has_vertical,
-                  !has_vertical || master_data(table, kind, request).has_value(),
-                  "a master curve: a table with several temperatures"}}) {
-    if (!use.is_given || use.has_effect) continue;
-    throw std::runtime_error(std::string(use.option) + " is for " + use.of + "; omit it");
-  }
+  const bool has_start = !request.start_shifts.empty();
+  const bool has_master = (request.T_ref_C || has_start || has_vertical) &&
+                          master_data(table, kind, request).has_value();
+  const std::string of_master =
+      "tables of modulus_Pa, or of storage and loss moduli, with several temperatures in a column "
+      "temperature_C";
+  return {{"--depth", request.depth_m.has_value(), is_alone,
+           "a record of force at constant depth, without a column of depth"},
+          {"--drift", request.options.drift == TableDrift::kFitted,
+           is_indentation || kind == FitKind::kRelaxation,
+           "tables of relaxation and indentation: in creep a drift is flow, and in an oscillation "
+           "there is none"},
+          {"--punch-diameter", has_shape, is_indentation || is_alone,
+           "records of force, and there is none that is fitted"},
+          {"--frame-stiffness", request.frame_stiffness_N_m > 0.0, is_indentation,
+           "tables of force and depth"},
+          {"--time-zero", request.time_zero_s.has_value(), kind != FitKind::kDma,
+           "records in time, and there are frequencies alone"},
+          {"--modulus-kind", request.modulus_kind.has_value(), !is_indentation && !is_alone,
+           "tables of moduli, compliances or stresses"},
+          {"--reference-temperature", request.T_ref_C.has_value(), has_master, of_master},
+          {"--start-shift", has_start, has_master, of_master},
+          {"--vertical-shift", has_vertical, has_master, of_master},
+          {"--sheet", !request.table.sheet.empty(), true, "tables"},
+          {"--table", request.table.table > 0, true, "tables"},
+          {"--skip", request.table.skip > 0, true, "tables"}};
 }
 
-// Options for the other tests do not apply to this one.
-FitRequest of_this_test(const CsvTable& table, const FitRequest& request) {
+// Options for the other files do not apply to this one.
+FitRequest of_this_file(const CsvTable& table, FitKind kind, const FitRequest& request) {
   FitRequest one = request;
-  if (!request.is_one_of_several || !request.kind) return one;
-  require_kind(table, *request.kind, request);
-  const bool is_alone = *request.kind == FitKind::kRelaxation && is_force_alone(table, request);
+  if (!request.is_beside_others) return one;
+  const bool is_alone = kind == FitKind::kRelaxation && is_force_alone(table, request);
   if (!is_alone) one.depth_m.reset();
-  if (*request.kind != FitKind::kIndentation && !one.depth_m) one.specimen.reset();
-  if (*request.kind != FitKind::kIndentation) one.frame_stiffness_N_m = 0.0;
-  if (*request.kind == FitKind::kDma) one.time_zero_s.reset();
-  const bool may_drift =
-      *request.kind == FitKind::kRelaxation || *request.kind == FitKind::kIndentation;
+  if (kind != FitKind::kIndentation) one.frame_stiffness_N_m = 0.0;
+  if (kind == FitKind::kIndentation || is_alone) one.modulus_kind.reset();
+  if (kind == FitKind::kDma) one.time_zero_s.reset();
+  const bool may_drift = kind == FitKind::kRelaxation || kind == FitKind::kIndentation;
   if (!may_drift) one.options.drift = TableDrift::kNone;
+  if (request.is_one_of_several && kind != FitKind::kIndentation && !one.depth_m) {
+    one.specimen.reset();
+  }
   return one;
 }
 
@@ -147,11 +148,7 @@ std::optional<MeasuredModulus> measured_modulus(const CsvTable& table, FitKind k
                                                 const FitRequest& request) {
   const bool has_forces = kind == FitKind::kIndentation ||
                           (kind == FitKind::kRelaxation && is_force_alone(table, request));
-  if (has_forces) {
-    if (!request.modulus_kind) return std::nullopt;
-    throw std::runtime_error(
-        "--modulus-kind is for tables of moduli, compliances or stresses; omit it");
-  }
+  if (has_forces) return std::nullopt;
   MeasuredModulus modulus;
   modulus.nu = request.nu.value_or(kUsualNu);
   modulus.is_nu_stated = request.nu.has_value();
@@ -223,13 +220,15 @@ void flag_kind(const MeasuredModulus& modulus, FitResult& result) {
 
 // Fits the rows of a table that are in the chosen part.
 FittedFile fit_rows(const CsvTable& table, const FitRequest& asked) {
-  FitRequest request = of_this_test(table, asked);
+  if (asked.is_one_of_several && asked.kind) require_kind(table, *asked.kind, asked);
+  const FitKind kind = kind_of_table(table, asked);
+  FitRequest request = of_this_file(table, kind, asked);
   FittedFile fitted;
   if (request.specimen) fitted.specimen = *request.specimen;
   fitted.specimen_id = specimen_id_of(table, request);
-  const FitKind kind = kind_of_table(table, request);
   refuse_several_parts(table, kind, request);
-  check_options(table, kind, request);
+  fitted.uses = uses_on(table, kind, asked);
+  if (!asked.is_beside_others) refuse_idle(fitted.uses);
   fitted.modulus = measured_modulus(table, kind, request);
   if (fitted.modulus) request.young_factor = fitted.modulus->young_factor();
   // Of an exported capture; tables of several temperatures make a master curve instead.
@@ -294,8 +293,8 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   FitRequest request = asked;
   all.judged = request.plausible;
   if (!request.specimen && !request.depth_m) request.size = size_from_notes(all, request.size);
-  const SpecimenSize used_size = derive_columns(all, request.columns, request.size);
-  if (!request.is_one_of_several) refuse_unused(asked.size, used_size);
+  const OptionUses uses = uses_of(asked.size, derive_columns(all, request.columns, request.size));
+  if (!request.is_beside_others) refuse_idle(uses);
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
   std::size_t n_gaps = 0;
@@ -305,6 +304,7 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   ChosenPart part = choose_part(table, request);
   const auto doubt = doubtful_size(table, request);
   FittedFile fitted = fit_rows(table, part.rise_s ? with_zero_in(*part.rise_s, request) : request);
+  add_uses(uses, fitted.uses);
   flag_assumed_units(table, request, fitted.result);
   if (fitted.modulus) {
     flag_kind(*fitted.modulus, fitted.result);

@@ -1,6 +1,7 @@
 #include "io/flow/input_files.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/capture/capture_header.h"
 #include "io/flow/fit_request.h"
 
 #include <algorithm>
@@ -49,6 +50,10 @@ bool are_copies(const FittedFile& a, const FittedFile& b) {
 }
 
 }  // namespace
+
+bool is_material_file(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".json" && !looks_like_capture(file);
+}
 
 void refuse_copies(const std::vector<const FittedFile*>& fitted) {
   for (std::size_t i = 0; i < fitted.size(); ++i) {

@@ -7,6 +7,9 @@ namespace viscard {
 
 struct FittedFile;
 
+// True for the name of a material file, which stands beside records in a joint fit.
+bool is_material_file(const std::string& file);
+
 // Refuses a record that is given twice, under one name or under two, because it would count twice
 // in a joint fit. Throws std::runtime_error naming both files, or if a file cannot be read.
 void refuse_repeated_files(const std::vector<std::string>& files);

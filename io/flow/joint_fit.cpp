@@ -1,5 +1,4 @@
 #include "io/basics/written_path.h"
-#include "io/capture/capture_header.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/input_files.h"
 #include "io/materials/material_file.h"
@@ -26,10 +25,6 @@ struct JointRecord {
   double ratio = 0.0;
   std::string specimen_id;
 };
-
-bool is_material_file(const std::string& file) {
-  return std::filesystem::path(file).extension() == ".json" && !looks_like_capture(file);
-}
 
 std::vector<JointRecord> read_records(const JointRequest& request) {
   std::vector<JointRecord> records;
@@ -147,14 +142,19 @@ void add_doubts(const std::vector<JointRecord>& records, RatioFit& fit) {
 
 }  // namespace
 
-RatioFit fit_jointly(const JointRequest& request) {
+RatioFit fit_jointly(const JointRequest& asked) {
+  JointRequest request = asked;
   refuse_repeated_files(request.files);
+  request.fit.is_beside_others = true;
   std::vector<JointRecord> records = read_records(request);
   std::vector<const FittedFile*> measured;
   for (const JointRecord& one : records) {
     if (one.fitted) measured.push_back(&*one.fitted);
   }
   refuse_copies(measured);
+  OptionUses uses;
+  for (const FittedFile* one : measured) add_uses(one->uses, uses);
+  refuse_idle(uses);
   check_specimens(records);
   std::map<double, std::vector<JointRecord*>> with_one_order;
   for (JointRecord& one : records) {

@@ -41,7 +41,7 @@ std::optional<MaterialFlag> strain_flag(const CsvTable& table, const ColumnMap& 
 
 void refuse_depth(const CsvTable& table, double deepest_m, Plausible judged,
                   const std::string& remedy) {
-  const auto doubt = doubt_about(quantities::kDepth, deepest_m, judged);
+  const auto doubt = doubt_about(quantities::kDepth, std::vector<double>{deepest_m}, judged);
   if (!doubt) return;
   throw BadNumber(
       table.file + ": the largest depth " +

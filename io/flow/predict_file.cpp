@@ -104,6 +104,10 @@ PredictedTest test_of_columns(const ReadTable& measured) {
       "--test, or a column with --column modulus_Pa=\"HEADER\"");
 }
 
+bool is_given(const PredictFileRequest& request, const std::string& option) {
+  return std::find(request.given.begin(), request.given.end(), option) != request.given.end();
+}
+
 LoadHistory history_from(const ReadTable& read) {
   const bool has_strain = read.has("strain"), has_stress = read.has("stress_Pa");
   if (!has_strain && !has_stress) {
@@ -111,8 +115,19 @@ LoadHistory history_from(const ReadTable& read) {
                              ": a history needs a column strain or stress_Pa beside time_s; name "
                              "it with --column strain=\"HEADER\"");
   }
+  const bool by_stress = read.request->is_driven_by_stress;
+  if (is_given(*read.request, "driven-by") && !(by_stress ? has_stress : has_strain)) {
+    throw std::runtime_error(read.table.file +
+                             (by_stress
+                                  ? ": --driven-by stress needs a column stress_Pa, and there is "
+                                    "strain alone; omit it, or name the column with --column "
+                                    "stress_Pa=\"HEADER\""
+                                  : ": --driven-by strain needs a column strain, and there is "
+                                    "stress_Pa alone; omit it, or name the column with --column "
+                                    "strain=\"HEADER\""));
+  }
   LoadHistory history;
-  history.is_stress = has_stress && (!has_strain || read.request->is_driven_by_stress);
+  history.is_stress = has_stress && (!has_strain || by_stress);
   history.time_s = read.argument("time_s");
   history.value = read.column(history.is_stress ? "stress_Pa" : "strain");
   return history;
@@ -272,6 +287,7 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
                 : history    ? PredictedTest::kHistory
                 : measured   ? test_of_columns(*measured)
                              : PredictedTest::kRelaxation;
+  refuse_idle(uses_in(wanted.test, request));
   if (wanted.test == PredictedTest::kHistory) {
     if (!history && !measured) {
       throw std::invalid_argument(
@@ -304,6 +320,46 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
     out.notes.push_back("the band leaves out the error of the temperature shift");
   }
   return out;
+}
+
+OptionUses uses_in(PredictedTest test, const PredictFileRequest& request) {
+  using enum PredictedTest;
+  struct TestsOfOption {
+    const char* option;
+    std::vector<PredictedTest> tests;
+  };
+  static const std::vector<TestsOfOption> kAll{
+      {"strain", {kRelaxation, kCycles}},
+      {"stress", {kCreep, kRecovery, kCycles}},
+      {"ramp", {kRelaxation, kCreep, kRecovery}},
+      {"hold", {kRelaxation, kCreep, kRecovery}},
+      {"recovery", {kRecovery}},
+      {"period", {kCycles}},
+      {"cycles", {kCycles}},
+      {"from", {kRelaxation, kCreep, kRecovery, kOscillation}},
+      {"to", {kRelaxation, kCreep, kRecovery, kOscillation}},
+      {"points", {kRelaxation, kCreep, kRecovery, kCycles, kOscillation}},
+      {"driven-by", {kHistory}}};
+  OptionUses uses;
+  for (const auto& [option, tests] : kAll) {
+    std::vector<std::string> names;
+    for (const PredictedTest one : tests) {
+      names.push_back(names_of_predicted_tests()[static_cast<std::size_t>(one)]);
+    }
+    const bool has_effect = std::find(tests.begin(), tests.end(), test) != tests.end();
+    uses.push_back({std::string("--") + option, is_given(request, option), has_effect,
+                    "--test " + listed(names)});
+  }
+  uses.push_back({"--to", is_given(request, "to"), !is_given(request, "hold"),
+                  "tests without --hold, which also ends the curve"});
+  const bool has_table = !request.history.empty() || !request.against.empty();
+  for (const char* option : {"column", "modulus-kind"}) {
+    uses.push_back({std::string("--") + option, is_given(request, option), has_table,
+                    "the tables of --history and --against"});
+  }
+  uses.push_back({"--time-zero", is_given(request, "time-zero"), has_table && test != kOscillation,
+                  "tables of tests in time, by --history or --against"});
+  return uses;
 }
 
 const std::vector<std::string>& names_of_predicted_tests() {

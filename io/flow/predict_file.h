@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/basics/option_use.h"
 #include "io/tables/column_map.h"
 #include "io/tables/csv_table.h"
 #include "models/material/material.h"
@@ -30,6 +31,9 @@ struct PredictFileRequest {
   double time_zero_s = 0.0;                    // time in the tables where t = 0
   std::optional<double> temperature_C;         // by the material's temperature shift
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the prediction
+  // Names of the options that were given, "recovery"; those without an effect on the test are
+  // refused.
+  std::vector<std::string> given;
 };
 
 // Measured values of one predicted curve, and how far the prediction is from them.
@@ -71,6 +75,9 @@ PredictedFile predict_file(const PredictFileRequest& request);
 
 // The same for a material in memory; request.material stands for it in messages.
 PredictedFile predict_material(Material material, const PredictFileRequest& request);
+
+// The options of a request, and whether they have an effect on this test.
+OptionUses uses_in(PredictedTest test, const PredictFileRequest& request);
 
 // "relaxation", "creep", "recovery", "cycles", "oscillation", "history", in this order.
 const std::vector<std::string>& names_of_predicted_tests();

@@ -71,13 +71,16 @@ bool passed_pillar(const SpecimenReport& specimen) {
 }  // namespace
 
 void sort_inputs(ReportRequest& request) {
+  if (request.files.empty()) {
+    throw std::invalid_argument("no files given; give a capture, a table or a material file");
+  }
   request.rubbers = take_rubbers(request.files);
   if (request.files.empty()) {
     throw std::invalid_argument(
         "a law of rubber stands beside linear tests; give a capture, a table or a material "
         "file too");
   }
-  request.tests = tests_from_words(request.files);
+  request.tests = tests_from_words(request.files, false);
   if (request.tests.size() == 1) {
     throw std::invalid_argument(
         "there is one test only; give its file without the kind, or more tests");

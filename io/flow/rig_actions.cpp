@@ -144,24 +144,27 @@ void write_calibration_file(const std::filesystem::path& rig_file, const std::st
                    });
 }
 
-void check_order(const StageOrder& order, const RigConfig& rig) {
+void check_order(const StageOrder& order, const RigConfig& rig, const OrderTexts& typed) {
   if (order.is_home) return;
   constexpr double kFarthest_m = 0.1, kFastest_m_s = 10e-3;
-  const auto require = [](bool is_right, const std::string& text) {
-    if (!is_right) throw std::invalid_argument(text);
+  const auto require = [](bool is_right, const std::string& as_typed, const std::string& in_words,
+                          const std::string& expected) {
+    if (is_right) return;
+    throw std::invalid_argument((as_typed.empty() ? in_words : as_typed) + "; it must be " +
+                                expected);
   };
   const double way_m = std::abs(order.toward_m);
-  require(way_m > 0.0 && way_m <= kFarthest_m,
-          fmt::format("the way is {} mm; it must be above 0 and at most {} mm", way_m * 1e3,
-                      kFarthest_m * 1e3));
-  require(order.speed_m_s > 0.0 && order.speed_m_s <= kFastest_m_s,
-          fmt::format("the speed is {} mm/s; it must be above 0 and at most {} mm/s",
-                      order.speed_m_s * 1e3, kFastest_m_s * 1e3));
+  require(way_m > 0.0 && way_m <= kFarthest_m, typed.way,
+          fmt::format("the way is {} mm", way_m * 1e3),
+          fmt::format("above 0 and at most {} mm", kFarthest_m * 1e3));
+  require(order.speed_m_s > 0.0 && order.speed_m_s <= kFastest_m_s, typed.speed,
+          fmt::format("the speed is {} mm/s", order.speed_m_s * 1e3),
+          fmt::format("above 0 and at most {} mm/s", kFastest_m_s * 1e3));
   const double most_N = rig.safety.soft_fraction * rig.calibration.capacity_N;
-  require(order.limit_N > 0.0 && order.limit_N <= most_N,
-          fmt::format("the limit is {} N; it must be above 0 and at most {:.3f} N, {} of the "
-                      "capacity (soft_fraction)",
-                      order.limit_N, most_N, rig.safety.soft_fraction));
+  require(order.limit_N > 0.0 && order.limit_N <= most_N, typed.limit,
+          fmt::format("the limit is {} N", order.limit_N),
+          fmt::format("above 0 and at most {:.3f} N, {} of the capacity (soft_fraction)", most_N,
+                      rig.safety.soft_fraction));
 }
 
 StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& order,

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 // What is done with a rig outside of a run: check it, wait for a finger, move its stage. Each opens the devices of a rig
 // file, or an emulated rig in their place, and throws RigError for a port that cannot be opened and for wrong words of
@@ -36,8 +37,13 @@ void write_answer(const std::filesystem::path& rig_file, const std::string& day)
 // Writes file = "RECORD" under [calibration]; the other keys there become comments. Throws likewise.
 void write_calibration_file(const std::filesystem::path& rig_file, const std::string& record);
 
+// How a message begins that refuses a number: "--away is '1', without a unit (in m)". Empty: "the
+// way is 1000 mm".
+struct OrderTexts {
+  std::string way, speed, limit;
+};
 // Throws std::invalid_argument for a way, speed or limit that no move by hand has.
-void check_order(const StageOrder& order, const RigConfig& rig);
+void check_order(const StageOrder& order, const RigConfig& rig, const OrderTexts& typed = {});
 // Opens the devices of the rig, or of an emulated one, and carries out the order. control: who watches and
 // stops it; its clock is set here. position_m: where the stage stands, before
 // (of an emulated one, which would begin at 0) and after the move, also of one that failed; nothing if that is not known. Throws RigError as move_stage() does, and if another program holds a port.

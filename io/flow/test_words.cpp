@@ -17,7 +17,7 @@ bool exists(const std::string& path) {
   return fs::exists(path, error);
 }
 
-FitKind kind_of_test(const std::string& kind, const std::string& word) {
+FitKind kind_of_test(const std::string& kind, const std::string& word, bool takes_large_strain) {
   static const std::vector<std::pair<std::string, FitKind>> kKinds{
       {"relaxation", FitKind::kRelaxation},
       {"creep", FitKind::kCreep},
@@ -29,19 +29,29 @@ FitKind kind_of_test(const std::string& kind, const std::string& word) {
     if (name == kind) return known;
     names.push_back(name);
   }
-  for (const LargeStrainKind& large : large_strain_kinds()) names.emplace_back(large.word);
+  for (const LargeStrainKind& large : large_strain_kinds()) {
+    if (kind == large.word) {
+      throw std::invalid_argument(
+          word +
+          " is a test at large strain, not a linear one. Fit it to a law of rubber (viscard fit " +
+          quoted_for_shell({word}) +
+          " --out law.json); viscard report takes law.json beside a capture, a table or a material "
+          "file");
+    }
+    if (takes_large_strain) names.emplace_back(large.word);
+  }
   throw std::invalid_argument(word + ": no such file, and '" + kind + "' is no kind of test" +
                               did_you_mean(kind, names) + " Name a test as KIND=FILE with " +
                               listed(names));
 }
 
 // Nothing for a plain file.
-std::optional<TestFile> test_from_word(const std::string& word) {
+std::optional<TestFile> test_from_word(const std::string& word, bool takes_large_strain) {
   const std::size_t sign = word.find('=');
   if (sign == std::string::npos || exists(word)) return std::nullopt;
   const std::string kind = word.substr(0, sign), path = word.substr(sign + 1);
   if (kind.find('/') != std::string::npos) return std::nullopt;
-  const FitKind known = kind_of_test(kind, word);
+  const FitKind known = kind_of_test(kind, word, takes_large_strain);
   if (path.empty()) throw std::invalid_argument(word + " names no file; write " + kind + "=FILE");
   return TestFile{known, path};
 }
@@ -66,11 +76,12 @@ std::span<const LargeStrainKind> large_strain_kinds() {
   return kKinds;
 }
 
-std::vector<TestFile> tests_from_words(const std::vector<std::string>& words) {
+std::vector<TestFile> tests_from_words(const std::vector<std::string>& words,
+                                       bool takes_large_strain) {
   std::vector<TestFile> tests;
   std::string plain;
   for (const std::string& word : words) {
-    if (const auto test = test_from_word(word)) {
+    if (const auto test = test_from_word(word, takes_large_strain)) {
       tests.push_back(*test);
     } else if (plain.empty()) {
       plain = word;

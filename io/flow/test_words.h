@@ -24,8 +24,10 @@ std::span<const LargeStrainKind> large_strain_kinds();
 // creep, dma or oscillation, indentation. Returns an empty list if no word names a kind: then all
 // are plain files. A word is a plain file if a file of that name exists, or if it has no "=" or a
 // folder before it ("./a=b.csv"). Throws std::invalid_argument for an unknown kind, for plain files
-// beside tests, and for a test without a file.
-std::vector<TestFile> tests_from_words(const std::vector<std::string>& words);
+// beside tests, and for a test without a file. takes_large_strain: the command takes tests at large
+// strain too, by themselves, so a word that is near to theirs proposes them.
+std::vector<TestFile> tests_from_words(const std::vector<std::string>& words,
+                                       bool takes_large_strain = true);
 
 // The files, without their kinds.
 std::vector<std::string> paths_of(const std::vector<TestFile>& tests);

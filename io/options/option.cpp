@@ -203,6 +203,16 @@ const Option* OptionList::find(const std::string& name) const {
   return found == options_.end() ? nullptr : &*found;
 }
 
+bool is_set(const Option& option) {
+  return std::visit(
+      Overload{
+          [](bool* target) { return *target; },
+          [](std::string* target) { return !target->empty(); }, [](int*) { return false; },
+          [](double*) { return false; }, [](std::size_t*) { return false; },
+          [](const auto* target) { return *target != std::remove_cvref_t<decltype(*target)>(); }},
+      option.target);
+}
+
 void refuse_without_effect(const OptionList& options,
                            const std::function<bool(const std::string&)>& given) {
   for (const Option& option : options.all()) {

@@ -68,6 +68,9 @@ bool is_switch(const Option& option);
 // True if it may be given several times.
 bool is_list(const Option& option);
 
+// True if its target has a value, of those that are empty, false or have none without one.
+bool is_set(const Option& option);
+
 // What a value must be: "a whole number, such as 5".
 std::string expected_of(const Option& option);
 

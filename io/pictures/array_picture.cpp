@@ -1,3 +1,4 @@
+#include "io/pictures/picture_numbers.h"
 #include "io/pictures/scene_drawing.h"
 #include "io/pictures/scene_picture.h"
 #include "io/pictures/shown_row.h"
@@ -53,14 +54,14 @@ void draw_row(SceneDrawing& d, const ArrayScene& scene, const ShownRow& row) {
   d.legend(fmt::format("orange: {}, {} wide; dashed: ground",
                        has_electrodes ? "one electrode under each pillar"
                                       : "charge-free face, its potential read over each pillar",
-                       length_text(2.0 * half_m)));
+                       in_unit(2.0 * half_m, "m")));
 }
 
 std::string words_of_load(const ArrayScene& scene) {
   if (!analysis_of(scene).is_loaded) return "free vibration";
   if (scene.press) return words_of_press(*scene.press) + (scene.press->force_N > 0.0 ? "/m" : "");
   std::string words =
-      scene.load_Pa != 0.0 ? pascals(scene.load_Pa) : std::string("a history in time");
+      scene.load_Pa != 0.0 ? in_unit(scene.load_Pa, "Pa") : std::string("a history in time");
   if (scene.load == ArrayLoad::kShear) words += ", sideways,";
   if (scene.loaded.empty()) return words + (scene.geometry.count > 1 ? " on every pillar" : "");
   words += scene.loaded.size() > 1 ? " on pillars" : " on pillar";
@@ -84,21 +85,21 @@ void draw_lengths(SceneDrawing& d, const ArrayGeometry& g, const ShownRow& row) 
   const bool is_endless = g.ends == FilmEnds::kMirror;
   if (row.pillars.size() > 1 || is_endless) {
     const double from_m = row.pillars.front().second + half_m;
-    mark(from_m, from_m + g.spacing_m, "s " + length_text(g.spacing_m));
+    mark(from_m, from_m + g.spacing_m, "s " + in_unit(g.spacing_m, "m"));
   }
   if (!is_endless && g.film_edge_m > 0.0) {
-    mark(row.pillars.back().second + half_m, row.right_m, "edge " + length_text(g.film_edge_m));
+    mark(row.pillars.back().second + half_m, row.right_m, "edge " + in_unit(g.film_edge_m, "m"));
   }
 }
 
 std::string words_of_lengths(const ArrayGeometry& g) {
   std::string words =
-      fmt::format("pillars d {}, l {}", length_text(g.diameter_m), length_text(g.length_m));
+      fmt::format("pillars d {}, l {}", in_unit(g.diameter_m, "m"), in_unit(g.length_m, "m"));
   if (g.count > 1 || g.ends == FilmEnds::kMirror) {
-    words += fmt::format(", s {} from edge to edge", length_text(g.spacing_m));
+    words += fmt::format(", s {} from edge to edge", in_unit(g.spacing_m, "m"));
   }
-  words += fmt::format("; film t {}", length_text(g.film_thickness_m));
-  if (g.ends == FilmEnds::kFree) words += ", edge " + length_text(g.film_edge_m);
+  words += fmt::format("; film t {}", in_unit(g.film_thickness_m, "m"));
+  if (g.ends == FilmEnds::kFree) words += ", edge " + in_unit(g.film_edge_m, "m");
   return words;
 }
 

@@ -1,11 +1,12 @@
 #include "io/pictures/colour_scale.h"
 
+#include "io/pictures/picture_numbers.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace viscard {
 
@@ -38,19 +39,9 @@ std::string colour_bar(double x_px, double top_px, double height_px, bool is_sig
   }
   for (const ColourTick& tick : ticks) {
     text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x_px + 22.0,
-                        top_px + height_px * (1.0 - tick.share) + 4.0, tick.text);
+                        top_px + height_px * (1.0 - tick.share) + 4.0, with_minus(tick.text));
   }
   return text;
-}
-
-BarUnit bar_unit(const std::string& unit, double largest) {
-  if (unit == "%" || unit == "1" || !(largest > 0.0)) return {1.0, unit == "1" ? "" : unit};
-  constexpr std::array<std::pair<double, const char*>, 7> kPrefixes = {
-      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}};
-  for (const auto& [size, letter] : kPrefixes) {
-    if (largest >= size) return {1.0 / size, letter + unit};
-  }
-  return {1e12, "p" + unit};
 }
 
 std::vector<double> round_ticks(double low, double high) {

@@ -17,14 +17,6 @@ struct ColourTick {
 std::string colour_bar(double x_px, double top_px, double height_px, bool is_signed,
                        const std::vector<ColourTick>& ticks);
 
-// The unit of a bar and its factor: the largest prefix (G to p) that leaves 1 before the point of the
-// largest value. Percentages and plain numbers take none.
-struct BarUnit {
-  double per_si = 1.0;
-  std::string text;
-};
-BarUnit bar_unit(const std::string& unit, double largest);
-
 // Round numbers (1, 2 or 5 times a power of ten) from `low` to `high`, four to nine of them; the middle
 // alone if the range is empty.
 std::vector<double> round_ticks(double low, double high);

@@ -1,3 +1,4 @@
+#include "io/pictures/picture_numbers.h"
 #include "io/pictures/scene_drawing.h"
 #include "io/pictures/scene_picture.h"
 
@@ -72,7 +73,7 @@ std::string svg_from_scene(const LayerScene& scene, const std::string& title) {
   d.ground(-half_m, half_m, t_m, scene.grounded);
   draw_shape(d, scene, half_m, top_m);
   d.text(12.0, 40.0,
-         fmt::format("layer {} on film t {}", length_text(scene.thickness_m), length_text(t_m)));
+         fmt::format("layer {} on film t {}", in_unit(scene.thickness_m, "m"), in_unit(t_m, "m")));
   d.text(12.0, 60.0, words_of_press(scene.press));
   const char* const models[] = {"section along x of a layer in space", "plane strain",
                                 "plane stress"};

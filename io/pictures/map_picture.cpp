@@ -2,6 +2,7 @@
 
 #include "io/pictures/colour_scale.h"
 #include "io/pictures/force_arrows.h"
+#include "io/pictures/picture_numbers.h"
 #include "io/plots/plot_svg.h"
 
 #include <fmt/format.h>
@@ -236,7 +237,7 @@ class MapDrawing {
   }
 
   void draw_bar() {
-    const BarUnit unit = bar_unit(map_.unit, largest_size(map_.value));
+    const PrefixedUnit unit = prefixed_unit(map_.unit, largest_size(map_.value));
     std::vector<ColourTick> ticks;
     for (const double tick : round_ticks(unit.per_si * std::min(range_.low, range_.high),
                                          unit.per_si * std::max(range_.low, range_.high))) {
@@ -252,7 +253,7 @@ class MapDrawing {
     std::string words = is_grid() ? "one cell for each pillar" : "discs: pillars to scale";
     if (!all_loaded()) words += "; dark rim: loaded";
     if (largest_N_ > 0.0) {
-      const BarUnit unit = bar_unit("N", largest_N_);
+      const PrefixedUnit unit = prefixed_unit("N", largest_N_);
       words += fmt::format(
           "; arrows: shear{}, the longest {:.3g} {}",
           per_block_ > 1 ? fmt::format(" (means of {0} x {0} pillars)", per_block_) : "",

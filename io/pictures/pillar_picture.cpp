@@ -1,3 +1,4 @@
+#include "io/pictures/picture_numbers.h"
 #include "io/pictures/scene_drawing.h"
 #include "io/pictures/scene_picture.h"
 
@@ -47,7 +48,7 @@ void draw_electrodes(SceneDrawing& d, const PillarScene& scene) {
     d.electrode(-R, R, film.thickness_m, face);
   }
   const std::string what = is_divided ? "electrode in quarters" : "electrode";
-  d.legend((R > 0.0 ? "orange: " + what + ", radius " + length_text(R)
+  d.legend((R > 0.0 ? "orange: " + what + ", radius " + in_unit(R, "m")
                     : std::string("the other face is free of charge and read")) +
            "; dashed: ground");
 }
@@ -62,25 +63,25 @@ void draw_load(SceneDrawing& d, const PillarScene& scene, double low_m) {
     d.base_arrow(0.0, low_m, is_sideways);
     const std::string words =
         history(scene).empty()
-            ? fmt::format("base shaken, {:.4g} m/s2", base_acceleration_m_s2(scene))
+            ? with_minus(fmt::format("base shaken, {:.4g} m/s2", base_acceleration_m_s2(scene)))
             : std::string("base shaken, a history in time");
     d.text(d.x(0.0) + 52.0, d.y(low_m) + 26.0, words);
   } else if (is_driven) {
     d.load_arrows(0.0, radius_at_m(g, g.length_m), g.length_m, is_sideways);
     d.text(d.x(0.0), words_px,
-           displacement_m(scene)       ? "moved by " + length_text(*displacement_m(scene))
-           : pressure_Pa(scene) != 0.0 ? pascals(pressure_Pa(scene))
+           displacement_m(scene)       ? "moved by " + in_unit(*displacement_m(scene), "m")
+           : pressure_Pa(scene) != 0.0 ? in_unit(pressure_Pa(scene), "Pa")
                                        : std::string("a history in time"),
            "middle");
   } else if (drive_V(scene) != 0.0) {
-    d.text(d.x(0.0), words_px, fmt::format("{:.4g} V on the electrode", drive_V(scene)), "middle");
+    d.text(d.x(0.0), words_px, in_unit(drive_V(scene), "V") + " on the electrode", "middle");
   }
 }
 
 // Beside the pillar, or below the title if two lines are higher than it.
 void draw_sizes(SceneDrawing& d, const PillarGeometry& g) {
-  const std::string length = "l " + length_text(g.length_m);
-  const std::string diameter = "d " + length_text(g.diameter_m);
+  const std::string length = "l " + in_unit(g.length_m, "m");
+  const std::string diameter = "d " + in_unit(g.diameter_m, "m");
   constexpr double kTwoLines_px = 50.0;
   if (d.y(0.0) - d.y(g.length_m) < kTwoLines_px) {
     d.text(12.0, 42.0, "pillar " + diameter + ", " + length);
@@ -110,7 +111,7 @@ std::string svg_from_scene(const PillarScene& scene, const std::string& title) {
   if (g.film && scene.electrodes) draw_electrodes(d, scene);
   draw_sizes(d, g);
   if (g.film) {
-    d.text(d.x(half_m), d.y(low_m) + 28.0, "film radius " + length_text(g.film->radius_m), "end");
+    d.text(d.x(half_m), d.y(low_m) + 28.0, "film radius " + in_unit(g.film->radius_m, "m"), "end");
   }
   draw_load(d, scene, low_m);
   if (scene.plane) d.text(d.width_px() - 12.0, 20.0, "a strip, in the plane", "end");

@@ -1,5 +1,6 @@
 #include "io/pictures/row_picture.h"
 
+#include "io/pictures/picture_numbers.h"
 #include "io/pictures/scene_drawing.h"
 #include "io/pictures/shown_row.h"
 
@@ -38,7 +39,7 @@ std::vector<std::pair<double, double>> moved_outline(const RowShapes& shapes, co
 
 std::string signed_share(double share) {
   const std::string text = fmt::format("{:+.2f}", share);
-  return text == "+0.00" || text == "-0.00" ? "0" : text;
+  return text == "+0.00" || text == "-0.00" ? "0" : with_minus(text);
 }
 
 // How far the frequencies of a cluster lie apart, which may be less than their errors.
@@ -58,8 +59,8 @@ std::string spread_of(const RowShapes& shapes, const std::vector<SceneMode>& mod
     return "; what couples the pillars is left out: any mixture of modes of one frequency is a "
            "mode too";
   }
-  return fmt::format("; the {} modes of this cluster lie within {:.2g} Hz", count,
-                     high_Hz - low_Hz);
+  return fmt::format("; the {} modes of this cluster lie within {}", count,
+                     in_unit(high_Hz - low_Hz, "Hz", 2));
 }
 
 std::string svg_of_mode(const RowShapes& shapes, const RowShape& shape, const std::string& title,
@@ -95,7 +96,7 @@ std::string svg_of_mode(const RowShapes& shapes, const RowShape& shape, const st
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> pictures_from_shapes(
-    const RowShapes& shapes, const std::vector<SceneMode>& modes) {
+    const RowShapes& shapes, const std::vector<SceneMode>& modes, const std::string& scene) {
   std::vector<std::pair<std::string, std::string>> pictures;
   std::map<std::string, int> number, of_cluster;
   if (shapes.modes.size() != modes.size()) return pictures;
@@ -103,9 +104,10 @@ std::vector<std::pair<std::string, std::string>> pictures_from_shapes(
     const RowShape& shape = shapes.modes[i];
     const std::string name = fmt::format("{}_{}", shape.family, ++number[shape.family]);
     if (++of_cluster[fmt::format("{} {}", shape.family, shape.cluster)] > kMostOfCluster) continue;
-    const std::string title = fmt::format(
-        "{} mode {}, of the pillar's mode {}: {:.2f} Hz +- {:.1e}", shape.family,
-        number[shape.family], shape.cluster, modes[i].frequency_Hz, modes[i].error_estimate);
+    std::string title = fmt::format(
+        "{} mode {}, of the pillar's mode {}: {}", shape.family, number[shape.family],
+        shape.cluster, in_unit_with_error(modes[i].frequency_Hz, modes[i].error_estimate, "Hz"));
+    if (!scene.empty()) title += " (" + scene + ")";
     pictures.emplace_back(name, svg_of_mode(shapes, shape, title, spread_of(shapes, modes, shape)));
   }
   return pictures;

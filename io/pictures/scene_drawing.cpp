@@ -1,5 +1,6 @@
 #include "io/pictures/scene_drawing.h"
 
+#include "io/pictures/picture_numbers.h"
 #include "io/plots/plot_svg.h"
 
 #include <fmt/format.h>
@@ -17,18 +18,6 @@ constexpr double kTallest_px = 420.0;
 constexpr double kElectrode_px = 5.0;
 
 }  // namespace
-
-std::string length_text(double m) {
-  return std::abs(m) < 1e-2 ? fmt::format("{:.4g} um", 1e6 * m) : fmt::format("{:.4g} mm", 1e3 * m);
-}
-
-std::string pascals(double Pa) {
-  const double size = std::abs(Pa);
-  if (size >= 1e9) return fmt::format("{:.4g} GPa", 1e-9 * Pa);
-  if (size >= 1e6) return fmt::format("{:.4g} MPa", 1e-6 * Pa);
-  if (size >= 1e3) return fmt::format("{:.4g} kPa", 1e-3 * Pa);
-  return fmt::format("{:.4g} Pa", Pa);
-}
 
 SceneDrawing::SceneDrawing(double left_m, double right_m, double low_m, double high_m,
                            double width_px)
@@ -91,7 +80,7 @@ void SceneDrawing::held(double from_m, double to_m, double z_m) {
 void SceneDrawing::film(double from_m, double to_m, double thickness_m, bool is_held) {
   box(from_m, to_m, -thickness_m, 0.0, R"(fill="#e6c88a" stroke="#7a5c1e")");
   if (is_held) held(from_m, to_m, -thickness_m);
-  text(x(to_m) + 8.0, y(-0.5 * thickness_m) + 4.0, "t " + length_text(thickness_m));
+  text(x(to_m) + 8.0, y(-0.5 * thickness_m) + 4.0, "t " + in_unit(thickness_m, "m"));
 }
 
 void SceneDrawing::electrode(double from_m, double to_m, double thickness_m, FilmFace face) {

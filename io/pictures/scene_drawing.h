@@ -49,8 +49,4 @@ class SceneDrawing {
   std::string body_;
 };
 
-// "25 um", "10 kPa", "1 m/s^2": four digits, with a prefix where the unit takes one.
-std::string length_text(double m);
-std::string pascals(double Pa);
-
 }  // namespace viscard

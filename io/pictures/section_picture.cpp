@@ -1,6 +1,7 @@
 #include "io/pictures/section_picture.h"
 
 #include "io/pictures/colour_scale.h"
+#include "io/pictures/picture_numbers.h"
 #include "io/plots/plot_svg.h"
 #include "models/maths/leading_number.h"
 
@@ -118,7 +119,8 @@ Range range_of(const Shown& shown) {
 }
 
 std::string scale_bar(const Range& range, const Shown& shown, double length_px) {
-  const BarUnit unit = bar_unit(shown.unit, std::max(std::abs(range.low), std::abs(range.high)));
+  const PrefixedUnit unit =
+      prefixed_unit(shown.unit, std::max(std::abs(range.low), std::abs(range.high)));
   std::vector<ColourTick> ticks;
   for (const double tick : round_ticks(unit.per_si * range.low, unit.per_si * range.high)) {
     ticks.push_back({range.share(tick / unit.per_si), fmt::format("{:.6g}", tick)});
@@ -136,13 +138,12 @@ std::string length_bar(double scale_px_m, double width_m, double bottom_px) {
   for (const double digit : {2.0, 5.0}) {
     if (digit * decade <= width_m / 3.0) length_m = digit * decade;
   }
-  const BarUnit unit = bar_unit("m", length_m * (1.0 + 1e-9));
   const double right_px = kSectionWidth_px - 24.0, left_px = right_px - scale_px_m * length_m;
   return fmt::format(
       "<path d=\"M{0:.1f} {1:.1f}v6h{2:.1f}v-6\" fill=\"none\" stroke=\"#444\"/>\n"
-      "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#444\">{5:.3g} {6}</text>\n",
+      "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#444\">{5}</text>\n",
       left_px, bottom_px - 10.0, scale_px_m * length_m, right_px, bottom_px - 14.0,
-      unit.per_si * length_m, unit.text);
+      in_unit(length_m, "m", 3));
 }
 
 std::string svg_of(const Shown& shown) {
@@ -204,8 +205,24 @@ double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t
   return field.value[point][0] * std::cos(grid.harmonic * theta);
 }
 
+std::map<std::string, std::string> captions_from_answer(const SceneAnswer& answer) {
+  std::map<std::string, std::string> captions;
+  std::map<std::string, int> number;
+  for (const SceneMode& mode : answer.modes) {
+    captions[mode.family + "_" + std::to_string(++number[mode.family])] =
+        in_unit_with_error(mode.frequency_Hz, mode.error_estimate, "Hz");
+  }
+  for (const SceneResult& result : answer.results) {
+    if (result.name != "buckling_pressure") continue;
+    captions["buckling_shape"] =
+        in_unit_with_error(result.value, result.error_estimate, result.unit);
+  }
+  return captions;
+}
+
 std::vector<std::pair<std::string, std::string>> pictures_from_grid(
-    const SectionGrid& grid, const std::map<std::string, std::string>& captions) {
+    const SectionGrid& grid, const std::map<std::string, std::string>& captions,
+    const std::string& scene) {
   std::vector<std::pair<std::string, std::string>> pictures;
   for (const SectionField& field : grid.fields) {
     const bool is_numbered = field.unit == "1";  // a mode, named after its family already
@@ -213,6 +230,7 @@ std::vector<std::pair<std::string, std::string>> pictures_from_grid(
     if (const auto caption = captions.find(field.name); caption != captions.end()) {
       shown.title += ": " + caption->second;
     }
+    if (!scene.empty()) shown.title += " (" + scene + ")";
     pictures.emplace_back(is_numbered ? field.name : grid.name + "_" + field.name, svg_of(shown));
   }
   return pictures;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/answer/scene_answer.h"
 #include "models/pillar/body/section_grid.h"
 
 #include <array>
@@ -21,9 +22,13 @@ double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t
 // Pictures of a solution in the section along the axis, name and SVG: of every displacement the
 // deformed body, coloured by its magnitude and exaggerated by a factor that the picture prints; of
 // every scalar the body coloured by it. A potential is drawn over the film alone. A bar shows a length of the body.
-//   captions: words for fields by their name, such as the frequency of a mode
+//   captions: words for fields by their name; scene: its name, which ends the title
 std::vector<std::pair<std::string, std::string>> pictures_from_grid(
-    const SectionGrid& grid, const std::map<std::string, std::string>& captions = {});
+    const SectionGrid& grid, const std::map<std::string, std::string>& captions = {},
+    const std::string& scene = "");
+
+// The frequencies of modes ("lateral_2") and the load of a buckling shape, with their errors.
+std::map<std::string, std::string> captions_from_answer(const SceneAnswer& answer);
 
 // A solution as an unstructured grid in VTK's XML format (.vtu, ASCII), which ParaView opens: a
 // round pillar as hexahedra turned about the axis, a strip as quadrilaterals of both halves.

@@ -1,6 +1,6 @@
 #include "io/pictures/share_picture.h"
 
-#include "io/plots/plot_names.h"
+#include "io/plots/plot_svg.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,9 @@ constexpr const char* kRestColour = "#cccccc";
 constexpr double kRow = 26.0, kBar = 360.0, kTop = 34.0, kCharacter = 7.2;
 
 double width_of(const std::string& text) {
-  return kCharacter * static_cast<double>(text.size());
+  const auto n_letters =
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });  // UTF-8
+  return kCharacter * static_cast<double>(n_letters);
 }
 
 const char* colour_of_part(std::size_t part) {

@@ -1,3 +1,4 @@
+#include "io/pictures/picture_numbers.h"
 #include "io/pictures/scene_drawing.h"
 #include "io/pictures/scene_picture.h"
 #include "models/array/space/space_scene.h"
@@ -90,23 +91,23 @@ FilmExtent film_near_pillars(const SpaceScene& scene) {
 }
 
 std::string words_of_array(const SpaceScene& scene) {
-  std::string words =
-      fmt::format("pillars d {}, l {}", length_text(scene.diameter_m), length_text(scene.length_m));
+  std::string words = fmt::format("pillars d {}, l {}", in_unit(scene.diameter_m, "m"),
+                                  in_unit(scene.length_m, "m"));
   if (scene.pillars.size() > 1) {
-    words += ", smallest gap " + length_text(smallest_gap_m(scene));
+    words += ", smallest gap " + in_unit(smallest_gap_m(scene), "m");
   }
   if (!scene.others.empty()) words += fmt::format(", {} other classes", scene.others.size());
-  words += fmt::format("; film t {}, edge {}", length_text(scene.film_thickness_m),
-                       length_text(scene.film_edge_m));
+  words += fmt::format("; film t {}, edge {}", in_unit(scene.film_thickness_m, "m"),
+                       in_unit(scene.film_edge_m, "m"));
   if (!scene.backing) return words;
-  return words + ", on a half-space of " + pascals(scene.backing->young_modulus_Pa);
+  return words + ", on a half-space of " + in_unit(scene.backing->young_modulus_Pa, "Pa");
 }
 
 std::string words_of_loads(const SpaceScene& scene) {
   if (scene.press) return words_of_press(*scene.press);
   std::string words;
   const auto add = [&](const char* name, double Pa) {
-    if (Pa != 0.0) words += (words.empty() ? "" : ", ") + (name + pascals(Pa));
+    if (Pa != 0.0) words += (words.empty() ? "" : ", ") + (name + in_unit(Pa, "Pa"));
   };
   add("pressure ", scene.pressure_Pa);
   add("shear x ", scene.shear_x_Pa);
@@ -130,9 +131,9 @@ std::string words_of_press(const ShapePress& press) {
   const char* const name =
       press.shape.table.is_random ? "rough surface" : names[static_cast<int>(press.shape.kind)];
   std::string words = fmt::format("a rigid {}", name);
-  if (press.shape.radius_m > 0.0) words += " of radius " + length_text(press.shape.radius_m);
-  if (press.force_N > 0.0) return words + fmt::format(" pressed with {:.4g} N", press.force_N);
-  return words + " pressed " + length_text(press.depth_m) + " deep";
+  if (press.shape.radius_m > 0.0) words += " of radius " + in_unit(press.shape.radius_m, "m");
+  if (press.force_N > 0.0) return words + (" pressed with " + in_unit(press.force_N, "N"));
+  return words + " pressed " + in_unit(press.depth_m, "m") + " deep";
 }
 
 std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
@@ -142,7 +143,7 @@ std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
   scene.pillars.size() > kMostDrawn ? draw_field(d, scene) : draw_pillars(d, scene);
   const double low_px = d.y(film.low_m);
   const double bar_m = scale_length_m(film.right_m - film.left_m);
-  d.length_mark(film.left_m, film.left_m + bar_m, low_px + 30.0, length_text(bar_m));
+  d.length_mark(film.left_m, film.left_m + bar_m, low_px + 30.0, in_unit(bar_m, "m"));
   const double corner_px = d.x(film.right_m) + 24.0;
   d.arrow(corner_px, low_px, corner_px + 34.0, low_px, false);
   d.arrow(corner_px, low_px, corner_px, low_px - 34.0, false);
@@ -161,7 +162,7 @@ std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
                          scene.electrode == SpaceElectrode::kQuadrants ? "quarters that are read"
                                                                        : "discs that are read",
                          scene.grounded == FilmFace::kTop ? "bottom" : "top",
-                         length_text(electrode_radius_m(scene))));
+                         in_unit(electrode_radius_m(scene), "m")));
   }
   return d.document(title);
 }

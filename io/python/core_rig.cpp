@@ -8,6 +8,7 @@
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
+#include "io/tables/column_map.h"
 
 #include <pybind11/stl.h>
 
@@ -91,16 +92,24 @@ CalibrationRequest calibration_request(const std::string& file, const py::dict& 
   return request;
 }
 
+// A row in which one of these is missing holds no reading.
+std::vector<std::string> used_columns(const CsvTable& table, bool is_frame) {
+  if (is_frame) return {"position_m", "force_N"};
+  return {find_column(table, "mass_kg") ? "mass_kg" : "force_N", "volts_V"};
+}
+
 // tables: arrays by the name that stands for the file, or none.
 py::dict calibrate(const std::string& file, const py::dict& tables, bool is_frame,
                    const py::dict& keywords) {
   const Plausible judged = judged_by(keywords["plausible"].cast<std::string>());
   const auto rig_file = keywords["rig"].cast<std::optional<std::string>>();
   CalibrationRequest request = calibration_request(file, keywords, judged);
-  const CsvTable table = tables.empty()
-                             ? read_csv(file)
-                             : table_from_arrays(tables[py::str(file)].cast<py::dict>(), file);
+  CsvTable table = tables.empty() ? read_csv(file)
+                                  : table_from_arrays(tables[py::str(file)].cast<py::dict>(), file);
   (void)accepted_damage(table, false);
+  const std::vector<std::string> used = used_columns(table, is_frame);
+  std::size_t n_left_out = 0;
+  table = rows_without_gaps(std::move(table), used, {}, n_left_out);
   std::optional<RigConfig> rig;
   if (rig_file)
     rig = is_frame ? read_rig(*rig_file, judged) : read_rig_to_calibrate(*rig_file, judged);
@@ -108,6 +117,7 @@ py::dict calibrate(const std::string& file, const py::dict& tables, bool is_fram
   std::vector<std::string> inputs{file};
   if (rig_file) inputs.push_back(*rig_file);
   py::dict out;
+  out["rows_left_out"] = n_left_out;
   if (is_frame) {
     const BlockPoints points = block_points_from_table(table);
     const auto frame = calibrated_frame(points, gain_relative_u(points, of_rig), request);

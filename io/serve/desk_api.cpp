@@ -17,10 +17,12 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace viscard {
@@ -33,9 +35,9 @@ constexpr int kMostRunning = 3;  // commands at once; a further one waits
 
 // Options of card that the page may set.
 const Texts& card_options_offered() {
-  static const Texts kNames{"approximate",  "accept-flags",  "clamp-nu", "bound",
-                            "elastic-only", "terms",         "band",     "ratio",
-                            "extrapolate",  "at-temperature"};
+  static const Texts kNames{"approximate",  "accept-flags",   "clamp-nu",     "bound",
+                            "elastic-only", "terms",          "band",         "ratio",
+                            "extrapolate",  "at-temperature", "bulk-modulus", "density"};
   return kNames;
 }
 
@@ -65,6 +67,24 @@ Texts report_options(const std::filesystem::path& file) {
   return std::filesystem::exists(file) ? words_of_file(file) : Texts{};
 }
 
+// Options of report that viscard.report() of Python has too.
+struct ReportPythonWords {
+  std::optional<std::string> title, logo, units, plausible;
+  std::vector<std::string> card;
+  bool reproducible = false;
+};
+
+OptionList options_of(ReportPythonWords& words) {
+  OptionList list;
+  list.add("title", &words.title, "");
+  list.add("logo", &words.logo, "");
+  list.add("units", &words.units, "");
+  list.add("card", &words.card, "");
+  list.add("plausible", &words.plausible, "");
+  list.add("reproducible", &words.reproducible, "");
+  return list;
+}
+
 constexpr std::size_t kLongestScene_B = std::size_t{1} << 20;
 
 // Name and first line of the scenes that come with viscard.
@@ -84,6 +104,16 @@ Json example_scenes() {
                         {"what", first.substr(std::min<std::size_t>(2, first.size()))}});
   }
   return examples;
+}
+
+// The names that a material of these tables may have.
+std::string numbered(const std::string& stem, int n) {
+  return stem + (n > 1 ? "." + std::to_string(n) : "") + ".json";
+}
+
+// A line that may be typed again and in another folder: the fit does not replace its material.
+std::string unless_there(const std::string& name, const Texts& fit) {
+  return quoted_for_shell({"test", "-e", word_of_file(name)}) + " || " + typed(fit);
 }
 
 // A folder of a command's outputs, for one request.
@@ -182,7 +212,9 @@ Json DeskApi::result_of(const Texts& words, const std::string& input) {
   const Json& error = result.at("error");
   std::string text = error.value("message", "");
   const std::string hint = error.value("hint", "");
-  if (!hint.empty()) text += ". " + hint;
+  // A hint that goes on in the sentence stays in it, so that it is found again.
+  const bool goes_on = !hint.empty() && std::isupper(static_cast<unsigned char>(hint[0])) == 0;
+  if (!hint.empty()) text += (goes_on ? "; " : ". ") + hint;
   throw ApiError(422, error.value("code", "failed"), text);
 }
 
@@ -195,13 +227,14 @@ Json DeskApi::choices() {
   for (const Json& option : described.at("options")) {
     const Option* one = offered.find(option.at("name").get<std::string>());
     if (one != nullptr && is_offered_by_desk(*one)) options.push_back(option);
+    if (option.at("name") != "kind") continue;
+    for (const std::string& kind : large_strain_words()) options.back()["choices"].push_back(kind);
   }
-  return {{"targets", list.at("targets")},
-          {"units", list.at("units")},
-          {"options", std::move(options)},
-          {"quantities", column_names()},
-          {"predict", result_of({"predict", "--help"}).at("options")},
-          {"examples", example_scenes()}};
+  return {
+      {"targets", list.at("targets")}, {"units", list.at("units")},
+      {"options", std::move(options)}, {"large_strain", large_strain_words()},
+      {"quantities", column_names()},  {"predict", result_of({"predict", "--help"}).at("options")},
+      {"examples", example_scenes()}};
 }
 
 Json DeskApi::drop(const std::string& name, const std::string& bytes) {
@@ -214,13 +247,18 @@ Json DeskApi::table(const Json& request) {
   if (tables.names.size() > 1) throw ApiError(400, "bad-value", "one table is shown");
   if (request.contains("options")) {
     const std::lock_guard<std::mutex> lock(writing_);
-    folder_.keep_words(tables.names.front(), tables.options);
+    folder_.keep_words(tables.names.front(), words_to_keep(tables));
   }
-  const Texts words = fit_words(tables, {"--show-table"});
+  const Texts words = command_words("fit", tables.names.front(), tables.options, {"--show-table"});
   Json answer = answered(words, Json());
-  answer["options"] = options_of_words(tables.options);
+  answer["options"] = chosen_options(tables);
   try {
-    answer["result"] = result_of(words);
+    Json result = result_of(words);
+    if (tables.is_rubber) {  // what the columns alone do not show
+      result["kind"] = answer["options"]["kind"];
+      result["kind_trouble"] = "";
+    }
+    answer["result"] = std::move(result);
   } catch (const ApiError&
                error) {  // the page shows the options in any case, so that they can be changed
     answer["trouble"] = error.what();
@@ -231,29 +269,61 @@ Json DeskApi::table(const Json& request) {
 Json DeskApi::fit(const Json& request) {
   const DeskTables tables = tables_of(request, folder_);
   // Tests that are fitted together have their curves with them.
-  const bool is_one = tables.names.size() == 1;
-  const Json result = result_of(fit_words(tables, is_one ? Texts{"--curves"} : Texts{}));
-  Json answer = answered(fit_words(tables), result);
-  answer["options"] = options_of_words(tables.options);
+  const bool has_curves = tables.names.size() == 1 && !tables.is_rubber;
+  Json answer =
+      tables.is_rubber
+          ? fit_of_rubber(tables)
+          : answered(fit_words(tables),
+                     result_of(fit_words(tables, has_curves ? Texts{"--curves"} : Texts{})));
+  answer["options"] = chosen_options(tables);
   return answer;
+}
+
+Json DeskApi::fit_of_rubber(const DeskTables& tables) {
+  const ScratchFolder scratch;
+  const std::string picture = (scratch.path() / "stresses_over_stretch.svg").string();
+  Json answer = answered(fit_words(tables), result_of(fit_words(tables, {"--svg=" + picture})));
+  answer["pictures"] = pictures_in(scratch.path());
+  return answer;
+}
+
+// The file of a law of rubber does not state its command, but the same fit gives the same bytes.
+std::string DeskApi::write_law_of_rubber(const DeskTables& tables) {
+  const ScratchFolder scratch;
+  const std::filesystem::path law = scratch.path() / "law.json";
+  result_of(fit_words(tables, {"--out=" + law.string()}));
+  const std::string text = read_own_file(law);
+  for (int n = 1;; ++n) {
+    const std::string name = numbered(tables.stem, n);
+    const std::filesystem::path path = folder_.path() / name;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(path))) {
+      write_file(path, text, false);
+      return name;
+    }
+    if (std::filesystem::is_regular_file(path) && read_own_file(path) == text) return name;
+  }
 }
 
 DeskApi::WrittenMaterial DeskApi::write_material(const Json& request) {
   const DeskTables tables = tables_of(request, folder_);
   const std::lock_guard<std::mutex> lock(writing_);
+  if (tables.is_rubber) {
+    const std::string name = write_law_of_rubber(tables);
+    return {name, unless_there(name, fit_words(tables, {"--out=" + name}))};
+  }
   Texts sums;
   for (const std::string& table : tables.names)
     sums.push_back(sha256_of_file(folder_.path() / table));
   for (int n = 1;; ++n) {
-    const std::string name = tables.stem + (n > 1 ? "." + std::to_string(n) : "") + ".json";
+    const std::string name = numbered(tables.stem, n);
     const Texts words = fit_words(tables, {"--out=" + name});
     const std::filesystem::path path = folder_.path() / name;
     if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
-      if (is_material_of(path, typed(words), sums)) return {name, typed(words)};
-      continue;
+      if (!is_material_of(path, typed(words), sums)) continue;
+    } else {
+      result_of(words);
     }
-    result_of(words);
-    return {name, typed(words)};
+    return {name, unless_there(name, words)};
   }
 }
 
@@ -279,15 +349,39 @@ Json DeskApi::predict(const Json& request) {
     const Option* option = list.find(name);
     return option != nullptr && !option->is_file;
   });
+  const DeskTables tables = tables_of(request, folder_);
+  if (tables.is_joint) {
+    throw ApiError(422, "several-materials",
+                   "a fit by mixing ratio is of several materials, and a prediction is of one; fit "
+                   "the specimens of one ratio together to predict by them");
+  }
+  if (tables.is_rubber) {
+    throw ApiError(422, "law-of-rubber",
+                   "a law of rubber gives cards, and no predictions; the picture of its fit shows "
+                   "what it does in the tests that were made");
+  }
+  Json notes = Json::array();
   if (request.contains("against")) {
     const std::string against = text_at(request, "against");
     folder_.require_table(against);
     of_test.push_back("--against=" + against);
+    // The other table is read as the page shows it, as far as predict can.
+    for (const std::string& word : reading_words(against, folder_)) {
+      if (list.find(word.substr(2, word.find('=') - 2)) != nullptr) {
+        of_test.push_back(word);
+      } else {
+        notes.push_back(against + " is read here without " + word +
+                        ", which a prediction does not take");
+      }
+    }
   }
-  const std::string material = write_material(request).name;
-  const Texts words = command_words("predict", material, of_test);
+  const WrittenMaterial material = write_material(request);
+  const Texts words = command_words("predict", material.name, of_test);
   Json answer = answered(words, result_of(words));
-  answer["material"] = material;
+  answer["options"] = options_of_words(of_test, list);
+  answer["notes"] = std::move(notes);
+  answer["material"] = material.name;
+  answer["fit_command"] = material.command;
   return answer;
 }
 
@@ -369,18 +463,36 @@ Json DeskApi::report(const Json& request) {
       request.at("tables").empty()) {
     throw ApiError(400, "bad-value", "the report needs tables; choose at least one");
   }
-  Texts words{"report"};
+  Texts files;
+  Json notes = Json::array();
   for (const Json& one : request.at("tables")) {
     if (!one.is_string()) throw ApiError(400, "bad-value", "'tables' are names of files");
-    folder_.require_table(one.get<std::string>());
-    words.push_back(word_of_file(one.get<std::string>()));
+    const auto table = one.get<std::string>();
+    const Json of_table{{"table", table}};
+    const DeskTables kept = tables_of(of_table, folder_);
+    const bool is_fitted_alike =
+        !kept.is_rubber &&
+        std::all_of(kept.options.begin(), kept.options.end(),
+                    [](const std::string& word) { return word.starts_with("--density="); });
+    if (is_fitted_alike) files.push_back(word_of_file(table));
+    if (is_fitted_alike && kept.options.empty()) continue;
+    const std::string material = write_material(of_table).name;
+    files.push_back(word_of_file(material));
+    if (is_fitted_alike) continue;
+    notes.push_back(table + " is shown by " + material + ", which was fitted with " +
+                    quoted_for_shell(words_to_keep(kept)) +
+                    ", without its data and residuals: viscard report takes no options of a fit");
   }
   // A title that is typed on the page stands for that of the file.
   const bool has_title = request.contains("title");
+  Texts options;
   for (const std::string& word : report_options(folder_.path() / kReportOptions)) {
-    if (!has_title || !word.starts_with("--title=")) words.push_back(word);
+    if (!has_title || !word.starts_with("--title=")) options.push_back(word);
   }
-  if (has_title) add_value("title", request.at("title"), words);
+  if (has_title) add_value("title", request.at("title"), options);
+  Texts words{"report"};
+  for (const Texts* part : {&files, &options})
+    words.insert(words.end(), part->begin(), part->end());
   const ScratchFolder scratch;
   const std::filesystem::path page = scratch.path() / "report.html";
   const std::string shown = typed(words);
@@ -389,8 +501,17 @@ Json DeskApi::report(const Json& request) {
   const std::string html = read_own_file(page);
   const std::lock_guard<std::mutex> lock(writing_);
   const std::string name = folder_.keep_new("report.html", html);
-  return {
-      {"command", shown + " --out " + name}, {"result", result}, {"name", name}, {"html", html}};
+  // The command and Python would not replace it.
+  const std::string next = folder_.free_name("report.html");
+  ReportPythonWords unused;
+  return {{"command", shown + " --out " + next},
+          {"result", result},
+          {"name", name},
+          {"html", html},
+          {"next_name", next},
+          {"files", files},
+          {"options", options_of_words(options, options_of(unused))},
+          {"notes", std::move(notes)}};
 }
 
 void DeskApi::close() {

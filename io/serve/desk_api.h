@@ -14,6 +14,8 @@
 
 namespace viscard {
 
+struct DeskTables;
+
 struct DeskOptions {
   std::filesystem::path folder;
   int port = 0;  // 0: any free one
@@ -33,19 +35,20 @@ class DeskApi {
   explicit DeskApi(DeskOptions options);
 
   Json state() const;
-  // What the page offers: the options of fit, and the targets and units of cards.
+  // What the page offers: the options of fit, kinds of test at large strain, and the targets and units of cards.
   Json choices();
   Json drop(const std::string& name, const std::string& bytes);
   // {"table", "options"}: viscard fit --show-table, and keeps the options beside the table. Without "options" those that
   // are kept hold; the answer names them.
   Json table(const Json& request);
-  // {"table", "options"}: viscard fit, with the curves. In the place of "table", here and below, "tests" of one material:
-  // [{"table", "kind"}, ...].
+  // {"table", "options"}: viscard fit, with the curves; of tests at large strain with "pictures", {"name", "svg"}. In the
+  // place of "table", here and below, "tests" of one material: [{"table", "kind"}, ...].
   Json fit(const Json& request);
   // {"table", "options", "card"}: writes the material of the fit beside the table, under a name that is free or that of
-  // the same fit, and then viscard card.
+  // the same fit, and then viscard card. "fit_command" writes the material where it is missing.
   Json card(const Json& request);
-  // {"table", "options", "predict"}: likewise, and then viscard predict.
+  // {"table", "options", "predict", "against": a table}: likewise, and then viscard predict. "options" of the answer: those
+  // of the command, with what is kept beside the other table; "notes": what predict cannot take of it.
   Json predict(const Json& request);
   // {"card", "for"}: viscard card --check of this text.
   Json check(const Json& request);
@@ -56,7 +59,9 @@ class DeskApi {
   // {"scene", "what", "tol"}: what is "drawing", "plan", "cost" or "answer". A drawing and an answer have "pictures", {"name",
   // "svg"}.
   Json scene(const Json& request);
-  // {"tables": [...], "title"}: viscard report into a file of the folder; answers its "name" and "html".
+  // {"tables": [...], "title"}: viscard report into a file of the folder; answers its "name" and "html". A table with
+  // options is shown by its material. "notes": what the page therefore lacks; "files" and "options": what
+  // viscard.report() of Python takes; "next_name": a free one, for the command.
   Json report(const Json& request);
 
   // Ends the commands that are running; no further one begins.
@@ -68,8 +73,11 @@ class DeskApi {
   struct WrittenMaterial {
     std::string name, command;
   };
-  // Of the fit that the request describes.
+  // Of the fit that the request describes; the command does nothing where the material is there.
   WrittenMaterial write_material(const Json& request);
+  std::string write_law_of_rubber(const DeskTables& tables);
+  // The pictures of a fit at large strain, whose readings are not in its object.
+  Json fit_of_rubber(const DeskTables& tables);
 
   DeskOptions options_;
   DeskFolder folder_;

@@ -171,6 +171,10 @@ std::string DeskFolder::drop(const std::string& name, const std::string& bytes) 
   return keep_new(plain, bytes);
 }
 
+std::string DeskFolder::free_name(const std::string& name) const {
+  return free_path(path_ / name).filename().string();
+}
+
 std::string DeskFolder::keep_new(const std::string& name, const std::string& bytes) const {
   std::error_code ignored;
   std::size_t count = 0;
@@ -240,9 +244,10 @@ void DeskFolder::keep_words(const std::string& table, const std::vector<std::str
     if (is_there) fs::remove(file, ignored);
     return;
   }
-  std::string text = std::string(kKeptHead) + " for " + table + ", one a line: " +
-                     quoted_for_shell({"viscard", "fit", table, "@" + file.filename().string()}) +
-                     "\n";
+  std::vector<std::string> command{"viscard", "fit", "@" + file.filename().string()};
+  if (words.front().starts_with("--")) command.insert(command.begin() + 2, table);
+  std::string text = std::string(kKeptHead) + " for " + table +
+                     ", one a line: " + quoted_for_shell(command) + "\n";
   for (const std::string& word : words) text += word + "\n";
   if (is_there) {
     rewrite_file(file, text);

@@ -42,13 +42,15 @@ class DeskFolder {
   std::vector<std::string> scenes() const;
   // Throws ApiError 404 unless it is one of scenes().
   void require_scene(const std::string& name) const;
-  // Writes a file under this name or, if that is taken, under a numbered one, and returns the name.
+  // This name or, if that is taken, the first numbered one that is not.
+  std::string free_name(const std::string& name) const;
+  // Writes a file under free_name() and returns it.
   std::string keep_new(const std::string& name, const std::string& bytes) const;
   // Keeps the text of a scene: in its own file if the desk wrote that, else in a new one. Returns the name.
   std::string keep_scene(const std::string& name, const std::string& text) const;
 
   // The words of a command that are kept beside a table, in NAME.options, one a line; @NAME.options stands for them on a
-  // command line. None: there is no such file.
+  // command line. The table is one of them if its kind stands before it (uniaxial=NAME). None: there is no such file.
   std::vector<std::string> kept_words(const std::string& table) const;
   // Keeps them; without words the file is removed. Throws ApiError 409 if a file of that name is not of the desk.
   void keep_words(const std::string& table, const std::vector<std::string>& words) const;

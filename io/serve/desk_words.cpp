@@ -1,6 +1,7 @@
 #include "io/serve/desk_words.h"
 
 #include "io/basics/words.h"
+#include "io/flow/test_words.h"
 #include "io/flow/words/fit_words.h"
 #include "io/serve/api_error.h"
 #include "io/serve/series_json.h"
@@ -17,6 +18,7 @@ using Texts = std::vector<std::string>;
 constexpr std::size_t kLongestValue = 200;
 constexpr std::size_t kMostTests = 12;
 constexpr std::size_t kLongestStem = 60;
+const std::string kKind = "--kind=";
 
 Texts fit_words_of(const Json& request) {
   FitWords unused;
@@ -27,8 +29,37 @@ Texts fit_words_of(const Json& request) {
   });
 }
 
+bool is_large_strain(const std::string& kind) {
+  const auto kinds = large_strain_kinds();
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [&](const LargeStrainKind& one) { return one.word == kind; });
+}
+
+// "uniaxial" of "uniaxial=a.csv"; of all other words nothing.
+std::string large_strain_kind_of(const std::string& word) {
+  const std::string kind = word.substr(0, word.find('='));
+  return kind != word && is_large_strain(kind) ? kind : "";
+}
+
+// {"kind": "uniaxial", "terms": "3"}: what the page may set of these words of fit; others are left out.
+Json fit_options_of(const Texts& words) {
+  FitWords unused;
+  const OptionList list = options_of(unused);
+  Texts offered;
+  for (const std::string& word : words) {
+    const std::string kind = large_strain_kind_of(word);
+    if (!kind.empty()) {
+      offered.push_back(kKind + kind);
+    } else if (word.starts_with("--")) {
+      const Option* option = list.find(word.substr(2, word.find('=') - 2));
+      if (option != nullptr && is_offered_by_desk(*option)) offered.push_back(word);
+    }
+  }
+  return options_of_words(offered, list);
+}
+
 Texts kept_options(const std::string& table, const DeskFolder& folder) {
-  return fit_words_of({{"options", options_of_words(folder.kept_words(table))}});
+  return fit_words_of({{"options", fit_options_of(folder.kept_words(table))}});
 }
 
 std::string stem_of(const std::string& table) {
@@ -79,14 +110,20 @@ bool has(const Texts& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// A word of how a table is read that only one of them has; empty if there is none.
+// A word that states how a table is read.
+bool is_of_reading(const std::string& word) {
+  static const Texts kNames{
+      "--column=", "--table=", "--sheet=", "--skip=", "--modulus-kind=", "--time-zero="};
+  return std::any_of(kNames.begin(), kNames.end(),
+                     [&](const std::string& name) { return word.starts_with(name); });
+}
+
+// Such a word that only one of them has; empty if there is none.
 std::string read_otherwise(const Texts& one, const Texts& other) {
-  for (const std::string& word : one) {
-    for (const char* name : {"--column=", "--table=", "--sheet=", "--skip=", "--modulus-kind="}) {
-      if (word.starts_with(name) && !has(other, word)) return word;
-    }
-  }
-  return "";
+  const auto differing = std::find_if(one.begin(), one.end(), [&](const std::string& word) {
+    return is_of_reading(word) && !has(other, word);
+  });
+  return differing == one.end() ? "" : *differing;
 }
 
 // Tests that are fitted together have one set of options: those that all share. They must be read alike.
@@ -107,7 +144,31 @@ void take_kept_options(const DeskFolder& folder, DeskTables& out) {
   }
 }
 
+// Each of several tests has its kind before it. That of one table is an option, or, at large strain, stands before it.
+void put_kind_before_file(bool are_tests, DeskTables& out) {
+  const auto kind = std::find_if(out.options.begin(), out.options.end(),
+                                 [](const std::string& word) { return word.starts_with(kKind); });
+  if (kind == out.options.end() || out.is_joint) return;
+  const std::string name = kind->substr(kKind.size());
+  if (!are_tests && !is_large_strain(name)) return;
+  if (!are_tests) out.words = {name + "=" + out.names.front()};
+  out.options.erase(kind);
+}
+
 }  // namespace
+
+std::vector<std::string> large_strain_words() {
+  Texts words;
+  const LargeStrainKind* last = nullptr;
+  for (const LargeStrainKind& one : large_strain_kinds()) {
+    // Another word for the one before it is left out: tension, oedometer ...
+    const bool is_same = last != nullptr && last->foam_test == one.foam_test &&
+                         last->is_compression == one.is_compression;
+    if (!is_same) words.emplace_back(one.word);
+    last = &one;
+  }
+  return words;
+}
 
 bool is_offered_by_desk(const Option& option) {
   static const Texts kOfSeveral{"joint", "own-terms", "specimen-id", "share", "ratio"};
@@ -151,15 +212,13 @@ Texts words_of(const Json& request, const char* key,
   return words;
 }
 
-Json options_of_words(const Texts& words) {
-  FitWords unused;
-  const OptionList list = options_of(unused);
+Json options_of_words(const Texts& words, const OptionList& list) {
   Json options = Json::object();
   for (const std::string& word : words) {
     const std::size_t sign = word.find('=');
     const std::string name = word.starts_with("--") ? word.substr(2, sign - 2) : "";
     const Option* option = list.find(name);
-    if (option == nullptr || !is_offered_by_desk(*option)) continue;
+    if (option == nullptr) continue;
     if (is_switch(*option)) {
       options[name] = true;
     } else if (sign == std::string::npos) {
@@ -177,23 +236,44 @@ DeskTables tables_of(const Json& request, const DeskFolder& folder) {
   DeskTables out;
   if (request.contains("tests")) {
     const Json& tests = request.at("tests");
-    if (!tests.is_array() || tests.size() < 2 || tests.size() > kMostTests) {
+    if (!tests.is_array() || tests.empty() || tests.size() > kMostTests) {
       throw ApiError(400, "bad-value",
-                     "'tests' are two to " + std::to_string(kMostTests) +
+                     "'tests' are one to " + std::to_string(kMostTests) +
                          " of one material, or specimens of several mixing ratios");
     }
     add_tests(tests, folder, out);
   } else {
     const std::string name = text_at(request, "table");
     folder.require_table(name);
-    out = {{name}, {word_of_file(name)}, {}, stem_of(name), false};
+    out = {{name}, {word_of_file(name)}, {}, stem_of(name)};
   }
   if (request.contains("options")) {
     out.options = fit_words_of(request);
   } else {
     take_kept_options(folder, out);
   }
+  put_kind_before_file(request.contains("tests"), out);
+  out.is_rubber = std::any_of(out.words.begin(), out.words.end(), [](const std::string& word) {
+    return !large_strain_kind_of(word).empty();
+  });
   return out;
+}
+
+Json chosen_options(const DeskTables& tables) {
+  return fit_options_of(words_to_keep(tables));
+}
+
+Texts words_to_keep(const DeskTables& tables) {
+  Texts words;
+  if (tables.is_rubber && tables.names.size() == 1) words = tables.words;
+  words.insert(words.end(), tables.options.begin(), tables.options.end());
+  return words;
+}
+
+Texts reading_words(const std::string& table, const DeskFolder& folder) {
+  Texts words = kept_options(table, folder);
+  std::erase_if(words, [](const std::string& word) { return !is_of_reading(word); });
+  return words;
 }
 
 Texts fit_words(const DeskTables& tables, const Texts& more) {

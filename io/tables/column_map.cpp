@@ -234,12 +234,13 @@ void refuse_implausible(const CsvTable& table, const std::string& name, const Co
   if (quantity == nullptr) return;
   const auto doubt = doubt_about(*quantity, values, table.judged);
   if (!doubt) return;
+  const std::string words = words_for_factor(table, name, use, doubt->meant_factor);
   const char* which =
       quantity->kind == QuantityKind::kLargest ? "its largest value " : "one of its values ";
-  throw BadNumber(table.file + ": column " + place(use.index) +
-                  quoted_header(table.columns[use.index]) + " for " + name + ": " + which +
-                  doubt->with_remedy(words_for_factor(table, name, use, doubt->meant_factor),
-                                     "add --plausible off"));
+  throw BadNumber(
+      table.file + ": column " + place(use.index) + quoted_header(table.columns[use.index]) +
+      " for " + name + ": " + which + doubt->with_remedy(words, "add --plausible off") +
+      (doubt->meant_factor < 0.0 ? ". If the instrument has the other sign, " + words : ""));
 }
 
 }  // namespace

@@ -234,17 +234,13 @@ SpecimenSize derive_columns(CsvTable& table, const ColumnMap& map, const Specime
   return used;
 }
 
-void refuse_unused(const SpecimenSize& given, const SpecimenSize& used) {
-  const auto check = [](const char* option, double given_SI, double used_SI, const char* tables) {
-    if (!(given_SI > 0.0) || used_SI > 0.0) return;
-    throw std::runtime_error(std::string(option) + " is for " + tables + "; omit it");
-  };
-  check("--gauge-length", given.gauge_length_m, used.gauge_length_m,
-        "tables with an extension beside a load or stress, and without a strain");
-  check("--area", given.area_m2, used.area_m2,
-        "tables with a load beside a strain or an extension, and without a stress");
-  check("--youngs-modulus", given.E0_Pa, used.E0_Pa,
-        "tables of a relative modulus (E/E0), and for tests at large strain");
+OptionUses uses_of(const SpecimenSize& given, const SpecimenSize& used) {
+  return {{"--gauge-length", given.gauge_length_m > 0.0, used.gauge_length_m > 0.0,
+           "tables with an extension beside a load or stress, and without a strain"},
+          {"--area", given.area_m2 > 0.0, used.area_m2 > 0.0,
+           "tables with a load beside a strain or an extension, and without a stress"},
+          {"--youngs-modulus", given.E0_Pa > 0.0, used.E0_Pa > 0.0,
+           "tables of a relative modulus (E/E0), and for tests at large strain"}};
 }
 
 SpecimenSize size_from_notes(CsvTable& table, SpecimenSize known) {

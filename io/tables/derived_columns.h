@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/basics/option_use.h"
 #include "io/tables/column_map.h"
 
 namespace viscard {
@@ -20,8 +21,8 @@ struct SpecimenSize {
 // option), or if a phase is none.
 SpecimenSize derive_columns(CsvTable& table, const ColumnMap& map, const SpecimenSize& size);
 
-// Refuses sizes that were given and not used, by their options: the user expects them to have an effect.
-void refuse_unused(const SpecimenSize& given, const SpecimenSize& used);
+// Which of their options are given, and which have an effect on the table that used these.
+OptionUses uses_of(const SpecimenSize& given, const SpecimenSize& used);
 
 // The sizes that lines of notes above a table state, "Gauge length (mm);25", "Width: 6 mm"; for those
 // that `known` lacks. Each that was read is noted.

@@ -37,6 +37,19 @@ struct NumberLimit {
   std::size_t objects_left = kMostHdf5Objects;
 };
 
+[[noreturn]] void refuse_other_file(const std::string& what) {
+  throw std::runtime_error("has " + what +
+                           " in another file, which is not read; save all columns in one file");
+}
+
+// The numbers of an array must stand in the file itself, whose sum is recorded.
+void refuse_numbers_elsewhere(hid_t data, const char* name) {
+  const Handle made(H5Dget_create_plist(data), H5Pclose);
+  const bool is_elsewhere =
+      H5Pget_layout(made.id()) == H5D_VIRTUAL || H5Pget_external_count(made.id()) > 0;
+  if (is_elsewhere) refuse_other_file(std::string("the numbers of '") + name + "'");
+}
+
 void read_numbers(hid_t group, const char* name, NumberLimit& most,
                   std::vector<NamedColumn>& columns) {
   const Handle data(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
@@ -51,10 +64,13 @@ void read_numbers(hid_t group, const char* name, NumberLimit& most,
   H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
   if (size[0] == 0 || size[1] == 0 || size[0] > most.possible / size[1]) return;
   if (size[0] > most.left / size[1]) refuse_unpacked_numbers();
+  refuse_numbers_elsewhere(data.id(), name);
   most.left -= size[0] * size[1];
   std::vector<double> values(size[0] * size[1]);
   if (H5Dread(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    return;
+    throw std::runtime_error(std::string("has an array '") + name +
+                             "' that is damaged or packed by a filter that is not there; save it "
+                             "again");
   }
   add_columns(values, size[0], size[1], name, columns);
 }
@@ -75,6 +91,10 @@ void read_group(hid_t group, const std::string& name, NumberLimit& most, int dep
     }
     const bool is_plain = length > 0 && static_cast<std::size_t>(length) < text.size();
     if (!is_plain || text[0] == '#') continue;  // "#refs#" of MATLAB
+    H5L_info_t link{};
+    if (H5Lget_info(group, text.data(), &link, H5P_DEFAULT) < 0) continue;
+    if (link.type == H5L_TYPE_SOFT) continue;  // its array is read where it stands
+    if (link.type != H5L_TYPE_HARD) refuse_other_file(std::string("'") + text.data() + "'");
     const Handle object(H5Oopen(group, text.data(), H5P_DEFAULT), H5Oclose);
     if (!object.is_open()) continue;
     const H5I_type_t kind = H5Iget_type(object.id());

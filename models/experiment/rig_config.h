@@ -28,6 +28,7 @@ struct StageConfig {
   double microstep_m = 0.0;
   int device = 1;  // address on the chain
   int axis_number = 1;
+  std::string port_place;  // "bench.toml:7", where a file states the port; for messages
 };
 
 // The load cell and how it is connected.
@@ -57,6 +58,7 @@ struct LoadCellConfig {
   // ISO 8601: the day on which it answered a finger or a weight. Needed only if the last digit of
   // its readings hides their noise, because equal readings then do not show whether it measures.
   std::string answered_on;
+  std::string port_place;  // as of the stage
 };
 
 // True for a converter behind a board that sends counts, or volts made of them.
@@ -82,6 +84,7 @@ struct ThermometerConfig {
   double period_s = 1.0;             // between its lines, or between questions
   std::string unit = "degC";         // of numbers without one; or "degF", "K"
   double drift_limit_K = 1.0;        // a run that spans more is flagged
+  std::string port_place;            // as of the stage
 };
 
 // True if anything measures the temperature.

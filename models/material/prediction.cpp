@@ -165,6 +165,10 @@ class Predictor {
     require(request_.n_cycles >= 1 && request_.n_cycles <= 10000,
             "the number of cycles is " + std::to_string(request_.n_cycles) +
                 "; it must lie between 1 and 10000");
+    require(2.0 * request_.points * request_.n_cycles <= kMostCyclePoints,
+            std::to_string(request_.n_cycles) + " cycles with " + std::to_string(request_.points) +
+                " points of each motion are above the limit of " +
+                std::to_string(kMostCyclePoints) + " points; use fewer points");
     const bool is_stress = request_.stress_Pa.has_value();
     const double size = is_stress ? *request_.stress_Pa : request_.strain.value_or(kUsualStrain);
     std::vector<LoadStep> steps;
@@ -172,7 +176,7 @@ class Predictor {
       steps.push_back({0.5 * request_.period_s, size});
       steps.push_back({0.5 * request_.period_s, 0.0});
     }
-    return history_of_steps(is_stress, steps, request_.period_s, std::min(request_.points, 100));
+    return history_of_steps(is_stress, steps, request_.period_s, request_.points);
   }
 
   void of_history(const LoadHistory& course) {

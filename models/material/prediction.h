@@ -15,6 +15,9 @@ namespace viscard {
 // Kinds of tests that can be predicted.
 enum class PredictedTest { kRelaxation, kCreep, kRecovery, kCycles, kOscillation, kHistory };
 
+// Largest number of points of all cycles together: 10000 cycles with 200 points of each motion.
+inline constexpr int kMostCyclePoints = 4'000'000;
+
 // The test to predict.
 struct PredictionRequest {
   PredictedTest test = PredictedTest::kRelaxation;

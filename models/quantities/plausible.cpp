@@ -100,10 +100,12 @@ std::string text_with_unit(double value, const std::string& unit) {
 }
 
 std::string Doubt::text() const {
+  if (!sign.empty()) return "is " + value_text + "; " + sign;
   return "is " + value_text + "; plausible are " + range + " (" + reason + ")";
 }
 
 std::string Doubt::with_remedy(const std::string& write_meant, const std::string& accept) const {
+  if (!sign.empty()) return text();
   if (meant.empty()) {
     return text() + ". Is its unit missing or wrong? If the value is right, " + accept;
   }
@@ -111,15 +113,22 @@ std::string Doubt::with_remedy(const std::string& write_meant, const std::string
          accept;
 }
 
-std::optional<Doubt> doubt_about(const Quantity& quantity, double value, Plausible judged) {
-  if (judged == Plausible::kOff || !std::isfinite(value)) return std::nullopt;
-  if (value == 0.0 && quantity.zero_is_none) return std::nullopt;
-  const PlausibleRange& range = judged == Plausible::kScene ? quantity.scene : quantity.measured;
-  if (is_in(range, value)) return std::nullopt;
+namespace {
+
+Doubt doubt_of(const Quantity& quantity, double value) {
   const std::string unit = quantity.unit;
   Doubt doubt;
   doubt.value = value;
   doubt.value_text = text_of(value) + (unit == "1" ? "" : " " + unit);
+  return doubt;
+}
+
+// Of the size of a number, whatever its sign.
+std::optional<Doubt> doubt_about_size(const Quantity& quantity, double value, Plausible judged) {
+  const PlausibleRange& range = judged == Plausible::kScene ? quantity.scene : quantity.measured;
+  if (is_in(range, value)) return std::nullopt;
+  const std::string unit = quantity.unit;
+  Doubt doubt = doubt_of(quantity, value);
   doubt.range = text_with_unit(range.lowest, unit) + " to " + text_with_unit(range.highest, unit);
   doubt.reason = judged == Plausible::kScene ? "for a " + std::string(quantity.name) + " in a scene"
                                              : quantity.reason;
@@ -132,20 +141,50 @@ std::optional<Doubt> doubt_about(const Quantity& quantity, double value, Plausib
   return doubt;
 }
 
+}  // namespace
+
+std::optional<Doubt> doubt_about_sign(const Quantity& quantity, double value) {
+  const bool is_wrong =
+      value < 0.0 ? quantity.sign != Sign::kAny
+                  : value == 0.0 && quantity.sign == Sign::kPositive && !quantity.zero_is_none;
+  if (!is_wrong || !std::isfinite(value)) return std::nullopt;
+  Doubt doubt = doubt_of(quantity, value);
+  doubt.sign = quantity.sign == Sign::kPositive ? "it must be positive" : "it must not be negative";
+  return doubt;
+}
+
+std::optional<Doubt> doubt_about(const Quantity& quantity, double value, Plausible judged) {
+  if (judged == Plausible::kOff || !std::isfinite(value)) return std::nullopt;
+  if (value == 0.0 && quantity.zero_is_none) return std::nullopt;
+  if (auto doubt = doubt_about_sign(quantity, value)) return doubt;
+  return doubt_about_size(quantity, value, judged);
+}
+
 std::optional<Doubt> doubt_about(const Quantity& quantity, const std::vector<double>& values,
                                  Plausible judged) {
+  if (judged == Plausible::kOff) return std::nullopt;
   if (quantity.kind == QuantityKind::kEach) {
     for (const double value : values) {
-      if (auto doubt = doubt_about(quantity, value, judged)) return doubt;
+      if (!std::isfinite(value) || (value == 0.0 && quantity.zero_is_none)) continue;
+      if (value < 0.0 && quantity.sign != Sign::kAny) return doubt_about_sign(quantity, value);
+      if (auto doubt = doubt_about_size(quantity, value, judged)) return doubt;
     }
     return std::nullopt;
   }
   double largest = 0.0;
+  bool has_positive = false;
   for (const double value : values) {
     if (std::isfinite(value) && std::abs(value) > std::abs(largest)) largest = value;
+    has_positive |= value > 0.0;
   }
-  // A column of zeros measures nothing; its reader says so.
-  return largest == 0.0 ? std::nullopt : doubt_about(quantity, largest, judged);
+  if (largest == 0.0) return std::nullopt;  // it measures nothing; its reader says so
+  auto doubt = doubt_about_size(quantity, largest, judged);
+  const auto wrong_sign = doubt_about_sign(quantity, largest);
+  if (doubt && wrong_sign && !has_positive) {
+    doubt->sign = wrong_sign->sign;
+    doubt->meant_factor *= -1.0;
+  }
+  return doubt;
 }
 
 }  // namespace viscard

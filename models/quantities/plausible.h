@@ -22,19 +22,24 @@ struct Doubt {
   std::string value_text;  // "2 Pa"
   std::string range;       // "100 Pa to 1 TPa"
   std::string reason;      // of the range
+  std::string sign;        // "it must be positive": no unit helps, and no range is named
   std::string meant;  // "2 MPa": the same number in a unit that makes it plausible; may be empty
-  double meant_factor = 1.0;  // SI per that unit
+  double meant_factor =
+      1.0;  // SI per that unit; negative: it flips a column of the other sign, too
 
   // "is 2 Pa; plausible are 100 Pa to 1 TPa (from the softest gels ...)".
   std::string text() const;
   // "is 2 Pa; ... . If 2 MPa was meant, write E0 = "2 MPa"; if the value is right, add --plausible
-  // off", from the two things to do.
+  // off", from the two things to do. For a wrong sign the text alone, because neither would help.
   std::string with_remedy(const std::string& write_meant, const std::string& accept) const;
 };
 
 // Nothing if the value is plausible. Numbers that are not finite are not judged.
 std::optional<Doubt> doubt_about(const Quantity& quantity, double value, Plausible judged);
-// The same of a column, by the kind of the quantity; values: in its SI unit.
+// Nothing if a number can have that sign, at whatever size.
+std::optional<Doubt> doubt_about_sign(const Quantity& quantity, double value);
+// The same of a column, by the kind of the quantity; values: in its SI unit. If all of them have
+// the wrong sign, the factor of the doubt flips them.
 std::optional<Doubt> doubt_about(const Quantity& quantity, const std::vector<double>& values,
                                  Plausible judged);
 

@@ -12,6 +12,10 @@ enum class QuantityKind {
   kLargest,  // the largest magnitude: a record may begin at 0
 };
 
+// Which signs a number by itself can have. A column may have the other sign of its instrument, and
+// its reader proposes to flip it.
+enum class Sign { kAny, kNotNegative, kPositive };
+
 // From a lowest number of 0 or above, the range is that of the magnitude.
 struct PlausibleRange {
   double lowest = 0.0;   // in the SI unit of the quantity
@@ -29,6 +33,7 @@ struct Quantity {
   const char* example;      // with the unit in which people write it; "": none
   const char* reason;       // of the measured range
   const char* meaning;
+  Sign sign = Sign::kAny;
   bool zero_is_none = false;  // 0 means that it is not given
 };
 
@@ -56,7 +61,8 @@ inline constexpr Quantity kModulus{
     {10.0, 1e16},
     "2 MPa",
     "from the softest gels that hold their shape to diamond",
-    "stress over strain at once: E0, or the largest value of a column"};
+    "stress over strain at once: E0, or the largest value of a column",
+    Sign::kPositive};
 inline constexpr Quantity kBulkModulus{"bulk modulus",
                                        "Pa",
                                        QuantityKind::kEach,
@@ -64,7 +70,8 @@ inline constexpr Quantity kBulkModulus{"bulk modulus",
                                        {10.0, 1e16},
                                        "2 GPa",
                                        "no solid lies outside; rubber has 1 to 3 GPa",
-                                       "pressure over the share of volume that is lost"};
+                                       "pressure over the share of volume that is lost",
+                                       Sign::kPositive};
 inline constexpr Quantity kCompliance{
     "compliance",
     "1/Pa",
@@ -73,7 +80,8 @@ inline constexpr Quantity kCompliance{
     {1e-16, 1e6},
     "0.5 1/MPa",
     "the reciprocal of 1 TPa; a liquid that flows for long has much",
-    "strain over stress"};
+    "strain over stress",
+    Sign::kPositive};
 inline constexpr Quantity kDensity{"density",
                                    "kg/m3",
                                    QuantityKind::kEach,
@@ -82,6 +90,7 @@ inline constexpr Quantity kDensity{"density",
                                    "1.1 g/cm3",
                                    "from foams to osmium, 22600 kg/m3",
                                    "mass over volume",
+                                   Sign::kPositive,
                                    true};
 inline constexpr Quantity kPoissonRatio{
     "Poisson ratio",
@@ -99,7 +108,8 @@ inline constexpr Quantity kStretch{"stretch",
                                    {0.05, 15.0},
                                    "1.5",
                                    "the softest elastomers break at stretches of 10 to 15",
-                                   "length over length at rest"};
+                                   "length over length at rest",
+                                   Sign::kPositive};
 inline constexpr Quantity kStrain{"strain",
                                   "1",
                                   QuantityKind::kLargest,
@@ -133,7 +143,8 @@ inline constexpr Quantity kDriftOfTemperature{
     {0.01, 50.0},
     "1 K",
     "thermometers resolve no less; 1 degC is 274.15 K and no difference",
-    "that a run may have"};
+    "that a run may have",
+    Sign::kPositive};
 
 // Forces and lengths.
 inline constexpr Quantity kForce{"force",
@@ -151,7 +162,8 @@ inline constexpr Quantity kBenchForce{"force",
                                       {0.0, 1e4},
                                       "10 mN",
                                       "a stage on a bench does not press more",
-                                      "that a test asks for at the bench"};
+                                      "that a test asks for at the bench",
+                                      Sign::kNotNegative};
 inline constexpr Quantity kStiffness{"stiffness",
                                      "N/m",
                                      QuantityKind::kEach,
@@ -159,7 +171,8 @@ inline constexpr Quantity kStiffness{"stiffness",
                                      {1e-6, 1e15},
                                      "10 N/mm",
                                      "from the softest cantilevers to the frame of a press",
-                                     "force over displacement"};
+                                     "force over displacement",
+                                     Sign::kPositive};
 inline constexpr Quantity kLength{"length",
                                   "m",
                                   QuantityKind::kEach,
@@ -175,7 +188,8 @@ inline constexpr Quantity kDepth{"depth",
                                  {0.0, 1.0},
                                  "0.13 mm",
                                  "a punch goes into a specimen by millimetres at most",
-                                 "of a tip below the surface at rest"};
+                                 "of a tip below the surface at rest",
+                                 Sign::kNotNegative};
 inline constexpr Quantity kTipSize{"size of the tip",
                                    "m",
                                    QuantityKind::kEach,
@@ -183,7 +197,8 @@ inline constexpr Quantity kTipSize{"size of the tip",
                                    {1e-9, 1e3},
                                    "4.4 mm",
                                    "from the tips of force microscopes to plates",
-                                   "diameter of a punch, radius of a sphere"};
+                                   "diameter of a punch, radius of a sphere",
+                                   Sign::kPositive};
 inline constexpr Quantity kThickness{
     "thickness",
     "m",
@@ -192,7 +207,8 @@ inline constexpr Quantity kThickness{
     {1e-10, 1.0},
     "11 mm",
     "from films of a few molecules to the largest blocks on a bench",
-    "of a layer on a rigid base"};
+    "of a layer on a rigid base",
+    Sign::kPositive};
 inline constexpr Quantity kTravel{"travel",
                                   "m",
                                   QuantityKind::kEach,
@@ -200,7 +216,8 @@ inline constexpr Quantity kTravel{"travel",
                                   {1e-6, 2.0},
                                   "10 mm",
                                   "no stage on a bench moves less or more",
-                                  "of the stage"};
+                                  "of the stage",
+                                  Sign::kPositive};
 inline constexpr Quantity kShapeRadius{"radius",
                                        "m",
                                        QuantityKind::kEach,
@@ -208,7 +225,8 @@ inline constexpr Quantity kShapeRadius{"radius",
                                        {1e-9, 1e4},
                                        "100 mm",
                                        "a lens of a larger radius is flat over any sensor",
-                                       "of a sphere or cylinder that touches"};
+                                       "of a sphere or cylinder that touches",
+                                       Sign::kPositive};
 inline constexpr Quantity kAngle{"angle",    "rad",   QuantityKind::kEach, {0.0, 6.3},
                                  {0.0, 6.3}, "2 deg", "a full turn",       "between directions"};
 inline constexpr Quantity kMass{"mass",
@@ -237,7 +255,8 @@ inline constexpr Quantity kRamp{
     {1e-3, kMonth_s},
     "1 s",
     "a stage needs 1 ms to start; nobody waits at a bench for more than a month",
-    "of a move at the rig"};
+    "of a move at the rig",
+    Sign::kPositive};
 inline constexpr Quantity kHold{"duration",
                                 "s",
                                 QuantityKind::kEach,
@@ -245,7 +264,8 @@ inline constexpr Quantity kHold{"duration",
                                 {0.0, kMonth_s},
                                 "60 s",
                                 "nobody waits at a bench for more than a month",
-                                "of a rest at the rig"};
+                                "of a rest at the rig",
+                                Sign::kNotNegative};
 inline constexpr Quantity kPeriod{"period",
                                   "s",
                                   QuantityKind::kEach,
@@ -253,7 +273,8 @@ inline constexpr Quantity kPeriod{"period",
                                   {0.01, 3600.0},
                                   "1 s",
                                   "thermometers answer no faster; a drift is not seen with fewer",
-                                  "between readings of a thermometer"};
+                                  "between readings of a thermometer",
+                                  Sign::kPositive};
 inline constexpr Quantity kSpeed{"speed",
                                  "m/s",
                                  QuantityKind::kEach,
@@ -261,7 +282,8 @@ inline constexpr Quantity kSpeed{"speed",
                                  {1e-12, 1e4},
                                  "0.05 mm/s",
                                  "no stage on a bench moves slower or faster",
-                                 "of the stage"};
+                                 "of the stage",
+                                 Sign::kPositive};
 inline constexpr Quantity kAcceleration{
     "acceleration", "m/s2",      QuantityKind::kEach,          {0.0, 1e6},
     {0.0, 1e12},    "200 mm/s2", "a hammer blow has 1e5 m/s2", "of the stage or the base"};
@@ -272,7 +294,8 @@ inline constexpr Quantity kRate{"rate",
                                 {0.01, 1e5},
                                 "80 Hz",
                                 "load cells are read neither slower nor faster",
-                                "of readings"};
+                                "of readings",
+                                Sign::kPositive};
 inline constexpr Quantity kFrequency{"frequency",
                                      "Hz",
                                      QuantityKind::kLargest,
@@ -280,18 +303,21 @@ inline constexpr Quantity kFrequency{"frequency",
                                      {0.0, 1e20},
                                      "1 Hz",
                                      "curves shifted in temperature reach over thirty decades",
-                                     "of an oscillation"};
+                                     "of an oscillation",
+                                     Sign::kNotNegative};
 
 // Electricity and surfaces.
 inline constexpr Quantity kVoltage{
     "voltage",  "V",      QuantityKind::kLargest,      {0.0, 1e6},
     {0.0, 1e9}, "1.2 uV", "films break through below", "between electrodes, or of an amplifier"};
 inline constexpr Quantity kResistance{
-    "resistance", "ohm",     QuantityKind::kEach,     {0.0, 1e20},
-    {0.0, 1e20},  "10 Mohm", "no insulator has more", "of a readout"};
+    "resistance",      "ohm",     QuantityKind::kEach,     {0.0, 1e20},
+    {0.0, 1e20},       "10 Mohm", "no insulator has more", "of a readout",
+    Sign::kNotNegative};
 inline constexpr Quantity kCapacitance{
-    "capacitance", "F",     QuantityKind::kEach,   {0.0, 1.0},
-    {0.0, 1.0},    "10 pF", "no readout has more", "of a readout"};
+    "capacitance",     "F",     QuantityKind::kEach,   {0.0, 1.0},
+    {0.0, 1.0},        "10 pF", "no readout has more", "of a readout",
+    Sign::kNotNegative};
 inline constexpr Quantity kSurfaceEnergy{"surface energy",
                                          "J/m2",
                                          QuantityKind::kEach,
@@ -299,7 +325,8 @@ inline constexpr Quantity kSurfaceEnergy{"surface energy",
                                          {0.0, 1e6},
                                          "40 mJ/m2",
                                          "the toughest glue takes less",
-                                         "of a surface, or work of adhesion"};
+                                         "of a surface, or work of adhesion",
+                                         Sign::kNotNegative};
 
 }  // namespace quantities
 

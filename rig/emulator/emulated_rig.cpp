@@ -26,6 +26,8 @@ constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulat
 constexpr double kShortestNap_s = 0.2e-3;  // wall
 constexpr double kLongestNap_s = 2e-3;     // wall; bounds the delay until an incident is noticed
 constexpr double kNever_s = 1e300;
+// In the place of the time at which the fault is due: it has begun.
+constexpr double kBegun_s = std::numeric_limits<double>::infinity();
 constexpr double kFrame_s = 1e-3;  // a rig that waits exchanges bytes so often, as USB does
 
 }  // namespace
@@ -75,6 +77,10 @@ class EmulatedRig::Impl final : public WaitingRig {
     if (fault.kind == RigFaultKind::kNone || phase != fault.phase) return;
     const double from_s = options_.is_on_wall_clock ? clock_.now_s() : now_s_;
     if (fault_due_s_ == kNever_s) fault_due_s_ = from_s + fault.after_s;
+  }
+
+  bool awaits_fault() const {
+    return options_.fault.kind != RigFaultKind::kNone && fault_due_s_ != kBegun_s;
   }
 
   EmulatedOutcome outcome() const {
@@ -241,7 +247,7 @@ class EmulatedRig::Impl final : public WaitingRig {
   }
 
   void begin_fault(double now_s) {
-    fault_due_s_ = std::numeric_limits<double>::infinity();
+    fault_due_s_ = kBegun_s;
     const RigFaultKind kind = options_.fault.kind;
     amplifier_.set_fault(kind);
     gauge_.set_fault(kind);
@@ -332,6 +338,9 @@ void EmulatedRig::cause(Incident incident) {
 }
 void EmulatedRig::enter_phase(const std::string& phase) {
   impl_->enter_phase(phase);
+}
+bool EmulatedRig::awaits_fault() const {
+  return impl_->awaits_fault();
 }
 void EmulatedRig::stall(double wall_s) {
   impl_->stall_wall_s_ = wall_s;

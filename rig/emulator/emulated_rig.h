@@ -63,6 +63,8 @@ class EmulatedRig {
   // A phase of the test has begun; the fault of the options begins with it. May be called from any
   // thread.
   void enter_phase(const std::string& phase);
+  // Whether the options have a fault that has not begun.
+  bool awaits_fault() const;
 
   // Serves something else on the lines of a rig that waits, such as a FaultProxy. It is called
   // repeatedly with the time, and returns true if bytes have gone to the program.

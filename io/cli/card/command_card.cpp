@@ -183,38 +183,45 @@ Deed deed_of(const CardWords& words) {
                                     : kWrite;
 }
 
-struct OptionUse {
+struct DeedsOfOption {
   const char* name;
   unsigned linear, rubber;  // deeds for a linear material and for a law of rubber
+  // Of --check and --prove only with a material to compare with, which it changes.
+  bool needs_material = false;
 };
 
 constexpr unsigned kOfMaterial = kWrite | kDeck | kCheck | kProve;  // it changes the material
-constexpr OptionUse kUses[]{
+constexpr DeedsOfOption kDeeds[]{
     {"for", kOfMaterial | kImport, kWrite | kCheck | kProve | kImport},
     {"units", kOfMaterial | kImport, kWrite | kCheck | kProve | kImport},
     {"out", kWrite | kDeck | kProve, kWrite | kProve},
-    {"tolerance", kCheck, kCheck},
-    {"approximate", kOfMaterial, kWrite},
-    {"terms", kOfMaterial, 0},
-    {"ratio", kOfMaterial, 0},
-    {"extrapolate", kOfMaterial, 0},
-    {"at-temperature", kOfMaterial, 0},
+    {"tolerance", kCheck, kCheck, true},
+    {"approximate", kOfMaterial, kWrite, true},
+    {"terms", kOfMaterial, 0, true},
+    {"ratio", kOfMaterial, 0, true},
+    {"extrapolate", kOfMaterial, 0, true},
+    {"at-temperature", kOfMaterial, 0, true},
     {"bulk-modulus", 0, kWrite | kCheck},
     {"density", 0, kWrite | kCheck},
-    {"bound", kOfMaterial, 0},
-    {"elastic-only", kOfMaterial, kWrite | kCheck | kProve},
+    {"bound", kOfMaterial, 0, true},
+    {"elastic-only", kOfMaterial, kWrite | kCheck | kProve, true},
     {"band", kWrite | kCheck, 0},
-    {"clamp-nu", kOfMaterial, 0},
+    {"clamp-nu", kOfMaterial, 0, true},
     {"accept-flags", kWrite | kDeck, kWrite},
     {"reproducible", kWrite | kDeck | kImport, kWrite | kImport},
     {"force", kWrite | kDeck | kProve | kImport, kWrite | kProve | kImport},
-    {"material-name", kCheck | kProve | kImport, kCheck | kProve | kImport}};
+    {"material-name", kCheck | kProve | kImport, kCheck | kProve | kImport},
+    {"solver", kProve, kProve},
+    {"solver-path", kProve, kProve},
+    {"long", kList, kList},
+    {"material", ~0U & ~kList, ~0U & ~kList}};
 
 std::string deeds_in_words(unsigned deeds) {
   std::vector<std::string> names;
   if ((deeds & kWrite) != 0) names.emplace_back("writing a card");
-  const std::pair<Deed, const char*> kOthers[]{
-      {kDeck, "--deck"}, {kCheck, "--check"}, {kProve, "--prove"}, {kImport, "--import"}};
+  const std::pair<Deed, const char*> kOthers[]{{kDeck, "--deck"},     {kCheck, "--check"},
+                                               {kProve, "--prove"},   {kVerify, "--verify"},
+                                               {kImport, "--import"}, {kList, "--list"}};
   for (const auto& [deed, name] : kOthers) {
     if ((deeds & deed) != 0) names.emplace_back(name);
   }
@@ -227,15 +234,22 @@ void refuse_idle_options(const CommandSyntax& syntax, CardWords& words) {
   const bool is_law =
       (deed == kCheck && is_rubber_check(words)) || (deed == kProve && is_rubber_proof(words)) ||
       ((deed == kWrite || deed == kDeck) && looks_like_hyperelastic_file(words.material));
-  for (const OptionUse& use : kUses) {
+  const bool is_alone = words.material.empty() && (deed == kCheck || deed == kProve);
+  for (const DeedsOfOption& use : kDeeds) {
     if (!is_given(syntax, use.name)) continue;
     const unsigned all = use.linear | use.rubber;
-    const std::string option = std::string("--") + use.name;
+    const bool is_option = std::string(use.name) != "material";
+    const std::string option = is_option ? std::string("--") + use.name : words.material;
     if ((all & deed) == 0)
       throw UsageError(option + " changes nothing here, it belongs to " + deeds_in_words(all) +
                        "; omit it");
-    if (deed == kImport || deed == kDeck || ((is_law ? use.rubber : use.linear) & deed) != 0)
-      continue;
+    const bool is_of_deed = ((is_law ? use.rubber : use.linear) & deed) != 0;
+    if (is_alone && use.needs_material && is_of_deed)
+      throw UsageError(option +
+                       " is for the comparison with a material, and none is named; name "
+                       "its file, or omit " +
+                       option);
+    if (deed == kImport || deed == kDeck || is_of_deed) continue;
     const std::string& what = words.material.empty() ? words.check + words.prove : words.material;
     if (!is_law)
       throw UsageError(option + " is for laws of rubber, and " + what + " is linear; omit it");
@@ -243,6 +257,8 @@ void refuse_idle_options(const CommandSyntax& syntax, CardWords& words) {
         option + (use.rubber == 0 ? " is for linear materials, and " : " changes nothing here, ") +
         what + " is a law of rubber; omit it");
   }
+  if (words.may_extrapolate && !words.ratio)
+    throw UsageError("--extrapolate has no effect without --ratio; add it, or omit --extrapolate");
 }
 
 // Of --check or --prove CARD with a law of rubber.
@@ -272,17 +288,16 @@ void check_rubber_words(const CardWords& words) {
     throw UsageError("--tolerance must be positive");
 }
 
-void check_words(CardWords& words) {
-  const int modes = (words.list ? 1 : 0) + (words.check.empty() ? 0 : 1) +
+void check_deeds(const CardWords& words) {
+  const int deeds = (words.list ? 1 : 0) + (words.check.empty() ? 0 : 1) +
                     (words.prove.empty() ? 0 : 1) + (words.deck.empty() ? 0 : 1) +
                     (words.verify.empty() ? 0 : 1) + (words.import_to.empty() ? 0 : 1);
-  if (modes > 1)
+  if (deeds > 1)
     throw UsageError("--list, --check, --prove, --verify, --import and --deck exclude each other");
-  if (words.is_long && !words.list) throw UsageError("--long belongs to --list");
+}
+
+void check_words(CardWords& words) {
   if (words.list || !words.verify.empty()) return;
-  if (words.prove.empty() && (!words.solver.empty() || !words.solver_path.empty())) {
-    throw UsageError("--solver and --solver-path belong to --prove CARD");
-  }
   if (!words.import_to.empty()) {
     if (words.material.empty())
       throw UsageError("no card given; usage: viscard card CARD --import material.json");
@@ -365,8 +380,9 @@ int run_card(const Words& words, Streams& streams) {
   card.json = syntax.as_json;
   if (card.band_text) card.band = band_from_text(*card.band_text);
   card.command_line = quoted_command_line("card", words);
-  check_words(card);
+  check_deeds(card);
   refuse_idle_options(syntax, card);
+  check_words(card);
   if (card.list) return list_card_targets(card, streams);
   if (!card.verify.empty()) return verify_file(card, streams);
   if (!card.import_to.empty()) return import_card_file(card, streams);

@@ -18,6 +18,7 @@
 
 #include <exception>
 #include <functional>
+#include <mutex>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -290,6 +291,13 @@ int run_fit(const Words& words, Streams& streams) {
   const FlowProgress show = [&](double done, const std::string& file) {
     progress.show(done, file);
   };
+  std::mutex drawing;  // the isotherms of one file may be fitted side by side
+  if (files.size() == 1) {
+    request.options.resampled = [&](double done) {
+      const std::lock_guard lock(drawing);
+      progress.show(done, "resamples of " + files.front());
+    };
+  }
   std::vector<FileOutcome> outcomes;
   if (tests.size() > 1) {
     const FittedFile fitted = fit_tests(tests, request, show);

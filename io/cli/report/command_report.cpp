@@ -67,6 +67,7 @@ CommandSyntax report_syntax(ReportWords& words) {
               "omit the date, so that the same input gives the same bytes");
   options.add("unverified", &words.unverified, kUnverifiedHelp);
   options.add("force", &words.overwrite, "overwrite existing files");
+  syntax.may_exist = {"pictures"};
   return syntax;
 }
 

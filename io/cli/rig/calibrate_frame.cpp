@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/option_use.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/integrity_notes.h"
@@ -143,6 +144,8 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
   BlockPoints points;
   std::optional<RigConfig> rig;  // whose gain is known
   if (words.data_file && looks_like_capture(*words.data_file)) {
+    refuse_idle({{*words.data_file + ": --rig", words.rig_file.has_value(), false,
+                  "tables, and this capture has its rig"}});
     const CapturedRun run =
         read_capture(*words.data_file, {.accepts_damage = words.accepts_unverified});
     say_damage(*words.data_file, integrity_notes(run), streams);

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/option_use.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/cli/rig/calibrate_words.h"
@@ -7,7 +8,10 @@
 #include "io/cli/words/stop_on_signal.h"
 #include "io/flow/calibrate.h"
 #include "io/flow/damaged_table.h"
+#include "io/tables/column_map.h"
 #include "io/tables/csv_table.h"
+#include "models/experiment/calibration_check.h"
+#include "models/maths/text_of_number.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
 #include "rig/weigh.h"
@@ -16,8 +20,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iostream>
 #include <memory>
+#include <string_view>
 
 namespace viscard {
 namespace {
@@ -48,6 +54,14 @@ CsvTable table_of_weights(const std::string& path, bool accepts_damage) {
   return table;
 }
 
+WeightReadings readings_of_table(const CalibrateWords& words, const CalibrationRequest& request) {
+  const CsvTable table = table_of_weights(*words.data_file, words.accepts_unverified);
+  refuse_idle({{request.where + "--gravity", request.gravity_m_s2.has_value(),
+                find_column(table, "mass_kg").has_value(),
+                "masses (mass_kg), and this table states forces"}});
+  return readings_from_table(table, request);
+}
+
 bool ask_for_weight(double mass_kg, std::ostream& err) {
   if (mass_kg > 0.0) {
     err << fmt::format("Put {:g} g on the load cell and nothing else, and press Enter (q ends): ",
@@ -67,9 +81,7 @@ WeightReadings weigh_on(RigConfig rig, const CalibrateWords& words, EmulatedRig*
   const RigClock clock = emulated != nullptr ? emulated->clock() : RigClock(rig.clock_speed);
   const auto line = open_line(rig.load_cell.port, rig.load_cell.baud, clock, rig.load_cell.framing);
   const auto load_cell = make_load_cell(*line, rig.load_cell, clock, [](const RunRecord&) {});
-  std::vector<double> masses_kg = words.masses_kg;
-  if (masses_kg.empty()) masses_kg = {0.05, 0.1, 0.15, 0.2};
-  const std::vector<double> sequence = sequence_kg(masses_kg, words.series);
+  const std::vector<double> sequence = sequence_kg(words.masses_kg, words.series);
   std::vector<double> forces_N;
   for (const double mass_kg : sequence) {
     forces_N.push_back(weight_N(mass_kg, words.request));
@@ -127,16 +139,42 @@ void print_text(const CellCalibration& cell, const std::string& file, std::ostre
                      record.calibration->valid_until);
 }
 
-WeightReadings readings_on_rig(const RigConfig& rig, const CalibrateWords& words, double capacity_N,
-                               Streams& streams) {
-  if (!words.is_emulated && words.masses_kg.empty()) {
+// Refuses weights with which no calibration can succeed, before anyone puts them on.
+void check_weights(const CalibrateWords& words, double capacity_N) {
+  if (words.masses_kg.empty()) {
     throw UsageError("calibrate needs --weights, such as \"20 g, 50 g, 100 g, 200 g\"");
   }
-  for (const double mass_kg : words.masses_kg) {
-    if (weight_N(mass_kg, words.request) <= capacity_N) continue;
-    throw UsageError(fmt::format("--weights: {:g} g is more than the load cell's {:.4f} N",
-                                 mass_kg * 1e3, capacity_N));
+  const std::vector<std::string_view> typed = split(words.weights, ',');
+  for (std::size_t i = 0; i < words.masses_kg.size(); ++i) {
+    const double mass_kg = words.masses_kg[i];
+    constexpr double kRounding = 1e-3;  // 250 g on a cell of 250 gf
+    if (weight_N(mass_kg, words.request) <= (1.0 + kRounding) * capacity_N) continue;
+    const std::string mass(trimmed(typed[i]));
+    const bool has_unit = !number_from_text(mass);
+    throw UsageError(fmt::format("--weights: {}{} is more than the load cell's {:.4f} N{}", mass,
+                                 has_unit ? "" : " without a unit, in kg,", capacity_N,
+                                 has_unit ? "; omit it" : "; write \"" + mass + " g\""));
   }
+  std::vector<double> loads = sequence_kg(words.masses_kg, 1);
+  std::sort(loads.begin(), loads.end());
+  const auto is_same = [&](double a, double b) { return b - a <= 1e-6 * loads.back(); };
+  loads.erase(std::unique(loads.begin(), loads.end(), is_same), loads.end());
+  constexpr std::size_t kFewest = 3;  // no load, and two weights
+  if (loads.size() < kFewest) {
+    throw UsageError("--weights \"" + words.weights +
+                     "\" has fewer than two different weights, which a calibration needs; add one, "
+                     "such as \"20 g, 50 g\"");
+  }
+}
+
+WeightReadings readings_on_rig(const RigConfig& rig, const CalibrateWords& asked, double capacity_N,
+                               Streams& streams) {
+  CalibrateWords words = asked;
+  if (words.is_emulated && words.masses_kg.empty()) {
+    words.weights = "50 g, 100 g, 150 g, 200 g";
+    words.masses_kg = {0.05, 0.1, 0.15, 0.2};
+  }
+  check_weights(words, capacity_N);
   std::unique_ptr<EmulatedRig> emulated;
   if (words.is_emulated) {
     emulated = std::make_unique<EmulatedRig>(
@@ -162,10 +200,12 @@ int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
     throw UsageError("calibrate needs --capacity, the rated load of the cell, such as \"250 gf\"");
   }
   if (words.data_file) request.where = *words.data_file + ": ";
-  const WeightReadings readings =
-      words.data_file ? readings_from_table(
-                            table_of_weights(*words.data_file, words.accepts_unverified), request)
-                      : readings_on_rig(rig, words, request.capacity_N, streams);
+  const bool reads_volts = !has_rig || !reading_span(rig.load_cell).is_in_newton;
+  refuse_idle<UsageError>(
+      {{"--span", request.span_V.has_value(), reads_volts, "a load cell that is read in volts"}});
+  const WeightReadings readings = words.data_file
+                                      ? readings_of_table(words, request)
+                                      : readings_on_rig(rig, words, request.capacity_N, streams);
   const CellCalibration cell = calibrated_cell(readings, request, has_rig ? &rig : nullptr);
   write_file(words.out_file, toml_from_calibration(cell.record), words.overwrite);
   if (words.as_json) {

@@ -45,6 +45,7 @@ CaptureOutcome capture_once(const CaptureWords& words, const CaptureSetup& setup
     if (view) outcome.force_N = view->history().force_N();
     view.reset();
   };
+  watch.note = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; };
   outcome.run = capture_to_file(
       {setup, words.out_file, words.overwrite, command, words.lifts_at_start}, watch);
   return outcome;

@@ -30,7 +30,8 @@ void check_repeats(const CaptureWords& words) {
   }
 }
 
-// Throws UsageError on a fault that is unknown or begins in no phase.
+// Throws UsageError on a fault that is unknown. check_fault() compares its phase with those of the
+// test.
 RigFault fault_from_words(const CaptureWords& words) {
   if (!words.fault) return {};
   try {

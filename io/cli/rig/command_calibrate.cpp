@@ -1,3 +1,4 @@
+#include "io/basics/option_use.h"
 #include "io/basics/units.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/rig/rig_commands.h"
@@ -32,8 +33,8 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
   add("rig", &words.rig_file, "rig.toml: port and driver of the load cell");
   add("data", &words.data_file, "table of weights and readings, in the order taken");
   add("compliance", &words.is_compliance, "measure the frame on a rigid block");
-  add("weights", &words.weights, "masses to put on, \"20 g, 50 g, 100 g, 200 g\"");
-  add("series", &words.series, "number of times to go up and down");
+  add("weights", &words.weights, "masses to put on the rig, \"20 g, 50 g, 100 g, 200 g\"");
+  add("series", &words.series, "number of times to go up and down, on the rig");
   add("mass-u", &words.request.mass_relative_u, "relative standard uncertainty of the masses");
   add("gravity", &words.request.gravity_m_s2, "gravity at this place, \"9.8067 m/s2\"").of("m/s2");
   add("capacity", &words.capacity_N, "rated load of the cell, if there is no rig file").of("N");
@@ -48,7 +49,8 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
       .by_default("");
   add("steps", &words.steps, "number of steps of force on the block");
   add("id", &words.request.id, "name of the record");
-  add("valid-until", &words.request.valid_until, "last day of validity (a year from today)");
+  add("valid-until", &words.request.valid_until,
+      "last day of validity of the load cell's record (a year from today)");
   add("out", &words.out_file, "record to write (*.toml)");
   add("emulate", &words.is_emulated, "calibrate an emulated rig");
   add("truth", &words.truth_file, "truth.toml: what the emulated cell is like");
@@ -73,6 +75,35 @@ std::vector<double> masses_from(const std::string& text) {
   return masses_kg;
 }
 
+// The options that belong to weights or to a block, on the rig or in a table.
+OptionUses uses_of(const CommandSyntax& syntax, const CalibrateWords& words) {
+  const bool weighs = !words.is_compliance, is_on_rig = !words.data_file;
+  const bool waits_for_weights = weighs && is_on_rig && !words.is_emulated;
+  const char* const kWeights = "weights (without --compliance)";
+  const char* const kOnRig = "weights on the rig (without --compliance and --data)";
+  const char* const kBlock = "a block on the rig (--compliance without --data)";
+  OptionUses uses{
+      {"weights", false, weighs && is_on_rig, kOnRig},
+      {"series", false, weighs && is_on_rig, kOnRig},
+      {"settle", false, weighs && is_on_rig, kOnRig},
+      {"mass-u", false, weighs, kWeights},
+      {"gravity", false, weighs, kWeights},
+      {"nonlinearity", false, weighs, kWeights},
+      {"capacity", false, weighs, kWeights},
+      {"span", false, weighs, kWeights},
+      {"valid-until", false, weighs, kWeights},
+      {"seconds", false, is_on_rig, "readings on the rig (without --data)"},
+      {"to", false, !weighs && is_on_rig, kBlock},
+      {"steps", false, !weighs && is_on_rig, kBlock},
+      {"yes", false, !waits_for_weights, "a block (--compliance); each weight is put on by hand"},
+      {"unverified", false, !is_on_rig, "files (--data)"}};
+  for (OptionUse& use : uses) {
+    use.is_given = is_given(syntax, use.option);
+    use.option.insert(0, "--");
+  }
+  return uses;
+}
+
 // Fills in what follows from other options.
 void take_values(const CommandSyntax& syntax, CalibrateWords& words) {
   words.as_json = syntax.as_json;
@@ -83,7 +114,7 @@ void take_values(const CommandSyntax& syntax, CalibrateWords& words) {
   words.request.capacity_N = words.capacity_N.value_or(0.0);
 }
 
-void check_words(const CalibrateWords& words) {
+void check_words(const CommandSyntax& syntax, const CalibrateWords& words) {
   const int n_sources = (words.is_emulated ? 1 : 0) + (words.data_file ? 1 : 0) +
                         (words.rig_file && !words.is_emulated && !words.data_file ? 1 : 0);
   if (n_sources != 1) {
@@ -92,6 +123,7 @@ void check_words(const CalibrateWords& words) {
         "--emulate");
   }
   if (words.out_file.empty()) throw UsageError("calibrate needs --out FILE, the record to write");
+  refuse_idle<UsageError>(uses_of(syntax, words));
   if (words.series < 1 || words.series > 100) throw UsageError("--series is outside 1 to 100");
   if (words.steps < 3 || words.steps > 100) throw UsageError("--steps is outside 3 to 100");
   if (!(words.mean_s > 0.0) || !(words.settle_s >= 0.0)) {
@@ -118,7 +150,7 @@ int run_calibrate(const Words& words, Streams& streams) {
   CommandSyntax syntax = calibrate_syntax(asked);
   if (!parse_words(syntax, words, streams)) return kDone;
   take_values(syntax, asked);
-  check_words(asked);
+  check_words(syntax, asked);
   return asked.is_compliance ? calibrate_frame(asked, streams)
                              : calibrate_load_cell(asked, streams);
 }

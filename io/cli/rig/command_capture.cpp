@@ -19,6 +19,7 @@
 #include <iostream>
 #include <ostream>
 #include <set>
+#include <stdexcept>
 
 namespace viscard {
 namespace {
@@ -109,6 +110,11 @@ void check_calibration(const CaptureWords& words, const CaptureSetup& setup, Str
 void check_before_start(const CaptureWords& words, const CaptureSetup& setup, Streams& streams) {
   const Preflight expected = safe_preflight(setup);
   for (const std::string& text : expected.warnings) streams.err << "viscard: " << text << "\n";
+  try {
+    check_fault(setup.fault, setup.plan);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--") + error.what());
+  }
   const std::filesystem::path file = words.out_file;
   const auto beside = [&](const char* ending) {
     return std::filesystem::path(file).replace_extension(ending);

@@ -1,3 +1,4 @@
+#include "io/basics/option_use.h"
 #include "io/basics/timestamp.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
@@ -277,7 +278,18 @@ int touch_and_write(const RigWords& words, bool as_json, Streams& streams) {
   return kDone;
 }
 
-StageOrder order_from(const RigWords& words) {
+// An option of a quantity as it was typed; a missing unit is the most frequent mistake. Empty: not
+// given.
+std::string as_typed(const CommandSyntax& syntax, const char* option, const char* si) {
+  const Words typed = given_words(syntax, {option});
+  if (typed.empty()) return "";
+  return fmt::format("--{} is '{}'{}", option, typed.back(),
+                     number_from_text(typed.back())
+                         ? fmt::format(", without a unit and so in {}", si)
+                         : std::string());
+}
+
+StageOrder order_from(const RigWords& words, const std::string& way_typed) {
   constexpr double kLift_m = 2e-3;
   StageOrder order;
   order.is_home = words.what == "home";
@@ -293,29 +305,38 @@ StageOrder order_from(const RigWords& words) {
   }
   const double way_m = words.toward_m.value_or(words.away_m.value_or(kLift_m));
   if (!(way_m > 0.0)) {
-    throw UsageError(fmt::format("the way is {} mm; it must be above 0", way_m * 1e3));
+    throw UsageError(way_typed + "; it must be above 0");
   }
   order.toward_m = words.toward_m ? way_m : -way_m;
   return order;
 }
 
-int move_and_print(const RigWords& words, bool as_json, Streams& streams) {
+int move_and_print(const RigWords& words, const CommandSyntax& syntax, Streams& streams) {
   const std::optional<std::string>& file = words.rig_file;
   if (!words.is_emulated && !file) {
     throw UsageError("rig " + words.what + " needs --rig FILE, whose stage is moved");
   }
-  const StageOrder order = order_from(words);
+  const OrderTexts typed{as_typed(syntax, words.toward_m ? "toward" : "away", "m"),
+                         as_typed(syntax, "speed", "m/s"), as_typed(syntax, "limit", "N")};
+  const StageOrder order = order_from(words, typed.way);
   const RigConfig rig = file ? read_rig(*file, words.plausible) : demo_rig();
   try {
-    check_order(order, rig);
+    check_order(order, rig, typed);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
   const StopOnSignal on_signal;
   RunControl control;
   control.stop = &StopOnSignal::is_asked();
+  Progress progress(streams, words.what);
+  control.progress = [&](const RunProgress& now) {
+    // Only the move itself has a planned duration; homing and the force before it have none.
+    progress.show(now.phase == kMovePhase ? now.fraction : 0.0,
+                  fmt::format("{}, {:.4f} N", now.phase, now.force_N));
+  };
   const StageMoved moved = move_rig_stage(rig, words.is_emulated, order, control);
-  if (as_json) {
+  progress.clear();
+  if (syntax.as_json) {
     print_result(
         {"viscard-rig-move/1", file ? Words{*file} : Words{}},
         [&](ResultVisitor& v) { show_keys(v, moved); }, streams, kOneLine);
@@ -351,13 +372,19 @@ int run_rig(const Words& words, Streams& streams) {
     throw UsageError("--" + option + " belongs to 'viscard rig " +
                      (is_of_move ? "jog'" : "check'"));
   }
+  const bool is_home = asked.what == "home";
+  const char* const kJog =
+      "rig jog and rig lift; the controller homes at its own speed, and only "
+      "the force limits of the rig file stop it";
+  refuse_idle<UsageError>({{"--speed", is_given(syntax, "speed"), !is_home, kJog},
+                           {"--limit", is_given(syntax, "limit"), !is_home, kJog}});
   if (asked.what == "list") {
     std::optional<RigConfig> rig;
     if (asked.rig_file) rig = read_rig(*asked.rig_file, asked.plausible);
     return list_ports(rig, given_words(syntax, {"rig"}), syntax.as_json, streams);
   }
   if (asked.what == "overshoot") return show_overshoot(syntax.as_json, streams);
-  if (moves(asked)) return move_and_print(asked, syntax.as_json, streams);
+  if (moves(asked)) return move_and_print(asked, syntax, streams);
   if (asked.what == "touch") return touch_and_write(asked, syntax.as_json, streams);
   return check_and_print(asked, syntax.as_json, streams);
 }

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
+#include "io/basics/option_use.h"
 #include "io/cli/scene/cost_of_tests.h"
 #include "io/cli/scene/cost_output.h"
 #include "io/cli/scene/scene_commands.h"
@@ -64,6 +65,9 @@ int run_cost(const Words& words, Streams& streams) {
   if (!parse_words(syntax, words, streams)) return kDone;
   const std::string command = quoted_command_line("cost", words);
   if (asked.tests.rig) {
+    const char* const kScenes = "a scene; tests at a rig have --at-most";
+    refuse_idle<UsageError>({{"--budget", is_given(syntax, "budget"), false, kScenes},
+                             {"--cpu-budget", is_given(syntax, "cpu-budget"), false, kScenes}});
     asked.tests.scene = asked.scene;
     return run_cost_of_tests(asked.tests, asked.files, syntax, command, streams);
   }

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
+#include "io/basics/option_use.h"
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/design_judge.h"
 #include "io/cli/scene/design_optimise.h"
@@ -63,7 +64,8 @@ CommandSyntax design_syntax(DesignWords& words, LimitValues& limits,
               "data/requirements/human_hand.toml");
   options
       .add("search-time", &words.search_s,
-           "processor time for the search of the dimensions that would pass, summed over all "
+           "with --require: processor time for the search of the dimensions that would pass, "
+           "summed over all "
            "cores; the judgement itself comes first and is not limited; 0s: no search")
       .of("s")
       .by_default("60s");
@@ -115,7 +117,9 @@ int run_design(const Words& words, Streams& streams) {
     return is_specification(asked) ? run_design_optimise(asked, syntax, words, streams)
                                    : run_design_judge(asked, syntax, words, streams);
   }
-  if (asked.tolerance) throw UsageError("--tol belongs to a scene; name its file");
+  refuse_idle<UsageError>(
+      {{"--tol", asked.tolerance.has_value(), false, "a scene, and none is named"},
+       {"--search-time", is_given(syntax, "search-time"), false, "a scene, and none is named"}});
   const ClosedFormDesign design = design_from(limits, lattice);
   const JsonHead head{"viscard-design/1", {}};
   const auto show = [&](const std::string& command) {

@@ -36,6 +36,9 @@ int run_scene(const Words& words, Streams& streams) {
   syntax.results = {
       {"scene", "viscard scene check", {[](ResultVisitor& v) { show_check(v, "", ""); }}}};
   if (!parse_words(syntax, words, streams)) return kDone;
+  if (svg && std::filesystem::path(*svg).extension() != ".svg") {
+    throw UsageError("--svg " + *svg + ": the drawing is an SVG file, so end its name with .svg");
+  }
   const SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
   streams.accepts_implausible |= file.accepts_implausible;
   const Scene scene = file.scene;

@@ -16,12 +16,10 @@
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
 #include "models/answer/effect_estimate.h"
-#include "models/maths/text_of_number.h"
 #include "models/scene/simulate.h"
 
 #include <chrono>
 #include <filesystem>
-#include <map>
 #include <ostream>
 #include <string>
 
@@ -37,18 +35,6 @@ SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   return simulate_file(scene, path);
 }
 
-// Words for the pictures of modes by the name of the mode, "lateral_2".
-std::map<std::string, std::string> captions_of(const SceneAnswer& answer, const std::string& path) {
-  const std::string scene = std::filesystem::path(path).stem().string();
-  std::map<std::string, std::string> captions;
-  std::map<std::string, int> number;
-  for (const SceneMode& mode : answer.modes) {
-    captions[mode.family + "_" + std::to_string(++number[mode.family])] =
-        text_with_error(mode.frequency_Hz, mode.error_estimate) + " Hz (" + scene + ")";
-  }
-  return captions;
-}
-
 // Pictures and ParaView files of the solution on the mesh that met the tolerance, and results over
 // the numbers of the pillars.
 void write_looks(const Scene& scene, const SceneAnswer& answer, const std::string& path,
@@ -56,15 +42,17 @@ void write_looks(const Scene& scene, const SceneAnswer& answer, const std::strin
   Progress progress(streams, "simulate");
   progress.announce(1.0, "pictures");
   const std::filesystem::path in = output.folder;
+  const std::string name = std::filesystem::path(path).stem().string();
   for (const SectionGrid& grid : solution_fields(scene, answer.discretisation)) {
     write_file(in / (grid.name + ".vtu"), vtu_from_grid(grid), output.overwrite);
-    write_pictures(pictures_from_grid(grid, captions_of(answer, path)), output.folder,
+    write_pictures(pictures_from_grid(grid, captions_from_answer(answer), name), output.folder,
                    output.overwrite);
   }
   if (const RowShapes shapes = mode_shapes(scene, answer.discretisation); !shapes.modes.empty()) {
     write_file(in / "mode_shapes.csv", csv_of_shapes(shapes, answer.modes, output.command),
                output.overwrite);
-    write_pictures(pictures_from_shapes(shapes, answer.modes), output.folder, output.overwrite);
+    write_pictures(pictures_from_shapes(shapes, answer.modes, name), output.folder,
+                   output.overwrite);
   }
   const auto* row = std::get_if<ArrayScene>(&scene);
   const std::vector<int> loaded = row == nullptr ? std::vector<int>{} : row->loaded;

@@ -54,6 +54,7 @@ int run_cost_of_tests(const CostOfTestsWords& words, const StudyFiles& files,
   request.guess = words.guess;
   request.scene = words.scene;
   request.longest_s = words.longest_s;
+  if (!(request.longest_s > 0.0)) throw UsageError("--at-most must be positive, such as 10min");
   for (const std::string& text : request.want) {
     try {
       wanted_from_text(text);

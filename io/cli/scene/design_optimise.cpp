@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/json_string.h"
+#include "io/basics/option_use.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
@@ -49,18 +50,19 @@ DescribedResult result_of_front() {
 int run_design_optimise(const DesignWords& asked, const CommandSyntax& syntax, const Words& words,
                         Streams& streams) {
   const std::string& path = *asked.scene;
-  if (asked.tolerance) {
-    throw UsageError(
-        "--tol belongs to a scene; the tolerance of a design stands in its scene file");
-  }
+  const std::string of_judgement =
+      "a scene that --require judges, and " + path + " is a specification";
+  refuse_idle<UsageError>(
+      {{"--tol", asked.tolerance.has_value(), false, of_judgement},
+       {"--search-time", is_given(syntax, "search-time"), false, of_judgement}});
   const DesignSpec spec = read_design_spec(path);
   DesignFront front;
   {
     Progress progress(streams, "design");
     const WordsOnSignal words_on_signal(
-        "the design was stopped; nothing is written. Fewer free values, a larger tolerance or a "
-        "smaller budget in " +
-        path + " end earlier");
+        "the design was stopped; nothing is written. Fewer ranges and choices or a smaller front "
+        "in " +
+        path + ", or a larger tolerance in its scene, end earlier");
     front = design_front(
         spec, [&](double done, const std::string& what) { progress.announce(done, what); });
   }

@@ -42,13 +42,13 @@ Plot one_panel(const std::string& title, const std::string& description, PlotPan
 PlotPanel by_diameter(const SensorGeometry& g, const char* y_label, bool is_log,
                       const std::function<double(double, double)>& of_d_s) {
   PlotPanel panel;
-  panel.x = {"spacing (um)", true};
+  panel.x = {"spacing (µm)", true};
   panel.y = {y_label, is_log};
   const std::vector<double> spacing_m = log_range(0.1 * g.spacing_m, 5.0 * g.spacing_m);
   std::size_t number = 0;
   for (const double factor : {0.5, 1.0, 2.0}) {
     const double d = factor * g.diameter_m;
-    panel.series.push_back(curve(fmt::format("diameter {:.3g} um", d * kUm), spacing_m, number++,
+    panel.series.push_back(curve(fmt::format("diameter {:.3g} µm", d * kUm), spacing_m, number++,
                                  kUm, [&](double s) { return of_d_s(d, s); }));
   }
   return panel;
@@ -57,7 +57,7 @@ PlotPanel by_diameter(const SensorGeometry& g, const char* y_label, bool is_log,
 Plot flaw_picture(const SensorMaterial& m, const SensorGeometry& g) {
   PlotPanel panel;
   panel.x = {"adhesion strength (kPa)", true};
-  panel.y = {"widest pillar (um)", true};
+  panel.y = {"widest pillar (µm)", true};
   const std::vector<double> strength_Pa = log_range(1e3, 1e7);
   panel.series.push_back(curve("flaw-insensitive below", strength_Pa, 0, 1e-3, [&](double Pa) {
     SensorMaterial other = m;
@@ -75,8 +75,8 @@ Plot flaw_picture(const SensorMaterial& m, const SensorGeometry& g) {
 // Lengths from which and up to which a pillar is admissible: everything below all limits.
 Plot region_picture(const SensorGeometry& g, const SensorMaterial& m, const SensorRequirements& r) {
   PlotPanel panel;
-  panel.x = {"spacing (um)", true};
-  panel.y = {"length (um)", true, 0.2 * kUm * g.diameter_m, 40.0 * kUm * g.diameter_m};
+  panel.x = {"spacing (µm)", true};
+  panel.y = {"length (µm)", true, 0.2 * kUm * g.diameter_m, 40.0 * kUm * g.diameter_m};
   const std::vector<double> spacing_m = log_range(0.1 * g.spacing_m, 5.0 * g.spacing_m);
   PlotSeries band{.mark = Mark::kBand, .label = "admissible", .ink = Ink::kSky};
   for (const double s : spacing_m) {
@@ -100,21 +100,21 @@ Plot region_picture(const SensorGeometry& g, const SensorMaterial& m, const Sens
   here.size = 2.0;
   panel.series.push_back(here);
   return one_panel("Admissible region",
-                   fmt::format("Lengths below every limit at a diameter of {:.3g} um.", d * kUm),
+                   fmt::format("Lengths below every limit at a diameter of {:.3g} µm.", d * kUm),
                    std::move(panel));
 }
 
 Plot diameters_picture(const SensorGeometry& g, const SensorMaterial& m,
                        const SensorRequirements& r) {
   PlotPanel panel;
-  panel.x = {"diameter (um)", true};
-  panel.y = {"longest admissible pillar (um)", true};
+  panel.x = {"diameter (µm)", true};
+  panel.y = {"longest admissible pillar (µm)", true};
   const std::vector<double> diameter_m = log_range(0.1 * g.diameter_m, 10.0 * g.diameter_m);
   std::size_t number = 0;
   for (const double factor : {0.5, 1.0, 2.0}) {
     const double s = factor * g.spacing_m;
     panel.series.push_back(
-        curve(fmt::format("spacing {:.3g} um", s * kUm), diameter_m, number++, kUm, [&](double d) {
+        curve(fmt::format("spacing {:.3g} µm", s * kUm), diameter_m, number++, kUm, [&](double d) {
           const double length_m = longest_pillar(d, s, m, r).length_m;
           return length_m > 0.0 ? kUm * length_m : std::numeric_limits<double>::quiet_NaN();
         }));
@@ -132,13 +132,13 @@ std::vector<std::pair<std::string, Plot>> design_pictures(const SensorGeometry& 
   std::vector<std::pair<std::string, Plot>> pictures;
   pictures.emplace_back(
       "buckling", one_panel("Buckling", "Longest pillar that does not buckle, against spacing.",
-                            by_diameter(g, "longest pillar (um)", true, [&](double d, double s) {
+                            by_diameter(g, "longest pillar (µm)", true, [&](double d, double s) {
                               return kUm * longest_unbuckled_m(d, s, m, r);
                             })));
   pictures.emplace_back(
       "matting",
       one_panel("Matting", "Longest pillar that does not stick to its neighbour, against spacing.",
-                by_diameter(g, "longest pillar (um)", true, [&](double d, double s) {
+                by_diameter(g, "longest pillar (µm)", true, [&](double d, double s) {
                   return kUm * longest_unmatted_m(d, s, m);
                 })));
   pictures.emplace_back("flaw", flaw_picture(m, g));

@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/inputs.h"
+#include "io/pictures/picture_numbers.h"
 #include "io/pictures/share_picture.h"
 #include "models/maths/text_of_number.h"
 
@@ -61,7 +62,11 @@ std::string picture_of(const SceneUncertainty& uncertainty) {
   bool has_rest = false;
   for (const ResultUncertainty& result : uncertainty.results) {
     if (!(result.standard_uncertainty > 0.0)) continue;
-    ShareBar bar{result.name, interval_words(result), {}};
+    ShareBar bar{result.name,
+                 result.no_interval.empty() ? interval_in_unit(result.interval_95.low,
+                                                               result.interval_95.high, result.unit)
+                                            : "no interval",
+                 {}};
     for (const CauseShare& cause : result.causes) bar.shares.push_back(cause.share);
     has_rest = has_rest || share_jointly(result) > 0.005;
     bars.push_back(std::move(bar));

@@ -19,7 +19,11 @@ namespace fs = std::filesystem;
 namespace viscard {
 namespace {
 
-constexpr std::array<std::string_view, 5> kOutputs{"out", "csv", "creep-csv", "svg", "vtk"};
+constexpr std::array<std::string_view, 7> kOutputs{"out", "csv",      "creep-csv", "svg",
+                                                   "vtk", "pictures", "schemas"};
+
+// Of viscard card, which checks the file by itself.
+constexpr std::string_view kImport = "import";
 
 struct NamedPath {
   std::string option;
@@ -75,23 +79,40 @@ void refuse_unwritable_folder(const NamedPath& output) {
   }
 }
 
+// "-" would make a file or folder of that name, which nobody wants who types it.
+void refuse_standard_output(const NamedPath& path) {
+  if (path.path != "-" || !(path.is_output || path.option == kImport)) return;
+  throw UsageError(
+      "--" + path.option +
+      " '-': is standard output, and this option writes a file or folder; write ./- for "
+      "one of that name");
+}
+
+// A folder, device or pipe is no file that anything can replace. where: begins the message.
+void refuse_other_than_file(const std::string& where, const fs::path& output) {
+  std::error_code error;
+  switch (fs::status(output, error).type()) {
+    case fs::file_type::character:
+    case fs::file_type::block:
+    case fs::file_type::fifo:
+    case fs::file_type::socket:
+      throw std::runtime_error(where +
+                               "it is a device or pipe, not a file; name a file, and read that");
+    case fs::file_type::directory:
+      throw std::runtime_error(where + "it is a folder; name a file in it, such as '" +
+                               (output / "result").string() + "'");
+    default:
+      return;
+  }
+}
+
 }  // namespace
 
 void refuse_folder_as_file(const std::string& option, const fs::path& output) {
   std::error_code error;
   const std::string where = "cannot write --" + option + " '" + output.string() + "': ";
-  if (output == "-") {
-    throw UsageError(
-        where +
-        "this option takes the name of a file; what a command prints without it goes to "
-        "standard output");
-  }
-  const fs::file_type type = fs::status(output, error).type();
-  if (type == fs::file_type::character || type == fs::file_type::fifo) {
-    throw std::runtime_error(where +
-                             "it is a device or pipe, not a file; name a file, and read that");
-  }
-  if (fs::is_directory(output, error) || !output.has_filename()) {
+  refuse_other_than_file(where, output);
+  if (!output.has_filename()) {
     throw std::runtime_error(where + "it is a folder; name a file in it, such as '" +
                              (output / "result").string() + "'");
   }
@@ -105,6 +126,7 @@ void refuse_folder_as_file(const std::string& option, const fs::path& output) {
 void check_output_paths(const CommandSyntax& syntax) {
   const std::vector<NamedPath> paths = paths_among(syntax);
   for (const NamedPath& path : paths) {
+    refuse_standard_output(path);
     if (!path.is_output) continue;
     refuse_shared_file(path, paths);
     refuse_unwritable_folder(path);
@@ -116,6 +138,7 @@ void check_output_paths(const CommandSyntax& syntax) {
 }
 
 void refuse_existing(const fs::path& output, bool overwrite) {
+  refuse_other_than_file("cannot write '" + output.string() + "': ", output);
   if (overwrite || !fs::exists(output)) return;
   throw std::runtime_error("'" + output.string() +
                            "' exists already; pass --force to replace it, or choose another name");

@@ -322,7 +322,7 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   FittedLargeStrain fitted;
   fitted.files = request.files;
   std::vector<CsvTable> tables;
-  SpecimenSize used_size;  // by any of them
+  OptionUses uses;
   for (const LargeStrainFile& file : request.files) {
     tables.push_back(file.in_memory ? *file.in_memory : read_csv(file.path, request.table));
     tables.back().judged = request.plausible;
@@ -330,8 +330,7 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
     if (!request.options.foam_terms.empty()) refuse_true_stress(tables.back(), request.columns);
     const SpecimenSize used = derive_columns(tables.back(), request.columns,
                                              size_from_notes(tables.back(), request.size));
-    used_size.gauge_length_m = std::max(used_size.gauge_length_m, used.gauge_length_m);
-    used_size.area_m2 = std::max(used_size.area_m2, used.area_m2);
+    add_uses(uses_of(request.size, used), uses);
     tables.back() =
         rows_without_gaps(std::move(tables.back()),
                           {"time_s", "strain", "stretch", "stress_Pa", "nominal_stress_Pa",
@@ -342,7 +341,7 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
     }
     fitted.tests.push_back(test_of_file(file, tables.back(), request));
   }
-  refuse_unused(request.size, used_size);
+  refuse_idle(uses);
   refuse_copies(fitted.tests, request.files);
   number_names(fitted.tests);
   std::vector<MaterialFlag> notes;  // those of the fitted rows are made by the fit

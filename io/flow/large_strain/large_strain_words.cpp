@@ -1,6 +1,7 @@
 #include "io/flow/large_strain/large_strain_words.h"
 
 #include "io/basics/option_quantity.h"
+#include "io/basics/option_use.h"
 #include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "models/hyperelastic/mullins_damage.h"
@@ -108,12 +109,6 @@ std::optional<int> terms_from(const std::optional<int>& number, const char* opti
                     std::to_string(kMost) + " for tests at large strain");
 }
 
-void check_both(const LargeStrainOptions& options) {
-  if (!options.n_terms || !options.max_terms || *options.n_terms <= *options.max_terms) return;
-  throw OptionError("--terms " + std::to_string(*options.n_terms) + " is above --max-terms " +
-                    std::to_string(*options.max_terms) + "; give one of them");
-}
-
 // "1.8 MPa" or "1.8 MPa +- 0.1 MPa", of E0, or behind "E_inf=" of what is left after all relaxation.
 std::optional<KnownModulus> modulus_from(const LargeStrainWords& words, Plausible judged) {
   const auto& text = words.youngs_modulus;
@@ -191,7 +186,8 @@ LargeStrainRequest large_strain_request(const LargeStrainWords& words,
   request.options.modulus = modulus_from(words, request.plausible);
   request.options.n_terms = terms_from(words.terms, "--terms");
   request.options.max_terms = terms_from(words.max_terms, "--max-terms");
-  check_both(request.options);
+  refuse_idle<OptionError>({{"--max-terms", words.max_terms.has_value(), !words.terms,
+                             "the choice of a number of terms, and --terms states the number"}});
   request.cycle = cycle_from(words);
   check_damage(request);
   check_foam(words, request);

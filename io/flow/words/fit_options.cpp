@@ -10,7 +10,8 @@ void add_model(OptionList& list, FitWords& words) {
            "indentation, relaxation, creep or dma; by default the columns decide")
       .among({"indentation", "relaxation", "creep", "dma"});
   list.add("terms", &words.terms, "use this number of terms instead of choosing one");
-  list.add("max-terms", &words.max_terms, "largest number of terms to try").by_default("40");
+  list.add("max-terms", &words.max_terms, "largest number of terms to try, without --terms")
+      .by_default("40");
   list.add("liquid", &words.liquid, "no equilibrium modulus (by itself if the data show none)");
   list.add("solid", &words.solid,
            "keep the equilibrium modulus also where the data do not show it");

@@ -4,6 +4,7 @@
 #include "fit/laws/law_values.h"
 #include "io/basics/atomic_file.h"
 #include "io/basics/option_quantity.h"
+#include "io/basics/option_use.h"
 #include "io/basics/timestamp.h"
 #include "io/basics/words.h"
 #include "io/config/config_file.h"
@@ -115,6 +116,8 @@ FitOptions options_from(const FitWords& words) {
   constexpr int kMost = 100;
   options.max_terms = words.max_terms.value_or(options.max_terms);
   options.n_terms = words.terms;
+  refuse_idle<OptionError>({{"--max-terms", words.max_terms.has_value(), !words.terms,
+                             "the choice of a number of terms, and --terms states the number"}});
   const int wanted = options.n_terms.value_or(options.max_terms);
   if (wanted < 0 || wanted > kMost) {
     throw OptionError(std::string(options.n_terms ? "--terms " : "--max-terms ") +

@@ -1,6 +1,7 @@
 #include "io/flow/words/predict_words.h"
 
 #include "io/basics/option_quantity.h"
+#include "io/basics/option_use.h"
 #include "io/basics/words.h"
 
 #include <algorithm>
@@ -47,7 +48,24 @@ PredictionRequest prediction_request(const PredictWords& words, bool is_sweep, P
   if (request.points < 2 || request.points > 100000) {
     throw OptionError("--points must lie between 2 and 100000");
   }
+  const double in_cycles = 2.0 * request.points * request.n_cycles;
+  if (words.cycles && in_cycles > kMostCyclePoints) {
+    throw OptionError("--cycles " + std::to_string(request.n_cycles) + " with " +
+                      std::to_string(request.points) +
+                      " points of each motion are above the limit of " +
+                      std::to_string(kMostCyclePoints) + " points; give fewer with --points");
+  }
   return request;
+}
+
+// Options that contradict the test, and those without an effect on it, as far as the test is known
+// before its tables are read.
+void check_known_test(const PredictFileRequest& request) {
+  const bool is_history = !request.history.empty();
+  if (!request.test && !is_history && !request.against.empty()) return;
+  const PredictedTest test =
+      request.test.value_or(is_history ? PredictedTest::kHistory : PredictedTest::kRelaxation);
+  refuse_idle<OptionError>(uses_in(test, request));
 }
 
 // Options that contradict the test.
@@ -90,19 +108,26 @@ OptionList options_of(PredictWords& words) {
            "size of the stress, such as \"10 kPa\"; creep without it is J(t) after an ideal step, "
            "recovery has 1 kPa")
       .of("Pa");
-  list.add("ramp", &words.ramp, "duration of loading and of unloading; default: a jump").of("s");
+  list.add("ramp", &words.ramp,
+           "relaxation, creep, recovery: duration of loading and of unloading; default: a jump")
+      .of("s");
   list.add("hold", &words.hold,
-           "time under load, such as \"60 s\"; default: to the end of the window")
+           "relaxation, creep, recovery: time under load, such as \"60 s\"; default: to the end of "
+           "the window")
       .of("s");
-  list.add("recovery", &words.recovery, "time after unloading; default: that of the hold").of("s");
-  list.add("period", &words.period, "of one cycle, up and down again").of("s").by_default("1 s");
-  list.add("cycles", &words.cycles, "number of cycles").by_default("5");
+  list.add("recovery", &words.recovery, "recovery: time after unloading; default: that of the hold")
+      .of("s");
+  list.add("period", &words.period, "cycles: of one cycle, up and down again")
+      .of("s")
+      .by_default("1 s");
+  list.add("cycles", &words.cycles, "cycles: their number").by_default("5");
   list.add("from", &words.from,
-           "first time of the curve, or lowest frequency of --test oscillation; default: the "
-           "window")
+           "relaxation, creep, recovery: first time of the curve; oscillation: lowest frequency; "
+           "default: the window")
       .of("s");
-  list.add("to", &words.to, "last time, or highest frequency").of("s");
-  list.add("points", &words.points, "of the curve, or of each motion").by_default("200");
+  list.add("to", &words.to, "last time (or --hold), or highest frequency").of("s");
+  list.add("points", &words.points, "of the curve, or of each motion; not of a history")
+      .by_default("200");
   list.add("temperature", &words.temperature,
            "predict at this temperature, such as \"40 degC\", by the material's temperature "
            "shift")
@@ -112,7 +137,8 @@ OptionList options_of(PredictWords& words) {
            "table with time_s and any strain or stress_Pa, linear between rows; with both columns, "
            "the strain is the input and the stress is compared")
       .read_from_file();
-  list.add("driven-by", &words.driven_by, "the input of such a table").among({"strain", "stress"});
+  list.add("driven-by", &words.driven_by, "the input of such a table, if it has both columns")
+      .among({"strain", "stress"});
   list.add("against", &words.against,
            "table of measured values: rms, worst, and the share inside the band")
       .read_from_file();
@@ -135,6 +161,11 @@ OptionList options_of(PredictWords& words) {
 PredictFileRequest predict_request(const PredictWords& words, const std::string& material) {
   PredictFileRequest request;
   request.material = material;
+  PredictWords copy = words;
+  const OptionList list = options_of(copy);
+  for (const Option& option : list.all()) {
+    if (is_set(option)) request.given.push_back(option.name);
+  }
   request.test = predicted_test(words.test);
   request.history = words.history.value_or("");
   request.against = words.against.value_or("");
@@ -161,6 +192,7 @@ PredictFileRequest predict_request(const PredictWords& words, const std::string&
     throw OptionError(error.what());
   }
   check_test(request);
+  check_known_test(request);
   return request;
 }
 

@@ -22,7 +22,7 @@ from ._fit import fit
 from ._fit_result import FitResult, Flag, JointFit
 from ._inverse import PressureReader, Pressures, pressures_from_voltages
 from ._material import Material, Prediction, Validation, predict
-from ._planning import NextTest, TestCost, cost_of_tests, next_test, report
+from ._planning import NextTest, NextTests, TestCost, cost_of_tests, next_test, report
 from ._result import Parameter
 from ._rubber import RubberCard, RubberFit, RubberTerm
 from ._scene import check_scene, cost, forces_from_voltages, plan, simulate
@@ -32,7 +32,7 @@ from ._table import Capture, Table, read_capture, read_table
 __version__: str = _core.version
 
 __all__ = ["Answer", "Calibration", "Capture", "CaptureOutcome", "Card", "Cost", "DesignLimits", "Designs", "DoubtWarning", "Error", "Field", "FitResult",
-           "Flag", "JointFit", "Judgement", "Material", "NextTest", "Parameter", "Plan", "Prediction", "PressureReader", "Pressures",
+           "Flag", "JointFit", "Judgement", "Material", "NextTest", "NextTests", "Parameter", "Plan", "Prediction", "PressureReader", "Pressures",
            "RubberCard", "RubberFit", "RubberTerm",
            "Sweep", "Table", "TestCost", "Validation", "Value", "calibrate", "capture", "card_targets", "check_scene", "cost", "cost_of_tests",
            "data_file", "design", "fit", "forces_from_voltages", "next_test", "plan", "predict", "pressures_from_voltages", "read_capture", "read_table", "report",

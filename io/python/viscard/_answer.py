@@ -6,8 +6,8 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple, TypedDict, cast
 
 import numpy as np
 
-from . import _core, _show
-from ._result import Result
+from . import _check, _core, _show
+from ._result import Result, Tabular, plain
 from ._types import Booleans, Floats, Integers
 
 
@@ -129,8 +129,17 @@ class Field(NamedTuple):
     quads: Integers
     values: Dict[str, FieldValues]
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Field) and bool(plain(tuple(self)) == plain(tuple(other)))
 
-class Answer:
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash(repr(plain(tuple(self))))
+
+
+class Answer(Tabular):
     """The answer of a scene. ``answer["name"]`` is a result in SI as a float, or the frequency of a mode ("torsion 1") in Hz.
 
     Attributes
@@ -196,6 +205,7 @@ class Answer:
         """Of all modes, shape (modes,)."""
         return np.array([mode["frequency_Hz"] for mode in self.modes])
 
+    @_check.arguments
     def plot(self, name: Optional[str] = None, ax: Any = None) -> Any:
         """Draw a map, a curve or a result with its error. Needs matplotlib. Returns the axes.
 
@@ -216,15 +226,16 @@ class Answer:
 
         return plot_answer(self, name, ax)
 
-    def _repr_html_(self) -> str:
+    def _table(self) -> _show.Columns:
         rows: List[Any] = [(name, one.value, one.unit, one.error) for name, one in self.results.items()]
+        missing: List[None] = []  # of modes, the intervals
         if self.uncertainty is not None:
-            of = self.uncertainty["results"]
+            of, missing = self.uncertainty["results"], [None]
             rows = [(*row, of[row[0]].get("interval_95") if row[0] in of else None) for row in rows]
-        rows += [(mode["name"], mode["frequency_Hz"], "Hz", mode["error_estimate"]) for mode in self.modes]
-        heads = ["", "value", "unit", "error"] + (["95 %"] if self.uncertainty is not None else [])
+        rows += [(mode["name"], mode["frequency_Hz"], "Hz", mode["error_estimate"], *missing) for mode in self.modes]
+        heads = ["name", "value", "unit", "error"] + ["interval_95"] * len(missing)
         curves = [f"curve {name} ({len(curve['x'])} points)" for name, curve in self.curves.items()]
-        return _show.html_table("answer", heads, rows, curves + [f"map {name}" for name in self.maps] + self.notes)
+        return _show.of_rows("answer", heads, rows, curves + [f"map {name}" for name in self.maps] + self.notes)
 
     def __repr__(self) -> str:
         shown = [f"{name} {v.value:.4g} {v.unit}" for name, v in self.results.items()]
@@ -277,15 +288,16 @@ class Plan(Result):
         self.mesh_tolerance: float = self.values["mesh_tolerance"]
         self.left_out: float = self.values["left_out"]
 
+    @_check.arguments
     def is_on(self, effect: str) -> bool:
         for one in self.effects:
             if one["name"] == effect:
                 return one["on"]
         raise KeyError(f"no effect '{effect}'; there are {', '.join(e['name'] for e in self.effects)}")
 
-    def _repr_html_(self) -> str:
-        rows = [(one["name"], "on" if one["on"] else "off", one["estimate"], one["reason"]) for one in self.effects]
-        return _show.html_table(f"plan, tolerance {self.tolerance:g}", ["effect", "", "error without it", "reason"], rows)
+    def _table(self) -> _show.Columns:
+        return _show.of_dicts(f"plan, tolerance {self.tolerance:g}; estimate: error without the effect",
+                              ["name", "on", "estimate", "reason"], self.effects)
 
     def __repr__(self) -> str:
         return "<viscard.Plan on: " + ", ".join(e["name"] for e in self.effects if e["on"]) + ">"
@@ -336,11 +348,14 @@ class Cost(Result):
 
         return plot_cost(self, ax)
 
+    def _table(self) -> _show.Columns:
+        names = ("discretisation", "effects", "unknowns", "cpu_s", "wall_s", "memory_B", "error", "pareto")
+        return _show.Columns("cost", {name: getattr(self, name) for name in names}, [one[2] for one in self.recommendations])
+
     def _repr_html_(self) -> str:
-        columns: Dict[str, Any] = {"discretisation": np.array(self.discretisation), "effects": np.array(self.effects),
-                                   "unknowns": self.unknowns, "cpu_s": self.cpu_s, "error": self.error}
-        best = {name: values[self.pareto] for name, values in columns.items()}
-        return _show.html_columns("cost: the best rows", best, [one[2] for one in self.recommendations])
+        whole = self._table()
+        best = {name: np.asarray(values)[self.pareto] for name, values in whole.columns.items() if name != "pareto"}
+        return _show.html_of(whole._replace(title="cost: the best rows", columns=best))
 
     def __repr__(self) -> str:
         return f"<viscard.Cost: {len(self.error)} rows, {int(self.pareto.sum())} on the Pareto front>"

@@ -13,10 +13,10 @@ from ._error import Error
 from ._types import Floats
 
 
-def path_of(value: Any, name: str) -> str:
-    """A path as text."""
+def path_of(value: Any, name: str, others: str = "", hint: str = "") -> str:
+    """A path as text. others: what may stand in its place, which the caller has looked for."""
     if not isinstance(value, (str, os.PathLike)):
-        raise TypeError(f"{name} must be a path, not {shown(value)}")
+        raise TypeError(f"{name} must be a path{others}, not {shown(value)}{hint}")
     return str(os.fspath(value))
 
 
@@ -132,46 +132,56 @@ def is_by_kind(value: Any) -> bool:
     return isinstance(first, (str, os.PathLike)) or hasattr(first, "keys") or hasattr(first, "moves")
 
 
+OR_TABLE = ", a dict of arrays by header or a DataFrame"
+_OR_LIST = ", a list of these, or a dict of these by kind of test"
+
+
 class Given(NamedTuple):
     """What a function was given in the place of files: the words of the command, and arrays by the name that stands for
     their file."""
 
     words: List[str]
     tables: Dict[str, Dict[str, Floats]]
+    only_files: bool
 
-    def add(self, value: Any, name: str, kind: str = "") -> None:
-        """A path, a capture, or a table, which has this name unless it comes from a file."""
-        if is_table(value):
+    def path_of(self, value: Any, where: str, others: str = "") -> str:
+        if self.only_files:
+            return path_of(value, where, f"{',' if others else ' or'} a Capture{others}", "; save arrays and materials to a file first")
+        return path_of(value, where, f", a dict of arrays by header, a DataFrame{',' if others else ' or'} a Capture{others}")
+
+    def add(self, value: Any, name: str, where: str, kind: str = "") -> None:
+        """A path, a capture, or a table, which has this name unless it comes from a file. where: of the argument."""
+        if is_table(value) and not self.only_files:
             name = value.file if hasattr(value, "preamble") else name  # a Table knows its file
             while name in self.tables:  # two parts of one file
                 name += " again"
             self.tables[name] = table(value, name)
             path = name
         else:
-            path = value.file if hasattr(value, "moves") else path_of(value, name)  # a Capture has one
+            path = value.file if hasattr(value, "moves") else self.path_of(value, where)  # a Capture has one
         self.words.append(f"{kind}={path}" if kind else path)
 
 
-def given(data: Any, name: str) -> Given:
-    """Of one path, capture or table, a list of these, or tests by kind."""
-    out = Given([], {})
+def given(data: Any, name: str, only_files: bool = False) -> Given:
+    """Of one path, capture or table, a list of these, or tests by kind; only_files: of no table."""
+    out = Given([], {}, only_files)
     if is_by_kind(data):
         for kind, tests in data.items():
             each = tests if isinstance(tests, (list, tuple)) else [tests]
+            if not each:
+                raise Error(f"{name}[{shown(kind)}] is an empty list; give at least one test", "usage")
             for number, one in enumerate(each, 1):
-                out.add(one, kind if len(each) == 1 else f"{kind} {number}", kind)
+                out.add(one, kind if len(each) == 1 else f"{kind} {number}", f"{name}[{shown(kind)}]", kind)
         return out
-    if is_table(data):
-        out.add(data, "arrays")
+    if isinstance(data, (str, os.PathLike)) or hasattr(data, "moves") or (is_table(data) and not only_files):
+        out.add(data, "arrays", name)
         return out
-    if isinstance(data, (str, os.PathLike)) or hasattr(data, "moves"):
-        out.add(data, name)
-        return out
-    if isinstance(data, (np.ndarray, bytes, bytearray)) or not hasattr(data, "__iter__"):
-        raise TypeError(f"{name} must be a path, a dict of arrays by header, a Capture or a list of these, "
-                        f"not {shown(data)}")
-    for number, one in enumerate(data, 1):
-        out.add(one, f"arrays {number}" if is_table(one) else name)
+    if isinstance(data, (np.ndarray, bytes, bytearray)) or not hasattr(data, "__iter__") or is_table(data):
+        out.path_of(data, name, _OR_LIST)  # raises what may stand there
+    for number, one in enumerate(data):
+        out.add(one, f"arrays {number + 1}", f"{name}[{number}]")
+    if not out.words:
+        raise Error(f"{name} is empty; give at least one file", "usage")
     return out
 
 

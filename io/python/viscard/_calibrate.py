@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, Optional
 
-from . import _arrays, _check, _core
-from ._error import Error
+from . import _arrays, _check, _core, _show
 from ._result import Result
 from ._types import OptionalPath, Path, Quantity, TableLike
 
@@ -19,6 +18,8 @@ class Calibration(Result):
     ----------
     record : str
         The text that a rig file names: [calibration] file = "cell.toml", [frame] file = "frame.toml".
+    rows_left_out : int
+        Rows without a number in one of the columns that were used.
     json : dict
 
     Examples
@@ -33,11 +34,17 @@ class Calibration(Result):
     def __init__(self, found: Dict[str, Any]) -> None:
         super().__init__(found["result"])
         self.record: str = found["record"]
+        self.rows_left_out: int = found["rows_left_out"]
 
     @_check.arguments
     def save(self, path: Path, overwrite: bool = False) -> None:
         """Write the record; an existing file is kept unless `overwrite` is True."""
         _core.write_file(os.fspath(path), self.record, overwrite)
+
+    def _table(self) -> _show.Columns:
+        n = self.rows_left_out
+        notes = [f"{n} row{'' if n == 1 else 's'} without a number left out"] if n else []
+        return _show.of_values("calibration", self.json, notes)
 
     def __repr__(self) -> str:
         if "stiffness_N_m" in self.json:
@@ -55,7 +62,7 @@ def calibrate(data: TableLike, *, compliance: bool = False, rig: OptionalPath = 
     ----------
     data : path or table
         mass_kg (or force_N) with volts_V in the order in which they were taken, up and down again; for a frame position_m
-        with force_N.
+        with force_N. A row in which one of these is missing is left out.
     compliance : bool
         Of the frame.
     rig : path
@@ -82,9 +89,9 @@ def calibrate(data: TableLike, *, compliance: bool = False, rig: OptionalPath = 
     >>> round(viscard.calibrate(block, compliance=True)["stiffness_N_m"])
     10000
     """
+    if not _arrays.is_table(data):
+        _arrays.path_of(data, "data", _arrays.OR_TABLE)
     given = _arrays.given(data, "data")
-    if len(given.words) != 1:
-        raise Error("a calibration is of one table", "usage")
     keywords: Dict[str, Any] = {"rig": None if rig is None else os.fspath(rig), "capacity": capacity, "gravity": gravity,
                                 "mass_u": float(mass_u), "nonlinearity": nonlinearity, "span": span, "id": id,
                                 "valid_until": valid_until, "plausible": plausible}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any, Callable, Dict, Optional
 
-from . import _check, _core
+from . import _check, _core, _show
 from ._arrays import whole
 from ._types import OptionalPath, Path, Progress
 from ._error import Error
@@ -37,6 +37,9 @@ class CaptureOutcome(Result):
     def read(self) -> Capture:
         """The capture as arrays."""
         return read_capture(self.file)
+
+    def _table(self) -> _show.Columns:
+        return _show.of_values(f"capture {self.file}: {self.status}", self.json, self.json["doubts"])
 
     def __repr__(self) -> str:
         return f"<viscard.CaptureOutcome {self.file}: {self.status}>"

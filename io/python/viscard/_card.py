@@ -6,6 +6,7 @@ import pathlib
 from typing import Any, Dict, List, NamedTuple, Tuple
 
 from . import _check, _core
+from ._result import Compared
 from ._types import Path
 
 
@@ -17,7 +18,7 @@ class Fidelity(NamedTuple):
     text: str
 
 
-class Card:
+class Card(Compared):
     """A material card for a solver; ``print(card)`` shows it.
 
     Attributes

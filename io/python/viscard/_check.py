@@ -9,6 +9,7 @@ import math
 import numbers
 import operator
 import os
+import reprlib
 import threading
 import types
 import typing
@@ -23,9 +24,18 @@ from ._error import DoubtWarning, Error
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
+_SHORT = reprlib.Repr()  # bounded in depth and length, whatever a value holds
+_SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxother, _SHORT.maxlong = 4, 80, 80, 5000
+
+
 def shown(value: Any) -> str:
     """A value in a message, cut if it is long."""
-    text = repr(value)
+    try:
+        text = _SHORT.repr(value)
+    except Exception:  # of somebody's class, or a whole number of more digits than Python writes
+        text = f"<{type(value).__name__}>"
+    if "\n" in text:  # of a DataFrame
+        text = " ".join(text.split())
     return text if len(text) <= 60 else text[:57] + "..."
 
 

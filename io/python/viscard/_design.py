@@ -52,9 +52,9 @@ class Judgement(Result):
         """The table that viscard design prints."""
         return str(self._core.text())
 
-    def _repr_html_(self) -> str:
-        rows = [(one["requirement"], one["verdict"], one["value"], one["limit"], one["unit"], one["reason"]) for one in self.lines]
-        return _show.html_table(f"requirements: {self.name}", ["", "verdict", "value", "limit", "unit", "reason"], rows)
+    def _table(self) -> _show.Columns:
+        heads = ("requirement", "verdict", "value", "error_estimate", "limit", "unit", "margin", "reason")
+        return _show.of_dicts(f"requirements: {self.name}", heads, self.lines)
 
     def __repr__(self) -> str:
         return "<viscard.Judgement " + ", ".join(f"{one['requirement']}: {one['verdict']}" for one in self.lines) + ">"
@@ -87,10 +87,12 @@ class Designs(Result):
         """The text that viscard design prints."""
         return str(self._core.text())
 
-    def _repr_html_(self) -> str:
-        rows = [(i, "yes" if one["feasible"] else "no", ", ".join(f"{key} {text}" for key, text in one["values"].items()),
-                 ", ".join(one["active"])) for i, one in enumerate(self.designs)]
-        return _show.html_table("designs", ["", "feasible", "values", "held by"], rows)
+    def _table(self) -> _show.Columns:
+        """A design a row: its values as texts, objectives that are no values, and what holds it."""
+        rows = [{"feasible": one["feasible"], **{of["quantity"]: of["value"] for of in one["objectives"]}, **one["values"],
+                 "held by": ", ".join(one["active"])} for one in self.designs]
+        units = {of["quantity"]: of["unit"] for one in self.designs for of in one["objectives"] if of["quantity"] not in one["values"]}
+        return _show.of_dicts("designs", list(dict.fromkeys(key for row in rows for key in row)), rows)._replace(units=units)
 
     def __repr__(self) -> str:
         return f"<viscard.Designs: {len(self.designs)}, {'feasible' if self.feasible else 'not feasible'}>"
@@ -134,9 +136,8 @@ class DesignLimits(Result):
         """The text that viscard design prints."""
         return str(self._core.text())
 
-    def _repr_html_(self) -> str:
-        rows = [(one["name"], "yes" if one["met"] else "no", one["value"], one["limit"], one["unit"]) for one in self.limits]
-        return _show.html_table("limits of a pillar sensor", ["", "met", "value", "limit", "unit"], rows)
+    def _table(self) -> _show.Columns:
+        return _show.of_dicts("limits of a pillar sensor", ("name", "met", "value", "limit", "unit", "margin"), self.limits)
 
     def __repr__(self) -> str:
         failed = [one["name"] for one in self.limits if not one["met"]]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Dict, List, Literal, Sequence, Union, Unpack, overload
 
 from . import _arrays, _check, _core
@@ -87,11 +88,11 @@ def fit(data: Any, *, errors: str = "raise", progress: Progress = None, **option
     """
     keywords = {name: value for name, value in options.items() if value is not None}
     if errors not in ("raise", "return"):
-        raise Error(f"errors is {errors!r}; use 'raise' or 'return'", "usage")
+        raise Error(f"errors is {_check.shown(errors)}; use 'raise' or 'return'", "usage")
     command = "viscard.fit(" + ", ".join(f"{k}={v!r}" for k, v in keywords.items() if v is not False) + ")"
+    if isinstance(data, Iterator):
+        data = list(data)
     given = _arrays.given(data, "data")
-    if not given.words:
-        raise Error("there is nothing to fit: the list is empty", "usage")
     if _core.is_large_strain(given.words):
         return _fit_rubber(given, keywords)
     _refuse_rubber_options(keywords)

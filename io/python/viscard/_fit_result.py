@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, NamedTuple, Tuple
+from typing import Any, Dict, Iterable, List, NamedTuple, Tuple
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from . import _check, _core, _show
 from ._types import Floats, Path
 from ._error import Error
 from ._material import Material
-from ._result import Compared, Parameter, Result
+from ._result import Parameter, Result, Tabular
 
 
 class Flag(NamedTuple):
@@ -26,6 +26,12 @@ class Flag(NamedTuple):
     name: str
     term: int
     text: str
+
+
+def of_fit(title: str, parameters: "Iterable[Parameter]", flags: "List[Flag]", is_trustworthy: bool) -> _show.Columns:
+    """The table of a fit: its parameters, and its flags below."""
+    notes = [] if is_trustworthy else ["not to be trusted"]
+    return _show.of_rows(title, ("name", "value", "interval_95"), parameters, notes + [f"{flag.name}: {flag.text}" for flag in flags])
 
 
 class FitResult(Result):
@@ -190,11 +196,8 @@ class FitResult(Result):
         columns = {name: values for name, values in self.curves.items() if isinstance(values, np.ndarray)}
         return _show.frame({**columns, "residual": self.residuals})
 
-    def _repr_html_(self) -> str:
-        rows = [(one.name, one.value, one.interval) for one in self.parameters.values()]
-        notes = [] if self.is_trustworthy else ["not to be trusted"]
-        return _show.html_table(f"{self.file}: {self['kind']}", ["", "value", "95 %"], rows,
-                                notes + [f"{flag.name}: {flag.text}" for flag in self.flags])
+    def _table(self) -> _show.Columns:
+        return of_fit(f"{self.file}: {self['kind']}", self.parameters.values(), self.flags, self.is_trustworthy)
 
     def summary(self) -> str:
         """The text of ``viscard fit``: moduli with intervals, the table of orders, flags."""
@@ -233,7 +236,7 @@ class FitResult(Result):
                 f"(95 % {low:.6g} to {high:.6g}), {n} term{'' if n == 1 else 's'}{doubt}>")
 
 
-class JointFit(Compared):
+class JointFit(Tabular):
     """The law of a material in its mixing ratio, from ``fit(files, joint=True)``.
 
     Attributes
@@ -281,10 +284,31 @@ class JointFit(Compared):
     def __reduce__(self) -> Tuple[Any, ...]:
         return (_joint_from_json, (self._core.to_json(),))
 
-    def _repr_html_(self) -> str:
-        return _show.html_table(f"joint fit: {self.law}", ["mixing ratio", "E0_Pa", "E_inf_Pa"],
-                                [(ratio, one.E0_Pa, one.E_inf_Pa) for ratio in self.ratios.tolist()
-                                 for one in [self.material(ratio)]])
+    @property
+    def residuals(self) -> Floats:
+        """E0 of each specimen over that of the material at its ratio, less 1, shape (specimens,); in the order of
+        ``json["specimens"]``."""
+        return np.array([one["E0_Pa"] / self.material(one["mixing_ratio"]).E0_Pa - 1.0 for one in self.json["specimens"]])
+
+    @_check.arguments
+    def plot(self, ax: Any = None) -> Any:
+        """Instantaneous modulus against mixing ratio: the specimens, the measured ratios with their 95 % intervals, and the
+        law. Needs matplotlib. Returns the axes."""
+        from ._plot import plot_joint
+
+        return plot_joint(self, ax)
+
+    def _table(self) -> _show.Columns:
+        rows = []
+        for one in self.json["materials"]:
+            of, material = one["uncertainty"], self.material(one["mixing_ratio"])
+            row = {"mixing_ratio": one["mixing_ratio"], "E0_Pa": material.E0_Pa, "E0_interval_95": of.get("E0_interval_95"),
+                   "E_inf_Pa": material.E_inf_Pa, "E_inf_interval_95": of.get("E_inf_interval_95")}
+            for i, (g, tau_s) in enumerate(zip(material.g, material.tau_s), 1):
+                row.update({f"g_{i}": g, f"tau_{i}_s": tau_s})
+            rows.append(row)
+        flags = [f"{one['name']}: {one['text']}" for one in self.json["flags"]]
+        return _show.of_dicts(f"joint fit: {self.law}", max((list(row) for row in rows), key=len, default=[]), rows, flags)
 
     def __repr__(self) -> str:
         return f"<viscard.JointFit {self.law}>"

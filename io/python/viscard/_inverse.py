@@ -7,10 +7,11 @@ from typing import Any, Dict, List, Optional
 
 import numpy as np
 
-from . import _arrays, _check, _core
+from . import _arrays, _check, _core, _show
 from ._check import shown
 from ._error import Error
 from ._plot import plot_pressures
+from ._result import Tabular
 from ._scene import _with_scene
 from ._types import Booleans, Floats, Numbers, OptionalPath, Scene
 
@@ -30,7 +31,7 @@ def _frames(voltages: Any) -> Floats:
     return np.ascontiguousarray(values)
 
 
-class Pressures:
+class Pressures(Tabular):
     """Loads of the pillars of an array, each with its 95 % interval.
 
     Arrays have the shape (frames, rows, columns), or (rows, columns) if one frame was given; NaN where no pillar stands.
@@ -93,6 +94,18 @@ class Pressures:
         whole = _arrays.whole(frame, "frame", 0, last)
         values = self.pressure_Pa if self.pressure_Pa.ndim == 2 else self.pressure_Pa[whole]
         return plot_pressures(values, self.is_resolved, ax)
+
+    def _table(self) -> _show.Columns:
+        """A row for each pillar of each frame, at its place in the arrays, from 0."""
+        shape = (-1, *self.is_resolved.shape)
+        frame, row, column = np.nonzero(np.isfinite(self.pressure_Pa.reshape(shape)))
+        columns: Dict[str, Any] = {"frame": frame, "row": row, "column": column}
+        for name in ("pressure_Pa", "pressure_half_width_Pa", "shear_x_Pa", "shear_x_half_width_Pa", "shear_y_Pa",
+                     "shear_y_half_width_Pa"):
+            values = getattr(self, name)
+            if values is not None:
+                columns[name] = values.reshape(shape)[frame, row, column]
+        return _show.Columns("pressures", {**columns, "is_resolved": self.is_resolved[row, column]}, self.notes)
 
     def __repr__(self) -> str:
         return f"Pressures{self.pressure_Pa.shape}"

@@ -11,11 +11,11 @@ import numpy as np
 from . import _arrays, _check, _core, _show
 from ._card import Card
 from ._options import PredictOptions
-from ._result import Result
+from ._result import Result, Tabular
 from ._types import Booleans, Floats, Numbers, Path, Progress
 
 
-class Material:
+class Material(Tabular):
     """A viscoelastic solid: E0, a Poisson ratio and a Prony series.
 
     Parameters
@@ -79,6 +79,9 @@ class Material:
     def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Write the material file; an existing file is kept unless `overwrite` is True."""
         _core.write_file(os.fspath(path), _core.json_from_material(self._core), overwrite)
+
+    def _identity(self) -> Any:
+        return self.json
 
     @property
     def json(self) -> Dict[str, Any]:
@@ -245,12 +248,12 @@ class Material:
 
         return plot_material(self, kind, at, ax)
 
-    def _repr_html_(self) -> str:
+    def _table(self) -> _show.Columns:
         rows = [("E0_Pa", self.E0_Pa), ("E_inf_Pa", self.E_inf_Pa), ("nu", self.nu)]
         for i, (g, tau) in enumerate(zip(self.g, self.tau_s), 1):
             rows += [(f"g_{i}", g), (f"tau_{i}_s", tau)]
         flags = [f"{flag['name']}: {flag['text']}" for flag in self.json.get("flags", [])]
-        return _show.html_table(self.name or "material", ["", "value"], rows, flags)
+        return _show.of_rows(self.name or "material", ("name", "value"), rows, flags)
 
     @_check.arguments
     def at_temperature(self, temperature_C: float) -> "Material":
@@ -341,11 +344,10 @@ class Validation(Result):
         self.relaxation: Dict[str, Any] = self.values["relaxation"]
         self.creep: Dict[str, Any] = self.values["creep"]
 
-    def _repr_html_(self) -> str:
-        rows = [(name, one["largest_relative_error"], one["at_time_s"], one["steps"])
-                for name, one in (("relaxation", self.relaxation), ("creep", self.creep))]
-        title = f"pillar of {self['material']}: " + ("passed" if self.passed else "not passed")
-        return _show.html_table(title, ["test", "largest relative error", "at (s)", "steps"], rows)
+    def _table(self) -> _show.Columns:
+        heads = ("test", "largest_relative_error", "at_time_s", "solver_error_estimate", "steps")
+        return _show.of_dicts(f"pillar of {self['material']}: " + ("passed" if self.passed else "not passed"), heads,
+                              [{"test": "relaxation", **self.relaxation}, {"test": "creep", **self.creep}])
 
     def __repr__(self) -> str:
         return f"<viscard.Validation of {self['material']}: {'passed' if self.passed else 'not passed'}>"
@@ -388,15 +390,11 @@ class Prediction(Result):
         self.agreement: List[Dict[str, Any]] = self.values.get("against", {}).get("quantities", [])
         self.notes: List[str] = self.values["notes"]
 
-    def _columns(self) -> Dict[str, Any]:
+    def _table(self) -> _show.Columns:
         columns: Dict[str, Any] = {self.argument: self.at, **self.curves}
         columns.update({f"{name}_low_95": values for name, values in self.low.items()})
         columns.update({f"{name}_high_95": values for name, values in self.high.items()})
-        return {**columns, "inside_window": self.inside}
-
-    def to_frame(self) -> Any:
-        """The curves as a DataFrame of pandas, with bands and the window of the fit."""
-        return _show.frame(self._columns())
+        return _show.Columns("prediction", {**columns, "inside_window": self.inside}, self.notes)
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the curves with their 95 % bands over time or frequency. Needs matplotlib. Returns the axes.
@@ -410,9 +408,6 @@ class Prediction(Result):
         from ._plot import plot_prediction
 
         return plot_prediction(self, ax)
-
-    def _repr_html_(self) -> str:
-        return _show.html_columns("prediction", self._columns(), self.notes)
 
     def __repr__(self) -> str:
         return f"<viscard.Prediction of {', '.join(self.curves)}: {len(self.at)} rows>"
@@ -443,9 +438,9 @@ def predict(material: Union[Material, Path], **options: Unpack[PredictOptions]) 
         if _arrays.is_table(keywords.get(name)):
             tables[name] = _arrays.table(keywords[name], name)
             keywords[name] = name
-        elif name in keywords and not isinstance(keywords[name], (str, os.PathLike)):
-            raise TypeError(f"{name} must be a path or a dict of arrays by header, not {_check.shown(keywords[name])}")
-    one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material"), plausible=plausible)
+        elif name in keywords:
+            _arrays.path_of(keywords[name], name, _arrays.OR_TABLE)
+    one = material if isinstance(material, Material) else Material.load(_arrays.path_of(material, "material", " or a Material"), plausible=plausible)
     inputs = [os.fspath(path) for path in (material, options.get("history"), options.get("against"))
               if isinstance(path, (str, os.PathLike))]
     return Prediction(_core.predict(one._core, keywords, tables, inputs))

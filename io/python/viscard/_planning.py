@@ -6,11 +6,11 @@ import os
 import warnings
 from typing import Any, Dict, List, Sequence, TypedDict, Union, Unpack
 
-from . import _arrays, _check, _core
+from . import _arrays, _check, _core, _show
 from ._error import DoubtWarning, Error
 from ._options import FitOptions
 from ._types import OptionalPath, Path, Progress, Texts
-from ._result import Result
+from ._result import Result, Shown
 from ._table import Capture
 
 
@@ -44,6 +44,13 @@ class TestCost(Result):
         self.advice: str = self.json["text"]
         self.test: str = found["test"]
 
+    def _table(self) -> _show.Columns:
+        quantities = {one["quantity"]: f"{one['quantity']}_half_width_95" for one in self.json["wanted"]}
+        rows = [{**row, **{quantities.get(one["quantity"], one["quantity"]): one["half_width_95"] for one in row["errors"]}}
+                for row in self.rows]
+        heads = ["time_s", "touches", "protocol", "depth_m", "ramp_s", "hold_s", "recovery_s", "pareto", *quantities.values()]
+        return _show.of_dicts("tests by their time", heads, rows, [self.advice, *self.json["limits"]])
+
     def __repr__(self) -> str:
         return f"TestCost({len(self.rows)} tests: {self.advice})"
 
@@ -65,8 +72,24 @@ class NextTest(TypedDict):
     minutes: float
 
 
+class NextTests(Shown, List[NextTest]):
+    """What may be measured next, best first: a list of `NextTest`, with a table.
+
+    Examples
+    --------
+    >>> capture = viscard.capture("run.viscap", emulate=True, speed=500).read()
+    >>> tests = viscard.next_test(capture, "E0=1%")
+    >>> len(tests) > 0 and tests[0]["minutes"] > 0
+    True
+    """
+
+    def _table(self) -> _show.Columns:
+        heads = ("what", "quantity", "half_width_95", "half_width_95_after", "minutes", "how")
+        return _show.of_dicts("what to measure next", heads, self)
+
+
 @_check.arguments
-def next_test(capture: Union[Path, Capture], want: Union[str, Sequence[str]], **options: Unpack[FitOptions]) -> List[NextTest]:
+def next_test(capture: Union[Path, Capture], want: Union[str, Sequence[str]], **options: Unpack[FitOptions]) -> NextTests:
     """What to measure next after a capture: what narrows the widest interval most for a minute at the rig, best first.
 
     Parameters
@@ -78,7 +101,7 @@ def next_test(capture: Union[Path, Capture], want: Union[str, Sequence[str]], **
 
     Returns
     -------
-    list of dict
+    NextTests, a list of dict
         what, how (a command, or empty), quantity, half_width_95 now and half_width_95_after (relative), minutes.
 
     Examples
@@ -89,10 +112,9 @@ def next_test(capture: Union[Path, Capture], want: Union[str, Sequence[str]], **
     True
     """
     words = [want] if isinstance(want, str) else list(want)
-    path = capture.file if isinstance(capture, Capture) else _arrays.path_of(capture, "capture")
+    path = capture.file if isinstance(capture, Capture) else _arrays.path_of(capture, "capture", " or a Capture")
     keywords = {name: value for name, value in options.items() if value is not None}
-    found: List[NextTest] = _core.next_test(path, words, keywords)["measurements"]
-    return found
+    return NextTests(_core.next_test(path, words, keywords)["measurements"])
 
 
 @_check.arguments
@@ -107,7 +129,8 @@ def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell t
     ----------
     data : path, Capture, list of these, or dict of these by kind of test
         Captures and tables (which are fitted), files of materials, of a joint fit and of laws of rubber. A dict by kind is
-        of tests of one material, as in `fit`. The page states the SHA-256 of each, so all are files.
+        of tests of one material, as in `fit`. The page states the SHA-256 of each, so all are files: arrays and results
+        of fits are saved first (``result.material.save("pdms.json")``).
     out : path
         The page; an existing file is kept unless `overwrite` is True.
     title : str
@@ -128,9 +151,7 @@ def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell t
     >>> open("report.html").read(15)
     '<!DOCTYPE html>'
     """
-    given = _arrays.given(data, "data")
-    if given.tables:
-        raise Error("a report is of files, whose SHA-256 it states; save the arrays, or the material of their fit, first", "usage")
+    given = _arrays.given(data, "data", only_files=True)
     page = os.fspath(out)
     if os.path.exists(page) and not overwrite:
         _core.write_file(page, "", False)  # refuses before the work begins

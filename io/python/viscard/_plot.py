@@ -151,7 +151,7 @@ def _curve(ax: Any, at: Any, values: Any, low: Any, high: Any, name: str, unit: 
 
 def plot_material(material: Any, kind: str, at: Any, ax: Any) -> Any:
     if kind not in _NAMES:
-        raise Error(f"kind is {kind!r}; use one of {', '.join(_NAMES)}", "usage")
+        raise Error(f"kind is {shown(kind)}; use one of {', '.join(_NAMES)}", "usage")
     argument = "time_s" if kind in ("relaxation", "creep") else "frequency_Hz"
     at = material._window(at, argument)
     ax = _axes(ax)
@@ -209,6 +209,27 @@ def plot_rubber(rubber: Any, ax: Any) -> Any:
             ax.plot(stretch, measured * factor, ".", color=color, alpha=0.5, markeredgewidth=0)
     ax.set_xlabel("stretch")
     ax.set_ylabel(f"nominal stress ({unit})")
+    ax.grid(True, which="major", alpha=0.3)
+    ax.legend(frameon=False)
+    return ax
+
+
+def plot_joint(joint: Any, ax: Any) -> Any:
+    """Specimens, measured ratios with their intervals, and the law between them."""
+    import numpy as np
+
+    ax = _axes(ax)
+    low, high = float(joint.ratios.min()), float(joint.ratios.max())
+    between = np.linspace(low, high, 60)[1:-1]
+    ax.plot(between, [1e-6 * joint.material(float(ratio)).E0_Pa for ratio in between], "-", label="law")
+    specimens = joint.json["specimens"]
+    ax.plot([one["mixing_ratio"] for one in specimens], [1e-6 * one["E0_Pa"] for one in specimens], ".", label="specimens")
+    found = [(one["mixing_ratio"], one["E0_Pa"], one["uncertainty"].get("E0_interval_95")) for one in joint.json["materials"]]
+    ratios, E0 = np.array([one[0] for one in found]), np.array([one[1] for one in found])
+    ends = np.array([one[1:2] * 2 if one[2] is None else one[2] for one in found], dtype=float).T
+    ax.errorbar(ratios, 1e-6 * E0, yerr=1e-6 * np.abs(ends - E0), fmt="o", markerfacecolor="none", capsize=3, label="95 %")
+    ax.set_xlabel("mixing ratio")
+    ax.set_ylabel("instantaneous modulus (MPa)")
     ax.grid(True, which="major", alpha=0.3)
     ax.legend(frameon=False)
     return ax

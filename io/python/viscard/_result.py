@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import json as _json
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, Dict, Iterator, NamedTuple, Tuple
+
+import numpy as np
+
+from . import _check, _show
 
 
 class Parameter(NamedTuple):
@@ -37,21 +42,55 @@ class _Kept:
         return self._text
 
 
-class Compared:
-    """Equal to another of its class if all keys are."""
+def plain(value: Any) -> Any:
+    """The same as dicts, lists, numbers and texts, which can be compared as a whole: NaN becomes None, an array its bytes."""
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist()) if value.dtype.hasobject else [value.shape, value.dtype.str, value.tobytes().hex()]
+    if isinstance(value, Compared):
+        return value._identity()
+    if isinstance(value, Mapping):
+        return {str(key): plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(one) for one in value]
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    return None if isinstance(value, float) and value != value else value
 
-    json: Any
+
+class Compared:
+    """Equal to another of its class if all its values are, such as a copy."""
+
+    def _identity(self) -> Any:
+        return plain({name: value for name, value in vars(self).items() if name != "_core"})
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Compared) or type(other) is not type(self):
             return NotImplemented
-        return bool(self.json == other.json)
+        return bool(self._identity() == other._identity())
 
     def __hash__(self) -> int:
-        return hash(_json.dumps(self.json, sort_keys=True))
+        return hash(_json.dumps(self._identity(), sort_keys=True))
 
 
-class Result(Compared):
+class Shown:
+    """What has a table: notebooks show it, and `to_frame` returns it."""
+
+    def _table(self) -> _show.Columns:
+        raise NotImplementedError
+
+    def _repr_html_(self) -> str:
+        return _show.html_of(self._table())
+
+    def to_frame(self) -> Any:
+        """The table that a notebook shows, with all rows, as a DataFrame of pandas."""
+        return _show.frame(self._table().columns)
+
+
+class Tabular(Shown, Compared):
+    """What has a table and can be compared."""
+
+
+class Result(Tabular):
     """A result of the compiled part. ``result["key"]`` gives every key of ``--json``.
 
     Results can be pickled and copied, so that ``multiprocessing`` can return them; two are equal if all their keys are.
@@ -77,12 +116,16 @@ class Result(Compared):
         found: Dict[str, Any] = self._core.values()
         return found
 
+    def _identity(self) -> Any:
+        return self.json
+
     def __getitem__(self, key: str) -> Any:
         return self.json[key]
 
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "_core": _Kept(self.json, self.values, self._core.text())}
 
+    @_check.arguments
     def find(self, name: str) -> Any:
         """The value of a key, wherever it stands, or of a path such as "terms.0.tau_s".
 

@@ -11,8 +11,8 @@ import numpy as np
 from . import _arrays, _check, _core, _show
 from ._types import Floats, Numbers, Path
 from ._error import Error
-from ._fit_result import Flag
-from ._result import Compared, Parameter
+from ._fit_result import Flag, of_fit
+from ._result import Compared, Parameter, Tabular
 
 
 class RubberTerm(NamedTuple):
@@ -30,7 +30,7 @@ class RubberTerm(NamedTuple):
     tau_s_interval: Tuple[float, float]
 
 
-class RubberCard:
+class RubberCard(Compared):
     """The card of a law of rubber for a solver; ``print(card)`` shows it.
 
     Attributes
@@ -61,7 +61,7 @@ class RubberCard:
         return f"<viscard.RubberCard for {self.target}, {len(self.text.splitlines())} lines>"
 
 
-class RubberFit(Compared):
+class RubberFit(Tabular):
     """The law of rubber that describes tests at large strain best, of ``fit(["uniaxial=a.csv", ...])``.
 
     ``rubber["key"]`` gives every key of ``viscard fit --json``.
@@ -94,8 +94,8 @@ class RubberFit(Compared):
         The fitted readings, arrays of shape (readings,); empty for a law that was loaded.
     times : list of array
         time_s of the readings; arrays of no length for tests without times.
-    fitted : list of array
-        Nominal stress of the law, with its terms or damage, at the readings.
+    fitted, residuals : list of array
+        Nominal stress of the law, with its terms or damage, at the readings; and measured minus fitted, Pa.
     flags : list of Flag
         Of the chosen law, and notes about the data.
     is_trustworthy : bool
@@ -151,8 +151,15 @@ class RubberFit(Compared):
         """The compiled law; refused if a fit that is not to be trusted has no stiffness at rest."""
         return _core.rubber_from_json(self._text, self._name)
 
+    def _identity(self) -> Any:
+        return self.json
+
     def __getitem__(self, key: str) -> Any:
         return self.json[key]
+
+    @property
+    def residuals(self) -> List[Floats]:
+        return [np.asarray(stress - law) for (_, stress), law in zip(self.tests, self.fitted)]
 
     @_check.arguments
     def stress(self, stretch: Union[float, Numbers], deformation: str = "uniaxial", *, time_s: Optional[Numbers] = None) -> Floats:
@@ -231,11 +238,22 @@ class RubberFit(Compared):
 
         return plot_rubber(self, ax)
 
-    def _repr_html_(self) -> str:
-        rows = [("E0_Pa", self.E0_Pa, self.E0_interval)] + [tuple(one) for one in self.parameters.values()]
-        notes = [] if self.is_trustworthy else ["not to be trusted"]
-        return _show.html_table(f"{self._name}: {self.law}", ["", "value", "95 %"], rows,
-                                notes + [f"{flag.name}: {flag.text}" for flag in self.flags])
+    def to_frame(self) -> Any:
+        """The readings as a DataFrame of pandas: test, time_s (NaN without times), stretch, measured, fitted, residual, in
+        Pa. Of a law that was loaded it has no rows."""
+        rows: Dict[str, List[Any]] = {name: [] for name in ("test", "time_s", "stretch", "measured", "fitted", "residual")}
+        for of, (stretch, stress), time_s, law in zip(self.json["tests"], self.tests, self.times, self.fitted):
+            rows["test"] += [of["name"]] * len(stretch)
+            rows["time_s"] += list(time_s) if len(time_s) else [np.nan] * len(stretch)
+            for name, values in (("stretch", stretch), ("measured", stress), ("fitted", law), ("residual", stress - law)):
+                rows[name] += list(values)
+        return _show.frame(rows)
+
+    def _table(self) -> _show.Columns:
+        rows = [Parameter("E0_Pa", self.E0_Pa, self.E0_interval), *self.parameters.values(), *self.damage.values()]
+        for i, term in enumerate(self.terms, 1):
+            rows += [Parameter(f"g_{i}", term.g, term.g_interval), Parameter(f"tau_{i}_s", term.tau_s, term.tau_s_interval)]
+        return of_fit(f"{self._name}: {self.law}", rows, self.flags, self.is_trustworthy)
 
     def __repr__(self) -> str:
         low, high = self.E0_interval

@@ -73,7 +73,7 @@ def _toml(value: Any, key: str, folder: str) -> str:
 
 def _key(key: Any) -> str:
     if not isinstance(key, str):
-        raise TypeError(f"a key of the scene is {key!r}; keys are texts")
+        raise TypeError(f"a key of the scene is {_check.shown(key)}; keys are texts")
     if re.fullmatch("[A-Za-z0-9_-]+", key):
         return key
     return '"' + key.replace("\\", "\\\\").replace('"', '\\"') + '"'
@@ -237,7 +237,7 @@ def check_scene(scene: Scene, *, svg: OptionalPath = None, folder: OptionalPath 
     scene, folder, plausible
         As in `simulate`.
     svg : path
-        Where to draw the geometry; an existing file is kept unless `overwrite` is True.
+        Where to draw the geometry, a name that ends with .svg; an existing file is kept unless `overwrite` is True.
 
     Raises
     ------
@@ -249,6 +249,8 @@ def check_scene(scene: Scene, *, svg: OptionalPath = None, folder: OptionalPath 
     >>> viscard.check_scene(viscard.data_file("scenes/pillar_sensor.toml"), svg="sensor.svg")
     'pillar'
     """
+    if svg is not None and not os.fspath(svg).lower().endswith(".svg"):
+        raise Error(f"svg is {_check.shown(os.fspath(svg))}; the drawing is an SVG file, so end its name with .svg", "usage")
     name = "scene" if isinstance(scene, Mapping) else os.path.basename(os.fspath(scene))
     found = _with_scene(scene, folder, lambda text, path: _core.check_scene(text, path, name, plausible))
     if svg is not None:

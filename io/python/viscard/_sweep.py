@@ -16,6 +16,7 @@ from . import _arrays, _check, _core, _show
 from ._arrays import path_of
 from ._types import Floats, HasValues, Integers, OptionalPath, Path, Progress, Scene
 from ._error import DoubtWarning, Error
+from ._result import Tabular
 from ._scene import _scene_toml, _toml
 
 
@@ -27,7 +28,7 @@ class Results(TypedDict):
     error: Floats
 
 
-class Sweep:
+class Sweep(Tabular):
     """The answers of a study. ``sweep["electrode_voltage"]`` is a result at all points, SI; NaN where there is none.
 
     Attributes
@@ -73,11 +74,15 @@ class Sweep:
             raise KeyError(f"the answers have no '{name}'; they have {', '.join(self.results) or 'no results'}")
         return self.results[name]["value"]
 
-    def to_frame(self) -> Any:
-        """A row for each point: parameters as texts, results, and their errors as NAME_error, for pandas."""
+    def _table(self) -> _show.Columns:
+        """A row for each point: parameters as texts, results, and their errors as NAME_error."""
+        values = {name: one["value"] for name, one in self.results.items()}
         errors = {f"{name}_error": one["error"] for name, one in self.results.items()}
-        return _show.frame({**self.parameters, **{name: one["value"] for name, one in self.results.items()}, **errors})
+        units = {name: one["unit"] for name, one in self.results.items()}
+        return _show.Columns(f"sweep: {len(self)} of {self.n_points} points", {**self.parameters, **values, **errors},
+                             sorted({one for one in self.failures if one}), units)
 
+    @_check.arguments
     def plot(self, name: Optional[str] = None, ax: Any = None) -> Any:
         """Draw a result over the parameter that has most values, with a line for each value of the others. Needs
         matplotlib. Returns the axes.
@@ -95,11 +100,6 @@ class Sweep:
         if not self.results:
             raise Error("no point of the sweep has an answer; failures states why", "input")
         return plot_sweep(self, next(iter(self.results)) if name is None else name, ax)
-
-    def _repr_html_(self) -> str:
-        columns: Dict[str, Any] = {name: np.array(texts) for name, texts in self.parameters.items()}
-        columns.update((f"{name} ({one['unit']})", one["value"]) for name, one in self.results.items())
-        return _show.html_columns(f"sweep: {len(self)} of {self.n_points} points", columns, sorted({f for f in self.failures if f}))
 
     def __len__(self) -> int:
         return len(self.point)

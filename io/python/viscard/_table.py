@@ -8,6 +8,7 @@ from typing import Any, Dict, Iterator, List, Literal, Mapping, Optional, Tuple,
 import numpy as np
 
 from . import _check, _core, _show
+from ._result import Tabular
 from ._types import Booleans, Floats, Integers, Path, Texts
 
 
@@ -60,7 +61,7 @@ class Temperatures(TypedDict):
     temperature_C: Floats
 
 
-class Table(Mapping[str, Union[Floats, List[str]]]):
+class Table(Tabular, Mapping[str, Union[Floats, List[str]]]):
     """A table of a file. ``table["force_N"]`` is a quantity in SI; the file may have other headers and units.
 
     It is a mapping of quantity to array of shape (rows,), float64; a cell that is no number is NaN.
@@ -108,10 +109,10 @@ class Table(Mapping[str, Union[Floats, List[str]]]):
     def __len__(self) -> int:
         return len(self._quantities)
 
-    def _repr_html_(self) -> str:
+    def _table(self) -> _show.Columns:
         columns = {f"{one['name']} ({one['unit']})" if one["unit"] else one["header"]:
                    np.array(one["text"]) if one["text"] is not None else one["values"] for one in self.columns}
-        return _show.html_columns(self.file, columns, [f"read as {', '.join(self)}"]) if columns else _show.html_table(self.file, [], [])
+        return _show.Columns(self.file, columns, [f"read as {', '.join(self)}"])
 
     def to_frame(self) -> Any:
         """The quantities in SI as a DataFrame of pandas."""
@@ -144,7 +145,7 @@ def read_table(path: Path, *, column: Texts = None, sheet: str = "") -> Table:
     return Table(_core.read_table(os.fspath(path), words, sheet))
 
 
-class Capture:
+class Capture(Tabular):
     """A captured run (\\*.viscap) as arrays. Those of one record are views of it; nothing is copied.
 
     Attributes
@@ -211,10 +212,14 @@ class Capture:
         """
         _core.write_file(os.fspath(path), _core.csv_of_capture(self.file, self.unverified), overwrite)
 
-    def _repr_html_(self) -> str:
+    def to_frame(self) -> Any:
+        """Force and depth, as of `table`, as a DataFrame of pandas."""
+        return self.table().to_frame()
+
+    def _table(self) -> _show.Columns:
         rows = [("status", self.status), ("started", self.started_at), ("specimen", self.specimen_id),
                 ("readings", len(self.load["time_s"])), ("moves", len(self.moves["time_s"])), ("events", len(self.events))]
-        return _show.html_table(self.file, ["", ""], rows, self.notes)
+        return _show.of_rows(self.file, ("name", "value"), rows, self.notes)
 
     def __repr__(self) -> str:
         return f"<viscard.Capture {self.file}: {self.status}, {len(self.load['time_s'])} readings>"

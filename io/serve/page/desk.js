@@ -1,14 +1,15 @@
 // Puts the parts of the desk together. All that is made lies in the folder; the page holds what is chosen for each table.
 import { ask, drop, order, Unreachable } from "./api.js";
-import { askRatio, chosenCard, showCard, showCardState, startCard } from "./desk_card.js";
+import { askDensity, askRatio, chosenCard, showCard, showCardState, startCard } from "./desk_card.js";
 import { checkCard, startCheck } from "./desk_check.js";
 import { alsoCompare, compare, showCompareTables, startCompare } from "./desk_compare.js";
 import { forgetOrders, redrawFit, showFit, showFitState, shownRange } from "./desk_fit.js";
 import { placeIsotherms, showEarlier, showIsotherms, startIsotherms, undoMove } from "./desk_isotherms.js";
-import { keywordOf, pythonOf, showFields, showSame, startOptions } from "./desk_options.js";
-import { chosenPrediction, showOtherTables, showPrediction, showPredictState, startPredict } from "./desk_predict.js";
+import { isRubberKind, pythonKeywords, pythonOf, showFields, showSame, startOptions } from "./desk_options.js";
+import { chosenPrediction, predictKeywords, showOtherTables, showPrediction, showPredictState, startPredict } from "./desk_predict.js";
 import { redrawRatios, showRatios } from "./desk_ratios.js";
 import { showReportTables, startReport } from "./desk_report.js";
+import { showRubber } from "./desk_rubber.js";
 import { showScenes, startScene } from "./desk_scene.js";
 import { showTable, showTableError, startTable } from "./desk_table.js";
 import { element, make, sentence, show, showText } from "./format.js";
@@ -29,9 +30,10 @@ function showLink(error) {
     : sentence(error.message));
 }
 
-// Does one thing; what was asked before it is forgotten.
-async function latest(work, onError) {
+// Does one thing; what was asked before it is forgotten, and so are the lines of a view that do it.
+async function latest(what, work, onError) {
   const number = ++asked;
+  element(`${what}-same`).replaceChildren();
   const isNow = () => number === asked;
   try {
     await work(isNow);
@@ -87,9 +89,10 @@ function request() {
 }
 
 const isByRatio = () => together[table]?.[0].ratio !== undefined;
+const isRubber = () => (together[table] ? together[table].some((test) => isRubberKind(test.kind)) : isRubberKind(chosen().kind));
 
 // What viscard.fit() of Python takes: a file, specimens, or tests by kind; and its keywords.
-const pythonKeywords = () => (isByRatio() ? { joint: true, ratio: together[table].map((test) => Number(test.ratio)), ...chosen() } : chosen());
+const fitKeywords = () => (isByRatio() ? { joint: true, ratio: together[table].map((test) => Number(test.ratio)), ...chosen() } : chosen());
 function pythonData() {
   if (!together[table]) return table;
   if (isByRatio()) return together[table].map((test) => test.table);
@@ -115,49 +118,53 @@ async function readTable(isNow) {
 
 function readAndFit() {
   showFitState("Fitting …", "");
-  return latest(async (isNow) => {
+  return latest("fit", async (isNow) => {
     await readTable(isNow);
     if (!isNow()) return;
     showUndo();
-    const { command, result, options } = await order("/api/desk/fit", request());
+    const answer = await order("/api/desk/fit", request());
     if (!isNow()) return;
+    const { command, result, options } = answer;
     choices[table] = options;
     if (isByRatio()) showRatios(result);
+    else if (result.laws) showRubber(answer);
     else showFit(result, chosen().terms, (terms) => setOption("terms", terms));
     placeIsotherms(result);
-    showSame(element("fit-same"), command, pythonOf(pythonData(), pythonKeywords()), result);
+    showSame(element("fit-same"), command, pythonOf(pythonData(), fitKeywords()), result);
     if (view === "card") makeCard();
     if (view === "predict") predict();
     if (view === "compare") compare();
-  }, (text) => { showFitState(text, "alert"); element("fit-same").replaceChildren(); });
+  }, (text) => showFitState(text, "alert"));
 }
 
 function makeCard() {
   if (table === null) return showCardState("Choose a table first.", "note");
   showCardState("Writing …", "");
-  element("card-same").replaceChildren();
-  return latest(async (isNow) => {
+  askDensity(isRubber());
+  return latest("card", async (isNow) => {
     const answer = await order("/api/desk/card", { ...request(), card: chosenCard() });
     if (!isNow()) return;
     showCard(answer);
-    const { for: target, units, ratio } = chosenCard();
+    const { for: target, units, ratio, density, ...more } = chosenCard();
+    const material = isRubber() ? "result" : `result.material${isByRatio() ? `(${ratio})` : ""}`;
+    const words = pythonKeywords(more) + (density ? `, density_kg_m3=${density}` : "");
     showSame(element("card-same"), `${answer.fit_command}\n${answer.command}`,
-             `${pythonOf(pythonData(), pythonKeywords())}\nprint(result.material${isByRatio() ? `(${ratio})` : ""}.card(${JSON.stringify(target)}, ${JSON.stringify(units)}))`, answer.result);
+             `${pythonOf(pythonData(), fitKeywords())}\nprint(${material}.card(${JSON.stringify(target)}, ${JSON.stringify(units)}${words}))`, answer.result);
   }, (text) => showCardState(text, "alert"));
 }
 
 function predict() {
   if (table === null) return showPredictState("Choose a table first.", "note");
+  const gives = !isByRatio() && !isRubber();  // otherwise the program states why not
+  show(element("predict-form"), gives);
   showPredictState("Predicting …", "");
-  return latest(async (isNow) => {
+  return latest("predict", async (isNow) => {
     const answer = await order("/api/desk/predict", { ...request(), ...chosenPrediction() });
     if (!isNow()) return;
     showPrediction(answer);
-    const { predict: words, against } = chosenPrediction();
-    const keywords = Object.entries({ ...words, ...(against ? { against } : {}) }).filter(([, value]) => value !== "")
-      .map(([name, value]) => `, ${keywordOf(name)}=${JSON.stringify(value)}`).join("");
-    showSame(element("predict-same"), answer.command, `${pythonOf(pythonData(), chosen())}\nprint(viscard.predict(result.material${keywords}))`, answer.result);
-  }, (text) => showPredictState(text, "alert"));
+    showSame(element("predict-same"), `${answer.fit_command}\n${answer.command}`,
+             `${pythonOf(pythonData(), chosen())}\nprint(viscard.predict(result.material${predictKeywords(answer.options)}))`, answer.result);
+  }, (text) => showPredictState(text, gives ? "alert" : "note"));
 }
 
 // Options that are set to undefined are taken away.
@@ -168,6 +175,15 @@ function setOptions(changes) {
   return readAndFit();
 }
 const setOption = (name, value) => setOptions({ [name]: value });
+
+// Of any table, as the field Kind does of the open one.
+async function setKind(name, kind) {
+  if (name === table) return setOption("kind", kind || undefined);
+  const kept = choices[name] ?? (await order("/api/desk/table", { table: name })).options;
+  const options = Object.fromEntries(Object.entries({ ...kept, kind }).filter(([, value]) => value !== ""));
+  choices[name] = (await order("/api/desk/table", { table: name, options })).options;
+  return compare();
+}
 
 function showUndo() {
   element("undo").disabled = before.length === 0;
@@ -248,12 +264,12 @@ async function start() {
   startDrop();
   startTabs();
   const described = await ask("/api/desk/choices");
-  startOptions(described.options, setOption);
+  startOptions(described, setOption);
   startIsotherms({ onFit: setOptions, onUndo: undo });
   startCard(described, makeCard);
   startTable(described, (words) => setOption("column", words));
   startPredict(described, predict);
-  startCompare({ optionsOf: (name) => choices[name], onTogether: openTogether });
+  startCompare({ optionsOf: (name) => choices[name], onTogether: openTogether, onKind: setKind });
   startCheck(described);
   startScene(described, refresh);
   startReport();

@@ -13,7 +13,7 @@ export function startCard(described, handler) {
   element("units").append(...choices.units.map((one) => make("label", { title: one.description },
     make("input", { type: "radio", name: "units", value: one.name, checked: one.name === saved("units", "SI") }), one.name)));
   element("target").value = saved("target", choices.targets[0].name);
-  element("card-ratio").addEventListener("change", () => onChoice());
+  for (const id of ["card-ratio", "card-density"]) element(id).addEventListener("change", () => onChoice());
   for (const id of ["target", "units", "approximate"]) {
     element(id).addEventListener("change", () => {
       localStorage.setItem("viscard-target", element("target").value);
@@ -32,10 +32,17 @@ export function askRatio(ratio) {
   element("card-ratio").value = ratio ?? "";
 }
 
+// A law of rubber has no density of its own.
+export function askDensity(isAsked) {
+  show(element("card-density-field"), isAsked);
+  if (!isAsked) element("card-density").value = "";
+}
+
 export function chosenCard() {
-  const ratio = element("card-ratio").value.trim().replace(",", ".");
-  return { for: element("target").value, units: unitsNow(),
-           ...(ratio ? { ratio } : {}), ...(element("approximate").checked ? { approximate: true } : {}) };
+  const typed = (id) => element(id).value.trim().replace(",", ".");
+  const ratio = typed("card-ratio"), density = typed("card-density");
+  return { for: element("target").value, units: unitsNow(), ...(ratio ? { ratio } : {}), ...(density ? { density } : {}),
+           ...(element("approximate").checked ? { approximate: true } : {}) };
 }
 
 const targetNow = () => choices.targets.find((one) => one.name === element("target").value);
@@ -51,7 +58,7 @@ function save(name, text) {
 
 function download() {
   save(stem + targetNow().extension, card.card);
-  for (const file of card.companions) save(stem + file.suffix, file.text);
+  for (const file of card.companions ?? []) save(stem + file.suffix, file.text);
 }
 
 export function showCardState(text, kind) {
@@ -70,10 +77,11 @@ export function showCard(answer) {
   stem = answer.material.replace(/\.json$/, "");
   const status = element("card-status");
   status.className = "good";
-  showText(status, `Written of the material in ${answer.material} and read back: ${card.n_terms} term${card.n_terms === 1 ? "" : "s"}, `
+  if (card.law) showText(status, `Written of the law ${card.law} in ${answer.material}.`);
+  else showText(status, `Written of the material in ${answer.material} and read back: ${card.n_terms} term${card.n_terms === 1 ? "" : "s"}, `
     + (card.largest_difference === 0 ? "E(t) is the same." : `E(t) within ${card.largest_difference.toExponential(1)} of it.`));
-  element("card-advice").textContent = sentence(targetNow().advice);
-  list(element("card-losses"), [...card.warnings, ...card.fidelity.filter((one) => one.mapping !== "exact")
+  element("card-advice").textContent = card.law ? "" : sentence(targetNow().advice);  // which is of linear materials
+  list(element("card-losses"), [...card.warnings, ...(card.fidelity ?? []).filter((one) => one.mapping !== "exact")
     .map((one) => `${one.item} ${one.mapping}: ${one.text}`)].map(sentence));
   element("card-text").textContent = card.card;
   show(element("card-text"), true);

@@ -1,5 +1,6 @@
 // A card that somebody sent, pasted or dropped: what it means, and its mistakes, marked on its lines.
 import { order } from "./api.js";
+import { showSame } from "./desk_options.js";
 import { element, list, make, sentence, show, showText, significant } from "./format.js";
 
 let targets = [];
@@ -37,18 +38,20 @@ async function check() {
   const number = ++asked;
   const status = element("check-status");
   const tell = (what, kind) => { status.className = kind; showText(status, what); };
+  element("check-same").replaceChildren();
   if (text.trim() === "") { tell("", ""); showLines("", []); return list(element("check-meaning"), []); }
   await new Promise((done) => setTimeout(done, 300));  // while somebody types
   if (number !== asked) return;
   try {
     const target = element("check-target").value;
-    const { result } = await order("/api/desk/check", { card: text, ...(target ? { for: target } : {}) });
+    const { command, result } = await order("/api/desk/check", { card: text, ...(target ? { for: target } : {}) });
     if (number !== asked) return;
     const mistakes = result.findings.filter((one) => one.mistake);
     tell(mistakes.length === 0 ? "No mistake was found in the card itself. This is what it means:"
       : `${mistakes.length} mistake${mistakes.length === 1 ? "" : "s"}. This is what a solver reads:`, mistakes.length === 0 ? "good" : "alert");
     list(element("check-meaning"), [...result.findings.map((one) => sentence(one.text)), ...meaningOf(result), sentence(result.understood.conventions)]);
     showLines(text, result.findings.map((one) => one.text));
+    showSame(element("check-same"), `${command}  # CARD: the file of this card`, "", result);
   } catch (error) {
     if (number !== asked) return;
     const what = error.message.replaceAll(/\/dev\/stdin(: )?/g, "");

@@ -1,7 +1,9 @@
 // Several tables in one picture: data and fit of each, and their moduli in a table.
 import { order } from "./api.js";
 import { Chart } from "./charts.js";
-import { axisOf, element, make, show, showText, significant } from "./format.js";
+import { fitCall, kinds, showSame } from "./desk_options.js";
+import { lawOf } from "./desk_rubber.js";
+import { axisOf, element, make, nameLogSwitch, sentence, show, showText, significant } from "./format.js";
 import { rowsOf } from "./moduli.js";
 
 const kColors = ["series-1", "series-2", "series-3", "series-4", "series-5", "series-6"];
@@ -14,11 +16,14 @@ function ratioIn(name) {
 }
 
 let ratios = {};  // by table, as they were typed
-let chosen = new Set(), fits = {}, chart = null, optionsOf = () => ({}), onTogether = () => {}, asked = 0;
+let chosen = new Set(), fits = {}, chart = null, asked = 0;
+let kept = {}, commands = {};  // options and command of each fit, by table
+let optionsOf = () => ({}), onTogether = () => {}, onKind = () => {};
 
+// onKind(table, kind): the kind of a table was chosen; "": the table decides.
 export function startCompare(handlers) {
-  ({ optionsOf, onTogether } = handlers);
-  element("compare-together").addEventListener("click", () => onTogether(fitted().map((name) => ({ table: name, kind: fits[name].kind }))));
+  ({ optionsOf, onTogether, onKind } = handlers);
+  element("compare-together").addEventListener("click", () => onTogether(withKind().map((name) => ({ table: name, kind: kindOf(name) }))));
   element("compare-ratios").addEventListener("click", () => onTogether(withRatio().map((name) => ({ table: name, ratio: ratios[name] }))));
   for (const id of ["compare-log-x", "compare-log-y", "compare-relative"]) element(id).addEventListener("change", draw);
 }
@@ -43,8 +48,25 @@ export function showCompareTables(names) {
       tell(isWrong ? `${name}: "${ratio.value}" is no mixing ratio; it is left out of a fit by ratio.` : "");
       showButtons();
     });
-    return make("div", { class: "specimen" }, make("label", { class: "switch" }, box, name), ratio);
+    const kind = make("select", { "aria-label": `Kind of test of ${name}` }, make("option", { value: "" }, "kind"),
+                      ...kinds().map((one) => make("option", { value: one }, one)));
+    kind.dataset.table = name;
+    kind.addEventListener("change", () => onKind(name, kind.value).catch((error) => tell(sentence(error.message), "alert")));
+    return make("div", { class: "specimen" }, make("label", { class: "switch" }, box, name), kind, ratio);
   }));
+  showKinds();
+}
+
+// As it was chosen, or as the table was read; a table that cannot be fitted alone may have one too.
+const kindOf = (name) => kept[name]?.kind ?? fits[name]?.kind;
+
+function showKinds() {
+  for (const select of element("compare-tables").querySelectorAll("select")) {
+    const name = select.dataset.table, own = fits[name]?.kind;
+    select.options[0].textContent = own && !kept[name]?.kind ? own : "kind";
+    select.value = kept[name]?.kind ?? "";
+    show(select, chosen.has(name));
+  }
 }
 
 export function alsoCompare(name) {
@@ -56,32 +78,46 @@ const tell = (text, kind = "note") => { element("compare-status").className = ki
 export async function compare() {
   const number = ++asked;
   tell("");
+  element("compare-same").replaceChildren();
   for (const name of chosen) {
+    const request = { table: name, ...(optionsOf(name) ? { options: optionsOf(name) } : {}) };
     try {
-      fits[name] = (await order("/api/desk/fit", { table: name, ...(optionsOf(name) ? { options: optionsOf(name) } : {}) })).result;
+      ({ result: fits[name], options: kept[name], command: commands[name] } = await order("/api/desk/fit", request));
     } catch (error) {
       fits[name] = null;
-      tell(`${name}: ${error.message}`, "alert");
+      tell(error.message.startsWith(name) ? error.message : `${name}: ${error.message}`, "alert");
+      kept[name] = request.options ?? (await order("/api/desk/table", { table: name }).catch(() => null))?.options ?? {};
     }
     if (number !== asked) return;
   }
+  showKinds();
   draw();
   showRows();
+  const names = fitted();
+  if (names.length === 0) return;
+  const calls = names.map((name) => fitCall(name, kept[name])).join(",\n        ");
+  showSame(element("compare-same"), names.map((name) => commands[name]).join("\n"), `import viscard\nfits = [${calls}]`,
+           { input_files: names.flatMap((name) => fits[name].input_files ?? []) });
 }
 
 const fitted = () => [...chosen].filter((name) => fits[name]);
+const withKind = () => [...chosen].filter(kindOf);
 const withRatio = () => fitted().filter((name) => Number(ratios[name]) > 0);
 
 function showButtons() {
-  element("compare-together").disabled = fitted().length < 2;
+  element("compare-together").disabled = withKind().length < 2;
   element("compare-ratios").disabled = withRatio().length < 3;  // fewer show no law
 }
 
+// Those without a curve have none.
+const colorOf = (name) => kColors[fitted().filter((one) => fits[one].curves).indexOf(name)];
+
 function showRows() {
   const names = fitted();
-  const head = make("tr", {}, make("th", { scope: "col" }, "Quantity"), ...names.map((name, i) =>
-    make("th", { scope: "col", class: "number" }, ...(kColors[i] ? [make("span", { class: `key ${kColors[i]}` })] : []), name)));
-  const columns = names.map((name) => rowsOf(fits[name]));
+  const head = make("tr", {}, make("th", { scope: "col" }, "Quantity"), ...names.map((name) =>
+    make("th", { scope: "col", class: "number" }, ...(colorOf(name) ? [make("span", { class: `key ${colorOf(name)}` })] : []), name)));
+  // Of a law of rubber the moduli at rest; its parameters are not those of others.
+  const columns = names.map((name) => rowsOf(fits[name].laws ? { ...lawOf(fits[name]), terms: [] } : fits[name]));
   const longest = columns.reduce((most, rows) => (rows.length > most.length ? rows : most), []);
   const body = longest.map(([label], i) => make("tr", {}, make("th", { scope: "row" }, ...label.map((node) => node.cloneNode(true))),
     ...columns.map((rows) => make("td", { class: "number" }, ...(rows[i] ? [rows[i][1], make("br"), make("small", {}, rows[i][2])] : [])))));
@@ -92,10 +128,11 @@ function showRows() {
 function draw() {
   if (chart) chart.close();
   chart = null;
-  const names = fitted().slice(0, kColors.length);
+  const drawn = fitted().filter((name) => fits[name].curves), names = drawn.slice(0, kColors.length);
   showButtons();
-  if (fitted().length > names.length) tell(`The picture shows the first ${kColors.length}.`);
-  show(element("compare-body"), names.length > 0);
+  if (drawn.length > names.length) tell(`The picture shows the first ${kColors.length}.`);
+  show(element("compare-body"), fitted().length > 0);
+  show(element("compare-chart"), names.length > 0);
   if (names.length === 0) return;
   const kinds = new Set(names.map((name) => `${fits[name].curves.argument} ${fits[name].curves.columns[0].name}`));
   const isRelative = element("compare-relative").checked;
@@ -103,6 +140,7 @@ function draw() {
   const logs = () => ({ x: element("compare-log-x").checked, y: element("compare-log-y").checked });
   const rows = [];
   const { argument, columns: [quantity] } = fits[names[0]].curves;
+  nameLogSwitch("compare-log-x-name", argument);
   const largest = isRelative ? 0 : names.flatMap((name) => fits[name].curves.columns[0].fitted).reduce((most, y) => Math.max(most, Math.abs(y)), 0);
   const axis = axisOf(quantity.name, largest);
   names.forEach((name, k) => {

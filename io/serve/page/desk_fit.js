@@ -1,6 +1,6 @@
 // The fit of a table: data with curve, residuals, moduli, flags, number of terms.
 import { Chart, thinned } from "./charts.js";
-import { axisOf, element, make, sentence, show, showText, significant } from "./format.js";
+import { axisOf, element, make, nameLogSwitch, sentence, show, showText, significant } from "./format.js";
 import { showParts, withCurves } from "./desk_tests.js";
 import { showModuli } from "./moduli.js";
 
@@ -21,6 +21,7 @@ function drawCharts() {
   if (element("fit-chart").clientHeight === 0) return;  // hidden: a chart would take a size of its own
   for (const chart of [fitChart, residualChart]) if (chart) chart.close();
   const { argument, values, columns } = fit.curves;
+  nameLogSwitch("log-x-name", argument);
   const several = columns.length > 1;
   const names = columns.flatMap(({ name }) => (several ? [`${name} data`, `${name} fit`] : ["data", "fit"]));
   const unit = argument === "time_s" ? "s" : "Hz";
@@ -57,6 +58,18 @@ function drawCharts() {
   fitChart.show(thinned(rows, kMostPoints));
 }
 
+// One view shows fits of several kinds.
+export function showBody(id) {
+  for (const body of ["fit-body", "ratio-body", "rubber-body"]) show(element(body), body === id);
+}
+
+export function showJudgement({ trustworthy, flags }) {
+  const status = element("fit-status");
+  status.className = !trustworthy ? "alert" : flags.length > 0 ? "note" : "good";
+  showText(status, !trustworthy ? "Do not trust this fit before you have opened the words beside the numbers."
+    : flags.length > 0 ? "The fit may be used; the words beside the numbers open what to keep in mind." : "The fit describes the data.");
+}
+
 export function showFlags(node, flags) {
   const seen = [...new Set(flags.map((flag) => flag.name))];
   node.replaceChildren(...seen.map((name) => {
@@ -86,18 +99,14 @@ export function showFit(result, chosenTerms, onTerms) {
   // With a number of terms given the ladder has that row alone; the earlier one stays.
   if (chosenTerms === undefined || orders.length === 0) orders = fit.orders;
   fit = { ...fit, orders };
-  const status = element("fit-status");
-  status.className = !fit.trustworthy ? "alert" : fit.flags.length > 0 ? "note" : "good";
-  showText(status, !fit.trustworthy ? "Do not trust this fit before you have opened the words beside the numbers."
-    : fit.flags.length > 0 ? "The fit may be used; the words beside the numbers open what to keep in mind." : "The fit describes the data.");
+  showJudgement(fit);
   showModuli(element("moduli"), fit);
   showParts(fit);
   element("fit-note").textContent = `${fit.n_samples} samples, ${fit.n_left_out ?? 0} rows left out. Intervals cover the scatter`
     + (fit.systematic_relative ? `; geometry and frame add ${significant(100 * fit.systematic_relative, 2)} % to E0.` : ".");
   showFlags(element("flags"), fit.flags);
   showOrders(chosenTerms, onTerms);
-  show(element("ratio-body"), false);
-  show(element("fit-body"), true);
+  showBody("fit-body");
   drawCharts();
 }
 
@@ -109,7 +118,7 @@ export function showFitState(text, kind) {
   const status = element("fit-status");
   status.className = kind;
   showText(status, text);
-  if (kind === "alert") { show(element("fit-body"), false); show(element("ratio-body"), false); }
+  if (kind === "alert") showBody(null);
 }
 
 // The charts have no size while their view is hidden.

@@ -6,13 +6,18 @@ const kAlways = ["kind", "from", "to"];
 const kByKind = { indentation: ["punch-diameter", "layer-thickness", "poisson-ratio", "frame-stiffness"] };
 const kOfModuli = ["modulus-kind", "poisson-ratio"];
 const kOfForce = ["depth", "punch-diameter", "layer-thickness", "gauge-length", "area"];
+const kOfRubber = ["kind", "model", "gauge-length", "area"];
 
-let options = [], onChange = () => {};
+let options = [], rubberKinds = [], onChange = () => {};
 
 export function startOptions(described, handler) {
-  options = described;
+  options = described.options;
+  rubberKinds = described.large_strain;
   onChange = handler;
 }
+
+export const kinds = () => options.find((one) => one.name === "kind").choices;
+export const isRubberKind = (kind) => rubberKinds.includes(kind);
 
 const labelOf = (name) => { const text = name.replaceAll("-", " "); return text[0].toUpperCase() + text.slice(1); };
 
@@ -23,6 +28,10 @@ function valueOf(option, input) {
   if (text === "") return undefined;
   return option.is_list ? text.split(/\s*;\s*/).filter((one) => one !== "") : text;
 }
+
+// What an empty field stands for, or how it is written. unit: another one than the program names.
+export const hintOf = (option, unit = option.unit) => (unit === "1" ? "0.01, or 1 %" : unit ? `in ${unit}, or with unit`
+  : option.is_list ? "several: a; b" : option.default ?? "");
 
 function controlOf(option, value, id) {
   if (option.choices.length > 0 && !option.is_list && option.type === "text") {
@@ -36,8 +45,7 @@ function controlOf(option, value, id) {
     box.checked = value === true;
     return box;
   }
-  const hint = option.unit ? `in ${option.unit}, or with unit` : option.is_list ? "several: a; b" : option.default ?? "";
-  return make("input", { id, autocomplete: "off", spellcheck: "false", placeholder: hint,
+  return make("input", { id, autocomplete: "off", spellcheck: "false", placeholder: hintOf(option),
                          value: Array.isArray(value) ? value.join("; ") : value ?? "" });
 }
 
@@ -54,7 +62,8 @@ function fieldOf(option, chosen, prefix) {
 // table: as it was read.
 export function showFields(table, chosen) {
   const isForce = table.modulus_kind === "" && table.kind !== "indentation";
-  const names = [...new Set([...kAlways, ...(kByKind[table.kind] ?? (isForce ? kOfForce : kOfModuli)), "density"])];
+  const names = isRubberKind(table.kind) ? kOfRubber
+    : [...new Set([...kAlways, ...(kByKind[table.kind] ?? (isForce ? kOfForce : kOfModuli)), "density"])];
   const find = (name) => options.find((option) => option.name === name);
   element("fields").replaceChildren(...names.map(find).filter(Boolean).map((one) => fieldOf(one, chosen, "field")));
   const groups = [...new Set(options.map((option) => option.group))];
@@ -66,21 +75,27 @@ export function showFields(table, chosen) {
 }
 
 // "from" is a word of Python itself.
-export const keywordOf = (name) => (name === "from" ? "from_" : name.replaceAll("-", "_"));
+const keywordOf = (name) => (name === "from" ? "from_" : name.replaceAll("-", "_"));
 
-// The same in Python: keywords of viscard.fit(). data: a file, or tests by kind.
-export function pythonOf(data, chosen) {
-  const words = Object.entries(chosen).map(([name, value]) => {
-    const option = options.find((one) => one.name === name);
+// The same in Python: the keywords of a function after its other arguments. described: the options of its command.
+export function pythonKeywords(chosen, described = []) {
+  return Object.entries(chosen).filter(([, value]) => value !== "" && value !== undefined).map(([name, value]) => {
+    const option = described.find((one) => one.name === name);
     const isNumber = option && ["number", "whole number"].includes(option.type);
     const text = value === true ? "True" : isNumber ? String(value) : JSON.stringify(value);
     return `, ${keywordOf(name)}=${text}`;
-  });
-  return `import viscard\nresult = viscard.fit(${JSON.stringify(data)}${words.join("")})`;
+  }).join("");
 }
 
-// What is in doubt of the files that were read, such as that one was edited; command and Python lines with a button each
-// that copies them.
+// data: a file, or tests by kind. A kind at large strain stands before the file, and is no keyword.
+export function fitCall(data, { kind, ...chosen }) {
+  const isRubber = isRubberKind(kind);
+  return `viscard.fit(${JSON.stringify(isRubber ? { [kind]: data } : data)}${pythonKeywords(isRubber || !kind ? chosen : { kind, ...chosen }, options)})`;
+}
+export const pythonOf = (data, chosen) => `import viscard\nresult = ${fitCall(data, chosen)}`;
+
+// What is in doubt of the files that were read, such as that one was edited; command and Python lines, if there are such,
+// with a button each that copies them.
 export function showSame(node, command, python, result) {
   const line = (what, text) => {
     const button = make("button", { type: "button", "aria-label": `Copy the ${what}` }, "Copy");
@@ -93,5 +108,5 @@ export function showSame(node, command, python, result) {
   };
   const doubts = (result?.input_files ?? []).filter((file) => file.note)
     .map((file) => make("p", { class: "note" }, sentence(`${file.path}: ${file.note}`)));
-  node.replaceChildren(...doubts, line("command", command), line("Python lines", python));
+  node.replaceChildren(...doubts, line("command", command), ...(python ? [line("Python lines", python)] : []));
 }

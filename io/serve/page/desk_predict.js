@@ -1,17 +1,24 @@
 // What the fitted material does in another test, with its band; measured values of another table beside it.
 import { Chart } from "./charts.js";
-import { axisOf, element, list, make, sentence, show, showText, significant } from "./format.js";
+import { hintOf, pythonKeywords } from "./desk_options.js";
+import { axisOf, element, list, make, nameLogSwitch, sentence, show, showText, significant } from "./format.js";
 
-// Fields by the kind of test; the program describes them.
-const kFields = { relaxation: ["strain", "ramp", "from", "to"], creep: ["stress", "ramp", "from", "to"],
-                  recovery: ["stress", "hold", "recovery"], cycles: ["strain", "period", "cycles"], oscillation: ["from", "to"] };
+// Fields by the kind of test, which the program describes, and which axes are logarithmic at first.
+const kTests = {
+  relaxation: { fields: ["strain", "ramp", "from", "to"], logs: { x: true, y: false } },
+  creep: { fields: ["stress", "ramp", "from", "to"], logs: { x: true, y: false } },
+  recovery: { fields: ["stress", "hold", "recovery"], logs: { x: false, y: false } },
+  cycles: { fields: ["strain", "period", "cycles"], logs: { x: false, y: false } },
+  oscillation: { fields: ["from", "to"], logs: { x: true, y: true } },
+};
+const kColors = ["fit", "depth"];
 
-let options = [], values = {}, onChange = () => {}, chart = null, curve = null;
+let options = [], values = {}, onChange = () => {}, charts = [], curve = null;
 
 export function startPredict(described, handler) {
   options = described.predict;
   onChange = handler;
-  element("predict-test").replaceChildren(...Object.keys(kFields).map((name) => make("option", { value: name }, name)));
+  element("predict-test").replaceChildren(...Object.keys(kTests).map((name) => make("option", { value: name }, name)));
   element("predict-test").value = "creep";
   element("predict-test").addEventListener("change", () => { values = {}; showFields(); onChange(); });
   element("predict-against").addEventListener("change", () => onChange());
@@ -20,13 +27,18 @@ export function startPredict(described, handler) {
 }
 
 function showFields() {
-  const names = kFields[element("predict-test").value];
-  element("predict-fields").replaceChildren(...names.map((name) => options.find((one) => one.name === name)).map((option) => {
-    const input = make("input", { autocomplete: "off", placeholder: option.unit ? `in ${option.unit}, or with unit` : option.default ?? "" });
+  const test = element("predict-test").value, { fields, logs } = kTests[test];
+  for (const axis of ["x", "y"]) element(`predict-log-${axis}`).checked = logs[axis];
+  element("predict-fields").replaceChildren(...fields.map((name) => options.find((one) => one.name === name)).map((option) => {
+    const unit = test === "oscillation" ? "Hz" : option.unit;  // of --from and --to
+    const input = make("input", { autocomplete: "off", placeholder: option.default ?? hintOf(option, unit) });
     input.addEventListener("change", () => { values[option.name] = input.value.trim(); onChange(); });
     return make("label", { title: option.description }, option.name.replaceAll("-", " "), input);
   }));
 }
+
+// What viscard.predict() of Python takes. given: the options of the command.
+export const predictKeywords = (given) => pythonKeywords(given, options);
 
 export function showOtherTables(names) {
   const before = element("predict-against").value;
@@ -39,30 +51,53 @@ export function chosenPrediction() {
   return { predict: { test: element("predict-test").value, ...values }, ...(against ? { against } : {}) };
 }
 
-function draw() {
-  if (chart) chart.close();
-  chart = null;
-  if (!curve) return;
-  const names = Object.keys(curve), argument = names[0];
-  const isBand = (name) => /_(low|high)_95$/.test(name);
-  // The band first, so that the prediction lies on it.
-  const shown = names.slice(1).filter((name) => name !== "inside_window").sort((a, b) => isBand(b) - isBand(a));
-  const logs = () => ({ x: element("predict-log-x").checked, y: element("predict-log-y").checked });
-  const main = shown.filter((name) => !isBand(name));
+const isBand = (name) => /_(low|high)_95$/.test(name);
+const bandOf = (name) => [`${name}_low_95`, `${name}_high_95`].filter((one) => curve[one]);
+const shortName = (name) => axisOf(name).label.replace(/ \(.*\)$/, "");
+
+// What the test gives, not what is put in (the strain of cycles): only that has a band. The loss tangent has a chart of its own.
+function answers() {
+  const names = Object.keys(curve).slice(1).filter((name) => !isBand(name) && name !== "inside_window" && name !== "tan_delta");
+  const withBand = names.filter((name) => bandOf(name).length > 0);
+  return withBand.length > 0 ? withBand : "frequency_Hz" in curve ? names : names.slice(-1);
+}
+
+// A chart of these columns with their bands; ylabel stands for several.
+function chartOf(id, names, logs, titles, readout) {
+  const [argument] = Object.keys(curve);
+  const shown = [...names.flatMap(bandOf), ...names];  // the band first, so that the prediction lies on it
   const largest = shown.flatMap((name) => curve[name]).reduce((most, y) => Math.max(most, Math.abs(y ?? 0)), 0);
-  const axis = axisOf(main[0], main.length === 1 ? largest : 0);
-  const rows = curve[argument].map((x, i) => [x, ...shown.map((name) => (curve[name][i] === null ? null : axis.factor * curve[name][i]))])
-    .filter((row) => (!logs().x || row[0] > 0) && (!logs().y || row.slice(1).every((y) => y === null || y > 0)));
-  chart = new Chart(element("predict-chart"), {
-    labels: [argument, ...shown], colors: shown.map((name) => (isBand(name) ? "measured" : main.indexOf(name) === 0 ? "fit" : "depth")), logs,
-    titles: { xlabel: axisOf(argument).label, ylabel: main.length === 1 ? axis.label : main.map((name) => name.split("_")[0]).join(", ") },
+  const axis = axisOf(names[0], largest);
+  const valueOf = (y) => (y === null || (logs().y && !(y > 0)) ? null : axis.factor * y);  // a band may reach below zero
+  const rows = curve[argument].map((x, i) => [x, ...shown.map((name) => valueOf(curve[name][i]))])
+    .filter((row) => (!logs().x || row[0] > 0) && row.slice(1).some((y) => y !== null));
+  const chart = new Chart(element(id), {
+    labels: [argument, ...shown], colors: shown.map((name) => (isBand(name) ? "measured" : kColors[names.indexOf(name)])), logs,
+    titles: { ylabel: names.length === 1 ? axis.label : `modulus (${axis.unit})`, ...titles },
     readout: (x, i) => {
       const row = x === null ? null : chart.data[i];
-      element("predict-readout").textContent = !row ? ""
-        : `${significant(row[0], 4)}: ${shown.map((name, k) => (isBand(name) ? "" : `${name} ${significant(row[k + 1], 5)}`)).filter(Boolean).join(", ")}`;
+      readout(!row ? "" : `${significant(row[0], 4)} ${axisOf(argument).unit}: `
+        + names.map((name) => `${shortName(name)} ${significant(row[1 + shown.indexOf(name)], 5)} ${axis.unit}`.trim()).join(", "));
     },
   });
   chart.show(rows);
+  return chart;
+}
+
+function draw() {
+  for (const chart of charts) chart.close();
+  charts = [];
+  if (!curve) return;
+  const [argument] = Object.keys(curve), names = answers(), hasLoss = "tan_delta" in curve;
+  const logs = () => ({ x: element("predict-log-x").checked, y: element("predict-log-y").checked });
+  const readout = (text) => { element("predict-readout").textContent = text; };
+  nameLogSwitch("predict-log-x-name", argument);
+  const key = (color, text) => [make("span", { class: `key ${color}` }), `${text} `];
+  element("predict-legend").replaceChildren(...names.flatMap((name, k) => key(kColors[k], names.length === 1 ? "prediction" : shortName(name))),
+                                            ...key("measured", "95 % band"));
+  show(element("predict-loss-chart"), hasLoss);
+  charts.push(chartOf("predict-chart", names, logs, { xlabel: axisOf(argument).label }, readout));
+  if (hasLoss) charts.push(chartOf("predict-loss-chart", ["tan_delta"], () => ({ x: logs().x, y: false }), {}, readout));
 }
 
 export function showPrediction(answer) {
@@ -75,7 +110,7 @@ export function showPrediction(answer) {
     + `${one.n} values inside band and noise.`).join("") : "";
   showText(status, `By the material in ${answer.material}.`
     + (result.n_outside_window ? ` ${result.n_outside_window} points lie outside the times that were measured.` : "") + against);
-  list(element("predict-notes"), result.notes.map(sentence));
+  list(element("predict-notes"), [...answer.notes, ...result.notes].map(sentence));
   show(element("predict-body"), true);
   draw();
 }

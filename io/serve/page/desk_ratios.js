@@ -1,7 +1,7 @@
 // A fit over mixing ratios: the modulus of each specimen and ratio, specimens that lie apart, the material of each ratio.
 import { Chart } from "./charts.js";
-import { showFlags } from "./desk_fit.js";
-import { axisOf, element, fixed, make, show, showText, significant } from "./format.js";
+import { showBody, showFlags } from "./desk_fit.js";
+import { axisOf, element, fixed, make, showText, significant } from "./format.js";
 import { rowsOf } from "./moduli.js";
 
 let fit = null, chart = null;
@@ -52,8 +52,7 @@ export function showRatios(result) {
   const status = element("fit-status");
   status.className = fit.flags.length > 0 ? "note" : "good";
   showText(status, `${fit.summary}.`);
-  show(element("fit-body"), false);
-  show(element("ratio-body"), true);
+  showBody("ratio-body");
   showFlags(element("ratio-flags"), fit.flags);
   showSpecimens();
   showMaterials();

@@ -1,7 +1,7 @@
 // One page to hand on about the chosen tables.
 import { order } from "./api.js";
-import { showSame } from "./desk_options.js";
-import { element, make, sentence, show, showText } from "./format.js";
+import { pythonKeywords, showSame } from "./desk_options.js";
+import { element, list, make, sentence, show, showText } from "./format.js";
 
 let chosen = new Set(), made = null;
 
@@ -28,14 +28,18 @@ export function showReportTables(names, open) {
 async function makeReport() {
   const tell = (text, kind) => { element("report-status").className = kind; showText(element("report-status"), text); };
   show(element("report-link"), false);
+  list(element("report-notes"), []);
+  element("report-same").replaceChildren();
   tell("Writing …", "");
   try {
     const title = element("report-title").value.trim();
     made = await order("/api/desk/report", { tables: [...chosen], ...(title ? { title } : {}) });
     tell(`Written as ${made.name} in the folder.`, "good");
     show(element("report-link"), true);
-    const files = [...chosen].map((name) => JSON.stringify(name)).join(", ");
-    showSame(element("report-same"), made.command, `import viscard\nviscard.report([${files}], ${JSON.stringify(made.name)}${title ? `, title=${JSON.stringify(title)}` : ""})`, made.result);
+    list(element("report-notes"), made.notes.map(sentence));
+    const { card: cards, ...options } = made.options;
+    showSame(element("report-same"), made.command,
+             `import viscard\nviscard.report(${JSON.stringify(made.files)}, ${JSON.stringify(made.next_name)}${pythonKeywords({ ...options, cards })})`, made.result);
   } catch (error) {
     tell(sentence(error.message), "alert");
   }

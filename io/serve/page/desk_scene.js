@@ -28,12 +28,13 @@ export function showScenes(names) {
 
 const tell = (text, kind = "note") => { element("scene-status").className = kind; showText(element("scene-status"), text); };
 const tolerance = () => { const text = element("scene-tol").value.trim(); return text ? { tol: text } : {}; };
-const pythonOf = (call) => `import viscard\nprint(viscard.${call}(${JSON.stringify(scene)}${tolerance().tol && call !== "cost" ? `, tol=${tolerance().tol}` : ""}))`;
+const pythonOf = (call) => `import viscard\nprint(viscard.${call}(${JSON.stringify(scene)}${call === "cost" ? ", budget=10" : tolerance().tol ? `, tol=${tolerance().tol}` : ""}))`;
 
 // Asks one thing about the scene; what was asked before is forgotten.
 async function about(what, doing, work) {
   const number = ++asked;
   tell(doing, "");
+  element("scene-same").replaceChildren();
   try {
     const answer = await order("/api/desk/scene", { scene, what, ...tolerance() });
     if (number !== asked) return;

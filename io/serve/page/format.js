@@ -20,11 +20,12 @@ export function significant(value, digits = 4) {
   return text.replace("-", "−");
 }
 
-// "the port is busy" -> "The port is busy."
+// "the port is busy" -> "The port is busy." A name keeps its letters: "a.csv: holds ...", "tau_1 is ...".
 export function sentence(text) {
   if (!text) return "";
   const whole = /[.!?:]$/.test(text) ? text : `${text}.`;
-  return whole[0].toUpperCase() + whole.slice(1);
+  const isWord = /^\p{Ll}[\p{L}'’]*(?=[\s,;.!?)]*(\s|$))/u.test(whole);
+  return isWord ? whole[0].toUpperCase() + whole.slice(1) : whole;
 }
 
 // Always as many decimals, without a minus before zero.
@@ -85,6 +86,9 @@ export function numberFrom(text) {
   const tidy = text.trim().replace(",", ".").replace("−", "-");
   return tidy === "" ? NaN : Number(tidy);
 }
+
+// The switch of a logarithmic axis, by what lies along it.
+export const nameLogSwitch = (id, argument) => showText(element(id), argument === "frequency_Hz" ? "log frequency" : "log time");
 
 const kUnits = { N_m: "N/m" };
 // "storage_modulus_Pa" -> how it is shown: "storage modulus (MPa)" and its factor. largest: of the values.

@@ -112,6 +112,10 @@ TEST_CASE("the stiffness of the frame comes from the slope of position over forc
   CHECK(fit_frame_stiffness(points, 0.0).curvature_m > 1e-6);
   for (double& position : points.position_m) position = -position;
   CHECK_THROWS_WITH(fit_frame_stiffness(points, 0.0), Contains("does not grow"));
+  for (const double constant_N : {0.0, 1.0}) {
+    for (double& force_N : points.force_N) force_N = constant_N;
+    CHECK_THROWS_WITH(fit_frame_stiffness(points, 0.0), Contains("the same at every position"));
+  }
 }
 
 TEST_CASE("a calibration is valid for a year, or until its own date", "[fit]") {

@@ -74,7 +74,12 @@ TEST_CASE("the bootstrap agrees with the covariance, with and without autocorrel
   options.n_terms = 2;
   const FitResult plain = fit_relaxation(data, options);
   options.n_bootstrap = 200;
+  std::vector<double> done;
+  options.resampled = [&](double fraction) { done.push_back(fraction); };
   const FitResult fit = fit_relaxation(data, options);
+  CHECK(done.size() >= 200);
+  for (const double fraction : done) CHECK((fraction >= 0.0 && fraction < 1.0));
+  options.resampled = nullptr;
   CHECK(fit.n_bootstrap >= 190);
   // Percentiles of 200 refits are accurate to about 10 %, and blocks lose part of the
   // autocorrelation.

@@ -40,7 +40,7 @@ TEST_CASE("a drawing of a row has its pillars, electrodes, loads and lengths", "
   CHECK(count_of(svg, kPillarFill) == 5);
   CHECK(count_of(svg, kElectrodeFill) == 5);
   CHECK(svg.find("1 kPa on pillars 2, 3") != std::string::npos);
-  CHECK(svg.find("d 40 um, l 120 um, s 60 um") != std::string::npos);
+  CHECK(svg.find("d 40 µm, l 120 µm, s 60 µm") != std::string::npos);
   CHECK(svg.find(">5</text>") != std::string::npos);
   const std::size_t arrows_of_two = count_of(svg, kArrow);
   scene.loaded = {2};
@@ -84,9 +84,9 @@ TEST_CASE("the sizes of a pillar that is lower than their words stand below the 
   PillarScene scene;
   scene.film = isotropic_medium(2e9, 0.29, 1780.0);
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
-  CHECK(svg_from_scene(scene, "").find("d 40 um, l 120 um") == std::string::npos);
+  CHECK(svg_from_scene(scene, "").find("d 40 µm, l 120 µm") == std::string::npos);
   scene.geometry.film = FilmGeometry{50e-6, 1e-3};
-  CHECK(svg_from_scene(scene, "").find(">pillar d 40 um, l 120 um</text>") != std::string::npos);
+  CHECK(svg_from_scene(scene, "").find(">pillar d 40 µm, l 120 µm</text>") != std::string::npos);
 }
 
 TEST_CASE("scene check draws pillars and rows into a file, and overwrites none", "[cli][scene]") {
@@ -148,7 +148,7 @@ TEST_CASE("a drawing of an array in the plane has its pillars, electrodes and lo
   CHECK(count_of(svg, "fill=\"#0072b2\"") == 1);
   CHECK(count_of(svg, "fill=\"none\" stroke=\"#d55e00\"") == 12);
   CHECK(svg.find("pressure 1 kPa on 1 pillar (dark) [2, 3]") != std::string::npos);
-  CHECK(svg.find(">200 um</text>") != std::string::npos);  // the length to scale
+  CHECK(svg.find(">200 µm</text>") != std::string::npos);  // the length to scale
   const std::size_t arrows = count_of(svg, kArrow);
   scene.shear_y_Pa = -50.0;
   CHECK(count_of(svg_from_scene(scene, ""), kArrow) == arrows + 3);
@@ -163,7 +163,7 @@ TEST_CASE("large lengths and moduli on a drawing have no exponent", "[io][scene]
   scene.press->shape.radius_m = 0.1;
   const std::string svg = svg_from_scene(scene, "array.toml");
   CHECK(svg.find("on a half-space of 4 GPa") != std::string::npos);
-  CHECK(svg.find("a rigid sphere of radius 100 mm pressed 1.5 um deep") != std::string::npos);
+  CHECK(svg.find("a rigid sphere of radius 100 mm pressed 1.5 µm deep") != std::string::npos);
 }
 
 TEST_CASE("the voltages of a touch in time are drawn in one unit with a prefix", "[io][scene]") {
@@ -227,13 +227,15 @@ film_compliance = "on"
     CAPTURE(name);
     CHECK(count_of(text_of(name), kPillarFill) == 2);
     CHECK(count_of(text_of(name), R"(stroke-dasharray="4 3")") == 2);  // at rest
-    CHECK(text_of(name).find(" Hz +- ") != std::string::npos);
+    CHECK(text_of(name).find(" kHz") != std::string::npos);
+    CHECK(text_of(name).find(" ± ") != std::string::npos);
+    CHECK(text_of(name).find(" kHz (scene") != std::string::npos);  // the name of the file
     CHECK(text_of(name).find("the 2 modes of this cluster lie within ") != std::string::npos);
   }
   // One mode of the two has both tops move alike, the other one against each other.
   const std::string both = text_of("lateral_1.svg") + text_of("lateral_2.svg");
   CHECK(count_of(both, ">+1.00</text>") == 3);
-  CHECK(count_of(both, ">-1.00</text>") == 1);
+  CHECK(count_of(both, ">−1.00</text>") == 1);
   CHECK(text_of("mode_shapes.csv").find("family,mode,frequency_Hz,pillar,motion\nlateral,1,") !=
         std::string::npos);
   CHECK(count_of(text_of("mode_shapes.csv"), "\nlongitudinal,") == 4);
@@ -251,7 +253,7 @@ TEST_CASE("a map has a disc for each pillar, or cells if there are many", "[io][
   CHECK(count_of(discs, "fill=\"none\" stroke=\"#000\" stroke-width=\"2\"") == 1);
   CHECK(discs.find("mean &amp; voltage") != std::string::npos);
   for (const char* const tick :
-       {">-2</text>", ">-1.5</text>", ">-1</text>", ">-0.5</text>", ">0</text>", ">mV</text>"}) {
+       {">−2</text>", ">−1.5</text>", ">−1</text>", ">−0.5</text>", ">0</text>", ">mV</text>"}) {
     CAPTURE(tick);
     CHECK(discs.find(tick) != std::string::npos);
   }

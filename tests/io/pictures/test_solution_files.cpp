@@ -1,4 +1,5 @@
 // Fields for ParaView, and pictures of them.
+#include "io/pictures/picture_numbers.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/simulate.h"
@@ -185,6 +186,11 @@ TEST_CASE("a buckling scene has a picture of Euler's shape", "[pillar][io]") {
   const auto pictures = pictures_from_grid(grid);
   REQUIRE(pictures.size() == 1);
   CHECK(pictures.front().first == "buckling_shape");
+  SceneAnswer answer;
+  answer.results.push_back({"buckling_pressure", 29370.033, "Pa", 1.3});
+  const auto named = pictures_from_grid(grid, captions_from_answer(answer), "stamp");
+  CHECK_THAT(named.front().second,
+             Catch::Contains(">buckling shape: 29.3700 ± 0.0013 kPa (stamp)</text>"));
 }
 
 TEST_CASE("every field has a picture with its name, scale and unit", "[pillar][io]") {
@@ -203,6 +209,35 @@ TEST_CASE("every field has a picture with its name, scale and unit", "[pillar][i
     CHECK(svg.find("<polygon") != std::string::npos);
     CHECK_THAT(svg, Catch::Contains("text-anchor=\"end\" fill=\"#444\">20 µm</text>"));  // a length
   }
+}
+
+TEST_CASE("frequencies of modes have one notation in all titles", "[io]") {
+  SceneAnswer answer;
+  for (const double frequency_Hz : {17952.4, 173657.0, 2.7468e5}) {
+    answer.modes.push_back(
+        {.family = "lateral", .frequency_Hz = frequency_Hz, .error_estimate = 1e-3 * frequency_Hz});
+  }
+  const auto captions = captions_from_answer(answer);
+  CHECK(captions.at("lateral_1") == "17.952 ± 0.018 kHz");
+  CHECK(captions.at("lateral_2") == "173.66 ± 0.17 kHz");
+  CHECK(captions.at("lateral_3") == "274.68 ± 0.27 kHz");
+}
+
+TEST_CASE("numbers of pictures have prefixes and minus signs", "[io]") {
+  CHECK(in_unit(25e-6, "m") == "25 µm");
+  CHECK(in_unit(-1e-6, "m") == "−1 µm");
+  CHECK(in_unit(0.0095, "m") == "9.5 mm");
+  CHECK(in_unit(0.0, "m") == "0 m");
+  CHECK(in_unit(1e4, "Pa") == "10 kPa");
+  CHECK(in_unit(0.25, "1") == "0.25");
+  CHECK(in_unit(0.25, "%") == "0.25 %");
+  CHECK(in_unit(2e-9, "m^2") == "2e−09 m^2");  // a prefix would be squared, too
+  CHECK(in_unit(3e3, "1/Pa") == "3000 1/Pa");
+  CHECK(in_unit(1500.0, "N/m") == "1.5 kN/m");
+  CHECK(interval_in_unit(-7.326e-7, -6.002e-7, "m") == "−732.6 to −600.2 nm");
+  CHECK(in_unit_with_error(0.5, 0.0, "V") == "500 mV");
+  CHECK(in_unit_with_error(2.0, 300.0, "Hz") == "2 ± 300 Hz");
+  CHECK(in_unit_with_error(17952.4, NAN, "Hz") == "17.9524 kHz");
 }
 
 TEST_CASE("a picture of a flat body is no higher than the body and its bar of colours", "[io]") {

@@ -92,6 +92,7 @@ WRONG_VALUES = [
     (lambda: viscard.simulate(PRESS, tol=10**400), "tol is 10+...; it must be a finite number"),
     (rows_of([0.0, 0.0, 0.0, float("inf")]), r"voltages\[0, 0\] is .*inf.*four NaN where no pillar stands"),
     (rows_of([0.0, float("nan"), 0.0, 0.0]), r"voltages\[0, 0\] is .*nan"),
+    (lambda: viscard.check_scene(PRESS, svg="x.png"), "svg is 'x.png'; the drawing is an SVG file, so end its name with .svg"),
     (lambda: viscard.data_file("/etc"), "no file '/etc' comes with viscard"),
 ]
 
@@ -203,7 +204,7 @@ def test_every_argument_is_checked():
             if not inspect.isfunction(call):
                 continue
             keys = set(inspect.signature(call).parameters) - {"self", "cls"} - own
-            assert not keys or hasattr(call, "__wrapped__") or name in ("Answer", "Plan", "Sweep", "Table"), (name, call.__name__, keys)
+            assert not keys or hasattr(call, "__wrapped__") or name == "Table", (name, call.__name__, keys)
 
 
 def test_arrays_without_a_name_are_shown_the_dict():
@@ -212,7 +213,7 @@ def test_arrays_without_a_name_are_shown_the_dict():
         viscard.fit(time_s, modulus_Pa)
     with pytest.raises(TypeError, match=r"takes 1 value without a name; write the others as NAME=VALUE"):
         viscard.fit(EXAMPLE, "return")
-    with pytest.raises(TypeError, match=r"a Capture or a list of these, not b'run.csv'"):
+    with pytest.raises(TypeError, match=r"a Capture, a list of these, or a dict of these by kind of test, not b'run.csv'"):
         viscard.fit(b"run.csv")
 
 
@@ -222,6 +223,68 @@ def test_text_that_no_file_and_no_message_can_hold_is_refused_with_its_keyword(t
                  lambda: viscard.simulate(viscard.data_file("scenes/pillar_press.toml"), plausible=text)):
         with pytest.raises(viscard.Error, match="holds no NUL"):
             call()
+
+
+def nested(kind, depth):
+    """Lists or dicts within each other; 0: one that contains itself."""
+    value = kind()
+    if depth == 0:
+        value.append(value) if kind is list else value.update(a=value)
+    for _ in range(depth):
+        value = [value] if kind is list else {"a": value}
+    return value
+
+
+TAKES_ANY = [
+    lambda v: viscard.simulate(v), lambda v: viscard.simulate({"a": v}), lambda v: viscard.simulate({"geometry": {"diameter": v}}),
+    lambda v: viscard.check_scene(v), lambda v: viscard.check_scene({"a": v}), lambda v: viscard.plan({"a": v}),
+    lambda v: viscard.cost({"a": v}), lambda v: viscard.cost(PRESS, budget=v), lambda v: viscard.design({"a": v}, {"b": v}),
+    lambda v: viscard.design(diameter=v), lambda v: viscard.sweep({"a": v}, over={"a": [1]}),
+    lambda v: viscard.sweep("a.toml", over={"a": v}), lambda v: viscard.fit(v), lambda v: viscard.fit([v]),
+    lambda v: viscard.fit({"time_s": v}), lambda v: viscard.fit(EXAMPLE, column=v), lambda v: viscard.fit(EXAMPLE, errors=v),
+    lambda v: viscard.predict(v), lambda v: viscard.predict(MATERIAL, strain=v), lambda v: viscard.predict(MATERIAL, against=v),
+    lambda v: MATERIAL.predict(history={"a": v}), lambda v: MATERIAL.card(v), lambda v: MATERIAL.relaxation(v),
+    lambda v: MATERIAL.tan_delta(v), lambda v: MATERIAL.plot(ax=v), lambda v: MATERIAL.validate().find(v),
+    lambda v: viscard.Material(1e6, 0.4, terms=v), lambda v: viscard.Material(1e6, 0.4, name=v),
+    lambda v: viscard.calibrate({"a": v}), lambda v: viscard.report(v, "a.html"), lambda v: viscard.next_test(EXAMPLE, v),
+    lambda v: viscard.pressures_from_voltages({"a": v}, [[1.0]]), lambda v: viscard.forces_from_voltages({"a": v}, np.zeros((1, 1, 4)))]
+
+
+@pytest.mark.parametrize("kind, depth", [(list, 0), (dict, 0), (list, 5000), (dict, 5000)])
+def test_a_value_that_is_nested_too_deep_is_refused_in_a_line(kind, depth):
+    value = nested(kind, depth)
+    for number, call in enumerate(TAKES_ANY):
+        with pytest.raises((viscard.Error, TypeError)) as caught:
+            call(value)
+        assert len(str(caught.value)) < 300 and "\n" not in str(caught.value), number
+
+
+def test_a_value_that_cannot_be_written_is_named_by_its_kind():
+    class Odd:
+        def __repr__(self):
+            raise ZeroDivisionError
+
+    with pytest.raises(TypeError, match="material must be a path or a Material, not <Odd"):
+        viscard.predict(Odd())
+    with pytest.raises(viscard.Error, match="tol is <int>; it must be a finite number"):
+        viscard.simulate(PRESS, tol=10**5000)
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda: viscard.predict(3), "material must be a path or a Material, not 3"),
+    (lambda: viscard.predict(MATERIAL, history=3), "history must be a path, a dict of arrays by header or a DataFrame, not 3"),
+    (lambda: viscard.fit([[1.0]]), r"data\[0\] must be a path, a dict of arrays by header, a DataFrame or a Capture, not \[1.0\]"),
+    (lambda: viscard.fit([EXAMPLE, MATERIAL]), r"data\[1\] must be a path, .*, not <viscard.Material"),
+    (lambda: viscard.fit({"time_s": {"a": {"b": 1}}}), r"data\['time_s'\] must be a path, a dict of arrays by header"),
+    (lambda: viscard.calibrate(3), "data must be a path, a dict of arrays by header or a DataFrame, not 3"),
+    (lambda: viscard.next_test(3, "E0=1%"), "capture must be a path or a Capture, not 3")])
+def test_what_is_accepted_is_named_as_a_whole(call, words):
+    with pytest.raises(TypeError, match=f"^{words}"):
+        call()
+
+
+def test_files_of_a_generator_are_fitted():
+    assert len(viscard.fit(name for name in [EXAMPLE, EXAMPLE])) == 2
 
 
 def test_a_whole_number_beyond_all_floats_is_no_number_of_a_row():

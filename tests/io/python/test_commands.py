@@ -70,8 +70,12 @@ def test_the_report_is_the_command(program, run, tmp_path):
     assert refused.value.code == "exists"
     with pytest.raises(viscard.Error, match="'abacus'"):
         viscard.report(SEED, tmp_path / "other.html", cards="abacus")
-    with pytest.raises(viscard.Error, match="save the arrays"):
-        viscard.report({"time_s": [1.0, 2.0], "modulus_Pa": [2.0, 1.0]}, tmp_path / "other.html")
+    arrays = {"time_s": [1.0, 2.0], "modulus_Pa": [2.0, 1.0]}
+    for no_file in (arrays, [SEED, arrays], viscard.Material.load(SEED)):
+        with pytest.raises(TypeError, match=r"^data.* must be a path(,| or) a Capture.*; save arrays and materials to a file"):
+            viscard.report(no_file, tmp_path / "other.html")
+    with pytest.raises(viscard.Error, match="data is empty; give at least one file"):
+        viscard.report([], tmp_path / "other.html")
     assert not (tmp_path / "other.html").exists()
 
 
@@ -95,6 +99,11 @@ def test_calibrations_of_readings_are_the_command(program, tmp_path):
         assert refused.value.code == "exists"
     with pytest.raises(viscard.Error, match="capacity is missing"):
         viscard.calibrate(cell)
+    less = {name: np.delete(values, 4) for name, values in cell.items()}
+    gap = {**cell, "volts_V": np.where(np.arange(mass_kg.size) == 4, np.nan, cell["volts_V"])}
+    found = viscard.calibrate(gap, capacity="250 gf")  # what is missing leaves its row out
+    assert found["gain_V_N"] == viscard.calibrate(less, capacity="250 gf")["gain_V_N"]
+    assert found.rows_left_out == 1 and "1 row without a number" in found._repr_html_()
     with pytest.raises(viscard.Error, match="above the capacity"):
         viscard.calibrate(cell, capacity="0.1 N")
     with pytest.raises(viscard.Error, match="gravity 1.6 m/s2 does not occur on Earth"):

@@ -91,7 +91,7 @@ def test_arrays_of_the_wrong_kind(relaxation):
     assert "2 dimensions" in str(text_of(viscard.fit, {"time_s": time_s.reshape(2, -1), "modulus_Pa": modulus_Pa}))
     assert "no rows" in str(text_of(viscard.fit, {}))
     assert "modulus_Pa" in str(text_of(viscard.fit, {"t": time_s, "y": modulus_Pa}))
-    with pytest.raises(TypeError, match="a dict of arrays by header, a Capture or a list of these, not array"):
+    with pytest.raises(TypeError, match="a dict of arrays by header, a DataFrame, a Capture, a list of these, or .* by kind of test, not array"):
         viscard.fit(np.column_stack([time_s, modulus_Pa]))
     whole = viscard.fit({"time_s": time_s.astype(np.float32), "modulus_Pa": modulus_Pa.astype(int)})
     assert whole.E0 == pytest.approx(1.5e6, rel=0.01)

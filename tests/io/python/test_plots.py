@@ -112,16 +112,61 @@ def text(value):
     return repr(value)
 
 
-def test_every_result_can_be_pickled_copied_and_shown(ratio_files, run):
+def made_at_the_rig(run, folder, short_test):
+    rig, specimen = viscard.data_file("demo/01_rig.toml"), viscard.data_file("demo/03_pdms_1to10.toml")
+    block = {"position_m": [0, 1e-5, 2e-5, 3e-5], "force_N": [0, 0.1, 0.2, 0.3]}
+    return [viscard.read_capture(run), viscard.calibrate(block, compliance=True), viscard.next_test(run, "E0=1%"),
+            viscard.cost_of_tests(rig, specimen, "E0=10%", at_most="2 min"),
+            viscard.capture(folder / "again.viscap", test=short_test, emulate=True, speed=500)]
+
+
+def pressures():
+    scene = viscard.data_file("scenes/space_sphere.toml")
+    return viscard.pressures_from_voltages(scene, viscard.simulate(scene).maps["mean_voltage"]["value"], noise=1e-4)
+
+
+def test_every_result_can_be_pickled_copied_compared_and_shown(ratio_files, run, tmp_path, short_test):
+    pandas = pytest.importorskip("pandas")
     joint = viscard.fit(ratio_files, joint=True, ratio=[10, 13, 20])
-    for result in [*made(), joint, viscard.read_capture(run)]:
+    rubber = viscard.fit({"uniaxial": viscard.read_table("data/reference/treloar_uniaxial.csv")}, model="yeoh")
+    results = [*made(), *made_at_the_rig(run, tmp_path, short_test), joint, pressures(), rubber.card("abaqus", "mm-t-s"),
+               viscard.design(viscard.data_file("designs/longest_pillar.toml"))]
+    shown = {one for one in map(viscard.__dict__.get, viscard.__all__) if isinstance(one, type) and hasattr(one, "_table")}
+    assert shown - {type(one) for one in results} == set()
+    for result in results:
         for again in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+            assert again == result and again is not result
+            assert isinstance(result, list) or hash(again) == hash(result)
             assert type(again) is type(result) and repr(again) == repr(result)
             public = [name for name in vars(result) if not name.startswith("_")]
             assert [repr(text(getattr(again, name))) for name in public] == [repr(text(getattr(result, name))) for name in public]
-        if not isinstance(result, viscard.Card):
+        if type(result) in shown:
             assert "<table>" in result._repr_html_()
+            assert isinstance(result.to_frame(), pandas.DataFrame) and len(result.to_frame()) > 0, type(result)
     assert pickle.loads(pickle.dumps(joint)).material(15).E0_Pa == joint.material(15).E0_Pa
+
+
+def test_answers_and_materials_that_differ_are_not_equal():
+    answer = viscard.simulate(PRESSED)
+    assert answer == viscard.simulate(PRESSED) != answer_of("44 um")
+    assert answer != "text" and PDMS != viscard.Material(PDMS.E0_Pa, 0.4) and len({PDMS, copy.copy(PDMS)}) == 1
+    field, again = (viscard.simulate(PRESSED, fields=True).fields[0] for _ in range(2))
+    assert field == again and not field != again and hash(field) == hash(again)
+    assert field != again._replace(x_m=2.0 * again.x_m)
+
+
+def test_frames_hold_what_was_fitted(ratio_files):
+    pytest.importorskip("pandas")
+    rubber = viscard.fit({"uniaxial": viscard.read_table("data/reference/treloar_uniaxial.csv")}, model="yeoh")
+    frame = rubber.to_frame()
+    assert list(frame.columns) == ["test", "time_s", "stretch", "measured", "fitted", "residual"]
+    np.testing.assert_array_equal(frame["residual"], rubber.residuals[0])
+    np.testing.assert_allclose(frame["fitted"], rubber.stress(frame["stretch"].to_numpy()), rtol=1e-9)
+    joint = viscard.fit(ratio_files, joint=True, ratio=[10, 13, 20])
+    frame = joint.to_frame()
+    assert list(frame["mixing_ratio"]) == [10, 13, 20] and (frame["E0_low_95"] < frame["E0_Pa"]).all()
+    assert joint.residuals.shape == (3,) and abs(joint.residuals).max() < 1e-3
+    assert joint.plot().get_xlabel() == "mixing ratio"
 
 
 def answer_of(diameter):

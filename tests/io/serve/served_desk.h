@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -52,6 +53,29 @@ class ServedDesk {
       scaled += '\n';
     }
     return factor == 1.0 ? text : scaled;
+  }
+  // The example without a header, which is read only by --column.
+  static std::string without_header() {
+    const std::string text = example();
+    return text.substr(text.find("\n0.01,") + 1);
+  }
+  // Stresses of a rubber over stretch, in one deformation.
+  static std::string rubber(bool is_planar = false) {
+    std::string text = "stretch,nominal stress [MPa]\n";
+    for (int i = 1; i <= 30; ++i) {
+      const double stretch = 1.0 + 0.05 * i, scatter = 1.0 + 0.01 * std::sin(7.0 * i);
+      const double released = is_planar ? std::pow(stretch, -3) : std::pow(stretch, -2);
+      text += std::to_string(stretch) + "," + std::to_string(0.4 * scatter * (stretch - released)) +
+              "\n";
+    }
+    return text;
+  }
+  // True if a shell in the folder carries out these lines, as a person copies them.
+  bool runs(const std::string& lines) const {
+    const std::filesystem::path programs = std::filesystem::path(VISCARD_PROGRAM).parent_path();
+    const std::string script = "exec >/dev/null\nset -e\ncd '" + folder().string() + "'\nPATH='" +
+                               programs.string() + "':$PATH\n" + lines + "\n";
+    return std::system(script.c_str()) == 0;
   }
   // Relaxation at 10, 20 and 30 degC, each a decade slower than the warmer one.
   static std::string isotherms() {

@@ -58,7 +58,7 @@ TEST_CASE(
   const Json card = desk.order("card", wanted).json;
   INFO(card.dump());
   CHECK(card.at("material") == "pdms.json");
-  CHECK(card.at("fit_command") == "viscard fit pdms.csv --out=pdms.json");
+  CHECK(card.at("fit_command") == "test -e pdms.json || viscard fit pdms.csv --out=pdms.json");
   CHECK(card.at("command") == "viscard card pdms.json --for=abaqus --units=mm-t-s");
   CHECK(contains(card.at("result").at("card"), "*VISCOELASTIC"));
   CHECK_FALSE(contains(card.at("result").at("card"), "--json"));
@@ -118,7 +118,8 @@ TEST_CASE("tests of one material are fitted together, and their material is kept
   for (int i = 0; i < 2; ++i) {
     const Json card = desk.order("card", wanted).json;
     CHECK(card.at("material") == "a+b.json");
-    CHECK(card.at("fit_command") == "viscard fit relaxation=a.csv relaxation=b.csv --out=a+b.json");
+    CHECK(card.at("fit_command") ==
+          "test -e a+b.json || viscard fit relaxation=a.csv relaxation=b.csv --out=a+b.json");
   }
   CHECK(desk.order("predict", {{"tests", tests}, {"predict", {{"test", "creep"}}}}).status == 200);
   // Of the options that are kept beside them those of all hold; they must be read alike.
@@ -134,10 +135,9 @@ TEST_CASE("tests of one material are fitted together, and their material is kept
   CHECK(differ.status == 422);
   CHECK(contains(message_of(differ), "a.csv and b.csv are not read alike (--modulus-kind=shear)"));
   CHECK(desk.order("fit", {{"tests", tests}, {"options", Json::object()}}).status == 200);
-  for (const Json& wrong :
-       {Json::array(), Json::array({tests[0]}), Json("a.csv"), Json{tests[0], "b.csv"},
-        Json{tests[0], {{"table", "b.csv"}, {"kind", "--out=x"}}},
-        Json{tests[0], {{"table", "b.csv"}}}}) {
+  for (const Json& wrong : {Json::array(), Json("a.csv"), Json{tests[0], "b.csv"},
+                            Json{tests[0], {{"table", "b.csv"}, {"kind", "--out=x"}}},
+                            Json{tests[0], {{"table", "b.csv"}}}}) {
     CAPTURE(wrong.dump());
     CHECK(desk.order("fit", {{"tests", wrong}}).status == 400);
   }
@@ -377,6 +377,155 @@ TEST_CASE(
   CHECK(contains(message_of(bad), "diametre"));
 }
 
+TEST_CASE("a table at large strain is fitted by the kind that is chosen for it, which is kept",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("rubber.csv", ServedDesk::rubber());
+  desk.drop("sheet.csv", ServedDesk::rubber(true));
+  const Json described = desk.ask("/api/desk/choices").json;
+  CHECK(described.at("large_strain") == Json{"uniaxial", "compression", "planar", "equibiaxial",
+                                             "confined", "volumetric", "shear"});
+  for (const Json& option : described.at("options")) {
+    if (option.at("name") != "kind") continue;
+    CHECK(option.at("choices").at(0) == "indentation");
+    CHECK(option.at("choices").back() == "shear");
+  }
+  const Json options = {{"kind", "uniaxial"}, {"model", "yeoh"}};
+  const Json unknown = desk.order("table", {{"table", "rubber.csv"}}).json;
+  CHECK(contains(unknown.at("result").at("kind_trouble"), "uniaxial=rubber.csv"));
+  const Json read = desk.order("table", {{"table", "rubber.csv"}, {"options", options}}).json;
+  INFO(read.dump());
+  CHECK(read.at("options") == options);
+  CHECK(read.at("result").at("kind") == "uniaxial");
+  CHECK(read.at("result").at("kind_trouble") == "");
+
+  const Json fitted = desk.order("fit", {{"table", "rubber.csv"}}).json;
+  INFO(fitted.dump());
+  CHECK(fitted.at("command") == "viscard fit uniaxial=rubber.csv --model=yeoh");
+  CHECK(fitted.at("options") == options);
+  CHECK(fitted.at("result").at("law") == "yeoh");
+  CHECK(contains(fitted.at("pictures").at(0).at("svg"), "<svg"));
+  const std::string kept = read_file(desk.folder() / "rubber.csv.options");
+  CHECK(contains(kept, "viscard fit @rubber.csv.options"));
+  CHECK(contains(kept, "\nuniaxial=rubber.csv\n--model=yeoh\n"));
+  CHECK(desk.runs("viscard fit @rubber.csv.options"));
+
+  for (int i = 0; i < 2; ++i) {  // the second time the law is there
+    const Json card =
+        desk.order("card", {{"table", "rubber.csv"}, {"card", {{"for", "abaqus"}}}}).json;
+    INFO(card.dump());
+    CHECK(card.at("material") == "rubber.json");
+    CHECK(contains(card.at("result").at("card"), "*HYPERELASTIC"));
+    CHECK(desk.runs(card.at("fit_command").get<std::string>() + "\n" +
+                    card.at("command").get<std::string>()));
+  }
+  const ApiAnswer predicted =
+      desk.order("predict", {{"table", "rubber.csv"}, {"predict", {{"test", "creep"}}}});
+  CHECK(predicted.status == 422);
+  CHECK(contains(message_of(predicted), "a law of rubber gives cards, and no predictions"));
+
+  const Json one = Json::array({{{"table", "rubber.csv"}, {"kind", "uniaxial"}}});
+  const Json empty = Json::object();
+  CHECK(desk.order("fit", {{"tests", one}, {"options", empty}}).json.at("command") ==
+        "viscard fit uniaxial=rubber.csv");
+  // What stands before each file is no option of all.
+  desk.order("table", {{"table", "sheet.csv"}, {"options", {{"kind", "planar"}}}});
+  const Json both = {one[0], {{"table", "sheet.csv"}, {"kind", "planar"}}};
+  const Json together = desk.order("fit", {{"tests", both}}).json;
+  INFO(together.dump());
+  CHECK(together.at("command") == "viscard fit uniaxial=rubber.csv planar=sheet.csv");
+  CHECK(together.at("options").empty());
+  // Without the kind the file of options is a list of options again.
+  desk.order("table", {{"table", "sheet.csv"}, {"options", {{"model", "yeoh"}}}});
+  CHECK(contains(read_file(desk.folder() / "sheet.csv.options"),
+                 "viscard fit sheet.csv @sheet.csv.options"));
+}
+
+TEST_CASE("a report of the desk shows what the page shows of a table with options",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  desk.drop("bare.csv", ServedDesk::without_header());
+  desk.order("table", {{"table", "a.csv"}, {"options", {{"terms", "1"}}}});
+  const Json columns = {{"column", {"time_s=1", "modulus_Pa=2 [MPa]"}}};
+  desk.order("table", {{"table", "bare.csv"}, {"options", columns}});
+  for (const char* table : {"a.csv", "bare.csv"}) {
+    CAPTURE(table);
+    const Json fitted = desk.order("fit", {{"table", table}}).json.at("result");
+    const ApiAnswer made = desk.order("report", {{"tables", Json::array({table})}});
+    INFO(made.json.dump().substr(0, 500));
+    REQUIRE(made.status == 200);
+    CHECK(made.json.at("result").at("specimens").at(0).at("E0_Pa") == fitted.at("E0_Pa"));
+    CHECK(contains(made.json.at("notes").at(0), std::string(table) + " is shown by "));
+    CHECK(desk.runs(made.json.at("command")));
+  }
+  // A density changes no fit: the page keeps the data.
+  const Json density = {{"density", "965"}};
+  desk.order("table", {{"table", "a.csv"}, {"options", density}});
+  const Json both = desk.order("report", {{"tables", Json::array({"a.csv"})}}).json;
+  CHECK(both.at("files").size() == 2);
+  CHECK(both.at("files").at(0) == "a.csv");
+  CHECK(both.at("notes").empty());
+  CHECK(both.at("result").at("specimens").size() == 1);
+  // The options of the folder are those of Python too.
+  write_file(desk.folder() / "report.options", "--logo=logo.svg\n--card=febio\n", false);
+  write_file(desk.folder() / "logo.svg", "<svg/>", false);
+  const Json house =
+      desk.order("report", {{"tables", Json::array({"a.csv"})}, {"title", "Mine"}}).json;
+  CHECK(house.at("options") ==
+        Json{{"logo", "logo.svg"}, {"card", Json::array({"febio"})}, {"title", "Mine"}});
+}
+
+TEST_CASE("the lines that the desk shows run when they are copied, and again", "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a b.csv", ServedDesk::example());
+  desk.drop("b.csv", ServedDesk::example(0.5));
+  desk.drop("c.csv", ServedDesk::example(0.51));
+  const auto lines_run = [&](const Json& answer) {
+    INFO(answer.dump());
+    const std::string lines = answer.at("fit_command").get<std::string>() + "\n" +
+                              answer.at("command").get<std::string>();
+    return desk.runs(lines) && desk.runs(lines);
+  };
+  const Json card = {{"for", "abaqus"}};
+  const Json tests = {{{"table", "a b.csv"}, {"ratio", "10"}},
+                      {{"table", "b.csv"}, {"ratio", "20"}},
+                      {{"table", "c.csv"}, {"ratio", "20"}}};
+  const Json of_one = desk.order("card", {{"table", "a b.csv"}, {"card", card}}).json;
+  CHECK(lines_run(of_one));
+  std::filesystem::remove(desk.folder() / "a b.json");  // they also make it again
+  CHECK(lines_run(of_one));
+  CHECK(lines_run(
+      desk.order("card", {{"tests", tests}, {"card", {{"for", "abaqus"}, {"ratio", "15"}}}}).json));
+  CHECK(lines_run(
+      desk.order("predict", {{"table", "b.csv"}, {"predict", {{"test", "creep"}}}}).json));
+  const ApiAnswer joint = desk.order("predict", {{"tests", tests}, {"predict", Json::object()}});
+  CHECK(joint.status == 422);
+  CHECK(contains(message_of(joint), "fit the specimens of one ratio together"));
+}
+
+TEST_CASE("a prediction reads the table beside it with what is kept for that table",
+          "[serve][desk]") {
+  ServedDesk desk;
+  desk.drop("a.csv", ServedDesk::example());
+  desk.drop("bare.csv", ServedDesk::without_header());
+  Json options = {{"column", {"time_s=1", "modulus_Pa=2 [MPa]"}}};
+  desk.order("table", {{"table", "bare.csv"}, {"options", options}});
+  const Json wanted = {
+      {"table", "a.csv"}, {"predict", {{"test", "relaxation"}}}, {"against", "bare.csv"}};
+  const ApiAnswer against = desk.order("predict", wanted);
+  INFO(against.json.dump().substr(0, 500));
+  REQUIRE(against.status == 200);
+  CHECK(against.json.at("result").at("against").at("quantities").at(0).at("rms_relative") < 1e-3);
+  CHECK(against.json.at("options").at("column") == options.at("column"));
+  CHECK(against.json.at("options").at("against") == "bare.csv");
+  CHECK(against.json.at("notes").empty());
+  options["table"] = "1";
+  desk.order("table", {{"table", "bare.csv"}, {"options", options}});
+  CHECK(contains(desk.order("predict", wanted).json.at("notes").at(0),
+                 "bare.csv is read here without --table=1"));
+}
+
 TEST_CASE("the desk writes a report under a name that is free", "[serve][desk]") {
   ServedDesk desk;
   desk.drop("a.csv", ServedDesk::example());
@@ -387,7 +536,8 @@ TEST_CASE("the desk writes a report under a name that is free", "[serve][desk]")
   REQUIRE(made.status == 200);
   CHECK(made.json.at("name") == "report.2.html");
   CHECK(contains(made.json.at("command"),
-                 "viscard report a.csv --title=Silicone --out report.2.html"));
+                 "viscard report a.csv --title=Silicone --out report.3.html"));
+  CHECK(made.json.at("next_name") == "report.3.html");
   CHECK(contains(read_file(desk.folder() / "report.2.html"), "Silicone"));
   CHECK(read_file(desk.folder() / "report.html") == "mine");
   CHECK(desk.order("report", {{"tables", Json::array()}}).status == 400);

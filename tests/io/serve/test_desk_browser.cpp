@@ -147,6 +147,102 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   for (const auto& error : errors) CHECK(contains(error.get<std::string>(), "422"));
 }
 
+TEST_CASE("a rubber is fitted by the kind that is chosen, alone and with others", "[desk][slow]") {
+  if (has_no_browser()) return;
+  ServedDesk desk;
+  ScratchFolder scratch;
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 800, false, false);
+  browser.open(desk.server().address());
+  REQUIRE(
+      browser.wait_until("return document.getElementById('link').textContent === 'connected'", 20));
+  drop_on_page(browser, "rubber.csv", ServedDesk::rubber());
+  REQUIRE(shows(browser, "#table-error", "Name the kind of test"));
+  CHECK(browser.text("#table-error").starts_with("rubber.csv: holds"));  // as the file is named
+  set_field(browser, "#field-kind", "uniaxial");
+  REQUIRE(shows(browser, "#table-summary", "Read as uniaxial"));
+  browser.click("#tab-fit");
+  REQUIRE(shows(browser, "#rubber-law", "neo-hooke"));
+  REQUIRE(shows(browser, "#fit-same", "viscard fit uniaxial=rubber.csv"));
+  CHECK(shows(browser, "#fit-same", R"(viscard.fit({"uniaxial":"rubber.csv"}))"));
+  look_at_desk(browser, "desk_rubber");
+  browser.click("#tab-card");
+  set_field(browser, "#target", "abaqus");
+  REQUIRE(shows(browser, "#card-text", "*HYPERELASTIC"));
+  browser.click("#approximate");
+  CHECK(shows(browser, "#card-same", R"(result.card("abaqus", "SI", approximate=True))"));
+  browser.click("#tab-predict");
+  REQUIRE(shows(browser, "#predict-status", "A law of rubber gives cards"));
+  CHECK_FALSE(browser.is_shown("#predict-form"));
+  drop_on_page(browser, "sheet.csv", ServedDesk::rubber(true));
+  REQUIRE(shows(browser, "#table-error", "sheet.csv"));
+  browser.click("#tab-compare");
+  REQUIRE(shows(browser, "#compare-same", "viscard fit uniaxial=rubber.csv"));
+  REQUIRE(shows(browser, "#compare-status", "sheet.csv: holds"));
+  const std::string kind = "#compare-tables .specimen:nth-child(2) select";
+  set_field(browser, kind, "planar");
+  REQUIRE(shows(browser, "#compare-same", "viscard fit planar=sheet.csv"));
+  look_at_desk(browser, "desk_rubbers");
+  browser.click("#compare-together");
+  REQUIRE(shows(browser, "#fit-same", "viscard fit uniaxial=rubber.csv planar=sheet.csv"));
+  CHECK(shows(browser, "#rubber-tests", "planar"));
+  const nlohmann::json errors = browser.errors();
+  INFO(errors.dump());
+  for (const auto& error : errors) CHECK(contains(error.get<std::string>(), "422"));
+}
+
+TEST_CASE("a prediction is drawn by its unit, and its lines are those of this prediction alone",
+          "[desk][slow]") {
+  if (has_no_browser()) return;
+  ServedDesk desk;
+  ScratchFolder scratch;
+  desk.drop("a.csv", ServedDesk::example());
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 800, false, false);
+  browser.open(desk.server().address());
+  browser.click("#tables li:first-child button");
+  browser.click("#tab-predict");
+  set_field(browser, "#predict-test", "cycles");
+  set_field(browser, "#predict-fields label:nth-child(3) input", "3");
+  REQUIRE(shows(browser, "#predict-same", R"(test="cycles", cycles=3))"));
+  CHECK(shows(browser, "#predict-same", "test -e a.json || viscard fit a.csv --out=a.json"));
+  CHECK(browser.text("#predict-chart .dygraph-ylabel") == "stress (kPa)");
+  CHECK(browser.wait_until(has_line("#predict-chart", "fit"), 20));
+  set_field(browser, "#predict-test", "oscillation");
+  REQUIRE(shows(browser, "#predict-legend", "loss modulus"));
+  CHECK(browser.text("#predict-chart .dygraph-ylabel") == "modulus (MPa)");
+  CHECK(browser.wait_until(has_line("#predict-chart", "depth"), 20));
+  CHECK(browser.wait_until(has_line("#predict-loss-chart", "fit"), 20));
+  CHECK(browser.text("#predict-log-x-name") == "log frequency");
+  CHECK(browser
+            .run("return document.querySelector('#predict-fields label:nth-child(1) "
+                 "input').placeholder")
+            .get<std::string>() == "in Hz, or with unit");
+  look_at_desk(browser, "desk_oscillation");
+  // What is refused leaves no lines of another prediction.
+  set_field(browser, "#predict-test", "recovery");
+  REQUIRE(shows(browser, "#predict-same", "--test=recovery"));
+  set_field(browser, "#predict-fields label:nth-child(2) input", "-5");
+  REQUIRE(shows(browser, "#predict-status", "--hold"));
+  CHECK(browser.run("return document.getElementById('predict-same').children.length") == 0);
+  browser.click("#tab-card");
+  REQUIRE(shows(browser, "#card-same", "test -e a.json || viscard fit a.csv --out=a.json"));
+  const auto card = desk.order("card", {{"table", "a.csv"}, {"card", {{"for", "abaqus"}}}});
+  browser.click("#tab-check");
+  set_field(browser, "#check-text", card.json.at("result").at("card"));
+  CHECK(shows(browser, "#check-same", "viscard card --check=CARD"));
+  // A name at the beginning of a message keeps its letters; a word does not.
+  CHECK(browser
+            .run("window.said = null; import('/format.js').then(({sentence}) => { window.said = "
+                 "['the port', 'omit it', 'a.csv: holds', 'mc: x', 'tau_1 is', "
+                 "'time-zero is'].map(sentence); })")
+            .is_null());
+  REQUIRE(browser.wait_until("return window.said !== null", 10));
+  CHECK(browser.run("return window.said") == nlohmann::json{"The port.", "Omit it.",
+                                                            "a.csv: holds.", "mc: x.", "tau_1 is.",
+                                                            "time-zero is."});
+}
+
 TEST_CASE(
     "isotherms are dragged by mouse and finger, moved by keys, fitted from there and taken back",
     "[desk][slow]") {
@@ -251,6 +347,7 @@ TEST_CASE("the voltage of a pillar with what its accuracy costs, and a report", 
   person.click("#scene-cost");
   REQUIRE(browser.wait_until("return document.querySelectorAll('#scene-choices button').length > 0",
                              60));
+  CHECK(shows(browser, "#scene-same", R"(viscard.cost("pillar_press.toml", budget=10))"));
   look_at_desk(browser, "desk_cost");
   browser.click("#scene-choices button:last-child");
   REQUIRE(shows(browser, "#scene-results", "electrode voltage"));
@@ -269,6 +366,8 @@ TEST_CASE("the voltage of a pillar with what its accuracy costs, and a report", 
   browser.click("#tab-report");
   browser.click("#report-make");
   REQUIRE(shows(browser, "#report-status", "Written as report.html"));
+  CHECK(shows(browser, "#report-same", "viscard report a.csv --out report.2.html"));
+  CHECK(shows(browser, "#report-same", R"(viscard.report(["a.csv"], "report.2.html"))"));
   look_at_desk(browser, "desk_report");
   CHECK(std::filesystem::exists(desk.folder() / "report.html"));
   const nlohmann::json errors = browser.errors();

@@ -54,15 +54,17 @@ const std::string kAntonPaar =
     "Interval data:\tPoint No.\tTime\tShear Strain\tShear Stress\tRelaxation Modulus\tStatus\n"
     "\t\t\t\t\t\t\n\t\t[s]\t[%]\t[Pa]\t[kPa]\t\n\t1\t0,03\t1,5\t90\t6,0\t\n";
 
-// A zip archive of these files.
-std::string zipped(const std::map<std::string, std::string>& files) {
+// A zip archive of these files; ZIP_CM_STORE does not pack them.
+std::string zipped(const std::map<std::string, std::string>& files,
+                   zip_int32_t packed = ZIP_CM_DEFAULT) {
   zip_error_t error{};
   zip_source_t* memory = zip_source_buffer_create(nullptr, 0, 0, &error);
   zip_source_keep(memory);
   zip_t* archive = zip_open_from_source(memory, ZIP_TRUNCATE, &error);
   for (const auto& [name, text] : files) {
     zip_source_t* file = zip_source_buffer(archive, text.data(), text.size(), 0);
-    zip_file_add(archive, name.c_str(), file, ZIP_FL_OVERWRITE);
+    const zip_int64_t index = zip_file_add(archive, name.c_str(), file, ZIP_FL_OVERWRITE);
+    zip_set_file_compression(archive, static_cast<zip_uint64_t>(index), packed, 0);
   }
   REQUIRE(zip_close(archive) == 0);
   zip_source_open(memory);
@@ -76,7 +78,7 @@ std::string zipped(const std::map<std::string, std::string>& files) {
 }
 
 // Two sheets: notes, and data with a merged title, a header, a row of units and an empty row.
-std::string workbook() {
+std::string workbook(zip_int32_t packed = ZIP_CM_DEFAULT) {
   const std::string package = "http://schemas.openxmlformats.org/package/2006/relationships";
   const std::string sheet =
       "<worksheet xmlns=\"http://schemas.openxmlformats.org/spreadsheetml/"
@@ -103,7 +105,17 @@ std::string workbook() {
             "<row r=\"4\"><c r=\"B4\" t=\"str\"><v>s</v></c><c r=\"C4\" t=\"str\"><v>mN</v></c>"
             "</row><row r=\"6\"><c r=\"B6\"><v>0.5</v></c><c r=\"C6\"><v>2.5E-1</v></c></row>"
             "<row r=\"7\"><c r=\"B7\"><v>1</v></c><c r=\"C7\"><v>3</v></c></row>"
-            "</sheetData><mergeCells><mergeCell ref=\"B1:C1\"/></mergeCells></worksheet>"}});
+            "</sheetData><mergeCells><mergeCell ref=\"B1:C1\"/></mergeCells></worksheet>"}},
+      packed);
+}
+
+TEST_CASE("a sheet whose bytes do not have its checksum is refused as damaged", "[io][csv]") {
+  std::string bytes = workbook(ZIP_CM_STORE);
+  CHECK(csv_from_text(bytes, "t.xlsx").columns.size() == 2);
+  const std::size_t at = bytes.find("<v>0.5</v>");
+  REQUIRE(at != std::string::npos);
+  bytes[at + 3] = '7';
+  CHECK(contains(error_text([&] { csv_from_text(bytes, "t.xlsx"); }), "is damaged"));
 }
 
 TEST_CASE("a workbook gives the sheet with most numbers, or the one that is named", "[io][csv]") {

@@ -182,6 +182,7 @@ TEST_CASE("cycles and oscillation predict their closed forms", "[models]") {
     request.period_s = 4.0;
     const TestPrediction found = predict_test(material, request);
     CHECK(found.at.back() == Approx(12.0));
+    CHECK(found.at.size() >= 6U * static_cast<std::size_t>(request.points - 1));
     CHECK(*std::max_element(found.input.begin(), found.input.end()) == Approx(0.01));
     CHECK(found.curves[0].curve.value.back() < 0.0);  // it cannot relax back in time
   }
@@ -209,6 +210,7 @@ TEST_CASE("requests that contradict the test are refused", "[models]") {
   refused({.test = PredictedTest::kHistory});
   refused({.test = PredictedTest::kRecovery, .hold_s = -1.0});
   refused({.from = 10.0, .to = 1.0});
+  refused({.test = PredictedTest::kCycles, .n_cycles = 10000, .points = 1000});
   refused({.also_at = {-1.0}});
   CHECK_THROWS_WITH(material_at_temperature(material, 40.0),
                     Catch::Contains("no temperature shift"));

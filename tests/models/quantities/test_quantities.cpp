@@ -94,6 +94,39 @@ TEST_CASE("limits belong to a range, scenes have wider ones, and off accepts any
   CHECK(doubt_about(quantities::kPoissonRatio, -1.5, Plausible::kMeasured));
 }
 
+TEST_CASE("a sign that cannot be right is named, and no unit and no way around it are proposed",
+          "[models]") {
+  int n_signed = 0;
+  for (const Quantity* quantity : all_quantities()) {
+    if (quantity->sign == Sign::kAny) continue;
+    ++n_signed;
+    INFO(quantity->name);
+    CHECK(quantity->measured.lowest >= 0.0);
+    for (const double value : {-1.0, -1e-3, -1e3, -quantity->measured.highest}) {
+      for (const Plausible judged : {Plausible::kMeasured, Plausible::kScene}) {
+        const auto doubt = doubt_about(*quantity, value, judged);
+        REQUIRE(doubt);
+        const std::string text = doubt->with_remedy("write it so", "switch it off");
+        CHECK(text == doubt->text());
+        CHECK(text.find(quantity->sign == Sign::kPositive
+                            ? "it must be positive"
+                            : "it must not be negative") != std::string::npos);
+      }
+    }
+  }
+  CHECK(n_signed == 22);
+  CHECK_FALSE(doubt_about(quantities::kForce, -1.0, Plausible::kMeasured));
+  CHECK_FALSE(doubt_about(quantities::kLength, -1e-3, Plausible::kMeasured));
+  CHECK_FALSE(doubt_about(quantities::kDensity, 0.0, Plausible::kMeasured));
+  CHECK(doubt_about(quantities::kTipSize, 0.0, Plausible::kMeasured)->sign ==
+        "it must be positive");
+  // A column has the other sign only if nothing in it is positive.
+  const auto flipped = doubt_about(quantities::kModulus, {-2.0, -1.0}, Plausible::kMeasured);
+  REQUIRE(flipped);
+  CHECK(flipped->meant_factor == -1e6);
+  CHECK(doubt_about(quantities::kModulus, {-2.0, 1.0}, Plausible::kMeasured)->sign.empty());
+}
+
 TEST_CASE("a column is judged by its largest value or by each, as the quantity says", "[models]") {
   const double gap = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(doubt_about(quantities::kModulus, {2e6, 3.0, gap}, Plausible::kMeasured));

@@ -103,7 +103,21 @@ TEST_CASE("viscard card refuses by name every option that would change nothing",
             "belongs to writing a card, --deck, --import"},
            {{"--verify", linear, "--units", "SI"}, "--units changes nothing here"},
            {{material, "--for", "abaqus", "--material-name", "A"},
-            "belongs to --check, --prove, --import"}}) {
+            "belongs to --check, --prove, --import"},
+           {{"--check", linear, "--terms", "1"}, "--terms is for the comparison with a material"},
+           {{"--check", linear, "--tolerance", "0.1"}, "none is named"},
+           {{"--check", linear, "--ratio", "10"}, "none is named"},
+           {{"--check", linear, "--at-temperature", "40"}, "none is named"},
+           {{"--check", linear, "--bound", "lower"}, "none is named"},
+           {{"--check", linear, "--clamp-nu", "0.4"}, "none is named"},
+           {{"--check", linear, "--approximate"}, "none is named"},
+           {{"--check", rubber, "--elastic-only", "long-term"}, "none is named"},
+           {{"--prove", linear, "--bound", "lower"}, "none is named"},
+           {{material, "--for", "abaqus", "--extrapolate"}, "without --ratio"},
+           {{"--list", material}, "changes nothing here"},
+           {{"--list", "--solver", "calculix"}, "--solver changes nothing here"},
+           {{"--verify", linear, "--solver-path", "/x"}, "--solver-path changes nothing here"},
+           {{material, "--for", "abaqus", "--long"}, "it belongs to --list"}}) {
     std::string line;
     for (const std::string& word : row.words) line += word + " ";
     CAPTURE(line);

@@ -1,3 +1,4 @@
+#include "io/basics/atomic_file.h"
 #include "tests/io/cli/fit/table_folder.h"
 #include "tests/support/run_command.h"
 
@@ -226,6 +227,36 @@ TEST_CASE("a file that never ends is refused in one line", "[cli]") {
   CHECK(ran.status == kFailed);
   CHECK_THAT(ran.err, Contains("did not end"));
   CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+  CHECK_THAT(run_command({"export", "/dev/zero"}).err, Contains("is not a plain file"));
+}
+
+TEST_CASE("losses far beyond the storage moduli end in words", "[cli]") {
+  const TableFolder folder;
+  for (const char* row : {"{},1e6,1e300\n", "1,1,1e300\n", "{},1,1e-300\n", "{},1e-300,1\n"}) {
+    std::string table = "frequency_Hz,storage_modulus_Pa,loss_modulus_Pa\n";
+    for (int i = 1; i <= 60; ++i) table += fmt::format(fmt::runtime(row), i);
+    const CommandOutcome ran =
+        run_command({"fit", folder.write("c.csv", table), "--plausible", "off", "--json"});
+    INFO(row << ran.out.substr(0, 200));
+    CHECK((ran.status == kDone || ran.status == kFailed));
+  }
+}
+
+TEST_CASE("a table is written under every name that a file may have", "[cli]") {
+  const TableFolder folder;
+  std::string text = "time_s,modulus_Pa\n";
+  for (int i = 1; i < 20; ++i) text += fmt::format("{},{}\n", i, 1e6 + 1e6 / i);
+  const std::string two_lines = folder.write("a\nb.csv", text);
+  const std::string longest = folder.write(std::string(251, 'x') + ".csv", "");
+  const CommandOutcome ran = run_command({"fit", two_lines, "--csv", longest, "--force"});
+  INFO(ran.err);
+  REQUIRE(ran.status == kDone);
+  std::istringstream lines(read_file(longest));
+  std::string head, second;
+  std::getline(lines, head);
+  std::getline(lines, second);
+  CHECK(head.starts_with("# viscard fit"));
+  CHECK(second.starts_with("time_s"));
 }
 
 TEST_CASE("options that a table cannot use are refused, not ignored", "[cli]") {
@@ -275,4 +306,32 @@ TEST_CASE("options that a table cannot use are refused, not ignored", "[cli]") {
     CHECK_THAT(ran.err, Contains(option));
     CHECK_THAT(ran.err, Contains("omit"));
   }
+  ran = run_command({"fit", creep_file, "--terms", "1", "--max-terms", "5"});
+  CHECK(ran.status == kBadWords);
+  CHECK_THAT(ran.err, Contains("--max-terms is for the choice of a number of terms"));
+}
+
+TEST_CASE("of several files together an option is refused if none of them uses it", "[cli]") {
+  const TableFolder folder;
+  const std::string relaxation = "relaxation=" + folder.write("r.csv", relaxation_table());
+  std::string table = "time_s,compliance_1_Pa\n", loads = "time_s,force_N,strain\n";
+  for (int i = 0; i < 80; ++i) {
+    const double t = std::pow(10.0, -2.0 + 0.05 * i);
+    table += fmt::format("{},{}\n", t, 1e-6 * (1.5 - 0.5 * std::exp(-t)) + 1e-11 * ((7 * i) % 11));
+    loads += fmt::format("{},{},0.01\n", t, 0.1 * (1.0 + std::exp(-t)) + 1e-6 * ((7 * i) % 11));
+  }
+  const std::string creep = "creep=" + folder.write("c.csv", table);
+  for (const auto& [option, value] :
+       {std::pair{"--depth", "0.1 mm"}, std::pair{"--gauge-length", "25 mm"},
+        std::pair{"--area", "12 mm2"}, std::pair{"--punch-diameter", "4 mm"},
+        std::pair{"--frame-stiffness", "10 N/mm"}, std::pair{"--youngs-modulus", "1.5 MPa"},
+        std::pair{"--vertical-shift", "on"}}) {
+    const CommandOutcome ran = run_command({"fit", relaxation, creep, option, value});
+    CHECK(ran.status == kFailed);
+    CHECK_THAT(ran.err, Contains(std::string(option) + " is for") && Contains("omit it"));
+  }
+  // The loads become stresses by it.
+  const CommandOutcome used =
+      run_command({"fit", "relaxation=" + folder.write("l.csv", loads), creep, "--area", "12 mm2"});
+  CHECK_THAT(used.err, !Contains("--area"));
 }

@@ -287,4 +287,18 @@ TEST_CASE("a wrong command line of a joint fit gives one clear line", "[cli][joi
              Contains("--own-terms needs --joint"));
   CHECK_THAT(err_of(joined({"fit", "--joint"}, {tables.files, {"--specimen-id", "a"}})),
              Contains("give one for each file"));
+  // Of a fit, the joint one takes series and covariance alone.
+  for (const std::vector<std::string>& idle : {std::vector<std::string>{"--bootstrap", "50"},
+                                               {"--profiles"},
+                                               {"--spectrum"},
+                                               {"--diagnose"}}) {
+    CHECK_THAT(err_of(joined({"fit", "--joint"}, {tables.files, tables.ratios, idle})),
+               Contains(idle.front() + " is for single tests"));
+  }
+  CHECK_THAT(err_of(joined({"fit", "--joint"}, {tables.files, tables.ratios, {"--area", "2 mm2"}})),
+             Contains("--area is for tables with a load"));
+  const std::string materials = VISCARD_SOURCE_DIR "/data/materials/pdms_1to";
+  CHECK_THAT(err_of({"fit", "--joint", materials + "10_seed.json", materials + "13_seed.json",
+                     "--terms", "2"}),
+             Contains("--terms is for records"));
 }

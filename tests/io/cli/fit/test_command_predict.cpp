@@ -148,6 +148,56 @@ TEST_CASE("a history from a table is driven by strain or by stress, and compared
   CHECK(by_stress["curve"]["strain"][60].get<double>() == Approx(course.value[60]).epsilon(1e-3));
 }
 
+TEST_CASE("options that have no effect on a predicted test are refused by name", "[cli]") {
+  const TableFolder folder;
+  const std::string material = kData + "materials/pdms_1to10_seed.json";
+  const std::string strains = folder.write("strain.csv", "time_s,strain\n0,0\n1,0.01\n2,0.01\n");
+  using Words = std::vector<std::string>;
+  const auto err_of = [&](const Words& test, const Words& option) {
+    Words words{"predict", material};
+    words.insert(words.end(), test.begin(), test.end());
+    words.insert(words.end(), option.begin(), option.end());
+    const CommandOutcome ran = run_command(words);
+    INFO(ran.out);
+    CHECK(ran.status != kDone);
+    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+    return ran.err;
+  };
+  const Words relaxation{}, creep{"--test", "creep"}, recovery{"--test", "recovery"},
+      cycles{"--test", "cycles"}, sweep{"--test", "oscillation"}, history{"--history", strains};
+  for (const auto& [test, option] :
+       {std::pair{relaxation, Words{"--recovery", "3 s"}},
+        std::pair{relaxation, Words{"--cycles", "3"}}, std::pair{creep, Words{"--period", "2 s"}},
+        std::pair{creep, Words{"--driven-by", "stress"}},
+        std::pair{creep, Words{"--column", "time_s=2"}},
+        std::pair{creep, Words{"--time-zero", "1 s"}},
+        std::pair{creep, Words{"--modulus-kind", "shear"}},
+        std::pair{recovery, Words{"--period", "2 s"}}, std::pair{cycles, Words{"--ramp", "1 s"}},
+        std::pair{cycles, Words{"--hold", "1 s"}}, std::pair{cycles, Words{"--recovery", "1 s"}},
+        std::pair{cycles, Words{"--from", "1 s"}}, std::pair{sweep, Words{"--strain", "0.01"}},
+        std::pair{sweep, Words{"--ramp", "1 s"}}, std::pair{sweep, Words{"--cycles", "3"}},
+        std::pair{history, Words{"--strain", "0.01"}}, std::pair{history, Words{"--to", "3 s"}},
+        std::pair{history, Words{"--points", "50"}}}) {
+    CHECK_THAT(err_of(test, option), Contains(option.front() + " is for") && Contains("omit it"));
+  }
+  CHECK_THAT(err_of(creep, {"--hold", "3 s", "--to", "5 s"}),
+             Contains("--to is for tests without"));
+  CHECK_THAT(err_of(history, {"--driven-by", "stress"}), Contains("there is strain alone"));
+  // The columns of the table decide which test it is.
+  const std::string against = kData + "demo/example_relaxation.csv";
+  CHECK_THAT(err_of({"--against", against}, {"--cycles", "3"}), Contains("--cycles is for"));
+}
+
+TEST_CASE("cycles have as many points as were requested, within a limit", "[cli]") {
+  const std::string material = kData + "materials/pdms_1to10_seed.json";
+  const auto json = predicted({material, "--test", "cycles", "--cycles", "1", "--points", "150"});
+  CHECK(json["curve"]["time_s"].size() > 2 * 149);
+  const CommandOutcome many = run_command(
+      {"predict", material, "--test", "cycles", "--cycles", "10000", "--points", "1000"});
+  CHECK(many.status == kBadWords);
+  CHECK_THAT(many.err, Contains("--cycles 10000 with 1000 points"));
+}
+
 TEST_CASE("measured times between the corners of a test are predicted exactly", "[cli]") {
   const TableFolder folder;
   const std::string material = kData + "materials/pdms_1to10_seed.json";

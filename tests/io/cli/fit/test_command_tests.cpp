@@ -159,7 +159,7 @@ TEST_CASE("words of tests: refusals, and plain files with an equals sign", "[cli
   CHECK_THAT(refused({"fit", "creep=" + tables.creep_, "creep=" + tables.creep_}),
              Contains("given twice"));
   CHECK_THAT(refused({"fit", "creep=" + tables.creep_, "dma=" + tables.dma_, "--kind", "creep"}),
-             Contains("--kind does not belong"));
+             Contains("--kind is for files that do not state"));
   CHECK_THAT(refused({"fit", "creep=" + tables.creep_, "dma=" + tables.dma_, "--profiles"}),
              Contains("--profiles is for single tests"));
   CHECK_THAT(refused({"fit", "creep=", "dma=" + tables.dma_}), Contains("names no file"));

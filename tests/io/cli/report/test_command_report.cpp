@@ -1,5 +1,6 @@
 #include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
+#include "io/flow/read_report.h"
 #include "io/materials/material_file.h"
 #include "tests/io/plots/markup.h"
 #include "tests/support/error_text.h"
@@ -61,6 +62,27 @@ std::string write_material(const test::ScratchFolder& folder) {
 }
 
 }  // namespace
+
+TEST_CASE("a test at large strain is refused by a report with the way to its law",
+          "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string page = folder / "page.html";
+  const auto err_of = [&](const std::string& word) {
+    const auto outcome = run_command({"report", word, "--out", page});
+    CHECK(outcome.status == kBadWords);
+    return outcome.err;
+  };
+  CHECK_THAT(err_of("uniaxial=u.csv"),
+             Catch::Contains("uniaxial=u.csv is a test at large strain, not a linear one") &&
+                 Catch::Contains("viscard fit uniaxial=u.csv --out law.json") &&
+                 !Catch::Contains("did you mean"));
+  CHECK_THAT(err_of("uniaxal=u.csv"),
+             Catch::Contains("'uniaxal' is no kind of test") && !Catch::Contains("uniaxial"));
+  ReportRequest nothing;
+  CHECK_THROWS_WITH(sort_inputs(nothing),
+                    "no files given; give a capture, a table or a material "
+                    "file");
+}
 
 TEST_CASE("a page has the logo of its file of options", "[cli][report]") {
   const test::ScratchFolder folder;

@@ -172,12 +172,68 @@ TEST_CASE("wrong options of calibrate are named", "[cli]") {
                     Contains("--weights"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--weights", "300 g"}),
                     Contains("300 g is more than"));
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--weights", "20 g, 20"}),
+                    Contains("20 without a unit, in kg,") && Contains("write \"20 g\""));
+  // Before anything is put on: the slow clock would take minutes.
+  for (const char* weights : {"20 g", "100 g,100 g", "0 g, 100 g"}) {
+    CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--weights", weights}),
+                      Contains("fewer than two different weights"));
+  }
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--capacity", "100 gf"}),
+                    Contains("is more than the load cell's"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--gravity", "1.6 m/s2"}),
                     Contains("does not occur on Earth"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", "2020-01-31"}),
                     Catch::Contains("--valid-until 2020-01-31 is in the past"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", "soon"}),
                     Contains("'soon'"));
+}
+
+TEST_CASE("options of calibrate that belong to weights, a block or the rig alone are refused there",
+          "[cli]") {
+  const ScratchFolder folder;
+  write(folder / "forces.csv",
+        "force_N,volts_V\n0,0.001\n0.5,0.351\n1,0.701\n0.5,0.351\n0,0.001\n");
+  write(folder / "block.csv", "position_m,force_N\n0,0.2\n0.00001,0.4\n0.00002,0.6\n");
+  const std::string out = (folder / "o.toml").string();
+  const std::vector<std::string> weights{"--emulate", "--out", out},
+      block{"--emulate", "--compliance", "--out", out},
+      table{"--data", (folder / "forces.csv").string(), "--capacity", "250 gf", "--out", out},
+      points{"--data", (folder / "block.csv").string(), "--compliance", "--out", out};
+  struct Idle {
+    std::vector<std::string> words;
+    const char *option, *value;
+  };
+  for (const auto& [words, option, value] : {Idle{weights, "--to", "1 N"},
+                                             Idle{weights, "--steps", "5"},
+                                             Idle{weights, "--unverified", ""},
+                                             Idle{block, "--weights", "20 g,50 g"},
+                                             Idle{block, "--series", "2"},
+                                             Idle{block, "--mass-u", "1e-3"},
+                                             Idle{block, "--gravity", "9.81 m/s2"},
+                                             Idle{block, "--nonlinearity", "0.002"},
+                                             Idle{block, "--settle", "1 s"},
+                                             Idle{block, "--capacity", "250 gf"},
+                                             Idle{block, "--span", "1 V"},
+                                             Idle{block, "--valid-until", "2099-01-01"},
+                                             Idle{table, "--weights", "20 g,50 g"},
+                                             Idle{table, "--series", "2"},
+                                             Idle{table, "--settle", "1 s"},
+                                             Idle{table, "--seconds", "1 s"},
+                                             Idle{table, "--to", "1 N"},
+                                             Idle{table, "--gravity", "9.81 m/s2"},
+                                             Idle{points, "--seconds", "1 s"},
+                                             Idle{points, "--to", "1 N"},
+                                             Idle{points, "--steps", "5"}}) {
+    std::vector<std::string> all = words;
+    all.emplace_back(option);
+    if (*value != '\0') all.emplace_back(value);
+    CAPTURE(all);
+    CHECK_THROWS_WITH(calibrate(all),
+                      Contains(std::string(option) + " is for") && Contains("omit it"));
+  }
+  CHECK_THROWS_WITH(calibrate({"--rig", "none.toml", "--out", out, "--yes"}),
+                    Contains("--yes is for a block"));
 }
 
 }  // namespace viscard

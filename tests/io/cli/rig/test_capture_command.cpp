@@ -181,8 +181,71 @@ TEST_CASE("capture names a port that does not exist", "[cli][capture]") {
                    "--specimen", demo("03_pdms_1to10.toml"), "--out", folder / "run.viscap"});
   CHECK(outcome.status == kFailed);
   CHECK(contains(outcome.err,
-                 "port under [stage] of the rig file: there is no port '/dev/serial/by-id/stage'"));
+                 "01_rig.toml:14: port under [stage]: there is no port '/dev/serial/by-id/stage'"));
   CHECK_FALSE(std::filesystem::exists(folder / "run.viscap"));
+}
+
+TEST_CASE("every command of a rig names the file and line of a port that it cannot use",
+          "[cli][rig]") {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"check"}, {"touch"}, {"jog", "--away", "1 mm"}, {"home"}}) {
+    std::vector<std::string> line{"rig"};
+    line.insert(line.end(), words.begin(), words.end());
+    line.insert(line.end(), {"--rig", demo("01_rig.toml")});
+    const auto outcome = run_command(line);
+    CAPTURE(line, outcome.err);
+    CHECK(outcome.status == kFailed);
+    CHECK(contains(outcome.err, "01_rig.toml:14: port under [stage]: there is no port"));
+  }
+  const ScratchFolder folder;
+  std::string rig = read_file(demo("01_rig.toml"));
+  const std::string cell = "/dev/serial/by-id/load_cell";
+  rig.replace(rig.find(cell), cell.size(), "tcp://bench");
+  write_file(folder / "rig.toml", rig, false);
+  CHECK(contains(run_command({"rig", "check", "--rig", folder / "rig.toml"}).err,
+                 "rig.toml:29: port under [load_cell] 'tcp://bench' needs a host and a number"));
+}
+
+TEST_CASE("a capture that is given as another kind of test is refused with the words that fit it",
+          "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string capture = folder / "run.viscap";
+  leave_interrupted(capture);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"relaxation=" + capture}, {capture, "--kind", "creep"}}) {
+    std::vector<std::string> line{"fit"};
+    line.insert(line.end(), words.begin(), words.end());
+    const auto outcome = run_command(line);
+    CAPTURE(line, outcome.err);
+    CHECK(contains(outcome.err,
+                   "write indentation=" + capture + ", or give the file without a kind"));
+    CHECK_FALSE(contains(outcome.err, "omit --kind"));
+  }
+}
+
+TEST_CASE("--force of a capture replaces captures and empty files, and nothing else",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::filesystem::path material = folder / "material.json", empty = folder / "empty.viscap",
+                              misnamed = folder / "table.viscap";
+  write_file(material, "{\"E0_Pa\": 1e6}\n", false);
+  write_file(misnamed, "time_s,force_N\n0,1\n", false);
+  write_file(empty, "", false);
+  write_file(folder / "test.toml", kShortTest, false);
+  const auto replaced = [&](const std::filesystem::path& file) {
+    return run_command({"capture", "--emulate", "--speed", "200", "--test", folder / "test.toml",
+                        "--out", file, "--force"});
+  };
+  for (const std::filesystem::path& file : {material, misnamed}) {
+    const std::string before = read_file(file);
+    const auto outcome = replaced(file);
+    CAPTURE(file, outcome.err);
+    CHECK(outcome.status == kFailed);
+    CHECK(contains(outcome.err, "is no capture, so --force does not replace it"));
+    CHECK(read_file(file) == before);
+  }
+  CHECK(replaced(empty).status == kDone);
+  CHECK(replaced(empty).status == kDone);
 }
 
 TEST_CASE("a run that never begins leaves the capture that --force would have replaced",
@@ -293,6 +356,15 @@ TEST_CASE("options of rig check are refused by the other subcommands", "[cli][ri
   const auto outcome = run_command({"rig", "overshoot", "--rig", "none.toml"});
   CHECK(outcome.status == kBadWords);
   CHECK(contains(outcome.err, "--rig belongs to 'viscard rig check'"));
+}
+
+TEST_CASE("rig home has no speed and no limit of its own", "[cli][rig]") {
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--speed", "1 mm/s"}, {"--limit", "0.5 N"}}) {
+    const auto outcome = run_command({"rig", "home", "--emulate", option[0], option[1]});
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, option[0] + " is for rig jog and rig lift"));
+  }
 }
 
 TEST_CASE("rig list and rig check report what they find and what is wrong", "[cli][rig][pty]") {

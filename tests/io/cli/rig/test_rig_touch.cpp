@@ -2,6 +2,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
 #include "io/flow/rig_actions.h"
+#include "rig/emulator/demo_rig.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
@@ -9,7 +10,10 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -107,6 +111,50 @@ TEST_CASE("an unknown fault, and a fault of a real rig, are wrong words", "[cli]
   const auto real = run_command({"capture", "--fault", "frozen", "--out", "x.viscap"});
   CHECK(real.status == kBadWords);
   CHECK(contains(real.err, "--fault"));
+}
+
+TEST_CASE("a fault in no phase of the test, or after its phase, is refused before the run",
+          "[cli][capture]") {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"frozen@hld", "this test has no phase 'hld'; did you mean 'hold'? It has connect, tare, "},
+      {"frozen@Hold+1", "did you mean 'hold'?"},
+      {"dead-motor@recovry", "did you mean 'recovery'?"},
+      {"zeros@cycle_99", "this test has no phase 'cycle_99'. It has connect, "},
+      {"frozen@hold+1000",
+       "fault 'frozen@hold+1000' comes too late: the phase 'hold' of this test lasts 3 s"},
+      {"frozen@ramp+1.5", "lasts 1 s"}};
+  for (const auto& [fault, text] : cases) {
+    const ScratchFolder folder;
+    const auto run = capture_with(folder, fault);
+    CAPTURE(fault, run.err);
+    CHECK(run.status == kBadWords);
+    CHECK(contains(run.err, text));
+    CHECK_FALSE(std::filesystem::exists(folder / "run.viscap"));
+  }
+}
+
+TEST_CASE("a fault that the run ends before is reported as never reached", "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const auto run = capture_with(folder, "frozen@retract+1000");
+  CAPTURE(run.err);
+  CHECK(run.status == kDone);
+  CHECK(contains(run.err, "the fault 'frozen' was never reached"));
+  const ScratchFolder other;
+  CHECK_FALSE(contains(capture_with(other, "lost-steps@ramp").err, "never reached"));
+}
+
+TEST_CASE("a move by hand reports how far it is", "[rig][pty]") {
+  StageOrder order;
+  order.toward_m = -1e-3;
+  order.limit_N = 0.1;
+  std::vector<double> fractions;
+  RunControl control;
+  control.progress = [&](const RunProgress& now) {
+    if (now.phase == kMovePhase) fractions.push_back(now.fraction);
+  };
+  move_rig_stage(demo_rig(), true, order, control);
+  REQUIRE_FALSE(fractions.empty());
+  CHECK(fractions.front() < 0.6);  // of 1 s of readings before, and 6 s from then on
 }
 
 }  // namespace viscard

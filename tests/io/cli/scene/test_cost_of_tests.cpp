@@ -45,6 +45,20 @@ TEST_CASE("a wish is a quantity and a tolerance", "[io]") {
   }
 }
 
+TEST_CASE("budgets of a scene, and no time at all, are refused for tests at a rig", "[cli]") {
+  const CommandOutcome budget = run_command(cost_words({"--want", "E0=1%", "--budget", "5s"}));
+  CHECK(budget.status == kBadWords);
+  CHECK_THAT(budget.err, Catch::Contains("--budget is for a scene"));
+  CHECK(run_command(cost_words({"--want", "E0=1%", "--cpu-budget", "5s"})).status == kBadWords);
+  for (const char* time : {"0s", "-1s"}) {
+    const CommandOutcome none = run_command({"cost", "--rig", demo_file("01_rig.toml"),
+                                             "--specimen", demo_file("03_pdms_1to10.toml"),
+                                             "--want", "E0=1%", std::string("--at-most=") + time});
+    CHECK(none.status == kBadWords);
+    CHECK_THAT(none.err, Catch::Contains("--at-most must be positive"));
+  }
+}
+
 TEST_CASE("the performance of a rig is read from its file and is no part of a capture", "[io]") {
   const RigPerformance performance = read_performance(demo_file("01_rig.toml"));
   CHECK(performance.noise_N == Approx(0.05e-3 * 9.80665));

@@ -79,6 +79,9 @@ TEST_CASE("the command judges a scene, fails unless all pass, and keeps to 80 co
   CHECK(run_command({"design", "--require", hand}).status == 2);
   CHECK(run_command({"design", scene, "--require", hand, "--length", "1 um"}).status == 2);
   CHECK(run_command({"design", "--tol", "1e-3"}).status == 2);
+  const CommandOutcome idle = run_command({"design", "--search-time", "5s"});
+  CHECK(idle.status == 2);
+  CHECK_THAT(idle.err, Catch::Contains("--search-time is for a scene"));
   CHECK(run_command({"design", scene, "--require", easy.path(), "--tol", "5"}).status == 2);
   CHECK(run_command({"design", "/nowhere.toml", "--require", hand}).status == 1);
 }
@@ -121,6 +124,7 @@ goal = "largest"
     CHECK(designs[i]["objectives"][1]["value"] > designs[i - 1]["objectives"][1]["value"]);
   }
   CHECK(run_command({"design", scene.beside("spec.toml"), "--tol", "1e-3"}).status == 2);
+  CHECK(run_command({"design", scene.beside("spec.toml"), "--search-time", "5s"}).status == 2);
   CHECK(run_command({"simulate", out + "/scene_1.toml"}).status == 0);
   CHECK(read_file(out + "/front.svg").find("<svg") != std::string::npos);
 }

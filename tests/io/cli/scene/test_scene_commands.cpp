@@ -72,13 +72,17 @@ TEST_CASE("a scene is drawn with its sizes", "[cli][scene]") {
   REQUIRE(run_command({"scene", "check", scene.path(), "--svg", svg}).status == 0);
   std::stringstream text;
   text << std::ifstream(svg).rdbuf();
-  for (const char* part : {"<svg", "d 40 um", "l 120 um", "t 25 um", "film radius 60 um",
-                           "electrode, radius 20 um", "10 kPa", "</svg>"}) {
+  for (const char* part : {"<svg", "d 40 µm", "l 120 µm", "t 25 µm", "film radius 60 µm",
+                           "electrode, radius 20 µm", "10 kPa", "</svg>"}) {
     CAPTURE(part);
     CHECK(text.str().find(part) != std::string::npos);
   }
   CHECK(run_command({"scene", "check", scene.path(), "--svg", svg}).status == 1);  // is there
   CHECK(run_command({"scene", "check", scene.path(), "--svg", svg, "--force"}).status == 0);
+  const auto as_png =
+      run_command({"scene", "check", scene.path(), "--svg", scene.beside("scene.png")});
+  CHECK(as_png.status == 2);
+  CHECK_THAT(as_png.err, Catch::Contains("end its name with .svg"));
 }
 
 TEST_CASE("an effect that is not computed and exceeds the tolerance stands in the first line",

@@ -88,7 +88,8 @@ TEST_CASE(
                                                     {"report", "m.json", "--out"},
                                                     {"sweep", "s.toml", "--csv"},
                                                     {"sweep", "s.toml", "--out"},
-                                                    {"calibrate", "--data", "t.csv", "--out"}};
+                                                    {"calibrate", "--data", "t.csv", "--out"},
+                                                    {"capture", "--emulate", "--out"}};
   for (std::vector<std::string> words : lines) {
     words.push_back(here);
     CAPTURE(words);
@@ -97,9 +98,9 @@ TEST_CASE(
     CHECK(contains(as_folder.err, "it is a folder; name a file in it"));
     words.back() = none;
     CHECK(contains(run_command(words).err, "there is no folder"));
-    words.back() = "-";
-    CHECK(run_command(words).status == kBadWords);
     words.back() = "/dev/null";
+    CHECK(contains(run_command(words).err, "it is a device or pipe"));
+    words.emplace_back("--force");
     CHECK(contains(run_command(words).err, "it is a device or pipe"));
   }
   write_file(folder / "old.json", "{}", false);
@@ -108,6 +109,38 @@ TEST_CASE(
   CHECK(contains(forgotten.err, "--out needs a value; '--json' is an option"));
   const auto existing = run_command({"fit", "missing.csv", "--out", folder / "old.json"});
   CHECK(contains(existing.err, "exists already; pass --force"));
+}
+
+TEST_CASE("no output may be named - , and nothing is made before that is refused", "[cli]") {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"capture", "--emulate", "--out"},
+        {"capture", "--emulate", "--repeat", "2", "--out"},
+        {"calibrate", "--data", "t.csv", "--out"},
+        {"export", "run.viscap", "--out"},
+        {"fit", "a.csv", "--out"},
+        {"fit", "a.csv", "--csv"},
+        {"predict", "m.json", "--svg"},
+        {"card", "m.json", "--for", "abaqus", "--out"},
+        {"card", "m.json", "--for", "abaqus", "--deck", "creep", "--out"},
+        {"card", "c.inp", "--for", "abaqus", "--import"},
+        {"validate", "m.json", "--creep-csv"},
+        {"scene", "check", "s.toml", "--svg"},
+        {"simulate", "s.toml", "--out"},
+        {"sweep", "s.toml", "--out"},
+        {"design", "s.toml", "--out"},
+        {"cost", "s.toml", "--out"},
+        {"report", "m.json", "--out", "page.html", "--pictures"},
+        {"demo", "--out"},
+        {"help", "--schemas"}}) {
+    std::vector<std::string> line = words;
+    line.emplace_back("-");
+    const auto outcome = run_command(line);
+    CAPTURE(line, outcome.err);
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, words.back() + " '-': is standard output"));
+    CHECK(contains(outcome.err, "write ./- for one of that name"));
+    CHECK_FALSE(std::filesystem::exists("-"));
+  }
 }
 
 TEST_CASE("an input that only another input names is not replaced either", "[cli]") {
