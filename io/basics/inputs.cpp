@@ -53,8 +53,8 @@ std::vector<InputFile> files_of_innermost() {
   return last != nullptr ? last->files() : std::vector<InputFile>();
 }
 
-// Whether its contents are to stay. A pipe ends when it was read, and a capture that is being written, whose
-// writer holds a lock, grows.
+// Whether its contents are to stay. A pipe ends when it was read, and a capture that is being
+// written, whose writer holds a lock, grows.
 bool is_settled(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;

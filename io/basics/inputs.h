@@ -22,10 +22,11 @@ class InputChanged : public StopsWork {
   using StopsWork::StopsWork;
 };
 
-// Records every file that read_file() reads while it lives, in all threads or in its own thread only. A file
-// that somebody changes meanwhile is refused by the innermost recorder of the process, and by those of the thread:
-// InputChanged is thrown where it is read again. Files that this program writes itself, captures that are being
-// written, and what is no plain file (pipes) may change; such a file is there once for each contents.
+// Records every file that read_file() reads while it lives, in all threads or in its own thread
+// only. A file that somebody changes meanwhile is refused by the innermost recorder of the process,
+// and by those of the thread: InputChanged is thrown where it is read again. Files that this
+// program writes itself, captures that are being written, and what is no plain file (pipes) may
+// change; such a file is there once for each contents.
 class InputRecorder {
  public:
   enum class Of { kProcess, kThread };
@@ -62,11 +63,11 @@ void record_input(const std::filesystem::path& path, const std::string& contents
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256);
 // Called by what writes files: this one may be read again with other contents.
 void note_output(const std::filesystem::path& path);
-// Called when a file cannot be read. Throws InputChanged if it could be read before, by which its absence is no
-// property of what was asked.
+// Called when a file cannot be read. Throws InputChanged if it could be read before, by which its
+// absence is no property of what was asked.
 void refuse_lost_input(const std::filesystem::path& path, const std::string& why);
-// For work that shows files as they change, such as a live page: the innermost recorder of the process takes a file
-// once for each contents.
+// For work that shows files as they change, such as a live page: the innermost recorder of the
+// process takes a file once for each contents.
 void accept_changed_inputs();
 // Adds a note to a recorded file; commands print it and --json has it beside the file.
 void note_input(const std::filesystem::path& path, const std::string& note);

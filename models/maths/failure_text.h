@@ -26,16 +26,17 @@ class StopsWork : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A failure of the machine or of the moment (memory, threads, disk, a request to stop), which is no property of
-// what was asked: the same question may have an answer later.
+// A failure of the machine or of the moment (memory, threads, disk, a request to stop), which is no
+// property of what was asked: the same question may have an answer later.
 inline bool is_passing(const std::exception& error) {
   return is_lack_of_memory(error) || dynamic_cast<const NotEnoughMemory*>(&error) != nullptr ||
          dynamic_cast<const std::system_error*>(&error) != nullptr ||
          dynamic_cast<const StopsWork*>(&error) != nullptr;
 }
 
-// What is refused in words, such as a scene outside the model: an answer, which would be the same again. A search
-// that goes on after other exceptions takes a lack of memory for a property of what it looks at.
+// What is refused in words, such as a scene outside the model: an answer, which would be the same
+// again. A search that goes on after other exceptions takes a lack of memory for a property of what
+// it looks at.
 inline bool is_refusal(const std::exception& error) {
   return !is_passing(error) && (dynamic_cast<const std::runtime_error*>(&error) != nullptr ||
                                 dynamic_cast<const std::invalid_argument*>(&error) != nullptr ||

@@ -22,9 +22,10 @@ inline constexpr const char* kPartOfSweep = "sweep.part.sqlite";
 Study study_of_sweep(const SceneFile& file, const std::string& path);
 
 // Solves every point of a sweep over rows of pillars, and writes sweep.csv and its pictures. With a
-// folder it keeps the finished points in kPartOfSweep, a store of a study (study_store.h), so that a sweep that was
-// stopped continues: the points of an earlier run are not computed again if scene, materials and tolerance are the same.
-// One program at a time works in a folder. `path` is the scene file.
+// folder it keeps the finished points in kPartOfSweep, a store of a study (study_store.h), so that
+// a sweep that was stopped continues: the points of an earlier run are not computed again if scene,
+// materials and tolerance are the same. One program at a time works in a folder. `path` is the
+// scene file.
 SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const SweepOutput& output,
                       Streams& streams);
 

@@ -14,7 +14,8 @@
 namespace viscard {
 namespace {
 
-// The answer of a sweep holds the estimate of each effect at the point where leaving it out costs most.
+// The answer of a sweep holds the estimate of each effect at the point where leaving it out costs
+// most.
 void keep_largest(const std::vector<SceneEffect>& point, std::vector<SceneEffect>& sum) {
   if (sum.empty()) sum = point;
   for (std::size_t i = 0; i < sum.size(); ++i) {

@@ -26,8 +26,8 @@ struct SweepListener {
   std::function<void(double, const std::string&)> progress;
 };
 
-// Solves the points that `rows` lacks on all cores and adds them. The answer is that of all rows, whoever solved
-// them; it holds each effect as it is at the point where leaving it out costs most.
+// Solves the points that `rows` lacks on all cores and adds them. The answer is that of all rows,
+// whoever solved them; it holds each effect as it is at the point where leaving it out costs most.
 SceneAnswer solve_sweep(const SceneFile& file, std::map<std::size_t, SweepRow>& rows,
                         const SweepListener& listener);
 

@@ -45,7 +45,8 @@ void check_values(const Study& study, Plausible judged) {
 
 namespace {
 
-// Throws if a file is not what it was when the study was read, or was not read then: the store would not know it.
+// Throws if a file is not what it was when the study was read, or was not read then: the store
+// would not know it.
 void refuse_changed_inputs(const Study& study, const std::vector<InputFile>& files) {
   for (const InputFile& file : files) {
     const std::string name = input_name(study, file.path);

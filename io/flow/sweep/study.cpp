@@ -265,8 +265,9 @@ void set_key(toml::table& root, const std::string& key, const std::string& value
   }
 }
 
-// Reads the scene at the first point and at every value beside it, or at every row. What is wrong with the
-// scene is reported by check_values(); a file that only several values name together is refused at its points.
+// Reads the scene at the first point and at every value beside it, or at every row. What is wrong
+// with the scene is reported by check_values(); a file that only several values name together is
+// refused at its points.
 void record_scene_files(const Study& study) {
   const auto read = [&](const StudyValues& values) {
     try {
@@ -289,7 +290,8 @@ void record_scene_files(const Study& study) {
   }
 }
 
-// Named relative to the study, in one order, so that all machines agree however the study was named.
+// Named relative to the study, in one order, so that all machines agree however the study was
+// named.
 std::vector<InputFile> named_inputs(const Study& study, const InputRecorder& recorder) {
   std::vector<InputFile> inputs;
   for (const InputFile& file : recorder.files()) {

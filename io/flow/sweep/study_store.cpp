@@ -93,8 +93,8 @@ void write_ahead(Database& database) {
       options.elsewhere + ", or remove this one");
 }
 
-// SQLite keeps the last rows beside the name by which a file was opened, so another name lacks them, and a store
-// that is opened by it loses them.
+// SQLite keeps the last rows beside the name by which a file was opened, so another name lacks
+// them, and a store that is opened by it loses them.
 void refuse_second_name(const std::filesystem::path& path) {
   std::error_code ignored;
   const auto n_names = std::filesystem::hard_link_count(path, ignored);

@@ -202,7 +202,7 @@ def arguments(function: _Function) -> _Function:
         finally:
             _calls.is_within = False
             notes = recorder.notes()
-            del recorder  # a traceback would keep it, and it refuses files that change while it lives
+            del recorder  # which a traceback would keep, and which refuses files that change
         for note in notes:  # such as that a file was edited
             warnings.warn(note, DoubtWarning, stacklevel=2)
         return found
