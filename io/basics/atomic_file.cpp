@@ -221,6 +221,7 @@ void put_file(const std::filesystem::path& path, const std::string& contents, bo
     if (::fsync(file.get()) != 0) fail(path, "cannot sync", errno);
     if (::close(file.release()) != 0) fail(path, "cannot close", errno);
     put_in_place(temporary, path, overwrite);
+    note_output(path);
     sync_folder(folder);
   } catch (...) {
     ::unlink(temporary.c_str());
@@ -289,9 +290,16 @@ void rewrite_file(const std::filesystem::path& path, const std::string& contents
 }
 
 std::string read_file(const std::filesystem::path& path, std::size_t most) {
-  std::string contents = read_own_file(path, most);
-  record_input(path, contents);
-  return contents;
+  try {
+    std::string contents = read_own_file(path, most);
+    record_input(path, contents);
+    return contents;
+  } catch (const StopsWork&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    refuse_lost_input(path, error.what());
+    throw;
+  }
 }
 
 std::string read_own_file(const std::filesystem::path& path, std::size_t most) {

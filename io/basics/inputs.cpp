@@ -6,9 +6,13 @@
 #include "io/basics/words.h"
 #include "io/basics/written_path.h"
 
+#include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <mutex>
 #include <tuple>
 #include <utility>
@@ -36,30 +40,100 @@ Numbers& recorders_of_thread() {
 
 }  // namespace
 
-// The innards of recorders; the caller holds the lock.
+// The innards of recorders; the caller holds list_mutex().
 struct InputRecords {
   static bool sees_this_thread(const InputRecorder& one) {
     const Numbers& numbers = recorders_of_thread();
     return one.of_ == InputRecorder::Of::kProcess ||
            std::find(numbers.begin(), numbers.end(), one.number_) != numbers.end();
   }
-  static bool is_of_command(const InputRecorder& one) {
-    return one.of_ != InputRecorder::Of::kPart && sees_this_thread(one);
+
+  // Those that count what this thread reads.
+  static std::vector<InputRecorder*> listening() {
+    std::vector<InputRecorder*> all = recorders();
+    std::erase_if(all, [](const InputRecorder* one) { return !sees_this_thread(*one); });
+    return all;
   }
-  static std::vector<InputFile>& files(InputRecorder& one) { return one.files_; }
+
+  // The last one that was made for a command; null: there is none.
+  static InputRecorder* innermost() {
+    InputRecorder* last = nullptr;
+    for (InputRecorder* one : listening()) {
+      if (one->of_ != InputRecorder::Of::kPart) last = one;
+    }
+    return last;
+  }
+
+  static const InputFile* last_read(const InputRecorder& one, const std::string& path) {
+    const auto last = std::find_if(one.files_.rbegin(), one.files_.rend(),
+                                   [&](const InputFile& file) { return file.path == path; });
+    return last == one.files_.rend() ? nullptr : &*last;
+  }
+
+  // Whether one that refuses changes has read this file, last with other contents than these.
+  static bool is_known_otherwise(const std::string& path, const std::string& sha256) {
+    const InputRecorder* const of_command = innermost();
+    for (const InputRecorder* one : listening()) {
+      const bool is_judge = one->of_ != InputRecorder::Of::kProcess || one == of_command;
+      if (!is_judge || one->accepts_changes_ || one->written_.count(path) > 0) continue;
+      const InputFile* const last = last_read(*one, path);
+      if (last != nullptr && last->sha256 != sha256) return true;
+    }
+    return false;
+  }
+
+  static void add(const std::string& path, const std::string& sha256) {
+    for (InputRecorder* one : listening()) {
+      const auto known = std::find_if(
+          one->files_.begin(), one->files_.end(),
+          [&](const InputFile& file) { return file.path == path && file.sha256 == sha256; });
+      if (known == one->files_.end()) {
+        one->files_.push_back({path, sha256});
+      } else {
+        std::rotate(known, known + 1, one->files_.end());
+      }
+    }
+  }
+
+  static void note(const std::string& path, const std::string& note) {
+    for (InputRecorder* one : listening()) {
+      for (InputFile& file : one->files_) {
+        if (file.path != path || file.note.find(note) != std::string::npos) continue;
+        file.note += (file.note.empty() ? "" : "; ") + note;
+      }
+    }
+  }
+
+  static void add_written(const std::string& path) {
+    for (InputRecorder* one : recorders()) one->written_.insert(path);
+  }
+
+  static void accept_changes() {
+    if (InputRecorder* const last = innermost()) last->accepts_changes_ = true;
+  }
 };
 
 namespace {
 
 std::vector<InputFile> files_of_innermost() {
-  const InputRecorder* innermost = nullptr;
+  const InputRecorder* last = nullptr;
   {
     const std::lock_guard<std::mutex> lock(list_mutex());
-    for (const InputRecorder* one : recorders()) {
-      if (InputRecords::is_of_command(*one)) innermost = one;
-    }
+    last = InputRecords::innermost();
   }
-  return innermost != nullptr ? innermost->files() : std::vector<InputFile>();
+  return last != nullptr ? last->files() : std::vector<InputFile>();
+}
+
+// Whether its contents are to stay. A pipe ends when it was read, and a capture that is being
+// written, whose writer holds a lock, grows.
+bool is_settled(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) return true;
+  const bool is_held = ::flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(fd);
+  return !is_held;
 }
 
 }  // namespace
@@ -128,42 +202,41 @@ void record_input(const std::filesystem::path& path, const std::string& contents
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256) {
   remember_folder_of(path);
   const std::lock_guard<std::mutex> lock(list_mutex());
-  for (InputRecorder* one : recorders()) {
-    if (!InputRecords::sees_this_thread(*one)) continue;
-    std::vector<InputFile>& files = InputRecords::files(*one);
-    const auto known = std::find_if(files.begin(), files.end(), [&](const InputFile& other) {
-      return other.path == path.string() && other.sha256 == sha256;
-    });
-    if (known == files.end()) {
-      files.push_back({path.string(), sha256});
-    } else {
-      std::rotate(known, known + 1, files.end());
-    }
+  if (InputRecords::is_known_otherwise(path.string(), sha256) && is_settled(path)) {
+    throw InputChanged(path.string() + " changed while viscard was working; start again");
   }
+  InputRecords::add(path.string(), sha256);
+}
+
+void refuse_lost_input(const std::filesystem::path& path, const std::string& why) {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  if (!InputRecords::is_known_otherwise(path.string(), "")) return;
+  throw InputChanged(path.string() + " was read before and cannot be read now (" + why +
+                     "); start again");
 }
 
 std::optional<std::string> recorded_sum(const std::filesystem::path& path) {
   const std::lock_guard<std::mutex> lock(list_mutex());
   for (auto one = recorders().rbegin(); one != recorders().rend(); ++one) {
     if (!InputRecords::sees_this_thread(**one)) continue;
-    const std::vector<InputFile>& files = InputRecords::files(**one);
-    const auto last = std::find_if(files.rbegin(), files.rend(), [&](const InputFile& file) {
-      return file.path == path.string();
-    });
-    if (last != files.rend()) return last->sha256;
+    if (const InputFile* last = InputRecords::last_read(**one, path.string())) return last->sha256;
   }
   return std::nullopt;
 }
 
 void note_input(const std::filesystem::path& path, const std::string& note) {
   const std::lock_guard<std::mutex> lock(list_mutex());
-  for (InputRecorder* one : recorders()) {
-    if (!InputRecords::sees_this_thread(*one)) continue;
-    for (InputFile& file : InputRecords::files(*one)) {
-      if (file.path != path.string() || file.note.find(note) != std::string::npos) continue;
-      file.note += (file.note.empty() ? "" : "; ") + note;
-    }
-  }
+  InputRecords::note(path.string(), note);
+}
+
+void note_output(const std::filesystem::path& path) {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  InputRecords::add_written(path.string());
+}
+
+void accept_changed_inputs() {
+  const std::lock_guard<std::mutex> lock(list_mutex());
+  InputRecords::accept_changes();
 }
 
 bool is_recording_inputs() {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include "models/maths/failure_text.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,8 +19,16 @@ struct InputFile {
   std::string note = {};  // what must be known of it, such as that it was edited
 };
 
-// Records every file that read_file() reads while it lives. A file whose contents change meanwhile is there once for
-// each.
+// A file is not what it was when the running work first read it.
+class InputChanged : public StopsWork {
+ public:
+  using StopsWork::StopsWork;
+};
+
+// Records every file that read_file() reads while it lives. A file that somebody changes meanwhile is
+// refused by the innermost recorder of a command, and by those of the thread: InputChanged is thrown
+// where it is read again. Files that this program writes itself, captures that are being written, and
+// what is no plain file (pipes) may change; such a file is there once for each contents.
 class InputRecorder {
  public:
   // Whose files: of all threads; of this thread and those that work for it (recorded_as_here()), as one command; of
@@ -34,8 +45,10 @@ class InputRecorder {
  private:
   friend struct InputRecords;
   Of of_;
-  std::uint64_t number_;          // no two recorders have the same
-  std::vector<InputFile> files_;  // in the order in which they were read last
+  std::uint64_t number_;           // no two recorders have the same
+  std::vector<InputFile> files_;   // in the order in which they were read last
+  std::set<std::string> written_;  // by this program
+  bool accepts_changes_ = false;
 };
 
 // The work, whose files are recorded as if this thread read them, in whichever thread it runs.
@@ -57,6 +70,14 @@ void record_input(const std::filesystem::path& path, const std::string& contents
 void record_input_sum(const std::filesystem::path& path, const std::string& sha256);
 // The sum of what was read last from the file of this name; nothing if no recorder of this thread has seen it.
 std::optional<std::string> recorded_sum(const std::filesystem::path& path);
+// Called by what writes files: this one may be read again with other contents.
+void note_output(const std::filesystem::path& path);
+// Called when a file cannot be read. Throws InputChanged if it could be read before, by which its
+// absence is no property of what was asked.
+void refuse_lost_input(const std::filesystem::path& path, const std::string& why);
+// For work that shows files as they change, such as a live page: the innermost recorder of the
+// process takes a file once for each contents.
+void accept_changed_inputs();
 // Adds a note to a recorded file; commands print it and --json has it beside the file.
 void note_input(const std::filesystem::path& path, const std::string& note);
 // Whether there is any recorder.

@@ -1,16 +1,11 @@
 #pragma once
 
+#include "models/maths/failure_text.h"
+
 #include <cstddef>
 #include <functional>
-#include <stdexcept>
 
 namespace viscard {
-
-// Thrown by one piece of work to end all of it.
-class StopsWork : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 // Thrown by a progress callback to end the work at a user's request.
 class Interrupted : public StopsWork {

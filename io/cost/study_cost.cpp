@@ -2,6 +2,7 @@
 
 #include "io/cost/cost_model.h"
 #include "io/cost/study_trials.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/may_stop.h"
 
 #include <fmt/format.h>
@@ -137,6 +138,8 @@ class CostRunner {
       ended_.push_back(trial.discretisation + ", " + trial.effects);
       return std::nullopt;
     } catch (const std::runtime_error& error) {
+      const bool is_too_large = dynamic_cast<const NotEnoughMemory*>(&error) != nullptr;
+      if (!is_too_large && !is_refusal(error)) throw;  // no property of this mesh
       failed_.push_back({trial.discretisation, trial.effects, error.what()});
       return std::nullopt;
     }

@@ -68,7 +68,8 @@ enum class Keep { kYes, kNo, kAsComment };
 void write_in_section(const std::filesystem::path& file, const std::string& section,
                       const std::string& line,
                       const std::function<Keep(const std::string&)>& keep) {
-  std::istringstream lines(read_file(file));
+  // Whoever edited it while a calibration was measured keeps the edit.
+  std::istringstream lines(read_own_file(file));
   std::string out, old;
   bool is_inside = false, is_written = false;
   while (std::getline(lines, old)) {

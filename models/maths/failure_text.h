@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/maths/usable_machine.h"
+
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
@@ -16,6 +18,29 @@ inline bool is_lack_of_memory(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
          dynamic_cast<const std::length_error*>(&error) != nullptr ||
          (system != nullptr && system->code() == std::errc::resource_unavailable_try_again);
+}
+
+// Thrown by one piece of work to end all of it.
+class StopsWork : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// A failure of the machine or of the moment (memory, threads, disk, a request to stop), which is no
+// property of what was asked: the same question may have an answer later.
+inline bool is_passing(const std::exception& error) {
+  return is_lack_of_memory(error) || dynamic_cast<const NotEnoughMemory*>(&error) != nullptr ||
+         dynamic_cast<const std::system_error*>(&error) != nullptr ||
+         dynamic_cast<const StopsWork*>(&error) != nullptr;
+}
+
+// What is refused in words, such as a scene outside the model: an answer, which would be the same
+// again. A search that goes on after other exceptions takes a lack of memory for a property of what
+// it looks at.
+inline bool is_refusal(const std::exception& error) {
+  return !is_passing(error) && (dynamic_cast<const std::runtime_error*>(&error) != nullptr ||
+                                dynamic_cast<const std::invalid_argument*>(&error) != nullptr ||
+                                dynamic_cast<const std::domain_error*>(&error) != nullptr);
 }
 
 // The text of an exception for a user. The library has none for a lack of memory: "memory does not suffice

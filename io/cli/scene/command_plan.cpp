@@ -5,6 +5,7 @@
 #include "io/cost/effect_savings.h"
 #include "io/flow/scenes/answer_scene.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/failure_text.h"
 #include "models/scene/plan.h"
 
 #include <fmt/format.h>
@@ -125,6 +126,7 @@ int run_plan(const Words& words, Streams& streams) {
   try {
     savings = effect_savings(scene, kLimit_s - (clock.cpu_s() - start_s));
   } catch (const std::runtime_error& e) {  // the plan itself solves nothing and stands
+    if (!is_refusal(e)) throw;
     streams.err << "viscard plan: no savings are shown, because the scene has no answer on a "
                    "coarse mesh, and "
                    "viscard simulate may refuse it, too: "

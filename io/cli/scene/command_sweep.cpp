@@ -124,10 +124,10 @@ void print_doubts(const StudyOutcome& outcome, StudyStore& store, const std::str
         outcome.n_refused, outcome.n_answered, outcome.n_refused == 1 ? "is" : "are"));
   }
   if (outcome.n_failed > 0) {
-    say(
-        fmt::format("{} points failed and have no answer: {}. The same command tries those again "
-                    "that failed for memory or disk; add --retry-failed for the others",
-                    outcome.n_failed, outcome.first_failure));
+    say(fmt::format(
+        "{} points failed and have no answer: {}. The same command tries those again "
+        "that failed for memory, disk or a file that changed; add --retry-failed for the others",
+        outcome.n_failed, outcome.first_failure));
   } else if (const std::int64_t before = store.count(PointKind::kError); before > 0) {
     say(
         fmt::format("{} points have no answer because the program failed on them; --retry-failed "

@@ -133,9 +133,9 @@ PlotSeries limit_line(const PlotPanel& panel, double limit) {
 Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
                      const std::map<std::size_t, SweepRow>& rows, std::size_t column) {
   const SweepKey key = key_with_most_values(sweep);
-  const SceneResult& first = rows.begin()->second[column];
+  const SceneResult& first = rows.begin()->second.results[column];
   std::vector<double> values;
-  for (const auto& [i, row] : rows) values.push_back(row[column].value);
+  for (const auto& [i, row] : rows) values.push_back(row.results[column].value);
   const ShownUnit unit = shown_unit(first.unit, values);
   PlotPanel panel;
   panel.x.label = std::string(key.name) + " (um)";
@@ -147,7 +147,7 @@ Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& poi
     const auto [at, is_new] = line_of.try_emplace(name, panel.series.size());
     if (is_new) panel.series.push_back({.label = name, .ink = ink_of_series(at->second)});
     panel.series[at->second].x.push_back(kUm_m * (g.*key.of));
-    panel.series[at->second].y.push_back(unit.per_si * row[column].value);
+    panel.series[at->second].y.push_back(unit.per_si * row.results[column].value);
   }
   const std::size_t lines = panel.series.size();
   for (std::size_t i = 0; i < lines; ++i) {
@@ -182,8 +182,8 @@ Pictures pictures_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoi
                              const std::map<std::size_t, SweepRow>& rows) {
   Pictures pictures;
   if (rows.size() < 2 || key_with_most_values(sweep).values < 2) return pictures;
-  for (std::size_t column = 0; column < rows.begin()->second.size(); ++column) {
-    const std::string& name = rows.begin()->second[column].name;
+  for (std::size_t column = 0; column < rows.begin()->second.results.size(); ++column) {
+    const std::string& name = rows.begin()->second.results[column].name;
     if (!draw(name, plot_over_sweep(sweep, points, rows, column), "row", pictures)) return {};
   }
   return pictures;

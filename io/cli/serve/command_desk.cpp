@@ -1,3 +1,4 @@
+#include "io/basics/inputs.h"
 #include "io/cli/serve/serve_command.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
@@ -43,6 +44,7 @@ int run_desk(const Words& words, Streams& streams) {
   if (!parse_words(syntax, words, streams)) return kDone;
   options.folder = folder;
   check_port(options.port);
+  accept_changed_inputs();  // of the folder
   const StopOnSignal on_signal;
   const DeskServer server(options);
   const auto show = [&](ResultVisitor& v) {

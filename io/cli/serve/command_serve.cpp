@@ -1,3 +1,4 @@
+#include "io/basics/inputs.h"
 #include "io/cli/serve/serve_command.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/json_output.h"
@@ -84,6 +85,7 @@ int run_serve(const Words& words, Streams& streams) {
   options.folder = folder;
   options.command = quoted_command_line("serve", words);
   check_options(options);
+  accept_changed_inputs();  // captures grow, and their notes are edited
   const StopOnSignal on_signal;
   RigServer server(options);
   const auto show = [&](ResultVisitor& v) {

@@ -65,7 +65,8 @@ class LineRemedies {
       common(scene).tolerance = tolerance_;
       return computed(kind, scene, requirements_);
     } catch (const std::exception& error) {
-      return {.how = failure_text(error, "this scene")};
+      if (!is_refusal(error)) throw;
+      return {.how = error.what()};
     }
   }
 
@@ -100,10 +101,9 @@ RequiredValue computed(const RequirementKind& kind, const Scene& scene,
                        const Requirements& requirements, const SceneSolver& solve) {
   try {
     return kind.compute(scene, requirements, solve);
-  } catch (const Interrupted&) {
-    throw;
   } catch (const std::exception& error) {
-    return {.how = failure_text(error, "this scene")};
+    if (!is_refusal(error)) throw;
+    return {.how = error.what()};
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "io/basics/parallel.h"
 #include "io/flow/optimise/design_choices.h"
+#include "models/maths/failure_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,10 +113,8 @@ DesignFront design_front(const DesignSpec& spec,
       });
       all.n_solved += one.n_solved;
       all.designs.insert(all.designs.end(), one.designs.begin(), one.designs.end());
-    } catch (const Interrupted&) {
-      throw;
     } catch (const std::runtime_error& error) {
-      if (chosen.empty()) throw;
+      if (chosen.empty() || !is_refusal(error)) throw;
       throw std::runtime_error(std::string(error.what()) + " (with " + chosen + ")");
     }
   }

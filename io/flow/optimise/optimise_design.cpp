@@ -4,6 +4,7 @@
 #include "io/flow/optimise/confirm_design.h"
 #include "io/flow/optimise/solved_values.h"
 #include "io/flow/optimise/step_on_model.h"
+#include "models/maths/failure_text.h"
 #include "models/uncertainty/sobol_points.h"
 
 #include <algorithm>
@@ -31,7 +32,8 @@ std::vector<double> log_formulas(const SolvedValues& solved, const DesignSpace& 
       if (!(value > 0.0) || !std::isfinite(value)) return {};
       logs.push_back(std::log(value));
     }
-  } catch (const std::runtime_error&) {
+  } catch (const std::runtime_error& error) {
+    if (!is_refusal(error)) throw;
     return {};
   }
   return logs;

@@ -58,10 +58,9 @@ std::vector<SolvedPoint> SolvedValues::at(const std::vector<DesignPoint>& points
   for_each_in_parallel(fresh.size(), [&](std::size_t i) {
     try {
       found[i] = solve(space_.scene_at(fresh[i]));
-    } catch (const Interrupted&) {
-      throw;
     } catch (const std::exception& error) {
-      found[i].why_not = failure_text(error, "this design");
+      if (!is_refusal(error)) throw;
+      found[i].why_not = error.what();
     }
   });
   for (std::size_t i = 0; i < fresh.size(); ++i) known_[fresh[i]] = found[i];
@@ -89,7 +88,8 @@ std::vector<double> SolvedValues::spread_at(const DesignPoint& point) const {
           for (Eigen::Index k = 0; found.exists && k < n; ++k) {
             out(row, k) = found.log_value[static_cast<std::size_t>(k)];
           }
-        } catch (const std::runtime_error&) {  // a point without an answer
+        } catch (const std::exception& error) {
+          if (!is_refusal(error)) throw;  // otherwise a point without an answer
         }
       });
       return out;

@@ -3,10 +3,11 @@
 #include "io/flow/scenes/array_sweep.h"
 #include "io/flow/scenes/wanted_results.h"
 #include "io/materials/material_json.h"
-#include "models/maths/usable_machine.h"
+#include "models/maths/failure_text.h"
 #include "models/quantities/plausible.h"
 #include "models/scene/simulate.h"
 
+#include <map>
 #include <stdexcept>
 #include <vector>
 
@@ -53,6 +54,7 @@ SceneAnswer simulate_file(const Scene& scene, const std::string& path) {
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(text_with_line(path, mistake));
   } catch (const std::runtime_error& error) {
+    if (!is_refusal(error)) throw;
     throw std::runtime_error(path + ": " + error.what());
   }
 }
@@ -60,8 +62,8 @@ SceneAnswer simulate_file(const Scene& scene, const std::string& path) {
 SceneAnswer answer_scene(const SceneFile& file, const std::string& path,
                          const std::function<void(double, const std::string&)>& progress) {
   if (!file.sweep.is_empty()) {
-    SweepStore store("", "");
-    return solve_sweep(file, store, progress);
+    std::map<std::size_t, SweepRow> rows;
+    return solve_sweep(file, rows, {.progress = progress});
   }
   Scene scene = file.scene;
   if (progress) common(scene).progress = progress;

@@ -47,7 +47,8 @@ Eigen::VectorXd AnswersOnMesh::answer_at(const Eigen::VectorXd& deviates) const 
       }
     }
   } catch (const std::exception& error) {
-    count_.keep_reason(failure_text(error, "this sample"));
+    if (!is_refusal(error)) throw;
+    count_.keep_reason(error.what());
   }
   return row;
 }

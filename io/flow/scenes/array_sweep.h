@@ -4,7 +4,6 @@
 #include "models/answer/scene_answer.h"
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -12,30 +11,25 @@
 
 namespace viscard {
 
-// Answers of a sweep, point by point: results that carry the point's label.
-using SweepRow = std::vector<SceneResult>;
-
-// The points that are done, on disk while the sweep runs: one line each, appended and flushed as it
-// ends. The first line holds a key of the scene, so that points of another one are not taken over.
-class SweepStore {
- public:
-  // An empty folder keeps nothing. Reads what an earlier run with the same key left.
-  SweepStore(const std::filesystem::path& folder, const std::string& key);
-  const std::map<std::size_t, SweepRow>& done() const { return done_; }
-  void add(std::size_t point, const SweepRow& row);
-  void remove();  // the sweep is complete and stored elsewhere
-
- private:
-  void read(const std::string& key);
-  std::filesystem::path path_;
-  std::map<std::size_t, SweepRow> done_;
+// The answer at one point of a sweep.
+struct SweepRow {
+  std::vector<SceneResult> results;  // those that are wanted, without the point's label
+  int unknowns = 0;
+  int degree = 0, layers = 0;  // of the mesh that met the tolerance
 };
 
-// Solves the points that the store does not hold yet, on all cores, and keeps each in it as it ends.
-// progress: called with the fraction done and the point's label; may be empty. The answer holds each
-// effect as it is at the point where leaving it out costs most.
-SceneAnswer solve_sweep(const SceneFile& file, SweepStore& store,
-                        const std::function<void(double, const std::string&)>& progress);
+// What is done with the points of a sweep while it runs.
+struct SweepListener {
+  // Called with the number of a point and its answer as it ends, one at a time; may be empty.
+  std::function<void(std::size_t, const SweepRow&)> keep;
+  // Called with the fraction done and the point's label; may be empty.
+  std::function<void(double, const std::string&)> progress;
+};
+
+// Solves the points that `rows` lacks on all cores and adds them. The answer is that of all rows,
+// whoever solved them; it holds each effect as it is at the point where leaving it out costs most.
+SceneAnswer solve_sweep(const SceneFile& file, std::map<std::size_t, SweepRow>& rows,
+                        const SweepListener& listener);
 
 // One answer of the whole sweep: every result as "name at label", and, with a limit, for each
 // combination of the other parameters the first spacing whose deviation lies below it:

@@ -4,6 +4,7 @@
 #include "io/flow/scenes/answers_on_mesh.h"
 #include "io/flow/scenes/named_values.h"
 #include "models/maths/dense.h"
+#include "models/maths/failure_text.h"
 #include "models/scene/simulate.h"
 #include "models/uncertainty/curved_propagation.h"
 #include "models/uncertainty/sampled_propagation.h"
@@ -286,9 +287,8 @@ SceneUncertainty scene_uncertainty(const UncertainScene& scene, const SceneAnswe
                       out.n_failed, 100.0 * out.failed_share, count.why()));
     }
     return out;
-  } catch (const Interrupted&) {
-    throw;
   } catch (const std::runtime_error& error) {
+    if (!is_refusal(error)) throw;
     throw std::runtime_error(std::string(error.what()) +
                              (count.why().empty() ? "" : ": " + count.why()));
   }

@@ -6,14 +6,11 @@
 #include "io/flow/scenes/answer_scene.h"
 #include "io/scenes/scene_file.h"
 #include "models/maths/failure_text.h"
-#include "models/maths/usable_machine.h"
 
 #include <algorithm>
 #include <charconv>
 #include <mutex>
-#include <new>
 #include <stdexcept>
-#include <system_error>
 
 namespace viscard {
 
@@ -40,7 +37,8 @@ void check_values(const Study& study, Plausible judged) {
       } catch (const BadNumber& error) {
         throw BadNumber(study.path.string() + ": parameter '" + values[k].first + "' cannot be \"" +
                         text + "\" (" + error.what() + ")");
-      } catch (const std::exception&) {  // perhaps right beside other values
+      } catch (const std::exception& error) {
+        if (is_passing(error)) throw;  // otherwise perhaps right beside other values
       }
     }
   }
@@ -48,19 +46,20 @@ void check_values(const Study& study, Plausible judged) {
 
 namespace {
 
-// The same point may have an answer once its files are what they were.
-class InputChanged : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-// Throws if a file is not what it was when the study was read.
+// Throws if a file is not what it was when the study was read, or was not read then: the store
+// would not know it.
 void refuse_changed_inputs(const Study& study, const std::vector<InputFile>& files) {
   for (const InputFile& file : files) {
     const std::string name = input_name(study, file.path);
-    for (const InputFile& known : study.inputs) {
-      if (known.path != name || known.sha256 == file.sha256) continue;
-      throw InputChanged(name + " has changed while the sweep ran");
+    const auto known = std::find_if(study.inputs.begin(), study.inputs.end(),
+                                    [&](const InputFile& one) { return one.path == name; });
+    if (known == study.inputs.end()) {
+      throw InputChanged(name +
+                         " is read at this point and was not when the sweep began; start again, "
+                         "or give this point a study of its own");
+    }
+    if (known->sha256 != file.sha256) {
+      throw InputChanged(name + " changed while viscard was working; start again");
     }
   }
 }
@@ -71,17 +70,16 @@ bool has_all_inputs(const Study& study) {
                      [&](const InputFile& file) { return is_readable(folder / file.path); });
 }
 
-// What a program cannot answer for lack of memory or disk may be answered tomorrow. What the models refuse
-// in words would be refused again: those errors are std::runtime_error and std::invalid_argument.
+// What passes may be answered tomorrow; what the models refuse in words would be refused again.
 PointKind kind_of_failure(const std::exception& error) {
-  if (is_lack_of_memory(error)) return PointKind::kPassing;
-  if (dynamic_cast<const std::system_error*>(&error) != nullptr) return PointKind::kPassing;
-  if (dynamic_cast<const InputChanged*>(&error) != nullptr) return PointKind::kPassing;
-  if (dynamic_cast<const NotEnoughMemory*>(&error) != nullptr) return PointKind::kPassing;
-  if (dynamic_cast<const std::runtime_error*>(&error) != nullptr) return PointKind::kRefused;
-  if (dynamic_cast<const std::invalid_argument*>(&error) != nullptr) return PointKind::kRefused;
-  if (dynamic_cast<const std::domain_error*>(&error) != nullptr) return PointKind::kRefused;
-  return PointKind::kError;
+  if (is_passing(error)) return PointKind::kPassing;
+  return is_refusal(error) ? PointKind::kRefused : PointKind::kError;
+}
+
+// A request to stop, which is no matter of a point.
+bool ends_sweep(const std::exception& error) {
+  return dynamic_cast<const StopsWork*>(&error) != nullptr &&
+         dynamic_cast<const InputChanged*>(&error) == nullptr;
 }
 
 }  // namespace
@@ -95,6 +93,7 @@ StudyPoint answer_point(const Study& study, std::int64_t number, Plausible judge
     refuse_changed_inputs(study, recorder.files());
     point.results = named_values(answer_scene(file, study.scene_path.string(), {}));
   } catch (const std::exception& error) {
+    if (ends_sweep(error)) throw;
     point.kind = has_all_inputs(study) ? kind_of_failure(error) : PointKind::kPassing;
     point.failure = written_text(failure_text(error, "this point"));
   }

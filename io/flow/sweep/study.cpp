@@ -6,6 +6,7 @@
 #include "io/config/config_fields.h"
 #include "io/config/toml_text.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 #include "models/uncertainty/sobol_points.h"
 
@@ -163,7 +164,9 @@ std::string meant_key(const std::string& scene, const std::filesystem::path& pat
     }
     const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
     return is_known ? "; give it in the scene, too" : did_you_mean(key, known);
-  } catch (const std::exception&) {  // the scene alone cannot be read
+  } catch (const std::exception& error) {
+    if (is_passing(error)) throw;
+    // The scene alone cannot be read.
     return "; give it in the scene, too";
   }
 }
@@ -262,31 +265,42 @@ void set_key(toml::table& root, const std::string& key, const std::string& value
   }
 }
 
-// A value that is no number may name a file.
-bool may_name_file(const std::string& value) {
-  const auto number = split(value);
-  return !number || number->unit.find_first_of("./") != std::string::npos;  // "1to10.json"
-}
-
-// Reads the scene at the first point, and at every value that may name a file. What is wrong with the
-// scene is reported by check_values().
+// Reads the scene at the first point and at every value beside it, or at every row. What is wrong
+// with the scene is reported by check_values(); a file that only several values name together is
+// refused at its points.
 void record_scene_files(const Study& study) {
   const auto read = [&](const StudyValues& values) {
     try {
       scene_from_toml(scene_text_with(study, values), study.scene_path, {}, Plausible::kOff);
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
+      if (is_passing(error)) throw;
     }
   };
   const StudyValues first = values_at(study, 0);
   read(first);
-  for (std::size_t k = 0; k < study.parameters.size(); ++k) {
+  for (std::int64_t row = 1; study.is_rows && row < count_points(study); ++row) {
+    read(values_at(study, row));
+  }
+  for (std::size_t k = 0; !study.is_rows && k < study.parameters.size(); ++k) {
     for (const std::string& value : study.parameters[k].values) {
-      if (!may_name_file(value)) continue;
       StudyValues values = first;
       values[k].second = value;
       read(values);
     }
   }
+}
+
+// Named relative to the study, in one order, so that all machines agree however the study was
+// named.
+std::vector<InputFile> named_inputs(const Study& study, const InputRecorder& recorder) {
+  std::vector<InputFile> inputs;
+  for (const InputFile& file : recorder.files()) {
+    inputs.push_back({input_name(study, file.path), file.sha256, file.note});
+  }
+  std::sort(inputs.begin(), inputs.end(), [](const InputFile& a, const InputFile& b) {
+    return std::tie(a.path, a.sha256) < std::tie(b.path, b.sha256);
+  });
+  return inputs;
 }
 
 }  // namespace
@@ -325,13 +339,16 @@ Study read_study(const std::filesystem::path& path) {
     }
   }
   record_scene_files(study);
-  for (const InputFile& file : recorder.files()) {
-    study.inputs.push_back({input_name(study, file.path), file.sha256, file.note});
-  }
-  // However the study was named: all machines see one order.
-  std::sort(study.inputs.begin(), study.inputs.end(), [](const InputFile& a, const InputFile& b) {
-    return std::tie(a.path, a.sha256) < std::tie(b.path, b.sha256);
-  });
+  study.inputs = named_inputs(study, recorder);
+  return study;
+}
+
+Study study_of_scene(const std::filesystem::path& scene, const std::string& besides) {
+  const InputRecorder recorder(InputRecorder::Of::kPart);
+  Study study{.path = scene, .scene_path = scene, .besides = besides};
+  study.scene_text = read_file(scene);
+  scene_from_toml(study.scene_text, scene, {}, Plausible::kOff);
+  study.inputs = named_inputs(study, recorder);
   return study;
 }
 
@@ -409,7 +426,7 @@ std::string fingerprint(const Study& study) {
     return sha256_of_file(file);
   };
   return "viscard " VISCARD_VERSION " study " + sum_of(study.path) + " scene " +
-         sum_of(study.scene_path);
+         sum_of(study.scene_path) + (study.besides.empty() ? "" : " " + study.besides);
 }
 
 }  // namespace viscard

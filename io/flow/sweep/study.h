@@ -33,6 +33,7 @@ struct Study {
   // The study, its scene and every file that the scene names at any value of a parameter. Names are
   // relative to the folder of the study, so that they are the same on another machine.
   std::vector<InputFile> inputs;
+  std::string besides;  // what else its answers depend on, such as an option of the command
 };
 
 // Studies are TOML:
@@ -44,6 +45,9 @@ struct Study {
 //   values = ["30 um", "40 um"]           # or from, to and (in a grid) count; spacing = "log"
 // Throws std::runtime_error with file, line and what is expected.
 Study read_study(const std::filesystem::path& path);
+
+// A scene with a [sweep] of its own as a study without parameters, which has the scene as its file.
+Study study_of_scene(const std::filesystem::path& scene, const std::string& besides);
 
 std::int64_t count_points(const Study& study);
 
@@ -58,7 +62,7 @@ std::string scene_text_with(const std::string& scene, const std::filesystem::pat
 // The same of the study's scene.
 std::string scene_text_with(const Study& study, const StudyValues& values);
 
-// Changes with study, scene and version of viscard.
+// Changes with study, scene, version of viscard and what is besides.
 std::string fingerprint(const Study& study);
 // One line that changes with everything that answers depend on: also with the files that the scene names.
 std::string fingerprint_with_inputs(const Study& study);

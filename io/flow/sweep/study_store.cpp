@@ -88,10 +88,22 @@ void write_ahead(Database& database) {
       "; it was not changed. Name another file with --out");
 }
 
-[[noreturn]] void refuse_other_study(const std::filesystem::path& path) {
-  throw std::runtime_error(path.string() +
-                           ": holds points of another study, scene or version of viscard; name "
-                           "another file with --out, or remove this one");
+[[noreturn]] void refuse_other_study(const std::filesystem::path& path,
+                                     const StoreOptions& options) {
+  throw std::runtime_error(
+      path.string() + ": holds points of another study, scene, tolerance or version of viscard; " +
+      options.elsewhere + ", or remove this one");
+}
+
+// SQLite keeps the last rows beside the name by which a file was opened, so another name lacks
+// them, and a store that is opened by it loses them.
+void refuse_second_name(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto n_names = std::filesystem::hard_link_count(path, ignored);
+  if (ignored || n_names < 2 || !std::filesystem::is_regular_file(path, ignored)) return;
+  throw std::runtime_error(path.string() + ": the file has " + std::to_string(n_names) +
+                           " names (hard links), by which its points would be lost; copy it (cp) "
+                           "and name the copy, or remove the other names");
 }
 
 // Looks into an existing file without changing it.
@@ -125,13 +137,14 @@ void refuse_other_kind(const std::filesystem::path& path) {
 }
 
 // The same of a store of other points.
-void refuse_other_points(const std::filesystem::path& path, const Study& study) {
+void refuse_other_points(const std::filesystem::path& path, const Study& study,
+                         const StoreOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::exists(path) || std::filesystem::file_size(path, ignored) == 0) return;
   Database database(path, Database::Access::kReadOnly);
   if (database.text_of("SELECT count(*) FROM sqlite_schema") == "0") return;
   if (database.text_of("SELECT fingerprint FROM study LIMIT 1") != fingerprint(study))
-    refuse_other_study(path);
+    refuse_other_study(path, options);
 }
 
 void refuse_damage(Database& database, const std::filesystem::path& path) {
@@ -183,7 +196,7 @@ std::string changed_input(Database& database, const Study& study) {
 bool check_study(Database& database, const std::filesystem::path& path, const Study& study,
                  const StoreOptions& options) {
   if (database.text_of("SELECT fingerprint FROM study LIMIT 1") != fingerprint(study)) {
-    refuse_other_study(path);
+    refuse_other_study(path, options);
   }
   const bool is_recorded =
       has_table(database, "inputs") && database.text_of("SELECT count(*) FROM inputs") != "0";
@@ -198,7 +211,7 @@ bool check_study(Database& database, const std::filesystem::path& path, const St
   const std::string changed = changed_input(database, study);
   if (changed.empty()) return true;
   throw std::runtime_error(path.string() + ": its points were answered with other files: " +
-                           changed + ". Name another file with --out, or remove this one");
+                           changed + "; " + options.elsewhere + ", or remove this one");
 }
 
 void create_tables(Database& database, const Study& study) {
@@ -213,8 +226,9 @@ void create_tables(Database& database, const Study& study) {
 
 Database opened(const std::filesystem::path& path, const Study& study, const StoreOptions& options,
                 bool& is_recorded) {
+  refuse_second_name(path);
   refuse_other_kind(path);
-  refuse_other_points(path, study);
+  refuse_other_points(path, study, options);
   if (!std::filesystem::exists(path)) std::ofstream(path).flush();
   Database database(path, Database::Access::kReadWrite);
   database.execute("PRAGMA busy_timeout = 10000;");
@@ -410,6 +424,7 @@ void StudyStore::for_each(const std::function<void(const StudyPoint&)>& take) {
 StudyLock::StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone,
                      double waits_s)
     : path_(std::move(path)), on_gone_(std::move(on_gone)) {
+  refuse_second_name(path_);
   refuse_other_kind(path_);
   fd_ = ::open(path_.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0666);
   if (fd_ < 0) return;  // the store reports why
@@ -428,7 +443,8 @@ StudyLock::StudyLock(std::filesystem::path path, std::function<void(const std::s
     throw std::runtime_error(
         path_.string() +
         ": another sweep is answering its points; wait for it to end, then the same command goes "
-        "on. To share the work, give each a file of its own with --shard, and --merge them");
+        "on. To share the work of a study, give each a file of its own with --shard, and --merge "
+        "them");
   }
   watch_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
@@ -467,26 +483,30 @@ void StudyLock::check_file() const {
 }
 
 std::string csv_from_study(StudyStore& store, const Study& study) {
-  std::vector<NamedValue> names;  // of the first point with an answer
+  // In the order in which the points first have them: some parameters change what is answered.
+  std::vector<std::string> names;
+  std::map<std::string, std::size_t> column;
+  const auto name_of = [](const NamedValue& one) {
+    return one.name + (one.unit == "1" ? "" : " [" + one.unit + "]");
+  };
   store.for_each([&](const StudyPoint& point) {
-    if (names.empty()) names = point.results;
+    for (const NamedValue& one : point.results) {
+      if (column.try_emplace(name_of(one), names.size()).second) names.push_back(name_of(one));
+    }
   });
   std::string text = "point";
   for (const StudyParameter& parameter : study.parameters) text += "," + parameter.key;
-  for (const NamedValue& one : names) {
-    const std::string unit = one.unit == "1" ? "" : " [" + one.unit + "]";
-    text += "," + csv_cell(one.name + unit) + "," + csv_cell("error " + one.name + unit);
-  }
+  for (const std::string& name : names)
+    text += "," + csv_cell(name) + "," + csv_cell("error " + name);
   text += ",failure\n";
   store.for_each([&](const StudyPoint& point) {
     text += std::to_string(point.point);
     for (const auto& [key, value] : point.values) text += "," + csv_cell(value);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const bool has = i < point.results.size() && point.results[i].name == names[i].name;
-      text +=
-          has ? fmt::format(",{},{:.3g}", point.results[i].value, point.results[i].error_estimate)
-              : ",,";
+    std::vector<std::string> cells(names.size(), ",,");
+    for (const NamedValue& one : point.results) {
+      cells[column.at(name_of(one))] = fmt::format(",{},{:.3g}", one.value, one.error_estimate);
     }
+    for (const std::string& cell : cells) text += cell;
     text += point.failure.empty() ? ",\n" : "," + csv_cell(point.failure) + "\n";
   });
   return text;

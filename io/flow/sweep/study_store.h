@@ -47,14 +47,16 @@ struct StoreOptions {
   bool is_answering = false;
   std::function<void(const std::string&)> on_gone = nullptr;
   double waits_s = 0.0;
+  std::string elsewhere = "name another file with --out";  // what to do instead of going on
 };
 
 // Held while the points of a store are answered.
 class StudyLock {
  public:
-  // Creates the file if there is none. Throws std::runtime_error if another program answers its points
-  // already, because both would do the same work, or if it is a file of another kind. on_gone: called once,
-  // within a second, when the file was deleted, moved or replaced; from a thread of its own.
+  // Creates the file if there is none. Throws std::runtime_error if another program answers its
+  // points already, because both would do the same work, if it is a file of another kind, or if it
+  // has two names (a hard link), because SQLite's side files belong to a name. on_gone: called
+  // once, within a second, when the file was deleted, moved or replaced; from a thread of its own.
   // waits_s: how long to wait for the other program.
   StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone,
             double waits_s = 0.0);
@@ -111,8 +113,8 @@ class StudyStore {
   Statement insert_;
 };
 
-// Columns: point, the parameters, then value and error estimate of each result, then why a point has no
-// answer.
+// Columns: point, the parameters, then value and error estimate of each result that any point has,
+// then why a point has no answer.
 std::string csv_from_study(StudyStore& store, const Study& study);
 
 }  // namespace viscard

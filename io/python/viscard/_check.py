@@ -201,7 +201,9 @@ def arguments(function: _Function) -> _Function:
                         "texts or dicts", "usage") from None
         finally:
             _calls.is_within = False
-        for note in recorder.notes():  # such as that a file was edited
+            notes = recorder.notes()
+            del recorder  # which a traceback would keep, and which refuses files that change
+        for note in notes:  # such as that a file was edited
             warnings.warn(note, DoubtWarning, stacklevel=2)
         return found
 

@@ -1,4 +1,5 @@
 #include "models/answer/scene_mistake.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/require.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/bowed_pillar.h"
@@ -102,7 +103,8 @@ std::vector<SectionGrid> buckling_fields(const PillarScene& scene, const Discret
   try {
     const double pressure_Pa = kShare * buckling(axial, lateral).pressure_Pa;
     modes = modes_under_pressure(axial, lateral, pressure_Pa, 1);
-  } catch (const std::runtime_error&) {
+  } catch (const std::runtime_error& error) {
+    if (!is_refusal(error)) throw;
     return {};
   }
   Sampling at = sampling_of(lateral);

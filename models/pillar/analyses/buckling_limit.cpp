@@ -1,6 +1,7 @@
 #include "models/pillar/analyses/buckling_limit.h"
 
 #include "models/answer/scene_mistake.h"
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/body/pillar_modes.h"
@@ -21,7 +22,8 @@ double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral
   constexpr double kLong = 10.0;  // length over diameter
   try {
     return buckling(axial, lateral).pressure_Pa;
-  } catch (const std::runtime_error&) {
+  } catch (const std::runtime_error& error) {
+    if (!is_refusal(error)) throw;
     const PillarGeometry& pillar = axial.geometry();
     return pillar.length_m > kLong * pillar.diameter_m ? beam_Pa
                                                        : std::numeric_limits<double>::infinity();

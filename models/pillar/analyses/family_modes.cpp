@@ -1,5 +1,6 @@
 #include "models/pillar/analyses/family_modes.h"
 
+#include "models/maths/failure_text.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/modal_mesh.h"
 #include "models/pillar/analyses/pressed_modes.h"
@@ -50,7 +51,8 @@ std::vector<DampedShape> damped_shapes(const PillarScene& scene, const PillarMod
                                                  modes_of_family(scene, model), kSmall)) {
       shapes.push_back({mode.s, mode.shape});
     }
-  } catch (const std::runtime_error&) {
+  } catch (const std::runtime_error& error) {
+    if (!is_refusal(error)) throw;
     return {};
   }
   return shapes;

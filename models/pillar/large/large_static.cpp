@@ -1,5 +1,6 @@
 #include "models/pillar/large/large_static.h"
 
+#include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -99,7 +100,8 @@ class NewtonRun {
   bool factor(const SymmetricSparse& tangent) {
     try {
       factor_.factor(tangent);
-    } catch (const std::runtime_error&) {
+    } catch (const std::runtime_error& error) {
+      if (!is_refusal(error)) throw;
       return false;  // at a limit point
     }
     if (load_.displacement_m) per_Pa_ = factor_.solve(push_);

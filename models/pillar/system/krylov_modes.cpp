@@ -1,6 +1,7 @@
 #include "models/pillar/system/krylov_modes.h"
 
 #include "models/maths/dense.h"
+#include "models/maths/failure_text.h"
 
 #include <Spectra/SymEigsBase.h>
 
@@ -86,7 +87,9 @@ class LanczosSearch {
       lanczos.init(image_.data());
       lanczos.compute(Spectra::SortRule::LargestAlge, checks, tolerance,
                       Spectra::SortRule::LargestAlge);
-    } catch (const std::exception&) {  // a product that is not finite, or no inner product
+    } catch (const std::exception& error) {
+      if (is_passing(error)) throw;
+      // A product that is not finite, or no inner product.
       return {Eigen::VectorXd::Zero(count), {}, false};
     }
     if (lanczos.info() != Spectra::CompInfo::Successful) {

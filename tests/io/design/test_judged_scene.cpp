@@ -4,11 +4,16 @@
 #include "io/flow/design/judgement_output.h"
 #include "io/flow/scenes/named_values.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/usable_machine.h"
 #include "models/scene/simulate.h"
 #include "tests/io/scenes/scene_text.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <new>
 #include <numbers>
+#include <system_error>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -46,6 +51,24 @@ TEST_CASE("every requirement is described in the README of its room", "[io][desi
     CAPTURE(kind.key);
     CHECK(readme.find("`" + std::string(kind.key) + "`") != std::string::npos);
   }
+}
+
+TEST_CASE("a lack of memory, of threads or of disk is no property of a scene", "[io][design]") {
+  const Scene scene = read_scene(kData + "scenes/pillar_modal.toml").scene;
+  const Requirements requirements = required("bandwidth = \"1 kHz\"\n");
+  const auto& kinds = requirement_kinds();
+  const auto bandwidth = std::find_if(kinds.begin(), kinds.end(), [](const RequirementKind& kind) {
+    return std::string(kind.key) == "bandwidth";
+  });
+  REQUIRE(bandwidth != kinds.end());
+  const auto with = [&](const auto& error) {
+    return computed(*bandwidth, scene, requirements,
+                    [&](const Scene&) -> SceneAnswer { throw error; });
+  };
+  CHECK_THROWS_AS(with(std::bad_alloc()), std::bad_alloc);
+  CHECK_THROWS_AS(with(NotEnoughMemory("the next mesh is too large")), NotEnoughMemory);
+  CHECK_THROWS_AS(with(std::system_error(EAGAIN, std::generic_category())), std::system_error);
+  CHECK(with(std::runtime_error("it buckles")).how == "it buckles");
 }
 
 TEST_CASE("one pillar: buckling, bandwidth and what it cannot answer", "[io][design]") {

@@ -7,11 +7,14 @@
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -350,6 +353,53 @@ TEST_CASE("all threads of a loop in parallel read for the call that started it",
     if (part.files().size() != 1) throw std::runtime_error("a part sees what others read");
   });
   CHECK(recorder.files().size() == 20);
+}
+
+TEST_CASE("a file that somebody changes or removes while a command works is refused",
+          "[io][file]") {
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "a";
+  const auto change = [&](const char* text) { std::ofstream(file) << text; };
+  change("abc");
+  const InputRecorder::Of of = GENERATE(InputRecorder::Of::kProcess, InputRecorder::Of::kCall);
+  const InputRecorder recorder(of);
+  read_file(file);
+  change("abd");
+  CHECK_THROWS_AS(read_file(file), InputChanged);
+  CHECK_THROWS_WITH(sha256_of_file(file),
+                    file.string() + " changed while viscard was working; start again");
+  change("abc");
+  CHECK(read_file(file) == "abc");
+  std::filesystem::remove(file);
+  CHECK_THROWS_WITH(read_file(file), Catch::Contains("was read before and cannot be read now"));
+  CHECK(recorder.files().size() == 1);
+}
+
+TEST_CASE("a file may change for a live page, for the next command and while it is written",
+          "[io][file]") {
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "a";
+  const auto change = [&](const char* text) { std::ofstream(file) << text; };
+  change("abc");
+  const InputRecorder outer;
+  read_file(file);
+  change("abd");
+  {
+    const InputRecorder next;
+    CHECK(read_file(file) == "abd");
+    change("abe");
+    CHECK_THROWS_AS(read_file(file), InputChanged);
+    accept_changed_inputs();
+    CHECK(read_file(file) == "abe");
+  }
+  change("abf");
+  CHECK_THROWS_AS(read_file(file), InputChanged);
+  const int writer = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  REQUIRE(::flock(writer, LOCK_EX) == 0);  // as the writer of a capture does
+  CHECK(read_file(file) == "abf");
+  change("abg");
+  CHECK(read_file(file) == "abg");
+  ::close(writer);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Uncertain scenes that have no answer at some of their samples, and quantities whose spread is unknown.
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/cli/scene/uncertainty_output.h"
 #include "io/config/quantity_text.h"
+#include "io/flow/scenes/answers_on_mesh.h"
 #include "io/flow/scenes/scene_uncertainty.h"
 #include "io/results/result_json.h"
 #include "models/scene/simulate.h"
@@ -12,6 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <functional>
+#include <new>
+#include <optional>
 #include <sstream>
 
 using namespace viscard;
@@ -79,4 +85,29 @@ TEST_CASE("samples beyond buckling widen an interval, and too many of them leave
   std::ostringstream people;
   print_uncertainty(wide, people);
   CHECK_THAT(people.str(), Catch::Contains("no interval: "));
+}
+
+TEST_CASE(
+    "an uncertainty is not computed with a material that changed meanwhile, nor without memory",
+    "[io][scenes][uncertainty]") {
+  const SceneText text(
+      replaced(kPressed, "{ E = \"1.8 MPa\", nu = 0.4 }", "{ file = \"soft.json\" }"));
+  const auto write_material = [&](const char* E0_Pa) {
+    std::ofstream(text.beside("soft.json"))
+        << "{\"schema\": \"viscard-material/1\", \"E0_Pa\": " << E0_Pa
+        << ", \"nu\": 0.4, \"terms\": []}\n";
+  };
+  write_material("1.8e6");
+  const InputRecorder recorder;
+  const SceneFile file = read_scene(text.path());
+  const UncertainScene scene(file, read_file(text.path()), text.path());
+  const SceneAnswer answer = simulate(file.scene);
+  const std::function<void(double)> nobody;
+  AnswerCount count(nobody);
+  const AnswersOnMesh lacking(
+      scene, named_values(answer), count,
+      [](const Scene&) -> std::optional<SceneAnswer> { throw std::bad_alloc(); });
+  CHECK_THROWS_AS(lacking(Eigen::MatrixXd::Zero(2, 1)), std::bad_alloc);
+  write_material("0.9e6");
+  CHECK_THROWS_AS(scene_uncertainty(scene, answer, {}), InputChanged);
 }

@@ -1,5 +1,7 @@
 #include "io/basics/atomic_file.h"
+#include "io/cli/scene/sweep_run.h"
 #include "io/flow/scenes/array_sweep.h"
+#include "io/flow/sweep/study_store.h"
 #include "models/scene/plan.h"
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/run_command.h"
@@ -73,45 +75,121 @@ TEST_CASE("the answer of a sweep holds each effect's largest estimate over the p
   CHECK(checked > 2);
 }
 
+namespace {
+
+// The scene above with its film's material beside it, and the store of the points that are done.
+struct MapFiles {
+  SceneText scene{replaced(kMap, "DATA/materials/pvdf_seed.json", "pvdf.json")};
+  std::string film = scene.beside("pvdf.json");
+  std::filesystem::path folder = scene.beside("out"), part = folder / kPartOfSweep;
+  MapFiles() {
+    std::filesystem::copy_file(VISCARD_SOURCE_DIR "/data/materials/pvdf_seed.json", film);
+    std::filesystem::create_directories(folder);
+  }
+  Study study() const { return study_of_sweep(read_scene(scene.path()), scene.path()); }
+  // As if the first n of the 12 points had been answered with these numbers.
+  void add_points(std::int64_t n) const {
+    StudyStore store(part, study());
+    for (std::int64_t point = 0; point < n; ++point) {
+      store.add(StudyPoint{.point = point,
+                           .values = {{"point", "x"}},
+                           .results = {{"centre_voltage_1", 1.25, "V", 0.0},
+                                       {"deviation_percent_1", 0.5, "%", 0.0},
+                                       {"unknowns", 1e6, "1", 0.0},
+                                       {"degree", 9.0, "1", 0.0},
+                                       {"layers", 3.0, "1", 0.0}}});
+    }
+  }
+  CommandOutcome simulate(std::vector<std::string> more = {}) const {
+    std::vector<std::string> words{"simulate", scene.path(), "--out", folder.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_command(words);
+  }
+};
+
+}  // namespace
+
 TEST_CASE("a sweep that was killed goes on and gives the same table", "[cli][scene][array]") {
-  const SceneText scene(kMap);
-  const std::string whole = scene.beside("whole");
-  REQUIRE(run_command({"simulate", scene.path(), "--out", whole}).status == 0);
-  const std::filesystem::path cut = scene.beside("cut");
-  const std::filesystem::path part = cut / "sweep.part.csv";
+  const MapFiles files;
+  const std::string whole = files.scene.beside("whole");
+  REQUIRE(run_command({"simulate", files.scene.path(), "--out", whole}).status == 0);
   const pid_t child = fork();
   if (child == 0) {
-    run_command({"simulate", scene.path(), "--out", cut.string()});
+    files.simulate();
     _exit(0);
   }
   // Killed as soon as two points are there.
-  const auto lines = [&] {
-    std::ifstream in(part);
-    return std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n');
+  const Study study = files.study();
+  const auto is_begun = [&] {
+    return std::filesystem::exists(files.part) && StudyStore(files.part, study).done().size() >= 2;
   };
-  while (lines() < 3 && waitpid(child, nullptr, WNOHANG) == 0) usleep(1000);
+  while (!is_begun() && waitpid(child, nullptr, WNOHANG) == 0) usleep(1000);
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
-  REQUIRE(std::filesystem::exists(part));
-  std::ofstream(part, std::ios::app) << "7,centre_voltage_1,-0.0";  // a line that was cut off
-  const CommandOutcome outcome = run_command({"simulate", scene.path(), "--out", cut.string()});
+  REQUIRE(std::filesystem::exists(files.part));
+  const CommandOutcome outcome = files.simulate();
   CAPTURE(outcome.err);
   REQUIRE(outcome.status == 0);
   CHECK(outcome.err.find("continuing: ") != std::string::npos);
-  CHECK(rows_of(cut) == rows_of(whole));
-  CHECK_FALSE(std::filesystem::exists(part));
+  CHECK(rows_of(files.folder) == rows_of(whole));
+  CHECK_FALSE(std::filesystem::exists(files.part));
 }
 
-TEST_CASE("points of another sweep are not taken over", "[cli][scene][array]") {
-  const SceneText scene(kMap);
-  const std::filesystem::path folder = scene.beside("other");
-  {
-    SweepStore store(folder, "sweep of another scene");
-    store.add(0, {{"centre_voltage_1", 1.0, "V"}});
-  }
-  const CommandOutcome outcome = run_command({"simulate", scene.path(), "--out", folder.string()});
+TEST_CASE("a sweep that goes on gives mesh and effects of all its points", "[cli][scene][array]") {
+  const MapFiles files;
+  const CommandOutcome whole = run_command({"simulate", files.scene.path(), "--json"});
+  REQUIRE(whole.status == 0);
+  files.add_points(11);
+  const CommandOutcome outcome = files.simulate({"--json"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.err.find("continuing: 11 of 12 points are done") != std::string::npos);
+  const auto answer = nlohmann::json::parse(outcome.out);
+  CHECK(answer["effects"] == nlohmann::json::parse(whole.out)["effects"]);
+  CHECK(answer["unknowns"] == 1'000'000);
+  CHECK(answer["discretisation"]["degree"] == 9);
+  CHECK(rows_of(files.folder).find("1.25,") != std::string::npos);
+}
+
+TEST_CASE("points of another scene, material or tolerance are not taken over",
+          "[cli][scene][array]") {
+  const MapFiles files;
+  files.add_points(2);
+  const int changed = GENERATE(0, 1, 2);
+  if (changed == 0) std::ofstream(files.scene.path(), std::ios::app) << "\n";
+  if (changed == 1) std::ofstream(files.film, std::ios::app) << "\n";
+  const CommandOutcome outcome =
+      changed == 2 ? files.simulate({"--tol", "2e-3"}) : files.simulate();
+  CAPTURE(outcome.err);
   CHECK(outcome.status == 1);
-  CHECK(outcome.err.find("another sweep") != std::string::npos);
+  CHECK(outcome.err.find(kPartOfSweep) != std::string::npos);
+  CHECK(outcome.err.find(changed == 1 ? "pvdf.json has changed since"
+                                      : "points of another study") != std::string::npos);
+  CHECK(outcome.err.find("choose another folder with --out") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(files.folder / "sweep.csv"));
+}
+
+TEST_CASE("a number that was altered among the points that are done is answered again",
+          "[cli][scene][array]") {
+  const MapFiles files;
+  files.add_points(1);
+  Database(files.part, Database::Access::kReadWrite)
+      .execute("UPDATE points SET results = replace(results, '1.25', '1.75')");
+  const CommandOutcome outcome = files.simulate();
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.find("1 row damaged; their points are answered again") != std::string::npos);
+  CHECK(outcome.err.find("continuing") == std::string::npos);
+  CHECK(rows_of(files.folder).find("1.75,") == std::string::npos);
+}
+
+TEST_CASE("a second sweep in the same folder is refused until the first has ended",
+          "[cli][scene][array]") {
+  const MapFiles files;
+  const StudyLock first(files.part, nullptr);
+  const CommandOutcome outcome = files.simulate();
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.find("another sweep is answering its points") != std::string::npos);
 }
 
 TEST_CASE(
@@ -125,7 +203,7 @@ TEST_CASE(
       ArrayScene scene;
       scene.geometry.spacing_m = 10e-6 * static_cast<double>(points.size() + 5);  // from 50 um
       sweep.spacing_m.push_back(scene.geometry.spacing_m);
-      rows[points.size()] = {{"deviation_percent_1", percent, "%", error}};
+      rows[points.size()].results = {{"deviation_percent_1", percent, "%", error}};
       points.push_back({scene, "spacing"});
     }
     sweep.limit_percent = 0.1;

@@ -1,6 +1,8 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/parallel.h"
 #include "io/flow/sweep/run_study.h"
 #include "io/scenes/scene_file.h"
+#include "models/maths/may_stop.h"
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
@@ -17,6 +19,7 @@
 #include <filesystem>
 #include <future>
 #include <map>
+#include <set>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -519,4 +522,84 @@ TEST_CASE("a word that a study misspells is refused before the first point",
   CHECK(outcome.status == 1);
   CHECK(says(outcome.err, "cannot be \"statik\""));
   CHECK_FALSE(std::filesystem::exists(files.store));
+}
+
+TEST_CASE("a file is an input of a study even if its name looks like a number with a unit",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const bool is_rows = GENERATE(false, true);
+  for (const char* const name : {"10pdms", "20pdms"})
+    write_file(files.scene.beside(name), rubber(1e6), false);
+  write_file(files.study,
+             std::string("scene = \"scene.toml\"\n") + (is_rows ? "rows = true\n" : "") +
+                 "[[parameter]]\nkey = \"materials.pillar.file\"\n"
+                 "values = [\"10pdms\", \"20pdms\"]\n",
+             true);
+  std::set<std::string> names;
+  for (const InputFile& file : read_study(files.study).inputs) names.insert(file.path);
+  CHECK(names == std::set<std::string>{"10pdms", "20pdms", "scene.toml", "study.toml"});
+}
+
+TEST_CASE("a point that reads a file which the study does not know is not kept",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  Study study = read_study(files.study);
+  CHECK(answer_point(study, 1).kind == PointKind::kAnswered);
+  std::erase_if(study.inputs, [](const InputFile& file) { return file.path == "other.json"; });
+  const StudyPoint point = answer_point(study, 1);
+  CHECK(point.kind == PointKind::kPassing);
+  CHECK(says(point.failure, "other.json is read at this point and was not when the sweep began"));
+}
+
+TEST_CASE("a link that leads to another file while a sweep works is noticed",
+          "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string link = files.scene.beside("link.json");
+  std::filesystem::create_symlink(files.first, link);
+  write_file(files.study, replaced(kFilmStudy, "\"rubber.json\", \"other.json\"", "\"link.json\""),
+             true);
+  const Study study = read_study(files.study);
+  REQUIRE(answer_point(study, 0).kind == PointKind::kAnswered);
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink(files.second, link);
+  const StudyPoint point = answer_point(study, 0);
+  CHECK(point.kind == PointKind::kPassing);
+  CHECK(point.results.empty());
+}
+
+TEST_CASE("a request to stop is no answer of a point", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const Study study = read_study(files.study);
+  const StopCheck stop([] { throw Interrupted(); });
+  CHECK_THROWS_AS(answer_point(study, 0), Interrupted);
+}
+
+TEST_CASE("a store with two names is refused before points could be lost", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  REQUIRE(files.sweep({"--out", files.store, "--shard", "1/2"}).status == 0);
+  const std::string name = files.scene.beside("name.sqlite");
+  std::filesystem::create_hard_link(files.store, name);
+  const CommandOutcome outcome = files.sweep({"--out", name});
+  CHECK(outcome.status == 1);
+  CHECK(says(outcome.err, "name.sqlite: the file has 2 names (hard links)"));
+  std::filesystem::remove(name);
+  CHECK(files.sweep({"--out", files.store}).status == 0);
+}
+
+TEST_CASE("the table of a sweep has the results of all its points", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const Study study = read_study(files.study);
+  StudyStore store(files.store, study);
+  const auto add = [&](std::int64_t number, std::vector<NamedValue> results) {
+    store.add(StudyPoint{
+        .point = number, .values = values_at(study, number), .results = std::move(results)});
+  };
+  add(0, {{"charge", 1.0, "C", 0.5}, {"displacement", 2.0, "m", 0.5}});
+  add(1, {{"voltage", 3.0, "V", 0.5}, {"displacement", 4.0, "m", 0.5}});
+  CHECK(csv_from_study(store, study) ==
+        "point,geometry.diameter,materials.pillar.file,"
+        "\"charge [C]\",\"error charge [C]\",\"displacement [m]\",\"error displacement [m]\","
+        "\"voltage [V]\",\"error voltage [V]\",failure\n"
+        "0,\"36 um\",\"rubber.json\",1,0.5,2,0.5,,,\n"
+        "1,\"36 um\",\"other.json\",,,4,0.5,3,0.5,\n");
 }

@@ -30,6 +30,20 @@ TEST_CASE("a lack of threads is stated as one of memory, which may pass", "[cli]
   CHECK_FALSE(is_lack_of_memory(std::system_error(ENOSPC, std::generic_category())));
 }
 
+TEST_CASE("only what is refused in words is an answer of a search", "[cli]") {
+  CHECK(is_refusal(std::runtime_error("the pillar buckles")));
+  CHECK(is_refusal(std::invalid_argument("nu")));
+  CHECK_FALSE(is_refusal(std::logic_error("a slip of the program")));
+  CHECK_FALSE(is_passing(std::logic_error("a slip of the program")));
+  const auto passes = [](const std::exception& error) {
+    return is_passing(error) && !is_refusal(error);
+  };
+  CHECK(passes(std::bad_alloc()));
+  CHECK(passes(std::system_error(ENOSPC, std::generic_category())));
+  CHECK(passes(NotEnoughMemory("the next mesh is too large")));
+  CHECK(passes(StopsWork("it was interrupted")));
+}
+
 TEST_CASE("a cell of a table is no formula of a spreadsheet", "[cli]") {
   CHECK(csv_cell("=HYPERLINK(\"x\")") == "\"'=HYPERLINK(\"\"x\"\")\"");
   for (const char* formula : {"@x", "+x", "-x", "-", "\t=1"})
