@@ -52,7 +52,12 @@ std::string difference(const std::string& of_capture, const std::string& asked) 
 
 void refuse_other(const fs::path& path, const CapturedRun& run, const CaptureSetup& asked) {
   std::string what = "test";
-  std::string how = difference(toml_from_test(run.plan), toml_from_test(asked.plan));
+  TestPlan plan = asked.plan;  // how far the surface is searched changes no test
+  plan.approach_speed_m_s = run.plan.approach_speed_m_s;
+  plan.approach_limit_m = run.plan.approach_limit_m;
+  plan.surface_m = run.plan.surface_m;
+  plan.surface_margin_m = run.plan.surface_margin_m;
+  std::string how = difference(toml_from_test(run.plan), toml_from_test(plan));
   if (how.empty()) {
     what = "specimen";
     how = difference(toml_from_specimen(run.specimen), toml_from_specimen(asked.specimen));
