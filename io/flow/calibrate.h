@@ -28,6 +28,10 @@ struct CalibrationRequest {
 // Throws std::invalid_argument naming the option, "--capacity must be positive".
 void check_request(const CalibrationRequest& request);
 
+// The rows of weights, or of a rigid block, that have a number in both columns; n_left_out counts the
+// others.
+CsvTable complete_rows(CsvTable table, bool is_block, std::size_t& n_left_out);
+
 // In N of a mass in air.
 double weight_N(double mass_kg, const CalibrationRequest& request);
 // Relative standard uncertainty of such weights.

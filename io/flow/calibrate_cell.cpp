@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -110,6 +111,12 @@ double weight_N(double mass_kg, const CalibrationRequest& request) {
 double weights_relative_u(const CalibrationRequest& request) {
   return std::hypot(request.mass_relative_u,
                     request.gravity_m_s2 ? 0.0 : kGravityHalfWidth / std::sqrt(3.0));
+}
+
+CsvTable complete_rows(CsvTable table, bool is_block, std::size_t& n_left_out) {
+  const char* load = !is_block && find_column(table, "mass_kg") ? "mass_kg" : "force_N";
+  return rows_without_gaps(std::move(table), {load, is_block ? "position_m" : "volts_V"}, {},
+                           n_left_out);
 }
 
 WeightReadings readings_from_table(const CsvTable& table, const CalibrationRequest& request) {

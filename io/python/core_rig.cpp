@@ -92,12 +92,6 @@ CalibrationRequest calibration_request(const std::string& file, const py::dict& 
   return request;
 }
 
-// A row in which one of these is missing holds no reading.
-std::vector<std::string> used_columns(const CsvTable& table, bool is_frame) {
-  if (is_frame) return {"position_m", "force_N"};
-  return {find_column(table, "mass_kg") ? "mass_kg" : "force_N", "volts_V"};
-}
-
 // tables: arrays by the name that stands for the file, or none.
 py::dict calibrate(const std::string& file, const py::dict& tables, bool is_frame,
                    const py::dict& keywords) {
@@ -107,9 +101,8 @@ py::dict calibrate(const std::string& file, const py::dict& tables, bool is_fram
   CsvTable table = tables.empty() ? read_csv(file)
                                   : table_from_arrays(tables[py::str(file)].cast<py::dict>(), file);
   (void)accepted_damage(table, false);
-  const std::vector<std::string> used = used_columns(table, is_frame);
   std::size_t n_left_out = 0;
-  table = rows_without_gaps(std::move(table), used, {}, n_left_out);
+  table = complete_rows(std::move(table), is_frame, n_left_out);
   std::optional<RigConfig> rig;
   if (rig_file)
     rig = is_frame ? read_rig(*rig_file, judged) : read_rig_to_calibrate(*rig_file, judged);

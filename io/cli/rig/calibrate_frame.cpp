@@ -152,8 +152,9 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
     points = block_points_from_capture(run);
     rig = run.rig;
   } else if (words.data_file) {
-    const CsvTable table = read_csv(*words.data_file);
+    CsvTable table = read_csv(*words.data_file);
     say_damage(*words.data_file, accepted_damage(table, words.accepts_unverified), streams);
+    table = complete_rows(std::move(table), true, streams);
     points = block_points_from_table(table);
     if (words.rig_file) rig = read_rig(*words.rig_file, words.plausible);
   } else {

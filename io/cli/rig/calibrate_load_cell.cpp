@@ -54,8 +54,10 @@ CsvTable table_of_weights(const std::string& path, bool accepts_damage) {
   return table;
 }
 
-WeightReadings readings_of_table(const CalibrateWords& words, const CalibrationRequest& request) {
-  const CsvTable table = table_of_weights(*words.data_file, words.accepts_unverified);
+WeightReadings readings_of_table(const CalibrateWords& words, const CalibrationRequest& request,
+                                 Streams& streams) {
+  const CsvTable table =
+      complete_rows(table_of_weights(*words.data_file, words.accepts_unverified), false, streams);
   refuse_idle({{request.where + "--gravity", request.gravity_m_s2.has_value(),
                 find_column(table, "mass_kg").has_value(),
                 "masses (mass_kg), and this table states forces"}});
@@ -204,7 +206,7 @@ int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
   refuse_idle<UsageError>(
       {{"--span", request.span_V.has_value(), reads_volts, "a load cell that is read in volts"}});
   const WeightReadings readings = words.data_file
-                                      ? readings_of_table(words, request)
+                                      ? readings_of_table(words, request, streams)
                                       : readings_on_rig(rig, words, request.capacity_N, streams);
   const CellCalibration cell = calibrated_cell(readings, request, has_rig ? &rig : nullptr);
   write_file(words.out_file, toml_from_calibration(cell.record), words.overwrite);

@@ -1,6 +1,10 @@
 #include "io/cli/rig/calibrate_words.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
+
+#include <ostream>
+#include <utility>
 
 namespace viscard {
 
@@ -19,6 +23,16 @@ RigConfig calibrate_rig(const CalibrateWords& words) {
 
 EmulatedTruth calibrate_truth(const CalibrateWords& words) {
   return words.truth_file ? read_truth(*words.truth_file) : demo_truth(10.0, 1);
+}
+
+CsvTable complete_rows(CsvTable table, bool is_block, Streams& streams) {
+  std::size_t n_left_out = 0;
+  CsvTable complete = complete_rows(std::move(table), is_block, n_left_out);
+  if (n_left_out > 0) {
+    streams.err << "viscard: " << complete.file << ": " << counted(n_left_out, "row")
+                << " without a number left out\n";
+  }
+  return complete;
 }
 
 Words inputs_of(const CalibrateWords& words) {

@@ -48,6 +48,8 @@ DescribedResult result_of_frame();
 // Configuration and truth of the emulated rig for these words.
 RigConfig calibrate_rig(const CalibrateWords& words);
 EmulatedTruth calibrate_truth(const CalibrateWords& words);
+// The rows of a table with a number in both columns; stderr has the count of the others.
+CsvTable complete_rows(CsvTable table, bool is_block, Streams& streams);
 // The files that the words name.
 Words inputs_of(const CalibrateWords& words);
 

@@ -131,6 +131,7 @@ TEST_CASE("a table of weights and readings makes a calibration too", "[cli]") {
     const double force_N = mass_g * 1e-3 * 9.81 * (1.0 - 1.2 / 8000.0);
     table += std::to_string(mass_g) + "," + std::to_string(1e3 * (0.7255 * force_N + 0.01)) + "\n";
   }
+  table += "100,n/a\n50,\n";  // readings that were missed
   write(folder / "weights.csv", table);
   const std::string out = (folder / "cell.toml").string();
   const std::vector<std::string> words{"--data",     (folder / "weights.csv").string(),
@@ -140,6 +141,7 @@ TEST_CASE("a table of weights and readings makes a calibration too", "[cli]") {
                                        "--out",      out};
   const Calibrated run = calibrate(words);
   CHECK(run.status == kDone);
+  CHECK_THAT(run.err, Contains("2 rows without a number left out"));
   CHECK_THAT(run.out, Contains("cell 7"));
   CHECK_THAT(run.out, Contains("budget"));
   CHECK_THAT(run.out, Contains("not measured: go up and down more than once"));
