@@ -253,11 +253,10 @@ class MapDrawing {
     std::string words = is_grid() ? "one cell for each pillar" : "discs: pillars to scale";
     if (!all_loaded()) words += "; dark rim: loaded";
     if (largest_N_ > 0.0) {
-      const PrefixedUnit unit = prefixed_unit("N", largest_N_);
       words += fmt::format(
-          "; arrows: shear{}, the longest {:.3g} {}",
+          "; arrows: shear{}, the longest {}",
           per_block_ > 1 ? fmt::format(" (means of {0} x {0} pillars)", per_block_) : "",
-          unit.per_si * largest_N_, unit.text);
+          in_unit(largest_N_, "N", 3));
     }
     if (is_cut_) words += "; the film is wider";
     if (has_hollow_) words += "; empty: no value";

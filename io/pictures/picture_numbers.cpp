@@ -4,21 +4,32 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 namespace viscard {
 namespace {
 
 bool takes_prefix(const std::string& unit) {
-  if (unit.starts_with("kg")) return false;
+  if (unit.starts_with("kg") || unit.starts_with("deg")) return false;
   const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
   const auto end = std::find_if_not(unit.begin(), unit.end(), is_letter);
-  return end != unit.begin() && (end == unit.end() || *end == '/');
+  return end != unit.begin() && (end == unit.end() || *end == '/' || *end == ' ');
 }
 
 std::string number_of(double value, int digits) {
   return with_minus(fmt::format("{:.{}g}", value, digits));
+}
+
+// 999.96 with four digits is 1000, whose prefix is another one.
+double rounded(double value, int digits) {
+  if (!std::isfinite(value)) return value;
+  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
+  double number = value;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
 }
 
 std::string before_unit(const PrefixedUnit& unit) {
@@ -46,8 +57,11 @@ std::string with_minus(const std::string& number) {
 }
 
 std::string in_unit(double value, const std::string& unit, int digits) {
-  const PrefixedUnit shown = prefixed_unit(unit, std::abs(value));
-  return number_of(shown.per_si * value, digits) + before_unit(shown);
+  const double short_value = rounded(value, digits);
+  const PrefixedUnit shown = prefixed_unit(unit, std::abs(short_value));
+  constexpr int kWithoutExponent = 6;
+  return number_of(shown.per_si * short_value, std::max(digits, kWithoutExponent)) +
+         before_unit(shown);
 }
 
 std::string in_unit_with_error(double value, double error, const std::string& unit) {
@@ -55,7 +69,11 @@ std::string in_unit_with_error(double value, double error, const std::string& un
   const PrefixedUnit shown = prefixed_unit(unit, std::max(std::abs(value), error));
   constexpr int kMost = 9;
   const double digit = std::floor(std::log10(shown.per_si * error));  // place of its first one
-  const int decimals = static_cast<int>(std::clamp(1.0 - digit, 0.0, double{kMost}));
+  if (1.0 - digit > kMost) {
+    return in_unit(value, unit, kMost) + fmt::format(" ± {:.1e}", shown.per_si * error) +
+           before_unit(shown);
+  }
+  const int decimals = static_cast<int>(std::max(1.0 - digit, 0.0));
   return with_minus(fmt::format("{:.{}f}", shown.per_si * value, decimals)) +
          fmt::format(" ± {:.{}f}", shown.per_si * error, decimals) + before_unit(shown);
 }

@@ -252,8 +252,7 @@ Json DeskApi::table(const Json& request) {
   Texts of_reading = tables.options;
   if (tables.is_rubber) {  // how a law is fitted does not belong to the table
     std::erase_if(of_reading, [](const std::string& word) {
-      return word.starts_with("--model=") || word.starts_with("--weight=") ||
-             word.starts_with("--cycle=");
+      return word.starts_with("--model=") || word.starts_with("--youngs-modulus=");
     });
   }
   const Texts words = command_words("fit", tables.names.front(), of_reading, {"--show-table"});

@@ -120,6 +120,8 @@ std::string plain_file_name(const std::string& name) {
   }
   // What the desk keeps beside a table must not come from elsewhere; last, of the name as it will stand there.
   if (has_ending(plain, kKeptEnding)) plain[plain.size() - std::strlen(kKeptEnding)] = '_';
+  // What is chosen for a table of this name would be the words of every report.
+  if (plain.size() == std::strlen("report") && has_ending(plain, "report")) plain += "_1";
   return plain;
 }
 
@@ -251,9 +253,11 @@ void DeskFolder::keep_words(const std::string& table, const std::vector<std::str
     return;
   }
   std::vector<std::string> command{"viscard", "fit", "@" + file.filename().string()};
-  if (words.front().starts_with("--")) command.insert(command.begin() + 2, table);
-  std::string text = std::string(kKeptHead) + " for " + table +
-                     ", one a line: " + quoted_for_shell(command) + "\n";
+  if (words.front().starts_with("--"))
+    command.insert(command.begin() + 2, table.starts_with("-") ? "./" + table : table);
+  std::string text = utf8_on_one_line(std::string(kKeptHead) + " for " + table +
+                                      ", one a line: " + quoted_for_shell(command)) +
+                     "\n";
   for (const std::string& word : words) text += word + "\n";
   if (is_there) {
     rewrite_file(file, text);

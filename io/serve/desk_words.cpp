@@ -35,10 +35,22 @@ bool is_large_strain(const std::string& kind) {
                      [&](const LargeStrainKind& one) { return one.word == kind; });
 }
 
-// "uniaxial" of "uniaxial=a.csv"; of all other words nothing.
+bool is_same_test(const LargeStrainKind& a, const LargeStrainKind& b) {
+  return a.foam_test == b.foam_test && a.is_compression == b.is_compression;
+}
+
+// "uniaxial" of "uniaxial=a.csv" and "tension=a.csv", the first of the words for it; of all others
+// nothing.
 std::string large_strain_kind_of(const std::string& word) {
   const std::string kind = word.substr(0, word.find('='));
-  return kind != word && is_large_strain(kind) ? kind : "";
+  if (kind == word) return "";
+  const auto kinds = large_strain_kinds();
+  const auto known = std::find_if(kinds.begin(), kinds.end(),
+                                  [&](const LargeStrainKind& one) { return one.word == kind; });
+  if (known == kinds.end()) return "";
+  return std::find_if(kinds.begin(), kinds.end(),
+                      [&](const LargeStrainKind& one) { return is_same_test(one, *known); })
+      ->word;
 }
 
 // {"kind": "uniaxial", "terms": "3"}: what the page may set of these words of fit; others are left out.
@@ -162,9 +174,7 @@ std::vector<std::string> large_strain_words() {
   const LargeStrainKind* last = nullptr;
   for (const LargeStrainKind& one : large_strain_kinds()) {
     // Another word for the one before it is left out: tension, oedometer ...
-    const bool is_same = last != nullptr && last->foam_test == one.foam_test &&
-                         last->is_compression == one.is_compression;
-    if (!is_same) words.emplace_back(one.word);
+    if (last == nullptr || !is_same_test(*last, one)) words.emplace_back(one.word);
     last = &one;
   }
   return words;

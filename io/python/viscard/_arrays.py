@@ -105,8 +105,10 @@ class Columns(Dict[str, Floats]):
 def table(columns: Any, name: str) -> Columns:
     """Columns of numbers of one length by header, of a dict, a Table or a DataFrame; what is missing is NaN."""
     out = Columns()
-    is_own = hasattr(columns, "preamble")  # a Table, whose segments and specimens are texts
-    out.comments = columns.comments if is_own else getattr(columns, "attrs", {}).get("comments", ())  # of a DataFrame
+    is_own = isinstance(getattr(columns, "comments", None), list)  # a Table, whose segments and specimens are texts
+    attributes = getattr(columns, "attrs", None)  # of a DataFrame
+    found = columns.comments if is_own else attributes.get("comments") if isinstance(attributes, dict) else None
+    out.comments = [one for one in found if isinstance(one, str)] if isinstance(found, (list, tuple)) else ()
     for header in columns.keys():
         values = columns[header]
         if is_own and isinstance(values, list):

@@ -147,7 +147,7 @@ function makeCard() {
     showCard(answer);
     const { for: target, units, ratio, density, ...more } = chosenCard();
     const material = isRubber() ? "result" : `result.material${isByRatio() ? `(${ratio})` : ""}`;
-    const words = pythonKeywords(more) + (density ? `, density_kg_m3=${density}` : "");
+    const words = pythonKeywords(more) + (Number.isFinite(Number(density)) ? `, density_kg_m3=${Number(density)}` : "");
     showSame(element("card-same"), `${answer.fit_command}\n${answer.command}`,
              `${pythonOf(pythonData(), fitKeywords())}\nprint(${material}.card(${JSON.stringify(target)}, ${JSON.stringify(units)}${words}))`, answer.result);
   }, (text) => showCardState(text, "alert"));
@@ -178,7 +178,10 @@ const setOption = (name, value) => setOptions({ [name]: value });
 
 // Of any table, as the field Kind does of the open one.
 async function setKind(name, kind) {
-  if (name === table) return setOption("kind", kind || undefined);
+  if (name === table) {
+    await setOption("kind", kind || undefined);
+    return compare();
+  }
   const kept = choices[name] ?? (await order("/api/desk/table", { table: name })).options;
   const options = Object.fromEntries(Object.entries({ ...kept, kind }).filter(([, value]) => value !== ""));
   choices[name] = (await order("/api/desk/table", { table: name, options })).options;

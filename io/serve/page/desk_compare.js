@@ -82,8 +82,11 @@ export async function compare() {
   for (const name of chosen) {
     const request = { table: name, ...(optionsOf(name) ? { options: optionsOf(name) } : {}) };
     try {
-      ({ result: fits[name], options: kept[name], command: commands[name] } = await order("/api/desk/fit", request));
+      const answer = await order("/api/desk/fit", request);
+      if (number !== asked) return;
+      ({ result: fits[name], options: kept[name], command: commands[name] } = answer);
     } catch (error) {
+      if (number !== asked) return;
       fits[name] = null;
       tell(error.message.startsWith(name) ? error.message : `${name}: ${error.message}`, "alert");
       kept[name] = request.options ?? (await order("/api/desk/table", { table: name }).catch(() => null))?.options ?? {};

@@ -234,6 +234,10 @@ TEST_CASE("numbers of pictures have prefixes and minus signs", "[io]") {
   CHECK(in_unit(2e-9, "m^2") == "2e−09 m^2");  // a prefix would be squared, too
   CHECK(in_unit(3e3, "1/Pa") == "3000 1/Pa");
   CHECK(in_unit(1500.0, "N/m") == "1.5 kN/m");
+  CHECK(in_unit(2e-9, "N m") == "2 nN m");
+  CHECK(in_unit(345.0, "Hz", 2) == "340 Hz");
+  CHECK(in_unit(999.6e-3, "N", 3) == "1 N");
+  CHECK(in_unit(25.0, "degC") == "25 degC");
   CHECK(interval_in_unit(-7.326e-7, -6.002e-7, "m") == "−732.6 to −600.2 nm");
   CHECK(in_unit_with_error(0.5, 0.0, "V") == "500 mV");
   CHECK(in_unit_with_error(2.0, 300.0, "Hz") == "2 ± 300 Hz");
