@@ -220,8 +220,8 @@ void put_file(const std::filesystem::path& path, const std::string& contents, bo
     write_all(file.get(), contents, path);
     if (::fsync(file.get()) != 0) fail(path, "cannot sync", errno);
     if (::close(file.release()) != 0) fail(path, "cannot close", errno);
-    put_in_place(temporary, path, overwrite);
     note_output(path);
+    put_in_place(temporary, path, overwrite);
     sync_folder(folder);
   } catch (...) {
     ::unlink(temporary.c_str());

@@ -209,6 +209,9 @@ void record_input_sum(const std::filesystem::path& path, const std::string& sha2
 }
 
 void refuse_lost_input(const std::filesystem::path& path, const std::string& why) {
+  std::error_code ignored;
+  const auto kind = std::filesystem::status(path, ignored).type();
+  if (kind == std::filesystem::file_type::fifo) return;  // ends when it was read
   const std::lock_guard<std::mutex> lock(list_mutex());
   if (!InputRecords::is_known_otherwise(path.string(), "")) return;
   throw InputChanged(path.string() + " was read before and cannot be read now (" + why +

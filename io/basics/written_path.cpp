@@ -47,7 +47,8 @@ bool is_of_name(char c) {
 // Takes a folder out in front of a name, and shows it as "." where it stands alone.
 void take_out(const std::string& folder, std::string& text) {
   for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
-    const bool is_begin = at == 0 || (!is_of_name(text[at - 1]) && text[at - 1] != '/');
+    const bool is_begin = at == 0 || (!is_of_name(text[at - 1]) && text[at - 1] != '/' &&
+                                      text[at - 1] != '<');  // no tag
     const std::size_t end = at + folder.size();
     if (is_begin && end < text.size() && text[end] == '/') {
       text.erase(at, folder.size() + 1);

@@ -148,9 +148,8 @@ void Database::Close::operator()(sqlite3* database) const {
 
 Database::Database(const std::filesystem::path& path, Access access) : file_(path.string()) {
   std::error_code ignored;
-  const auto kind = std::filesystem::status(path, ignored).type();
-  if (kind != std::filesystem::file_type::regular &&
-      kind != std::filesystem::file_type::not_found) {  // a device or a pipe may never end
+  // A device or a pipe may never end; what cannot be looked at SQLite reports.
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
     throw std::runtime_error(file_ +
                              " is not a plain file, so neither a capture nor the answers of a "
                              "study; choose another name");

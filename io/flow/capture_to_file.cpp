@@ -1,6 +1,7 @@
 #include "io/flow/capture_to_file.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/inputs.h"
 #include "io/basics/program.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/capture_lock.h"
@@ -74,6 +75,7 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   if (request.overwrite) refuse_input(request.path);
   PreviousCapture previous(request.path, request.overwrite);
   options.rights = previous.rights();
+  note_output(request.path);
   CaptureWriter writer(request.path, about_run(request, rig), options);
   if (setup.truth) {
     std::filesystem::path path = request.path;

@@ -83,6 +83,8 @@ void take_poisson_ratio(const std::vector<FittedFile>& own, FittedFile& fitted) 
 std::vector<FileOutcome> fit_each_file(const std::vector<std::string>& files,
                                        const FitRequest& request, const FlowProgress& progress) {
   std::vector<FileOutcome> outcomes(files.size());
+  FitRequest of_each = request;
+  of_each.is_beside_others = request.is_beside_others || files.size() > 1;
   std::size_t n_done = 0;
   std::mutex reporting;
   const auto report = [&](const std::string& file) {
@@ -93,12 +95,19 @@ std::vector<FileOutcome> fit_each_file(const std::vector<std::string>& files,
   for_each_in_parallel(files.size(), [&](std::size_t i) {
     outcomes[i].path = files[i];
     try {
-      outcomes[i].fitted = fit_file(files[i], request);
+      outcomes[i].fitted = fit_file(files[i], of_each);
     } catch (const std::exception&) {
       outcomes[i].error = std::current_exception();
     }
     report(files[i]);
   });
+  const bool are_read = std::all_of(outcomes.begin(), outcomes.end(),
+                                    [](const FileOutcome& one) { return one.fitted.has_value(); });
+  if (of_each.is_beside_others && !request.is_beside_others && are_read) {
+    OptionUses uses;
+    for (const FileOutcome& one : outcomes) add_uses(one.fitted->uses, uses);
+    refuse_idle(uses);
+  }
   return outcomes;
 }
 

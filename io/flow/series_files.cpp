@@ -57,10 +57,18 @@ void refuse_other(const fs::path& path, const CapturedRun& run, const CaptureSet
   plan.approach_limit_m = run.plan.approach_limit_m;
   plan.surface_m = run.plan.surface_m;
   plan.surface_margin_m = run.plan.surface_margin_m;
+  plan.name = run.plan.name;
+  plan.retract_m = run.plan.retract_m;
+  plan.retract_speed_m_s = run.plan.retract_speed_m_s;
+  plan.accepts_implausible = run.plan.accepts_implausible;
   std::string how = difference(toml_from_test(run.plan), toml_from_test(plan));
   if (how.empty()) {
     what = "specimen";
-    how = difference(toml_from_specimen(run.specimen), toml_from_specimen(asked.specimen));
+    Specimen specimen = run.specimen;  // notes and guesses may be mended later
+    specimen.id = asked.specimen.id;
+    specimen.mixing_ratio = asked.specimen.mixing_ratio;
+    specimen.contact = asked.specimen.contact;
+    how = difference(toml_from_specimen(run.specimen), toml_from_specimen(specimen));
   }
   if (how.empty()) return;
   throw std::runtime_error(path.string() + " is a finished capture of another " + what + ": " +

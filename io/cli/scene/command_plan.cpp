@@ -126,7 +126,7 @@ int run_plan(const Words& words, Streams& streams) {
   try {
     savings = effect_savings(scene, kLimit_s - (clock.cpu_s() - start_s));
   } catch (const std::runtime_error& e) {  // the plan itself solves nothing and stands
-    if (!is_refusal(e)) throw;
+    if (dynamic_cast<const StopsWork*>(&e) != nullptr) throw;
     streams.err << "viscard plan: no savings are shown, because the scene has no answer on a "
                    "coarse mesh, and "
                    "viscard simulate may refuse it, too: "

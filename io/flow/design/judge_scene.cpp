@@ -65,7 +65,8 @@ class LineRemedies {
       common(scene).tolerance = tolerance_;
       return computed(kind, scene, requirements_);
     } catch (const std::exception& error) {
-      if (!is_refusal(error)) throw;
+      // What takes too much memory is no remedy; what was judged stands.
+      if (dynamic_cast<const StopsWork*>(&error) != nullptr) throw;
       return {.how = error.what()};
     }
   }

@@ -278,8 +278,17 @@ void record_scene_files(const Study& study) {
   };
   const StudyValues first = values_at(study, 0);
   read(first);
+  // Of rows, those that differ in what may name a file.
+  std::set<std::string> known;
   for (std::int64_t row = 1; study.is_rows && row < count_points(study); ++row) {
-    read(values_at(study, row));
+    const StudyValues values = values_at(study, row);
+    std::string names;
+    for (const auto& [key, value] : values) {
+      if (key.ends_with("file") || key.ends_with("material") || !split(value)) {
+        names += value + "\n";
+      }
+    }
+    if (known.insert(names).second) read(values);
   }
   for (std::size_t k = 0; !study.is_rows && k < study.parameters.size(); ++k) {
     for (const std::string& value : study.parameters[k].values) {

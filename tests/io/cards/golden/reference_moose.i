@@ -1,4 +1,4 @@
-# viscard 0.1.0: PDMS for MOOSE GeneralizedMaxwellModel
+# viscard 0.2.0: PDMS for MOOSE GeneralizedMaxwellModel
 # units: mm-t-s (mm, t, s, N, MPa, t/mm3)
 # conventions: instantaneous E, nu; branches absolute (E_i = g_i E_0); time tau; bulk relaxes with the shear (constant nu)
 # E0 (instantaneous) = 1.88 MPa, E_inf (long-term) = 1.83851592 MPa

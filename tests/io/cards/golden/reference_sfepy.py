@@ -1,4 +1,4 @@
-# viscard 0.1.0: PDMS for SfePy (Python module)
+# viscard 0.2.0: PDMS for SfePy (Python module)
 # CANNOT REPRESENT: large strains, a shift with temperature; strain is taken as linear in each step
 # units: mm-t-s (mm, t, s, N, MPa, t/mm3)
 # conventions: instantaneous E, nu; branches relative (g_i = G_i/G_0); time tau; bulk relaxes with its own k_i
