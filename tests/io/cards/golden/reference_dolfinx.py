@@ -12,7 +12,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
-# card sha256 e797304dd5b9890cf1d86edd529e14dcbf74bda3454b4a22f2b35ee8a2da1ba1
+# card sha256 9f6439626805d709e9c971c0c780377a29433627dce1ca0052be5bb9603ef613
 # Import it; see ufl_stress for the form of a step, and the one-element model (--deck) for the loop.
 import numpy as np
 

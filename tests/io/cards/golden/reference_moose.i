@@ -11,7 +11,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
-# card sha256 3fc4b3e11f9f78f485828a1d0bd6e6fbb2a74b91038ce268d0f81c5dadac7608
+# card sha256 949656df01e3ccd85d46c2fd24a2b49001241f65277200ac955cee4ccb820538
 # creep_viscosity is the relaxation time. Keep the UserObject, or nothing relaxes. zienkiewicz is exact for steps of one size; where the size changes, MOOSE uses the old one once.
 [Materials]
   [PDMS]

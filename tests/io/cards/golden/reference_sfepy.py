@@ -12,7 +12,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
-# card sha256 23e1abade25181688c86655c3279b9eac8f1d83d53f0ae57e41eb80f75b19a33
+# card sha256 06d7f3f7868c6f7352964bde9ddf1e814b702feb367bbc95b236a7697672ec96
 # Import it; step after step: stiffness(dt) for dw_lin_elastic, prestress(memory.known_stress(dt)) for dw_lin_prestress, then memory.advance.
 import numpy as np
 
