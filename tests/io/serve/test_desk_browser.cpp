@@ -273,7 +273,9 @@ TEST_CASE(
     const std::string from_above = "for (let i = 0; i < d.length; i += 4)";
     find.replace(find.find(from_above), from_above.size(),
                  "for (let i = d.length - 4; i >= 0; i -= 4)");
-    REQUIRE(browser.wait_until(  // as wide as the window lets it be, and drawn
+    REQUIRE(browser.wait_until(  // as wide as the window lets it be, and drawn, with no fit to come
+        "if (document.getElementById('fit-status').textContent.startsWith('Fitting')) return "
+        "false; "
         "const box = document.querySelector('#isotherm-chart canvas').getBoundingClientRect(); "
         "return box.right <= innerWidth && (() => { " +
             find + " })() !== null",
