@@ -64,7 +64,7 @@ class AnswersOnMesh {
   Eigen::VectorXd answer_at(const Eigen::VectorXd& deviates) const;
 
   const UncertainScene& scene_;
-  const std::vector<NamedValue>& wanted_;
+  std::vector<NamedValue> wanted_;
   AnswerOf answer_;
   AnswerCount& count_;
 };
