@@ -42,12 +42,25 @@ struct NumberLimit {
                            " in another file, which is not read; save all columns in one file");
 }
 
+// Whether parts of an array stand in other files; "." is the file itself.
+bool has_parts_elsewhere(hid_t made) {
+  if (H5Pget_layout(made) != H5D_VIRTUAL) return false;
+  std::size_t count = 0;
+  if (H5Pget_virtual_count(made, &count) < 0) return true;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<char, 2> file{};
+    if (H5Pget_virtual_filename(made, i, file.data(), file.size()) != 1 || file[0] != '.') {
+      return true;
+    }
+  }
+  return false;
+}
+
 // The numbers of an array must stand in the file itself, whose sum is recorded.
 void refuse_numbers_elsewhere(hid_t data, const char* name) {
   const Handle made(H5Dget_create_plist(data), H5Pclose);
-  const bool is_elsewhere =
-      H5Pget_layout(made.id()) == H5D_VIRTUAL || H5Pget_external_count(made.id()) > 0;
-  if (is_elsewhere) refuse_other_file(std::string("the numbers of '") + name + "'");
+  if (has_parts_elsewhere(made.id()) || H5Pget_external_count(made.id()) > 0)
+    refuse_other_file(std::string("the numbers of '") + name + "'");
 }
 
 void read_numbers(hid_t group, const char* name, NumberLimit& most,

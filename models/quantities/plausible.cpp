@@ -123,7 +123,7 @@ Doubt doubt_of(const Quantity& quantity, double value) {
   return doubt;
 }
 
-// Of the size of a number, whatever its sign.
+// Of the size of a number of either sign.
 std::optional<Doubt> doubt_about_size(const Quantity& quantity, double value, Plausible judged) {
   const PlausibleRange& range = judged == Plausible::kScene ? quantity.scene : quantity.measured;
   if (is_in(range, value)) return std::nullopt;

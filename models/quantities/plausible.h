@@ -36,7 +36,7 @@ struct Doubt {
 
 // Nothing if the value is plausible. Numbers that are not finite are not judged.
 std::optional<Doubt> doubt_about(const Quantity& quantity, double value, Plausible judged);
-// Nothing if a number can have that sign, at whatever size. value: in the SI unit of the quantity.
+// Nothing if a number can have that sign, at any size. value: in the SI unit of the quantity.
 std::optional<Doubt> doubt_about_sign(const Quantity& quantity, double value);
 // The same of a column, by the kind of the quantity; values: in its SI unit. If all of them have
 // the wrong sign, the factor of the doubt flips them.

@@ -3,14 +3,13 @@
 #include "io/capture/sqlite_database.h"
 #include "io/flow/scenes/named_values.h"
 #include "io/flow/sweep/study.h"
+#include "io/flow/sweep/study_lock.h"
 
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <set>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace viscard {
@@ -48,33 +47,6 @@ struct StoreOptions {
   std::function<void(const std::string&)> on_gone = nullptr;
   double waits_s = 0.0;
   std::string elsewhere = "name another file with --out";  // what to do instead of going on
-};
-
-// Held while the points of a store are answered.
-class StudyLock {
- public:
-  // Creates the file if there is none. Throws std::runtime_error if another program answers its
-  // points already, because both would do the same work, if it is a file of another kind, or if it
-  // has two names (a hard link), because SQLite's side files belong to a name. on_gone: called
-  // once, within a second, when the file was deleted, moved or replaced; from a thread of its own.
-  // waits_s: how long to wait for the other program.
-  StudyLock(std::filesystem::path path, std::function<void(const std::string&)> on_gone,
-            double waits_s = 0.0);
-  ~StudyLock();
-  StudyLock(const StudyLock&) = delete;
-  StudyLock& operator=(const StudyLock&) = delete;
-
-  // Throws std::runtime_error once the file is gone: answers in it would be lost.
-  void check_file() const;
-
- private:
-  std::string why_gone() const;
-  void watch(const std::stop_token& stop);
-
-  std::filesystem::path path_;
-  std::function<void(const std::string&)> on_gone_;
-  int fd_ = -1;
-  std::jthread watch_;  // last, so that it ends first
 };
 
 // The points that are done, in an SQLite file: table `points`, one row for each, with the values of the

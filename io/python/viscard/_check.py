@@ -24,7 +24,7 @@ from ._error import DoubtWarning, Error
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
-_SHORT = reprlib.Repr()  # bounded in depth and length, whatever a value holds
+_SHORT = reprlib.Repr()  # bounded in depth and length for every value
 _SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxother, _SHORT.maxlong = 4, 80, 80, 5000
 
 

@@ -14,7 +14,7 @@ using namespace viscard::test;
 
 namespace {
 
-// An HDF5 file with time_s and whatever `add` puts beside it.
+// An HDF5 file with time_s and what `add` puts beside it.
 template <typename Add>
 std::string hdf5_file(const std::string& path, const Add& add) {
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);

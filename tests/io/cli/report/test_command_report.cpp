@@ -322,7 +322,7 @@ TEST_CASE("a demo keeps what finished steps made of the same inputs, and nothing
   CHECK(contains(demo_of(commands, words), "25 results were up to date"));
   CHECK(commands.ran.empty());
 
-  // Other contents count, whatever the times of the files are.
+  // Other contents count, and not the times of the files.
   const auto before = fs::last_write_time(truth);
   write_text(truth, contents_of(truth) + "\n# another specimen\n");
   fs::last_write_time(truth, before - std::chrono::hours(24));
