@@ -3,7 +3,6 @@
 #include "io/basics/json_string.h"
 #include "io/basics/number_text.h"
 #include "io/basics/written_path.h"
-#include "io/capture/capture_header.h"
 #include "io/capture/row_checksum.h"
 
 #include <fmt/format.h>

@@ -64,6 +64,13 @@ TEST_CASE("numbers of an HDF5 file that stand in another file are not read", "[i
     H5Pclose(made);
   });
   CHECK(hdf5_refusal(virtual_data).find("in another file") != std::string::npos);
+  const std::string within = hdf5_file(path, [&](hid_t file, hid_t space) {
+    const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_virtual(made, space, ".", "/time_s", space);
+    H5Dclose(H5Dcreate2(file, "copy_s", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, made, H5P_DEFAULT));
+    H5Pclose(made);
+  });
+  CHECK(csv_from_text(within, "a.h5").columns.size() == 2);
 }
 
 TEST_CASE("a second name of an array within an HDF5 file is no second column", "[io][csv]") {
