@@ -30,9 +30,23 @@ void limit_processor_time() {
   }).detach();
 }
 
+// ctest gives the name of a test as an argument, where Catch2 reads signs at its begin as an option, a pattern
+// or a tag. Refused while ctest's list is made, thus when the test is built.
+bool has_names_for_arguments() {
+  bool good = true;
+  for (const Catch::TestCase& test : Catch::getRegistryHub().getTestCaseRegistry().getAllTests()) {
+    if (test.name.find_first_of("-~*[\"@") != 0) continue;
+    std::fprintf(stderr, "the name of a test begins with a sign that Catch2 reads: %s\n",
+                 test.name.c_str());
+    good = false;
+  }
+  return good;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (!has_names_for_arguments()) return 2;
   limit_processor_time();
   viscard::keep_freed_memory();  // as the executable does, so that a study measures its times
   return Catch::Session().run(argc, argv);

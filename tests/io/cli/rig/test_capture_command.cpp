@@ -269,7 +269,7 @@ TEST_CASE("a capture that is given as another kind of test is refused with the w
   }
 }
 
-TEST_CASE("--force of a capture replaces captures and empty files, and nothing else",
+TEST_CASE("a capture with --force replaces captures and empty files, and nothing else",
           "[cli][capture][pty]") {
   const ScratchFolder folder;
   const std::filesystem::path material = folder / "material.json", empty = folder / "empty.viscap",
