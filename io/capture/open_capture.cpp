@@ -6,8 +6,6 @@
 
 #include <sqlite3.h>
 
-#include <cerrno>
-#include <cstring>
 #include <stdexcept>
 
 namespace viscard {
@@ -57,7 +55,7 @@ OpenCapture::OpenCapture(const fs::path& path) : path_(path) {
 // Every transaction rewrites the page with the identity, so the identity that is
 // read with the log is that of the log.
 void OpenCapture::refuse_foreign_log() {
-  const fs::path file = copy_.empty() ? path_ : copy_ / "copy.viscap";
+  const fs::path file = copy_ ? *copy_ / "copy.viscap" : path_;
   bool is_foreign = !is_log_expected(file);
   if (!is_foreign) {
     Database alone(file, Database::Access::kMainFileOnly);
@@ -80,12 +78,6 @@ std::string OpenCapture::foreign_object() {
   }
 }
 
-OpenCapture::~OpenCapture() {
-  database_.reset();
-  std::error_code ignored;
-  if (!copy_.empty()) fs::remove_all(copy_, ignored);
-}
-
 void OpenCapture::explain(const SqliteError& error) const {
   if (error.code() == SQLITE_CORRUPT || error.code() == SQLITE_NOTADB) {
     throw std::runtime_error(path_.string() +
@@ -97,12 +89,8 @@ void OpenCapture::explain(const SqliteError& error) const {
 }
 
 void OpenCapture::open_copy() {
-  std::string folder = (fs::temp_directory_path() / "viscard-XXXXXX").string();
-  if (::mkdtemp(folder.data()) == nullptr) {
-    throw std::runtime_error(folder + ": cannot create: " + std::strerror(errno));
-  }
-  copy_ = folder;
-  const fs::path file = copy_ / "copy.viscap";
+  copy_.emplace();
+  const fs::path file = *copy_ / "copy.viscap";
   fs::copy_file(path_, file);
   if (has_journal(path_)) fs::copy_file(path_.string() + "-wal", file.string() + "-wal");
   database_.emplace(file, Database::Access::kReadWrite);

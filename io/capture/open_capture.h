@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/basics/temporary_folder.h"
 #include "io/capture/side_file_check.h"
 #include "io/capture/sqlite_database.h"
 
@@ -13,7 +14,6 @@ namespace viscard {
 class OpenCapture {
  public:
   explicit OpenCapture(const std::filesystem::path& path);
-  ~OpenCapture();
   OpenCapture(const OpenCapture&) = delete;
   OpenCapture& operator=(const OpenCapture&) = delete;
 
@@ -30,7 +30,8 @@ class OpenCapture {
   void refuse_foreign_log();
   std::string foreign_object();
 
-  std::filesystem::path path_, copy_;
+  std::filesystem::path path_;
+  std::optional<TemporaryFolder> copy_;
   std::optional<Database> database_;
   bool is_running_ = false;
   SideFileCheck side_file_;

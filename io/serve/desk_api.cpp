@@ -1,25 +1,22 @@
 #include "io/serve/desk_api.h"
 
 #include "io/basics/atomic_file.h"
-#include "io/basics/data_folder.h"
 #include "io/basics/program.h"
+#include "io/basics/temporary_folder.h"
 #include "io/basics/words.h"
-#include "io/basics/words_file.h"
 #include "io/flow/words/fit_words.h"
 #include "io/flow/words/predict_words.h"
 #include "io/materials/material_file.h"
 #include "io/serve/api_error.h"
+#include "io/serve/desk_scenes.h"
 #include "io/serve/desk_words.h"
 #include "io/serve/series_json.h"
 #include "io/tables/column_names.h"
 
 #include <nlohmann/json.hpp>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -41,10 +38,6 @@ const Texts& card_options_offered() {
   return kNames;
 }
 
-Json answered(const Texts& words, Json result) {
-  return {{"command", typed(words)}, {"result", std::move(result)}};
-}
-
 // True if this file is the material that the command would write of tables with these sums.
 bool is_material_of(const std::filesystem::path& path, const std::string& command,
                     const Texts& sha256) {
@@ -60,52 +53,6 @@ bool is_material_of(const std::filesystem::path& path, const std::string& comman
   }
 }
 
-// Words for every page of this folder, one a line: --logo=logo.svg.
-constexpr const char* kReportOptions = "report.options";
-
-Texts report_options(const std::filesystem::path& file) {
-  return std::filesystem::exists(file) ? words_of_file(file) : Texts{};
-}
-
-// Options of report that viscard.report() of Python has too.
-struct ReportPythonWords {
-  std::optional<std::string> title, logo, units, plausible;
-  std::vector<std::string> card;
-  bool reproducible = false;
-};
-
-OptionList options_of(ReportPythonWords& words) {
-  OptionList list;
-  list.add("title", &words.title, "");
-  list.add("logo", &words.logo, "");
-  list.add("units", &words.units, "");
-  list.add("card", &words.card, "");
-  list.add("plausible", &words.plausible, "");
-  list.add("reproducible", &words.reproducible, "");
-  return list;
-}
-
-constexpr std::size_t kLongestScene_B = std::size_t{1} << 20;
-
-// Name and first line of the scenes that come with viscard.
-Json example_scenes() {
-  Json examples = Json::array();
-  std::error_code error;
-  std::vector<std::filesystem::path> files;
-  for (std::filesystem::directory_iterator entry(data_folder() / "scenes", error), end;
-       !error && entry != end; entry.increment(error)) {
-    if (entry->path().extension() == ".toml") files.push_back(entry->path());
-  }
-  std::sort(files.begin(), files.end());
-  for (const std::filesystem::path& file : files) {
-    const std::string text = read_own_file(file);
-    const std::string first = text.substr(0, text.find('\n'));
-    examples.push_back({{"name", file.filename().string()},
-                        {"what", first.substr(std::min<std::size_t>(2, first.size()))}});
-  }
-  return examples;
-}
-
 // The names that a material of these tables may have.
 std::string numbered(const std::string& stem, int n) {
   return stem + (n > 1 ? "." + std::to_string(n) : "") + ".json";
@@ -114,45 +61,6 @@ std::string numbered(const std::string& stem, int n) {
 // A line that may be typed again and in another folder: the fit does not replace its material.
 std::string unless_there(const std::string& name, const Texts& fit) {
   return quoted_for_shell({"test", "-e", word_of_file(name)}) + " || " + typed(fit);
-}
-
-// A folder of a command's outputs, for one request.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "viscard-desk-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error(name + ": cannot create a folder: " + std::strerror(errno));
-    }
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-// The pictures below a folder, by name, as many as a page can show.
-Json pictures_in(const std::filesystem::path& folder) {
-  constexpr std::size_t kMost = 12, kLargest_B = std::size_t{4} << 20;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.path().extension() == ".svg" && entry.file_size() <= kLargest_B)
-      files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  Json pictures = Json::array();
-  for (const std::filesystem::path& file : files) {
-    if (pictures.size() == kMost) break;
-    pictures.push_back({{"name", file.stem().string()}, {"svg", read_own_file(file)}});
-  }
-  return pictures;
 }
 
 }  // namespace
@@ -286,7 +194,7 @@ Json DeskApi::fit(const Json& request) {
 }
 
 Json DeskApi::fit_of_rubber(const DeskTables& tables) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::string picture = (scratch.path() / "stresses_over_stretch.svg").string();
   Json answer = answered(fit_words(tables), result_of(fit_words(tables, {"--svg=" + picture})));
   answer["pictures"] = pictures_in(scratch.path());
@@ -295,7 +203,7 @@ Json DeskApi::fit_of_rubber(const DeskTables& tables) {
 
 // The file of a law of rubber does not state its command, but the same fit gives the same bytes.
 std::string DeskApi::write_law_of_rubber(const DeskTables& tables) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::filesystem::path law = scratch.path() / "law.json";
   result_of(fit_words(tables, {"--out=" + law.string()}));
   const std::string text = read_own_file(law);
@@ -402,122 +310,6 @@ Json DeskApi::check(const Json& request) {
   words[1] = "--check=CARD";
   answer["command"] = typed(words);
   return answer;
-}
-
-Json DeskApi::open_scene(const Json& request) {
-  if (!request.contains("example")) {
-    std::string name = text_at(request, "scene");
-    folder_.require_scene(name);
-    if (request.contains("text")) {
-      const std::string text = text_at(request, "text");
-      if (text.size() > kLongestScene_B) {
-        throw ApiError(400, "bad-value", "a scene has at most 1 MiB of text");
-      }
-      const std::lock_guard<std::mutex> lock(writing_);
-      name = folder_.keep_scene(name, text);
-    }
-    return {{"scene", name}, {"text", read_own_file(folder_.path() / name)}};
-  }
-  const std::string example = text_at(request, "example");
-  const Json known = example_scenes();
-  const bool is_known = std::any_of(known.begin(), known.end(),
-                                    [&](const Json& one) { return one["name"] == example; });
-  if (!is_known)
-    throw ApiError(404, "no-such-file", "no example '" + example + "' comes with viscard");
-  const std::filesystem::path data = data_folder();
-  std::string text = read_own_file(data / "scenes" / example);
-  // The files that it names stay where they are.
-  const std::string up = "\"../", there = "\"" + data.string() + "/";
-  for (std::size_t at = text.find(up); at != std::string::npos;
-       at = text.find(up, at + there.size())) {
-    text.replace(at, up.size(), there);
-  }
-  const std::lock_guard<std::mutex> lock(writing_);
-  text = kSceneHead + (", of the example " + example) + "\n" + text;
-  return {{"scene", folder_.keep_new(example, text)}, {"text", text}};
-}
-
-Json DeskApi::scene(const Json& request) {
-  const std::string name = text_at(request, "scene"), what = text_at(request, "what");
-  folder_.require_scene(name);
-  Texts more;
-  if (what != "drawing" && request.contains("tol")) add_value("tol", request.at("tol"), more);
-  if (what == "plan") {
-    const Texts words = command_words("plan", name, more);
-    return answered(words, result_of(words));
-  }
-  if (what == "cost") {
-    const Texts words = command_words("cost", name, {}, {"--budget=10s"});
-    return answered(words, result_of(words));
-  }
-  const ScratchFolder scratch;
-  const std::string out = (scratch.path() / "out").string();
-  Texts words = what == "drawing" ? Texts{"scene", "check", word_of_file(name)}
-                                  : command_words("simulate", name, more);
-  if (what != "drawing" && what != "answer") {
-    throw ApiError(400, "bad-value", "'what' is drawing, plan, cost or answer");
-  }
-  const std::string shown = typed(words);
-  words.push_back(what == "drawing" ? "--svg=" + out + ".svg" : "--out=" + out);
-  Json answer{
-      {"command", shown}, {"result", result_of(words)}, {"pictures", pictures_in(scratch.path())}};
-  return answer;
-}
-
-Json DeskApi::report(const Json& request) {
-  if (!request.contains("tables") || !request.at("tables").is_array() ||
-      request.at("tables").empty()) {
-    throw ApiError(400, "bad-value", "the report needs tables; choose at least one");
-  }
-  Texts files;
-  Json notes = Json::array();
-  for (const Json& one : request.at("tables")) {
-    if (!one.is_string()) throw ApiError(400, "bad-value", "'tables' are names of files");
-    const auto table = one.get<std::string>();
-    const Json of_table{{"table", table}};
-    const DeskTables kept = tables_of(of_table, folder_);
-    const bool is_fitted_alike =
-        !kept.is_rubber &&
-        std::all_of(kept.options.begin(), kept.options.end(),
-                    [](const std::string& word) { return word.starts_with("--density="); });
-    if (is_fitted_alike) files.push_back(word_of_file(table));
-    if (is_fitted_alike && kept.options.empty()) continue;
-    const std::string material = write_material(of_table).name;
-    files.push_back(word_of_file(material));
-    if (is_fitted_alike) continue;
-    notes.push_back(table + " is shown by " + material + ", which was fitted with " +
-                    quoted_for_shell(words_to_keep(kept)) +
-                    ", without its data and residuals: viscard report takes no options of a fit");
-  }
-  // A title that is typed on the page stands for that of the file.
-  const bool has_title = request.contains("title");
-  Texts options;
-  for (const std::string& word : report_options(folder_.path() / kReportOptions)) {
-    if (!has_title || !word.starts_with("--title=")) options.push_back(word);
-  }
-  if (has_title) add_value("title", request.at("title"), options);
-  Texts words{"report"};
-  for (const Texts* part : {&files, &options})
-    words.insert(words.end(), part->begin(), part->end());
-  const ScratchFolder scratch;
-  const std::filesystem::path page = scratch.path() / "report.html";
-  const std::string shown = typed(words);
-  words.push_back("--out=" + page.string());
-  const Json result = result_of(words);
-  const std::string html = read_own_file(page);
-  const std::lock_guard<std::mutex> lock(writing_);
-  const std::string name = folder_.keep_new("report.html", html);
-  // The command and Python would not replace it.
-  const std::string next = folder_.free_name("report.html");
-  ReportPythonWords unused;
-  return {{"command", shown + " --out " + next},
-          {"result", result},
-          {"name", name},
-          {"html", html},
-          {"next_name", next},
-          {"files", files},
-          {"options", options_of_words(options, options_of(unused))},
-          {"notes", std::move(notes)}};
 }
 
 void DeskApi::close() {

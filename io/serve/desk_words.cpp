@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -312,6 +313,10 @@ std::string typed(const Texts& words) {
   Texts all{"viscard"};
   all.insert(all.end(), words.begin(), words.end());
   return quoted_for_shell(all);
+}
+
+Json answered(const Texts& words, Json result) {
+  return {{"command", typed(words)}, {"result", std::move(result)}};
 }
 
 }  // namespace viscard

@@ -60,5 +60,8 @@ std::vector<std::string> command_words(const char* command, const std::string& f
                                        const std::vector<std::string>& more = {});
 // As a person types it in the folder.
 std::string typed(const std::vector<std::string>& words);
+// {"command": as typed, "result"}.
+nlohmann::ordered_json answered(const std::vector<std::string>& words,
+                                nlohmann::ordered_json result);
 
 }  // namespace viscard

@@ -2,23 +2,9 @@
 
 #include "io/cli/command.h"
 
-#include <stdlib.h>
-
 #include <sstream>
-#include <stdexcept>
 
 namespace viscard::test {
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "viscard-flow-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 CommandRun run_words(const std::vector<std::string>& words) {
   std::ostringstream out;

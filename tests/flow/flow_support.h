@@ -1,23 +1,11 @@
 #pragma once
 
-#include <filesystem>
+#include "tests/support/scratch_folder.h"
+
 #include <string>
 #include <vector>
 
 namespace viscard::test {
-
-// A folder that the destructor removes.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // What one `viscard WORDS...` printed and returned, run in this process.
 struct CommandRun {

@@ -32,7 +32,7 @@ std::string with(const std::string& text, const std::string& from, double share)
   return text.substr(0, at) + fmt::format("g = {}", share) + text.substr(at + from.size());
 }
 
-std::string truth_of(const Specimen& specimen, const TemporaryFolder& folder) {
+std::string truth_of(const Specimen& specimen, const ScratchFolder& folder) {
   std::string text = read_file(demo_file("03_pdms_1to10.truth.toml"));
   text = with(text, "g = 0.008206", specimen.g[0]);
   text = with(text, "g = 0.01386", specimen.g[1]);
@@ -43,7 +43,7 @@ std::string truth_of(const Specimen& specimen, const TemporaryFolder& folder) {
 
 // A capture on the emulated rig.
 std::string captured(const Specimen& specimen, const std::string& protocol, int seed,
-                     const TemporaryFolder& folder) {
+                     const ScratchFolder& folder) {
   const std::string capture = folder / "run.viscap";
   const CommandRun run =
       run_words({"capture", "--emulate", "--truth", truth_of(specimen, folder), "--seed",
@@ -105,7 +105,7 @@ std::string protocol_file(const std::string& name) {
   return VISCARD_SOURCE_DIR "/data/protocols/" + name + ".toml";
 }
 
-std::string short_creep(const TemporaryFolder& folder) {
+std::string short_creep(const ScratchFolder& folder) {
   const std::string file = folder / "creep.toml";
   write_file(file,
              "protocol = \"creep\"\n[approach]\nspeed = \"0.05 mm/s\"\ncontact_force = \"10 mN\"\n"
@@ -118,7 +118,7 @@ std::string short_creep(const TemporaryFolder& folder) {
 }  // namespace
 
 TEST_CASE("creep of a specimen that relaxes by a sixth is fitted with both terms", "[flow][pty]") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const nlohmann::json fit = fitted(captured(kStrong, short_creep(folder), 1, folder));
   REQUIRE(fit["terms"].size() == 2);
   Coverage all;
@@ -129,7 +129,7 @@ TEST_CASE("creep of a specimen that relaxes by a sixth is fitted with both terms
 
 TEST_CASE("creep with a term that the loading hides has intervals that hold the truth, and a flag",
           "[flow][pty]") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string capture = captured(kWeak, short_creep(folder), 1, folder);
   const nlohmann::json fit = fitted(capture);
   REQUIRE(fit["terms"].size() == 1);
@@ -147,7 +147,7 @@ TEST_CASE("creep with a term that the loading hides has intervals that hold the 
 TEST_CASE("intervals of captures with a fast term hold the truth, in all protocols",
           "[flow][slow]") {
   constexpr int kSeeds = 24;
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::cout << "| protocol | specimen | E0 | E_inf | g_i | tau_i | pooled | flagged |\n";
   for (const char* protocol : {"creep", "levels", "staircase", "cycles"}) {
     for (const Specimen& specimen : {kWeak, kStrong}) {

@@ -44,7 +44,7 @@ double half_width_of_sum_g(const Material& material) {
   return 1.96 * std::sqrt(gradient.dot(uncertainty.covariance * gradient));
 }
 
-Recovery recover(const TemporaryFolder& folder, const std::string& stem, int seed) {
+Recovery recover(const ScratchFolder& folder, const std::string& stem, int seed) {
   const std::string capture = folder / (stem + "-" + std::to_string(seed) + ".viscap");
   const std::string fitted = folder / (stem + "-" + std::to_string(seed) + ".json");
   const CommandRun captured =
@@ -73,7 +73,7 @@ struct Tally {
 };
 
 Tally study(int n_seeds) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Tally tally;
   for (const char* stem : kStems) {
     for (int seed = 1; seed <= n_seeds; ++seed) {

@@ -177,7 +177,7 @@ StatedVoltage stated_voltage(const std::string& scene) {
 }
 
 // Calibration, captures, joint fit, voltage: all that is known of the bench are the files.
-StatedVoltage measured_voltage(const TemporaryFolder& folder, const TrueBench& bench, int seed) {
+StatedVoltage measured_voltage(const ScratchFolder& folder, const TrueBench& bench, int seed) {
   const auto file = [&](const std::string& name, const std::string& text) {
     write_file(folder / name, text, true);
     return (folder / name).string();
@@ -204,7 +204,7 @@ StatedVoltage measured_voltage(const TemporaryFolder& folder, const TrueBench& b
 }
 
 // The voltage of a pillar of known modulus.
-double voltage_V(const TemporaryFolder& folder, double E0_Pa) {
+double voltage_V(const ScratchFolder& folder, double E0_Pa) {
   const std::string scene = folder / "true.toml";
   write_file(scene, scene_toml(fmt::format("{{ E = {}, nu = {} }}", E0_Pa, kNu)), true);
   const auto json = nlohmann::json::parse(printed_by({"simulate", scene, "--json"}));
@@ -219,7 +219,7 @@ struct VoltageTally {
 };
 
 VoltageTally voltages_of_seeds(int n_seeds) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   VoltageTally tally;
   for (int seed = 1; seed <= n_seeds; ++seed) {
     CAPTURE(seed);

@@ -37,7 +37,7 @@ std::string must_run(const std::vector<std::string>& words) {
 }  // namespace
 
 TEST_CASE("a capture becomes a card, a validated pillar and a page", "[flow][pty]") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string test_file = folder / "test.toml";
   write_file(test_file, kShortTest, false);
   const std::string capture = folder / "run.viscap";
@@ -71,7 +71,7 @@ TEST_CASE("a capture becomes a card, a validated pillar and a page", "[flow][pty
 }
 
 TEST_CASE("no file is overwritten without --force", "[flow][pty]") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string capture = folder / "run.viscap";
   write_file(capture, "somebody's data", false);
   const CommandRun run =

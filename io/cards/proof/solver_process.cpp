@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/temporary_folder.h"
 #include "io/cards/card.h"
 #include "io/cards/proof/solver.h"
 
@@ -6,7 +7,6 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -120,56 +120,6 @@ std::uintmax_t size_of_folder(const std::filesystem::path& folder) {
   }
   return size;
 }
-
-// Folders of proofs that were ended by kill -9: "viscard-proof-PID-abcdef" of a process that is gone.
-void remove_abandoned_folders() {
-  const std::string begin = "viscard-proof-";
-  std::error_code error;
-  for (std::filesystem::directory_iterator
-           entry(std::filesystem::temp_directory_path(error), error),
-       end;
-       !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    const std::size_t dash = name.find('-', begin.size());
-    if (!name.starts_with(begin) || dash == std::string::npos) continue;
-    const std::string pid = name.substr(begin.size(), dash - begin.size());
-    if (pid.empty() || pid.size() > 9 || pid.find_first_not_of("0123456789") != std::string::npos) {
-      continue;
-    }
-    struct stat folder {};
-    const bool is_own = ::lstat(entry->path().c_str(), &folder) == 0 && S_ISDIR(folder.st_mode) &&
-                        folder.st_uid == ::geteuid();
-    std::error_code ignored;
-    if (is_own && ::kill(static_cast<pid_t>(std::stol(pid)), 0) != 0 && errno == ESRCH) {
-      std::filesystem::remove_all(entry->path(), ignored);
-    }
-  }
-}
-
-// Removed with its files by the destructor.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    remove_abandoned_folders();
-    const std::string name = "viscard-proof-" + std::to_string(::getpid()) + "-XXXXXX";
-    std::string pattern = (std::filesystem::temp_directory_path() / name).string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
-      throw std::runtime_error("cannot make a folder in " +
-                               std::filesystem::temp_directory_path().string());
-    }
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Runs in the child process and never returns. Everything printed is added to the file "log". The child
 // leads a process group of its own, with what it starts, and ends when the parent does.

@@ -47,7 +47,7 @@ bool is_alive(pid_t pid) {
 }
 
 bool has_folder_of(pid_t process) {
-  const std::string begin = "viscard-proof-" + std::to_string(process) + "-";
+  const std::string begin = "viscard-folder-" + std::to_string(process) + "-";
   for (const auto& entry :
        std::filesystem::directory_iterator(std::filesystem::temp_directory_path())) {
     if (entry.path().filename().string().starts_with(begin)) return true;
