@@ -63,6 +63,16 @@ void refuse_numbers_elsewhere(hid_t data, const char* name) {
     refuse_other_file(std::string("the numbers of '") + name + "'");
 }
 
+// The library also converts what a damaged description makes of numbers, such as a mantissa that begins three bits later.
+bool is_usual_number(hid_t type) {
+  if (H5Tget_class(type) == H5T_INTEGER) {
+    return H5Tget_offset(type) == 0 && H5Tget_precision(type) == 8 * H5Tget_size(type);
+  }
+  const std::array<hid_t, 4> known{H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_IEEE_F64BE, H5T_IEEE_F32BE};
+  return std::any_of(known.begin(), known.end(),
+                     [&](hid_t one) { return H5Tequal(type, one) > 0; });
+}
+
 void read_numbers(hid_t group, const char* name, NumberLimit& most,
                   std::vector<NamedColumn>& columns) {
   const Handle data(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
@@ -78,6 +88,12 @@ void read_numbers(hid_t group, const char* name, NumberLimit& most,
   if (size[0] == 0 || size[1] == 0 || size[0] > most.possible / size[1]) return;
   if (size[0] > most.left / size[1]) refuse_unpacked_numbers();
   refuse_numbers_elsewhere(data.id(), name);
+  if (!is_usual_number(type.id())) {
+    throw std::runtime_error(
+        std::string("has an array '") + name +
+        "' whose numbers are neither integers nor floats of 32 or 64 bits: the file is "
+        "damaged or has a type of its own; save the array as 64-bit numbers");
+  }
   most.left -= size[0] * size[1];
   std::vector<double> values(size[0] * size[1]);
   if (H5Dread(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {

@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -53,13 +54,15 @@ class Reader {
   bool lengths_fit(const Element& element, int depth = 0) const {
     if (element.type == kPacked || depth > kDeepest) return false;
     if (element.type != kMatrix) return true;
-    std::optional<Element> before;  // of the dimensions: what kind of array it is
+    Element flags, dimensions;  // flags: what kind of array it is
     int n_inner = 0;
     for (std::string_view rest = element.contents; !rest.empty(); ++n_inner) {
       const std::optional<Element> inner = first(rest);
       if (!inner || !lengths_fit(*inner, depth + 1)) return false;
-      if (n_inner == 1 && !dimensions_fit(*before, *inner, element.contents.size())) return false;
-      before = inner;
+      if (n_inner == 0) flags = *inner;
+      if (n_inner == 1) dimensions = *inner;
+      if (n_inner == 1 && !dimensions_fit(flags, *inner, element.contents.size())) return false;
+      if (n_inner > 2 && !numbers_fit(flags, dimensions, *inner)) return false;
       // Each begins at a multiple of 8 bytes; the last one may lack its padding.
       const auto end = static_cast<std::size_t>(inner->contents.end() - rest.begin());
       rest.remove_prefix(std::min(rest.size(), (end + 7) / 8 * 8));
@@ -84,6 +87,23 @@ class Reader {
       left /= size;
     }
     return true;
+  }
+
+  // True unless these are the numbers of an array, and their bytes are not those of its dimensions. Numbers may be stored in
+  // a smaller type than that of their array; only arrays of 64-bit integers have that type.
+  bool numbers_fit(const Element& flags, const Element& dimensions, const Element& numbers) const {
+    constexpr std::uint32_t kFirstNumeric = 6, kFirstOf64Bits = 14, kLastNumeric = 15;
+    constexpr std::array<std::size_t, 14> kSizes{0, 1, 1, 2, 2, 4, 4,
+                                                 4, 0, 8, 0, 0, 8, 8};  // by type
+    const std::uint32_t kind = word(flags.contents.data()) & 0xff;
+    if (kind < kFirstNumeric || kind > kLastNumeric) return true;
+    const std::size_t size = numbers.type < kSizes.size() ? kSizes[numbers.type] : 0;
+    if (size == 0 || (numbers.type > 9 && kind < kFirstOf64Bits)) return false;
+    std::size_t count = 1;  // at most the bytes of the array (dimensions_fit())
+    for (std::size_t at = 0; at + 4 <= dimensions.contents.size(); at += 4) {
+      count *= word(dimensions.contents.data() + at);
+    }
+    return numbers.contents.size() == count * size;
   }
 
   bool is_swapped_;

@@ -102,3 +102,29 @@ TEST_CASE("an array of an HDF5 file whose checksum fails is refused, not left ou
   bytes[at + 5] = static_cast<char>(bytes[at + 5] ^ 0x10);
   CHECK(hdf5_refusal(bytes).find("'modulus_Pa' that is damaged") != std::string::npos);
 }
+
+TEST_CASE("numbers of an HDF5 file with another mantissa or another width are refused",
+          "[io][csv]") {
+  const ScratchFolder folder;
+  const auto file_of = [&](hid_t type) {
+    return hdf5_file((folder.path() / "a.h5").string(), [&](hid_t file, hid_t space) {
+      const std::vector<double> modulus_Pa{1.5e6, 1.4e6, 1.3e6, 1.25e6};
+      const hid_t data =
+          H5Dcreate2(file, "modulus_Pa", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+      H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, modulus_Pa.data());
+      H5Dclose(data);
+    });
+  };
+  for (const hid_t usual : {H5T_IEEE_F32BE, H5T_IEEE_F64BE, H5T_STD_I32LE, H5T_STD_U64BE}) {
+    CHECK(csv_from_text(file_of(usual), "a.h5").columns.size() == 2);
+  }
+  const hid_t shorter = H5Tcopy(H5T_IEEE_F64LE);
+  H5Tset_fields(shorter, 63, 52, 11, 8, 44);
+  const hid_t narrow = H5Tcopy(H5T_STD_I32LE);
+  H5Tset_precision(narrow, 24);
+  for (const hid_t unusual : {shorter, narrow}) {
+    CHECK(hdf5_refusal(file_of(unusual)).find("'modulus_Pa' whose numbers are neither") !=
+          std::string::npos);
+    H5Tclose(unusual);
+  }
+}

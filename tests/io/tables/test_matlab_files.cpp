@@ -180,6 +180,19 @@ TEST_CASE("a MATLAB file that claims more than it holds is refused as damaged", 
   }
 }
 
+TEST_CASE("numbers of a MATLAB file whose bytes are not those of their type are refused as damaged",
+          "[io][csv]") {
+  const std::string good = array("t", 1, 3, {0.5, 1.0, 1.5});
+  constexpr std::size_t kTypeOfNumbers = 56;
+  REQUIRE(good[kTypeOfNumbers] == 9);
+  for (const int type : {1, 8, 11, 12, 13, 25}) {  // 13: integers of as many bytes
+    std::string bytes = good;
+    bytes[kTypeOfNumbers] = static_cast<char>(type);
+    CAPTURE(type);
+    CHECK(contains(refusal_of(matlab_file(bytes)), "a.mat: is a damaged MATLAB file"));
+  }
+}
+
 TEST_CASE("a packed element of a MATLAB file with a flipped byte is refused as damaged",
           "[io][csv]") {
   const std::string whole = packed(array("t", 1, 3, {0.5, 1.0, 1.5}));
