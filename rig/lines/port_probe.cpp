@@ -42,6 +42,10 @@ std::string trouble_text(const std::string& path, int error) {
     case EWOULDBLOCK:
       return "'" + path + "' is in use by another program (fuser " + path +
              " names it). Close that program, or wait for its run to end";
+    case EMFILE:
+    case ENFILE:
+      return "'" + path +
+             "' cannot be opened: too many files are open. Raise the limit (ulimit -n)";
     default:
       return "'" + path + "' cannot be opened: " + std::strerror(error) +
              ". Unplug the device, plug it in again, and retry";

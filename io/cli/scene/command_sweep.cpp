@@ -176,6 +176,7 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
                    .retries_failed = asked.retries_failed,
                    .is_answering = answers};
   how.on_gone = [&streams](const std::string& why) { streams.err << "viscard: " + why + "\n"; };
+  for (const std::string& part : asked.merge) check_study_store(part, study, how);
   StudyStore store(file, study, how);
   StudyOutcome outcome{.n_points = count_points(study)};
   std::int64_t merged = 0;

@@ -363,6 +363,12 @@ void StudyStore::for_each(const std::function<void(const StudyPoint&)>& take) {
   }
 }
 
+void check_study_store(const std::filesystem::path& path, const Study& study,
+                       const StoreOptions& options) {
+  bool is_recorded = false;
+  opened_to_read(path, study, options, is_recorded);
+}
+
 std::string csv_from_study(StudyStore& store, const Study& study) {
   // In the order in which the points first have them: some parameters change what is answered.
   std::vector<std::string> names;

@@ -4,8 +4,10 @@
 #include "tests/io/plots/markup.h"
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -191,6 +193,23 @@ TEST_CASE("a plot of nothing, of no size or without a proper id is refused", "[i
   plot.panels[0].x.is_log = true;
   plot.panels[0].series[0].x = {-1.0, 0.0, -3.0};
   CHECK_THROWS_WITH(svg_from_plot(plot, "a"), Catch::Contains("nothing to draw"));
+}
+
+TEST_CASE("a picture that the limit on the size of files cuts off is named so", "[io][plots]") {
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handled = std::signal(SIGXFSZ, SIG_IGN);  // as the program does
+  const rlimit small{4096, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+  std::string text;
+  try {
+    svg_from_plot(small_plot(), "a");
+  } catch (const std::runtime_error& error) {
+    text = error.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handled);
+  CHECK(text.find("ulimit -f") != std::string::npos);
 }
 
 TEST_CASE("without gnuplot the message says how to get it", "[io][report]") {

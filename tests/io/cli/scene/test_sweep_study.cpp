@@ -313,6 +313,16 @@ TEST_CASE("parts of a sweep that were answered with different materials are not 
   CHECK(says(outcome.err, "1.sqlite: its points were answered with other files"));
 }
 
+TEST_CASE("a merge of parts that cannot be read leaves no store", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string none = files.scene.beside("none.sqlite");
+  write_file(files.scene.beside("other.sqlite"), "no database", false);
+  for (const std::string& part : {none, files.scene.beside("other.sqlite")}) {
+    CHECK(files.sweep({"--out", files.store, "--merge", part}).status == 1);
+    CHECK_FALSE(std::filesystem::exists(files.store));
+  }
+}
+
 TEST_CASE("the table of a sweep has the sums of its inputs beside it", "[cli][scene][sweep]") {
   const FilmStudy files;
   const std::string table = files.scene.beside("a.csv");
