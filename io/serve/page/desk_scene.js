@@ -80,8 +80,9 @@ function solve() {
     showEffects(result.effects);
     showPictures(pictures);
     showSame(element("scene-same"), command, pythonOf("simulate"), result);
-    tell(result.within_tolerance ? `Every error is within the tolerance; ${result.unknowns} unknowns, ${significant(result.wall_s, 2)} s.`
-      : "Some errors are above the tolerance.", result.within_tolerance ? "good" : "alert");
+    const doubt = result.tolerance_doubt;
+    tell(doubt ? sentence(doubt) : `Errors and effects are within the tolerance; ${result.unknowns} unknowns, ${significant(result.wall_s, 2)} s.`,
+         doubt ? "alert" : "good");
   });
 }
 
