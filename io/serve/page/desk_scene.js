@@ -2,7 +2,7 @@
 import { order } from "./api.js";
 import { Chart } from "./charts.js";
 import { showSame } from "./desk_options.js";
-import { element, list, make, sentence, show, showText, significant } from "./format.js";
+import { axisOf, element, list, make, sentence, show, showText, significant } from "./format.js";
 
 let scene = "", kept = "", asked = 0, chart = null, refresh = () => {};
 
@@ -94,9 +94,11 @@ function cost() {
 }
 
 function showPictures(pictures) {
-  element("scene-pictures").replaceChildren(...pictures.map(({ name, svg }) =>
-    make("figure", {}, make("img", { src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`, alt: name.replaceAll("_", " ") }),
-         make("figcaption", {}, name.replaceAll("_", " ")))));
+  element("scene-pictures").replaceChildren(...pictures.map(({ name, svg }) => {
+    const caption = axisOf(name).label;  // "static_stress_zz_Pa"
+    return make("figure", {}, make("img", { src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`, alt: caption }),
+                make("figcaption", {}, caption));
+  }));
 }
 
 // A bar from a millionth to one of the answer.
