@@ -195,6 +195,9 @@ void compare(const TestPrediction& prediction, const BandedCurve& curve, Agreeme
   if (std::isfinite(found.noise_sigma)) {
     found.share_inside_band_and_noise = static_cast<double>(n_with_noise) / count;
   }
+  const double share = std::isfinite(found.noise_sigma) ? found.share_inside_band_and_noise
+                                                        : found.share_inside_band;
+  found.agrees = share >= kAgreeingShare;
 }
 
 std::vector<Agreement> agreement_with(const TestPrediction& prediction, const ReadTable& measured) {

@@ -9,6 +9,7 @@
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
+#include "models/answer/effect_estimate.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 
@@ -135,6 +136,7 @@ py::list fields_list(std::vector<SectionGrid> grids) {
 
 struct SceneOutcome {
   SceneAnswer answer;
+  double tolerance = 0.0;  // relative
   std::optional<SceneUncertainty> uncertainty;
   std::vector<SectionGrid> fields;
 };
@@ -146,6 +148,7 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   SceneOutcome found = in_background({.progress = progress}, [=](Job& job) {
     const SceneFile file = scene_of(text, path, tolerance, plausible);
     SceneOutcome outcome;
+    outcome.tolerance = common(file.scene).tolerance;
     outcome.answer = answer_scene(
         file, path, [&](double done, const std::string& point) { job.report(done, point); });
     add_notes_of_file(file, outcome.answer);
@@ -169,6 +172,8 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   }
   out["results"] = results;
   out["modes"] = modes_list(answer);
+  out["tolerance"] =
+      values_from_keys([&](ResultVisitor& v) { show_tolerance(v, answer, found.tolerance); });
   out["effects"] = values_from_keys([&](ResultVisitor& v) {
     v("effects", answer.effects, "every effect and why it is on or off");
   })["effects"];
@@ -177,7 +182,6 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   out["x_m"] = array_over(answer.array.pillars, [](const ScenePillar& p) { return p.x_m; });
   out["y_m"] = array_over(answer.array.pillars, [](const ScenePillar& p) { return p.y_m; });
   out["notes"] = answer.notes;
-  out["within_tolerance"] = answer.within_tolerance;
   out["unknowns"] = answer.unknowns;
   out["fields"] = fields_list(std::move(found.fields));
   out["uncertainty"] = py::none();

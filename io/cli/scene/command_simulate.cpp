@@ -203,7 +203,8 @@ int run_simulate(const Words& words, Streams& streams) {
   const int code =
       missing != nullptr && is_missing(*missing) && missing->estimate > 1.0 ? kFailed : kDone;
   if (print_result(syntax, {"viscard-simulate/1", {path}}, show, streams)) return code;
-  streams.out << path << missing_effects(shown) << "\n";
+  const std::string doubt = tolerance_doubt(answer, shown.tolerance);
+  streams.out << path << (doubt.empty() ? "" : ": ") << doubt << "\n";
   print_answer(answer, shown.wall_s, FittedText(streams));
   print_comparison(shown.printed, FittedText(streams));
   if (shown.compared) print_compared(*shown.compared, FittedText(streams));

@@ -166,6 +166,11 @@ class Answer(Tabular):
         end; if they are more than 2.5 %, "interval_95" is None and "no_interval" says why.
     notes : list of str
     within_tolerance : bool
+        Every error estimate meets the tolerance.
+    effects_within_tolerance : bool
+        No effect that is not computed may change the results by more than the tolerance.
+    tolerance_doubt : str
+        Why the results are not within the tolerance, of both; "": they are. `simulate` warns of it with DoubtWarning.
     unknowns : int
 
     Examples
@@ -189,7 +194,9 @@ class Answer(Tabular):
         self.effects: List[Effect] = found["effects"]
         self.uncertainty: Optional[Uncertainty] = _uncertainty(found["uncertainty"])
         self.notes: List[str] = found["notes"]
-        self.within_tolerance: bool = found["within_tolerance"]
+        self.within_tolerance: bool = found["tolerance"]["within_tolerance"]
+        self.effects_within_tolerance: bool = found["tolerance"]["effects_within_tolerance"]
+        self.tolerance_doubt: str = found["tolerance"]["tolerance_doubt"]
         self.unknowns: int = found["unknowns"]
 
     def __getitem__(self, name: str) -> float:

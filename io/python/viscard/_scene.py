@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import tempfile
+import warnings
 from collections.abc import Mapping
 from typing import Any, Callable, Dict, List, Optional, Tuple, TypeVar, Union
 
@@ -15,7 +16,7 @@ from ._answer import Answer, Cost, Plan
 from ._types import Floats, Numbers, OptionalPath, Progress, Scene
 
 _T = TypeVar("_T")
-from ._error import Error
+from ._error import DoubtWarning, Error
 from ._material import Material
 
 
@@ -153,8 +154,12 @@ def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False,
     if samples is not None and not uncertainty:
         raise Error("samples belongs to uncertainty=True; give both", "usage")
     tolerance = None if tol is None else float(tol)
-    return Answer(_with_scene(scene, folder, lambda text, path: _core.simulate(
+    answer = Answer(_with_scene(scene, folder, lambda text, path: _core.simulate(
         text, path, tolerance, fields, uncertainty, _arrays.whole(samples, "samples", 1), plausible, progress)))
+    if answer.tolerance_doubt:
+        name = "the scene" if isinstance(scene, Mapping) else os.fspath(scene)
+        warnings.warn(f"{name}: {answer.tolerance_doubt}", DoubtWarning, stacklevel=3)
+    return answer
 
 
 @_check.arguments

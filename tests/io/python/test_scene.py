@@ -4,6 +4,7 @@ import json
 import subprocess
 import threading
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -31,6 +32,32 @@ def test_an_answer_equals_the_command_line(program):
             {name: v["value"] for name, v in printed["results"].items()}
         np.testing.assert_array_equal(answer.frequencies_Hz, [m["frequency_Hz"] for m in printed["modes"]])
         assert answer.unknowns == printed["unknowns"]
+
+
+def test_an_effect_that_is_not_computed_is_doubted_as_the_command_does(program, tmp_path):
+    bent = {"tolerance": 1e-2, "geometry": {"diameter": "40 um", "length": "120 um"},
+            "materials": {"pillar": {"E": "1.8 MPa", "nu": 0.33, "rho": "965 kg/m3"}},
+            "analysis": {"kind": "static", "load": {"shear": "10 kPa", "on": "top", "direction": "lateral"}}}
+    with pytest.warns(viscard.DoubtWarning, match="not within the tolerance: finite_strain is not computed"):
+        answer = viscard.simulate(bent)
+    assert answer.within_tolerance and not answer.effects_within_tolerance
+    file = tmp_path / "bent.toml"
+    file.write_text("""tolerance = 1e-2
+[geometry]
+diameter = "40 um"
+length = "120 um"
+[materials]
+pillar = { E = "1.8 MPa", nu = 0.33, rho = "965 kg/m3" }
+[analysis]
+kind = "static"
+load = { shear = "10 kPa", on = "top", direction = "lateral" }
+""")
+    printed = subprocess.run([program, "simulate", file], capture_output=True, text=True, check=True).stdout
+    assert printed.split("\n")[0] == f"{file}: {answer.tolerance_doubt}"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", viscard.DoubtWarning)
+        answer = viscard.simulate({**bent, "tolerance": 0.5})
+    assert answer.effects_within_tolerance and answer.tolerance_doubt == ""
 
 
 def test_a_dict_equals_its_file():

@@ -74,8 +74,30 @@ TEST_CASE("a fitted material predicts its own data to the noise, with a band", "
   CHECK(found["share_inside_band"].get<double>() < 0.6);
   CHECK(found["rms_relative"].get<double>() < 3e-4);
   CHECK(std::abs(found["worst"].get<double>()) >= found["rms"].get<double>());
+  CHECK(found["agrees"] == true);
+  const auto& measured = json["against"]["measured"][0];
+  CHECK(measured["quantity"] == "modulus_Pa");
+  CHECK(measured["at"].size() == found["n"]);
+  CHECK(measured["values"].size() == found["n"]);
   CHECK(json["curve"]["modulus_Pa_low_95"].size() == json["curve"]["time_s"].size());
   CHECK_THAT(read_file(folder.file("E.svg")), Contains("95 % band") && Contains("measured"));
+}
+
+TEST_CASE("a prediction that lies apart from a table disagrees, in words and as a key", "[cli]") {
+  const TableFolder folder;
+  const std::string material = fitted_example(folder);
+  const PronySeries series = young_series(read_material(material).material);
+  std::ostringstream text;
+  text << "time_s,modulus_Pa\n";
+  for (int i = 0; i < 40; ++i) {
+    const double t_s = 0.1 * (i + 1);
+    text << t_s << "," << 1.1 * relaxation_modulus_Pa(series, t_s) << "\n";
+  }
+  const std::string table = folder.write("other.csv", text.str());
+  const auto found = predicted({material, "--against", table})["against"]["quantities"][0];
+  CHECK(found["agrees"] == false);
+  CHECK_THAT(run_command({"predict", material, "--against", table}).out,
+             Contains(": they disagree"));
 }
 
 TEST_CASE("a predicted creep test is read by fit again and gives the same material", "[cli]") {

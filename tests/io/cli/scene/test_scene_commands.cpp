@@ -114,6 +114,9 @@ load = { shear = ")") + c.shear +
   CHECK(text.status == c.status);
   const std::string first = text.out.substr(0, text.out.find('\n'));
   CHECK((first.find("finite_strain is not computed") != std::string::npos) == !c.is_within);
+  // Other interfaces show the same text.
+  const auto doubt = nlohmann::json::parse(json.out)["tolerance_doubt"].get<std::string>();
+  CHECK(first == scene.path() + (c.is_within ? "" : ": " + doubt));
 }
 
 TEST_CASE("the plan is one object with every effect, estimate and reason", "[cli][scene]") {
