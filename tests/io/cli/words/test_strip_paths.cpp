@@ -1,6 +1,7 @@
 // What is written with --strip-paths.
 #include "io/basics/atomic_file.h"
 #include "io/basics/written_path.h"
+#include "io/cli/words/folderless_stream.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -171,6 +173,22 @@ TEST_CASE("a text loses the folders of files that the command reads, and no othe
   CHECK(written_text("no '../../hidden/deep/m.json' here") == "no 'm.json' here");
   strip_written_paths(false);
   CHECK(written_text("/home/Anna Miller/data/b.csv") == "/home/Anna Miller/data/b.csv");
+}
+
+TEST_CASE("a question without a line break is printed when it is flushed, without folders",
+          "[cli]") {
+  strip_written_paths(true);
+  remember_folder_of("/home/anna/soft.toml");
+  std::ostringstream shown;
+  {
+    FolderlessStream stream(shown);
+    stream << "Put /home/anna/";
+    CHECK(shown.str().empty());
+    stream << "soft.toml under the punch: " << std::flush;
+    CHECK(shown.str() == "Put soft.toml under the punch: ");
+  }
+  CHECK(shown.str() == "Put soft.toml under the punch: ");
+  strip_written_paths(false);
 }
 
 TEST_CASE("only absolute paths are cut, in words too", "[cli]") {
