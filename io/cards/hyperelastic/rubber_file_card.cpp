@@ -4,6 +4,7 @@
 #include "io/basics/written_path.h"
 #include "io/cards/card_header.h"
 #include "io/cards/card_sum.h"
+#include "io/cards/header_name.h"
 #include "io/cards/hyperelastic/check_rubber.h"
 #include "io/cards/hyperelastic/rubber_targets.h"
 #include "io/cards/unit_system.h"
@@ -114,11 +115,11 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
                     text_of(stable.high, 3) + (stable.high_is_open ? " and more" : "")));
   }
   for (const auto& raw : file.raw_files)
-    lines.push_back("raw data " + written_path(raw.file) +
+    lines.push_back("raw data " + name_in_header(written_path(raw.file)) +
                     (raw.sha256.empty() ? " in memory" : " sha256 " + raw.sha256));
   if (!options.file_sha256.empty())
-    lines.push_back("material file " + written_path(options.file_name) + " sha256 " +
-                    options.file_sha256);
+    lines.push_back("material file " + name_in_header(written_path(options.file_name)) +
+                    " sha256 " + options.file_sha256);
   lines.push_back(unsealed_sum_line());
   if (!options.created_at.empty()) lines.push_back("created " + options.created_at);
   if (!options.command.empty()) lines.push_back("by " + options.command);

@@ -1,5 +1,6 @@
 #include "io/cli/words/output_paths.h"
 
+#include "io/basics/output_name.h"
 #include "io/cli/words/streams.h"
 
 #include <unistd.h>
@@ -130,6 +131,7 @@ void check_output_paths(const CommandSyntax& syntax) {
     if (!path.is_output) continue;
     refuse_shared_file(path, paths);
     refuse_unwritable_folder(path);
+    refuse_output_name(path.path);
     const auto& may_exist = syntax.may_exist;
     if (std::find(may_exist.begin(), may_exist.end(), path.option) != may_exist.end()) continue;
     refuse_folder_as_file(path.option, path.path);

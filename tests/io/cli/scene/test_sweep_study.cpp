@@ -468,6 +468,20 @@ TEST_CASE("a store of another study keeps its bytes, and a link that leads nowhe
   CHECK_FALSE(std::filesystem::exists(files.scene.beside("nothing.sqlite")));
 }
 
+TEST_CASE("a sweep deletes no log of a store that was moved away", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string log = files.store + "-wal";
+  write_file(log, "the newest points", false);
+  for (const bool is_empty : {false, true}) {
+    if (is_empty) write_file(files.store, "", false);
+    const CommandOutcome refused = files.sweep({"--out", files.store});
+    CHECK(refused.status == 1);
+    CHECK(says(refused.err, log + " belongs to an earlier sweep whose main file is gone"));
+    CHECK(read_file(log) == "the newest points");
+    CHECK(std::filesystem::exists(files.store) == is_empty);
+  }
+}
+
 #ifndef __SANITIZE_ADDRESS__  // whose shadow needs terabytes of addresses
 TEST_CASE("a lack of memory is no answer of a point", "[cli][scene][sweep]") {
   const ScratchFolder folder;

@@ -46,6 +46,34 @@ TEST_CASE("no output replaces an input of the same command, even with --force", 
   }
 }
 
+TEST_CASE("no output replaces the side file of a database, or a link that leads to nothing",
+          "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string table = VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv";
+  const auto answer = [&](const std::string& out, bool is_forced) {
+    std::vector<std::string> words{"fit", table, "--out", out};
+    if (is_forced) words.emplace_back("--force");
+    const auto outcome = run_command(words);
+    CHECK(outcome.status == kFailed);
+    return outcome.err;
+  };
+  const std::string database = (folder / "run.viscap").string(),
+                    link = (folder / "link.json").string();
+  write_file(database, std::string("SQLite format 3\0", 16) + std::string(84, ' '), false);
+  std::filesystem::create_symlink("none.json", link);
+  for (const bool is_forced : {false, true}) {
+    for (const char* ending : {"-wal", "-shm", "-journal"}) {
+      CHECK(contains(answer(database + ending, is_forced),
+                     "is the name of a side file of " + database));
+    }
+    CHECK(contains(answer(link, is_forced),
+                   "leads to none.json, which does not exist; name the file itself"));
+  }
+  CHECK(std::filesystem::is_symlink(link));
+  CHECK_FALSE(std::filesystem::exists(database + "-wal"));
+  write_file(folder / "notes-wal", "beside no database", false);  // an ordinary name
+}
+
 TEST_CASE("two outputs of one command cannot share a file", "[cli]") {
   const test::ScratchFolder folder;
   const std::string table = (folder / "table.csv").string();
