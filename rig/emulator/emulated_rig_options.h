@@ -36,7 +36,8 @@ struct EmulatedRigOptions {
   AmplifierOptions amplifier;
   ThermometerHabits thermometer;  // of the one that config names
   RigFault fault;
-  double travel_scale = 1.0;  // true travel of the stage over the one it counts
+  double travel_scale = 1.0;   // true travel of the stage over the one it counts
+  double lost_before_m = 0.0;  // of an earlier run: what the stage has counted and not travelled
   // Boards with a USB converter (UNO, Nano) reset when their port is opened, native USB does not.
   bool resets_on_open = true;
   double boot_wall_s = 0.1;  // from that reset to the welcome; rig time for a rig that waits
