@@ -61,6 +61,12 @@ void show_run(ResultVisitor& v, const RunOutcome& outcome) {
     "the peak that the check before the run predicted");
   v("limit_N", outcome.expected.limit_N, "limit of force of the test");
   v("depth_m", outcome.achieved_depth_m, "depth that was reached");
+  v.word("depth_is", outcome.depth_is, {"measured", "counted", "compared"},
+         "measured by the stage's encoder, or counted in steps; compared: counted, and the stage "
+         "stood there when it was homed after the lift");
+  v("count_off_m",
+    number_or_null(outcome.count ? std::optional(outcome.count->off_m) : std::nullopt),
+    "the count over the way made since the stage was homed; null: not compared");
   v("contact_position_m", number_or_null(outcome.contact_position_m),
     "where the punch touched; null: nowhere");
   v("noise_N", outcome.noise_N, "standard deviation of a reading at rest");

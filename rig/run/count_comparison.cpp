@@ -12,8 +12,29 @@ std::string micrometres_of(double length_m) {
   return text_from_number(std::abs(length_m) * 1e6, 1) + " um";
 }
 
-void note_count(RunSession& session, const std::string& value, const std::string& text) {
-  session.event("count", value, text);
+// Homes the stage; why it was not compared, if it was not.
+std::string not_compared(RunSession& session, const RigConfig& rig, const RunControl& control,
+                         RunOutcome& outcome) {
+  Stage& stage = session.stage();
+  if (outcome.status != "finished" || !rig.stage.home || !control.homes_after) return "not homed";
+  if (!outcome.doubts.empty()) return "the run is doubtful, so the stage was not homed after it";
+  if (!stage.homed_at_m()) return "this driver does not compare the count with a switch";
+  session.begin_phase(kHomePhase, 0.0, "Homing the stage, which shows whether it has lost steps");
+  try {
+    outcome.count = stage.check_count([&] { session.pump(); });
+  } catch (const RigError& error) {
+    outcome.doubts.push_back(
+        "the stage could not be homed after the lift, so whether it has lost steps is not known: " +
+        failure_text(error, "the homing"));
+    session.event("doubt", "not_homed", outcome.doubts.back());
+    return "the stage could not be homed";
+  }
+  if (!outcome.count) return "not homed";
+  const std::string doubt = lost_steps_doubt(*outcome.count);
+  if (doubt.empty()) return "";
+  outcome.doubts.push_back(doubt);
+  session.event("doubt", kLostStepsDoubt, doubt);
+  return "the count was wrong";
 }
 
 }  // namespace
@@ -32,37 +53,18 @@ std::string lost_steps_doubt(const CountCheck& found) {
 void compare_count(RunSession& session, const RigConfig& rig, const RunControl& control,
                    RunOutcome& outcome) {
   if (!session.is_stage_connected()) return;
-  Stage& stage = session.stage();
-  outcome.homed_at_m = stage.homed_at_m();
-  if (stage.measures_position()) outcome.depth_is = "measured";
-  if (outcome.status != "finished" || !rig.stage.home || !control.homes_after) return;
-  if (!outcome.doubts.empty()) {
-    return note_count(session, "not_compared",
-                      "The run is doubtful, so the stage was not homed after it");
+  outcome.homed_at_m = session.stage().homed_at_m();
+  if (session.stage().measures_position()) {
+    outcome.depth_is = "measured";
+    return session.event("depth", outcome.depth_is, "The stage measures its position");
   }
-  if (!stage.homed_at_m()) {
-    return note_count(session, "not_compared",
-                      "This driver does not compare the stage's count with its switch");
-  }
-  session.begin_phase(kHomePhase, 0.0, "Homing the stage, which shows whether it has lost steps");
-  try {
-    outcome.count = stage.check_count([&] { session.pump(); });
-  } catch (const RigError& error) {
-    outcome.doubts.push_back(
-        "the stage could not be homed after the lift, so whether it has lost steps is not known: " +
-        failure_text(error, "the homing"));
-    return session.event("doubt", "not_homed", outcome.doubts.back());
-  }
-  if (!outcome.count) return;
-  const std::string doubt = lost_steps_doubt(*outcome.count);
-  if (!doubt.empty()) {
-    outcome.doubts.push_back(doubt);
-    return session.event("doubt", kLostSteps, doubt);
-  }
-  outcome.depth_is = "compared";
-  note_count(session, text_from_number(outcome.count->off_m, 9),
-             "Homed after the lift, the stage stood where it counted, within " +
-                 micrometres_of(outcome.count->within_m));
+  const std::string why = not_compared(session, rig, control, outcome);
+  if (why.empty()) outcome.depth_is = "compared";
+  session.event("depth", outcome.depth_is,
+                why.empty()
+                    ? "Counted in steps; homed after the lift, the stage stood there within " +
+                          micrometres_of(outcome.count->within_m)
+                    : "Counted in steps, not measured (" + why + ")");
 }
 
 }  // namespace viscard

@@ -15,6 +15,6 @@ void compare_count(RunSession& session, const RigConfig& rig, const RunControl& 
 // The doubt that a comparison gives, for each run since the stage was homed before; empty: none.
 std::string lost_steps_doubt(const CountCheck& found);
 // The value of the event "doubt" that carries it.
-inline constexpr const char* kLostSteps = "lost_steps";
+inline constexpr const char* kLostStepsDoubt = "lost_steps";
 
 }  // namespace viscard
