@@ -10,10 +10,10 @@ namespace viscard {
 
 void add_late_event(const std::filesystem::path& path, const std::string& name,
                     const std::string& value, const std::string& text) {
-  check_capture_header(path);
   if (is_being_captured(path)) {
     throw std::runtime_error(path.string() + ": is being written, so nothing can be added to it");
   }
+  check_capture_header(path);
   Database database(path, Database::Access::kReadWrite);
   database.execute("PRAGMA synchronous=EXTRA");
   database.execute("BEGIN IMMEDIATE");

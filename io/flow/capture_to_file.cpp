@@ -115,12 +115,11 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   return outcome;
 }
 
-// An emulated rig has what its rig file asks for: a stage that can be homed alone, or that an earlier
-// run of the series has homed.
+// In a series the stage goes on where an earlier run has left its count.
 EmulatedRigOptions emulated_options(const CaptureRequest& request) {
   const CaptureSetup& setup = request.setup;
-  EmulatedRigOptions options{.truth = *setup.truth, .config = setup.rig, .fault = setup.fault};
-  options.grbl.is_homing_enabled = options.grbl.has_hard_limits = setup.rig.stage.home;
+  EmulatedRigOptions options = able_rig(*setup.truth, setup.rig);
+  options.fault = setup.fault;
   if (request.homing == nullptr) return options;
   options.grbl.is_homed = request.homing->homed_at_m.has_value();
   options.lost_before_m = request.homing->emulated_lost_m;

@@ -19,7 +19,7 @@ namespace {
 
 // from_m: where its stage stands; the emulator begins at 0.
 std::unique_ptr<EmulatedRig> emulated_rig(const RigConfig& rig, double from_m = 0.0) {
-  EmulatedRigOptions options{.truth = demo_truth(10.0, 1), .config = rig};
+  EmulatedRigOptions options = able_rig(demo_truth(10.0, 1), rig);
   options.truth.surface_position_m -= from_m;
   return std::make_unique<EmulatedRig>(options);
 }
@@ -37,7 +37,9 @@ RigConfig config_of(const RigConfig& rig, const EmulatedRig* emulated) {
 // cannot be opened, and for wrong words of the rig file.
 class OpenRig {
  public:
-  OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m = 0.0);
+  enum class Homes { kAsInFile, kNo };
+  OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m = 0.0,
+          Homes homes = Homes::kAsInFile);
   OpenRig(const OpenRig&) = delete;
   OpenRig& operator=(const OpenRig&) = delete;
 
@@ -53,11 +55,12 @@ class OpenRig {
   RigDevices devices_;
 };
 
-OpenRig::OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m)
+OpenRig::OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m, Homes homes)
     : emulated_(is_emulated ? emulated_rig(rig, emulated_from_m) : nullptr),
       config_(config_of(rig, emulated_.get())),
       clock_(emulated_ ? emulated_->clock() : RigClock(rig.clock_speed)),
       devices_(open_ports(config_, clock_)) {
+  if (homes == Homes::kNo) config_.stage.home = false;
   add_drivers(devices_, config_, clock_, [](const RunRecord&) {});
 }
 
@@ -94,12 +97,20 @@ void write_in_section(const std::filesystem::path& file, const std::string& sect
 
 }  // namespace
 
-RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds) {
-  rig.stage.home = false;  // a check moves nothing
-  OpenRig open(rig, is_emulated);
+RigCheck check_rig_config(const RigConfig& rig, bool is_emulated, double seconds) {
+  OpenRig open(rig, is_emulated, 0.0, OpenRig::Homes::kNo);  // a check moves nothing
   RigDevices& devices = open.devices();
-  return check_rig(*devices.stage, *devices.load_cell, open.config(), open.clock(), seconds,
-                   devices.thermometer.get());
+  RigCheck found = check_rig(*devices.stage, *devices.load_cell, open.config(), open.clock(),
+                             seconds, devices.thermometer.get());
+  if (!rig.stage.home) return found;
+  const std::string trouble = devices.stage->trouble_with_count_check([&] {
+    wait_readable({devices.stage_line.get()}, open.clock(), 0.005);
+    devices.stage->service();
+  });
+  if (trouble.empty()) return found;
+  found.advice.push_back(trouble);
+  found.is_usable = false;
+  return found;
 }
 
 void add_calibration(const RigConfig& rig, RigCheck& found) {

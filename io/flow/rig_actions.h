@@ -19,7 +19,7 @@ namespace viscard {
 
 // Opens both devices of a rig (or of an emulated one) and measures them for some seconds; moves
 // nothing. Throws RigError as check_rig() does.
-RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds);
+RigCheck check_rig_config(const RigConfig& rig, bool is_emulated, double seconds);
 
 // As in a capture: an expired calibration, or one dated later than today, forbids a test; one
 // without a date is only a warning.

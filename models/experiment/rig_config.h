@@ -21,7 +21,8 @@ struct StageConfig {
   // Standard uncertainty of the depth that an open-loop stage counts, relative: pitch of the screw,
   // and steps that the motor lags or loses unnoticed.
   double depth_relative_u = 0.0;
-  bool home = false;  // run the controller's homing cycle before a test
+  // The axis is homed before a run or a series, and again after its lift, to compare the count.
+  bool home = false;
   // Length of the controller's smallest step, from the maker's page of the stage: of a microstep of
   // a Zaber or SMC100PP motor, of an encoder count or a microstep of an APT unit, which no controller
   // knows, or of an encoder count that a PI does not report.

@@ -44,4 +44,13 @@ struct EmulatedRigOptions {
   bool keeps_lines = false;  // keeps what the load cell's instrument sends, for sent_lines()
 };
 
+// A rig that can do what its rig file asks for: with home = true its stage homes one axis alone.
+inline EmulatedRigOptions able_rig(const EmulatedTruth& truth, const RigConfig& config) {
+  EmulatedRigOptions options;
+  options.truth = truth;
+  options.config = config;
+  options.grbl.is_homing_enabled = options.grbl.has_hard_limits = config.stage.home;
+  return options;
+}
+
 }  // namespace viscard
