@@ -24,5 +24,7 @@ PortStatus port_status(const std::string& path);
 // missing, not a terminal, no permission, or busy. libserial reports all of these as "Bad file
 // descriptor".
 int open_exclusively(const std::string& path);
+// The same for a device of the usbtmc driver, which is no terminal; reads and writes block.
+int open_message_device(const std::string& path);
 
 }  // namespace viscard
