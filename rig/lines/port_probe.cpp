@@ -2,7 +2,6 @@
 
 #include "rig/lines/rig_error.h"
 #include "rig/lines/tcp_port.h"
-#include "rig/lines/usbtmc_line.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -101,6 +100,11 @@ std::string not_a_port_text(const std::string& path, mode_t mode) {
 }
 
 }  // namespace
+
+bool is_usbtmc_port(const std::string& port) {
+  std::error_code ignored;
+  return fs::weakly_canonical(port, ignored).filename().string().rfind("usbtmc", 0) == 0;
+}
 
 std::vector<std::string> present_ports() {
   std::vector<std::string> ports;

@@ -1,5 +1,6 @@
 #include "rig/lines/tcp_line.h"
 
+#include "rig/lines/port_probe.h"
 #include "rig/lines/rig_error.h"
 #include "rig/lines/serial_line.h"
 #include "rig/lines/tcp_port.h"

@@ -12,7 +12,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <filesystem>
 #include <utility>
 
 namespace viscard {
@@ -31,12 +30,6 @@ bool is_timeout(int error) {
 }
 
 }  // namespace
-
-bool is_usbtmc_port(const std::string& port) {
-  std::error_code ignored;
-  const auto file = std::filesystem::weakly_canonical(port, ignored).filename().string();
-  return file.rfind("usbtmc", 0) == 0;
-}
 
 UsbtmcLine::UsbtmcLine(const std::string& path, const RigClock& clock)
     : path_(path), clock_(clock) {

@@ -63,7 +63,4 @@ class UsbtmcLine final : public Transport {
   std::string trouble_;  // why the instrument is gone
 };
 
-// True for a device file of the usbtmc driver, also behind a link with another name.
-bool is_usbtmc_port(const std::string& port);
-
 }  // namespace viscard

@@ -1,6 +1,8 @@
 // USB-TMC: a pair of sockets that keeps the borders of messages stands for the kernel's device.
 #include "rig/cells/gauge_load_cell.h"
+#include "rig/lines/port_probe.h"
 #include "rig/lines/rig_error.h"
+#include "rig/lines/tcp_line.h"
 #include "rig/lines/usbtmc_line.h"
 #include "rig/open_devices.h"
 
