@@ -84,7 +84,9 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   }
   const RecordSink sink = told_to(
       emulated, failing_once([&writer](const RunRecord& record) { writer.append(record); }));
-  add_drivers(devices, rig, clock, sink);
+  RigConfig of_drivers = rig;
+  if (request.homing != nullptr && request.homing->has_homed) of_drivers.stage.home = false;
+  add_drivers(devices, of_drivers, clock, sink);
   const ClosingCall closing(watch);
   if (watch.opened) watch.opened(rig, writer);
   RunControl control;
@@ -109,6 +111,7 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   }
   close_file(writer, outcome);
   if (request.homing != nullptr) {
+    request.homing->has_homed = true;
     request.homing->homed_at_m = outcome.homed_at_m;
     request.homing->is_doubtful |= outcome.status != "finished" || !outcome.doubts.empty();
   }

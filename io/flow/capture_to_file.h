@@ -32,8 +32,9 @@ struct CaptureSetup {
 struct SeriesHoming {
   bool is_last = true;  // the run that comes next
   bool is_doubtful = false;
-  std::optional<double> homed_at_m;
-  double emulated_lost_m = 0.0;  // what an emulated stage has lost so far
+  bool has_homed = false;            // an earlier run
+  std::optional<double> homed_at_m;  // where, if its driver compares the count
+  double emulated_lost_m = 0.0;      // what an emulated stage has lost so far
 };
 
 // One capture: what is run, and the file it goes to.

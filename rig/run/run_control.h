@@ -43,7 +43,8 @@ struct RunControl {
   Thermometer* thermometer = nullptr;  // read beside the run; may be nullptr
   // With home = true under [stage], and for a series of runs: where an earlier one has homed the
   // stage (RunOutcome::homed_at_m), so that this one does not; and whether this one homes it after
-  // its lift. Between the runs of a series the stage is not homed.
+  // its lift. Between the runs of a series the stage is not homed: drivers without a comparison then
+  // get home = false.
   std::optional<double> homed_at_m;
   bool homes_after = true;
 };

@@ -326,6 +326,30 @@ TEST_CASE("repeats home the stage once at the end, and both captures state what 
   CHECK(phases_named(runs[1], "home") == 1);
 }
 
+TEST_CASE("a stage without a comparison is homed before the first touch of a series only",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const Strings words = homed_words(folder, {});
+  write_file(folder / "rig.toml",
+             replaced(read_file(folder / "rig.toml"), "driver = \"grbl\"",
+                      "driver = \"zaber\"\nmicrostep = \"0.3125 um\""),
+             true);
+  const auto series = run_command(words);
+  INFO(series.err);
+  REQUIRE(series.status == kDone);
+  std::vector<int> n_homings;
+  for (const auto& run : last_line(series)["runs"]) {
+    CHECK(run["depth_is"] == "counted");
+    n_homings.push_back(0);
+    read_raw_bytes(run["file"].get<std::string>(), [&](const RawBytes& raw) {
+      if (raw.is_sent && raw.device == Device::kStage && contains(raw.bytes, " home")) {
+        ++n_homings.back();
+      }
+    });
+  }
+  CHECK(n_homings == std::vector<int>{1, 0});
+}
+
 TEST_CASE("steps lost in a series are a doubt of each of its runs, and a flag of their fits",
           "[cli][capture][pty]") {
   const ScratchFolder folder;
