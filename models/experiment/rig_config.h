@@ -26,6 +26,8 @@ struct StageConfig {
   // and steps that the motor lags or loses unnoticed. A rig file that does not state it gets
   // kScrewDepth_u; 0: the depth is exact.
   double depth_relative_u = 0.0;
+  // The controller's position from which `viscard rig` counts for a person; a test does not use it.
+  double zero_m = 0.0;
   // The axis is homed before a run or a series, and again after its lift, to compare the count.
   bool home = false;
   // Length of the controller's smallest step, from the maker's page of the stage: of a microstep of

@@ -39,6 +39,7 @@ void GrblStage::command(const std::string& line, const Pump& pump, double timeou
 void GrblStage::await_welcome(const Pump& pump) {
   const auto is_there = [&] { return !awaits_welcome_; };
   bool is_welcome = wait_for(is_there, pump, kBoot_wall_s);
+  restarts_when_opened_ = is_welcome;
   for (int i = 0; i < kResets && !is_welcome; ++i) {
     send_realtime(grbl::kSoftReset);
     is_welcome = wait_for(is_there, pump, kReset_wall_s);
@@ -97,6 +98,7 @@ void GrblStage::converse(const Pump& pump) {
   if (config_.home && !homed_at_m_) {
     home(pump);
   } else if (state_ == "Alarm") {
+    is_locked_at_first_ = true;
     command("$X", pump);
     note(clock_.now_s(), "stage_unlocked", "",
          "The stage was unlocked without homing; positions count from where it stood");
@@ -113,6 +115,7 @@ void GrblStage::connect(const Pump& pump) {
     try {
       converse(pump);
       if (n_welcomes == n_welcomes_) break;
+      restarts_when_opened_ = true;
     } catch (const PortHungUp&) {
       throw;
     } catch (const RigError&) {
@@ -153,6 +156,22 @@ void GrblStage::recover(const Pump& pump) {
   exact_m_ = reported_m_;
   if (cut_short) hand_out(cut_short->tracker, cut_short->purpose, reported_m_);
   is_recovering_ = false;
+}
+
+// The firmware counts from power-up until it is homed.
+std::string GrblStage::trouble_with_zero() const {
+  if (restarts_when_opened_) {
+    return "its board restarts when the port is opened and then counts from where the stage "
+           "stands. A capacitor of 10 uF between RESET and GND keeps an Uno or Nano from that";
+  }
+  if (!has_bit(22, 0)) {
+    return "homing is switched off ($22=0), so it counts from where it was switched on. Set $22=1 "
+           "and home it with: viscard rig home";
+  }
+  if (is_locked_at_first_) {
+    return "it has not been homed since it was switched on. Home it with: viscard rig home";
+  }
+  return "";
 }
 
 std::vector<std::string> GrblStage::advice() const {

@@ -30,6 +30,7 @@ class GrblStage final : public PolledStage {
   void stop_hard() override;
   void recover(const Pump& pump) override;
   std::optional<double> homed_at_m() const override { return homed_at_m_; }
+  std::string trouble_with_zero() const override;
   std::string trouble_with_count_check(const Pump& pump) override;
   std::optional<CountCheck> check_count(const Pump& pump) override;
 
@@ -97,7 +98,9 @@ class GrblStage final : public PolledStage {
   std::string state_;  // as reported last
   std::vector<double> work_offset_mm_;
   int n_welcomes_ = 0;
-  int alarm_code_ = 0;  // of the newest alarm
+  bool restarts_when_opened_ = false;
+  bool is_locked_at_first_ = false;  // it has not been homed since it was switched on
+  int alarm_code_ = 0;               // of the newest alarm
 
   bool compares_count_ = false;           // plan_count_check() was called
   std::optional<double> homed_before_m_;  // where an earlier run of the series has homed

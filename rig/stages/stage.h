@@ -89,6 +89,9 @@ class Stage {
   // After stop_hard() or an alarm: unlocks the stage and asks for its position.
   virtual void recover(const Pump& pump) = 0;
 
+  // Why position_m() will mean another place when the stage is connected again; empty if the
+  // controller keeps its zero.
+  virtual std::string trouble_with_zero() const { return ""; }
   // True if position_m() is measured by an encoder, false if it is a count of steps.
   virtual bool measures_position() const { return false; }
   // Where the last homing left the stage.
