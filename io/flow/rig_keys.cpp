@@ -93,6 +93,14 @@ void show_keys(ResultVisitor& v, const StageMoved& moved) {
   v("force_before_N", moved.force_before_N, "force by the calibration before the move");
   v("force_after_N", moved.force_after_N, "force after it");
   v("is_stopped_by_force", moved.is_stopped_by_force, "the change of force reached --limit");
+  v("zero_m", number_or_null(moved.zero_m),
+    "position of the controller that counts as 0 for a person (rig set-zero); null: none, or this "
+    "stage does not keep it");
+}
+
+void show_keys(ResultVisitor& v, const ZeroedForce& zeroed) {
+  v("force_before_N", zeroed.before_N, "force by the calibration before the instrument's zero");
+  v("force_after_N", zeroed.after_N, "force after it");
 }
 
 void show_keys(ResultVisitor& v, const RigCheck& found) {
