@@ -139,6 +139,14 @@ double free_again_s(const CapturedRun& run, IndentationData& data) {
          data.start_early_s + kFreeAgain_s;
 }
 
+// The stage is homed after the test: its acceleration shakes the cell.
+double homed_from_s(const CapturedRun& run) {
+  for (const RunEvent& event : run.events) {
+    if (event.name == "phase" && event.value == "home") return event.host_time_s;
+  }
+  return 1e300;
+}
+
 void take_moves_in_contact(const CapturedRun& run, IndentationData& data) {
   for (const CommandedMove& move : run.moves) {
     const bool in_contact =
@@ -259,6 +267,7 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   data.contact_to_s = readings.time_s.back();
   const double free_s = free_again_s(run, data);
   const double still_s = still_since_s(run, *ramp);
+  const double homed_s = homed_from_s(run);
   take_moves_in_contact(run, data);
   if (data.moves.empty()) {
     throw std::runtime_error(
@@ -269,7 +278,7 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
     const double t = readings.time_s[i];
     const bool before = t > still_s && t < data.contact_from_s;
     const bool contact = t >= data.contact_from_s && t <= data.contact_to_s;
-    if (!before && !contact && !(t > free_s)) continue;
+    if (!before && !contact && !(t > free_s && t < homed_s)) continue;
     data.time_s.push_back(t);
     data.force_N.push_back(readings.force_N[i]);
   }

@@ -20,7 +20,8 @@ namespace viscard {
 namespace {
 
 // Segments of the exported table of a capture from its first baseline on; empty for any other
-// table. Before that the rig searches the surface, and its touch is an indentation of its own.
+// table. Before that the rig searches the surface, and its touch is an indentation of its own; after
+// the test it may be homed, which shakes the load cell.
 std::vector<std::string> segments_of_test(const CsvTable& table, const FitRequest& request) {
   if (!find_column(table, "segment", request.columns)) return {};
   const std::vector<std::string> rows = column_text(table, "segment", request.columns);
@@ -28,6 +29,7 @@ std::vector<std::string> segments_of_test(const CsvTable& table, const FitReques
   if (baseline == rows.end() || std::find(rows.begin(), baseline, "tare") == baseline) return {};
   std::vector<std::string> names;
   for (auto row = baseline; row != rows.end(); ++row) {
+    if (*row == "home") continue;
     if (std::find(names.begin(), names.end(), *row) == names.end()) names.push_back(*row);
   }
   return names;

@@ -45,9 +45,10 @@ void check_lifted(TestRun& run, double before_N);
 void note_depth(TestRun& run);
 
 // Fills in the totals of a run, adds the doubts about a finished one, and records how it ended. If
-// that cannot be recorded any more, the outcome still carries the reason for the early end.
-void conclude(RunSession& session, const RigConfig& rig, RunOutcome& outcome,
-              const RigClock& clock);
+// that cannot be recorded any more, the outcome still carries the reason for the early end. With
+// home = true a finished run without a doubt ends with compare_count().
+void conclude(RunSession& session, const RigConfig& rig, const RunControl& control,
+              RunOutcome& outcome);
 
 // Where a jog of the approach ended, and the force there (from the tare).
 struct JogEnd {

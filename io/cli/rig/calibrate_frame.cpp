@@ -71,7 +71,7 @@ CapturedRun press_block(const CalibrateWords& words, RigConfig rig) {
     truth.material.E0_Pa = kBlock_Pa;
     truth.material.terms.clear();
     truth.contact = block.contact;
-    emulated = std::make_unique<EmulatedRig>(EmulatedRigOptions{.truth = truth, .config = rig});
+    emulated = std::make_unique<EmulatedRig>(able_rig(truth, rig));
     rig = emulated->config();
   }
   const StopOnSignal on_signal;

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace viscard {
@@ -246,10 +247,13 @@ TEST_CASE("every command of a rig names the file and line of a port that it cann
   const ScratchFolder folder;
   std::string rig = read_file(demo("01_rig.toml"));
   const std::string cell = "/dev/serial/by-id/load_cell";
+  const auto at = static_cast<std::ptrdiff_t>(rig.find(cell));
+  const auto line = 1 + std::count(rig.begin(), rig.begin() + at, '\n');
   rig.replace(rig.find(cell), cell.size(), "tcp://bench");
   write_file(folder / "rig.toml", rig, false);
   CHECK(contains(run_command({"rig", "check", "--rig", folder / "rig.toml"}).err,
-                 "rig.toml:29: port under [load_cell] 'tcp://bench' needs a host and a number"));
+                 "rig.toml:" + std::to_string(line) +
+                     ": port under [load_cell] 'tcp://bench' needs a host and a number"));
 }
 
 TEST_CASE("a capture that is given as another kind of test is refused with the words that fit it",
