@@ -57,10 +57,8 @@ def _toml(value: Any, key: str, folder: str) -> str:
         return "true" if value else "false"
     if isinstance(value, (int, np.integer)):
         return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        if not np.isfinite(value):
-            raise Error(f"{key} is {value}; it must be finite", "input")
-        return repr(float(value))
+    if _check.is_number(value) and not isinstance(value, np.ndarray):
+        return repr(_arrays.number(value, key))
     if isinstance(value, (str, os.PathLike)):
         text = os.fspath(value).replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
         return f'"{text}"'
