@@ -166,7 +166,7 @@ def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell t
     if truth is not None and not isinstance(truth, (str, os.PathLike, list, tuple)):
         raise TypeError(f"truth must be a path or a list of paths, not {_check.shown(truth)}")
     truths = [] if truth is None else list(truth) if isinstance(truth, (list, tuple)) else [truth]
-    keywords = {"title": title, "cards": targets, "units": units, "plausible": plausible, "overwrite": overwrite,
+    keywords: Dict[str, Any] = {"title": title, "cards": targets, "units": units, "plausible": plausible, "overwrite": overwrite,
                 "truth": [_arrays.path_of(one, "truth") for one in truths], "unverified": unverified,
                 "reproducible": reproducible, "logo": "" if logo is None else os.fspath(logo),
                 "pictures": "" if pictures is None else os.fspath(pictures)}

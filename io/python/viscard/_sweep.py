@@ -9,7 +9,7 @@ import tempfile
 import tomllib
 import warnings
 from collections.abc import Mapping
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, TypedDict, Union
+from typing import Any, Collection, Dict, Iterator, List, Optional, Sequence, TypedDict, Union
 
 import numpy as np
 
@@ -127,7 +127,7 @@ def _study_toml(over: HasValues, scene_file: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _keys_of(scene: Scene) -> Iterable[str]:
+def _keys_of(scene: Scene) -> Collection[str]:
     """Of a scene or a study; none of a file that is no TOML, which its reader refuses."""
     if isinstance(scene, Mapping):
         return scene
