@@ -41,8 +41,10 @@ std::size_t characters_of(double value, int digits) {
 
 std::size_t longest(const AxisSpan& shown, double step, int digits) {
   std::size_t characters = 1;
-  for (double k = std::ceil(shown.low / step - 1e-6); k * step <= shown.high + 1e-6 * step; ++k) {
-    characters = std::max(characters, characters_of(k * step, digits));
+  const double first = std::ceil(shown.low / step - 1e-6);
+  const int n = static_cast<int>((shown.high - shown.low) / step + 1e-6);
+  for (int i = 0; i <= n; ++i) {
+    characters = std::max(characters, characters_of((first + i) * step, digits));
   }
   return characters;
 }
