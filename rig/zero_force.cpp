@@ -12,7 +12,7 @@ namespace viscard {
 namespace {
 
 constexpr double kMean_s = 1.0;
-constexpr std::size_t kFewest = 5;
+constexpr std::size_t kFewestAtRest = 5;
 
 double mean_force_N(LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
                     const Pump& pump) {
@@ -28,7 +28,7 @@ double mean_force_N(LoadCell& load_cell, const RigConfig& rig, const RigClock& c
   });
   while (clock.now_s() < from_s + kMean_s) pump();
   load_cell.set_listener({});
-  if (n >= kFewest) return sum_N / static_cast<double>(n);
+  if (n >= kFewestAtRest) return sum_N / static_cast<double>(n);
   throw RigError("only " + counted(n, "reading") +
                  " came in a second. Check the load cell with: viscard rig check");
 }

@@ -17,17 +17,15 @@ bool exists(const std::string& path) {
   return fs::exists(path, error);
 }
 
+constexpr std::pair<const char*, FitKind> kLinearKinds[] = {{"relaxation", FitKind::kRelaxation},
+                                                            {"creep", FitKind::kCreep},
+                                                            {"dma", FitKind::kDma},
+                                                            {"oscillation", FitKind::kDma},
+                                                            {"indentation", FitKind::kIndentation}};
+
 FitKind kind_of_test(const std::string& kind, const std::string& word, bool takes_large_strain) {
-  static const std::vector<std::pair<std::string, FitKind>> kKinds{
-      {"relaxation", FitKind::kRelaxation},
-      {"creep", FitKind::kCreep},
-      {"dma", FitKind::kDma},
-      {"oscillation", FitKind::kDma},
-      {"indentation", FitKind::kIndentation}};
-  std::vector<std::string> names;
-  for (const auto& [name, known] : kKinds) {
+  for (const auto& [name, known] : kLinearKinds) {
     if (name == kind) return known;
-    names.push_back(name);
   }
   for (const LargeStrainKind& large : large_strain_kinds()) {
     if (kind == large.word) {
@@ -38,8 +36,8 @@ FitKind kind_of_test(const std::string& kind, const std::string& word, bool take
           " --out law.json); viscard report takes law.json beside a capture, a table or a material "
           "file");
     }
-    if (takes_large_strain) names.emplace_back(large.word);
   }
+  const std::vector<std::string> names = kinds_of_tests(takes_large_strain);
   throw std::invalid_argument(word + ": no such file, and '" + kind + "' is no kind of test" +
                               did_you_mean(kind, names) + " Name a test as KIND=FILE with " +
                               listed(names));
@@ -74,6 +72,14 @@ std::span<const LargeStrainKind> large_strain_kinds() {
       {"hydrostatic", Deformation::kUniaxial, kVolumetric, true, true},
       {"shear", Deformation::kUniaxial, kShear, false, true}};
   return kKinds;
+}
+
+std::vector<std::string> kinds_of_tests(bool with_large_strain) {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : kLinearKinds) names.emplace_back(name);
+  if (!with_large_strain) return names;
+  for (const LargeStrainKind& large : large_strain_kinds()) names.emplace_back(large.word);
+  return names;
 }
 
 std::vector<TestFile> tests_from_words(const std::vector<std::string>& words,

@@ -9,7 +9,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kHomed_wall_s = 180.0;
+constexpr double kAxisHomed_wall_s = 180.0;
 constexpr double kBack_m_s = 1e-3;      // to where it was homed
 constexpr double kTouch_m_s = 0.1e-3;   // to the switch: so slow that it stops within a step
 constexpr double kPastSwitch = 2.0;     // of the pull-off: the longest way to the switch
@@ -56,7 +56,7 @@ std::string GrblStage::trouble_with_count_check(const Pump& pump) {
 void GrblStage::home(const Pump& pump) {
   polls_ = false;  // while homing, no '?' is answered
   forget_questions();
-  command(compares_count_ ? std::string("$H") + config_.axis : "$H", pump, kHomed_wall_s);
+  command(compares_count_ ? std::string("$H") + config_.axis : "$H", pump, kAxisHomed_wall_s);
   ask_position(pump);
   exact_m_ = reported_m_;
   homed_at_m_ = reported_m_;

@@ -73,6 +73,37 @@ def test_a_dict_equals_its_file():
     assert viscard.simulate(with_folder, folder="data/materials").results == of_file.results
 
 
+def test_two_scenes_beside_each_other_are_those_of_the_command(program, tmp_path):
+    paths = []
+    for name, modulus in (("stiff", "2 MPa"), ("soft", "1 MPa")):
+        paths.append(tmp_path / f"{name}.toml")
+        paths[-1].write_text(f"""[geometry]
+diameter = "40 um"
+length = "120 um"
+[materials]
+pillar = {{ E = "{modulus}", nu = 0.33, rho = "965 kg/m3" }}
+[analysis]
+kind = "modal"
+modes = 1
+""")
+    found = viscard.simulate(paths[0], compare=paths[1]).compared
+    printed = json.loads(subprocess.run([program, "simulate", *map(str, paths[:1]), "--compare", str(paths[1]), "--json"],
+                                        capture_output=True, text=True, check=True).stdout)["compared"]
+    assert found["scene"] == str(paths[1])
+    assert [one["ratio"] for one in found["values"]] == [one["ratio"] for one in printed["values"]]
+    assert found["values"][0]["ratio"] == pytest.approx(np.sqrt(2.0), rel=1e-3)
+    assert viscard.simulate(paths[0]).compared is None
+    with pytest.raises(viscard.Error, match="absent.toml"):
+        viscard.simulate(paths[0], compare=tmp_path / "absent.toml")
+
+
+def test_the_processor_time_of_a_study_of_costs_is_limited():
+    found = viscard.cost(PRESS, budget=20, cpu_budget="0.2 s")
+    assert found.json["rows_left_out"] > 0
+    with pytest.raises(viscard.Error, match="cpu_budget is 0 s; it must be positive"):
+        viscard.cost(PRESS, cpu_budget=0)
+
+
 def test_fields_are_arrays():
     answer = viscard.simulate(PRESS, fields=True)
     field = answer.fields[0]

@@ -196,10 +196,11 @@ TEST_CASE("the cost of accuracy: rows, a front, and advice that meets its tolera
         study["rows"].size() + study["rows_left_out"].get<std::size_t>());
   std::stringstream picture;
   picture << std::ifstream(out + "/cost.svg").rdbuf();
-  for (const char* part : {"processor time (s)", "the scene's tolerance, 0.001", ">p2/1<"}) {
+  for (const char* part : {"processor time (s)", "the scene's tolerance, 10⁻³", ">p2/1<"}) {
     CAPTURE(part);
     CHECK(picture.str().find(part) != std::string::npos);
   }
+  CHECK(picture.str().find(" um<") == std::string::npos);  // as in all pictures, µm
   CHECK(run_command({"cost", scene.path(), "--budget", "soon"}).status == 2);
 }
 
