@@ -11,6 +11,7 @@
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace viscard {
@@ -132,7 +133,8 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
   add("accept-flags", &words.accepts_flags, "write terms that the fit has flagged");
   add("reproducible", &words.is_reproducible,
       "no date and no command line in the header: the same input gives the same bytes");
-  add("force", &words.force, "replace an existing file");
+  add("force", &words.force, "replace an existing file")
+      .only_with({"out", "deck", "prove", "import"});
 }
 
 // "10,1000"
@@ -317,8 +319,10 @@ void check_words(CardWords& words) {
     const std::string contents = card_text_of(given_card, words);
     const CardTarget* target = stated_card_target(contents);
     if (target == nullptr) {
-      // Numbers alone may be a card of another program.
-      if (kind_of_file(contents) != FileKind::kTable) {
+      // Numbers alone may be a card of another program, but not under the header of a table.
+      const bool has_header =
+          std::isalpha(static_cast<unsigned char>(contents.empty() ? '\0' : contents.front())) != 0;
+      if (kind_of_file(contents) != FileKind::kTable || has_header) {
         refuse_other_kind(contents, given_card, FileKind::kCard);
       }
       throw UsageError(given_card +
