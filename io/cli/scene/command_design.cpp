@@ -98,7 +98,7 @@ bool is_specification(const DesignWords& words) {
 void refuse_negative(const CommandSyntax& syntax, const LimitValues& limits) {
   for (const auto& [name, value] : limits) {
     if (!value || *value >= 0.0 || name == "poisson") continue;
-    throw UsageError("--" + name + " is " + given_words(syntax, {name}).front() +
+    throw UsageError("--" + name + " is " + given_words(syntax, {name.c_str()}).front() +
                      "; it must be positive");
   }
 }
