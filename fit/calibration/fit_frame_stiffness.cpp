@@ -148,6 +148,7 @@ FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_rel
   }
   FrameStiffnessFit fit;
   fit.seating_m = rise(line) > t * t ? best.seating_m : 0.0;
+  refuse_bent(line, fit.seating_m, *high_m - *low_m);
   const double middle = 0.5 * (low + high);
   const double half_width = 0.5 * (high - low) / middle;
   if (!(half_width < kWorst && middle > 0.0)) {
@@ -161,7 +162,6 @@ FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_rel
         " %; at most 20 % is allowed. Clean block and table, press the block once with the full "
         "force, and measure again with more steps");
   }
-  refuse_bent(line, fit.seating_m, *high_m - *low_m);
   fit.stiffness_N_m = 1.0 / middle;
   fit.relative_u = std::hypot(0.5 * half_width, gain_relative_u);
   fit.low_N_m = fit.stiffness_N_m * (1.0 - 2.0 * fit.relative_u);
