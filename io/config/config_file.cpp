@@ -176,6 +176,7 @@ void check_before_use(const RigConfig& rig, const std::string& toml, const std::
   }
   try {
     validate_dates(rig.calibration);
+    validate_date("frame.date", rig.frame.date);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name + ": " + error.what());
   }

@@ -62,7 +62,8 @@ OptionUses uses_on_capture(const FitRequest& request) {
   OptionUses uses = uses_of(request.size, {});
   const bool is_drift_fitted = request.options.drift == TableDrift::kFitted;
   const bool has_vertical = request.options.vertical_shift != VerticalShift::kAuto;
-  add_uses({{"--drift", is_drift_fitted, false, "tables"},
+  add_uses({{"--unverified", request.accepts_unverified, true, ""},
+            {"--drift", is_drift_fitted, false, "tables"},
             {"--reference-temperature", request.T_ref_C.has_value(), false, "tables"},
             {"--start-shift", !request.start_shifts.empty(), false, "tables"},
             {"--vertical-shift", has_vertical, false, "tables"},

@@ -132,6 +132,8 @@ OptionUses uses_on(const CsvTable& table, FitKind kind, const FitRequest& reques
           {"--reference-temperature", request.T_ref_C.has_value(), has_master, of_master},
           {"--start-shift", has_start, has_master, of_master},
           {"--vertical-shift", has_vertical, has_master, of_master},
+          {"--unverified", request.accepts_unverified, is_exported(table),
+           "captures, and tables that viscard exported from them"},
           {"--sheet", !request.table.sheet.empty(), true, "tables"},
           {"--table", request.table.table > 0, true, "tables"},
           {"--skip", request.table.skip > 0, true, "tables"}};

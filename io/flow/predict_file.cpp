@@ -245,6 +245,16 @@ double largest_strain(const TestPrediction& prediction) {
   return largest;
 }
 
+// What a load makes of the material passes the same rule as a strain that is stated.
+void refuse_strain(double largest, PredictedTest test, Plausible judged) {
+  const auto doubt = doubt_about(quantities::kStrain, largest, judged);
+  if (!doubt) return;
+  throw std::invalid_argument("the load of this " +
+                              names_of_predicted_tests()[static_cast<std::size_t>(test)] +
+                              " is too large for the material: its largest strain " +
+                              doubt->text() + ". Give a smaller --stress, or add --plausible off");
+}
+
 std::vector<std::string> notes_about(const Material& material, const PredictedFile& predicted) {
   std::vector<std::string> notes;
   for (const MaterialFlag& flag : predicted.flags) {
@@ -310,6 +320,9 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
   }
   if (measured) wanted.also_at = wanted_arguments(wanted.test, *measured);
   out.prediction = predict_test(material, wanted);
+  if (wanted.test != PredictedTest::kHistory) {
+    refuse_strain(largest_strain(out.prediction), wanted.test, request.plausible);
+  }
   if (measured) {
     out.against = measured->table.file;
     out.agreement = agreement_with(out.prediction, *measured);

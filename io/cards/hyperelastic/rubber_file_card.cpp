@@ -184,6 +184,11 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
                              ". --accept-flags writes it all the same");
   }
   refuse_bulk_modulus(file, options);
+  if (!options.elastic_only.empty() && file.terms.empty()) {
+    throw std::invalid_argument(
+        name +
+        ": --elastic-only is for laws with terms of relaxation, and this one has none; omit it");
+  }
   const RubberTarget& target = rubber_target(options.target);
   const std::string card = file.foam ? foam_card(*file.foam, options)
                                      : rubber_card(file.law, file.terms, options, file.damage);

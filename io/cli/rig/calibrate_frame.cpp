@@ -153,6 +153,7 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
     rig = run.rig;
   } else if (words.data_file) {
     CsvTable table = read_csv(*words.data_file);
+    refuse_unverified(table, words);
     say_damage(*words.data_file, accepted_damage(table, words.accepts_unverified), streams);
     table = complete_rows(std::move(table), true, streams);
     points = block_points_from_table(table);

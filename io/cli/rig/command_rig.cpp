@@ -427,8 +427,11 @@ int run_rig(const Words& words, Streams& streams) {
                                                (zeroes(asked) && option != "seconds") ||
                                                (asked.what == "list" && option == "rig"));
     if (belongs || !is_given(syntax, option)) continue;
-    throw UsageError("--" + option + " belongs to 'viscard rig " +
-                     (is_of_move ? "jog'" : "check'"));
+    const char* const verbs = is_of_move            ? "jog, lift or home"
+                              : option == "seconds" ? "check or touch"
+                              : option == "rig"     ? "list, check, touch, jog, lift or home"
+                                                    : "check, touch, jog, lift or home";
+    throw UsageError("--" + option + " is for viscard rig " + verbs + "; omit it");
   }
   const bool is_home = asked.what == "home";
   const char* const kJog =

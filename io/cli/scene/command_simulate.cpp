@@ -152,7 +152,7 @@ CommandSyntax simulate_syntax(SimulateWords& words) {
               "folder for results as JSON and CSV, curves as CSV and pictures; static and modal "
               "scenes add fields as .vtu for ParaView, modes of a row mode_shapes.csv, arrays in "
               "the plane pillars.csv and maps as .npy");
-  options.add("force", &words.overwrite, "overwrite existing files");
+  options.add("force", &words.overwrite, "overwrite existing files").only_with({"out"});
   syntax.may_exist = {"out"};
   syntax.results = {described<ShownAnswer>(
       "simulate", "viscard simulate; results.json has command and created_by besides")};

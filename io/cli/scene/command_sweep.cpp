@@ -58,7 +58,7 @@ CommandSyntax sweep_syntax(const SweepProgram& program, SweepWords& words) {
       "accept-unrecorded", &words.accepts_unrecorded,
       "go on with a file of an earlier version, which does not state the materials that its "
       "points were answered with");
-  options.add("force", &words.overwrite, "overwrite an existing table");
+  options.add("force", &words.overwrite, "overwrite an existing table").only_with({"csv", "out"});
   if (program.add_options) program.add_options(options);
   syntax.may_exist = {"out"};
   syntax.results = {{"sweep", "viscard sweep", {[](ResultVisitor& v) {

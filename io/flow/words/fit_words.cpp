@@ -150,6 +150,16 @@ FitOptions options_from(const FitWords& words) {
   options.white_noise = noise == "white";
   options.vertical_shift = vertical_shift_from_word(words.vertical_shift.value_or("auto"));
   options.constraints = constraints_from(words);
+  if (words.model && !options.constraints.empty()) {
+    throw OptionError(
+        "--fix and --bound are for the terms of a series, and --model fits a law without terms; "
+        "omit them, or omit --model and give --terms");
+  }
+  if (words.model && options.n_bootstrap > 0) {
+    throw OptionError(
+        "--bootstrap is for the terms of a series; the intervals of a law (--model) follow from "
+        "its covariance. Omit it");
+  }
   if (!options.constraints.empty() && !options.n_terms) {
     throw OptionError("--fix and --bound name terms by number, so they need --terms N");
   }

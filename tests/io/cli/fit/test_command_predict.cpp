@@ -378,3 +378,33 @@ TEST_CASE("a material states the sum of the contents that were fitted", "[cli]")
   REQUIRE(material.provenance.raw_files.size() == 1);
   CHECK(material.provenance.raw_files[0].sha256 == sha256_of_text(first));
 }
+
+TEST_CASE("examples and remedies of refused options are those of the quantity", "[cli]") {
+  const std::string seed = kData + "materials/pdms_1to10_seed.json";
+  const auto err = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"predict", seed});
+    const CommandOutcome ran = run_command(words);
+    CHECK(ran.status != kDone);
+    return ran.err;
+  };
+  for (const char* strain : {"1 pct", "1 mm", "x"}) {
+    CAPTURE(strain);
+    CHECK_THAT(err({"--test", "relaxation", "--strain", strain}),
+               Contains("write it like \"1 %\"") && !Contains("0.495"));
+  }
+  const auto range =
+      run_command({"predict", seed, "--test", "oscillation", "--from", "10Hz", "--to", "1Hz"});
+  CHECK(range.status == kBadWords);
+  CHECK_THAT(range.err, Contains("--from 10Hz --to 1Hz"));
+}
+
+TEST_CASE("a strain that follows from the load passes the rule of one that is stated", "[cli]") {
+  const std::string seed = kData + "materials/pdms_1to10_seed.json";
+  for (const char* test : {"creep", "recovery"}) {
+    CAPTURE(test);
+    const auto ran = run_command({"predict", seed, "--test", test, "--stress", "1 GPa"});
+    CHECK(ran.status != kDone);
+    CHECK_THAT(ran.err, Contains("its largest strain is") && Contains("--plausible off"));
+    CHECK(run_command({"predict", seed, "--test", test, "--stress", "10 kPa"}).status == kDone);
+  }
+}

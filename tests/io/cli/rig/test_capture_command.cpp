@@ -405,7 +405,10 @@ TEST_CASE("a damaged capture is never taken for a table", "[cli][capture]") {
 TEST_CASE("options of rig check are refused by the other subcommands", "[cli][rig]") {
   const auto outcome = run_command({"rig", "overshoot", "--rig", "none.toml"});
   CHECK(outcome.status == kBadWords);
-  CHECK(contains(outcome.err, "--rig belongs to 'viscard rig check'"));
+  CHECK(contains(outcome.err, "--rig is for viscard rig list, check, touch, jog, lift or home"));
+  const auto listed = run_command({"rig", "list", "--seconds", "1 s"});
+  CHECK(listed.status == kBadWords);
+  CHECK(contains(listed.err, "--seconds is for viscard rig check or touch"));
 }
 
 TEST_CASE("rig home has no speed and no limit of its own", "[cli][rig]") {

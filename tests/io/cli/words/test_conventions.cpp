@@ -214,6 +214,7 @@ TEST_CASE("a wrong subcommand is named, with the nearest one", "[cli]") {
       {{"rig", "lits"}, "there is no 'viscard rig lits'; did you mean 'list'?"},
       {{"card", "check", "m.json"},
        "there is no 'viscard card check'; did you mean 'viscard card --check'?"},
+      {{"predict", "m.json", "m.json"}, "too many words on the command line, from 'm.json' on"},
       {{"plan", "a.toml", "b.toml"}, "too many words on the command line, from 'b.toml' on"},
       {{"help", "fti"}, "there is no command 'fti'; did you mean 'fit'?"},
       {{"help", "scene", "chekc"}, "there is no 'scene chekc'; did you mean 'check'?"},

@@ -8,6 +8,9 @@
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -231,6 +234,46 @@ TEST_CASE("a device or pipe is never replaced by a file, even with --force", "[c
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK_THROWS_WITH(write_file(pipe, "text", true), Catch::Contains("is a device or pipe"));
   CHECK(std::filesystem::is_fifo(pipe));
+}
+
+TEST_CASE("an output with the ending of another format is refused", "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string material = VISCARD_SOURCE_DIR "/data/materials/pdms_1to10_seed.json";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"predict", material, "--svg", folder / "a.png"}, ".png is another format"},
+      {{"predict", material, "--svg", folder / "a.HTML"}, "end its name with .svg"},
+      {{"predict", material, "--csv", folder / "a.xlsx"}, "end its name with .csv"},
+      {{"report", material, "--out", folder / "r.pdf"}, "what is written is html"},
+      {{"report", material, "--out", folder / "r.svg"}, "end its name with .html"},
+      {{"simulate", "s.toml", "--out", folder / "x.png"}, "no command writes .png"}};
+  for (const auto& [words, text] : cases) {
+    CAPTURE(words);
+    const auto outcome = run_command(words);
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, text));
+  }
+  CHECK(std::filesystem::is_empty(folder / "."));
+  CHECK(run_command({"predict", material, "--csv", folder / "a.dat"}).status == kDone);
+}
+
+TEST_CASE("--force without an output is refused by every command that replaces files", "[cli]") {
+  const std::vector<std::vector<std::string>> all{{"fit", "a.csv"},
+                                                  {"card", "m.json", "--for", "abaqus"},
+                                                  {"predict", "m.json"},
+                                                  {"validate", "m.json"},
+                                                  {"simulate", "s.toml"},
+                                                  {"scene", "check", "s.toml"},
+                                                  {"design"},
+                                                  {"cost", "s.toml"},
+                                                  {"sweep", "s.toml"},
+                                                  {"export", "r.viscap"}};
+  for (std::vector<std::string> words : all) {
+    words.emplace_back("--force");
+    CAPTURE(words);
+    const auto outcome = run_command(words);
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, "--force has no effect without --"));
+  }
 }
 
 }  // namespace
