@@ -22,7 +22,7 @@ constexpr double kE0OfTruth_Pa = 1.88e6;
 constexpr double kSharesOfTruth[] = {0.008206, 0.01386}, kTimesOfTruth_s[] = {0.1945, 2.403};
 
 // The demo's test with another hold.
-std::string test_with_hold(int hold_s, const TemporaryFolder& folder) {
+std::string test_with_hold(int hold_s, const ScratchFolder& folder) {
   std::string text = read_file(demo_file("02_test.toml"));
   const std::string hold = "hold = \"60 s\"";
   const std::size_t at = text.find(hold);
@@ -55,7 +55,7 @@ void check_holds(const nlohmann::json& interval, double truth) {
 
 void check_hold(int hold_s) {
   CAPTURE(hold_s);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string capture = folder / "run.viscap";
   const long before_kB = most_memory_kB();
   const auto run = result_of({"capture", "--emulate", "--speed", "500", "--truth",
