@@ -105,10 +105,9 @@ void GaugeLoadCell::connect(const Pump& pump) {
 
 // Precondition: connected.
 void GaugeLoadCell::set_zero(const Pump& pump) {
-  is_connected_ =
-      false;  // nothing is asked meanwhile, and the answer to an open question is dropped
+  is_connected_ = false;  // nothing is asked, and the answer to an open question is dropped
   asked_s_.reset();
-  wait(pump, kQuiet_wall_s);
+  wait(pump, kAnswer_wall_s);
   const auto answer = ask_text(protocol_.zero, pump);
   is_connected_ = true;
   const auto& expected = protocol_.zeroed;

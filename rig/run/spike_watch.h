@@ -23,7 +23,7 @@ namespace viscard {
 // left out if the other three continue the line before. A reading is a spike if it lies outside the range that the two lines
 // predict; corners, steps and readings during a quick move lie within that range.
 // - If the lines agree, the prediction is the mean of all ten readings. Allowed are 6.3 robust
-//   standard deviations, 8 at the beginning of the stream.
+//   standard deviations, 8 at the beginning of the stream, and 7 after some million readings.
 // - If they do not agree, the allowance also contains the uncertainty of one line, half of the
 //   difference in slope (a corner may be rounded), a quarter of the slope (a reading may have been
 //   made early or late), and twice the scatter of the neighbours about their line beyond noise. A

@@ -1,5 +1,6 @@
-// Holds of twenty minutes to ten hours on the emulated rig: a longer hold loses no reading, needs no more memory
-// while it is captured, and its fit has the terms of a short one, with intervals that hold the truth.
+// Holds of twenty minutes to ten hours on the emulated rig: a longer hold loses no reading, needs no
+// more memory while it is captured, and its fit has the terms of a short one, with intervals that
+// hold the truth.
 #include "io/basics/atomic_file.h"
 #include "tests/flow/flow_support.h"
 

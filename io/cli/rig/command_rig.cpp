@@ -194,8 +194,7 @@ CommandSyntax rig_syntax(RigWords& words) {
   syntax.usage =
       "viscard rig list [--rig FILE] | check --rig FILE | touch --rig FILE | jog --rig FILE "
       "--away WAY | lift --rig FILE | home --rig FILE | set-zero --rig FILE | zero-force --rig "
-      "FILE | "
-      "overshoot [OPTIONS]";
+      "FILE | overshoot [OPTIONS]";
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any but the "
       "thermometer's of a rig file. check opens all devices of a rig file, identifies and measures "
@@ -206,8 +205,7 @@ CommandSyntax rig_syntax(RigWords& words) {
       "force limits of the rig file stop. set-zero writes the position of the stage into the rig "
       "file, and jog, lift and home then also print positions counted from there; it refuses a "
       "controller that does not keep its own zero. zero-force makes the force at rest the zero of "
-      "a "
-      "balance or gauge that has one of its own. No test uses either: it finds the surface and "
+      "a balance or gauge that has one of its own. No test uses either: it finds the surface and "
       "measures the force out of contact itself. overshoot shows how far the force goes beyond a "
       "limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";

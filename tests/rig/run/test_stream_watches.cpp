@@ -147,6 +147,15 @@ TEST_CASE("at rest an error of 8 times the noise is found, and noise is not mark
   CHECK(spikes_in(values).size() <= n_off + 1);
 }
 
+TEST_CASE("an hour of noise has no spikes, and an error of 12 times the noise is found in it",
+          "[rig]") {
+  std::vector<double> values = noisy(std::vector<double>(300'000, 1000.0), 10.0);
+  CHECK(spikes_in(values).empty());
+  const std::size_t place = values.size() - 100;
+  values[place] = 1000.0 + 12.0 * 10.0;
+  CHECK(spikes_in(values) == std::vector<std::int64_t>{static_cast<std::int64_t>(place)});
+}
+
 TEST_CASE("readings made a little early or late on a ramp are no spikes", "[rig]") {
   // 40 times the noise per reading, and a fifth of the period of unevenness in time.
   std::mt19937 random(3);
