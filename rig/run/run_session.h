@@ -8,6 +8,7 @@
 #include "rig/run/force_readings.h"
 #include "rig/run/life_watch.h"
 #include "rig/run/punch_lift.h"
+#include "rig/run/rise_watch.h"
 #include "rig/run/run_control.h"
 #include "rig/run/served_devices.h"
 #include "rig/run/spike_watch.h"
@@ -131,6 +132,7 @@ class RunSession {
   void await_change();
   void check_follow();
   void judge_press(double position_m);
+  void judge_rise(double position_m);
   double age_s() const;
   [[noreturn]] void throw_too_old(const std::string& what) const;
   void press(double to_m, double speed_m_s, const std::string& purpose,
@@ -173,6 +175,7 @@ class RunSession {
   };
   std::deque<Place> places_;  // of the move that presses, oldest first
   double pressed_from_m_ = 0.0, pressed_from_N_ = 0.0;
+  RiseWatch rise_;
   double noise_N_ = 0.0;
   std::int64_t n_at_rest_ = 0;  // readings since the stage stands still
   bool is_doubtful_ = false;    // the newest reading has no force

@@ -123,6 +123,16 @@ TEST_CASE("a motor that stands from the start touches nothing, and the motor is 
   CHECK(run.bench.peak_force_N == 0.0);
 }
 
+TEST_CASE("a motor that dies after a third of the ramp is noticed within the ramp", "[rig][pty]") {
+  TestPlan plan = short_plan();
+  plan.ramp_s = 2.0;
+  const FaultedRun run = run_with(rig_with("dead-motor@ramp+0.7"), plan);
+  INFO(run.said);
+  CHECK(run.outcome.code == "no-response");
+  CHECK(run.outcome.phase == "ramp");
+  CHECK_THAT(run.said, Contains("pressed on by") && Contains("motor does not turn"));
+}
+
 TEST_CASE("a motor that dies in the approach leaves a small force, and the run says so",
           "[rig][pty]") {
   // Below the contact threshold of 10 mN, at the touch, and while the touch is tried.
