@@ -135,9 +135,9 @@ TEST_CASE("a motor that dies after a third of the ramp is noticed within the ram
 
 TEST_CASE("a motor that dies in the approach leaves a small force, and the run says so",
           "[rig][pty]") {
-  // Below the contact threshold of 10 mN, at the touch, and while the touch is tried.
-  const auto [from_N, word] = GENERATE(std::pair<double, std::string>{0.007, "motor is dead"},
-                                       std::pair<double, std::string>{0.014, "motor does not turn"},
+  // Below the contact threshold of 20 mN, at the touch, and while the touch is tried.
+  const auto [from_N, word] = GENERATE(std::pair<double, std::string>{0.014, "motor is dead"},
+                                       std::pair<double, std::string>{0.03, "motor does not turn"},
                                        std::pair<double, std::string>{0.07, "motor does not turn"});
   EmulatedRigOptions options = rig_with("dead-motor@pressing");
   options.truth.surface_position_m = 0.06e-3;
@@ -149,6 +149,7 @@ TEST_CASE("a motor that dies in the approach leaves a small force, and the run s
   };
   TestPlan plan = short_plan();
   plan.approach_speed_m_s = 0.02e-3;
+  plan.contact_force_N = 0.02;
   plan.approach_limit_m = 0.4e-3;
   const RunOutcome outcome = rig.run(plan);
   INFO(least_N << ": " << outcome.reason);
