@@ -169,8 +169,9 @@ bool SpikeWatch::judge(std::size_t at) {
   const double scatter =
       std::max(0.0, std::max(before.scatter, behind.scatter) - kLikely * noise());
   const double slack = kRounded * corner + kEarlyOrLate * ramp + kStaircase * scatter;
-  // On a ramp a reading between its two neighbours is no spike: a staircase never turns back.
-  if (slope > kLikely * noise() && lies_between(at, before, kLikely * noise())) return false;
+  // On a ramp the force turns back only by what a specimen relaxes between two steps of the stage.
+  const double outside = std::max(kLikely * noise(), step_);
+  if (slope > kLikely * noise() && lies_between(at, before, outside)) return false;
   const double apart = std::abs(before.value - behind.value);
   const double middle = 0.5 * (before.value + behind.value);
   // Two lines through pure noise seldom differ by more than this.

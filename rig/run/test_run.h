@@ -37,6 +37,9 @@ double limit_N(const TestRun& run);
 // Indentation by the live contact point and the newest force.
 double live_depth_m(TestRun& run);
 
+// How far the zero may have drifted since the tare, N; less before the contact, soon after it.
+double zero_drift_N(const TestRun& run);
+
 // After the last lift: the force must be the zero again, within what a cell drifts. Throws
 // PunchNotFree if it is not and has hardly fallen; a smaller rest is a doubt.
 void check_lifted(TestRun& run, double before_N);
