@@ -9,7 +9,7 @@
 #include "io/flow/words/predict_words.h"
 #include "io/materials/material_file.h"
 #include "io/serve/api_error.h"
-#include "io/serve/desk_scenes.h"
+#include "io/serve/desk_files.h"
 #include "io/serve/desk_words.h"
 #include "io/serve/series_json.h"
 #include "io/tables/column_names.h"

@@ -5,7 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 namespace viscard {
 namespace {
@@ -31,6 +33,8 @@ std::string trouble_on(const EmulatedRigOptions& options) {
   const RigClock clock = emulated.clock();
   std::string trouble;
   for (int i = 0; i < 2; ++i) {
+    // The emulator looks every few milliseconds whether the port is open.
+    if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(200));
     SerialLine line(config.stage.port, 115200, clock);
     const auto stage = make_stage(line, config.stage, clock, [](const RunRecord&) {});
     stage->connect([&] {

@@ -257,7 +257,7 @@ TEST_CASE("a capture whose log is damaged is kept in all its parts, which the re
   CHECK(read_file(kept + "-wal") == log);
 }
 
-TEST_CASE("--force deletes no log of a capture that was moved away", "[io][capture]") {
+TEST_CASE("the option --force deletes no log of a capture that was moved away", "[io][capture]") {
   const ScratchFolder folder;
   const KilledCapture killed = killed_capture(folder);
   const std::string log = killed.log();

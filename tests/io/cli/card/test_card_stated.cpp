@@ -178,6 +178,7 @@ TEST_CASE("card --verify finds files of any name from the card of any target", "
   CardCommand command;
   Material material = reference_material();
   material.terms.resize(1);
+  material.provenance.raw_files.clear();
   const std::vector<std::string> names{
       "pr\u00fcfung.csv", "x--y---z.csv", "say \"a\".csv", "back\\slash.csv", "tab\there.csv",
       "line\nbreak.csv",  "50%.csv",      "a%41.csv",      "raw data 1.csv",  "a sha256 b.csv"};

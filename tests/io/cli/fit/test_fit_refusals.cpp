@@ -273,7 +273,7 @@ TEST_CASE("files of other kinds are refused by what they are", "[cli]") {
       Contains("is a material, not a test") && !Contains("creep="));
 }
 
-TEST_CASE("--unverified beside a table that no capture was exported to is refused", "[cli]") {
+TEST_CASE("the option --unverified beside a table that no capture was exported to is refused", "[cli]") {
   const TableFolder folder;
   const auto ran = run_command({"fit", folder.write("E.csv", relaxation_table()), "--unverified"});
   CHECK(ran.status != 0);
