@@ -5,15 +5,15 @@
 namespace viscard {
 namespace {
 
-constexpr double kStretch = 0.1;      // of the way
-constexpr double kFewestSteps = 4.0;  // of the motor
-constexpr double kStopped = 0.1;      // of the rise before
+constexpr double kStretch = 0.1;            // of the way
+constexpr double kFewestStepsOfRise = 4.0;  // of the motor
+constexpr double kStopped = 0.1;            // of the rise before
 
 }  // namespace
 
 void RiseWatch::begin(double contact_m, double way_m, double step_m, double least_N) {
   contact_m_ = contact_m;
-  stretch_m_ = way_m > 0.0 ? std::max(kStretch * way_m, kFewestSteps * step_m) : 0.0;
+  stretch_m_ = way_m > 0.0 ? std::max(kStretch * way_m, kFewestStepsOfRise * step_m) : 0.0;
   least_N_ = least_N;
   points_.clear();
   suspicion_.reset();
