@@ -5,7 +5,9 @@
 #include "io/basics/words.h"
 #include "io/tables/column_match.h"
 #include "io/tables/column_names.h"
+#include "io/tables/csv_header.h"
 #include "io/tables/header_words.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,32 +139,40 @@ std::string columns_with_values(const CsvTable& table) {
   return text;
 }
 
+namespace {
+
+// "E (Mpa)" in its parts although the unit is none; empty unit: there are no brackets at the end.
+HeaderParts with_any_unit(const CsvColumn& column) {
+  if (is_stated(column.unit)) return {column.name, column.unit};
+  const std::string& header = column.header;
+  const std::size_t open = header.find_last_of("([");
+  const bool has_brackets =
+      open != std::string::npos && open > 0 && (header.back() == ')' || header.back() == ']');
+  if (!has_brackets) return {header, ""};
+  return {
+      std::string(trimmed(std::string_view(header).substr(0, open))),
+      std::string(trimmed(std::string_view(header).substr(open + 1, header.size() - open - 2)))};
+}
+
+}  // namespace
+
 std::string unknown_unit(const CsvTable& table) {
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const CsvColumn& column = table.columns[i];
-    if (!is_stated(column.unit) || is_unit(column.unit)) continue;
+    const auto [name, unit] = with_any_unit(column);
+    if (unit.empty() || is_unit(unit)) continue;
     CsvColumn bare = column;
     bare.unit.clear();
-    bare.header = bare.name;
-    std::vector<ColumnKind> kinds;
+    bare.header = bare.name = name;
     for (const ColumnKind& kind : column_kinds()) {
-      if (match_header(bare, kind)) kinds.push_back(kind);
-    }
-    // "E" may be more than one; the unit that was meant decides.
-    const auto has_meant = [&](const ColumnKind& kind) {
-      return !unit_in_right_case(column.unit, kind.unit.si).empty();
-    };
-    std::stable_partition(kinds.begin(), kinds.end(), has_meant);
-    if (!kinds.empty()) {
-      const ColumnKind& kind = kinds.front();
-      const std::string meant(unit_in_right_case(column.unit, kind.unit.si));
-      const std::string what = "column " + std::to_string(i + 1) + " '" + column.header +
-                               "' is by its name " + kind.name + ", but '" + column.unit +
-                               "' is not a known unit (capitals matter)";
-      if (meant.empty()) return what + "; write the unit so that it is one of " + kind.unit.si;
-      return what + ". If " + meant + " was meant, write " +
+      // "E" may be of several quantities; the unit that was meant decides.
+      const std::string meant(unit_in_right_case(unit, kind.unit.si));
+      if (meant.empty() || !match_header(bare, kind)) continue;
+      return "column " + std::to_string(i + 1) + " '" + column.header + "' is by its name " +
+             kind.name + ", but '" + unit + "' is not a known unit (capitals matter). If " + meant +
+             " was meant, write " +
              quoted_for_shell(
-                 {"--column", std::string(kind.name) + "=" + bare.name + " (" + meant + ")"});
+                 {"--column", std::string(kind.name) + "=" + name + " (" + meant + ")"});
     }
   }
   return "";

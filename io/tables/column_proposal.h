@@ -10,7 +10,7 @@ namespace viscard {
 std::string columns_with_values(const CsvTable& table);
 
 // What is wrong with a column that has the name of a quantity and a unit that is none: "column 2 'E (Mpa)' is by
-// its name ..., but 'Mpa' is not a known unit", with the unit that was meant if capitals alone differ. Empty: nothing.
+// its name ..., but 'Mpa' is not a known unit", with the unit that was meant: capitals alone differ. Empty: nothing.
 std::string unknown_unit(const CsvTable& table);
 
 // Words that would read the table as a test, such as "--column time_s=1 --column modulus_Pa=2", by

@@ -220,9 +220,8 @@ TEST_CASE("repeats of a specimen are named on the command line or in a column of
     std::vector<std::string> ids = tables.specimen_ids;
     ids[9].clear();
     const CommandOutcome ran = run_command(joined(words, {ids}));
-    CHECK(ran.status == kFailed);
-    CHECK_THAT(ran.err, Contains("4.csv does not state its specimen") &&
-                            Contains("--specimen-id once for each file"));
+    CHECK(ran.status == kBadWords);
+    CHECK_THAT(ran.err, Contains("--specimen-id is empty"));
   }
   SECTION("with two ratios") {
     std::vector<std::string> ids = tables.specimen_ids;

@@ -90,7 +90,7 @@ TEST_CASE("bad data get a clear refusal or a flagged answer", "[cli]") {
   const auto as_is = [](double, double force) { return force; };
   SECTION("refusals") {
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"time_s,modulus_Pa\n0,nan\n1,nan\n2,nan\n3,nan\n4,nan\n", "nan"},
+        {"time_s,modulus_Pa\n0,nan\n1,nan\n2,nan\n3,nan\n4,nan\n", "no row has a number"},
         {pressed_table([](double, double) { return 0.5; }, all), "constant"},
         {pressed_table([](double, double force) { return -force; }, all), "--column force_N=-NAME"},
         {"time_s,force_N,depth_m\n0,0,0\n1,1,1e-4\n", "at least"}};

@@ -406,7 +406,7 @@ TEST_CASE("options of rig check are refused by the other subcommands", "[cli][ri
   const auto outcome = run_command({"rig", "overshoot", "--rig", "none.toml"});
   CHECK(outcome.status == kBadWords);
   CHECK(contains(outcome.err, "--rig is for viscard rig list, check, touch, jog, lift or home"));
-  const auto listed = run_command({"rig", "list", "--seconds", "1 s"});
+  const auto listed = run_command({"rig", "list", "--seconds", "1"});
   CHECK(listed.status == kBadWords);
   CHECK(contains(listed.err, "--seconds is for viscard rig check or touch"));
 }

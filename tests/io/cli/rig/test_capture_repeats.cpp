@@ -338,7 +338,8 @@ TEST_CASE("a stage without a comparison is homed before the first touch of a ser
   INFO(series.err);
   REQUIRE(series.status == kDone);
   std::vector<int> n_homings;
-  for (const auto& run : last_line(series)["runs"]) {
+  const auto json = last_line(series);
+  for (const auto& run : json["runs"]) {
     CHECK(run["depth_is"] == "counted");
     n_homings.push_back(0);
     read_raw_bytes(run["file"].get<std::string>(), [&](const RawBytes& raw) {
