@@ -5,9 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <chrono>
 #include <string>
-#include <thread>
 
 namespace viscard {
 namespace {
@@ -33,8 +31,7 @@ std::string trouble_on(const EmulatedRigOptions& options) {
   const RigClock clock = emulated.clock();
   std::string trouble;
   for (int i = 0; i < 2; ++i) {
-    // The emulator looks every few milliseconds whether the port is open.
-    if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    if (i > 0) wait_readable({}, clock, 0.5);  // so that the emulator sees the port closed
     SerialLine line(config.stage.port, 115200, clock);
     const auto stage = make_stage(line, config.stage, clock, [](const RunRecord&) {});
     stage->connect([&] {

@@ -135,31 +135,26 @@ TEST_CASE("a motor that dies after a third of the ramp is noticed within the ram
 
 TEST_CASE("a motor that dies in the approach leaves a small force, and the run says so",
           "[rig][pty]") {
-  // Below the contact threshold of 20 mN, at the touch, and while the touch is tried.
-  const auto [from_N, word] = GENERATE(std::pair<double, std::string>{0.014, "motor is dead"},
-                                       std::pair<double, std::string>{0.03, "motor does not turn"},
-                                       std::pair<double, std::string>{0.07, "motor does not turn"});
-  EmulatedRigOptions options = rig_with("dead-motor@pressing");
+  // At 20 um/s: below the contact threshold of 20 mN, and after it, before the punch presses further to try the touch.
+  const auto [after_s, word] =
+      GENERATE(std::pair<std::string, std::string>{"8.25", "motor is dead"},
+               std::pair<std::string, std::string>{"8.6", "motor does not turn"});
+  EmulatedRigOptions options = rig_with("dead-motor@approach+" + after_s);
   options.truth.surface_position_m = 0.06e-3;
-  RigFixture rig(options);
-  const double least_N = from_N;
-  rig.sink = [&rig, least_N](const RunRecord& record) {
-    rig.records.push_back(record);
-    if (rig.emulated.outcome().peak_force_N > least_N) rig.emulated.enter_phase("pressing");
-  };
   TestPlan plan = short_plan();
   plan.approach_speed_m_s = 0.02e-3;
   plan.contact_force_N = 0.02;
   plan.approach_limit_m = 0.4e-3;
-  const RunOutcome outcome = rig.run(plan);
-  INFO(least_N << ": " << outcome.reason);
-  CHECK(outcome.status == "interrupted");
-  CHECK(outcome.phase == "approach");
-  CHECK_THAT(outcome.reason, Contains(word) && Contains("THE PUNCH MAY STILL PRESS") &&
-                                 Contains("by hand") &&
-                                 Contains("by its count, which is in doubt") &&
-                                 !Contains("This is no contact") && !Contains("NOT LIFTED"));
-  CHECK(rig.emulated.outcome().final_position_m > options.truth.surface_position_m);
+  const FaultedRun run = run_with(options, plan);
+  INFO(after_s << " s: " << run.said);
+  CHECK(run.outcome.status == "interrupted");
+  CHECK(run.outcome.phase == "approach");
+  CHECK(run.bench.peak_force_N < 0.05);
+  CHECK_THAT(run.outcome.reason, Contains(word) && Contains("THE PUNCH MAY STILL PRESS") &&
+                                     Contains("by hand") &&
+                                     Contains("by its count, which is in doubt") &&
+                                     !Contains("This is no contact") && !Contains("NOT LIFTED"));
+  CHECK(run.bench.final_position_m > options.truth.surface_position_m);
 }
 
 TEST_CASE("a punch that is not lifted by a dead motor has one reason, on coarse steps too",
