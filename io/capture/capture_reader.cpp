@@ -116,7 +116,7 @@ void read_status(OpenCapture& capture, const fs::path& path, CapturedRun& run) {
   run.status = run_value(capture.database(), "status");
   if (run.status != "open") return;
   run.status = capture.is_running() ? "running" : "interrupted";
-  if (capture.is_running() || has_journal(path)) return;
+  if (capture.is_running() || has_journal(path) || !is_log_expected(path)) return;
   run.integrity.has_lost_log = true;
   run.integrity.lost_log = path.string() + "-wal";
   run.events.push_back({run.events.empty() ? 0.0 : run.events.back().host_time_s, "gap", "",
