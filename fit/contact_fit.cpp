@@ -35,7 +35,6 @@ WholeRecord settled_record(const ContactTable& table, SpectralState state, Prony
   constexpr double kSame = 1e-5;  // of the range of the depth
   const auto [low, high] = std::minmax_element(table.depth_m.begin(), table.depth_m.end());
   const bool may_drift = options.with_drift && options.drift != TableDrift::kNone;
-  constexpr double kSameTouch = 1e-3;  // of its depth
   std::vector<double> last;
   TouchCourse last_touch;
   for (int round = 1;; ++round) {

@@ -257,8 +257,6 @@ TouchCourse touch_of_approach(const IndentationData& data, const StageModel& mod
   return touch_course(punch.time_s, punch.depth_m, relaxation_series_of(model, is_liquid)(state));
 }
 
-constexpr double kSameTouch = 1e-3;  // of its depth
-
 Preparation prepared(const IndentationData& data, const AveragedRun& run,
                      const FitOptions& options) {
   Preparation now{.start = nuisance_start(data)};

@@ -31,5 +31,7 @@ TouchCourse touch_course(std::span<const double> time_s, std::span<const double>
 
 // Largest difference of two courses over the deepest point of both.
 double relative_change(const TouchCourse& a, const TouchCourse& b);
+inline constexpr double kSameTouch =
+    1e-3;  // of it: what such a change does to a modulus is beyond any reading
 
 }  // namespace viscard
