@@ -32,25 +32,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Adds a flag if storage and loss modulus cannot belong to one linear material.
-void flag_contradiction(const DmaModel& model, const SpectralState& state, FitResult& result) {
-  const std::optional<KramersKronigBreak> found = kramers_kronig_break(model, state.ln_tau);
-  if (!found) return;
-  const auto percent = [](double share) { return text_of(100.0 * std::abs(share), 2); };
-  const bool is_above = found->excess > 0.0;
-  const Interval& range = found->excess_95;
-  const double low = is_above ? range.low : range.high, high = is_above ? range.high : range.low;
-  result.flags.push_back(
-      {"storage-loss-contradict", 0,
-       std::string("the ") + (found->is_loss ? "loss" : "storage") + " modulus from " +
-           text_of(found->from_Hz, 3) + " to " + text_of(found->to_Hz, 3) + " Hz is " +
-           percent(found->excess) + " % (" + percent(low) + " to " + percent(high) + ") " +
-           (is_above ? "above" : "below") + " what the " + (found->is_loss ? "storage" : "loss") +
-           " modulus allows with any spectrum, also one that reaches beyond these frequencies "
-           "(Kramers-Kronig): they do not belong to one linear material. Check the shift factors "
-           "and the instrument's own loss"});
-}
-
 struct FittedModel {
   std::unique_ptr<DmaModel> model;
   SpectralFit fit;
@@ -287,7 +268,9 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
     report_storage_alone(result);
     return result;
   }
-  flag_contradiction(model, fit.state, result);
+  if (const auto found = kramers_kronig_break(model, fit.state.ln_tau)) {
+    add_contradiction(*found, "", result);
+  }
   if (options.keep_rows) {
     KeptRows kept{.shape = KeptRows::Shape::kOscillation, .window = window};
     kept.at.assign(frequency_Hz.begin(), frequency_Hz.end());

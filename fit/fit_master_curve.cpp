@@ -5,6 +5,7 @@
 #include "fit/intervals/flags.h"
 #include "fit/intervals/left_out.h"
 #include "fit/intervals/positive_intervals.h"
+#include "fit/isotherm_checks.h"
 #include "fit/master_segments.h"
 #include "fit/master_shifts.h"
 #include "fit/master_start.h"
@@ -292,6 +293,7 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
     report_highest_storage(1.0 / (2.0 * std::numbers::pi * result.fit_from_s), result);
   }
   flag_left_out(all, result);
+  check_isotherms(all.segments, shifts, curve.factors, options, result);
   flag_apart(start, curve);
   widen_by_scatter(curve);
   flag_shifts(shifts, curve);

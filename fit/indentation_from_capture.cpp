@@ -140,6 +140,7 @@ double free_again_s(const CapturedRun& run, IndentationData& data) {
          data.start_early_s + kFreeAgain_s;
 }
 
+<<<<<<< HEAD
 // The specimen remembers the touch of the approach.
 void take_approach(const CapturedRun& run, const CommandedMove& first, IndentationData& data) {
   constexpr double kSamePlace_m = 5e-6;  // a stop is reported with three decimals of a mm
@@ -159,6 +160,14 @@ void take_approach(const CapturedRun& run, const CommandedMove& first, Indentati
   } else if (data.approach.empty() && run.integrity.is_damage_accepted) {
     data.approach_doubt = "the capture is damaged and holds no move before the ramp";
   }
+=======
+// The stage is homed after the test: its acceleration shakes the cell.
+double homed_from_s(const CapturedRun& run) {
+  for (const RunEvent& event : run.events) {
+    if (event.name == "phase" && event.value == "home") return event.host_time_s;
+  }
+  return 1e300;
+>>>>>>> 1d41716d340b717c20540a0d94c25189d4fbfd12
 }
 
 void take_moves_in_contact(const CapturedRun& run, IndentationData& data) {
@@ -281,7 +290,11 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   data.contact_to_s = readings.time_s.back();
   const double free_s = free_again_s(run, data);
   const double still_s = still_since_s(run, *ramp);
+<<<<<<< HEAD
   take_approach(run, *ramp, data);
+=======
+  const double homed_s = homed_from_s(run);
+>>>>>>> 1d41716d340b717c20540a0d94c25189d4fbfd12
   take_moves_in_contact(run, data);
   if (data.moves.empty()) {
     throw std::runtime_error(
@@ -292,7 +305,7 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
     const double t = readings.time_s[i];
     const bool before = t > still_s && t < data.contact_from_s;
     const bool contact = t >= data.contact_from_s && t <= data.contact_to_s;
-    if (!before && !contact && !(t > free_s)) continue;
+    if (!before && !contact && !(t > free_s && t < homed_s)) continue;
     data.time_s.push_back(t);
     data.force_N.push_back(readings.force_N[i]);
   }

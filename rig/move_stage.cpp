@@ -59,6 +59,9 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
   StageMoved moved;
   try {
     session.connect();
+    if (rig.stage.zero_m != 0.0 && stage.trouble_with_zero().empty()) {
+      moved.zero_m = rig.stage.zero_m;
+    }
     session.begin_phase("rest", 0.0, "The force before a move outside of any test");
     session.forget_readings();
     const ForceMean rest = session.tare(kRest_s);

@@ -7,6 +7,7 @@
 #include "rig/run/run_control.h"
 #include "rig/stages/stage.h"
 
+#include <optional>
 #include <string>
 
 namespace viscard {
@@ -26,6 +27,8 @@ struct StageMoved {
   double from_m = 0.0, to_m = 0.0;                   // positions of the controller
   double force_before_N = 0.0, force_after_N = 0.0;  // by the calibration, without a tare
   bool is_stopped_by_force = false;
+  // From which a person counts positions: that of the rig file, if the controller keeps its own zero.
+  std::optional<double> zero_m;
 };
 
 // A move that ended early, with the stage at rest where it stands.

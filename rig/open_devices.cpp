@@ -5,6 +5,7 @@
 #include "rig/cells/gauge_load_cell.h"
 #include "rig/cells/hx711_load_cell.h"
 #include "rig/cells/mark10_stream.h"
+#include "rig/lines/port_probe.h"
 #include "rig/lines/rig_error.h"
 #include "rig/lines/tcp_port.h"
 #include "rig/stages/apt_stage.h"
@@ -128,6 +129,16 @@ void check_devices(const RigConfig& rig) {
   };
   check_port("stage", rig.stage);
   check_port("load_cell", rig.load_cell);
+  const auto check_messages = [](const char* section, const auto& device) {
+    if (is_usbtmc_port(device.port) && device.driver != "scpi") {
+      throw RigError(port_of(section, device) + " '" + device.port +
+                     "' is USB-TMC, which carries SCPI. Use it with driver = \"scpi\", or give '" +
+                     device.driver + "' its own port");
+    }
+  };
+  check_messages("stage", rig.stage);
+  check_messages("load_cell", rig.load_cell);
+  if (has_own_port(rig.thermometer)) check_messages("thermometer", rig.thermometer);
   row_of(kStages, rig.stage.driver, "stage").check(rig.stage);
   const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");
   cell.check(rig.load_cell);

@@ -173,31 +173,30 @@ std::string mm_text(double length_m) {
 
 // Position of the punch relative to the contact or, before the contact is known, to the start.
 std::string place_of_stage(TestRun& run) {
-  const std::string counted = run.is_place_doubtful ? "by its count, which is in doubt, " : "";
   const double position_m = run.session.stage().position_m();
   if (run.outcome.contact_position_m) {
     const double clear_m = run.contact_m - position_m;
-    return counted + (clear_m > 0.0
-                          ? "the punch is " + mm_text(clear_m) + " above the contact"
-                          : "the punch is still " + mm_text(-clear_m) + " below the contact");
+    return clear_m > 0.0 ? "the punch is " + mm_text(clear_m) + " above the contact"
+                         : "the punch is still " + mm_text(-clear_m) + " below the contact";
   }
   const double above_m = run.start_m - position_m;
-  if (std::abs(above_m) < kSamePlace_m) return counted + "it stands where it started";
-  return counted + "it stands " + mm_text(std::abs(above_m)) +
-         (above_m > 0.0 ? " above" : " below") + " where it started";
+  if (std::abs(above_m) < kSamePlace_m) return "it stands where it started";
+  return "it stands " + mm_text(std::abs(above_m)) + (above_m > 0.0 ? " above" : " below") +
+         " where it started";
 }
 
 // Where the punch is after a run that ended early: the first information that a person at the rig
 // needs. Empty if only the trouble of the lift is known.
 std::string place_of_punch(TestRun& run, const SafeEnd& end, bool had_moved, bool knows_position) {
+  const std::string counted = run.is_place_doubtful ? "by its count, which is in doubt, " : "";
   if (end.lifted_m > 0.0) {
-    return ". The stage was stopped and lifted by " + mm_text(end.lifted_m) +
+    return ". The stage was stopped and " + counted + "lifted by " + mm_text(end.lifted_m) +
            (knows_position ? ": " + place_of_stage(run)
                            : " from where it stood; its position is not known any more");
   }
-  if (!end.trouble.empty()) return "";
+  if (!end.trouble.empty() && !end.is_force_left) return "";
   if (!had_moved) return ". The stage was not moved: the punch is where it was before the run";
-  return knows_position ? ". The stage was stopped: " + place_of_stage(run)
+  return knows_position ? ". The stage was stopped: " + counted + place_of_stage(run)
                         : ". The stage was stopped; it was not lifted: look at the punch";
 }
 
@@ -240,8 +239,14 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   outcome.has_begun = run.session.has_moved() && run.is_tared;
   if (run.is_in_contact) note_depth(run);
   if (is_a<ForceDoesNotFollow>(error)) run.is_place_doubtful = true;
-  const SafeEnd end = run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s);
-  const bool knows_position = !is_a<DeviceRestarted>(error) && !is_a<StageAlarm>(error);
+  // PunchNotFree has judged the force after a lift already.
+  const bool is_zero_known = run.is_tared && !is_a<PunchNotFree>(error);
+  const SafeEnd end =
+      run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s,
+                            is_zero_known ? std::optional(zero_drift_N(run)) : std::nullopt);
+  if (end.is_force_left) run.is_place_doubtful = true;
+  const bool knows_position =
+      !is_a<DeviceRestarted>(error) && !is_a<StageAlarm>(error) && !run.session.is_position_lost();
   outcome.reason += place_of_punch(run, end, run.session.has_moved(), knows_position);
   if (!end.trouble.empty()) outcome.reason += ". And: " + end.trouble;
 }
@@ -251,6 +256,7 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
 RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
                            const TestPlan& plan, const Specimen& specimen, const RecordSink& sink,
                            const RunControl& control) {
+  if (rig.stage.home) stage.plan_count_check(control.homed_at_m);
   const RecordSink safe_sink = failing_once(sink);
   RunSession session(stage, load_cell, rig, safe_sink, control);
   TestRun run{session, rig, plan, specimen, phases_from_plan(plan), {}};
@@ -268,7 +274,7 @@ RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& r
     if (!phases.is_begun()) throw;
     end_early(run, phases, "interrupted", error);
   }
-  conclude(session, rig, run.outcome, *control.clock);
+  conclude(session, rig, control, run.outcome);
   return run.outcome;
 }
 

@@ -19,7 +19,8 @@ namespace viscard {
 //
 // If the run ends early (limit, interruption, lost device, a sink that throws), the stage is
 // stopped first and the punch is lifted as far as the devices still answer; the outcome states what
-// was done. The last record is an event "finished", "interrupted" or "stopped". Throws RigError
+// was done. With home = true under [stage] the stage is homed before the test and again after its
+// lift (rig/run/count_comparison.h). The last record is an event "finished", "interrupted" or "stopped". Throws RigError
 // only before the test has begun: a device does not connect, or preflight() refuses the plan. The
 // time is that of control.clock; rig.clock_speed is not used.
 RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& rig,

@@ -181,6 +181,19 @@ void take_noise(const Parametrisation& form, const Box& box, SpectralFit& fit) {
       widened(fit.covariance, is_doubtful ? covariance.of({}) : fit.covariance, fit.slow);
 }
 
+// The row of the table of orders shows the fit that was made. Held parameters do not follow the rows, so that the
+// error at rows that are left out rises by what the residual rises.
+void take_row(const SpectralModel& model, Index n_terms, Index n_free, SpectralFit& fit) {
+  OrderScores& scores = fit.scores;
+  OrderRow& row = scores.rows[scores.chosen];
+  const OrderRow free = row;
+  const double noise = std::max(scores.rows.back().rss, std::max(scores.least_rss, 1e-300));
+  row = scored_order(static_cast<int>(n_terms), static_cast<double>(n_free), fit.rss,
+                     model.n_samples(), scores);
+  row.cv = free.cv + (fit.rss - free.rss) / noise;
+  row.is_chosen = true;
+}
+
 }  // namespace
 
 void constrain(const SpectralModel& model, const FitOptions& options, SpectralFit& fit) {
@@ -213,6 +226,7 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
   fit.rss = best.rss + model.hidden_rss(best);
   fit.variance = fit.rss / std::max(1.0, model.n_samples() - static_cast<double>(n_free));
   take_noise(form, box, fit);
+  take_row(model, n_terms, n_free, fit);
   for (const ParameterConstraint& one : options.constraints) {
     fit.notes.push_back(
         {"constrained", 0, range_text(one) + (one.low == one.high ? " was held" : " was applied")});

@@ -3,10 +3,12 @@
 #include "fit/search/nnls.h"
 #include "models/maths/dense.h"
 #include "models/maths/distributions.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -169,6 +171,23 @@ std::optional<KramersKronigBreak> kramers_kronig_break(const DmaModel& model,
                             model.frequency_Hz(first + size - 1),
                             share,
                             {share - t_95 * error, share + t_95 * error}};
+}
+
+void add_contradiction(const KramersKronigBreak& found, const std::string& where,
+                       FitResult& result) {
+  const auto percent = [](double share) { return text_of(100.0 * std::abs(share), 2); };
+  const bool is_above = found.excess > 0.0;
+  const Interval& range = found.excess_95;
+  const double low = is_above ? range.low : range.high, high = is_above ? range.high : range.low;
+  result.flags.push_back(
+      {"storage-loss-contradict", 0,
+       std::string("the ") + (found.is_loss ? "loss" : "storage") + " modulus" + where + " from " +
+           text_of(found.from_Hz, 3) + " to " + text_of(found.to_Hz, 3) + " Hz is " +
+           percent(found.excess) + " % (" + percent(low) + " to " + percent(high) + ") " +
+           (is_above ? "above" : "below") + " what the " + (found.is_loss ? "storage" : "loss") +
+           " modulus allows with any spectrum, also one that reaches beyond these frequencies "
+           "(Kramers-Kronig): they do not belong to one linear material. Check the shift factors "
+           "and the instrument's own loss"});
 }
 
 }  // namespace viscard

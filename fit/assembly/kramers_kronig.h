@@ -1,11 +1,13 @@
 #pragma once
 
 #include "fit/curves/dma_model.h"
+#include "fit/intervals/fit_result.h"
 #include "models/maths/interval.h"
 
 #include <Eigen/Core>
 
 #include <optional>
+#include <string>
 
 namespace viscard {
 
@@ -29,5 +31,9 @@ struct KramersKronigBreak {
 // 1885.
 std::optional<KramersKronigBreak> kramers_kronig_break(const DmaModel& model,
                                                        const Eigen::VectorXd& fitted_ln_tau);
+
+// Adds the flag storage-loss-contradict. where: follows "the loss modulus", such as " at 60 C"; may be empty.
+void add_contradiction(const KramersKronigBreak& found, const std::string& where,
+                       FitResult& result);
 
 }  // namespace viscard

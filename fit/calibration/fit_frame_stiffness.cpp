@@ -18,6 +18,8 @@ constexpr std::size_t kFewestForSeating = 5;
 constexpr double kLongestSeating = 0.5;  // F_s over the largest force
 constexpr double kSeatingStep = 1.15;    // of F_s in its search
 constexpr double kWorst = 0.2;           // half of the interval of 1/k, relative
+constexpr double kBentShare = 0.1;       // largest deviation from the line over the whole motion
+constexpr double kSeatedShare = 0.25;    // seating over the whole motion
 
 // Position over force, from a least-squares fit with or without a settling part.
 struct Compliance {
@@ -83,6 +85,25 @@ std::vector<Compliance> candidates(const BlockPoints& points) {
 
 }  // namespace
 
+namespace {
+
+// A frame on a rigid block gives way in proportion to the force; a soft specimen, or a way in air, does not.
+void refuse_bent(const Compliance& line, double seating_m, double motion_m) {
+  const bool is_seated = seating_m > kSeatedShare * motion_m;
+  if (!is_seated && line.largest_residual_m <= kBentShare * motion_m) return;
+  const auto um = [](double length_m) { return text_of(1e6 * length_m, 3) + " um"; };
+  throw std::runtime_error(
+      (is_seated ? "the block settled by " + um(seating_m) + " (seating)"
+                 : "the positions leave a straight line by " + um(line.largest_residual_m)) +
+      " of a motion of " + um(motion_m) + "; at most " +
+      text_of(100.0 * (is_seated ? kSeatedShare : kBentShare), 2) +
+      " % is allowed: this is no frame on a rigid block. Is a soft specimen under the punch, or do "
+      "the readings begin out of contact? Give positions and forces in contact with a block of "
+      "steel or glass");
+}
+
+}  // namespace
+
 FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_relative_u) {
   const std::size_t n = points.force_N.size();
   if (n < 3 || points.position_m.size() != n) {
@@ -127,6 +148,7 @@ FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_rel
   }
   FrameStiffnessFit fit;
   fit.seating_m = rise(line) > t * t ? best.seating_m : 0.0;
+  refuse_bent(line, fit.seating_m, *high_m - *low_m);
   const double middle = 0.5 * (low + high);
   const double half_width = 0.5 * (high - low) / middle;
   if (!(half_width < kWorst && middle > 0.0)) {
@@ -150,6 +172,12 @@ FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_rel
 }
 
 BlockPoints block_points_from_capture(const CapturedRun& run) {
+  if (run.plan.protocol != "compliance") {
+    throw std::runtime_error("this is a run with protocol '" + run.plan.protocol +
+                             "' on the specimen '" + run.specimen.id +
+                             "', not one on a rigid block (protocol 'compliance'). Measure with: "
+                             "viscard calibrate --compliance --rig FILE");
+  }
   constexpr double kFirstPart = 0.25;  // share of each hold to leave out: motion ends, frame rings
   std::vector<StageMove> moves;
   for (const CommandedMove& move : run.moves) moves.push_back(move.move);

@@ -27,11 +27,13 @@ struct FrameStiffnessFit {
 // describe the points as well as the best ones do; its middle is the result. Fewer than five points
 // allow a straight line only. The relative standard uncertainty of the gain is added in quadrature.
 // Throws std::invalid_argument unless there are three points and the position increases with the
-// force, and std::runtime_error if seating or scatter leaves 1/k unknown by more than 20 %.
+// force, and std::runtime_error if seating or scatter leaves 1/k unknown by more than 20 %, and if the points
+// leave a line by more than 10 %, or settle by more than 25 %, of the whole motion.
 FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_relative_u);
 
 // The holds of a run with protocol "compliance" (models/experiment/test_plan.h): stage position and
-// mean force of each. Throws std::runtime_error if there are none.
+// mean force of each. Throws std::runtime_error if there are none, and for
+// another protocol.
 BlockPoints block_points_from_capture(const CapturedRun& run);
 
 }  // namespace viscard

@@ -1,5 +1,7 @@
 #include "fit/planning/protocol_study.h"
 
+#include "models/maths/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -157,16 +159,24 @@ ProtocolStudy study_protocols(const Bench& bench, const std::vector<WantedQuanti
   study.loses_terms =
       std::none_of(predictions.begin(), predictions.begin() + static_cast<std::ptrdiff_t>(n_grid),
                    [](const Prediction& one) { return one.weakest_term >= kClearTerm; });
+  double shortest_s = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < plans.size(); ++i) {
     const bool is_given = i >= n_grid;
     if (!is_given && !study.loses_terms && predictions[i].weakest_term < kClearTerm) continue;
     for (int touches = 1; touches <= (is_given ? 1 : options.most_touches); ++touches) {
       ProtocolRow row = row_of(plans[i], touches, bench, predictions[i]);
       row.is_given = is_given;
+      shortest_s = std::min(shortest_s, row.total_s);
       if (row.total_s > options.longest_s && !is_given) break;
       add_guess(row.errors, study, row);
       study.rows.push_back(row);
     }
+  }
+  if (shortest_s > options.longest_s) {
+    const auto seconds = [](double time_s) { return text_of(time_s, 3) + " s"; };
+    throw std::runtime_error("no test fits into " + seconds(options.longest_s) +
+                             "; the shortest takes " + seconds(shortest_s) +
+                             " at the rig. Allow at least that (--at-most)");
   }
   study.n_tried = study.rows.size();
   keep_near_front(study.rows);

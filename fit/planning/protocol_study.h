@@ -70,7 +70,8 @@ std::vector<TestPlan> protocol_grid(const ProtocolOptions& options);
 // A guess with a covariance is off by two standard errors in each direction instead.
 std::vector<Material> guesses_about(const Material& guess);
 
-// Throws what predicted_fit() throws, and std::invalid_argument if no test of the grid is allowed.
+// Throws what predicted_fit() throws, and std::invalid_argument if no test of the grid is allowed, and
+// std::runtime_error if none fits into the time, naming the shortest time that one takes.
 ProtocolStudy study_protocols(const Bench& bench, const std::vector<WantedQuantity>& wanted,
                               const ProtocolOptions& options);
 

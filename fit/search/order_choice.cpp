@@ -123,6 +123,20 @@ bool is_within_range(const SpectralModel& model, const SpectralState& state) {
          !(model.is_shortest(state.ln_tau.minCoeff()) || model.is_longest(state.ln_tau.maxCoeff()));
 }
 
+OrderRow scored_order(int n_terms, double p, double rss, double n_samples,
+                      const OrderScores& scores) {
+  OrderRow row;
+  row.n_terms = n_terms;
+  row.rss = rss;
+  const double n = scores.n_effective;
+  const double misfit = n * std::log(std::max(rss, scores.least_rss) / n_samples);
+  const double spare = n - p - 1.0;
+  row.aicc = spare > 0.0 ? misfit + 2.0 * p + 2.0 * p * (p + 1.0) / spare
+                         : std::numeric_limits<double>::infinity();
+  row.bic = misfit + p * std::log(n);
+  return row;
+}
+
 namespace {
 
 // A time above a third of the record. ln_tau_max() is three times the record.
@@ -138,20 +152,6 @@ struct Candidates {
   std::size_t best_bic = 0, best_cv = 0;  // among the eligible
   double n_effective = 1.0, least_rss = 0.0;
 };
-
-OrderRow scored(const SpectralModel& model, const SpectralState& state, double rss,
-                double least_rss, double n_samples, double n_effective) {
-  OrderRow row;
-  row.n_terms = static_cast<int>(state.n_terms());
-  row.rss = rss;
-  const auto p = static_cast<double>(model.n_parameters(state));
-  const double misfit = n_effective * std::log(std::max(rss, least_rss) / n_samples);
-  const double spare = n_effective - p - 1.0;
-  row.aicc = spare > 0.0 ? misfit + 2.0 * p + 2.0 * p * (p + 1.0) / spare
-                         : std::numeric_limits<double>::infinity();
-  row.bic = misfit + p * std::log(n_effective);
-  return row;
-}
 
 Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input) {
@@ -173,9 +173,14 @@ Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralS
   const double noise = std::max(input.rss.back(), least_rss);
   all.n_effective = n_effective;
   all.least_rss = least_rss;
+  OrderScores scale;
+  scale.n_effective = n_effective;
+  scale.least_rss = least_rss;
   std::optional<std::size_t> best_bic, best_cv;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    OrderRow row = scored(model, path[i], input.rss[i], least_rss, input.n_samples, n_effective);
+    OrderRow row = scored_order(static_cast<int>(path[i].n_terms()),
+                                static_cast<double>(model.n_parameters(path[i])), input.rss[i],
+                                input.n_samples, scale);
     all.errors.push_back(left_out_errors(model, path[i], input.blocks));
     row.cv = row.rss - path[i].rss;  // the part within averages
     for (const LeftOut& block : all.errors.back()) row.cv += block.squared_error;

@@ -29,6 +29,9 @@ struct ChoiceInput {
   std::vector<double> rss;
   std::vector<int> blocks;
 };
+// The scores of a fit with p parameters, without cross-validation. n_samples, n_effective, least_rss: as above.
+OrderRow scored_order(int n_terms, double p, double rss, double n_samples,
+                      const OrderScores& scores);
 OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input);
 

@@ -2,6 +2,7 @@
 
 #include "io/basics/inputs.h"
 #include "io/basics/missing_file.h"
+#include "io/basics/output_name.h"
 #include "io/basics/written_path.h"
 
 #include <fcntl.h>
@@ -202,6 +203,7 @@ void put_file(const std::filesystem::path& path, const std::string& contents, bo
         path.string() + " is a device or pipe, which the file would replace; choose another name");
   }
   remember_folder_of(path);
+  refuse_output_name(path);
   if (!overwrite && std::filesystem::exists(path, ignored)) {
     throw std::runtime_error(path.string() +
                              " exists already; pass --force to replace it, or choose another name");

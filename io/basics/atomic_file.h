@@ -12,7 +12,8 @@ namespace viscard {
 // Writes a file so that a reader sees either the old or the new contents, never a part: it writes a
 // temporary file in the same folder, syncs it, renames it and syncs the folder.
 // Throws std::runtime_error with the path, the reason and the next step if the target exists and
-// overwrite is false, if it is a folder, device or pipe, or if a step fails. The temporary file is
+// overwrite is false, if it is a folder, device or pipe, if no output may have its name (output_name.h), or if
+// a step fails. The temporary file is
 // removed in every case; one that a power cut or kill has left behind is removed by the next call for
 // the same file. A folder that cannot be synced is an error too: the file is there, but a power cut
 // may lose it. A file that the running command has read (is_input()) is never replaced.

@@ -66,6 +66,8 @@ constexpr std::array kKinds{
     KindRow{FileKind::kOtherJson, "a JSON file of another kind", "", ""},
     KindRow{FileKind::kCard, "a material card", "viscard card --check takes it",
             "a text as viscard card --out writes it"},
+    KindRow{FileKind::kPage, "an HTML page",
+            "a browser shows it; viscard fit and report take the files that it was made from", ""},
 };
 
 const KindRow& row_of(FileKind kind) {
@@ -77,6 +79,18 @@ bool is_key(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
+  });
+}
+
+bool is_page(std::string_view text) {
+  constexpr std::array<std::string_view, 2> kBegins{"<!doctype html", "<html"};
+  return std::any_of(kBegins.begin(), kBegins.end(), [&](std::string_view begin) {
+    return std::equal(
+        begin.begin(), begin.end(), text.begin(),
+        text.begin() + static_cast<std::ptrdiff_t>(std::min(begin.size(), text.size())),
+        [](char wanted, char found) {
+          return wanted == (found >= 'A' && found <= 'Z' ? found + 32 : found);
+        });
   });
 }
 
@@ -205,6 +219,7 @@ FileKind kind_of_file(std::string_view contents) {
   if (is_control) return FileKind::kBinary;
   const std::string_view text = trimmed(head.starts_with("\xef\xbb\xbf") ? head.substr(3) : head);
   if (text.find_first_not_of(" \t\r\n\f\v") == std::string_view::npos) return FileKind::kEmpty;
+  if (is_page(text)) return FileKind::kPage;
   const std::size_t inside = text.find_first_not_of(" \t\r\n", 1);
   if (text.front() == '{' &&
       (inside == std::string_view::npos || text[inside] == '"' || text[inside] == '}')) {

@@ -31,7 +31,8 @@ enum class FileKind : std::uint8_t {
   kJointFit,
   kRubberLaw,
   kOtherJson,
-  kCard
+  kCard,
+  kPage
 };
 
 // From the first lines alone; a file with mistakes is still of its kind.

@@ -1,6 +1,7 @@
 #include "io/basics/missing_file.h"
 
 #include "io/basics/words.h"
+#include "io/basics/written_path.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -50,12 +51,14 @@ std::string next_for_missing(const fs::path& path) {
 }  // namespace
 
 std::string near_file(const fs::path& path) {
+  remember_folder_of(path);  // for messages about it
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const std::string near = nearest_word(path.filename().string(), names_in(folder));
   return near.empty() || !path.has_parent_path() ? near : (folder / near).string();
 }
 
 std::string why_not_opened(const fs::path& path, int error) {
+  remember_folder_of(path);
   const std::string what = std::string("cannot open: ") + std::strerror(error) + "; ";
   if (path.empty()) return what + "its name is empty, so name a file";
   if (error == ENOENT || error == ENOTDIR) return what + next_for_missing(path);

@@ -25,7 +25,8 @@ double option_quantity(const std::string& name, const std::string& text,
                        const QuantityOrUnit& quantity, Plausible judged) {
   double value = 0.0;
   try {
-    value = si_from_text(text, quantity.si);
+    value = si_from_text(text, quantity.si,
+                         quantity.quantity == nullptr ? nullptr : quantity.quantity->example);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + ": " + error.what());
   }

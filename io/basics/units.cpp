@@ -204,16 +204,22 @@ const char* example_of(std::string_view si_unit) {
                                                       {"K", "\"296 K\""},
                                                       {"1/m", "\"3200 steps/mm\""},
                                                       {"1/s", "\"1e-6 1/s\""},
-                                                      {"1", "0.495"}}};
+                                                      {"1", "0.05 or \"5 %\""}}};
   for (const Example& example : kExamples) {
     if (example.unit == si_unit) return example.text;
   }
   return nullptr;
 }
 
-[[noreturn]] void fail(std::string_view text, std::string_view si_unit, const std::string& why) {
+// own_example: of the quantity; null or empty: there is none.
+[[noreturn]] void fail(std::string_view text, std::string_view si_unit, const std::string& why,
+                       const char* own_example = nullptr) {
   std::string message = "'" + std::string(text) + "' " + why;
-  if (const char* example = example_of(is_no_unit(si_unit) ? "1" : si_unit)) {
+  if (own_example != nullptr && *own_example != '\0') {
+    const bool has_blank = std::string_view(own_example).find(' ') != std::string_view::npos;
+    const char* const quote = has_blank ? "\"" : "";
+    message += std::string("; write it like ") + quote + own_example + quote;
+  } else if (const char* example = example_of(is_no_unit(si_unit) ? "1" : si_unit)) {
     message += "; write it like " + std::string(example);
   }
   throw std::invalid_argument(message);
@@ -251,15 +257,40 @@ double scaled(std::string_view digits, double value, const UnitScale& scale) {
 
 }  // namespace
 
-UnitScale scale_to_si(std::string_view unit_text, const char* si_unit) {
+std::string_view unit_in_right_case(std::string_view unit_text, const char* si_unit) {
+  static constexpr std::array<std::string_view, 22> kCommon{
+      "MPa", "kPa", "GPa", "Pa", "N", "mN", "uN",  "nN", "kN", "m",  "mm",
+      "um",  "nm",  "s",   "ms", "h", "Hz", "kHz", "V",  "mV", "kg", "psi"};
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
   const std::string_view unit = trimmed(unit_text);
+  for (const std::string_view common : kCommon) {
+    const bool is_same = std::equal(unit.begin(), unit.end(), common.begin(), common.end(),
+                                    [&](char a, char b) { return lower(a) == lower(b); });
+    if (is_same && is_unit_of(common, si_unit)) return common;
+  }
+  return {};
+}
+
+namespace {
+
+UnitScale scale_or_fail(std::string_view unit, const char* si_unit, const char* example) {
   if (const auto scale = try_scale(unit, si_unit)) return *scale;
-  std::string why = is_unit(unit) ? "is not " : "is not a known unit (capitals matter); expected ";
+  const std::string_view meant = unit_in_right_case(unit, si_unit);
+  std::string why = is_unit(unit)
+                        ? "is not "
+                        : "is not a known unit (capitals matter" +
+                              (meant.empty() ? "" : ": " + std::string(meant)) + "); expected ";
   why += unit_name(si_unit);
   if (std::string_view(si_unit) == "N" && try_scale(unit, "kg")) {
     why += " (for the weight of a mass write gf or kgf)";
   }
-  fail(unit, si_unit, why);
+  fail(unit, si_unit, why, example);
+}
+
+}  // namespace
+
+UnitScale scale_to_si(std::string_view unit_text, const char* si_unit) {
+  return scale_or_fail(trimmed(unit_text), si_unit, nullptr);
 }
 
 bool is_unit_of(std::string_view unit_text, const char* si_unit) {
@@ -273,7 +304,7 @@ bool is_unit(std::string_view unit_text) {
   return parse(unit, true) != nullptr;
 }
 
-double si_from_text(std::string_view text, const char* si_unit) {
+double si_from_text(std::string_view text, const char* si_unit, const char* example) {
   const std::string_view all = trimmed(text);
   std::string_view digits = all;
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
@@ -281,15 +312,20 @@ double si_from_text(std::string_view text, const char* si_unit) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::invalid_argument) {
     fail(text, si_unit,
-         "does not begin with a number; expected a number and " + unit_name(si_unit));
+         is_no_unit(si_unit)
+             ? "does not begin with a number; expected a plain number"
+             : "does not begin with a number; expected a number and " + unit_name(si_unit),
+         example);
   }
-  if (error != std::errc() || !std::isfinite(value)) fail(text, si_unit, "is not a finite number");
+  if (error != std::errc() || !std::isfinite(value))
+    fail(text, si_unit, "is not a finite number", example);
   const std::string_view unit =
       trimmed({end, static_cast<std::size_t>(digits.data() + digits.size() - end)});
   if (unit.empty()) return value;
-  if (unit.front() == ',') fail(text, si_unit, "has a comma; the decimal sign here is a point");
+  if (unit.front() == ',')
+    fail(text, si_unit, "has a comma; the decimal sign here is a point", example);
   const std::string_view number(digits.data(), static_cast<std::size_t>(end - digits.data()));
-  return scaled(number, value, scale_to_si(unit, si_unit));
+  return scaled(number, value, scale_or_fail(unit, si_unit, example));
 }
 
 }  // namespace viscard

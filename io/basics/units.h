@@ -17,7 +17,8 @@ struct UnitScale {
 // Returns the value of "40 um", "10 kPa", "0.7255 V/N" or "250 gf" in si_unit ("m", "Pa", "V/N",
 // "N"). A number without a unit is in si_unit. With si_unit "degC" it accepts "23 C", "23 degC" and
 // "296.15 K". Throws std::invalid_argument naming the text, the unit expected and an example.
-double si_from_text(std::string_view text, const char* si_unit);
+// example: of the quantity, "1 %"; none or empty: one of the unit.
+double si_from_text(std::string_view text, const char* si_unit, const char* example = nullptr);
 
 // Returns the scale from unit_text ("ms", "MPa", "%") to si_unit. "", "-" and "1" mean no unit and
 // give factor 1. Turns and radians differ: "rad/s" to "Hz" divides by 2 pi. Throws
@@ -26,6 +27,9 @@ UnitScale scale_to_si(std::string_view unit_text, const char* si_unit);
 
 // True if scale_to_si() would succeed.
 bool is_unit_of(std::string_view unit_text, const char* si_unit);
+
+// The unit of that kind that differs from the text by capitals only, "MPa" for "Mpa"; empty: none.
+std::string_view unit_in_right_case(std::string_view unit_text, const char* si_unit);
 
 // True if the text is a unit of some quantity ("MPa", "s", "-").
 bool is_unit(std::string_view unit_text);

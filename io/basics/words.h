@@ -41,4 +41,7 @@ std::string with_shown_controls(std::string_view text);
 // The number of characters of UTF-8 text, which is what a reader sees; size() counts bytes.
 std::size_t length_in_characters(std::string_view text);
 
+// "⁻³".
+std::string superscript(int exponent);
+
 }  // namespace viscard

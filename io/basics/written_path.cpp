@@ -90,7 +90,11 @@ void remember_folder_of(const fs::path& file) {
   if (!paths_are_stripped || !file.has_parent_path()) return;
   const std::lock_guard<std::mutex> lock(folders_mutex());
   std::error_code none;
-  remember(file.parent_path());
+  const std::string folder = file.parent_path().string() + "/";
+  remember(folder);
+  // Of a name in a file, such as "../x/m.json", which was looked for from the folder of that file.
+  if (const std::size_t up = folder.find("/../"); up != std::string::npos)
+    remember(folder.substr(up + 1));
   remember(fs::absolute(file, none).lexically_normal().parent_path());
   remember(fs::weakly_canonical(file, none).parent_path());
 }

@@ -72,6 +72,11 @@ class CaptureWriter {
   std::unique_ptr<Impl> impl_;
 };
 
+// Adds an event to the end of a finished capture: what became known later, such as lost steps that
+// homing at the end of a series has shown. Throws std::runtime_error naming the file.
+void add_late_event(const std::filesystem::path& path, const std::string& name,
+                    const std::string& value, const std::string& text);
+
 // How a capture is read.
 struct CaptureReading {
   // Read a capture whose description, events or moves are not what was written (--unverified).

@@ -71,7 +71,9 @@ void check_capture_header(const fs::path& path) {
   if (size < header.size())
     fail(path, "is truncated: its header is not complete; use a copy of it");
   if (big_endian(header, 68, 4) != kCaptureApplicationId) {
-    fail(path, "is an SQLite database of another program, not a capture");
+    fail(path,
+         "is an SQLite database, but not a capture: the points of a sweep (viscard sweep --out "
+         "continues it, and --csv writes them as a table), or a database of another program");
   }
   const std::uint32_t version = big_endian(header, 60, 4);
   if (version > kCaptureSchemaVersion) {

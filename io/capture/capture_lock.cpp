@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/missing_file.h"
+#include "io/basics/output_name.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -58,14 +59,8 @@ void remove_old(const std::filesystem::path& path, bool overwrite) {
           name + " exists already; pass --force to replace it, or choose another name");
     }
   }
-  for (const char* suffix : kCaptureParts) {
-    if (!overwrite && std::filesystem::exists(name + suffix)) {
-      throw std::runtime_error(name + suffix +
-                               " belongs to an earlier capture whose main file is gone; move it "
-                               "away, or choose another name");
-    }
-  }
-  for (const char* suffix : kCaptureParts) std::filesystem::remove(name + suffix);
+  refuse_orphaned_log(path, "capture");
+  for (const char* suffix : kDatabaseParts) std::filesystem::remove(name + suffix);
 }
 
 // SQLite gives the log the rights of the file, and must be able to write both.
@@ -90,6 +85,7 @@ CaptureLock::CaptureLock(const std::filesystem::path& path, bool overwrite,
     throw std::runtime_error(path.string() +
                              " is being written by another capture; choose another name");
   }
+  refuse_output_name(path);
   if (overwrite && !rights) rights = rights_of_file(path);
   remove_old(path, overwrite);
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -6,9 +6,6 @@
 
 namespace viscard {
 
-// Endings of the files of an SQLite database.
-inline constexpr const char* kCaptureParts[] = {"", "-wal", "-shm", "-journal"};
-
 // Marks a capture as being written by a live process: by an flock on the file (independent of
 // SQLite's own locks, and released when the process ends) and by a list within this process. The
 // list is needed because opening and closing the file here would drop the fcntl locks of SQLite's
@@ -18,7 +15,8 @@ class CaptureLock {
   // Creates the file. With overwrite an old one and its side files are removed first; the new one has
   // its rights, or `rights` if they are given (atomic_file.h). Throws
   // std::runtime_error if the file exists and overwrite is false, if the folder does not exist, if
-  // it is not a plain file, or if it is being written.
+  // it is not a plain file, if it is being written, if a capture that was moved away has left its log here, or if
+  // no output may have the name (io/basics/output_name.h).
   CaptureLock(const std::filesystem::path& path, bool overwrite,
               std::optional<unsigned> rights = {});
   ~CaptureLock();
@@ -46,8 +44,9 @@ bool is_being_captured(const std::filesystem::path& path);
 // presses already, must not destroy yesterday's record.
 class PreviousCapture {
  public:
-  // Puts the file aside if there is one to replace. Throws std::runtime_error if an earlier capture
-  // is still aside.
+  // Puts the file aside if there is one to replace, in one file: what an interrupted run has left in its log is
+  // merged into it, unless the log is damaged. Throws std::runtime_error if an earlier capture, or part of it, is
+  // still aside, or if the log beside the file is of another run.
   PreviousCapture(std::filesystem::path path, bool is_replaced);
   ~PreviousCapture();
   PreviousCapture(const PreviousCapture&) = delete;
@@ -62,6 +61,7 @@ class PreviousCapture {
  private:
   std::filesystem::path part(const char* suffix) const;
   std::filesystem::path aside(const char* suffix) const;
+  void refuse_kept() const;
 
   std::filesystem::path path_;
   bool is_aside_ = false;

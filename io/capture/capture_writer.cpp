@@ -1,4 +1,5 @@
 #include "io/basics/number_text.h"
+#include "io/basics/output_name.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
@@ -84,7 +85,7 @@ class CaptureWriter::Impl {
     } catch (...) {
       database_.reset();
       std::error_code ignored;
-      for (const char* part : kCaptureParts) {
+      for (const char* part : kDatabaseParts) {
         std::filesystem::remove(path_.string() + part, ignored);
       }
       throw;

@@ -64,10 +64,10 @@ void OpenCapture::refuse_foreign_log() {
   }
   if (!is_foreign) return;
   const std::string log = path_.string() + "-wal";
-  throw std::runtime_error(path_.string() + ": its side file " + log +
-                           " belongs to another run; it was left there when another capture was "
-                           "copied to this name. Move " +
-                           log + " and " + path_.string() + "-shm away, then read it again");
+  throw ForeignLog(path_.string() + ": its side file " + log +
+                   " belongs to another run; it was left there when another capture was copied to "
+                   "this name. Move " +
+                   log + " and " + path_.string() + "-shm away, then try again");
 }
 
 std::string OpenCapture::foreign_object() {

@@ -6,8 +6,15 @@
 
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 
 namespace viscard {
+
+// The log beside a capture is of another run, which is not in its own file.
+class ForeignLog : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 // A capture opened for reading. SQLite needs to create a side file to read a journal, so on a
 // read-only medium a copy is read. Throws std::runtime_error as read_capture() does.

@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 
 #include <bit>
+#include <cerrno>
 #include <map>
 #include <string_view>
 
@@ -23,6 +24,10 @@ namespace {
   const char* reason = known != kReasons.end() ? known->second
                        : database != nullptr   ? sqlite3_errmsg(database)
                                                : sqlite3_errstr(code);
+  const int cause = database != nullptr ? sqlite3_system_errno(database) : 0;
+  if (cause == EMFILE || cause == ENFILE) {
+    reason = "cannot be opened: too many files are open; raise the limit (ulimit -n)";
+  }
   std::string text = reason;
   constexpr std::string_view kNoTable = "no such ";  // "no such table: moves"
   if (text.starts_with(kNoTable)) {

@@ -3,6 +3,7 @@
 #include "io/basics/program.h"
 #include "io/basics/written_path.h"
 #include "io/cards/card_sum.h"
+#include "io/cards/header_name.h"
 
 #include <fmt/format.h>
 
@@ -77,13 +78,15 @@ void add_provenance(std::vector<std::string>& lines, const Material& material,
   const Provenance& provenance = material.provenance;
   lines.push_back(fmt::format("tests behind it: {}", provenance.raw_files.size()));
   for (const RawFile& file : provenance.raw_files) {
-    lines.push_back("raw data " + written_path(file.path) + " sha256 " + file.sha256);
+    lines.push_back("raw data " + name_in_header(written_path(file.path)) + " sha256 " +
+                    file.sha256);
   }
   if (!options.material_sha256.empty()) {
-    lines.push_back(
-        "material file " +
-        (options.material_file.empty() ? "" : written_path(options.material_file) + " ") +
-        "sha256 " + options.material_sha256);
+    lines.push_back("material file " +
+                    (options.material_file.empty()
+                         ? ""
+                         : name_in_header(written_path(options.material_file)) + " ") +
+                    "sha256 " + options.material_sha256);
   }
   lines.push_back(unsealed_sum_line());
   if (!options.is_reproducible) {

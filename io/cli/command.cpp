@@ -135,12 +135,14 @@ const std::vector<Command>& commands() {
 
 int run_viscard(const Words& words, Streams& streams) {
   const bool strips = std::find(words.begin(), words.end(), "--strip-paths") != words.end();
-  // The screen shows where the files are.
-  if (!strips || dynamic_cast<PrintableStream*>(&streams.out) != nullptr)
+  if (!strips)
     return with_exit_status("viscard", words, streams, [&] { return dispatch(words, streams); });
-  FolderlessStream out(streams.out);
-  Streams inner{.out = out,
-                .err = streams.err,
+  // The screen shows where the files are.
+  const bool is_out_shown = dynamic_cast<PrintableStream*>(&streams.out) != nullptr,
+             is_err_shown = streams.err_is_terminal || streams.is_err_coloured;
+  FolderlessStream out(streams.out), err(streams.err);
+  Streams inner{.out = is_out_shown ? streams.out : out,
+                .err = is_err_shown ? streams.err : err,
                 .err_is_terminal = streams.err_is_terminal,
                 .columns = streams.columns,
                 .is_out_coloured = streams.is_out_coloured,

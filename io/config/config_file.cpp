@@ -116,12 +116,28 @@ void show_rig_file(FieldVisitor& fields, RigConfig& rig) {
 
 }  // namespace
 
-RigConfig rig_from_toml(const std::string& text, const std::string& name, Plausible judged) {
+namespace {
+
+// depth_relative_u: of a text that does not state it.
+RigConfig rig_of(const std::string& text, const std::string& name, Plausible judged,
+                 double depth_relative_u) {
   RigConfig unset;
   unset.load_cell.volts_per_count = kVoltsPerCount;
+  unset.stage.depth_relative_u = depth_relative_u;
   return read_as(FileKind::kRig, text, name, [&] {
     return config_from_toml<RigConfig>(text, name, judged, unset, show_rig_file, check_rig);
   });
+}
+
+// Of a file that describes a bench; a capture keeps what was stated when it was made.
+RigConfig bench_from_toml(const std::string& text, const std::string& name, Plausible judged) {
+  return rig_of(text, name, judged, kScrewDepth_u);
+}
+
+}  // namespace
+
+RigConfig rig_from_toml(const std::string& text, const std::string& name, Plausible judged) {
+  return rig_of(text, name, judged, 0.0);
 }
 
 TestPlan test_from_toml(const std::string& text, const std::string& name, Plausible judged) {
@@ -160,6 +176,7 @@ void check_before_use(const RigConfig& rig, const std::string& toml, const std::
   }
   try {
     validate_dates(rig.calibration);
+    validate_date("frame.date", rig.frame.date);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name + ": " + error.what());
   }
@@ -201,7 +218,7 @@ void place_ports(const std::string& text, const std::filesystem::path& path, Rig
 }  // namespace
 
 RigConfig read_rig_to_calibrate(const std::filesystem::path& path, Plausible judged) {
-  RigConfig rig = read_for_use(path, judged, rig_from_toml);
+  RigConfig rig = read_for_use(path, judged, bench_from_toml);
   place_ports(read_file(path), path, rig);
   LoadCellCalibration& calibration = rig.calibration;
   const std::filesystem::path record = path.parent_path() / calibration.file;
@@ -254,12 +271,12 @@ RigConfig with_records(RigConfig rig, const std::string& text, const std::filesy
 }  // namespace
 
 RigConfig read_rig(const std::filesystem::path& path, Plausible judged) {
-  return with_records(read_for_use(path, judged, rig_from_toml), read_file(path), path);
+  return with_records(read_for_use(path, judged, bench_from_toml), read_file(path), path);
 }
 
 RigConfig rig_of_text(const std::string& text, const std::filesystem::path& path,
                       Plausible judged) {
-  return with_records(rig_from_toml(text, path.string(), judged), text, path);
+  return with_records(bench_from_toml(text, path.string(), judged), text, path);
 }
 
 void require_id(const Specimen& specimen, const std::string& toml, const std::string& name) {

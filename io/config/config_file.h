@@ -19,6 +19,7 @@ namespace viscard {
 // keys without a sensible default are required. All readers throw std::runtime_error with file,
 // line, key and the expected value, and for an unknown key the nearest known key. Values that no bench
 // can have are refused too, unless the file or `judged` accepts them.
+// A rig file without depth_relative_u gets kScrewDepth_u.
 RigConfig read_rig(const std::filesystem::path& path, Plausible judged = Plausible::kMeasured);
 // The same of a text that shall stand in that file.
 RigConfig rig_of_text(const std::string& text, const std::filesystem::path& path, Plausible judged);
@@ -44,7 +45,8 @@ CalibrationRecord read_calibration(const std::filesystem::path& path);
 CalibrationRecord calibration_from_toml(const std::string& text, const std::string& name);
 std::string toml_from_calibration(const CalibrationRecord& record);
 
-// The same from text; messages show name in place of the file. Old captures are read as they are.
+// The same from text; messages show name in place of the file. Old captures are read as they are: without
+// depth_relative_u they state none.
 RigConfig rig_from_toml(const std::string& text, const std::string& name,
                         Plausible judged = Plausible::kOff);
 TestPlan test_from_toml(const std::string& text, const std::string& name,

@@ -35,6 +35,7 @@ void show_stage(FieldVisitor& fields, StageConfig& stage) {
   fields.quantity({"travel", quantities::kTravel, kPositive}, stage.travel_m);
   fields.quantity({"backlash", "m", kNotNegative}, stage.backlash_m);
   fields.quantity({"depth_relative_u", "1", kNotNegative}, stage.depth_relative_u);
+  fields.quantity({"zero", "m"}, stage.zero_m);
   fields.boolean("home", stage.home);
   fields.quantity({"microstep", "m", kNotNegative}, stage.microstep_m);
   fields.integer("device", 1, 99, stage.device);

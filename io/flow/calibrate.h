@@ -28,6 +28,10 @@ struct CalibrationRequest {
 // Throws std::invalid_argument naming the option, "--capacity must be positive".
 void check_request(const CalibrationRequest& request);
 
+// Throws std::runtime_error for a table of viscard export: its forces follow from its voltages by a calibration, and
+// its rows are all readings of a test, also those out of contact.
+void refuse_readings_of_test(const CsvTable& table);
+
 // The rows of weights, or of a rigid block, that have a number in both columns; n_left_out counts the
 // others.
 CsvTable complete_rows(CsvTable table, bool is_block, std::size_t& n_left_out);

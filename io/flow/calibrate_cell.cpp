@@ -1,5 +1,6 @@
 #include "io/basics/timestamp.h"
 #include "io/flow/calibrate.h"
+#include "io/flow/damaged_table.h"
 #include "io/tables/column_map.h"
 #include "models/experiment/calibration_check.h"
 #include "models/maths/result_visitor.h"
@@ -25,9 +26,9 @@ void require(bool is_right, const std::string& what) {
 }
 
 void check_valid_until(const std::string& day) {
-  const bool is_day = day.size() == 10 && day[4] == '-' && day[7] == '-' &&
-                      day.find_first_not_of("0123456789-") == std::string::npos;
-  require(day.empty() || is_day, "--valid-until '" + day + "' is not a day such as 2027-11-21");
+  constexpr std::size_t kDay = 10;  // the record states no time
+  require(day.empty() || (day.size() == kDay && is_iso_day(day)),
+          "--valid-until '" + day + "' is not a day of the calendar such as 2027-11-21");
   require(day.empty() || day >= today(),
           "--valid-until " + day + " is in the past; the record would be refused at once");
 }
@@ -113,7 +114,22 @@ double weights_relative_u(const CalibrationRequest& request) {
                     request.gravity_m_s2 ? 0.0 : kGravityHalfWidth / std::sqrt(3.0));
 }
 
+void refuse_readings_of_test(const CsvTable& table) {
+  const auto has = [&](const char* name) {
+    return std::any_of(table.columns.begin(), table.columns.end(),
+                       [&](const CsvColumn& column) { return column.name == name; });
+  };
+  // The head goes when somebody saves the table in a spreadsheet.
+  if (!is_exported(table) && !(has("phase") && has("host_time_s"))) return;
+  throw std::runtime_error(
+      table.file +
+      " is a table of viscard export: all readings of a test, and forces that follow from the "
+      "voltages by the calibration it had. For the load cell give a table of mass_kg and volts_V; "
+      "for the frame give the capture on a rigid block itself: --compliance --data RUN.viscap");
+}
+
 CsvTable complete_rows(CsvTable table, bool is_block, std::size_t& n_left_out) {
+  refuse_readings_of_test(table);
   const char* load = !is_block && find_column(table, "mass_kg") ? "mass_kg" : "force_N";
   return rows_without_gaps(std::move(table), {load, is_block ? "position_m" : "volts_V"}, {},
                            n_left_out);

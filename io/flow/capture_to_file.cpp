@@ -7,6 +7,7 @@
 #include "io/capture/capture_lock.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
+#include "rig/run/count_comparison.h"
 #include "rig/run_indentation.h"
 
 #include <fmt/format.h>
@@ -83,7 +84,9 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   }
   const RecordSink sink = told_to(
       emulated, failing_once([&writer](const RunRecord& record) { writer.append(record); }));
-  add_drivers(devices, rig, clock, sink);
+  RigConfig of_drivers = rig;
+  if (request.homing != nullptr && request.homing->has_homed) of_drivers.stage.home = false;
+  add_drivers(devices, of_drivers, clock, sink);
   const ClosingCall closing(watch);
   if (watch.opened) watch.opened(rig, writer);
   RunControl control;
@@ -94,6 +97,10 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   control.reading = watch.reading;
   control.lifts_at_start = request.lifts_at_start;
   control.thermometer = devices.thermometer.get();
+  if (request.homing != nullptr) {
+    control.homed_at_m = request.homing->homed_at_m;
+    control.homes_after = request.homing->is_last && !request.homing->is_doubtful;
+  }
   RunOutcome outcome = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan,
                                        setup.specimen, sink, control);
   if (outcome.has_begun) {
@@ -103,10 +110,46 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
         ". The approach had not begun: the record that --force was to replace is kept";
   }
   close_file(writer, outcome);
+  if (request.homing != nullptr) {
+    request.homing->has_homed = true;
+    request.homing->homed_at_m = outcome.homed_at_m;
+    request.homing->is_doubtful |= outcome.status != "finished" || !outcome.doubts.empty();
+  }
   return outcome;
 }
 
+// In a series the stage goes on where an earlier run has left its count.
+EmulatedRigOptions emulated_options(const CaptureRequest& request) {
+  const CaptureSetup& setup = request.setup;
+  EmulatedRigOptions options = able_rig(*setup.truth, setup.rig);
+  options.fault = setup.fault;
+  if (request.homing == nullptr) return options;
+  options.grbl.is_homed = request.homing->homed_at_m.has_value();
+  options.lost_before_m = request.homing->emulated_lost_m;
+  return options;
+}
+
 }  // namespace
+
+void share_count(const std::vector<EarlierRun>& earlier, const RunOutcome& last) {
+  if (!last.count) return;
+  std::string doubt = lost_steps_doubt(*last.count);
+  if (!doubt.empty()) {
+    doubt += fmt::format(". The stage was homed after {} runs: in which of them is not known",
+                         earlier.size() + 1);
+  }
+  for (const EarlierRun& run : earlier) {
+    run.outcome->count = last.count;
+    if (doubt.empty()) {
+      run.outcome->depth_is = last.depth_is;
+      add_late_event(run.path, "depth", last.depth_is,
+                     "Counted in steps; homed at the end of the series, the stage stood there");
+    } else {
+      run.outcome->doubts.push_back(doubt);
+      add_late_event(run.path, "doubt", kLostStepsDoubt, doubt);
+    }
+  }
+}
 
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch) {
   const RigConfig& rig = request.setup.rig;
@@ -114,9 +157,9 @@ RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& wa
   if (!request.setup.truth) {
     return capture_with(rig, RigClock(rig.clock_speed), nullptr, request, watch);
   }
-  EmulatedRig emulated(
-      {.truth = *request.setup.truth, .config = rig, .fault = request.setup.fault});
+  EmulatedRig emulated(emulated_options(request));
   RunOutcome outcome = capture_with(emulated.config(), emulated.clock(), &emulated, request, watch);
+  if (request.homing != nullptr) request.homing->emulated_lost_m = emulated.outcome().lost_m;
   if (watch.note && emulated.awaits_fault()) {
     watch.note("the fault '" + name_of(request.setup.fault.kind) +
                "' was never reached: the run ended before it");

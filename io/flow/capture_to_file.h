@@ -14,6 +14,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -26,6 +27,16 @@ struct CaptureSetup {
   RigFault fault;                      // of an emulated rig
 };
 
+// Runs between which the stage is not homed, with home = true under [stage]: the first one homes it
+// before its test, the last one after its lift, unless one of them was doubtful.
+struct SeriesHoming {
+  bool is_last = true;  // the run that comes next
+  bool is_doubtful = false;
+  bool has_homed = false;            // an earlier run
+  std::optional<double> homed_at_m;  // where, if its driver compares the count
+  double emulated_lost_m = 0.0;      // what an emulated stage has lost so far
+};
+
 // One capture: what is run, and the file it goes to.
 struct CaptureRequest {
   CaptureSetup setup;
@@ -34,6 +45,7 @@ struct CaptureRequest {
   std::string command;  // recorded in the file as its origin
   // A punch that presses before the test is lifted, and the test goes on instead of ending.
   bool lifts_at_start = false;
+  SeriesHoming* homing = nullptr;  // of a series; none: the run stands alone
 };
 
 // Callbacks and flags of a person or program that watches a capture. Any of them may be empty.
@@ -52,6 +64,15 @@ struct CaptureWatch {
 // is replaced is kept until the stage has moved. Beside a capture of an emulated rig its truth is
 // written (emulated_truth.h). Throws std::runtime_error if the test could not begin.
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch);
+
+// What homing after the last run of a series has shown holds for all runs since the stage was homed
+// before: adds it to the outcome and the capture of each earlier one. Throws std::runtime_error if a
+// capture cannot be changed.
+struct EarlierRun {
+  std::filesystem::path path;
+  RunOutcome* outcome = nullptr;
+};
+void share_count(const std::vector<EarlierRun>& earlier, const RunOutcome& last);
 
 // Extension of the file, beside an emulated capture, that holds its truth.
 inline constexpr const char* kTruthEnding = ".truth.json";

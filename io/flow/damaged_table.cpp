@@ -9,10 +9,14 @@
 
 namespace viscard {
 
+bool is_exported(const CsvTable& table) {
+  const auto is_head = [](const std::string& line) { return line.starts_with(kExportedHead); };
+  return std::any_of(table.comments.begin(), table.comments.end(), is_head);
+}
+
 std::vector<IntegrityNote> damage_of_table(const CsvTable& table) {
   std::vector<IntegrityNote> notes;
-  const auto is_head = [](const std::string& line) { return line.starts_with(kExportedHead); };
-  if (std::none_of(table.comments.begin(), table.comments.end(), is_head)) return notes;
+  if (!is_exported(table)) return notes;
   for (const std::string& line : table.comments) {
     if (auto note = note_in_head(line)) notes.push_back(std::move(*note));
   }

@@ -8,6 +8,9 @@
 
 namespace viscard {
 
+// True for a table that viscard exported from a capture.
+bool is_exported(const CsvTable& table);
+
 // What the head of a table that viscard exported says against the capture it came from ("# damage:");
 // empty for every other table.
 std::vector<IntegrityNote> damage_of_table(const CsvTable& table);

@@ -33,6 +33,18 @@ void add_temperature(const CapturedRun& run, FittedFile& fitted) {
   if (!drift.empty() && !is_said) flags.push_back({"temperature-drift", 0, drift});
 }
 
+// Steps that an open-loop stage has lost are in no interval unless the rig file gives a doubt.
+void note_counted_depth(const CapturedRun& run, FittedFile& fitted) {
+  bool is_counted = false;
+  for (const RunEvent& event : run.events) {
+    if (event.name == "depth") is_counted = event.value == "counted";
+  }
+  if (!is_counted || run.rig.stage.depth_relative_u > 0.0) return;
+  fitted.notes.push_back(
+      "the depth is counted in steps of the stage, not measured, and depth_relative_u of the rig "
+      "file is 0: an error of it is not in the intervals");
+}
+
 // In a fit of several tests a captured run is used as its table of force and depth. The depth is
 // without the frame's deflection.
 FittedFile fit_as_table(const std::string& path, const CapturedRun& run,
@@ -50,7 +62,8 @@ OptionUses uses_on_capture(const FitRequest& request) {
   OptionUses uses = uses_of(request.size, {});
   const bool is_drift_fitted = request.options.drift == TableDrift::kFitted;
   const bool has_vertical = request.options.vertical_shift != VerticalShift::kAuto;
-  add_uses({{"--drift", is_drift_fitted, false, "tables"},
+  add_uses({{"--unverified", request.accepts_unverified, true, ""},
+            {"--drift", is_drift_fitted, false, "tables"},
             {"--reference-temperature", request.T_ref_C.has_value(), false, "tables"},
             {"--start-shift", !request.start_shifts.empty(), false, "tables"},
             {"--vertical-shift", has_vertical, false, "tables"},
@@ -111,6 +124,7 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
     fitted.result.flags.push_back({name, 0, event.text});
   }
   add_temperature(run, fitted);
+  note_counted_depth(run, fitted);
   return fitted;
 }
 

@@ -93,7 +93,7 @@ void show_keys(ResultVisitor& v, const FittedFile& fitted) {
   v.when(!fitted.maker.empty(),
          [&] { v("maker", fitted.maker, "maker of the machine that wrote the table"); });
   v.when(!fitted.notes.empty(),
-         [&] { v("notes", fitted.notes, "how the table was read, where that was not plain"); });
+         [&] { v("notes", fitted.notes, "how the record was read, where that was not plain"); });
   v.word("kind", name_of_kind(fit.kind), {"indentation", "relaxation", "creep", "dma", "several"},
          "kind of test");
   v("trustworthy", fit.is_trustworthy,

@@ -8,6 +8,7 @@
 #include "io/flow/plausible_record.h"
 #include "io/flow/table_kind.h"
 #include "io/tables/column_map.h"
+#include "io/tables/column_proposal.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -125,6 +126,15 @@ FitResult fit_force_table(const CsvTable& table, const FitRequest& request) {
     const auto use = find_column(table, name, request.columns);
     return use ? table.columns[use->index].header : "";
   };
+  if (header_of("stress_Pa").empty()) {
+    const bool creeps = find_column(table, "compliance_1_Pa", request.columns).has_value();
+    throw std::runtime_error(
+        table.file +
+        ": a relaxation needs a modulus, or a stress with its strain, and the table has neither" +
+        (creeps
+             ? "; '" + header_of("compliance_1_Pa") + "' is a compliance: fit it with --kind creep"
+             : ". The columns are " + columns_with_values(table)));
+  }
   const std::string length = header_of("depth_m");
   const std::string what = table.file + ": '" + header_of("stress_Pa") +
                            "' is a stress, and without its strain it is no modulus. ";

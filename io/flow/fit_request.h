@@ -95,7 +95,7 @@ struct FittedFile {
   FitResult result;
   Specimen specimen;        // empty for a table without --specimen
   std::string specimen_id;  // of the capture, or of the table's column "specimen"; empty: not known
-  std::vector<std::string> notes;  // how the table was read, where that was not plain
+  std::vector<std::string> notes;  // how the record was read, where that was not plain
   std::string maker;               // whose file it is, if it was recognised ("JPK force curve")
   std::string fitted_unit;         // unit of the fitted column: "N", "Pa", "1/Pa"
   // Rows of an exported capture before its first baseline, which are not fitted.

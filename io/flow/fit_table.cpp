@@ -20,7 +20,8 @@ namespace viscard {
 namespace {
 
 // Segments of the exported table of a capture from its first baseline on; empty for any other
-// table. Before that the rig searches the surface, and its touch is an indentation of its own.
+// table. Before that the rig searches the surface, and its touch is an indentation of its own; after
+// the test it may be homed, which shakes the load cell.
 std::vector<std::string> segments_of_test(const CsvTable& table, const FitRequest& request) {
   if (!find_column(table, "segment", request.columns)) return {};
   const std::vector<std::string> rows = column_text(table, "segment", request.columns);
@@ -28,6 +29,7 @@ std::vector<std::string> segments_of_test(const CsvTable& table, const FitReques
   if (baseline == rows.end() || std::find(rows.begin(), baseline, "tare") == baseline) return {};
   std::vector<std::string> names;
   for (auto row = baseline; row != rows.end(); ++row) {
+    if (*row == "home") continue;
     if (std::find(names.begin(), names.end(), *row) == names.end()) names.push_back(*row);
   }
   return names;
@@ -111,6 +113,17 @@ void refuse_several_parts(const CsvTable& table, FitKind kind, const FitRequest&
                            ". Choose one with --segment " + quoted_for_shell({names.back()}));
 }
 
+// The options that name times, and whether they have an effect on this kind.
+OptionUses uses_of_times(FitKind kind, const FitRequest& request) {
+  const bool has_effect = kind != FitKind::kDma;
+  const std::string of = "records in time, and there are frequencies alone";
+  return {{"--time-zero", request.time_zero_s.has_value(), has_effect, of},
+          {"--from", request.from_s.has_value(), has_effect, of},
+          {"--to", request.to_s.has_value(), has_effect, of},
+          {"--hold", request.hold > 0, has_effect, of},
+          {"--crop", request.crop, has_effect, of}};
+}
+
 // The options that need something of a table, and whether they have an effect on this one.
 OptionUses uses_on(const CsvTable& table, FitKind kind, const FitRequest& request) {
   const bool is_indentation = kind == FitKind::kIndentation;
@@ -133,13 +146,13 @@ OptionUses uses_on(const CsvTable& table, FitKind kind, const FitRequest& reques
            "records of force, and there is none that is fitted"},
           {"--frame-stiffness", request.frame_stiffness_N_m > 0.0, is_indentation,
            "tables of force and depth"},
-          {"--time-zero", request.time_zero_s.has_value(), kind != FitKind::kDma,
-           "records in time, and there are frequencies alone"},
           {"--modulus-kind", request.modulus_kind.has_value(), !is_indentation && !is_alone,
            "tables of moduli, compliances or stresses"},
           {"--reference-temperature", request.T_ref_C.has_value(), has_master, of_master},
           {"--start-shift", has_start, has_master, of_master},
           {"--vertical-shift", has_vertical, has_master, of_master},
+          {"--unverified", request.accepts_unverified, is_exported(table),
+           "captures, and tables that viscard exported from them"},
           {"--sheet", !request.table.sheet.empty(), true, "tables"},
           {"--table", request.table.table > 0, true, "tables"},
           {"--skip", request.table.skip > 0, true, "tables"}};
@@ -153,7 +166,11 @@ FitRequest of_this_file(const CsvTable& table, FitKind kind, const FitRequest& r
   if (!is_alone) one.depth_m.reset();
   if (kind != FitKind::kIndentation) one.frame_stiffness_N_m = 0.0;
   if (kind == FitKind::kIndentation || is_alone) one.modulus_kind.reset();
-  if (kind == FitKind::kDma) one.time_zero_s.reset();
+  if (kind == FitKind::kDma) {
+    for (auto* time_s : {&one.time_zero_s, &one.from_s, &one.to_s}) time_s->reset();
+    one.hold = 0;
+    one.crop = false;
+  }
   const bool may_drift = kind == FitKind::kRelaxation || kind == FitKind::kIndentation;
   if (!may_drift) one.options.drift = TableDrift::kNone;
   if (request.is_one_of_several && kind != FitKind::kIndentation && !one.depth_m) {
@@ -318,13 +335,17 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
   std::size_t n_gaps = 0;
-  std::vector<std::string> used = columns_of_kind(kind_of_table(table, request), table, request);
+  const FitKind kind = kind_of_table(table, request);
+  std::vector<std::string> used = columns_of_kind(kind, table, request);
   used.emplace_back("temperature_C");
   table = rows_without_gaps(std::move(table), used, request.columns, n_gaps);
-  ChosenPart part = choose_part(table, request);
+  const OptionUses of_times = uses_of_times(kind, request);
+  if (!request.is_beside_others) refuse_idle(of_times);
+  ChosenPart part = choose_part(table, of_this_file(table, kind, request));
   const auto doubt = doubtful_size(table, request);
   FittedFile fitted = fit_rows(table, part.rise_s ? with_zero_in(*part.rise_s, request) : request);
   add_uses(uses, fitted.uses);
+  add_uses(of_times, fitted.uses);
   flag_assumed_units(table, request, fitted.result);
   if (fitted.modulus) {
     flag_kind(*fitted.modulus, fitted.result);

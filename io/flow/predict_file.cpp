@@ -195,6 +195,9 @@ void compare(const TestPrediction& prediction, const BandedCurve& curve, Agreeme
   if (std::isfinite(found.noise_sigma)) {
     found.share_inside_band_and_noise = static_cast<double>(n_with_noise) / count;
   }
+  const double share = std::isfinite(found.noise_sigma) ? found.share_inside_band_and_noise
+                                                        : found.share_inside_band;
+  found.agrees = share >= kAgreeingShare;
 }
 
 std::vector<Agreement> agreement_with(const TestPrediction& prediction, const ReadTable& measured) {
@@ -240,6 +243,16 @@ double largest_strain(const TestPrediction& prediction) {
   look(prediction.input_name, prediction.input);
   for (const PredictedCurve& one : prediction.curves) look(one.name, one.curve.value);
   return largest;
+}
+
+// What a load makes of the material passes the same rule as a strain that is stated.
+void refuse_strain(double largest, PredictedTest test, Plausible judged) {
+  const auto doubt = doubt_about(quantities::kStrain, largest, judged);
+  if (!doubt) return;
+  throw std::invalid_argument("the load of this " +
+                              names_of_predicted_tests()[static_cast<std::size_t>(test)] +
+                              " is too large for the material: its largest strain " +
+                              doubt->text() + ". Give a smaller --stress, or add --plausible off");
 }
 
 std::vector<std::string> notes_about(const Material& material, const PredictedFile& predicted) {
@@ -307,6 +320,9 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
   }
   if (measured) wanted.also_at = wanted_arguments(wanted.test, *measured);
   out.prediction = predict_test(material, wanted);
+  if (wanted.test != PredictedTest::kHistory) {
+    refuse_strain(largest_strain(out.prediction), wanted.test, request.plausible);
+  }
   if (measured) {
     out.against = measured->table.file;
     out.agreement = agreement_with(out.prediction, *measured);

@@ -37,6 +37,9 @@ struct PredictFileRequest {
   std::vector<std::string> given;
 };
 
+// 95 % are expected; the band errs in the same direction everywhere, and of few rows one may lie outside.
+constexpr double kAgreeingShare = 0.8;
+
 // Measured values of one predicted curve, and how far the prediction is from them.
 struct Agreement {
   std::string name;  // "modulus_Pa"
@@ -54,6 +57,8 @@ struct Agreement {
   double share_inside_band = 0.0;
   // The same with the noise of the measurement added in quadrature, where at least 20 rows show it.
   double share_inside_band_and_noise = 0.0;
+  // Whether at least kAgreeingShare of the rows lie inside band and noise; none: there is no band.
+  std::optional<bool> agrees;
   double noise_sigma = 0.0;        // from differences between neighbours; NaN: not known
   bool is_noise_relative = false;  // of frequency sweeps, whose values span decades
 };

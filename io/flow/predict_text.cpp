@@ -20,6 +20,8 @@ void show_agreement(ResultVisitor& v, const Agreement& found) {
   v("share_inside_band", found.share_inside_band, "share of rows inside the band");
   v("share_inside_band_and_noise", found.share_inside_band_and_noise,
     "the same with the noise added");
+  v.or_null("agrees", found.agrees,
+            "whether at least 80 % of the rows lie inside band and noise; null: there is no band");
   v("noise_sigma", found.noise_sigma, "noise of the rows");
   v("noise_is_relative", found.is_noise_relative, "whether it is relative");
   v("n_inside_window", found.n_inside_window, "rows inside the window");
@@ -83,6 +85,12 @@ void show_keys(ResultVisitor& v, const PredictedFile& predicted) {
       v("file", written_path(predicted.against), "the measured table");
       v.list("quantities", "one for each measured column", predicted.agreement,
              [&](const Agreement& found) { show_agreement(v, found); });
+      v.list("measured", "the rows of each that were compared", predicted.agreement,
+             [&](const Agreement& found) {
+               v("quantity", found.name, "its name");
+               v("at", found.at, "time_s or frequency_Hz, as in the curve");
+               v("values", found.measured, "in the unit of the name");
+             });
     });
   });
   v("notes", predicted.notes, "what to keep in mind");

@@ -1,8 +1,10 @@
 #include "io/flow/read_report.h"
 
+#include "io/basics/atomic_file.h"
 #include "io/basics/data_uri.h"
 #include "io/basics/inputs.h"
 #include "io/basics/program.h"
+#include "io/basics/written_path.h"
 #include "io/flow/test_words.h"
 #include "io/materials/hyperelastic_file.h"
 #include "io/report/report_rubber.h"
@@ -86,6 +88,24 @@ void sort_inputs(ReportRequest& request) {
         "there is one test only; give its file without the kind, or more tests");
   }
   if (!request.tests.empty()) request.files.clear();
+  const std::size_t n_truths = request.truth_files.size();
+  if (n_truths == 0) return;
+  const std::size_t n_measured = measured_count(request.files);
+  if (n_truths == n_measured) return;
+  throw std::invalid_argument(counted(n_truths, "truth file") + " for " +
+                              counted(n_measured, "capture") +
+                              ": give one --truth for each, in the same order, or none");
+}
+
+std::vector<std::string> write_report_pictures(const RenderedReport& report,
+                                               const std::string& folder, bool overwrite) {
+  fs::create_directories(folder);
+  std::vector<std::string> paths;
+  for (const ReportPicture& picture : report.pictures) {
+    paths.push_back((fs::path(folder) / (picture.name + ".svg")).string());
+    write_file(paths.back(), written_text(picture.svg), overwrite);
+  }
+  return paths;
 }
 
 ReportInput read_report(const ReportRequest& request, const std::string& title,

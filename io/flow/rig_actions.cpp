@@ -19,7 +19,7 @@ namespace {
 
 // from_m: where its stage stands; the emulator begins at 0.
 std::unique_ptr<EmulatedRig> emulated_rig(const RigConfig& rig, double from_m = 0.0) {
-  EmulatedRigOptions options{.truth = demo_truth(10.0, 1), .config = rig};
+  EmulatedRigOptions options = able_rig(demo_truth(10.0, 1), rig);
   options.truth.surface_position_m -= from_m;
   return std::make_unique<EmulatedRig>(options);
 }
@@ -37,7 +37,9 @@ RigConfig config_of(const RigConfig& rig, const EmulatedRig* emulated) {
 // cannot be opened, and for wrong words of the rig file.
 class OpenRig {
  public:
-  OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m = 0.0);
+  enum class Homes { kAsInFile, kNo };
+  OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m = 0.0,
+          Homes homes = Homes::kAsInFile);
   OpenRig(const OpenRig&) = delete;
   OpenRig& operator=(const OpenRig&) = delete;
 
@@ -53,13 +55,40 @@ class OpenRig {
   RigDevices devices_;
 };
 
-OpenRig::OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m)
+OpenRig::OpenRig(const RigConfig& rig, bool is_emulated, double emulated_from_m, Homes homes)
     : emulated_(is_emulated ? emulated_rig(rig, emulated_from_m) : nullptr),
       config_(config_of(rig, emulated_.get())),
       clock_(emulated_ ? emulated_->clock() : RigClock(rig.clock_speed)),
       devices_(open_ports(config_, clock_)) {
+  if (homes == Homes::kNo) config_.stage.home = false;
   add_drivers(devices_, config_, clock_, [](const RunRecord&) {});
 }
+
+// The load cell alone, of a rig file or of an emulated rig in its place.
+class OpenCell {
+ public:
+  OpenCell(const RigConfig& rig, bool is_emulated)
+      : emulated_(is_emulated ? emulated_rig(rig) : nullptr),
+        config_(config_of(rig, emulated_.get())),
+        clock_(emulated_ ? emulated_->clock() : RigClock(rig.clock_speed)),
+        line_(open_line(config_.load_cell.port, config_.load_cell.baud, clock_,
+                        config_.load_cell.framing)),
+        load_cell_(make_load_cell(*line_, config_.load_cell, clock_, [](const RunRecord&) {})) {}
+  OpenCell(const OpenCell&) = delete;
+  OpenCell& operator=(const OpenCell&) = delete;
+
+  const RigConfig& config() const { return config_; }
+  const RigClock& clock() const { return clock_; }
+  LoadCell& load_cell() { return *load_cell_; }
+  EmulatedRig* emulated() { return emulated_.get(); }  // nullptr: a real port
+
+ private:
+  std::unique_ptr<EmulatedRig> emulated_;
+  RigConfig config_;
+  RigClock clock_;
+  std::unique_ptr<Transport> line_;
+  std::unique_ptr<LoadCell> load_cell_;
+};
 
 enum class Keep { kYes, kNo, kAsComment };
 
@@ -94,12 +123,20 @@ void write_in_section(const std::filesystem::path& file, const std::string& sect
 
 }  // namespace
 
-RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds) {
-  rig.stage.home = false;  // a check moves nothing
-  OpenRig open(rig, is_emulated);
+RigCheck check_rig_config(const RigConfig& rig, bool is_emulated, double seconds) {
+  OpenRig open(rig, is_emulated, 0.0, OpenRig::Homes::kNo);  // a check moves nothing
   RigDevices& devices = open.devices();
-  return check_rig(*devices.stage, *devices.load_cell, open.config(), open.clock(), seconds,
-                   devices.thermometer.get());
+  RigCheck found = check_rig(*devices.stage, *devices.load_cell, open.config(), open.clock(),
+                             seconds, devices.thermometer.get());
+  if (!rig.stage.home) return found;
+  const std::string trouble = devices.stage->trouble_with_count_check([&] {
+    wait_readable({devices.stage_line.get()}, open.clock(), 0.005);
+    devices.stage->service();
+  });
+  if (trouble.empty()) return found;
+  found.advice.push_back(trouble);
+  found.is_usable = false;
+  return found;
 }
 
 void add_calibration(const RigConfig& rig, RigCheck& found) {
@@ -129,11 +166,43 @@ double touch_rig(const RigConfig& rig, bool is_emulated, double wait_s,
   return await_touch(*open.devices().load_cell, open.config(), open.clock(), options);
 }
 
-void write_answer(const std::filesystem::path& rig_file, const std::string& day) {
-  const std::string line = "answered_on = " + day;
-  write_in_section(rig_file, "load_cell", line, [](const std::string& text) {
-    return text.rfind("answered_on", 0) == 0 ? Keep::kNo : Keep::kYes;
+namespace {
+
+// Writes the line under the section in place of those that begin with its key.
+void write_key(const std::filesystem::path& rig_file, const std::string& section,
+               const std::string& key, const std::string& value) {
+  write_in_section(rig_file, section, key + " = " + value, [&](const std::string& text) {
+    const std::size_t end = text.find_first_of(" \t=");
+    return text.substr(0, end) == key ? Keep::kNo : Keep::kYes;
   });
+}
+
+}  // namespace
+
+void write_answer(const std::filesystem::path& rig_file, const std::string& day) {
+  write_key(rig_file, "load_cell", "answered_on", day);
+}
+
+void write_zero(const std::filesystem::path& rig_file, double position_m) {
+  write_key(rig_file, "stage", "zero", fmt::format("\"{:.6f} mm\"", position_m * 1e3));
+}
+
+double lasting_position_m(const RigConfig& rig, bool is_emulated) {
+  OpenRig open(rig, is_emulated, 0.0, OpenRig::Homes::kNo);
+  RigDevices& devices = open.devices();
+  devices.stage->connect([&] {
+    wait_readable({devices.stage_line.get()}, open.clock(), 0.005);
+    devices.stage->service();
+  });
+  const std::string trouble = devices.stage->trouble_with_zero();
+  if (trouble.empty()) return devices.stage->position_m();
+  throw RigError("the stage with driver '" + rig.stage.driver +
+                 "' cannot keep a zero for the next command: " + trouble);
+}
+
+ZeroedForce zero_rig_force(const RigConfig& rig, bool is_emulated, const std::atomic<bool>* stop) {
+  OpenCell open(rig, is_emulated);
+  return zero_force(open.load_cell(), open.config(), open.clock(), stop);
 }
 
 void write_calibration_file(const std::filesystem::path& rig_file, const std::string& record) {
@@ -192,20 +261,15 @@ StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& ord
 
 WeighedLoad weigh_on_rig(const RigConfig& rig, bool is_emulated, double force_N, double largest_N,
                          const std::atomic<bool>* stop) {
-  const std::unique_ptr<EmulatedRig> emulated = is_emulated ? emulated_rig(rig) : nullptr;
-  const RigConfig config = config_of(rig, emulated.get());
-  const RigClock clock = emulated ? emulated->clock() : RigClock(rig.clock_speed);
-  const auto line =
-      open_line(config.load_cell.port, config.load_cell.baud, clock, config.load_cell.framing);
-  const auto load_cell = make_load_cell(*line, config.load_cell, clock, [](const RunRecord&) {});
+  OpenCell open(rig, is_emulated);
   WeighOptions options;
   options.largest_N = largest_N;
   options.stop = stop;
   options.put_on = [&](double load_N) {
-    if (emulated) emulated->hang_weight(load_N);
+    if (open.emulated() != nullptr) open.emulated()->hang_weight(load_N);
     return true;
   };
-  return weigh(*load_cell, config, clock, {force_N}, options).front();
+  return weigh(open.load_cell(), open.config(), open.clock(), {force_N}, options).front();
 }
 
 }  // namespace viscard

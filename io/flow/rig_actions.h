@@ -5,6 +5,7 @@
 #include "rig/rig_check.h"
 #include "rig/run/run_control.h"
 #include "rig/weigh.h"
+#include "rig/zero_force.h"
 
 #include <atomic>
 #include <filesystem>
@@ -19,7 +20,7 @@ namespace viscard {
 
 // Opens both devices of a rig (or of an emulated one) and measures them for some seconds; moves
 // nothing. Throws RigError as check_rig() does.
-RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds);
+RigCheck check_rig_config(const RigConfig& rig, bool is_emulated, double seconds);
 
 // As in a capture: an expired calibration, or one dated later than today, forbids a test; one
 // without a date is only a warning.
@@ -36,6 +37,16 @@ double touch_rig(const RigConfig& rig, bool is_emulated, double wait_s,
 void write_answer(const std::filesystem::path& rig_file, const std::string& day);
 // Writes file = "RECORD" under [calibration]; the other keys there become comments. Throws likewise.
 void write_calibration_file(const std::filesystem::path& rig_file, const std::string& record);
+
+// Writes zero = "12.345 mm" under [stage], at position_m of the controller. Throws likewise.
+void write_zero(const std::filesystem::path& rig_file, double position_m);
+
+// Where the stage of a rig (or of an emulated one) stands; moves nothing. Throws RigError, among others if
+// the position means another place when the stage is connected again.
+double lasting_position_m(const RigConfig& rig, bool is_emulated);
+// Lets the instrument of a rig (or of an emulated one) make the force at rest its zero. Throws RigError as
+// zero_force() does.
+ZeroedForce zero_rig_force(const RigConfig& rig, bool is_emulated, const std::atomic<bool>* stop);
 
 // How a message begins that refuses a number: "--away is '1', without a unit (in m)". Empty: "the
 // way is 1000 mm".

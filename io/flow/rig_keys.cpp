@@ -61,6 +61,12 @@ void show_run(ResultVisitor& v, const RunOutcome& outcome) {
     "the peak that the check before the run predicted");
   v("limit_N", outcome.expected.limit_N, "limit of force of the test");
   v("depth_m", outcome.achieved_depth_m, "depth that was reached");
+  v.word("depth_is", outcome.depth_is, {"measured", "counted", "compared"},
+         "measured by the stage's encoder, or counted in steps; compared: counted, and the stage "
+         "stood there when it was homed after the lift");
+  v("count_off_m",
+    number_or_null(outcome.count ? std::optional(outcome.count->off_m) : std::nullopt),
+    "the count over the way made since the stage was homed; null: not compared");
   v("contact_position_m", number_or_null(outcome.contact_position_m),
     "where the punch touched; null: nowhere");
   v("noise_N", outcome.noise_N, "standard deviation of a reading at rest");
@@ -87,6 +93,14 @@ void show_keys(ResultVisitor& v, const StageMoved& moved) {
   v("force_before_N", moved.force_before_N, "force by the calibration before the move");
   v("force_after_N", moved.force_after_N, "force after it");
   v("is_stopped_by_force", moved.is_stopped_by_force, "the change of force reached --limit");
+  v("zero_m", number_or_null(moved.zero_m),
+    "position of the controller that counts as 0 for a person (rig set-zero); null: none, or this "
+    "stage does not keep it");
+}
+
+void show_keys(ResultVisitor& v, const ZeroedForce& zeroed) {
+  v("force_before_N", zeroed.before_N, "force by the calibration before the instrument's zero");
+  v("force_after_N", zeroed.after_N, "force after it");
 }
 
 void show_keys(ResultVisitor& v, const RigCheck& found) {

@@ -4,6 +4,7 @@
 #include "rig/move_stage.h"
 #include "rig/rig_check.h"
 #include "rig/run/run_outcome.h"
+#include "rig/zero_force.h"
 
 #include <optional>
 #include <string>
@@ -17,6 +18,8 @@ void show_keys(ResultVisitor& v, const RigCheck& found);
 
 // The keys of `viscard rig jog`.
 void show_keys(ResultVisitor& v, const StageMoved& moved);
+// The keys of `viscard rig zero-force`.
+void show_keys(ResultVisitor& v, const ZeroedForce& zeroed);
 
 // A capture of `viscard capture`: a run, or why there was none.
 struct CaptureOfSeries {

@@ -82,6 +82,7 @@ FittedFile fit_for_page(const std::string& path, const ReportRequest& wanted) {
   FitRequest request;
   request.plausible = wanted.plausible;
   request.accepts_unverified = wanted.accepts_unverified;
+  request.is_beside_others = true;  // a page shows files of all kinds, and the option is for some
   const std::size_t n_terms = fit_file(path, request).result.terms.size();
   request.options.with_spectrum = true;
   request.options.with_profiles = n_terms <= kFewTerms;

@@ -21,6 +21,9 @@ namespace {
   const auto has = [&](const char* name) {
     return find_column(table, name, request.columns).has_value();
   };
+  if (const std::string unit = unknown_unit(table); !unit.empty()) {
+    throw std::runtime_error(table.file + ": " + unit);
+  }
   const std::string columns = ". The columns are " + columns_with_values(table);
   if (has("storage_modulus_Pa") || has("loss_modulus_Pa") || has("complex_modulus_Pa") ||
       has("complex_viscosity_Pa_s")) {
@@ -37,7 +40,7 @@ namespace {
       ": no known column to fit; expected force_N with depth_m, modulus_Pa, stress_Pa with "
       "strain, compliance_1_Pa, or storage_modulus_Pa with loss_modulus_Pa" +
       columns +
-      (words.empty() ? ". State what each is, as in --column compliance_1_Pa=\"HEADER\", or with "
+      (words.empty() ? ". State what each is, as in --column modulus_Pa=\"HEADER\", or with "
                        "its number from 1"
                      : ". By their headers these may be: " + words));
 }

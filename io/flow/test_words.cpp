@@ -1,8 +1,11 @@
 #include "io/flow/test_words.h"
 
+#include "io/basics/file_kind.h"
 #include "io/basics/words.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -17,17 +20,15 @@ bool exists(const std::string& path) {
   return fs::exists(path, error);
 }
 
+constexpr std::pair<const char*, FitKind> kLinearKinds[] = {{"relaxation", FitKind::kRelaxation},
+                                                            {"creep", FitKind::kCreep},
+                                                            {"dma", FitKind::kDma},
+                                                            {"oscillation", FitKind::kDma},
+                                                            {"indentation", FitKind::kIndentation}};
+
 FitKind kind_of_test(const std::string& kind, const std::string& word, bool takes_large_strain) {
-  static const std::vector<std::pair<std::string, FitKind>> kKinds{
-      {"relaxation", FitKind::kRelaxation},
-      {"creep", FitKind::kCreep},
-      {"dma", FitKind::kDma},
-      {"oscillation", FitKind::kDma},
-      {"indentation", FitKind::kIndentation}};
-  std::vector<std::string> names;
-  for (const auto& [name, known] : kKinds) {
+  for (const auto& [name, known] : kLinearKinds) {
     if (name == kind) return known;
-    names.push_back(name);
   }
   for (const LargeStrainKind& large : large_strain_kinds()) {
     if (kind == large.word) {
@@ -38,8 +39,8 @@ FitKind kind_of_test(const std::string& kind, const std::string& word, bool take
           " --out law.json); viscard report takes law.json beside a capture, a table or a material "
           "file");
     }
-    if (takes_large_strain) names.emplace_back(large.word);
   }
+  const std::vector<std::string> names = kinds_of_tests(takes_large_strain);
   throw std::invalid_argument(word + ": no such file, and '" + kind + "' is no kind of test" +
                               did_you_mean(kind, names) + " Name a test as KIND=FILE with " +
                               listed(names));
@@ -76,6 +77,31 @@ std::span<const LargeStrainKind> large_strain_kinds() {
   return kKinds;
 }
 
+std::vector<std::string> kinds_of_tests(bool with_large_strain) {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : kLinearKinds) names.emplace_back(name);
+  if (!with_large_strain) return names;
+  for (const LargeStrainKind& large : large_strain_kinds()) names.emplace_back(large.word);
+  return names;
+}
+
+namespace {
+
+// "a material", of a file that certainly holds no measured values; empty otherwise.
+std::string what_is_no_test(const std::string& path) {
+  constexpr std::size_t kBegin_B = 65536;
+  std::ifstream file(path,
+                     std::ios::binary);  // if it cannot be read, reading it as a test reports why
+  std::string begin(kBegin_B, '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+  const FileKind kind = kind_of_file(begin);
+  const bool is_known = is_json_kind(kind) || kind == FileKind::kCard || is_toml(begin);
+  return is_known ? file_kind_in_words(kind) : "";
+}
+
+}  // namespace
+
 std::vector<TestFile> tests_from_words(const std::vector<std::string>& words,
                                        bool takes_large_strain) {
   std::vector<TestFile> tests;
@@ -88,6 +114,11 @@ std::vector<TestFile> tests_from_words(const std::vector<std::string>& words,
     }
   }
   if (!tests.empty() && !plain.empty()) {
+    if (const std::string what = what_is_no_test(plain); !what.empty()) {
+      throw std::invalid_argument(plain + " is " + what +
+                                  ", not a test: beside files that state their kind only tests can "
+                                  "stand. Give the other files without KIND=, or use it apart");
+    }
     throw std::invalid_argument(plain +
                                 " states no kind of test, but others do; write for instance "
                                 "creep=" +

@@ -20,6 +20,9 @@ struct LargeStrainKind {
 };
 std::span<const LargeStrainKind> large_strain_kinds();
 
+// "relaxation", "creep" ..., and behind them those at large strain.
+std::vector<std::string> kinds_of_tests(bool with_large_strain);
+
 // The words of a command that may name tests of one material: "creep=b.csv". Kinds: relaxation,
 // creep, dma or oscillation, indentation. Returns an empty list if no word names a kind: then all
 // are plain files. A word is a plain file if a file of that name exists, or if it has no "=" or a

@@ -159,7 +159,13 @@ void set_option(const Option& option, const std::vector<std::string>& values, Pl
     **flag = true;
     return;
   }
-  for (const std::string& value : values) check_choice(option, value);
+  for (const std::string& value : values) {
+    if (value.empty()) {
+      throw OptionError("--" + option.name +
+                        " is empty, as by a variable that is not set; give it a value, or omit it");
+    }
+    check_choice(option, value);
+  }
   if (auto* const* texts = std::get_if<std::vector<std::string>*>(&option.target)) {
     **texts = values;
     return;

@@ -11,6 +11,8 @@
 namespace viscard {
 namespace {
 
+constexpr double kAboveTops = 1.3;  // of the length: as high as a shape is drawn
+
 void draw_pillar(SceneDrawing& d, const ArrayGeometry& g, double middle_m, bool is_image) {
   d.box(middle_m - 0.5 * g.diameter_m, middle_m + 0.5 * g.diameter_m, 0.0, g.length_m,
         is_image ? R"(fill="#eef4f9" stroke="#a9bfd0" stroke-dasharray="4 3")"
@@ -78,9 +80,10 @@ void draw_lengths(SceneDrawing& d, const ArrayGeometry& g, const ShownRow& row) 
   const double half_m = 0.5 * g.diameter_m;
   const double y_px = d.y(0.4 * g.length_m);
   const auto mark = [&](double from_m, double to_m, const std::string& words) {
-    constexpr double kRoom_px = 84.0;
+    constexpr double kCharacter_px = 7.0, kGaps_px = 16.0;
+    const double room_px = kCharacter_px * static_cast<double>(words.size()) + kGaps_px;
     d.length_mark(from_m, to_m, y_px,
-                  d.x(to_m) - d.x(from_m) < kRoom_px ? words.substr(0, words.find(' ')) : words);
+                  d.x(to_m) - d.x(from_m) < room_px ? words.substr(0, words.find(' ')) : words);
   };
   const bool is_endless = g.ends == FilmEnds::kMirror;
   if (row.pillars.size() > 1 || is_endless) {
@@ -110,11 +113,20 @@ std::string svg_from_scene(const ArrayScene& scene, const std::string& title) {
   const ShownRow row = shown_row(g);
   const bool is_endless = g.ends == FilmEnds::kMirror;
   const double image_m = is_endless ? 0.5 * g.spacing_m + g.diameter_m : 0.0;
-  SceneDrawing d(row.left_m - image_m, row.right_m + image_m, -g.film_thickness_m, g.length_m,
+  // Places of a long row are not to scale.
+  const bool has_shape = scene.press && !row.is_cut;
+  const double top_m = (has_shape ? kAboveTops : 1.0) * g.length_m;
+  SceneDrawing d(row.left_m - image_m, row.right_m + image_m, -g.film_thickness_m, top_m,
                  kRowWidth_px);
   d.film(row.left_m - image_m, row.right_m + image_m, g.film_thickness_m);
   if (is_endless) draw_mirrors(d, g, row);
   draw_row(d, scene, row);
+  if (has_shape) {
+    const ShapePress& press = *scene.press;
+    d.rigid(row.left_m, row.right_m, 0.0, top_m, [&](double x_m) {
+      return g.length_m - press.depth_m + height_m(press.shape, x_m, press.shape.y_m);
+    });
+  }
   if (row.is_cut) {
     d.text(d.x(row.cut_m), d.y(0.5 * g.length_m), fmt::format("... {} ...", g.count), "middle");
   }

@@ -6,14 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 namespace viscard {
 namespace {
 
 constexpr double kLayerWidth_px = 760.0;
-constexpr int kOutlinePoints = 160;
 
 // Half of the section: the electrodes, the part under the shape, and the layer's thickness beside them.
 double half_width_m(const LayerScene& scene) {
@@ -30,30 +27,12 @@ double half_width_m(const LayerScene& scene) {
   return half_m + 1.5 * scene.thickness_m;
 }
 
-// The shape where it is lower than the picture's top, as a band above its surface.
 void draw_shape(SceneDrawing& d, const LayerScene& scene, double half_m, double top_m) {
   const ShapePress& press = scene.press;
-  const double depth_m = press.depth_m > 0.0 ? press.depth_m : 0.0;
-  const double end_m = scene.width_m > 0.0 ? 0.5 * scene.width_m : half_m;
-  std::vector<std::pair<double, double>> corners;
-  const auto close = [&] {
-    if (corners.size() > 1) {
-      corners.emplace_back(corners.back().first, top_m);
-      corners.emplace_back(corners.front().first, top_m);
-      d.outline(corners, R"(fill="#8a8f94" fill-opacity="0.8" stroke="#404448")");
-    }
-    corners.clear();
-  };
-  for (int i = 0; i <= kOutlinePoints; ++i) {
-    const double x_m = half_m * (2.0 * i / kOutlinePoints - 1.0);
-    const double z_m = scene.thickness_m - depth_m + height_m(press.shape, x_m, press.shape.y_m);
-    if (std::abs(x_m) > end_m || !(z_m < top_m)) {
-      close();
-    } else {
-      corners.emplace_back(x_m, std::max(z_m, 0.0));
-    }
-  }
-  close();
+  const double tip_m = scene.thickness_m - press.depth_m;
+  const double end_m = scene.width_m > 0.0 ? std::min(0.5 * scene.width_m, half_m) : half_m;
+  d.rigid(-end_m, end_m, 0.0, top_m,
+          [&](double x_m) { return tip_m + height_m(press.shape, x_m, press.shape.y_m); });
 }
 
 }  // namespace

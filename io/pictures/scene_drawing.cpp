@@ -16,6 +16,7 @@ constexpr double kAbove_px = 96.0;
 constexpr double kBelow_px = 84.0;
 constexpr double kTallest_px = 420.0;
 constexpr double kElectrode_px = 5.0;
+constexpr int kOutlinePoints = 160;
 
 }  // namespace
 
@@ -75,6 +76,29 @@ void SceneDrawing::held(double from_m, double to_m, double z_m) {
   for (double at_px = x(from_m); at_px <= x(to_m); at_px += 10.0) {
     line(at_px, y(z_m), at_px - 6.0, y(z_m) + 8.0, ink);
   }
+}
+
+void SceneDrawing::rigid(double from_m, double to_m, double low_m, double high_m,
+                         const std::function<double(double)>& surface_m) {
+  std::vector<std::pair<double, double>> corners;
+  const auto close = [&] {
+    if (corners.size() > 1) {
+      corners.emplace_back(corners.back().first, high_m);
+      corners.emplace_back(corners.front().first, high_m);
+      outline(corners, R"(fill="#8a8f94" fill-opacity="0.8" stroke="#404448")");
+    }
+    corners.clear();
+  };
+  for (int i = 0; i <= kOutlinePoints; ++i) {
+    const double x_m = from_m + (to_m - from_m) * i / kOutlinePoints;
+    const double z_m = surface_m(x_m);
+    if (z_m < high_m) {
+      corners.emplace_back(x_m, std::max(z_m, low_m));
+    } else {
+      close();
+    }
+  }
+  close();
 }
 
 void SceneDrawing::film(double from_m, double to_m, double thickness_m, bool is_held) {

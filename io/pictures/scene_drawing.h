@@ -2,6 +2,7 @@
 
 #include "models/pillar/body/piezo_static.h"
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,9 @@ class SceneDrawing {
   // Both ends marked; the words above it.
   void length_mark(double from_m, double to_m, double y_px, const std::string& words);
 
+  // What lies above a surface z(x) and between two heights, where the surface is below the upper one.
+  void rigid(double from_m, double to_m, double low_m, double high_m,
+             const std::function<double(double)>& surface_m);
   void film(double from_m, double to_m, double thickness_m, bool is_held = true);
   void held(double from_m, double to_m, double z_m);
   // Over what stands on it: a band within the film along one of its faces.

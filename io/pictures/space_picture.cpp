@@ -133,6 +133,9 @@ std::string words_of_press(const ShapePress& press) {
   std::string words = fmt::format("a rigid {}", name);
   if (press.shape.radius_m > 0.0) words += " of radius " + in_unit(press.shape.radius_m, "m");
   if (press.force_N > 0.0) return words + (" pressed with " + in_unit(press.force_N, "N"));
+  if (press.depth_m < 0.0) {
+    return words + " lifted to " + in_unit(-press.depth_m, "m") + " above first contact";
+  }
   return words + " pressed " + in_unit(press.depth_m, "m") + " deep";
 }
 

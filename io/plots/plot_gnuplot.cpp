@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,7 +24,7 @@ namespace {
 class MemoryFile {
  public:
   explicit MemoryFile(const char* name) : fd_(::memfd_create(name, MFD_CLOEXEC)) {
-    if (fd_ < 0) fail("no memory for gnuplot's input and output", errno);
+    if (fd_ < 0) fail("cannot make a file in memory for gnuplot", errno);
   }
   ~MemoryFile() { ::close(fd_); }
   MemoryFile(const MemoryFile&) = delete;
@@ -125,7 +126,14 @@ std::string run_gnuplot(const std::string& script) {
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw std::runtime_error("gnuplot could not draw a plot: " + message_of(err.contents()));
   }
-  return out.contents();
+  std::string drawn = out.contents();
+  rlimit limit{};
+  // gnuplot does not notice that it may write no more.
+  if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && drawn.size() >= limit.rlim_cur) {
+    throw std::runtime_error(
+        "plots: the limit on the size of files (ulimit -f) cuts off what gnuplot draws; raise it");
+  }
+  return drawn;
 }
 
 }  // namespace viscard

@@ -3,6 +3,7 @@
 #include "io/basics/words.h"
 #include "io/plots/plot_names.h"
 #include "io/plots/plot_points.h"
+#include "io/plots/plot_ticks.h"
 
 #include <fmt/format.h>
 
@@ -22,12 +23,12 @@ constexpr const char* kNoteColour = "#b4bac1";
 constexpr double kNoteCharacter_px = 6.0;  // mean width of a character of the 10 px font
 // Margins beside the data, in characters. They are the same in every panel, so that the axes of
 // panels above each other line up; gnuplot would fit each to its own tick labels.
-constexpr int kLeftMargin = 10;
-constexpr int kRightMargin = 2;
+constexpr std::size_t kLeastLeftMargin = 10;
+constexpr std::size_t kBesideNumbers =
+    5;  // the label of the axis with its gaps; gnuplot drops what has no room
+constexpr std::size_t kRightMargin = 2;
 constexpr double kCharacter_px = 8.2;  // gnuplot's character of the 12 px font
 
-constexpr double kLabelWidth_px = 64.0;  // of a tick label with the gap to the next
-constexpr double kLabelHeight_px = 18.0;
 constexpr double kLinesBesideData_px = 100.0;  // legend above, labels below the data
 
 using Out = std::back_insert_iterator<std::string>;
@@ -87,40 +88,46 @@ std::vector<PanelPlace> panel_places(const Plot& plot) {
   return places;
 }
 
-// One end of a range; gnuplot chooses an end that is not given or that would leave out all data.
-std::string range_end(const std::optional<double>& end, bool is_usable) {
-  return end && is_usable ? fmt::format("{:.12g}", *end) : "*";
+// A panel's ranges and numbers, and where its data are.
+struct PanelLayout {
+  PanelPlace place;
+  AxisTicks x, y;
+  double width_px = 0.0, height_px = 0.0;  // of the data
+};
+
+// Their ticks are chosen from the left margin, which is that of the longest number on any y axis.
+std::vector<PanelLayout> panel_layouts(const Plot& plot, std::size_t& left_margin) {
+  const bool has_powers = has_powers_of_ten(plot);
+  std::vector<PanelLayout> layouts;
+  left_margin = kLeastLeftMargin;
+  for (const PanelPlace& place : panel_places(plot)) {
+    const PlotPanel& panel = plot.panels[layouts.size()];
+    PanelLayout one{.place = place, .x = {}, .y = {}};
+    one.height_px = place.height * plot.height_px - kLinesBesideData_px;
+    one.y = ticks_of(panel.y, panel_spans(panel).y, one.height_px, false, has_powers);
+    left_margin = std::max(left_margin, one.y.characters + kBesideNumbers);
+    layouts.push_back(std::move(one));
+  }
+  for (std::size_t i = 0; i < layouts.size(); ++i) {
+    PanelLayout& one = layouts[i];
+    one.width_px = one.place.width * plot.width_px -
+                   static_cast<double>(left_margin + kRightMargin) * kCharacter_px;
+    one.x =
+        ticks_of(plot.panels[i].x, panel_spans(plot.panels[i]).x, one.width_px, true, has_powers);
+  }
+  return layouts;
 }
 
-std::string range_of(const PlotAxis& axis, const AxisSpan& span) {
-  if (axis.is_log) return fmt::format("[{:.12g}:{:.12g}]", span.low, span.high);
-  std::optional<double> min = axis.min, max = axis.max;
-  if (min && max && *min > *max) std::swap(min, max);
-  return fmt::format("[{}:{}]", range_end(min, min && *min < span.high),
-                     range_end(max, max && *max > span.low));
-}
-
-// gnuplot makes about ten ticks on a linear axis of any length. On a short axis their labels would
-// overlap, so it gets a wider step: 1, 2 or 5 times a power of ten.
-std::string tick_step(const AxisSpan& span, double length_px, double label_px) {
-  constexpr double kUsualTicks = 10.0;
-  const double n_labels = std::max(2.0, length_px / label_px);
-  if (span.is_log || n_labels >= kUsualTicks) return "autofreq";
-  const double least = (span.high - span.low) / n_labels;
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
-  const double factor = least <= power ? 1.0 : least <= 2.0 * power ? 2.0 : 5.0;
-  return fmt::format("{:.12g}", least <= 5.0 * power ? factor * power : 10.0 * power);
-}
-
-void write_axis(Out out, char name, const PlotAxis& axis, const AxisSpan& span, double length_px,
-                bool has_labels) {
-  // The second axis carries the names of phases and follows the first, except in its scale.
-  fmt::format_to(out, "{0} logscale {1}\n{0} logscale {1}2\n", axis.is_log ? "set" : "unset", name);
-  fmt::format_to(out, "set {}range {}\n", name, range_of(axis, span));
+// The second axis carries the names of phases. It gets scale and range of the first one itself: gnuplot
+// would take natural logarithms on one and decimal ones on the other.
+void write_axis(Out out, char name, const PlotAxis& axis, const AxisTicks& ticks, bool has_labels) {
+  for (const char* const number : {"", "2"}) {
+    fmt::format_to(out, "{0} logscale {1}{2}\nset {1}{2}range [{3:.12g}:{4:.12g}]\n",
+                   axis.is_log ? "set" : "unset", name, number, ticks.shown.low, ticks.shown.high);
+  }
   fmt::format_to(out, "set {}tics {}\n", name,
-                 tick_step(span, length_px, name == 'x' ? kLabelWidth_px : kLabelHeight_px));
-  const char* format = axis.is_log && (span.low < 1e-3 || span.high > 2e4) ? "10^{%L}" : "%h";
-  fmt::format_to(out, "set format {} '{}'\n", name, has_labels ? format : "");
+                 axis.is_log ? "autofreq" : fmt::format("{:.12g}", ticks.step));
+  fmt::format_to(out, "set format {} '{}'\n", name, has_labels ? ticks.format : "");
   fmt::format_to(out, "set {}label {} noenhanced textcolor rgb '{}'\n", name,
                  quoted(has_labels ? axis.label : ""), kTextColour);
 }
@@ -254,27 +261,26 @@ void write_curves(Out out, const PlotPanel& panel, const PanelSpans& spans, int 
   fmt::format_to(out, "{}\n", command);
 }
 
-void write_panel(Out out, const Plot& plot, const PlotPanel& panel, const PanelPlace& place) {
-  const PanelSpans spans = panel_spans(panel);
-  const double width_px =
-      place.width * plot.width_px - (kLeftMargin + kRightMargin) * kCharacter_px;
-  const double height_px = place.height * plot.height_px - kLinesBesideData_px;
+void write_panel(Out out, const Plot& plot, const PlotPanel& panel, const PanelLayout& layout) {
+  const PanelPlace& place = layout.place;
+  const PanelSpans spans{layout.x.shown, layout.y.shown};
   fmt::format_to(out, "unset arrow\nunset label\nunset x2tics\n");
   fmt::format_to(out, "set origin {:.6f},{:.6f}\nset size {:.6f},{:.6f}\n", place.left,
                  place.bottom, place.width, place.height);
   fmt::format_to(out, "set bmargin {}\n", panel.shares_x_with_below ? 1 : -1);
-  write_axis(out, 'x', panel.x, spans.x, width_px, !panel.shares_x_with_below);
-  write_axis(out, 'y', panel.y, spans.y, height_px, true);
+  write_axis(out, 'x', panel.x, layout.x, !panel.shares_x_with_below);
+  write_axis(out, 'y', panel.y, layout.y, true);
   write_titles(out, panel);
-  write_notes(out, panel, spans.x, width_px);
-  write_names(out, panel, spans, width_px, height_px);
-  write_curves(out, panel, spans, static_cast<int>(width_px), plot.height_px);
+  write_notes(out, panel, spans.x, layout.width_px);
+  write_names(out, panel, spans, layout.width_px, layout.height_px);
+  write_curves(out, panel, spans, static_cast<int>(layout.width_px), plot.height_px);
 }
 
 }  // namespace
 
 std::string gnuplot_script(const Plot& plot) {
-  const std::vector<PanelPlace> places = panel_places(plot);
+  std::size_t left_margin = 0;
+  const std::vector<PanelLayout> layouts = panel_layouts(plot, left_margin);
   std::string script;
   const Out out = std::back_inserter(script);
   // Enhanced text is for powers of ten at the ticks only: every name is printed as it is.
@@ -285,14 +291,14 @@ std::string gnuplot_script(const Plot& plot) {
                  "set tics scale 0.5,0.3 out nomirror textcolor rgb '{}'\n"
                  "set grid xtics ytics back lc rgb '{}' lw 1 dashtype solid\n"
                  "set lmargin {}\nset rmargin {}\n",
-                 plot.width_px, plot.height_px, kAxisColour, kTextColour, kGridColour, kLeftMargin,
+                 plot.width_px, plot.height_px, kAxisColour, kTextColour, kGridColour, left_margin,
                  kRightMargin);
   fmt::format_to(out,
                  "set key tmargin left Left reverse horizontal samplen 2.6 noenhanced textcolor "
                  "rgb '{}'\nset multiplot\n",
                  kTextColour);
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
-    write_panel(out, plot, plot.panels[i], places[i]);
+    write_panel(out, plot, plot.panels[i], layouts[i]);
   }
   fmt::format_to(out, "unset multiplot\n");
   return script;

@@ -3,6 +3,7 @@
 #include "io/basics/words.h"
 #include "io/basics/written_path.h"
 #include "io/flow/command_error.h"
+#include "io/flow/test_words.h"
 #include "io/options/option.h"
 #include "io/python/job.h"
 #include "io/python/parts.h"
@@ -61,6 +62,7 @@ void add_errors(py::module_& module) {
         return notes;
       });
   module.def("no_such_word", &no_such_word);
+  module.def("test_kinds", [] { return kinds_of_tests(true); });
   module.attr("version") = VISCARD_VERSION;
 }
 

@@ -97,14 +97,24 @@ py::dict next_test(const std::string& path, const std::vector<std::string>& want
 
 // Writes the page about captures, tables and materials. Returns what is not to be trusted on it.
 std::vector<std::string> report(const std::vector<std::string>& files, const std::string& page,
-                                const std::string& title, const std::vector<std::string>& cards,
-                                const std::string& units, const std::string& logo, bool overwrite,
-                                bool reproducible, const std::string& plausible,
-                                const py::object& progress) {
-  ReportRequest request{.files = files, .card_targets = cards, .card_units = units, .logo = logo};
+                                const py::dict& keywords, const py::object& progress) {
+  const auto text = [&](const char* name) { return keywords[name].cast<std::string>(); };
+  const auto texts = [&](const char* name) {
+    return keywords[name].cast<std::vector<std::string>>();
+  };
+  const auto is_on = [&](const char* name) { return keywords[name].cast<bool>(); };
+  const std::vector<std::string> cards = texts("cards");
+  const std::string title = text("title"), units = text("units"), pictures = text("pictures");
+  const bool overwrite = is_on("overwrite");
+  ReportRequest request{.files = files,
+                        .truth_files = texts("truth"),
+                        .card_targets = cards,
+                        .card_units = units,
+                        .logo = text("logo")};
   request.command = "viscard.report()";
-  request.plausible = judged_by(plausible);
-  if (!reproducible) request.created_at = now_iso8601();
+  request.plausible = judged_by(text("plausible"));
+  request.accepts_unverified = is_on("unverified");
+  if (!is_on("reproducible")) request.created_at = now_iso8601();
   try {
     sort_inputs(request);
     for (const std::string& target : cards) card_target(target);
@@ -115,7 +125,9 @@ std::vector<std::string> report(const std::vector<std::string>& files, const std
   return in_background({.progress = progress}, [=](Job& job) {
     const ReportInput input = read_report(
         request, title, [&](double done, const std::string& what) { job.report(done, what); });
-    write_file(page, render_report(input).html, overwrite);
+    const RenderedReport rendered = render_report(input);
+    if (!pictures.empty()) write_report_pictures(rendered, pictures, overwrite);
+    write_file(page, rendered.html, overwrite);
     return defects_of(input);
   });
 }

@@ -163,8 +163,8 @@ PythonResult predict(const Material& material, const py::dict& keywords, const p
 }
 
 PythonResult validate(const Material& material, double max_error, const py::object& progress) {
-  if (!(max_error > 0.0)) {
-    throw OptionError(fmt::format("max_error is {:g}; it must be positive", max_error));
+  if (!(max_error > 0.0 && max_error < 1.0)) {
+    throw OptionError(fmt::format("max_error is {:g}; it must lie between 0 and 1", max_error));
   }
   const auto found = in_background({.progress = progress}, [=](Job& job) {
     ValidateOptions options;

@@ -2,6 +2,7 @@
 #include "io/cost/effect_savings.h"
 #include "io/cost/study_cost.h"
 #include "io/flow/scenes/answer_scene.h"
+#include "io/flow/scenes/compared_answers.h"
 #include "io/flow/scenes/named_values.h"
 #include "io/flow/scenes/scene_uncertainty.h"
 #include "io/pictures/scene_picture.h"
@@ -9,6 +10,7 @@
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
 #include "io/python/values.h"
+#include "models/answer/effect_estimate.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 
@@ -135,20 +137,43 @@ py::list fields_list(std::vector<SectionGrid> grids) {
 
 struct SceneOutcome {
   SceneAnswer answer;
+  double tolerance = 0.0;  // relative
   std::optional<SceneUncertainty> uncertainty;
+  std::optional<ComparedAnswers> compared;
   std::vector<SectionGrid> fields;
 };
 
+// The scene to compare with, before any work.
+std::optional<OtherScene> other_of(const std::optional<std::string>& compare, const SceneFile& file,
+                                   const std::string& path, std::optional<double> tolerance,
+                                   const std::string& plausible) {
+  try {
+    return other_scene(compare, file, path, tolerance, judged_by(plausible, Plausible::kScene));
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+}
+
 py::dict simulate_scene(const std::optional<std::string>& text, const std::string& path,
                         std::optional<double> tolerance, bool with_fields, bool with_uncertainty,
-                        std::optional<std::size_t> samples, const std::string& plausible,
+                        std::optional<std::size_t> samples,
+                        const std::optional<std::string>& compare, const std::string& plausible,
                         const py::object& progress) {
   SceneOutcome found = in_background({.progress = progress}, [=](Job& job) {
     const SceneFile file = scene_of(text, path, tolerance, plausible);
+    const std::optional<OtherScene> other = other_of(compare, file, path, tolerance, plausible);
     SceneOutcome outcome;
+    outcome.tolerance = common(file.scene).tolerance;
     outcome.answer = answer_scene(
         file, path, [&](double done, const std::string& point) { job.report(done, point); });
     add_notes_of_file(file, outcome.answer);
+    if (other) {
+      const SceneAnswer beside =
+          answer_scene(other->file, other->path,
+                       [&](double done, const std::string& point) { job.report(done, point); });
+      outcome.compared =
+          compare_answers({file.scene, outcome.answer}, {other->file.scene, beside}, other->path);
+    }
     if (with_fields && file.sweep.is_empty()) {
       outcome.fields = solution_fields(file.scene, outcome.answer.discretisation);
     }
@@ -169,6 +194,8 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   }
   out["results"] = results;
   out["modes"] = modes_list(answer);
+  out["tolerance"] =
+      values_from_keys([&](ResultVisitor& v) { show_tolerance(v, answer, found.tolerance); });
   out["effects"] = values_from_keys([&](ResultVisitor& v) {
     v("effects", answer.effects, "every effect and why it is on or off");
   })["effects"];
@@ -177,9 +204,12 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   out["x_m"] = array_over(answer.array.pillars, [](const ScenePillar& p) { return p.x_m; });
   out["y_m"] = array_over(answer.array.pillars, [](const ScenePillar& p) { return p.y_m; });
   out["notes"] = answer.notes;
-  out["within_tolerance"] = answer.within_tolerance;
   out["unknowns"] = answer.unknowns;
   out["fields"] = fields_list(std::move(found.fields));
+  out["compared"] = py::none();
+  if (found.compared) {
+    out["compared"] = values_from_keys([&](ResultVisitor& v) { show_keys(v, *found.compared); });
+  }
   out["uncertainty"] = py::none();
   if (found.uncertainty) {
     out["uncertainty"] =
@@ -217,15 +247,19 @@ PythonResult plan_scene(const std::optional<std::string>& text, const std::strin
 }
 
 PythonResult cost_scene(const std::optional<std::string>& text, const std::string& path,
-                        const py::object& budget, const std::string& plausible,
-                        const py::object& progress) {
-  const double budget_s = quantity_from("budget", budget, "s").value_or(60.0);
-  if (!(budget_s > 0.0)) {
-    throw OptionError("budget is " + fmt::format("{:g}", budget_s) +
-                      " s; it must be positive, such as 60s");
-  }
+                        const py::object& budget, const py::object& cpu_budget,
+                        const std::string& plausible, const py::object& progress) {
+  const auto positive = [](const char* name, const py::object& value) {
+    const std::optional<double> s = quantity_from(name, value, "s");
+    if (s && !(*s > 0.0)) {
+      throw OptionError(fmt::format("{} is {:g} s; it must be positive, such as 60s", name, *s));
+    }
+    return s;
+  };
+  const double budget_s = positive("budget", budget).value_or(60.0);
+  const std::optional<double> cpu_budget_s = positive("cpu_budget", cpu_budget);
   const auto study = in_background({.progress = progress}, [=](Job& job) {
-    CostOptions options{.budget_s = budget_s};
+    CostOptions options{.budget_s = budget_s, .cpu_budget_s = cpu_budget_s};
     options.progress = [&](double done, const std::string& row) { job.report(done, row); };
     const Scene scene = scene_of(text, path, std::nullopt, plausible).scene;
     return std::make_shared<const CostStudy>(

@@ -1,5 +1,6 @@
 #include "io/report/report_numbers.h"
 
+#include "io/basics/words.h"
 #include "models/maths/leading_number.h"
 
 #include <fmt/format.h>
@@ -34,13 +35,6 @@ const Prefix& prefix_for(double magnitude) {
     if (magnitude >= 0.99999 * prefix.factor) chosen = &prefix;
   }
   return *chosen;
-}
-
-std::string superscript(int exponent) {
-  static const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "⁻" : "";
-  for (const char c : std::to_string(std::abs(exponent))) text += digits[c - '0'];
-  return text;
 }
 
 std::string with_true_minus(const std::string& text) {

@@ -1,6 +1,7 @@
 #include "io/serve/desk_api.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/option_quantity.h"
 #include "io/basics/program.h"
 #include "io/basics/temporary_folder.h"
 #include "io/basics/words.h"
@@ -8,7 +9,7 @@
 #include "io/flow/words/predict_words.h"
 #include "io/materials/material_file.h"
 #include "io/serve/api_error.h"
-#include "io/serve/desk_scenes.h"
+#include "io/serve/desk_files.h"
 #include "io/serve/desk_words.h"
 #include "io/serve/series_json.h"
 #include "io/tables/column_names.h"
@@ -32,10 +33,33 @@ constexpr int kMostRunning = 3;  // commands at once; a further one waits
 
 // Options of card that the page may set.
 const Texts& card_options_offered() {
-  static const Texts kNames{"approximate",  "accept-flags",   "clamp-nu",     "bound",
-                            "elastic-only", "terms",          "band",         "ratio",
-                            "extrapolate",  "at-temperature", "bulk-modulus", "density"};
+  static const Texts kNames{"ratio",          "extrapolate",  "density", "bulk-modulus",
+                            "approximate",    "accept-flags", "terms",   "elastic-only",
+                            "at-temperature", "bound",        "band",    "clamp-nu",
+                            "plausible"};
   return kNames;
+}
+
+// Quantities among them, as card() of Python names them, which takes numbers in SI.
+struct CardQuantity {
+  const char *option, *unit, *keyword;
+};
+constexpr CardQuantity kCardQuantities[]{{"density", "kg/m3", "density_kg_m3"},
+                                         {"bulk-modulus", "Pa", "bulk_modulus_Pa"},
+                                         {"at-temperature", "degC", "temperature_C"}};
+
+// What was chosen for a card that was written, as keywords of Python.
+Json card_keywords(Json chosen) {
+  for (const char* name : {"for", "units"}) chosen.erase(name);
+  for (const auto& [option, unit, keyword] : kCardQuantities) {
+    const std::string text = chosen.contains(option) ? text_at(chosen, option) : "";
+    chosen.erase(option);
+    if (!text.empty()) {
+      chosen[keyword] = option_quantity(std::string("--") + option, text, QuantityOrUnit::any(unit),
+                                        Plausible::kOff);
+    }
+  }
+  return chosen;
 }
 
 // True if this file is the material that the command would write of tables with these sums.
@@ -138,11 +162,18 @@ Json DeskApi::choices() {
     if (option.at("name") != "kind") continue;
     for (const std::string& kind : large_strain_words()) options.back()["choices"].push_back(kind);
   }
+  Json of_card = Json::array();
+  const Json described_of_card = result_of({"card", "--help"}).at("options");
+  for (const std::string& name : card_options_offered()) {
+    const auto one = std::find_if(described_of_card.begin(), described_of_card.end(),
+                                  [&](const Json& option) { return option.at("name") == name; });
+    if (one != described_of_card.end()) of_card.push_back(*one);
+  }
   return {
       {"targets", list.at("targets")}, {"units", list.at("units")},
       {"options", std::move(options)}, {"large_strain", large_strain_words()},
       {"quantities", column_names()},  {"predict", result_of({"predict", "--help"}).at("options")},
-      {"examples", example_scenes()}};
+      {"card", std::move(of_card)},    {"examples", example_scenes()}};
 }
 
 Json DeskApi::drop(const std::string& name, const std::string& bytes) {
@@ -251,6 +282,7 @@ Json DeskApi::card(const Json& request) {
   const WrittenMaterial material = write_material(request);
   const Texts words = command_words("card", material.name, of_card);
   Json answer = answered(words, result_of(words));
+  answer["options"] = card_keywords(request.at("card"));
   answer["material"] = material.name;
   answer["fit_command"] = material.command;
   return answer;
@@ -301,7 +333,7 @@ Json DeskApi::predict(const Json& request) {
 
 Json DeskApi::check(const Json& request) {
   Texts words{"card", "--check=/dev/stdin"};
-  for (const char* name : {"for", "units"}) {
+  for (const char* name : {"for", "units", "plausible"}) {
     if (request.contains(name)) add_value(name, request.at(name), words);
   }
   Json answer = answered(words, result_of(words, text_at(request, "card")));

@@ -35,7 +35,8 @@ class DeskApi {
   explicit DeskApi(DeskOptions options);
 
   Json state() const;
-  // What the page offers: the options of fit, kinds of test at large strain, and the targets and units of cards.
+  // What the page offers: the options of fit, predict and card, kinds of test at large strain, and the targets and units
+  // of cards.
   Json choices();
   Json drop(const std::string& name, const std::string& bytes);
   // {"table", "options"}: viscard fit --show-table, and keeps the options beside the table. Without "options" those that
@@ -45,12 +46,13 @@ class DeskApi {
   // place of "table", here and below, "tests" of one material: [{"table", "kind"}, ...].
   Json fit(const Json& request);
   // {"table", "options", "card"}: writes the material of the fit beside the table, under a name that is free or that of
-  // the same fit, and then viscard card. "fit_command" writes the material where it is missing.
+  // the same fit, and then viscard card. "fit_command" writes the material where it is missing. "options": what was chosen
+  // as card() of Python takes it, quantities in SI.
   Json card(const Json& request);
   // {"table", "options", "predict", "against": a table}: likewise, and then viscard predict. "options" of the answer: those
   // of the command, with what is kept beside the other table; "notes": what predict cannot take of it.
   Json predict(const Json& request);
-  // {"card", "for"}: viscard card --check of this text.
+  // {"card", "for", "units", "plausible"}: viscard card --check of this text.
   Json check(const Json& request);
 
   // {"example"}: writes a copy of a scene that comes with viscard into the folder. {"scene"}: one of the folder. {"scene",

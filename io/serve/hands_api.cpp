@@ -87,6 +87,26 @@ Json HandsApi::moving() {
           {"trouble", state.trouble}};
 }
 
+Json HandsApi::zero(const Json& request) {
+  const std::string what = text_at(request, "what");
+  if (what != "position" && what != "force") {
+    throw ApiError(400, "bad-value", "'what' is '" + what + "'; it must be 'position' or 'force'");
+  }
+  if (what == "position" && (options_.is_emulated || !options_.rig_file)) {
+    throw ApiError(422, "emulated", "no rig file keeps the zero of an emulated stage");
+  }
+  RigConfig rig = options_.rig_file ? read_rig(*options_.rig_file) : demo_rig();
+  if (options_.is_emulated) rig.clock_speed = options_.speed;
+  job_.begin("a setting of the zero");
+  const JobEnd at_end(job_);
+  if (what == "force") {
+    return json_from_result(zero_rig_force(rig, options_.is_emulated, &job_.is_closing()));
+  }
+  const double position_m = lasting_position_m(rig, false);
+  write_zero(*options_.rig_file, position_m);
+  return {{"zero_m", position_m}};
+}
+
 Json HandsApi::weigh(const Json& request) {
   const double mass_kg = mass_at(request, "mass_kg"), largest_kg = mass_at(request, "largest_kg");
   RigConfig rig = options_.rig_file ? read_rig_to_calibrate(*options_.rig_file) : demo_rig();

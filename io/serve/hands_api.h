@@ -24,6 +24,9 @@ class HandsApi {
   nlohmann::ordered_json moving();
   void stop_move(bool at_once) { live_.stop(at_once); }
   bool is_moving() { return job_.what() == kMove; }
+  // {"what": "position"}: counts positions from where the stage stands, in the rig file; {"what": "force"}:
+  // lets the instrument make the force at rest its zero.
+  nlohmann::ordered_json zero(const nlohmann::ordered_json& request);
   // {"mass_kg", "largest_kg"}: the mean of the readings with that mass on the cell, which hangs already.
   nlohmann::ordered_json weigh(const nlohmann::ordered_json& request);
   // {"points": [{"mass_kg", "reading", "reading_se"}, ...], "gravity_m_s2", "use"}: fits the line and writes the

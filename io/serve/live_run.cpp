@@ -128,6 +128,7 @@ CaptureWatch LiveRun::watch() {
 
 std::string LiveRun::text_of_phase() const {
   if (state_.now.phase == "connect") return "Waiting for both devices";
+  if (state_.now.phase == kHomePhase) return "Homing the stage, to compare its count";
   for (const TestPhase& planned : phases_) {
     if (planned.name == state_.now.phase) return planned.text;
   }

@@ -13,6 +13,7 @@
 #include <httplib.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
@@ -198,12 +199,17 @@ class PageServer::Impl {
 
   void bind() {
     constexpr const char* kHost = "127.0.0.1";
+    errno = 0;
     if (options_.port == 0) {
       port_ = server_.bind_to_any_port(kHost);
     } else if (server_.bind_to_port(kHost, options_.port)) {
       port_ = options_.port;
     }
     if (port_ > 0) return;
+    if (errno == EMFILE || errno == ENFILE) {
+      throw std::runtime_error(
+          "no port can be opened: too many files are open; raise the limit (ulimit -n)");
+    }
     throw std::runtime_error(
         fmt::format("port {} of 127.0.0.1 cannot be used: another program has it, or it is below "
                     "1024. Leave --port out to take any free one",

@@ -80,6 +80,7 @@ class RigServer::Impl {
     add("/api/captures/remove", [this](const Json& r) { return api_.remove_capture(r); });
     add("/api/captures/note", [this](const Json& r) { return api_.note_capture(r); });
     add("/api/move", [this](const Json& r) { return hands_.move(r); });
+    add("/api/zero", [this](const Json& r) { return hands_.zero(r); });
     add("/api/weigh", [this](const Json& r) { return hands_.weigh(r); });
     add("/api/calibrate", [this](const Json& r) { return hands_.calibrate(r); });
     add(kStopPath, [this](const Json& r) {

@@ -257,11 +257,29 @@ std::string words_for_factor(const CsvTable& table, const std::string& name, con
   return "write --column " + quoted_for_shell({word});
 }
 
+namespace {
+
+bool is_gap_at(const CsvColumn& column, std::size_t row) {
+  return !std::isfinite(column.values[row]) && (column.text.empty() || is_gap(column.text[row]));
+}
+
+bool has_gaps_only(const CsvColumn& column) {
+  std::size_t row = 0;
+  while (row < column.values.size() && is_gap_at(column, row)) ++row;
+  return row == column.values.size();
+}
+
+}  // namespace
+
 std::vector<double> column_SI(const CsvTable& table, const std::string& name,
                               const ColumnMap& map) {
   const ColumnUse use = required_column(table, name, map);
   const CsvColumn& column = table.columns[use.index];
   if (column.first_bad_line != 0) {
+    if (has_gaps_only(column)) {
+      fail(table, "column " + place(use.index) + quoted_header(column) + " for " + name +
+                      ": no row has a number; fill it in, or give another column");
+    }
     const std::string cell = column.first_bad_cell.empty()
                                  ? "the cell is empty"
                                  : "'" + column.first_bad_cell + "' is not a finite number";
@@ -316,10 +334,8 @@ CsvTable rows_without_gaps(CsvTable table, const std::vector<std::string>& names
   if (used.empty()) return table;
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < table.lines.size(); ++row) {
-    const bool has_gap = std::any_of(used.begin(), used.end(), [&](const CsvColumn* column) {
-      return !std::isfinite(column->values[row]) &&
-             (column->text.empty() || is_gap(column->text[row]));
-    });
+    const bool has_gap = std::any_of(
+        used.begin(), used.end(), [&](const CsvColumn* column) { return is_gap_at(*column, row); });
     if (!has_gap) rows.push_back(row);
   }
   n_left_out = table.lines.size() - rows.size();

@@ -2,6 +2,7 @@
 
 #include "io/basics/number_text.h"
 #include "io/basics/units.h"
+#include "io/basics/words.h"
 #include "io/tables/column_match.h"
 #include "io/tables/column_names.h"
 #include "io/tables/header_words.h"
@@ -134,6 +135,37 @@ std::string columns_with_values(const CsvTable& table) {
     text += " and " + std::to_string(table.columns.size() - kMostShown) + " more";
   }
   return text;
+}
+
+std::string unknown_unit(const CsvTable& table) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvColumn& column = table.columns[i];
+    if (!is_stated(column.unit) || is_unit(column.unit)) continue;
+    CsvColumn bare = column;
+    bare.unit.clear();
+    bare.header = bare.name;
+    std::vector<ColumnKind> kinds;
+    for (const ColumnKind& kind : column_kinds()) {
+      if (match_header(bare, kind)) kinds.push_back(kind);
+    }
+    // "E" may be more than one; the unit that was meant decides.
+    const auto has_meant = [&](const ColumnKind& kind) {
+      return !unit_in_right_case(column.unit, kind.unit.si).empty();
+    };
+    std::stable_partition(kinds.begin(), kinds.end(), has_meant);
+    if (!kinds.empty()) {
+      const ColumnKind& kind = kinds.front();
+      const std::string meant(unit_in_right_case(column.unit, kind.unit.si));
+      const std::string what = "column " + std::to_string(i + 1) + " '" + column.header +
+                               "' is by its name " + kind.name + ", but '" + column.unit +
+                               "' is not a known unit (capitals matter)";
+      if (meant.empty()) return what + "; write the unit so that it is one of " + kind.unit.si;
+      return what + ". If " + meant + " was meant, write " +
+             quoted_for_shell(
+                 {"--column", std::string(kind.name) + "=" + bare.name + " (" + meant + ")"});
+    }
+  }
+  return "";
 }
 
 std::string proposed_words(const CsvTable& table) {

@@ -53,7 +53,8 @@ void refuse_foreign_file(std::string_view bytes, const std::string& name) {
   const FileKind kind = kind_of_file(head);
   const bool is_database = kind == FileKind::kCapture || kind == FileKind::kStudyAnswers;
   const std::string_view text = head.substr(head.starts_with("\xef\xbb\xbf") ? 3 : 0);
-  if (!is_database && !is_json_kind(kind) && !is_toml(text)) return;
+  const bool is_page = kind == FileKind::kPage;
+  if (!is_database && !is_page && !is_json_kind(kind) && !is_toml(text)) return;
   const std::string use = use_of_file_kind(kind);
   throw std::runtime_error(name + ": is " + file_kind_in_words(kind) + ", not a table; " +
                            (use.empty() ? "export the measured columns as text" : use));

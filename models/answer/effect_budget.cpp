@@ -1,5 +1,6 @@
 #include "models/answer/effect_estimate.h"
 #include "models/answer/scene_mistake.h"
+#include "models/maths/result_visitor.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -152,6 +153,30 @@ const SceneEffect* largest_not_computed(const SceneAnswer& answer) {
     if (largest == nullptr || effect.estimate > largest->estimate) largest = &effect;
   }
   return largest;
+}
+
+bool effects_within_tolerance(const SceneAnswer& answer, double tolerance) {
+  const SceneEffect* largest = largest_not_computed(answer);
+  return largest == nullptr || largest->estimate <= tolerance;
+}
+
+std::string tolerance_doubt(const SceneAnswer& answer, double tolerance) {
+  if (!effects_within_tolerance(answer, tolerance)) {
+    const SceneEffect& largest = *largest_not_computed(answer);
+    return "not within the tolerance: " + largest.name +
+           " is not computed and may change the results by " +
+           text_of(100.0 * largest.estimate, 3) + " %";
+  }
+  if (answer.within_tolerance) return "";
+  return "not within the tolerance: the notes state the errors that exceed it";
+}
+
+void show_tolerance(ResultVisitor& v, const SceneAnswer& answer, double tolerance) {
+  v("effects_within_tolerance", effects_within_tolerance(answer, tolerance),
+    "whether no effect that is not computed may change the results by more than the tolerance");
+  v("within_tolerance", answer.within_tolerance, "whether the estimated error meets the tolerance");
+  v("tolerance_doubt", tolerance_doubt(answer, tolerance),
+    "why the results are not within the tolerance, of both; empty: they are");
 }
 
 EffectDecisions decide_effects(const std::vector<NamedEstimate>& estimates,

@@ -63,6 +63,14 @@ bool is_missing(const SceneEffect& effect);
 // The largest effect that is not computed, missing or forced off by the scene; null: there is none.
 const SceneEffect* largest_not_computed(const SceneAnswer& answer);
 
+// Whether no effect that is not computed may change the results by more than the tolerance.
+bool effects_within_tolerance(const SceneAnswer& answer, double tolerance);
+// Why the results are not within the tolerance: the largest effect that is not computed, or else their errors. Empty:
+// they are. Every interface shows this text first.
+std::string tolerance_doubt(const SceneAnswer& answer, double tolerance);
+// The keys that state how the answer stands to its tolerance.
+void show_tolerance(ResultVisitor& v, const SceneAnswer& answer, double tolerance);
+
 // Decides for every answer, whichever analysis made it, if all its error estimates are within the
 // tolerance, and says so in `within_tolerance`. Throws std::runtime_error with the worst number
 // unless effects that the scene itself forces off are the reason; that gets a note.

@@ -21,6 +21,8 @@ int days_of(int month, int year) {
   return month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31;
 }
 
+}  // namespace
+
 bool is_iso_day(const std::string& text) {
   const std::string day = text.substr(0, 10);
   if (day.size() < 10 || day[4] != '-' || day[7] != '-') return false;
@@ -34,16 +36,14 @@ bool is_iso_day(const std::string& text) {
   return month >= 1 && month <= 12 && in_month >= 1 && in_month <= days_of(month, year);
 }
 
-void validate_date(const char* key, const std::string& text) {
+void validate_date(const std::string& key, const std::string& text) {
   require(text.empty() || is_iso_day(text),
-          "calibration." + std::string(key) + " '" + text + "' is not a day such as 2026-11-21");
+          key + " '" + text + "' is not a day such as 2026-11-21");
 }
 
-}  // namespace
-
 void validate_dates(const LoadCellCalibration& calibration) {
-  validate_date("date", calibration.date);
-  validate_date("valid_until", calibration.valid_until);
+  validate_date("calibration.date", calibration.date);
+  validate_date("calibration.valid_until", calibration.valid_until);
 }
 
 std::string last_valid_day(const LoadCellCalibration& calibration) {

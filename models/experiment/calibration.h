@@ -40,6 +40,12 @@ struct UncertaintyRow {
 // The last day on which the calibration is valid, such as "2027-01-15"; empty if it has no date.
 std::string last_valid_day(const LoadCellCalibration& calibration);
 
+// True for a day of the calendar such as 2026-11-21; a time may follow.
+bool is_iso_day(const std::string& text);
+
+// Throws std::invalid_argument naming the key unless the text is such a day, or empty.
+void validate_date(const std::string& key, const std::string& text);
+
 // Throws std::invalid_argument if date or valid_until is given but is not a day of the calendar
 // such as 2026-11-21 (a time may follow).
 void validate_dates(const LoadCellCalibration& calibration);

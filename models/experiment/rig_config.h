@@ -8,6 +8,10 @@ namespace viscard {
 
 // The contents of rig.toml (data/demo/01_rig.toml is the commented example). SI.
 
+// Relative standard uncertainty of a travel much shorter than a turn of an ordinary screw
+// (rig/stages/README.md).
+inline constexpr double kScrewDepth_u = 0.005;
+
 // The stage and how it is connected.
 struct StageConfig {
   // "grbl" | "zaber" | "apt" | "marlin" | "pi-gcs2" | "smc100"
@@ -19,9 +23,13 @@ struct StageConfig {
   double travel_m = 10e-3;   // largest travel toward the specimen from the position at connection
   double backlash_m = 0.0;
   // Standard uncertainty of the depth that an open-loop stage counts, relative: pitch of the screw,
-  // and steps that the motor lags or loses unnoticed.
+  // and steps that the motor lags or loses unnoticed. A rig file that does not state it gets
+  // kScrewDepth_u; 0: the depth is exact.
   double depth_relative_u = 0.0;
-  bool home = false;  // run the controller's homing cycle before a test
+  // The controller's position from which `viscard rig` counts for a person; a test does not use it.
+  double zero_m = 0.0;
+  // The axis is homed before a run or a series, and again after its lift, to compare the count.
+  bool home = false;
   // Length of the controller's smallest step, from the maker's page of the stage: of a microstep of
   // a Zaber or SMC100PP motor, of an encoder count or a microstep of an APT unit, which no controller
   // knows, or of an encoder count that a PI does not report.

@@ -103,6 +103,26 @@ void GaugeLoadCell::connect(const Pump& pump) {
                             transport_.question()));
 }
 
+// Precondition: connected.
+void GaugeLoadCell::set_zero(const Pump& pump) {
+  is_connected_ = false;  // nothing is asked, and the answer to an open question is dropped
+  asked_s_.reset();
+  wait(pump, kAnswer_wall_s);
+  const auto answer = ask_text(protocol_.zero, pump);
+  is_connected_ = true;
+  const auto& expected = protocol_.zeroed;
+  const bool is_set = expected.empty() ? !answer
+                                       : answer && std::any_of(expected.begin(), expected.end(),
+                                                               [&](const std::string& begin) {
+                                                                 return answer->starts_with(begin);
+                                                               });
+  if (is_set) return;
+  throw RigError("the " + protocol_.name + " instrument on '" + transport_.name() +
+                 "' has not set its zero" +
+                 (answer ? ": it answered '" + *answer + "'" : ", it did not answer") +
+                 ". Press its own zero key");
+}
+
 void GaugeLoadCell::service() {
   const Chunk chunk = receive();
   if (!chunk.bytes.empty()) feed(chunk);

@@ -22,6 +22,8 @@ class GaugeLoadCell final : public LoadCell {
 
   void connect(const Pump& pump) override;
   void service() override;
+  bool has_own_zero() const override { return !protocol_.zero.empty(); }
+  void set_zero(const Pump& pump) override;
   double made_at_s(const LoadSample& sample) const override;
 
  private:

@@ -39,6 +39,10 @@ class LoadCell {
   Transport& transport() { return transport_; }
   // Waits until readings arrive and the format of the lines is known.
   virtual void connect(const Pump& pump) = 0;
+  // True if the instrument can be asked to make the force that acts its zero, by set_zero(). Then
+  // its readings count from there, also after this program. Throws RigError if it refuses.
+  virtual bool has_own_zero() const { return false; }
+  virtual void set_zero(const Pump& /*pump*/) {}
   // True for an instrument that sends by itself: its readings can fall behind on a slow line.
   virtual bool sends_by_itself() const { return false; }
   // While restarts are accepted, the driver learns a restarted device again instead of throwing

@@ -39,6 +39,8 @@ class EmulatedController {
   double bench_position_m(double time_s) const { return motion_.position_m(time_s); }
   double next_knot_s(double time_s) const { return motion_.next_knot_s(time_s); }
   bool is_moving(double time_s) const { return motion_.is_moving(time_s); }
+  // What the motor has counted and not travelled so far: a switch is found at another count then.
+  void set_lost_m(double lost_m) { lost_m_ = lost_m; }
 
  protected:
   // bytes: with the end of the line.
@@ -53,6 +55,7 @@ class EmulatedController {
   EmulatedMotion motion_;
   std::string output_;
   DelayedBytes answers_;
+  double lost_m_ = 0.0;
 
  private:
   int n_answers_ = 0;

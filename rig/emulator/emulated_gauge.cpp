@@ -22,6 +22,8 @@ struct EmulatedGauge::Instrument {
   std::string (*reading)(const Shown& shown);
   const char* unit = "";      // of its readings; empty: that of the habits
   const char* identity = "";  // answer to a question for it
+  const char* zero = "";      // the command for it; empty: none
+  const char* zeroed = "";    // answer to it
 };
 
 namespace {
@@ -49,7 +51,7 @@ const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string&
        [](const Shown& shown) {
          return scpi_text(shown.is_overload ? 9.9e37 : shown.volts, 8) + "\r\n";
        }},
-      {"mark10", {"?"}, true, false, "*10\r\n", mark10_text},
+      {"mark10", {"?"}, true, false, "*10\r\n", mark10_text, "", "", "Z"},
       {"mark10-continuous", {"?"}, true, true, "*10\r\n", mark10_text},
       {"sauter",
        {"9"},
@@ -71,7 +73,9 @@ const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string&
          return "S D " + in_columns(text_from_number(shown.force, 3), 10) + " g\r\n";
        },
        "g",
-       "I4 A \"1114350697\"\r\n"},
+       "I4 A \"1114350697\"\r\n",
+       "ZI",
+       "ZI D\r\n"},
       {"sartorius",
        {"\x1bP"},
        true,
@@ -83,7 +87,8 @@ const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string&
                 in_columns(text_from_number(std::abs(shown.force), 3), 9) + "    \r\n";
        },
        "g",
-       "BCE623-1S\r\n"}};
+       "BCE623-1S\r\n",
+       "\x1bV"}};
   for (const Instrument& row : kInstruments) {
     if (driver == row.driver) return row;
   }
@@ -124,6 +129,9 @@ void EmulatedGauge::take_command(const std::string& command, double time_s) {
     answers_.add(time_s, "HEWLETT-PACKARD,34401A,0,10-5-2\r\n");
   } else if (command == "I4" || command == "@" || command == "\x1bx1_") {
     answers_.add(time_s, instrument_.identity);
+  } else if (!command.empty() && command == instrument_.zero && !habits_.has_no_zero) {
+    is_zeroing_ = true;
+    answers_.add(time_s, instrument_.zeroed);
   } else if (command == "SYST:ERR?") {
     answers_.add(time_s,
                  habits_.refuses_setup ? "-113,\"Undefined header\"\r\n" : "+0,\"No error\"\r\n");
@@ -189,7 +197,9 @@ void EmulatedGauge::convert(double force_N, bool is_cell_broken) {
   const auto is_nth = [&](int every) { return every > 0 && n_readings_ % every == 0; };
   if (is_nth(habits_.lose_answer_every)) return;
   const double late_s = is_nth(habits_.late_answer_every) ? habits_.late_s : 0.0;
-  const double shown = cell_.signal(force_N, time_s, index);
+  const double signal = cell_.signal(force_N, time_s, index);
+  if (std::exchange(is_zeroing_, false)) zero_ = signal;  // nothing has changed since the command
+  const double shown = signal - zero_;
   peak_ = std::max(peak_, shown);
   answers_.add(time_s + late_s,
                text_of(habits_.shows_peak ? peak_ : shown, is_cell_broken || cell_.is_off_scale()));

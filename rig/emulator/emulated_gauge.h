@@ -25,6 +25,7 @@ struct GaugeHabits {
   bool is_left_streaming = false;  // a program before has started it
   bool shows_peak = false;         // its display shows the peak until CUR is sent
   double stops_after_s = 0.0;      // falls silent so long after it has begun, as when switched off
+  bool has_no_zero = false;        // series 3 and 4: Z is an illegal command
   bool refuses_setup = false;      // SCPI: there is an error in its queue after the setup
 };
 
@@ -73,6 +74,8 @@ class EmulatedGauge {
   double stream_begun_s_ = 0.0;
   std::int64_t n_streamed_ = 0;
   double peak_ = 0.0;
+  bool is_zeroing_ = false;
+  double zero_ = 0.0;  // of its readings
   DelayedBytes answers_;
   std::int64_t n_readings_ = 0;
 };

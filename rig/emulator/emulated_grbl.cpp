@@ -46,6 +46,7 @@ EmulatedGrbl::EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_spe
   settings_[10] = habits.reports_work_position ? 0.0 : 1.0;
   settings_[13] = habits.reports_inches ? 1.0 : 0.0;
   settings_[20] = habits.soft_limit_mm > 0.0 ? 1.0 : 0.0;
+  settings_[21] = habits.has_hard_limits ? 1.0 : 0.0;
   settings_[22] = habits.is_homing_enabled ? 1.0 : 0.0;
   for (int i = 0; i < 3; ++i) {
     settings_[100 + i] = truth.steps_per_m * 1e-3;
@@ -79,7 +80,8 @@ double EmulatedGrbl::true_speed_m_s(double asked_m_s) const {
 
 void EmulatedGrbl::reset(double time_s) {
   motion_.stop_at_once(time_s);
-  machine_origin_m_ = motion_.position_m(time_s);  // after power-up, zero is where it stands
+  // After power-up, zero is where it stands.
+  machine_origin_m_ = habits_.is_homed ? home_origin_m(kHomeAt_m) : motion_.position_m(time_s);
   answers_.clear();
   late_reports_.clear();
   output_.clear();
@@ -87,7 +89,8 @@ void EmulatedGrbl::reset(double time_s) {
     output_ = "error:7\r\n" + settings_text();
     is_eeprom_dumped_ = true;
   }
-  state_ = habits_.is_homing_enabled ? "Alarm" : "Idle";
+  state_ = habits_.is_homing_enabled && !habits_.is_homed ? "Alarm" : "Idle";
+  habits_.is_homed = false;  // a further restart forgets it
   is_silent_ = false;
   deaf_until_s_.reset();
   welcome();
@@ -135,6 +138,34 @@ void EmulatedGrbl::end_alarm() {
   } else {
     welcome();
   }
+}
+
+// The motor counts lost steps, so that the count at which it stands at home or at the switch changes.
+double EmulatedGrbl::home_m() const {
+  return kHomeAt_m + lost_m_;
+}
+
+// The switch is further away from the specimen by the pull-off $27.
+double EmulatedGrbl::switch_m() const {
+  return home_m() - settings_.at(27) * 1e-3;
+}
+
+// Machine zero is the switch, if the stage homes to its positive end.
+double EmulatedGrbl::home_origin_m(double at_m) const {
+  return at_m + toward_ * settings_.at(27) * 1e-3;
+}
+
+// When the stage has come to its switch since the last tick. It homes past it without an alarm.
+std::optional<double> EmulatedGrbl::meets_switch_at_s(double time_s) const {
+  if (settings_.at(21) == 0.0 || state_ == "Home" || state_ == "Alarm") return std::nullopt;
+  const auto is_on_it = [&](double at_s) { return motion_.position_m(at_s) <= switch_m(); };
+  if (is_on_it(ticked_s_) || !is_on_it(time_s)) return std::nullopt;
+  double before_s = ticked_s_, on_it_s = time_s;
+  for (int i = 0; i < 40; ++i) {
+    const double middle_s = 0.5 * (before_s + on_it_s);
+    (is_on_it(middle_s) ? on_it_s : before_s) = middle_s;
+  }
+  return on_it_s;
 }
 
 void EmulatedGrbl::hit_limit(double time_s) {
@@ -241,10 +272,11 @@ void EmulatedGrbl::line(std::string text, double time_s) {
 
 void EmulatedGrbl::tick(double time_s) {
   if (deaf_until_s_ && time_s >= *deaf_until_s_) end_alarm();
+  if (const auto met_s = meets_switch_at_s(time_s)) hit_limit(*met_s);
+  ticked_s_ = std::max(ticked_s_, time_s);
   while (!motion_.is_moving(time_s)) {
     if (state_ == "Home") {
-      // The switch is machine zero; the axis stands at a distance of $27 from it.
-      machine_origin_m_ = motion_.end_position_m() - toward_ * -settings_[27] * 1e-3;
+      machine_origin_m_ = home_origin_m(motion_.end_position_m());
       state_ = "Idle";
       ok(time_s);
       break;

@@ -16,6 +16,9 @@ struct GrblHabits {
   bool is_hal = false;                 // grblHAL's welcome and extra fields
   bool has_empty_eeprom = false;       // sends error:7 and its settings before the first welcome
   bool is_homing_enabled = false;      // $22=1: boots into Alarm
+  bool is_homed = false;               // before power-up: its count goes on, and it boots into Idle
+  bool homes_all_axes = false;         // the build knows no $HX, $HY, $HZ
+  bool has_hard_limits = false;        // $21=1: the switch at home stops the stage with an alarm
   int lose_status_every = 0;           // every n-th '?' gets no answer
   double ok_delay_s = 0.0;             // from a line to its answer
   bool answers_twice = false;          // every ok is sent twice
@@ -36,6 +39,9 @@ struct GrblHabits {
   double true_speed = 1.0;             // the board's clock over the one it should have
   bool has_avr_timer = true;           // periods of its timer are whole cycles; not with is_hal
 };
+
+// Where the stage stands when it has homed, from its position at power-up.
+inline constexpr double kHomeAt_m = -3e-3;
 
 // A GRBL controller as a host sees it on the wire, with the states, answers, alarms and silences of
 // GRBL 1.1 (gnea/grbl doc/markdown/interface.md). Each of several queued moves ends at rest. The
@@ -59,7 +65,11 @@ class EmulatedGrbl final : public EmulatedController {
   void line(std::string text, double time_s);
   void dollar(const std::string& text, double time_s);
   void jog(std::string_view words, double time_s);
-  void home(double time_s);
+  void home(double time_s, bool is_single);
+  double home_m() const;
+  double switch_m() const;
+  double home_origin_m(double at_m) const;
+  std::optional<double> meets_switch_at_s(double time_s) const;
   void set(std::string_view words, double time_s);
   void soft_reset(double time_s);
   void begin_alarm(double time_s);
@@ -96,6 +106,7 @@ class EmulatedGrbl final : public EmulatedController {
   std::deque<std::string> held_lines_;
   bool is_held_ = false;       // takes no line although it reports Idle
   bool is_on_switch_ = false;  // a limit switch was hit and has not opened again
+  double ticked_s_ = 0.0;
   int n_status_ = 0, n_oks_ = 0, n_jogs_ = 0;
 };
 

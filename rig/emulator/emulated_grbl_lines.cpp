@@ -11,7 +11,6 @@ namespace viscard {
 namespace {
 
 constexpr int kPlannerBlocks = 15;
-constexpr double kHomeAt_m = -3e-3;  // of the homing switch, from the position at power-up
 
 // The words after "$J=", or the error code for them.
 struct JogWords {
@@ -66,7 +65,8 @@ void EmulatedGrbl::dollar(const std::string& text, double time_s) {
     }
     return ok(time_s);
   }
-  if (text == "$H") return home(time_s);
+  if (text == "$H") return home(time_s, false);
+  if (text == std::string("$H") + "XYZ"[axis_]) return home(time_s, true);
   if (text == "$G") {
     output_ += "[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\n";
     return ok(time_s);
@@ -76,9 +76,12 @@ void EmulatedGrbl::dollar(const std::string& text, double time_s) {
     if (text == "$$") output_ += settings_text();
     if (text == "$#") output_ += "[G54:0.000,0.000,0.000]\r\n[TLO:0.000]\r\n";
     if (text == "$I" && habits_.is_hal) {
-      output_ += "[VER:1.1f.20240101:]\r\n[OPT:VNML+,100,1024,3,0]\r\n[FIRMWARE:grblHAL]\r\n";
+      output_ += "[VER:1.1f.20240101:]\r\n[OPT:VNM";
+      output_ += habits_.homes_all_axes ? "" : "H";
+      output_ += "L+,100,1024,3,0]\r\n[FIRMWARE:grblHAL]\r\n";
     } else if (text == "$I") {
-      output_ += "[VER:1.1h.20190830:]\r\n[OPT:V,15,128]\r\n";
+      output_ += std::string("[VER:1.1h.20190830:]\r\n[OPT:V") +
+                 (habits_.homes_all_axes ? "" : "H") + ",15,128]\r\n";
     }
     return ok(time_s);
   }
@@ -138,11 +141,13 @@ void EmulatedGrbl::jog(std::string_view words, double time_s) {
   ok(time_s);
 }
 
-void EmulatedGrbl::home(double time_s) {
+void EmulatedGrbl::home(double time_s, bool is_single) {
   if (settings_[22] == 0.0) return error(time_s, 5);
   if (motion_.is_moving(time_s)) return error(time_s, 8);
+  if (is_single && habits_.homes_all_axes) return error(time_s, 3);
   state_ = "Home";
-  motion_.start(time_s, kHomeAt_m, settings_[25] / 60e3, acceleration_m_s2_);
+  is_on_switch_ = false;
+  motion_.start(time_s, home_m(), settings_[25] / 60e3, acceleration_m_s2_);
 }
 
 std::string EmulatedGrbl::status(double time_s) {

@@ -44,7 +44,7 @@ class EmulatedRig::Impl final : public WaitingRig {
         amplifier_(options.truth, options.config.calibration,
                    options.config.load_cell.volts_per_count, amplifier_options(options)),
         thermometer_(options.config.thermometer, options.thermometer),
-        motor_(options.travel_scale),
+        motor_(options.travel_scale, options.lost_before_m),
         pace_(options.config.clock_speed) {
     if (options.fault.kind == RigFaultKind::kStagePortBack) stage_port_.name_stably();
     if (options.fault.phase.empty()) enter_phase("");
@@ -121,6 +121,7 @@ class EmulatedRig::Impl final : public WaitingRig {
       stage_port_.come_back();
     }
     // Conversions up to now depend on the motion up to now; bytes from the host act from now on.
+    stage_->set_lost_m(motor_.lost_m());
     stage_->tick(now_s);
     serve_cell(now_s);
     serve_thermometer(now_s);
@@ -131,6 +132,7 @@ class EmulatedRig::Impl final : public WaitingRig {
       outcome_.final_position_m =
           motor_.position_m(stage_->bench_position_m(now_s), specimen_.force_N());
       outcome_.is_moving = stage_->is_moving(now_s);
+      outcome_.lost_m = motor_.lost_m();
     }
     serve_stage(now_s);
   }

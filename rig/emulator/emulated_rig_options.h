@@ -36,11 +36,21 @@ struct EmulatedRigOptions {
   AmplifierOptions amplifier;
   ThermometerHabits thermometer;  // of the one that config names
   RigFault fault;
-  double travel_scale = 1.0;  // true travel of the stage over the one it counts
+  double travel_scale = 1.0;   // true travel of the stage over the one it counts
+  double lost_before_m = 0.0;  // of an earlier run: what the stage has counted and not travelled
   // Boards with a USB converter (UNO, Nano) reset when their port is opened, native USB does not.
   bool resets_on_open = true;
   double boot_wall_s = 0.1;  // from that reset to the welcome; rig time for a rig that waits
   bool keeps_lines = false;  // keeps what the load cell's instrument sends, for sent_lines()
 };
+
+// A rig that can do what its rig file asks for: with home = true its stage homes one axis alone.
+inline EmulatedRigOptions able_rig(const EmulatedTruth& truth, const RigConfig& config) {
+  EmulatedRigOptions options;
+  options.truth = truth;
+  options.config = config;
+  options.grbl.is_homing_enabled = options.grbl.has_hard_limits = config.stage.home;
+  return options;
+}
 
 }  // namespace viscard

@@ -35,6 +35,12 @@ std::string trouble_text(const std::string& path, int error) {
       return "there is no port '" + path + "'. " + present_ports_text();
     case EACCES:
     case EPERM:
+      if (is_usbtmc_port(path)) {
+        return "no permission to open '" + path +
+               "'. Write SUBSYSTEM==\"usbmisc\", KERNEL==\"usbtmc*\", GROUP=\"plugdev\", "
+               "MODE=\"0660\" into /etc/udev/rules.d/60-usbtmc.rules, join that group, log in "
+               "again, and plug it in again";
+      }
       return "no permission to open '" + path +
              "'. Join the group that owns it (sudo usermod -aG dialout $USER), log in "
              "again, and retry";
@@ -42,6 +48,10 @@ std::string trouble_text(const std::string& path, int error) {
     case EWOULDBLOCK:
       return "'" + path + "' is in use by another program (fuser " + path +
              " names it). Close that program, or wait for its run to end";
+    case EMFILE:
+    case ENFILE:
+      return "'" + path +
+             "' cannot be opened: too many files are open. Raise the limit (ulimit -n)";
     default:
       return "'" + path + "' cannot be opened: " + std::strerror(error) +
              ". Unplug the device, plug it in again, and retry";
@@ -50,6 +60,14 @@ std::string trouble_text(const std::string& path, int error) {
 
 [[noreturn]] void throw_for(const std::string& path, int error) {
   throw PortUnavailable(trouble_text(path, error));
+}
+
+// flock() as for serial ports: the kernel lets several programs open one device.
+void hold(const std::string& path, int descriptor) {
+  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return;
+  const int error = errno;
+  close(descriptor);
+  throw_for(path, error);
 }
 
 bool holds(const fs::path& process, const fs::path& device) {
@@ -87,6 +105,11 @@ std::string not_a_port_text(const std::string& path, mode_t mode) {
 
 }  // namespace
 
+bool is_usbtmc_port(const std::string& port) {
+  std::error_code ignored;
+  return fs::weakly_canonical(port, ignored).filename().string().rfind("usbtmc", 0) == 0;
+}
+
 std::vector<std::string> present_ports() {
   std::vector<std::string> ports;
   std::vector<std::string> covered;  // devices that a stable name already names
@@ -97,7 +120,9 @@ std::vector<std::string> present_ports() {
   }
   for (const auto& entry : fs::directory_iterator("/dev", ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name.rfind("ttyUSB", 0) != 0 && name.rfind("ttyACM", 0) != 0) continue;
+    const bool is_port = name.rfind("ttyUSB", 0) == 0 || name.rfind("ttyACM", 0) == 0 ||
+                         name.rfind("usbtmc", 0) == 0;
+    if (!is_port) continue;
     const std::string path = entry.path().string();
     if (std::find(covered.begin(), covered.end(), path) == covered.end()) ports.push_back(path);
   }
@@ -130,6 +155,13 @@ PortStatus port_status(const std::string& path) {
   return result;
 }
 
+int open_message_device(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) throw_for(path, errno);
+  hold(path, descriptor);
+  return descriptor;
+}
+
 int open_exclusively(const std::string& path) {
   if (path.empty()) {
     throw PortUnavailable(
@@ -148,11 +180,7 @@ int open_exclusively(const std::string& path) {
     close(descriptor);
     throw_no_port();
   }
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    const int error = errno;
-    close(descriptor);
-    throw_for(path, error);
-  }
+  hold(path, descriptor);
   return descriptor;
 }
 

@@ -1,8 +1,10 @@
 #include "rig/lines/tcp_line.h"
 
+#include "rig/lines/port_probe.h"
 #include "rig/lines/rig_error.h"
 #include "rig/lines/serial_line.h"
 #include "rig/lines/tcp_port.h"
+#include "rig/lines/usbtmc_line.h"
 
 #include <fcntl.h>
 #include <netdb.h>
@@ -162,6 +164,7 @@ void TcpLine::write(std::string_view bytes, double timeout_s) {
 std::unique_ptr<Transport> open_line(const std::string& port, int baud, const RigClock& clock,
                                      const std::string& framing) {
   if (is_tcp_port(port)) return std::make_unique<TcpLine>(port, clock);
+  if (is_usbtmc_port(port)) return std::make_unique<UsbtmcLine>(port, clock);
   return std::make_unique<SerialLine>(port, baud, clock, framing);
 }
 

@@ -38,7 +38,7 @@ class TcpLine final : public Transport {
   int descriptor_ = -1;
 };
 
-// The port of a device: a serial line, or TCP. Throws RigError as they do.
+// The port of a device: a serial line, TCP, or USB-TMC. Throws RigError as they do.
 std::unique_ptr<Transport> open_line(const std::string& port, int baud, const RigClock& clock,
                                      const std::string& framing = "8N1");
 

@@ -107,6 +107,7 @@ GaugeProtocol mark10_protocol(const std::string& unit) {
   GaugeProtocol protocol;
   protocol.name = "mark10";
   protocol.query = "?\r";
+  protocol.zero = "Z\r";
   protocol.parse = [word](std::string_view line) { return parse_mark10_reading(line, word); };
   return protocol;
 }
@@ -215,6 +216,8 @@ GaugeProtocol mt_sics_protocol(const std::string& unit) {
   protocol.opening = {"@\r\n"};
   protocol.identity_query = "I4\r\n";
   protocol.query = "SI\r\n";
+  protocol.zero = "ZI\r\n";
+  protocol.zeroed = {"ZI D", "ZI S"};
   return protocol;
 }
 
@@ -250,6 +253,7 @@ GaugeProtocol sartorius_protocol(const std::string& unit) {
   GaugeProtocol protocol = balance("sartorius", unit, parse_sartorius_reading);
   protocol.identity_query = "\x1bx1_\r\n";
   protocol.query = "\x1bP\r\n";
+  protocol.zero = "\x1bV\r\n";
   return protocol;
 }
 

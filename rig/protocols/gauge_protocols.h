@@ -26,6 +26,8 @@ struct GaugeProtocol {
   std::string query;                 // asks for one reading
   std::string error_query;           // sent once after the opening; empty: none
   std::string closing;               // sent at the end
+  std::string zero;  // makes the force that acts its zero; empty: the driver has no such command
+  std::vector<std::string> zeroed;  // how its answer then begins; empty: it is not answered
   // Length of answers without a terminator, bytes; 0: answers are lines.
   std::size_t fixed_length = 0;
   // Returns nothing for text that is no answer.
@@ -52,7 +54,8 @@ std::optional<ScpiError> parse_scpi_error(std::string_view line);
 
 // Mark-10 series 4, 5 and 7. The query is "?" and CR. The answer is "-18.78 lbF" or, with the unit
 // switched off in the gauge's menu, a number alone, to which `unit` applies. Answers such as "*10"
-// are errors. Source: Mark-10 Series 4/5/7 user's guides, "Communications". Compression is positive
+// are errors, as is that of series 3 and 4 to Z, which zeroes a series 5 or 7. Source: Mark-10 Series
+// 4/5/7 user's guides, "Communications". Compression is positive
 // unless the gauge's polarity was inverted. Throws RigError on an unknown unit.
 GaugeProtocol mark10_protocol(const std::string& unit);
 // The continuous mode of series 5 and 7 and of model 7i (rig/cells/mark10_stream.h). The smallest of
@@ -75,13 +78,13 @@ std::optional<GaugeAnswer> parse_sauter_reading(std::string_view bytes, const st
 //
 // Mettler Toledo MT-SICS. The query is "SI"; the answer is "S S     100.00 g" at rest, "S D ..." in motion, "S +"
 // above and "S -" below the range, "S I" if it is busy; ES, ET, EL and "S S Error 10b" are errors. "@" cancels
-// what was begun. Source: MT-SICS Reference Manual, "Commands and responses".
+// what was begun. "ZI" zeroes it, answered "ZI D" or "ZI S". Source: MT-SICS Reference Manual, "Commands and responses".
 GaugeProtocol mt_sics_protocol(const std::string& unit);
 std::optional<GaugeAnswer> parse_mt_sics_reading(std::string_view line, const std::string& unit);
 
 // Sartorius SBI. The query is ESC P; the answer has 16 characters, "+   123.56 g  ", or 22 with a label of six
 // before them; without a unit the balance is not at rest, digits in brackets are not verified. H or High is above
-// the range, L or Low below it. Source: Sartorius, operating instructions, "Data interface" (SBI).
+// the range, L or Low below it. ESC V zeroes it without an answer. Source: Sartorius, operating instructions, "Data interface" (SBI).
 GaugeProtocol sartorius_protocol(const std::string& unit);
 std::optional<GaugeAnswer> parse_sartorius_reading(std::string_view line, const std::string& unit);
 

@@ -148,6 +148,12 @@ std::optional<std::string> parse_grbl_message(std::string_view line) {
   return std::string(*inside);
 }
 
+std::optional<std::string> parse_grbl_build_options(std::string_view line) {
+  const auto inside = bracketed(trimmed(line), "OPT");
+  if (!inside) return std::nullopt;
+  return std::string(inside->substr(0, inside->find(',')));
+}
+
 bool is_grbl_push(std::string_view line) {
   line = trimmed(line);
   return line.empty() || line.front() == '<' || line.front() == '[' || line.front() == '$' ||

@@ -55,6 +55,12 @@ std::optional<GrblSetting> parse_grbl_setting(std::string_view line);
 // The text of "[MSG:Caution: Unlocked]".
 std::optional<std::string> parse_grbl_message(std::string_view line);
 
+// The letters of the build in "[OPT:VH,15,128]", an answer to $I.
+std::optional<std::string> parse_grbl_build_options(std::string_view line);
+// The build homes one axis alone ($HX, $HY, $HZ). Others answer $HZ with error:3 and are left in a
+// state that only a reset ends (gnea/grbl system.c).
+inline constexpr char kGrblHomesOneAxis = 'H';
+
 // True for lines that answer no command: messages, settings, reports, alarms, welcomes, blank
 // lines, and ">line:ok" of start-up blocks.
 bool is_grbl_push(std::string_view line);

@@ -21,6 +21,7 @@ constexpr double kSureRise = 10.0;    // over the smallest rise that is felt
 constexpr double kMostFurther = 0.5;  // of the soft limit
 constexpr double kSurelySeen = 4.0;   // times the noise of a difference of means
 constexpr int kMostPulls = 5;
+constexpr double kReleased = 0.5;  // of the force at the touch: below, the punch did back off
 constexpr double kOfFrame = 0.95;  // a stiffer contact says nothing of the specimen
 
 struct Touch {
@@ -66,7 +67,8 @@ double farthest_m(TestRun& run) {
   return std::min(plan.approach_limit_m, plan.surface_m + plan.surface_margin_m);
 }
 
-[[noreturn]] void throw_nothing_touched(const TestRun& run) {
+[[noreturn]] void throw_nothing_touched(TestRun& run) {
+  run.is_place_doubtful = true;  // a dead motor counts too
   if (run.is_proven) throw RigError(nothing_touched_text(run));
   throw CellIsDead(
       "the punch has gone " + text_from_number(run.plan.surface_margin_m * 1e3, 3) +
@@ -109,9 +111,10 @@ double difference_N(const TestRun& run) {
   run.is_place_doubtful = true;
   throw ForceDoesNotFollow(
       "a force was felt in the approach, but it does not follow the stage: " + what +
-      ". This is no contact. An open wire of the load cell drifts like that; a motor without power "
-      "counts without moving; or something else touched the cell. Check the wires, then the "
-      "motor's supply and its enable input, and run: viscard rig check");
+      ". Either the motor does not turn and the punch stands where it touched; or it is no "
+      "contact: an open wire of the load cell drifts like that, or something else touched the "
+      "cell. Check the motor's supply and its enable input, then the wires, and run: viscard rig "
+      "check");
 }
 
 // A punch that presses further raises the force by at least a tenth of what the touch has shown.
@@ -247,13 +250,32 @@ void check_stiffness(TestRun& run, double least_N_m) {
       " N. Correct modulus_guess of the specimen, or press less deep");
 }
 
+// A force that stays although the stage has counted its way back.
+[[noreturn]] void throw_not_released(TestRun& run, double touched_N, double still_N) {
+  if (std::abs(still_N) < kReleased * touched_N) {
+    throw RigError(
+        "the force does not return to zero when the punch is backed off. Is the specimen "
+        "sticky, or does the cell drift (an open wire)? Raise gap under [approach] of the test "
+        "file, or check the wires of the load cell");
+  }
+  run.is_place_doubtful = true;
+  throw ForceDoesNotFollow(
+      "the force does not follow the stage: it was " + text_from_number(touched_N * 1e3, 2) +
+      " mN at the touch, and is still " + text_from_number(still_N * 1e3, 2) +
+      " mN after the punch was backed off by the stage's count. Either the motor does not turn "
+      "(supply, cable, enable input of its driver), or the specimen sticks to the punch (raise gap "
+      "under [approach] of the test file), or the cell drifts (an open wire)");
+}
+
 // Goes to gap_m above contact, and further if the force shows that the guessed modulus was too
-// high.
-void back_off(TestRun& run, double contact_m) {
+// high. touched_N: the force before.
+void back_off(TestRun& run, double contact_m, double touched_N) {
   RunSession& session = run.session;
+  double still_N = touched_N;
   for (int i = 0; i < kMostBackOffs; ++i) {
     session.move(contact_m - run.plan.gap_m, run.plan.retract_speed_m_s, "back off");
     const ForceMean free = session.mean_force(kSettle_s);
+    still_N = free.force_N;
     const double free_N = kContactSigmas * run.outcome.noise_N / std::sqrt(free.n) + 1e-4;
     if (std::abs(free.force_N) < free_N + 0.2 * run.plan.contact_force_N) {
       run.contact_m = contact_m;
@@ -267,10 +289,7 @@ void back_off(TestRun& run, double contact_m) {
     }
     contact_m -= run.plan.gap_m;
   }
-  throw RigError(
-      "the force does not return to zero when the punch is backed off. Is the specimen "
-      "sticky, or does the cell drift (an open wire)? Raise gap under [approach] of the test file, "
-      "or check the wires of the load cell");
+  throw_not_released(run, touched_N, still_N);
 }
 
 }  // namespace
@@ -284,7 +303,7 @@ void carry_out_approach(TestRun& run) {
   run.session.expect_stiffness(contact.least_stiffness_N_m);
   use_stiffness(run, contact.stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
-  back_off(run, contact.position_m);
+  back_off(run, contact.position_m, touch.at.force_N);
   // It rose when the stage pressed, and went when the stage lifted.
   run.is_proven = true;
   run.contact_N_m =

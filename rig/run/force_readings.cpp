@@ -68,6 +68,11 @@ Drift drift_of(const std::vector<double>& force_N, double noise_N, double took_s
   return {(late_N - early_N) / n / between_s, noise_N * std::sqrt(2.0 / n) / between_s};
 }
 
+double felt_difference_N(double noise_N, int n) {
+  constexpr double kFeltSigmas = 6.0;
+  return kFeltSigmas * noise_N * std::sqrt(2.0 / n);
+}
+
 double ForceReadings::sound_force_N(double noise_N) const {
   const double by_N = end_stands_out(force_N_, earlier_N_[0], earlier_N_[1]);
   return n_forces_ >= 3 && by_N > kSigmas * noise_N ? earlier_N_[0] : force_N_;

@@ -25,6 +25,10 @@ struct ForceMean {
   int n = 0;
 };
 
+// A difference between two means of n readings is more than noise from here on, N. noise_N: of one
+// reading.
+double felt_difference_N(double noise_N, int n);
+
 // Values without those that stand out of both neighbours by more than 16 times the noise: a garbled
 // digit. A force that rises, falls or relaxes loses none.
 std::vector<double> without_spikes(const std::vector<double>& values);

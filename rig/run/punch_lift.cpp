@@ -1,5 +1,7 @@
 #include "rig/run/punch_lift.h"
 
+#include "models/maths/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -15,6 +17,7 @@ constexpr double kReopen_wall_s =
     5.0;  // longest wait for a port; USB needs 1 to 3 s to list it again
 constexpr double kBlindSpeed_m_s = 0.2e-3;  // of a lift from a position that is not known
 constexpr double kFallen = 0.9;             // of the force before the lift
+constexpr int kFewestOfMean = 5;
 
 }  // namespace
 
@@ -26,15 +29,14 @@ SafeEnd PunchLift::carry_out() {
       if (attempt == 0) stop_gently();
       devices.end_gentle_stop();
       if (attempt > 0 || devices.needs_recovery()) devices.recover(pump);
-      const std::string trouble = lift(std::pow(0.5, attempt));
-      return {lifted_m, trouble};
+      return ended(lift(std::pow(0.5, attempt)));
     } catch (const PortHungUp& error) {
       return after_hang_up(error.what());
     } catch (const std::exception& error) {
-      if (attempt + 1 == kAttempts) return {lifted_m, error.what()};
+      if (attempt + 1 == kAttempts) return ended(error.what());
     }
   }
-  return {lifted_m, ""};
+  return ended("");
 }
 
 // The port of the stage may come back. Its position is lost then, and with it all that was known of
@@ -43,7 +45,7 @@ SafeEnd PunchLift::after_hang_up(const std::string& what) {
   const std::string cannot =
       ". THE STAGE CANNOT BE STOPPED FROM HERE: use its emergency stop and lift the punch by hand";
   if (!devices.is_cell_usable() || !options.blind.empty()) {
-    return {lifted_m, what + cannot};
+    return ended(what + cannot);
   }
   pressed_m = std::max(0.0, devices.stage().position_m() - options.retract_to_m);
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -53,14 +55,14 @@ SafeEnd PunchLift::after_hang_up(const std::string& what) {
       } else if (devices.needs_recovery()) {
         devices.recover(pump);
       }
-      return {lifted_m, lift(std::pow(0.5, attempt))};
+      return ended(lift(std::pow(0.5, attempt)));
     } catch (const PortHungUp& error) {
-      return {lifted_m, error.what() + cannot};
+      return ended(error.what() + cannot);
     } catch (const std::exception& error) {
-      if (attempt == 0 || attempt + 1 == kAttempts) return {lifted_m, error.what()};
+      if (attempt == 0 || attempt + 1 == kAttempts) return ended(error.what());
     }
   }
-  return {lifted_m, ""};
+  return ended("");
 }
 
 void PunchLift::stop_gently() {
@@ -83,7 +85,9 @@ std::string PunchLift::lift(double share) {
           ? shortest_m
           : std::min(from_m,
                      std::max(from_m - share * (from_m - options.retract_to_m), shortest_m));
-  if (to_m < from_m) {
+  // A stage that stands within a step of where it shall go does not move.
+  const bool has_way = (from_m - to_m) * stage.dynamics().steps_per_m > 1.0;
+  if (has_way) {
     const double speed_m_s = devices.is_position_lost()
                                  ? std::min(options.speed_m_s, kBlindSpeed_m_s)
                                  : options.speed_m_s;
@@ -103,16 +107,18 @@ std::string PunchLift::lift(double share) {
     lifted_m = from_m - stage.position_m();
   }
   const bool was_pressing = before_N > options.pressing_N || !options.blind.empty();
-  if (to_m < from_m && !(lifted_m > 0.0) && was_pressing) {
+  if (has_way && !(lifted_m > 0.0) && was_pressing) {
     return "THE PUNCH WAS NOT LIFTED: the controller's own travel ends where it stands (GRBL: "
            "$20, $130-132). Lift it by hand";
   }
-  return lifted_m > 0.0 && was_pressing ? trouble_with_force(before_N) : "";
+  const bool is_judged = options.zero_drift_N || (lifted_m > 0.0 && was_pressing);
+  return is_judged ? trouble_with_force(before_N, lifted_m > 0.0 && was_pressing) : "";
 }
 
 // What is wrong with the force after a lift, or "".
-std::string PunchLift::trouble_with_force(double before_N) {
-  const auto unseen = [](const char* why) {
+std::string PunchLift::trouble_with_force(double before_N, bool was_pressing) {
+  const auto unseen = [&](const char* why) {
+    if (!was_pressing) return std::string();
     return std::string("whether the force has fallen cannot be seen, because the load cell ") +
            why + ": look at the punch";
   };
@@ -120,6 +126,7 @@ std::string PunchLift::trouble_with_force(double before_N) {
   if (devices.is_cell_restarted()) return unseen("has restarted");
   if (!devices.is_cell_usable()) return unseen("is gone");
   const std::int64_t n_before = readings.n_forces();
+  readings.collect_from(clock.now_s());
   const double wait_s =
       clock.now_s() + 10.0 * devices.load_cell().period_s() + clock.from_wall_s(0.1);
   while (clock.now_s() < wait_s) pump();
@@ -129,11 +136,26 @@ std::string PunchLift::trouble_with_force(double before_N) {
          clock.awake_s() < deadline_s) {
     pump();
   }
+  readings.stop_collecting();
   if (devices.is_cell_restarted()) return unseen("has restarted");
   if (readings.n_forces() == n_before) return unseen("gives no force any more");
   if (readings.last_made_s() < lifted_at_s) return unseen("sends readings that are too old");
-  if (std::abs(readings.force_N()) <= kFallen * before_N) return "";
-  return "THE FORCE DOES NOT FALL after lifting the punch: lift it by hand";
+  const bool has_mean = readings.n_collected() >= kFewestOfMean;
+  const ForceMean after = has_mean ? readings.collected_mean() : ForceMean();
+  // On a slow line the first of them may be older than they seem.
+  const double newest_N = std::abs(readings.force_N());
+  const double force_N = has_mean ? std::min(std::abs(after.force_N), newest_N) : newest_N;
+  if (was_pressing && force_N > kFallen * before_N) {
+    is_force_left = true;
+    return "THE FORCE DOES NOT FALL after lifting the punch: lift it by hand";
+  }
+  if (!options.zero_drift_N || !has_mean) return "";
+  const double free_N = *options.zero_drift_N + felt_difference_N(options.noise_N, after.n);
+  if (force_N <= free_N) return "";
+  is_force_left = true;
+  return "THE PUNCH MAY STILL PRESS: after the lift the force is " +
+         text_from_number(after.force_N, 4) + " N and not the zero of the tare within " +
+         text_from_number(free_N, 4) + " N. Look at it, and lift it by hand unless it is free";
 }
 
 }  // namespace viscard

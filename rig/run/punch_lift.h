@@ -4,6 +4,7 @@
 #include "rig/run/served_devices.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace viscard {
@@ -13,24 +14,29 @@ struct SafeEnd {
   double lifted_m = 0.0;
   // What could not be done, and what to do by hand; empty if everything was done.
   std::string trouble;
+  bool is_force_left = false;  // after the lift the force is not that of a free punch
 };
 
-// Stops the stage, unlocks it if it locked itself, lifts the punch and checks that the force falls.
+// Stops the stage, unlocks it if it locked itself, lifts the punch and checks that the force falls
+// to the zero of the tare, if that is known.
 // Tries four times; each further try lifts by half the distance, because a stage that refuses to go
 // so far (its own limits) may go part of the way.
 struct PunchLift {
   struct Options {
     double retract_to_m = 0.0;
     double speed_m_s = 0.0;
-    double pressing_N = 0.0;  // a force above this means that the punch presses
-    std::string blind;        // why no reading shows the force; empty: they do
+    double pressing_N = 0.0;             // a force above this means that the punch presses
+    std::string blind;                   // why no reading shows the force; empty: they do
+    double noise_N = 0.0;                // of one reading
+    std::optional<double> zero_drift_N;  // of a free punch since the tare; nothing: no tare yet
   };
   ServedDevices& devices;
-  const ForceReadings& readings;
+  ForceReadings& readings;
   const RigClock& clock;
   Pump pump;  // serves both devices
   Options options;
   double lifted_m = 0.0;  // so far
+  bool is_force_left = false;
   double pressed_m =
       std::numeric_limits<double>::infinity();  // the way to here, once the position is lost
 
@@ -39,7 +45,8 @@ struct PunchLift {
   SafeEnd after_hang_up(const std::string& what);
   void stop_gently();
   std::string lift(double share);
-  std::string trouble_with_force(double before_N);
+  std::string trouble_with_force(double before_N, bool was_pressing);
+  SafeEnd ended(const std::string& trouble) const { return {lifted_m, trouble, is_force_left}; }
 };
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
+#include "rig/run/count_comparison.h"
 #include "rig/run/test_run.h"
 
 #include <algorithm>
@@ -105,8 +106,9 @@ void record_hidden_error(RunSession& session, RunOutcome& outcome) {
 
 }  // namespace
 
-void conclude(RunSession& session, const RigConfig& rig, RunOutcome& outcome,
-              const RigClock& clock) {
+void conclude(RunSession& session, const RigConfig& rig, const RunControl& control,
+              RunOutcome& outcome) {
+  const RigClock& clock = *control.clock;
   outcome.peak_force_N = session.peak_force_N();
   outcome.stream = session.load_cell().counts();
   outcome.n_late = session.n_late();
@@ -124,6 +126,7 @@ void conclude(RunSession& session, const RigConfig& rig, RunOutcome& outcome,
     doubt_gap(
         session, outcome,
         std::max(kLongGapPeriods * session.load_cell().period_s(), clock.from_wall_s(kLongGap_s)));
+    compare_count(session, rig, control, outcome);
     session.event(outcome.status, outcome.reason.empty() ? "" : "reason",
                   outcome.reason.empty() ? "The run is complete" : outcome.reason);
   } catch (const std::exception& error) {

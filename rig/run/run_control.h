@@ -41,7 +41,16 @@ struct RunControl {
   // ending.
   bool lifts_at_start = false;
   Thermometer* thermometer = nullptr;  // read beside the run; may be nullptr
+  // With home = true under [stage], and for a series of runs: where an earlier one has homed the
+  // stage (RunOutcome::homed_at_m), so that this one does not; and whether this one homes it after
+  // its lift. Between the runs of a series the stage is not homed: drivers without a comparison then
+  // get home = false.
+  std::optional<double> homed_at_m;
+  bool homes_after = true;
 };
+
+// The phase after a test in which the stage is homed.
+inline constexpr const char* kHomePhase = "home";
 
 // A person asked the run to end.
 class RunInterrupted : public RigError {

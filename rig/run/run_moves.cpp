@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kFresh_wall_s = 1.0;  // longest wait for a reading that is young enough
 constexpr double kLongestStep_m = 25e-6;
+constexpr double kSureSigmas = 40.0;  // of the noise: a rise that others are compared with
 // At usual speeds the force rises by less than its reserve between soft limit and capacity.
 constexpr double kUnwatched_wall_s = 0.4;
 
@@ -114,6 +115,10 @@ void RunSession::press(double to_m, double speed_m_s, const std::string& purpose
   pressed_from_m_ = stage().position_m();
   pressed_from_N_ = readings_.sound_force_N(noise_N_);
   places_.clear();
+  // Only from the contact: what earlier presses have left in the specimen is not known.
+  const bool is_first = follow_.stiffness_N_m > 0.0 && pressed_from_m_ <= follow_.contact_m;
+  rise_.begin(follow_.contact_m, is_first ? to_m - follow_.contact_m : 0.0,
+              1.0 / dynamics.steps_per_m, std::max(kSureSigmas * noise_N_, judged_N()));
   while (!readings_.has_exceeded() && stage().position_m() < to_m) {
     await_change();
     if (!pump_while(is_old, kFresh_wall_s)) throw_too_old("before the stage was to press");

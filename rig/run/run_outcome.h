@@ -3,6 +3,7 @@
 #include "models/experiment/run_temperature.h"
 #include "rig/cells/load_cell.h"
 #include "rig/run/preflight.h"
+#include "rig/stages/stage.h"
 
 #include <optional>
 #include <string>
@@ -33,6 +34,11 @@ struct RunOutcome {
   std::optional<double> contact_position_m;  // live estimate; the fit finds a better one
   double peak_force_N = 0.0;
   double achieved_depth_m = 0.0;  // largest depth by the live estimate
+  // What the depth is: "measured" by the stage's encoder; "counted" in steps; "compared": counted,
+  // and the count was right when the stage was homed after the lift.
+  std::string depth_is = "counted";
+  std::optional<double> homed_at_m;  // where the stage stood when it was homed before the test
+  std::optional<CountCheck> count;   // what homing after the lift has shown
   StreamCounts stream;
   // Delays of this computer in which nothing could be watched, of at least 0.1 s.
   int n_late = 0;

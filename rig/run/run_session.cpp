@@ -18,6 +18,11 @@ constexpr double kWhileUnwatched_wall_s = 0.5;  // after a delay its readings ar
 constexpr double kJumpShare = 0.5;              // of the capacity, between two readings
 constexpr double kPressingShare = 0.1;          // of the soft limit
 
+double counts_per_N(const RigConfig& rig) {
+  const double volts = std::abs(rig.load_cell.volts_per_count);
+  return volts > 0.0 ? std::abs(rig.calibration.volts_per_newton) / volts : 0.0;
+}
+
 std::string force_text(double force_N) {
   return text_from_number(force_N, 3) + " N";
 }
@@ -82,6 +87,11 @@ void RunSession::pump_until_received(double time_s) {
   }
 }
 
+void RunSession::expect_force(double contact_m, double stiffness_N_m) {
+  follow_ = {contact_m, stiffness_N_m};
+  step_N_ = stiffness_N_m / stage().dynamics().steps_per_m;
+}
+
 // Before the stage is connected it can be neither stopped nor lifted, and only homing moves it.
 bool RunSession::guards_force() const {
   return is_guarded_ && (devices_.is_stage_connected() || rig_.stage.home);
@@ -97,6 +107,7 @@ void RunSession::take_sample(const LoadSample& sample) {
   }
   std::optional<double> value;
   if (!is_doubtful) value = sample.counts ? sample.counts : force_N_from_sample(sample, rig_);
+  marks_.expect_step(step_N_ * (sample.counts ? counts_per_N(rig_) : 1.0));
   marks_.take(sample, value, load_cell().period_s());
   if (!guards_force() && !devices_.is_stopping()) return;
   const GuardAction action = guard_.take(force_N, is_doubtful, sample.host_time_s,
@@ -255,13 +266,15 @@ void RunSession::event(const std::string& name, const std::string& value, const 
   sink_(RunEvent{clock_.now_s(), name, value, text});
 }
 
-SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s) {
+SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s,
+                              std::optional<double> zero_drift_N) {
   is_guarded_ = false;
   PunchLift lift{devices_,
                  readings_,
                  clock_,
                  [this] { pump(); },
-                 {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_}};
+                 {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_, noise_N_,
+                  zero_drift_N}};
   return lift.carry_out();
 }
 

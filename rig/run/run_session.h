@@ -8,6 +8,7 @@
 #include "rig/run/force_readings.h"
 #include "rig/run/life_watch.h"
 #include "rig/run/punch_lift.h"
+#include "rig/run/rise_watch.h"
 #include "rig/run/run_control.h"
 #include "rig/run/served_devices.h"
 #include "rig/run/spike_watch.h"
@@ -56,9 +57,7 @@ class RunSession {
   void watch_life() { life_.begin_watch(load_cell().has_own_clock()); }
   // The contact and the stiffness seen in the approach: from now on the force must follow the moves
   // toward the specimen, by at least a tenth of that stiffness; otherwise ForceDoesNotFollow.
-  void expect_force(double contact_m, double stiffness_N_m) {
-    follow_ = {contact_m, stiffness_N_m};
-  }
+  void expect_force(double contact_m, double stiffness_N_m);
   // What a change of that size in the stage's position does to the force, N.
   double implied_N(double from_m, double to_m) const;
   static constexpr double kFollows = 0.1;  // of what the stiffness implies
@@ -90,13 +89,16 @@ class RunSession {
   void set_contact_m(double contact_m) { progress_.set_contact_m(contact_m); }
 
   // Ends the guarding, stops the stage and lifts the punch as far as the devices still answer.
-  // Never throws for a device's sake.
-  SafeEnd make_safe(double retract_to_m, double speed_m_s);
+  // Never throws for a device's sake. zero_drift_N: within it (and noise) the force after the lift is
+  // the zero of the tare; nothing if there was no tare.
+  SafeEnd make_safe(double retract_to_m, double speed_m_s,
+                    std::optional<double> zero_drift_N = std::nullopt);
   // Guards again after make_safe(), as if nothing had happened.
   void guard_again();
 
   // True once the stage's settings and position are known, so that it can be moved.
   bool is_stage_connected() const { return devices_.is_stage_connected(); }
+  bool is_position_lost() const { return devices_.is_position_lost(); }
   bool has_moved() const { return has_moved_; }
   double force_N() const { return readings_.force_N(); }
   double sound_force_N(double noise_N) const { return readings_.sound_force_N(noise_N); }
@@ -130,6 +132,7 @@ class RunSession {
   void await_change();
   void check_follow();
   void judge_press(double position_m);
+  void judge_rise(double position_m);
   double age_s() const;
   [[noreturn]] void throw_too_old(const std::string& what) const;
   void press(double to_m, double speed_m_s, const std::string& purpose,
@@ -166,11 +169,13 @@ class RunSession {
     double stiffness_N_m = 0.0;  // 0: nothing is known yet
   };
   Follow follow_;
+  double step_N_ = 0.0;  // force of one step of the stage in contact; 0: not known yet
   struct Place {
     double time_s = 0.0, position_m = 0.0;
   };
   std::deque<Place> places_;  // of the move that presses, oldest first
   double pressed_from_m_ = 0.0, pressed_from_N_ = 0.0;
+  RiseWatch rise_;
   double noise_N_ = 0.0;
   std::int64_t n_at_rest_ = 0;  // readings since the stage stands still
   bool is_doubtful_ = false;    // the newest reading has no force

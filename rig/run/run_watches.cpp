@@ -137,7 +137,23 @@ void RunSession::check_follow() {
   }
   // The place at which the newest reading was made, or an earlier one.
   while (places_.size() > 1 && places_[1].time_s <= readings_.newest_made_s()) places_.pop_front();
-  if (places_.front().time_s <= readings_.newest_made_s()) judge_press(places_.front().position_m);
+  if (places_.front().time_s > readings_.newest_made_s()) return;
+  judge_press(places_.front().position_m);
+  judge_rise(places_.front().position_m);
+}
+
+void RunSession::judge_rise(double position_m) {
+  // Equal readings have a cause of their own.
+  if (!is_pressing_ || (life_.has_noise() && life_.n_equal_now() > 0)) return;
+  const auto stopped = rise_.take(position_m, readings_.sound_force_N(noise_N_));
+  if (!stopped) return;
+  if (stage().is_moving()) devices_.stop_hard();
+  is_pressing_ = false;
+  event("limit", "follow",
+        "The force has risen no more for the last " +
+            text_from_number((stopped->to_m - stopped->from_m) * 1e3, 3) + " mm of the press");
+  throw_unfollowed("pressed on", stopped->from_m, stopped->to_m,
+                   implied_N(stopped->from_m, stopped->to_m), stopped->rise_N);
 }
 
 void RunSession::judge_press(double position_m) {

@@ -78,7 +78,8 @@ class ServedDevices {
 
   bool is_stage_connected() const { return is_stage_connected_; }
   bool needs_recovery() const { return needs_recovery_; }  // the stage was reset or locked itself
-  bool is_position_lost() const { return is_position_lost_; }    // the controller has restarted
+  // The controller has restarted, or its port was gone.
+  bool is_position_lost() const { return is_position_lost_; }
   bool is_cell_restarted() const { return is_cell_restarted_; }  // its tare may have changed
   bool is_cell_usable() const { return is_cell_connected_ && !is_cell_lost_; }
 

@@ -12,7 +12,10 @@ constexpr std::size_t kFirst = 32;  // readings judged together
 constexpr std::size_t kRing = 256;  // distances kept
 constexpr std::size_t kRenew = 16;  // new distances before the median is computed again
 constexpr double kSpikeSigmas = 6.3;
-constexpr double kFewMore = 40.0;      // over the number of known distances: added to kSpikeSigmas
+constexpr double kFewMore = 40.0;  // over the number of known distances: added to kSpikeSigmas
+// Added for each decade of known distances above kMany: of 2.9 million readings in ten hours noise
+// alone would reach 6.3 in one of 50 runs, and 7.0 in one of 1400.
+constexpr double kMany = 1e5, kManyMore = 0.5;
 constexpr double kPerMedian = 1.4826;  // standard deviation over median of |normal|
 // Standard deviation of the distance between a reading and its prediction, over that of one
 // reading: for the mean of ten neighbours sqrt(1 + 1/10), for one line sqrt(1 + 1/5 + 9/10).
@@ -148,8 +151,9 @@ bool SpikeWatch::judge(std::size_t at) {
   const Line before = predicted(at, -1);
   const Line behind = predicted(at, 1, &before);
   if (!before.is_known && !behind.is_known) return false;
+  const double n_known = static_cast<double>(std::max(n_learnt_, std::size_t{1}));
   const double sigmas =
-      kSpikeSigmas + kFewMore / static_cast<double>(std::max(n_learnt_, std::size_t{1}));
+      kSpikeSigmas + kFewMore / n_known + kManyMore * std::log10(std::max(1.0, n_known / kMany));
   const double one = sigmas * kOfOne * noise();
   const double value = readings_[at].value;
   if (!before.is_known || !behind.is_known) {
@@ -165,8 +169,9 @@ bool SpikeWatch::judge(std::size_t at) {
   const double scatter =
       std::max(0.0, std::max(before.scatter, behind.scatter) - kLikely * noise());
   const double slack = kRounded * corner + kEarlyOrLate * ramp + kStaircase * scatter;
-  // On a ramp a reading between its two neighbours is no spike: a staircase never turns back.
-  if (slope > kLikely * noise() && lies_between(at, before, kLikely * noise())) return false;
+  // On a ramp the force turns back only by what a specimen relaxes between two steps of the stage.
+  const double outside = std::max(kLikely * noise(), step_);
+  if (slope > kLikely * noise() && lies_between(at, before, outside)) return false;
   const double apart = std::abs(before.value - behind.value);
   const double middle = 0.5 * (before.value + behind.value);
   // Two lines through pure noise seldom differ by more than this.

@@ -23,12 +23,13 @@ namespace viscard {
 // left out if the other three continue the line before. A reading is a spike if it lies outside the range that the two lines
 // predict; corners, steps and readings during a quick move lie within that range.
 // - If the lines agree, the prediction is the mean of all ten readings. Allowed are 6.3 robust
-//   standard deviations, 8 at the beginning of the stream.
+//   standard deviations, 8 at the beginning of the stream, and 7 after some million readings.
 // - If they do not agree, the allowance also contains the uncertainty of one line, half of the
 //   difference in slope (a corner may be rounded), a quarter of the slope (a reading may have been
 //   made early or late), and twice the scatter of the neighbours about their line beyond noise. A
-//   coarse stage turns a ramp into a staircase; there a reading between its two neighbours is never
-//   a spike.
+//   coarse stage turns a ramp into a staircase; there a reading between its two neighbours, or no
+//   more than a step of the stage outside of them, is never a spike: a specimen that relaxes lets
+//   the force fall between two steps.
 // The noise is the median distance of the last 256 readings. A reading is judged five readings
 // later, the first 32 together.
 class SpikeWatch {
@@ -38,6 +39,9 @@ class SpikeWatch {
 
   // least: lower bound of the noise; 0 stands for half of the smallest step between readings.
   explicit SpikeWatch(double least = 0.0) : least_(least) {}
+
+  // A step of the stage in contact changes a reading by so much.
+  void expect_step(double step) { step_ = step; }
 
   // value in any unit; place: the reading's number, or its time in periods, ascending. Returns the
   // indices of earlier readings that turned out to be spikes.
@@ -67,6 +71,7 @@ class SpikeWatch {
   double noise() const;
 
   double least_;
+  double step_ = 0.0;                // of the stage
   double least_step_ = 0.0;          // smallest difference between two readings that is not 0
   std::deque<Reading> readings_;     // oldest first
   std::size_t next_ = 0;             // the first reading that is not yet judged
@@ -86,6 +91,8 @@ class ReadingMarks {
   // value: counts or force of the reading, nothing if it is doubtful; period_s: time between
   // readings.
   void take(const LoadSample& sample, std::optional<double> value, double period_s);
+  // A step of the stage in contact changes the values by so much.
+  void expect_step(double step) { values_.expect_step(step); }
   // Call after the last reading: judges the ones that have too few neighbours after them.
   void finish();
 

@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kLiftMean_s = 0.25;
 constexpr double kLiftMeanReadings = 8.0;
-constexpr double kLiftSigmas = 6.0;
 constexpr double kZeroDrift = 0.02;    // of the peak force: creep and hysteresis of a cell
 constexpr double kHardlyFallen = 0.5;  // of the force before the lift
+constexpr double kEarlyDrift = 0.2;    // of the contact threshold, soon after the tare
 
 }  // namespace
 
@@ -30,13 +30,17 @@ void note_depth(TestRun& run) {
   run.outcome.achieved_depth_m = std::max(run.outcome.achieved_depth_m, live_depth_m(run));
 }
 
+double zero_drift_N(const TestRun& run) {
+  const double share = run.outcome.contact_position_m ? 1.0 : kEarlyDrift;
+  return share * run.plan.contact_force_N + kZeroDrift * run.session.peak_force_N();
+}
+
 void check_lifted(TestRun& run, double before_N) {
   RunSession& session = run.session;
   const double duration_s =
       std::max(kLiftMean_s, kLiftMeanReadings * session.load_cell().period_s());
   const ForceMean after = session.mean_force(duration_s);
-  const double allowed_N = kLiftSigmas * run.outcome.noise_N * std::sqrt(2.0 / after.n) +
-                           run.plan.contact_force_N + kZeroDrift * session.peak_force_N();
+  const double allowed_N = zero_drift_N(run) + felt_difference_N(run.outcome.noise_N, after.n);
   const double rest_N = after.force_N;
   if (std::abs(rest_N) <= allowed_N) return;
   const std::string text = "after the lift the force is " + text_from_number(rest_N, 3) +

@@ -37,6 +37,9 @@ double limit_N(const TestRun& run);
 // Indentation by the live contact point and the newest force.
 double live_depth_m(TestRun& run);
 
+// How far the zero may have drifted since the tare, N; less before the contact, soon after it.
+double zero_drift_N(const TestRun& run);
+
 // After the last lift: the force must be the zero again, within what a cell drifts. Throws
 // PunchNotFree if it is not and has hardly fallen; a smaller rest is a doubt.
 void check_lifted(TestRun& run, double before_N);
@@ -45,9 +48,10 @@ void check_lifted(TestRun& run, double before_N);
 void note_depth(TestRun& run);
 
 // Fills in the totals of a run, adds the doubts about a finished one, and records how it ended. If
-// that cannot be recorded any more, the outcome still carries the reason for the early end.
-void conclude(RunSession& session, const RigConfig& rig, RunOutcome& outcome,
-              const RigClock& clock);
+// that cannot be recorded any more, the outcome still carries the reason for the early end. With
+// home = true a finished run without a doubt ends with compare_count().
+void conclude(RunSession& session, const RigConfig& rig, const RunControl& control,
+              RunOutcome& outcome);
 
 // Where a jog of the approach ended, and the force there (from the tare).
 struct JogEnd {

@@ -23,6 +23,7 @@ class AptStage final : public PolledStage {
   StageDynamics dynamics() const override;
   std::vector<std::string> advice() const override;
   std::string identity() const override { return identity_; }
+  bool measures_position() const override { return !units_.is_stepper; }
   void begin_move(double to_m, double speed_m_s, const std::string& purpose) override;
   bool is_moving() const override { return active_.has_value(); }
   void stop_soft() override;

@@ -14,6 +14,12 @@ constexpr double kReset_wall_s = 1.5;    // from a soft reset to the welcome
 constexpr int kResets = 3;               // one is lost while an alarm is being reported
 constexpr int kMostReadings = 4;         // of the settings, until two agree
 
+[[noreturn]] void throw_count_lost() {
+  throw RigError(
+      "the stage's controller has restarted since it was homed at the beginning of the series, so "
+      "its count is lost. Start the series again, with --resume for the captures that are left");
+}
+
 }  // namespace
 
 void GrblStage::command(const std::string& line, const Pump& pump, double timeout_wall_s) {
@@ -33,6 +39,7 @@ void GrblStage::command(const std::string& line, const Pump& pump, double timeou
 void GrblStage::await_welcome(const Pump& pump) {
   const auto is_there = [&] { return !awaits_welcome_; };
   bool is_welcome = wait_for(is_there, pump, kBoot_wall_s);
+  restarts_when_opened_ = is_welcome;
   for (int i = 0; i < kResets && !is_welcome; ++i) {
     send_realtime(grbl::kSoftReset);
     is_welcome = wait_for(is_there, pump, kReset_wall_s);
@@ -82,12 +89,16 @@ void GrblStage::converse(const Pump& pump) {
   if (state_ == "Hold") send_realtime(grbl::kResume);
   read_settings(pump);
   ask_position(pump);  // again, in the unit that the settings name
-  if (config_.home) {
-    polls_ = false;  // while homing, no '?' is answered
-    forget_questions();
-    command("$H", pump, 180.0);
-    ask_position(pump);
+  if (compares_count_) {
+    const std::string trouble = trouble_with_count_check(pump);
+    if (!trouble.empty()) throw RigError(trouble);
+  }
+  homed_at_m_ = homed_before_m_;
+  if (homed_at_m_ && state_ == "Alarm") throw_count_lost();
+  if (config_.home && !homed_at_m_) {
+    home(pump);
   } else if (state_ == "Alarm") {
+    is_locked_at_first_ = true;
     command("$X", pump);
     note(clock_.now_s(), "stage_unlocked", "",
          "The stage was unlocked without homing; positions count from where it stood");
@@ -104,6 +115,7 @@ void GrblStage::connect(const Pump& pump) {
     try {
       converse(pump);
       if (n_welcomes == n_welcomes_) break;
+      restarts_when_opened_ = true;
     } catch (const PortHungUp&) {
       throw;
     } catch (const RigError&) {
@@ -144,6 +156,22 @@ void GrblStage::recover(const Pump& pump) {
   exact_m_ = reported_m_;
   if (cut_short) hand_out(cut_short->tracker, cut_short->purpose, reported_m_);
   is_recovering_ = false;
+}
+
+// The firmware counts from power-up until it is homed.
+std::string GrblStage::trouble_with_zero() const {
+  if (restarts_when_opened_) {
+    return "its board restarts when the port is opened and then counts from where the stage "
+           "stands. A capacitor of 10 uF between RESET and GND keeps an Uno or Nano from that";
+  }
+  if (!has_bit(22, 0)) {
+    return "homing is switched off ($22=0), so it counts from where it was switched on. Set $22=1 "
+           "and home it with: viscard rig home";
+  }
+  if (is_locked_at_first_) {
+    return "it has not been homed since it was switched on. Home it with: viscard rig home";
+  }
+  return "";
 }
 
 std::vector<std::string> GrblStage::advice() const {

@@ -90,6 +90,8 @@ void GrblStage::take_line(const ReceivedLine& line) {
   if (const auto alarm = parse_grbl_alarm(line.text)) return take_alarm(*alarm, line.time_s);
   if (const auto entry = parse_grbl_setting(line.text)) {
     settings_[entry->number] = entry->value;
+  } else if (const auto options = parse_grbl_build_options(line.text)) {
+    build_options_ = options;
   } else if (const auto message = parse_grbl_message(line.text)) {
     note(line.time_s, "stage_message", *message, "The stage says: " + *message);
   } else if (!is_grbl_push(line.text)) {
@@ -124,6 +126,7 @@ void GrblStage::take_answer(std::optional<int> error, double time_s) {
 }
 
 void GrblStage::take_alarm(int code, double time_s) {
+  alarm_code_ = code;
   note(time_s, "stage_alarm", std::to_string(code), grbl_alarm_text(code));
   if (is_recovering_ || awaits_welcome_) return;
   exact_m_.reset();

@@ -18,6 +18,7 @@ class GrblStage final : public PolledStage {
   GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock, RecordSink sink,
             double patience = 1.0);
 
+  void plan_count_check(std::optional<double> homed_at_m) override;
   void connect(const Pump& pump) override;
   void service() override;
   StageDynamics dynamics() const override;
@@ -28,6 +29,10 @@ class GrblStage final : public PolledStage {
   void stop_soft() override;
   void stop_hard() override;
   void recover(const Pump& pump) override;
+  std::optional<double> homed_at_m() const override { return homed_at_m_; }
+  std::string trouble_with_zero() const override;
+  std::string trouble_with_count_check(const Pump& pump) override;
+  std::optional<CountCheck> check_count(const Pump& pump) override;
 
   // Sends one line and waits for its answer. Throws RigError on error:N or if there is no answer.
   void command(const std::string& line, const Pump& pump, double timeout_wall_s = 3.0);
@@ -72,6 +77,10 @@ class GrblStage final : public PolledStage {
   void refuse_old_firmware() const;
   void ask_position(const Pump& pump);
   void read_settings(const Pump& pump);
+  void home(const Pump& pump);
+  void go(double to_m, double speed_m_s, const Pump& pump);
+  double touch_switch(const Pump& pump);
+  bool has_bit(int number, int bit) const;
   double setting(int number, double otherwise) const;
   double resolution_m() const;
   double least_speed_m_s() const;
@@ -89,6 +98,14 @@ class GrblStage final : public PolledStage {
   std::string state_;  // as reported last
   std::vector<double> work_offset_mm_;
   int n_welcomes_ = 0;
+  bool restarts_when_opened_ = false;
+  bool is_locked_at_first_ = false;  // it has not been homed since it was switched on
+  int alarm_code_ = 0;               // of the newest alarm
+
+  bool compares_count_ = false;           // plan_count_check() was called
+  std::optional<double> homed_before_m_;  // where an earlier run of the series has homed
+  std::optional<double> homed_at_m_;
+  std::optional<std::string> build_options_;  // of $I
 
   std::optional<ActiveMove> active_;
 };

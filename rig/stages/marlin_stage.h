@@ -24,6 +24,9 @@ class MarlinStage final : public PolledStage {
   StageDynamics dynamics() const override;
   std::vector<std::string> advice() const override;
   std::string identity() const override { return firmware_; }
+  std::string trouble_with_zero() const override {
+    return "this driver counts from where the stage stands when it connects (G92)";
+  }
   void begin_move(double to_m, double speed_m_s, const std::string& purpose) override;
   bool is_moving() const override { return active_.has_value(); }
   void stop_soft() override;

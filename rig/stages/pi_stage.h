@@ -16,6 +16,7 @@ class PiStage final : public AskedStage {
   ~PiStage() override { restore_speed(); }
 
   std::vector<std::string> advice() const override;
+  bool measures_position() const override { return true; }  // the servo is closed over an encoder
 
  private:
   std::string bytes_of(const std::string& words) const override;

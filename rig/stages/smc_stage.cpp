@@ -134,8 +134,8 @@ void SmcStage::read_dynamics(const Pump& pump) {
     throw RigError("the stage reports VA or AC 0. Set both on the controller");
   }
   const auto increment_mm = number_from_text(ask_if_known("SU?", pump).value_or("0"));
-  const double step_m =
-      increment_mm && *increment_mm > 0.0 ? *increment_mm * 1e-3 : config_.microstep_m;
+  has_encoder_ = increment_mm && *increment_mm > 0.0;  // an SMC100PP reports none
+  const double step_m = has_encoder_ ? *increment_mm * 1e-3 : config_.microstep_m;
   if (!(step_m > 0.0)) {
     throw RigError(
         "an SMC100PP does not report the length of a microstep. Set microstep under [stage] of the "

@@ -17,6 +17,7 @@ class SmcStage final : public AskedStage {
   ~SmcStage() override { restore_speed(); }
 
   std::vector<std::string> advice() const override;
+  bool measures_position() const override { return has_encoder_; }
 
  private:
   void split(const Chunk& chunk) override;
@@ -40,6 +41,7 @@ class SmcStage final : public AskedStage {
   void read_dynamics(const Pump& pump);
 
   std::optional<double> held_since_s_;  // the controller has sent XOFF
+  bool has_encoder_ = false;
   double jerk_time_s_ = 0.0;
 };
 

@@ -5,6 +5,7 @@
 #include "rig/lines/transport.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,13 @@ struct ReportLatency {
   double longest_s = 0.0;
 };
 
+// What homing again shows of the steps that a stage has counted since it was homed.
+struct CountCheck {
+  double off_m = 0.0;     // the count over the way made, toward the specimen; 0: no step was lost
+  double steps = 0.0;     // the same in steps
+  double within_m = 0.0;  // a smaller difference shows nothing
+};
+
 // One motorised axis that presses a punch into a specimen. Positions in m from the controller's own
 // zero, growing toward the specimen. No call blocks by itself: while it waits for an answer it
 // calls `pump`, so that the caller can watch the force. All calls throw PortHungUp, StageAlarm,
@@ -46,6 +54,9 @@ class Stage {
 
   virtual Transport& transport() = 0;
 
+  // Before connect(): the count will be compared by check_count(), so connect() homes this axis alone
+  // (and refuses if it cannot), or not at all if an earlier run has homed it, at homed_at_m.
+  virtual void plan_count_check(std::optional<double> /*homed_at_m*/) {}
   // Waits for the controller, identifies it, reads its settings, unlocks it, asks for its position.
   virtual void connect(const Pump& pump) = 0;
   // Handles what has arrived and asks for the position when that is due. Call often.
@@ -77,6 +88,20 @@ class Stage {
   virtual void stop_hard() = 0;
   // After stop_hard() or an alarm: unlocks the stage and asks for its position.
   virtual void recover(const Pump& pump) = 0;
+
+  // Why position_m() will mean another place when the stage is connected again; empty if the
+  // controller keeps its zero.
+  virtual std::string trouble_with_zero() const { return ""; }
+  // True if position_m() is measured by an encoder, false if it is a count of steps.
+  virtual bool measures_position() const { return false; }
+  // Where the last homing left the stage.
+  virtual std::optional<double> homed_at_m() const { return std::nullopt; }
+  // Why check_count() cannot work with this controller and its settings; empty if it can, or if the
+  // driver has none. Moves nothing.
+  virtual std::string trouble_with_count_check(const Pump& /*pump*/) { return ""; }
+  // Goes to the limit switch by the count, homes this axis alone, and goes there again. The punch
+  // must be lifted. Nothing if this driver cannot compare them.
+  virtual std::optional<CountCheck> check_count(const Pump& /*pump*/) { return std::nullopt; }
 };
 
 }  // namespace viscard

@@ -85,6 +85,7 @@ drift_relative = "1e-6 1/s"
 
 const char* const kRig = R"([stage]
 port = "stage"
+depth_relative_u = 0
 [load_cell]
 port = "cell"
 volts_per_count = "1.1920928955078125 uV"

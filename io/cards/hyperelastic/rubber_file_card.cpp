@@ -4,6 +4,7 @@
 #include "io/basics/written_path.h"
 #include "io/cards/card_header.h"
 #include "io/cards/card_sum.h"
+#include "io/cards/header_name.h"
 #include "io/cards/hyperelastic/check_rubber.h"
 #include "io/cards/hyperelastic/rubber_targets.h"
 #include "io/cards/unit_system.h"
@@ -114,11 +115,11 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
                     text_of(stable.high, 3) + (stable.high_is_open ? " and more" : "")));
   }
   for (const auto& raw : file.raw_files)
-    lines.push_back("raw data " + written_path(raw.file) +
+    lines.push_back("raw data " + name_in_header(written_path(raw.file)) +
                     (raw.sha256.empty() ? " in memory" : " sha256 " + raw.sha256));
   if (!options.file_sha256.empty())
-    lines.push_back("material file " + written_path(options.file_name) + " sha256 " +
-                    options.file_sha256);
+    lines.push_back("material file " + name_in_header(written_path(options.file_name)) +
+                    " sha256 " + options.file_sha256);
   lines.push_back(unsealed_sum_line());
   if (!options.created_at.empty()) lines.push_back("created " + options.created_at);
   if (!options.command.empty()) lines.push_back("by " + options.command);
@@ -183,6 +184,11 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
                              ". --accept-flags writes it all the same");
   }
   refuse_bulk_modulus(file, options);
+  if (!options.elastic_only.empty() && file.terms.empty()) {
+    throw std::invalid_argument(
+        name +
+        ": --elastic-only is for laws with terms of relaxation, and this one has none; omit it");
+  }
   const RubberTarget& target = rubber_target(options.target);
   const std::string card = file.foam ? foam_card(*file.foam, options)
                                      : rubber_card(file.law, file.terms, options, file.damage);

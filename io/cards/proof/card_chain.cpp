@@ -3,9 +3,12 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/written_path.h"
 #include "io/cards/card_sum.h"
+#include "io/cards/header_name.h"
 #include "models/maths/result_visitor.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -36,14 +39,17 @@ void look_for(const std::vector<std::string>& others, ChainLink& link) {
   link.now = sha256_of_file(*found);
 }
 
-// "raw data a.csv sha256 ...": what stands between the mark and the sum, or nothing.
+// "** raw data a.csv sha256 ...": the file between the mark, which begins the line, and the sum, or nothing.
 std::optional<ChainLink> link_in(const std::string& line, const std::string& mark) {
   const std::size_t at = line.find(mark), sum = line.rfind(kSum);
   if (at == std::string::npos || sum == std::string::npos || sum < at) return std::nullopt;
+  const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0; };
+  if (std::any_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(at), is_word))
+    return std::nullopt;  // a file may have the mark in its name
   const std::size_t begin = at + mark.size();
   std::string path = line.substr(begin, sum - begin);
   while (!path.empty() && path.back() == ' ') path.pop_back();
-  return ChainLink{path, line.substr(sum + kSumLength, kDigits), ""};
+  return ChainLink{name_from_header(path), line.substr(sum + kSumLength, kDigits), ""};
 }
 
 }  // namespace

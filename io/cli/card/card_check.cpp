@@ -63,10 +63,15 @@ void show_shift(ResultVisitor& v, const TemperatureShift& shift) {
   v.when(!is_wlf, [&] { v("activation_J_mol", shift.activation_J_mol, "of an Arrhenius law"); });
 }
 
+// A card that describes no solid has no values.
+bool has_solid(const ReadCard& read) {
+  return read.material.E0_Pa > 0.0;
+}
+
 void show_material(ResultVisitor& v, const Material& material) {
   v("E0_Pa", material.E0_Pa, "instantaneous modulus");
   v("nu", material.nu, "Poisson ratio");
-  v("rho_kg_m3", material.rho_kg_m3, "density");
+  v("rho_kg_m3", material.rho_kg_m3, "density; 0: the card states none");
   v.list("terms", "the series", material.terms, [&](const MaterialTerm& term) {
     v("g", term.g, "relative shear modulus");
     v("k", term.k, "relative bulk modulus");
@@ -91,17 +96,22 @@ void show_understood(ResultVisitor& v, const CardTarget& target) {
   v("conventions", conventions_in_words(target), "all of it in words");
 }
 
+CheckedCard checked(const CardCheck& check) {
+  return {check.findings, check.agrees, check.E_difference.has_value(), check.tolerance};
+}
+
 void show_check(ResultVisitor& v, const CardCheck& check, const std::string& card) {
   const bool has_values = check.read.understood.values != nullptr;
   v("card", card, "the card");
   v("target", check.read.understood.name, "its solver");
   v("units", check.units, "its unit system");
   v("agrees", check.agrees, "whether card and material agree");
+  v("verdict", verdict_of(checked(check)), "what the check found, in words");
   v.object("understood", "how the card was read",
            [&] { show_understood(v, check.read.understood); });
   v.object(
-      "material", "what the card means; null: no whole material",
-      [&] { show_material(v, check.read.material); }, has_values);
+      "material", "what the card means; null: it states no whole material, or no values were read",
+      [&] { show_material(v, check.read.material); }, has_values || !has_solid(check.read));
   v.when(has_values, [&] {
     v("frequencies_Hz", check.read.frequencies_Hz, "of a table over frequency");
     v.list("values", "numbers of a card that states no whole material", check.read.values,
@@ -130,7 +140,7 @@ std::string shift_row(const TemperatureShift& shift) {
 
 void print_numbers(const CardCheck& check, std::ostream& out) {
   const Material& material = check.read.material;
-  if (material.E0_Pa > 0.0) {
+  if (has_solid(check.read)) {
     out << fmt::format("E0 = {:.9g} Pa, nu = {:.9g}, ", material.E0_Pa, material.nu)
         << (material.rho_kg_m3 > 0.0 ? fmt::format("rho = {:.9g} kg/m3\n", material.rho_kg_m3)
                                      : "no density\n");
@@ -149,6 +159,7 @@ void print_numbers(const CardCheck& check, std::ostream& out) {
 }
 
 void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
+  const CheckedCard verdict = checked(check);
   out << words.check << ": " << check.read.understood.code << ", units " << check.units
       << (check.read.units_were_stated || !words.units.empty() ? "" : " (not stated)") << "\n"
       << "understood: " << conventions_in_words(check.read.understood) << "\n";
@@ -168,25 +179,7 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
     out << (finding.is_mistake ? "mistake " : "note ") << finding.name << ": " << finding.text
         << "\n";
   }
-  const bool has_mistake =
-      std::any_of(check.findings.begin(), check.findings.end(),
-                  [](const CardFinding& finding) { return finding.is_mistake; });
-  if (has_mistake || (!check.agrees && !check.E_difference)) {
-    out << "the card is wrong\n";
-  } else if (!check.agrees) {
-    out << fmt::format("the card differs by more than the {:.1e} allowed\n", check.tolerance);
-  } else if (has_unread_parts(check.findings)) {
-    out << (check.E_difference
-                ? "what was read of the card agrees with the material; nothing is stated of the "
-                  "rest\n"
-                : "not all of the card was read; nothing is stated of it as a whole\n");
-  } else if (check.E_difference) {
-    out << fmt::format("the card agrees with the material (within {:.1e})\n", check.tolerance);
-  } else {
-    out << (has_edited_finding(check.findings) ? "no known mistake found, but the card was edited"
-                                               : "no mistake found")
-        << "; name a material to compare with\n";
-  }
+  out << verdict_of(verdict) << verdict_hint(verdict) << "\n";
 }
 
 void print_list(std::ostream& out) {
@@ -209,6 +202,31 @@ void print_list(std::ostream& out) {
 }
 
 }  // namespace
+
+std::string verdict_of(const CheckedCard& card) {
+  const bool has_mistake =
+      std::any_of(card.findings.begin(), card.findings.end(),
+                  [](const CardFinding& finding) { return finding.is_mistake; });
+  if (has_mistake || (!card.agrees && !card.is_compared)) return "the card is wrong";
+  if (!card.agrees)
+    return fmt::format("the card differs by more than the {:.1e} allowed", card.tolerance);
+  if (has_unread_parts(card.findings)) {
+    return card.is_compared
+               ? fmt::format("what was read of the card agrees with the {}", card.other) +
+                     "; nothing is stated of the rest"
+               : "not all of the card was read; nothing is stated of it as a whole";
+  }
+  if (card.is_compared)
+    return fmt::format("the card agrees with the {} (within {:.1e})", card.other, card.tolerance);
+  return has_edited_finding(card.findings) ? "no known mistake found, but the card was edited"
+                                           : "no mistake found";
+}
+
+std::string verdict_hint(const CheckedCard& card) {
+  if (!card.agrees || card.is_compared || has_unread_parts(card.findings)) return "";
+  return fmt::format("; name {} to compare with",
+                     card.other == std::string("law") ? "the file of the law" : "a material");
+}
 
 std::vector<DescribedResult> results_of_targets() {
   CardCheck check{.read = {.understood = card_targets().front(), .units = unit_systems().front()}};

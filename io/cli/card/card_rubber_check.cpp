@@ -35,12 +35,17 @@ std::vector<CardValue> parameters_of(const ReadRubber& read) {
   return out;
 }
 
+CheckedCard checked(const RubberCheck& check) {
+  return {check.findings, check.agrees, check.difference.has_value(), check.tolerance, "law"};
+}
+
 void show_check(ResultVisitor& v, const RubberCheck& check, const CardWords& words) {
   const ReadRubber& read = check.read;
   v("card", words.check, "the card");
   v("target", words.target, "its solver");
   v("units", read.units == nullptr ? "" : read.units->name, "its unit system");
   v("agrees", check.agrees, "whether card and material agree");
+  v("verdict", verdict_of(checked(check)), "what the check found, in words");
   v("law", name_of(read), "name of the law");
   v.word("basis", read.is_long_term ? "long-term" : "instantaneous", {"instantaneous", "long-term"},
          "which law stands in the card");
@@ -71,6 +76,7 @@ void show_check(ResultVisitor& v, const RubberCheck& check, const CardWords& wor
 
 void print_rubber_check(const RubberCheck& check, const CardWords& words, std::ostream& out) {
   const ReadRubber& read = check.read;
+  const CheckedCard verdict = checked(check);
   out << words.check << ": " << name_of(read) << " for " << words.target << ", units "
       << read.units->name << (read.units_were_stated || !words.units.empty() ? "" : " (not stated)")
       << "\n";
@@ -93,20 +99,7 @@ void print_rubber_check(const RubberCheck& check, const CardWords& words, std::o
     out << (finding.is_mistake ? "mistake " : "note ") << finding.name << ": " << finding.text
         << "\n";
   }
-  const bool is_partial = has_unread_parts(check.findings);
-  if (!check.agrees) {
-    out << "the card is wrong\n";
-  } else if (is_partial) {
-    out << (check.difference
-                ? "what was read of the card agrees with the law; nothing is stated of the rest\n"
-                : "not all of the card was read; nothing is stated of it as a whole\n");
-  } else if (check.difference) {
-    out << fmt::format("the card agrees with the law (within {:.1e})\n", check.tolerance);
-  } else {
-    out << (has_edited_finding(check.findings) ? "no known mistake found, but the card was edited"
-                                               : "no mistake found")
-        << "; name the file of the law to compare with\n";
-  }
+  out << verdict_of(verdict) << verdict_hint(verdict) << "\n";
 }
 
 // True if the law of a card is one of rubber, or the file that it is compared with; takes the target that it

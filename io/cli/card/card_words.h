@@ -48,6 +48,19 @@ struct CardWords {
   Plausible plausible = Plausible::kMeasured;
 };
 
+// What a check has found.
+struct CheckedCard {
+  const std::vector<CardFinding>& findings;
+  bool agrees = true;
+  bool is_compared = false;  // with the other
+  double tolerance = 0.0;    // relative
+  const char* other = "material";
+};
+// In words; every interface shows them.
+std::string verdict_of(const CheckedCard& card);
+// Ends the line of a card without mistakes that was not compared; otherwise empty.
+std::string verdict_hint(const CheckedCard& card);
+
 // The text of a card that somebody sent: of several materials in it the one that the words name.
 std::string card_text_of(const std::string& path, const CardWords& words);
 // The material that the words name; checks that a mixing ratio is given where it is needed. Throws

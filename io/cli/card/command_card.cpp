@@ -11,7 +11,9 @@
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <string_view>
 
 namespace viscard {
 namespace {
@@ -132,7 +134,8 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
   add("accept-flags", &words.accepts_flags, "write terms that the fit has flagged");
   add("reproducible", &words.is_reproducible,
       "no date and no command line in the header: the same input gives the same bytes");
-  add("force", &words.force, "replace an existing file");
+  add("force", &words.force, "replace an existing file")
+      .only_with({"out", "deck", "prove", "import"});
 }
 
 // "10,1000"
@@ -262,6 +265,19 @@ void refuse_idle_options(const CommandSyntax& syntax, CardWords& words) {
     throw UsageError("--extrapolate has no effect without --ratio; add it, or omit --extrapolate");
 }
 
+// True if names of columns stand above the numbers, behind lines of comments.
+bool has_header(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.size(), text.find('\n'));
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(text.size(), end + 1));
+    if (line.empty() || line.front() == '#') continue;
+    return std::isalpha(static_cast<unsigned char>(line.front())) != 0 &&
+           line.find_first_of(",;\t") != std::string_view::npos;
+  }
+  return false;
+}
+
 // Of --check or --prove CARD with a law of rubber.
 void check_rubber_words(const CardWords& words) {
   if (words.target.empty()) {
@@ -317,8 +333,8 @@ void check_words(CardWords& words) {
     const std::string contents = card_text_of(given_card, words);
     const CardTarget* target = stated_card_target(contents);
     if (target == nullptr) {
-      // Numbers alone may be a card of another program.
-      if (kind_of_file(contents) != FileKind::kTable) {
+      // Numbers alone may be a card of another program, but not under the header of a table.
+      if (kind_of_file(contents) != FileKind::kTable || has_header(contents)) {
         refuse_other_kind(contents, given_card, FileKind::kCard);
       }
       throw UsageError(given_card +

@@ -126,7 +126,9 @@ CommandSyntax fit_syntax(FitCommand& command) {
       .only_typed();
   options.add("out", &command.out, "material file to write (one input file, or several tests)")
       .only_typed();
-  options.add("force", &command.overwrite, "replace an existing material file").only_typed();
+  options.add("force", &command.overwrite, "replace existing files")
+      .only_typed()
+      .only_with({"out", "csv", "svg"});
   syntax.results = results_of_fit();
   return syntax;
 }

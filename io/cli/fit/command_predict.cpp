@@ -52,7 +52,9 @@ int run_predict(const Words& words, Streams& streams) {
       .add("accept-flags", &accepts_flags,
            "exit with 0 also if the fit of the material is not to be trusted")
       .only_typed();
-  syntax.options.add("force", &overwrite, "overwrite existing files").only_typed();
+  syntax.options.add("force", &overwrite, "overwrite existing files")
+      .only_typed()
+      .only_with({"csv", "svg"});
   if (!parse_words(syntax, words, streams)) return kDone;
   const PredictFileRequest request = with_usage_errors([&] { return predict_request(test, path); });
   for (const auto& output : {csv, svg}) {

@@ -74,6 +74,7 @@ void print_agreement(const Agreement& found, const std::string& file, std::ostre
   if (std::isfinite(found.share_inside_band_and_noise)) {
     out << fmt::format(", with the noise {}", percent(found.share_inside_band_and_noise));
   }
+  if (!found.agrees.value_or(true)) out << ": they disagree";
   out << "\n";
   if (found.n_inside_window < found.at.size()) {
     out << fmt::format("    {} inside the window of the fit",

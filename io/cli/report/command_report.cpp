@@ -91,27 +91,11 @@ ReportRequest checked_words(const ReportWords& asked, const Words& words) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  if (!report.truth_files.empty() && report.truth_files.size() != measured_count(report.files)) {
-    throw UsageError(fmt::format("{} for {}: give one --truth for each, in the same order, or none",
-                                 counted(report.truth_files.size(), "truth file"),
-                                 counted(measured_count(report.files), "capture")));
-  }
   report.plausible = asked.plausible;
   report.logo = asked.logo.value_or("");
   report.accepts_unverified = asked.unverified;
   if (!asked.is_reproducible) report.created_at = now_iso8601();
   return report;
-}
-
-std::vector<std::string> write_pictures(const RenderedReport& report, const fs::path& folder,
-                                        bool is_forced) {
-  fs::create_directories(folder);
-  std::vector<std::string> paths;
-  for (const ReportPicture& picture : report.pictures) {
-    paths.push_back((folder / (picture.name + ".svg")).string());
-    write_file(paths.back(), written_text(picture.svg), is_forced);
-  }
-  return paths;
 }
 
 void show_specimen(ResultVisitor& v, const SpecimenReport& specimen) {
@@ -173,7 +157,7 @@ int run_report(const Words& words, Streams& streams) {
   const RenderedReport rendered = render_report(input);
   std::vector<std::string> pictures;
   if (asked.pictures) {
-    pictures = write_pictures(rendered, *asked.pictures, is_forced);
+    pictures = write_report_pictures(rendered, *asked.pictures, is_forced);
   }
   write_file(page, written_text(rendered.html), is_forced);
   const std::vector<std::string> defects = defects_of(input);

@@ -71,7 +71,7 @@ CapturedRun press_block(const CalibrateWords& words, RigConfig rig) {
     truth.material.E0_Pa = kBlock_Pa;
     truth.material.terms.clear();
     truth.contact = block.contact;
-    emulated = std::make_unique<EmulatedRig>(EmulatedRigOptions{.truth = truth, .config = rig});
+    emulated = std::make_unique<EmulatedRig>(able_rig(truth, rig));
     rig = emulated->config();
   }
   const StopOnSignal on_signal;
@@ -153,6 +153,7 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams) {
     rig = run.rig;
   } else if (words.data_file) {
     CsvTable table = read_csv(*words.data_file);
+    refuse_unverified(table, words);
     say_damage(*words.data_file, accepted_damage(table, words.accepts_unverified), streams);
     table = complete_rows(std::move(table), true, streams);
     points = block_points_from_table(table);

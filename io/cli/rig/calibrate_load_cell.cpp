@@ -41,7 +41,8 @@ std::vector<double> sequence_kg(std::vector<double> masses_kg, int series) {
   return sequence;
 }
 
-CsvTable table_of_weights(const std::string& path, bool accepts_damage) {
+CsvTable table_of_weights(const CalibrateWords& words) {
+  const std::string& path = *words.data_file;
   if (looks_like_capture(path)) {
     throw std::runtime_error(
         path +
@@ -50,14 +51,14 @@ CsvTable table_of_weights(const std::string& path, bool accepts_damage) {
         "--compliance");
   }
   CsvTable table = read_csv(path);
-  (void)accepted_damage(table, accepts_damage);
+  refuse_unverified(table, words);
+  (void)accepted_damage(table, words.accepts_unverified);
   return table;
 }
 
 WeightReadings readings_of_table(const CalibrateWords& words, const CalibrationRequest& request,
                                  Streams& streams) {
-  const CsvTable table =
-      complete_rows(table_of_weights(*words.data_file, words.accepts_unverified), false, streams);
+  const CsvTable table = complete_rows(table_of_weights(words), false, streams);
   refuse_idle({{request.where + "--gravity", request.gravity_m_s2.has_value(),
                 find_column(table, "mass_kg").has_value(),
                 "masses (mass_kg), and this table states forces"}});

@@ -1,5 +1,7 @@
 #include "io/cli/rig/calibrate_words.h"
 
+#include "io/basics/option_use.h"
+#include "io/flow/damaged_table.h"
 #include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
 
@@ -33,6 +35,12 @@ CsvTable complete_rows(CsvTable table, bool is_block, Streams& streams) {
                 << " without a number left out\n";
   }
   return complete;
+}
+
+void refuse_unverified(const CsvTable& table, const CalibrateWords& words) {
+  refuse_idle<UsageError>(
+      {{table.file + ": --unverified", words.accepts_unverified, is_exported(table),
+        "captures, and tables that viscard exported from them"}});
 }
 
 Words inputs_of(const CalibrateWords& words) {

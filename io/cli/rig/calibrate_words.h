@@ -50,6 +50,8 @@ RigConfig calibrate_rig(const CalibrateWords& words);
 EmulatedTruth calibrate_truth(const CalibrateWords& words);
 // The rows of a table with a number in both columns; stderr has the count of the others.
 CsvTable complete_rows(CsvTable table, bool is_block, Streams& streams);
+// Refuses --unverified beside a table that no capture was exported to.
+void refuse_unverified(const CsvTable& table, const CalibrateWords& words);
 // The files that the words name.
 Words inputs_of(const CalibrateWords& words);
 

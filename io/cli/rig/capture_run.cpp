@@ -26,7 +26,7 @@ LiveViewOptions view_options(const CaptureWords& words, const CaptureSetup& setu
 }  // namespace
 
 CaptureOutcome capture_once(const CaptureWords& words, const CaptureSetup& setup,
-                            const std::string& command, Streams& streams) {
+                            SeriesHoming& homing, const std::string& command, Streams& streams) {
   const StopOnSignal on_signal;
   CaptureOutcome outcome;
   outcome.file = words.out_file;
@@ -47,7 +47,7 @@ CaptureOutcome capture_once(const CaptureWords& words, const CaptureSetup& setup
   };
   watch.note = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; };
   outcome.run = capture_to_file(
-      {setup, words.out_file, words.overwrite, command, words.lifts_at_start}, watch);
+      {setup, words.out_file, words.overwrite, command, words.lifts_at_start, &homing}, watch);
   return outcome;
 }
 

@@ -12,6 +12,13 @@ namespace {
 
 constexpr std::size_t kPictureWidth = 60;
 
+std::string depth_text(const RunOutcome& outcome) {
+  if (outcome.depth_is == "measured") return "measured by the stage";
+  if (outcome.depth_is == "counted") return "counted in steps, not measured";
+  return fmt::format("counted in steps; right within {:.1f} um when homed after it",
+                     outcome.count->within_m * 1e6);
+}
+
 }  // namespace
 
 void print_text(const CaptureOutcome& capture, std::ostream& out) {
@@ -25,7 +32,8 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
       << fmt::format("  peak force      {:.4f} N (expected at most {:.4f}, limit {:.4f})\n",
                      outcome.peak_force_N, outcome.expected.peak_force_N, outcome.expected.limit_N)
       << (outcome.contact_position_m
-              ? fmt::format("  depth reached   {:.4f} mm\n", outcome.achieved_depth_m * 1e3)
+              ? fmt::format("  depth reached   {:.4f} mm ({})\n", outcome.achieved_depth_m * 1e3,
+                            depth_text(outcome))
               : std::string("  depth reached   none: no contact was found\n"))
       << fmt::format("  noise           {:.3f} mN per reading\n", outcome.noise_N * 1e3)
       << fmt::format(

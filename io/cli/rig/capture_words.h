@@ -74,8 +74,8 @@ struct CaptureOutcome {
 };
 
 // capture_to_file() with a live view on the terminal and, if asked for, a page. SIGINT, SIGTERM and
-// SIGHUP first stop the stage.
+// SIGHUP first stop the stage. homing: of the series that the capture belongs to.
 CaptureOutcome capture_once(const CaptureWords& words, const CaptureSetup& setup,
-                            const std::string& command, Streams& streams);
+                            SeriesHoming& homing, const std::string& command, Streams& streams);
 
 }  // namespace viscard

@@ -95,7 +95,8 @@ OptionUses uses_of(const CommandSyntax& syntax, const CalibrateWords& words) {
       {"seconds", false, is_on_rig, "readings on the rig (without --data)"},
       {"to", false, !weighs && is_on_rig, kBlock},
       {"steps", false, !weighs && is_on_rig, kBlock},
-      {"yes", false, !waits_for_weights, "a block (--compliance); each weight is put on by hand"},
+      {"yes", false, !waits_for_weights && is_on_rig,
+       "a block on the rig (--compliance without --data); each weight is put on by hand"},
       {"unverified", false, !is_on_rig, "files (--data)"}};
   for (OptionUse& use : uses) {
     use.is_given = is_given(syntax, use.option);
@@ -117,10 +118,19 @@ void take_values(const CommandSyntax& syntax, CalibrateWords& words) {
 void check_words(const CommandSyntax& syntax, const CalibrateWords& words) {
   const int n_sources = (words.is_emulated ? 1 : 0) + (words.data_file ? 1 : 0) +
                         (words.rig_file && !words.is_emulated && !words.data_file ? 1 : 0);
+  if (words.is_emulated && words.data_file) {
+    throw UsageError(
+        "--data and --emulate exclude each other: a table has its readings, and an emulated rig "
+        "makes its own; omit one of them");
+  }
   if (n_sources != 1) {
     throw UsageError(
         "calibrate needs one of --rig FILE (weights on the rig), --data FILE (a table) or "
         "--emulate");
+  }
+  if (is_given(syntax, "id") && words.request.id.empty()) {
+    throw UsageError(
+        "--id is empty; give the record a name, such as \"cell-7 2026-11\", or omit it");
   }
   if (words.out_file.empty()) throw UsageError("calibrate needs --out FILE, the record to write");
   refuse_idle<UsageError>(uses_of(syntax, words));

@@ -169,7 +169,8 @@ std::string wait_for(const SeriesStep& step, const SeriesStep* previous, const C
 
 // Runs one step after the wait before it; false ends the series.
 bool run_step(const SeriesStep& step, const SeriesStep* previous, const CaptureWords& words,
-              const std::string& command, SeriesResult& result, Streams& streams) {
+              const std::string& command, SeriesHoming& homing, SeriesResult& result,
+              Streams& streams) {
   CaptureWords one = words;
   one.out_file = step.out_file;
   const CaptureSetup setup = capture_setup(one, step);
@@ -178,7 +179,7 @@ bool run_step(const SeriesStep& step, const SeriesStep* previous, const CaptureW
   result.trouble = wait_for(step, previous, words, streams);
   if (!result.trouble.empty()) return false;
   if (step.touch > 0) streams.err << "viscard: " << touch_text(step) << step.out_file << "\n";
-  const CaptureOutcome outcome = capture_once(one, setup, command, streams);
+  const CaptureOutcome outcome = capture_once(one, setup, homing, command, streams);
   result.runs.push_back({.file = outcome.file,
                          .run = outcome.run,
                          .specimen = step.touch > 0 ? setup.specimen.id : "",
@@ -189,10 +190,38 @@ bool run_step(const SeriesStep& step, const SeriesStep* previous, const CaptureW
   return false;
 }
 
+// What homing after the last run has shown concerns those before it.
+void share_count_of_last(SeriesResult& result, const SeriesHoming& homing,
+                         const CaptureWords& words, Streams& streams) {
+  std::vector<EarlierRun> earlier;
+  for (CaptureOfSeries& capture : result.runs) {
+    if (capture.run && &capture != &result.runs.back()) {
+      earlier.push_back({capture.file, &*capture.run});
+    }
+  }
+  if (result.runs.empty() || !result.runs.back().run) return;
+  const RunOutcome& last = *result.runs.back().run;
+  if (homing.homed_at_m && homing.is_doubtful && !last.count) {
+    streams.err << "viscard: a run is doubtful, so the stage was not homed after it, and its count "
+                   "was not compared\n";
+  }
+  share_count(earlier, last);
+  if (!last.count || last.doubts.empty() || words.as_json) return;
+  FittedText fitted(streams);
+  std::ostream& out = fitted;
+  for (const EarlierRun& run : earlier) {
+    out << run.path.string() << ": doubtful\n  doubt           " << run.outcome->doubts.back()
+        << "\n";
+  }
+}
+
 SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords& words,
                         const std::string& command, Streams& streams) {
   SeriesResult result;
   const SeriesStep* previous = nullptr;  // captured by this command
+  const auto last = std::find_if(steps.rbegin(), steps.rend(),
+                                 [](const SeriesStep& step) { return step.finished_file.empty(); });
+  SeriesHoming homing;
   for (const SeriesStep& step : steps) {
     if (!step.finished_file.empty()) {
       result.runs.push_back({.file = step.finished_file, .status = "finished before"});
@@ -200,7 +229,8 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
       continue;
     }
     try {
-      if (!run_step(step, previous, words, command, result, streams)) return result;
+      homing.is_last = last != steps.rend() && &step == &*last;
+      if (!run_step(step, previous, words, command, homing, result, streams)) return result;
     } catch (const std::exception& error) {
       if (previous == nullptr) throw;  // nothing was captured that the result has to report
       const CommandError why = command_error(error);
@@ -211,6 +241,7 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
     }
     previous = &step;
   }
+  share_count_of_last(result, homing, words, streams);
   return result;
 }
 

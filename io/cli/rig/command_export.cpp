@@ -98,7 +98,7 @@ int run_export(const Words& words, Streams& streams) {
   syntax.options.add("verify", &verifies,
                      "compare the capture with its checksums; writes no table");
   syntax.options.add("unverified", &reading.accepts_damage, kUnverifiedHelp);
-  syntax.options.add("force", &overwrite, "replace an existing file");
+  syntax.options.add("force", &overwrite, "replace an existing file").only_with({"out"});
   syntax.results = {{"export", "viscard export", {[](ResultVisitor& v) {
                        show_summary(v, CapturedRun{}, CapturePart::kReadings, "", std::nullopt);
                      }}},

@@ -176,6 +176,14 @@ bool moves(const RigWords& words) {
   return words.what == "jog" || words.what == "home" || words.what == "lift";
 }
 
+bool zeroes(const RigWords& words) {
+  return words.what == "set-zero" || words.what == "zero-force";
+}
+
+void show_zero(ResultVisitor& v, double position_m) {
+  v("zero_m", position_m, "position of the controller that counts as 0 from now on");
+}
+
 void show_touch(ResultVisitor& v, double force_N) {
   v("force_N", force_N, "the largest change of the force");
   v("answered_on", today(), "the day");
@@ -185,7 +193,8 @@ CommandSyntax rig_syntax(RigWords& words) {
   CommandSyntax syntax;
   syntax.usage =
       "viscard rig list [--rig FILE] | check --rig FILE | touch --rig FILE | jog --rig FILE "
-      "--away WAY | lift --rig FILE | home --rig FILE | overshoot [OPTIONS]";
+      "--away WAY | lift --rig FILE | home --rig FILE | set-zero --rig FILE | zero-force --rig "
+      "FILE | overshoot [OPTIONS]";
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any but the "
       "thermometer's of a rig file. check opens all devices of a rig file, identifies and measures "
@@ -193,11 +202,16 @@ CommandSyntax rig_syntax(RigWords& words) {
       "load cell whose readings show no noise, and writes the day into the rig file. jog moves the "
       "stage toward the specimen or away from it, lift moves it 2 mm away; both stop when the "
       "force has changed by --limit. home runs the homing cycle of the controller, which only the "
-      "force limits of the rig file stop. overshoot "
-      "shows how far the force goes beyond a limit, on the emulated rig.";
+      "force limits of the rig file stop. set-zero writes the position of the stage into the rig "
+      "file, and jog, lift and home then also print positions counted from there; it refuses a "
+      "controller that does not keep its own zero. zero-force makes the force at rest the zero of "
+      "a balance or gauge that has one of its own. No test uses either: it finds the surface and "
+      "measures the force out of contact itself. overshoot shows how far the force goes beyond a "
+      "limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";
   syntax.positional.add("what", &words.what, "what to do")
-      .among({"list", "check", "touch", "jog", "lift", "home", "overshoot"});
+      .among(
+          {"list", "check", "touch", "jog", "lift", "home", "set-zero", "zero-force", "overshoot"});
   syntax.options.add("rig", &words.rig_file, "rig.toml: ports, calibration");
   syntax.options.add("seconds", &words.seconds, "how long to listen (3; touch: 30)");
   syntax.options.add("emulate", &words.is_emulated, "use an emulated rig");
@@ -217,6 +231,8 @@ CommandSyntax rig_syntax(RigWords& words) {
       described<RigCheck>("rig-check", "viscard rig check"),
       {"rig-touch", "viscard rig touch", {[](ResultVisitor& v) { show_touch(v, 0.0); }}},
       {"rig-move", "viscard rig jog", {[](ResultVisitor& v) { show_keys(v, StageMoved{}); }}},
+      {"rig-zero", "viscard rig set-zero", {[](ResultVisitor& v) { show_zero(v, 0.0); }}},
+      described<ZeroedForce>("rig-zero-force", "viscard rig zero-force"),
       {"rig-overshoot", "viscard rig overshoot", {[](ResultVisitor& v) {
          show_keys(v, std::vector<OvershootRow>{});
        }}}};
@@ -274,6 +290,42 @@ int touch_and_write(const RigWords& words, bool as_json, Streams& streams) {
                         ? "; answered_on = " + today() + " is written to " + *file
                         : "")
                 << "\n";
+  }
+  return kDone;
+}
+
+int set_zero_and_print(const RigWords& words, bool as_json, Streams& streams) {
+  const std::optional<std::string>& file = words.rig_file;
+  if (!file) throw UsageError("rig set-zero needs --rig FILE, into which the zero is written");
+  const double position_m = lasting_position_m(read_rig(*file, words.plausible), words.is_emulated);
+  if (!words.is_emulated) write_zero(*file, position_m);
+  if (as_json) {
+    print_result(
+        {"viscard-rig-zero/1", {*file}}, [&](ResultVisitor& v) { show_zero(v, position_m); },
+        streams, kOneLine);
+  } else {
+    streams.out << fmt::format("positions count from here, {:.3f} mm of the controller",
+                               position_m * 1e3)
+                << (words.is_emulated ? "" : "; zero is written to " + *file) << "\n";
+  }
+  return kDone;
+}
+
+int zero_force_and_print(const RigWords& words, bool as_json, Streams& streams) {
+  const std::optional<std::string>& file = words.rig_file;
+  if (!words.is_emulated && !file) {
+    throw UsageError("rig zero-force needs --rig FILE, whose load cell is zeroed");
+  }
+  const StopOnSignal on_signal;
+  const ZeroedForce zeroed = zero_rig_force(file ? read_rig(*file, words.plausible) : demo_rig(),
+                                            words.is_emulated, &StopOnSignal::is_asked());
+  if (as_json) {
+    print_result(
+        {"viscard-rig-zero-force/1", file ? Words{*file} : Words{}},
+        [&](ResultVisitor& v) { show_keys(v, zeroed); }, streams, kOneLine);
+  } else {
+    streams.out << fmt::format("the instrument was zeroed: {:.4f} N, before {:.4f} N\n",
+                               zeroed.after_N, zeroed.before_N);
   }
   return kDone;
 }
@@ -340,12 +392,17 @@ int move_and_print(const RigWords& words, const CommandSyntax& syntax, Streams& 
     print_result(
         {"viscard-rig-move/1", file ? Words{*file} : Words{}},
         [&](ResultVisitor& v) { show_keys(v, moved); }, streams, kOneLine);
-  } else if (order.is_home) {
-    streams.out << fmt::format("homed; the stage stands at {:.3f} mm\n", moved.to_m * 1e3);
   } else {
-    streams.out << fmt::format("from {:.3f} to {:.3f} mm; force {:.4f} N, before {:.4f} N\n",
-                               moved.from_m * 1e3, moved.to_m * 1e3, moved.force_after_N,
-                               moved.force_before_N);
+    const std::string counted = moved.zero_m ? fmt::format(" ({:.3f} mm from your zero)",
+                                                           (moved.to_m - *moved.zero_m) * 1e3)
+                                             : "";
+    streams.out << (order.is_home
+                        ? fmt::format("homed; the stage stands at {:.3f} mm{}\n", moved.to_m * 1e3,
+                                      counted)
+                        : fmt::format(
+                              "from {:.3f} to {:.3f} mm{}; force {:.4f} N, before {:.4f} N\n",
+                              moved.from_m * 1e3, moved.to_m * 1e3, counted, moved.force_after_N,
+                              moved.force_before_N));
   }
   if (!moved.is_stopped_by_force) return kDone;
   streams.err << fmt::format(
@@ -367,10 +424,14 @@ int run_rig(const Words& words, Streams& streams) {
     const bool belongs = moves(asked)
                              ? option != "seconds"
                              : !is_of_move && (asked.what == "check" || asked.what == "touch" ||
+                                               (zeroes(asked) && option != "seconds") ||
                                                (asked.what == "list" && option == "rig"));
     if (belongs || !is_given(syntax, option)) continue;
-    throw UsageError("--" + option + " belongs to 'viscard rig " +
-                     (is_of_move ? "jog'" : "check'"));
+    const char* const verbs = is_of_move            ? "jog, lift or home"
+                              : option == "seconds" ? "check or touch"
+                              : option == "rig"     ? "list, check, touch, jog, lift or home"
+                                                    : "check, touch, jog, lift or home";
+    throw UsageError("--" + option + " is for viscard rig " + verbs + "; omit it");
   }
   const bool is_home = asked.what == "home";
   const char* const kJog =
@@ -385,6 +446,8 @@ int run_rig(const Words& words, Streams& streams) {
   }
   if (asked.what == "overshoot") return show_overshoot(syntax.as_json, streams);
   if (moves(asked)) return move_and_print(asked, syntax, streams);
+  if (asked.what == "set-zero") return set_zero_and_print(asked, syntax.as_json, streams);
+  if (asked.what == "zero-force") return zero_force_and_print(asked, syntax.as_json, streams);
   if (asked.what == "touch") return touch_and_write(asked, syntax.as_json, streams);
   return check_and_print(asked, syntax.as_json, streams);
 }

@@ -20,8 +20,7 @@ namespace viscard {
 void show_keys(ResultVisitor& v, const ShownAnswer& shown) {
   const SceneAnswer& answer = shown.answer;
   show_solution(v, answer);
-  v("effects_within_tolerance", effects_within_tolerance(shown),
-    "whether no effect that is not computed may change the results by more than the tolerance");
+  show_tolerance(v, answer, shown.tolerance);
   v("compared", shown.compared, "with --compare: beside the answer of another scene");
   show_notes(v, answer);
   v.when(!shown.printed.empty(), [&] {
@@ -33,21 +32,7 @@ void show_keys(ResultVisitor& v, const ShownAnswer& shown) {
     "with --uncertainty: what the uncertain inputs do to the results");
   v("unknowns", answer.unknowns, "of the mesh");
   v("wall_s", shown.wall_s, "time that it took");
-  v("within_tolerance", answer.within_tolerance, "whether the estimated error meets the tolerance");
   show_origin(v, shown.command);
-}
-
-bool effects_within_tolerance(const ShownAnswer& shown) {
-  const SceneEffect* largest = largest_not_computed(shown.answer);
-  return largest == nullptr || largest->estimate <= shown.tolerance;
-}
-
-std::string missing_effects(const ShownAnswer& shown) {
-  if (effects_within_tolerance(shown)) return "";
-  const SceneEffect& largest = *largest_not_computed(shown.answer);
-  return ": not within the tolerance: " + largest.name +
-         " is not computed and may change the results by " + text_of(100.0 * largest.estimate, 3) +
-         " %";
 }
 
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {

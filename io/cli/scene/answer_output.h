@@ -45,10 +45,6 @@ struct ShownAnswer {
 };
 void show_keys(ResultVisitor& v, const ShownAnswer& shown);
 
-// Whether no effect that is not computed may change the results by more than the tolerance.
-bool effects_within_tolerance(const ShownAnswer& shown);
-// Names the largest effect that is not computed if it exceeds the tolerance, to end a line; otherwise empty.
-std::string missing_effects(const ShownAnswer& shown);
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
 
 // Writes pictures, name and SVG each.

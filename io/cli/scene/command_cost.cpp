@@ -51,7 +51,8 @@ CommandSyntax cost_syntax(CostWords& words) {
   syntax.options.group("Output");
   syntax.options.add("out", &words.files.folder,
                      "folder for cost.csv, cost.json and cost.svg; with --rig also test.toml");
-  syntax.options.add("force", &words.files.overwrite, "overwrite existing files");
+  syntax.options.add("force", &words.files.overwrite, "overwrite existing files")
+      .only_with({"out"});
   syntax.may_exist = {"out"};
   syntax.results = {described<CostStudy>("cost", "viscard cost"), result_of_test_study()};
   return syntax;

@@ -74,7 +74,7 @@ CommandSyntax design_syntax(DesignWords& words, LimitValues& limits,
   options.add("out", &words.out,
               "folder for design.json and pictures of the limits; of a scene, for judgement.json; "
               "of a specification, for the scenes, design.json, designs.csv and front.svg");
-  options.add("force", &words.overwrite, "overwrite existing files");
+  options.add("force", &words.overwrite, "overwrite existing files").only_with({"out"});
   syntax.may_exist = {"out"};
   syntax.results = results_of_design();
   return syntax;
@@ -92,6 +92,15 @@ void refuse_limit_options(const CommandSyntax& syntax) {
 // A specification names its scene; a scene has its geometry.
 bool is_specification(const DesignWords& words) {
   return words.scene && !words.require && is_design_spec(read_file(*words.scene));
+}
+
+// As typed, before the formulas name the quantities in SI. An auxetic pillar has a negative Poisson ratio.
+void refuse_negative(const CommandSyntax& syntax, const LimitValues& limits) {
+  for (const auto& [name, value] : limits) {
+    if (!value || *value >= 0.0 || name == "poisson") continue;
+    throw UsageError("--" + name + " is " + given_words(syntax, {name.c_str()}).front() +
+                     "; it must be positive");
+  }
 }
 
 ClosedFormDesign design_from(const LimitValues& limits, const std::optional<std::string>& lattice) {
@@ -120,6 +129,7 @@ int run_design(const Words& words, Streams& streams) {
   refuse_idle<UsageError>(
       {{"--tol", asked.tolerance.has_value(), false, "a scene, and none is named"},
        {"--search-time", is_given(syntax, "search-time"), false, "a scene, and none is named"}});
+  refuse_negative(syntax, limits);
   const ClosedFormDesign design = design_from(limits, lattice);
   const JsonHead head{"viscard-design/1", {}};
   const auto show = [&](const std::string& command) {

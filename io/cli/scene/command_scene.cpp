@@ -32,7 +32,7 @@ int run_scene(const Words& words, Streams& streams) {
   syntax.positional.add("what", &what, "what to do").among({"check"});
   syntax.positional.add("scene", &path, "scene file");
   syntax.options.add("svg", &svg, "file for the drawing");
-  syntax.options.add("force", &overwrite, "overwrite an existing file");
+  syntax.options.add("force", &overwrite, "overwrite an existing file").only_with({"svg"});
   syntax.results = {
       {"scene", "viscard scene check", {[](ResultVisitor& v) { show_check(v, "", ""); }}}};
   if (!parse_words(syntax, words, streams)) return kDone;

@@ -97,31 +97,27 @@ std::string stem_of(const std::string& path) {
   return std::filesystem::path(path).stem().string();
 }
 
-// The scene of --compare, or the one that the scene names, before any work: to its own tolerance unless the command
-// states one.
-std::optional<SceneFile> other_scene(SimulateWords& words, const SceneFile& file,
-                                     Plausible judged) {
-  if (!words.compare && !file.compare.empty())
-    words.compare = (std::filesystem::path(words.scene).parent_path() / file.compare).string();
-  if (!words.compare) return std::nullopt;
-  SceneFile other = read_scene(*words.compare, judged);
-  if (!file.sweep.is_empty() || !other.sweep.is_empty())
-    throw UsageError("--compare is for single answers; omit [sweep] in both scenes");
-  apply_tolerance(words.tolerance, other.scene);
-  return other;
+// Before any work.
+std::optional<OtherScene> other_of(const SimulateWords& words, const SceneFile& file,
+                                   Plausible judged) {
+  try {
+    return other_scene(words.compare, file, words.scene, words.tolerance, judged);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
 }
 
 // Answers the other scene and draws both.
-void compare_with(const SimulateWords& words, const SceneFile& file, SceneFile& other,
+void compare_with(const std::string& path, const SceneFile& file, const OtherScene& other,
                   const SweepOutput& output, ShownAnswer& shown, Streams& streams) {
-  streams.accepts_implausible |= other.accepts_implausible;
-  SceneAnswer answer = answer_of(other.scene, *words.compare, streams);
-  keep_wanted(common(other.scene).wanted, answer);
+  streams.accepts_implausible |= other.file.accepts_implausible;
+  SceneAnswer answer = answer_of(other.file.scene, other.path, streams);
+  keep_wanted(common(other.file.scene).wanted, answer);
   shown.compared =
-      compare_answers({file.scene, shown.answer}, {other.scene, answer}, *words.compare);
+      compare_answers({file.scene, shown.answer}, {other.file.scene, answer}, other.path);
   if (output.folder.empty()) return;
   std::filesystem::create_directories(output.folder);
-  const ComparedNames names{stem_of(words.scene), stem_of(*words.compare)};
+  const ComparedNames names{stem_of(path), stem_of(other.path)};
   write_pictures(pictures_of_compared(shown.answer, answer, *shown.compared, names), output.folder,
                  output.overwrite);
 }
@@ -156,7 +152,7 @@ CommandSyntax simulate_syntax(SimulateWords& words) {
               "folder for results as JSON and CSV, curves as CSV and pictures; static and modal "
               "scenes add fields as .vtu for ParaView, modes of a row mode_shapes.csv, arrays in "
               "the plane pillars.csv and maps as .npy");
-  options.add("force", &words.overwrite, "overwrite existing files");
+  options.add("force", &words.overwrite, "overwrite existing files").only_with({"out"});
   syntax.may_exist = {"out"};
   syntax.results = {described<ShownAnswer>(
       "simulate", "viscard simulate; results.json has command and created_by besides")};
@@ -173,8 +169,8 @@ int run_simulate(const Words& words, Streams& streams) {
   SceneFile file = read_scene(path, given_plausible(syntax, Plausible::kScene));
   streams.accepts_implausible |= file.accepts_implausible;
   apply_tolerance(asked.tolerance, file.scene);
-  std::optional<SceneFile> other =
-      other_scene(asked, file, given_plausible(syntax, Plausible::kScene));
+  const std::optional<OtherScene> other =
+      other_of(asked, file, given_plausible(syntax, Plausible::kScene));
   const bool is_sweep = !file.sweep.is_empty();
   const std::string folder = asked.out.value_or("");
   const SweepOutput output{folder, quoted_command_line("simulate", words), asked.overwrite};
@@ -186,7 +182,7 @@ int run_simulate(const Words& words, Streams& streams) {
   add_notes_of_file(file, answer);
   shown.printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
-  if (other) compare_with(asked, file, *other, output, shown, streams);
+  if (other) compare_with(path, file, *other, output, shown, streams);
   shown.uncertainty = uncertainty_of(asked, file, answer, streams);
   if (!folder.empty()) {
     shown.command = output.command;
@@ -203,7 +199,8 @@ int run_simulate(const Words& words, Streams& streams) {
   const int code =
       missing != nullptr && is_missing(*missing) && missing->estimate > 1.0 ? kFailed : kDone;
   if (print_result(syntax, {"viscard-simulate/1", {path}}, show, streams)) return code;
-  streams.out << path << missing_effects(shown) << "\n";
+  const std::string doubt = tolerance_doubt(answer, shown.tolerance);
+  streams.out << path << (doubt.empty() ? "" : ": ") << doubt << "\n";
   print_answer(answer, shown.wall_s, FittedText(streams));
   print_comparison(shown.printed, FittedText(streams));
   if (shown.compared) print_compared(*shown.compared, FittedText(streams));

@@ -58,7 +58,7 @@ CommandSyntax sweep_syntax(const SweepProgram& program, SweepWords& words) {
       "accept-unrecorded", &words.accepts_unrecorded,
       "go on with a file of an earlier version, which does not state the materials that its "
       "points were answered with");
-  options.add("force", &words.overwrite, "overwrite an existing table");
+  options.add("force", &words.overwrite, "overwrite an existing table").only_with({"csv", "out"});
   if (program.add_options) program.add_options(options);
   syntax.may_exist = {"out"};
   syntax.results = {{"sweep", "viscard sweep", {[](ResultVisitor& v) {
@@ -176,6 +176,7 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
                    .retries_failed = asked.retries_failed,
                    .is_answering = answers};
   how.on_gone = [&streams](const std::string& why) { streams.err << "viscard: " + why + "\n"; };
+  for (const std::string& part : asked.merge) check_study_store(part, study, how);
   StudyStore store(file, study, how);
   StudyOutcome outcome{.n_points = count_points(study)};
   std::int64_t merged = 0;

@@ -63,7 +63,8 @@ int run_validate(const Words& words, Streams& streams) {
   syntax.options.add("creep-csv", &creep_csv, "write the creep curve here");
   syntax.options.add("max-error", &options.tolerance, "largest relative error allowed")
       .by_default("1e-6");
-  syntax.options.add("force", &overwrite, "overwrite existing files");
+  syntax.options.add("force", &overwrite, "overwrite existing files")
+      .only_with({"csv", "creep-csv"});
   syntax.results = {{"validate", "viscard validate", {[](ResultVisitor& v) {
                        show_keys(v, ValidationResult{}, "");
                      }}}};

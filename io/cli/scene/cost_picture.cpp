@@ -1,4 +1,5 @@
 #include "io/cli/scene/cost_output.h"
+#include "io/pictures/picture_numbers.h"
 
 #include <fmt/format.h>
 
@@ -20,13 +21,14 @@ std::string kind_of(const CostRow& row) {
   return row.discretisation.substr(0, row.discretisation[0] == 'p' ? 1 : 2);
 }
 
-// Beside the dot: "p4/2" for graded p4 with two layers, the mesh of others, or what is left out.
+// Beside the dot: "p4/2" for graded p4 with two layers, "p4", "h1 5 µm", or what is left out.
 std::string name_of(const CostRow& row) {
   if (row.effects != "all on") return row.effects;
   if (row.discretisation.rfind("graded", 0) == 0) {
     return fmt::format("p{}/{}", row.mesh.degree, row.mesh.layers);
   }
-  return row.discretisation;
+  const std::string kind = kind_of(row);
+  return kind == "p" ? row.discretisation : kind + " " + in_unit(row.mesh.uniform_m, "m");
 }
 
 double shown_error(const CostRow& row) {
@@ -55,7 +57,6 @@ PlotSeries tolerance_line(const CostStudy& study) {
     largest = std::max(largest, row.cpu_s);
   }
   return {.mark = Mark::kLine,
-          .label = fmt::format("the scene's tolerance, {:g}", study.tolerance),
           .x = {least, largest},
           .y = {study.tolerance, study.tolerance},
           .ink = Ink::kBlack,
@@ -68,8 +69,8 @@ Plot plot_from_study(const CostStudy& study, const std::string& scene) {
   PlotPanel panel;
   panel.x = {.label = "processor time (s)", .is_log = true};
   panel.y = {.label = "relative error", .is_log = true};
-  panel.series.push_back(pareto_line(study));
-  panel.series.push_back(tolerance_line(study));
+  constexpr std::size_t kTolerance = 1;  // its place among the series
+  panel.series = {pareto_line(study), tolerance_line(study)};
   for (const char* kind : {"graded p", "h1", "h2", "p", kOfEffects}) {
     PlotSeries series{.mark = Mark::kPoints, .label = kind, .size = 3.0};
     for (const CostRow& row : study.rows) {
@@ -81,14 +82,17 @@ Plot plot_from_study(const CostStudy& study, const std::string& scene) {
     series.ink = ink_of_series(panel.series.size() - 2);
     if (!series.x.empty()) panel.series.push_back(series);
   }
-  return {.title = "What accuracy costs: " + scene,
-          .description =
-              "Relative error against processor time for each discretisation, with the front of "
-              "those that no other beats in both and the tolerance of the scene. p4/2: graded "
-              "elements of degree 4 with two layers at the rim.",
-          .panels = {panel},
-          .width_px = 860,
-          .height_px = 520};
+  Plot plot{.title = "What accuracy costs: " + scene,
+            .description =
+                "Relative error against processor time for each discretisation, with the front of "
+                "those that no other beats in both and the tolerance of the scene. p4/2: graded "
+                "elements of degree 4 with two layers at the rim.",
+            .panels = {panel},
+            .width_px = 860,
+            .height_px = 520};
+  plot.panels[0].series[kTolerance].label =
+      "the scene's tolerance, " + number_on_axes(plot, study.tolerance);
+  return plot;
 }
 
 }  // namespace viscard

@@ -1,4 +1,5 @@
 #include "io/cli/scene/answer_pictures.h"
+#include "io/pictures/picture_numbers.h"
 #include "io/report/report_numbers.h"
 
 #include <fmt/format.h>
@@ -8,8 +9,6 @@
 
 namespace viscard {
 namespace {
-
-constexpr double kUm_m = 1e6;  // lengths are shown in micrometres
 
 // "crosstalk_percent" -> "crosstalk", because the axis shows the unit.
 std::string words_of(std::string name) {
@@ -110,7 +109,7 @@ std::string others_of(const ArraySweep& sweep, const ArrayGeometry& g, const Swe
   std::string text;
   const auto add = [&](const char* name, std::size_t values, double ArrayGeometry::*of) {
     if (of == abscissa.of || values < 2) return;
-    text += fmt::format("{}{} {:.4g} um", text.empty() ? "" : ", ", name, kUm_m * (g.*of));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, in_unit(g.*of, "m"));
   };
   add("diameter", sweep.diameter_m.size(), &ArrayGeometry::diameter_m);
   add("spacing", sweep.spacing_m.size(), &ArrayGeometry::spacing_m);
@@ -138,7 +137,10 @@ Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& poi
   for (const auto& [i, row] : rows) values.push_back(row.results[column].value);
   const ShownUnit unit = shown_unit(first.unit, values);
   PlotPanel panel;
-  panel.x.label = std::string(key.name) + " (um)";
+  std::vector<double> abscissae_m;
+  for (const SweepPoint& point : points) abscissae_m.push_back(point.scene.geometry.*key.of);
+  const ShownUnit x_unit = shown_unit("m", abscissae_m);
+  panel.x.label = fmt::format("{} ({})", key.name, x_unit.text);
   panel.y.label = labelled(stem_and_pillar(first.name).first, unit.text);
   std::map<std::string, std::size_t> line_of;
   for (const auto& [i, row] : rows) {
@@ -146,7 +148,7 @@ Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& poi
     const std::string name = others_of(sweep, g, key);
     const auto [at, is_new] = line_of.try_emplace(name, panel.series.size());
     if (is_new) panel.series.push_back({.label = name, .ink = ink_of_series(at->second)});
-    panel.series[at->second].x.push_back(kUm_m * (g.*key.of));
+    panel.series[at->second].x.push_back(x_unit.per_si * (g.*key.of));
     panel.series[at->second].y.push_back(unit.per_si * row.results[column].value);
   }
   const std::size_t lines = panel.series.size();

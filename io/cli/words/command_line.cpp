@@ -41,7 +41,8 @@ std::string command_of(const CommandSyntax& syntax) {
   const std::string first = free.empty() ? "" : free.front();
   std::vector<std::string> names;
   for (const Option& option : syntax.options.all()) names.push_back(option.name);
-  const std::string near = nearest_word(first, names);
+  const bool is_file = first.find_first_of("./") != std::string::npos;
+  const std::string near = is_file ? "" : nearest_word(first, names);
   if (!first.empty() && !near.empty()) {
     throw UsageError("there is no '" + who + " " + first + "'; did you mean '" + who + " --" +
                      near + "'? Usage: " + syntax.usage);

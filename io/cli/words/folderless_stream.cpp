@@ -34,8 +34,9 @@ FolderlessStream::Buffer::int_type FolderlessStream::Buffer::overflow(int_type c
   return xsputn(&byte, 1) == 1 ? c : traits_type::eof();
 }
 
-// Whole lines have been handed on; a folder may end only behind what is there of the last one.
+// A question that a person answers on the same line is flushed; it ends behind a word, as a folder does.
 int FolderlessStream::Buffer::sync() {
+  finish();
   return sink_.flush() ? 0 : -1;
 }
 

@@ -1,5 +1,6 @@
 #include "io/cli/words/output_paths.h"
 
+#include "io/basics/output_name.h"
 #include "io/cli/words/streams.h"
 
 #include <unistd.h>
@@ -88,6 +89,31 @@ void refuse_standard_output(const NamedPath& path) {
       "one of that name");
 }
 
+// Endings of formats that no command writes, and those of a command's own formats at another of its outputs.
+void refuse_foreign_ending(const NamedPath& output, const std::string& command) {
+  constexpr std::array<std::string_view, 19> kForeign{
+      ".png", ".jpg", ".jpeg", ".gif", ".bmp", ".webp", ".tif", ".tiff", ".eps", ".ps",
+      ".pdf", ".doc", ".docx", ".odt", ".xls", ".xlsx", ".ods", ".ppt",  ".pptx"};
+  constexpr std::array<std::string_view, 4> kOwn{".svg", ".csv", ".html", ".json"};
+  std::string ending = output.path.extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  const bool is_page = command == "viscard report" && output.option == "out";
+  const std::string_view written = output.option == "svg"           ? ".svg"
+                                   : is_page                        ? ".html"
+                                   : output.option.ends_with("csv") ? ".csv"
+                                                                    : "";
+  const bool is_foreign = std::find(kForeign.begin(), kForeign.end(), ending) != kForeign.end();
+  const bool is_of_other = !written.empty() && ending != written &&
+                           std::find(kOwn.begin(), kOwn.end(), ending) != kOwn.end();
+  if (!is_foreign && !is_of_other) return;
+  const std::string name = "--" + output.option + " '" + output.path.string() + "'";
+  if (written.empty()) {
+    throw UsageError(name + ": no command writes " + ending + "; choose another ending");
+  }
+  throw UsageError(name + ": what is written is " + std::string(written).substr(1) + ", and " +
+                   ending + " is another format; end its name with " + std::string(written));
+}
+
 // A folder, device or pipe is no file that anything can replace. where: begins the message.
 void refuse_other_than_file(const std::string& where, const fs::path& output) {
   std::error_code error;
@@ -128,8 +154,11 @@ void check_output_paths(const CommandSyntax& syntax) {
   for (const NamedPath& path : paths) {
     refuse_standard_output(path);
     if (!path.is_output) continue;
+    const std::string usage = syntax.usage;  // "viscard report FILE..."
+    refuse_foreign_ending(path, usage.substr(0, usage.find(' ', usage.find(' ') + 1)));
     refuse_shared_file(path, paths);
     refuse_unwritable_folder(path);
+    refuse_output_name(path.path);
     const auto& may_exist = syntax.may_exist;
     if (std::find(may_exist.begin(), may_exist.end(), path.option) != may_exist.end()) continue;
     refuse_folder_as_file(path.option, path.path);

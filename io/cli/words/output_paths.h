@@ -13,7 +13,8 @@ namespace viscard {
 // command (--force would destroy it), another output, or "-", std::runtime_error if its folder is
 // not a folder or not writable, or if a new file is to be written to a name that is a folder, lies
 // in none, or exists without --force. syntax.may_exist: the options for folders, which are made,
-// and for files that are continued.
+// and for files that are continued. Refuses an ending that belongs to another format than the one written,
+// such as .png or .pdf.
 void check_output_paths(const CommandSyntax& syntax);
 
 // Of check_output_paths(): throws if a file cannot have that name, which is a folder or lies in none.

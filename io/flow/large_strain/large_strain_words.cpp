@@ -130,8 +130,9 @@ std::optional<KnownModulus> modulus_from(const LargeStrainWords& words, Plausibl
     }
     if (!(known.value_Pa > 0.0)) throw std::invalid_argument("a modulus must be positive");
     if (const auto doubt = doubt_about(quantities::kModulus, known.value_Pa, judged)) {
-      throw std::invalid_argument(
-          doubt->with_remedy("write \"" + doubt->meant + "\"", "add --plausible off"));
+      throw std::invalid_argument(doubt->with_remedy(
+          "write \"" + (equals == std::string::npos ? "" : which + "=") + doubt->meant + "\"",
+          "add --plausible off"));
     }
     return known;
   } catch (const std::invalid_argument& error) {

@@ -1,5 +1,7 @@
 #include "io/flow/optimise/design_choices.h"
 
+#include "io/basics/written_path.h"
+
 namespace viscard {
 
 std::vector<DesignSpec> chosen_specs(const DesignSpec& spec) {
@@ -23,7 +25,8 @@ std::vector<DesignSpec> chosen_specs(const DesignSpec& spec) {
 
 std::string text_of_chosen(const StudyValues& chosen) {
   std::string text;
-  for (const auto& [key, value] : chosen) text += (text.empty() ? "" : ", ") + key + " = " + value;
+  for (const auto& [key, value] : chosen)
+    text += (text.empty() ? "" : ", ") + key + " = " + written_path(value);
   return text;
 }
 

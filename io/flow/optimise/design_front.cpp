@@ -132,17 +132,18 @@ DesignFront design_front(const DesignSpec& spec,
 Plot picture_of_front(const DesignSpec& spec, const DesignFront& front) {
   PlotPanel panel;
   PlotSeries line{.mark = Mark::kLine, .ink = Ink::kGrey};
-  std::map<std::string, PlotSeries> dots;  // by the values of the choices
+  std::map<StudyValues, PlotSeries> dots;  // by the values of the choices
   for (const OptimisedDesign& design : front.designs) {
     const auto first_range =
         design.values.begin() + static_cast<std::ptrdiff_t>(spec.choices.size());
-    const std::string chosen = text_of_chosen({design.values.begin(), first_range});
+    const StudyValues chosen(design.values.begin(), first_range);
     PlotSeries& own =
-        dots.try_emplace(chosen, PlotSeries{.mark = Mark::kPoints,
-                                            .label = chosen.empty() ? "designs" : chosen,
-                                            .ink = ink_of_series(dots.size()),
-                                            .pattern = static_cast<int>(dots.size()),
-                                            .size = 1.5})
+        dots.try_emplace(chosen,
+                         PlotSeries{.mark = Mark::kPoints,
+                                    .label = chosen.empty() ? "designs" : text_of_chosen(chosen),
+                                    .ink = ink_of_series(dots.size()),
+                                    .pattern = static_cast<int>(dots.size()),
+                                    .size = 1.5})
             .first->second;
     for (PlotSeries* const one : {&own, &line}) {
       one->x.push_back(design.objectives[0].value);

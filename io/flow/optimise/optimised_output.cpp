@@ -1,5 +1,6 @@
 #include "io/flow/optimise/optimised_output.h"
 
+#include "io/basics/written_path.h"
 #include "io/config/toml_text.h"
 #include "io/flow/design/judgement_output.h"
 
@@ -33,6 +34,31 @@ void show_lines(ResultVisitor& v, const OptimisedDesign& design) {
       });
 }
 
+// Takes the folders out of all texts that are names of files (--strip-paths); returns whether there were any.
+bool strip_folders(toml::node& node) {
+  bool is_changed = false;
+  if (toml::table* const table = node.as_table()) {
+    for (auto&& [key, inner] : *table) is_changed |= strip_folders(inner);
+  } else if (toml::array* const list = node.as_array()) {
+    for (toml::node& inner : *list) is_changed |= strip_folders(inner);
+  } else if (auto* const text = node.as_string()) {
+    const std::string written = written_path(text->get());
+    is_changed = written != text->get();
+    text->get() = written;
+  }
+  return is_changed;
+}
+
+// As it stands, unless it names files in folders that are not to be written.
+std::string scene_as_written(const std::string& scene_text) {
+  if (scene_text.empty()) return scene_text;
+  toml::table scene = parsed_toml(scene_text);
+  if (!strip_folders(scene)) return scene_text;
+  std::ostringstream text;
+  text << scene << "\n";
+  return text.str();
+}
+
 void show_design(ResultVisitor& v, const OptimisedDesign& design) {
   v("active", design.active, "limits and ends of ranges that hold it, or that stop every design");
   v("feasible", design.is_feasible, "whether all lines pass, with the probability that was asked");
@@ -43,11 +69,13 @@ void show_design(ResultVisitor& v, const OptimisedDesign& design) {
     v("unit", one.unit, "of both");
     v("value", one.value, "of the design");
   });
-  v("scene", design.scene_text, "the scene file, for the folder of the specification's scene");
+  v("scene", scene_as_written(design.scene_text),
+    "the scene file, for the folder of the specification's scene");
   const std::map<std::string, std::string> values(design.values.begin(), design.values.end());
   const std::vector<std::pair<std::string, std::string>> sorted(values.begin(), values.end());
-  v.map("values", "of the ranges, by key", sorted,
-        [&](const auto& value) { v(value.first, value.second, "value with its unit"); });
+  v.map("values", "of the ranges, by key", sorted, [&](const auto& value) {
+    v(value.first, written_path(value.second), "value with its unit");
+  });
 }
 
 void point_from(toml::table& table, const std::filesystem::path& scene_folder,
@@ -75,7 +103,8 @@ std::string text_from_front(const DesignSpec&, const DesignFront& front) {
     text += design.is_feasible
                 ? "  confirmed by the solver\n"
                 : "  INFEASIBLE: no design within the ranges keeps all limits; nearest:\n";
-    for (const auto& [key, value] : design.values) text += fmt::format("  {:<32} {}\n", key, value);
+    for (const auto& [key, value] : design.values)
+      text += fmt::format("  {:<32} {}\n", key, written_path(value));
     for (const DesignedObjective& one : design.objectives) {
       text += fmt::format("  {:<32} {:.5g} +- {:.1g} {}\n", one.quantity, one.value,
                           one.error_estimate, one.unit == "1" ? "" : one.unit);
@@ -117,7 +146,7 @@ std::string csv_from_front(const DesignSpec& spec, const DesignFront& front) {
   }
   text.back() = '\n';
   for (const OptimisedDesign& design : front.designs) {
-    for (const auto& [key, value] : design.values) text += value + ",";
+    for (const auto& [key, value] : design.values) text += written_path(value) + ",";
     for (const DesignedObjective& one : design.objectives) {
       text += fmt::format("{:.9g},{:.3g},", one.value, one.error_estimate);
     }
@@ -133,7 +162,12 @@ std::string scene_for_folder(const DesignSpec& spec, const OptimisedDesign& desi
   toml::table scene = parsed_toml(design.scene_text);
   point_from(scene, spec.scene_path.parent_path(), folder);
   std::ostringstream text;
-  text << "# A design of viscard, from " << spec.path.filename().string() << "\n" << scene << "\n";
+  text << "# A design of viscard, from " << spec.path.filename().string() << "\n";
+  if (strip_folders(scene)) {
+    text
+        << "# Written with --strip-paths: copy the files that it names beside it before it runs.\n";
+  }
+  text << scene << "\n";
   return text.str();
 }
 

@@ -16,7 +16,8 @@ void show_front(ResultVisitor& v, const DesignSpec& spec, const DesignFront& fro
 // One line for each design: choices, ranges in their units, objectives and margins.
 std::string csv_from_front(const DesignSpec& spec, const DesignFront& front);
 
-// The scene of a design for a folder of its own: names of files are changed to lead there from `folder`.
+// The scene of a design for a folder of its own: names of files are changed to lead there from `folder`. With
+// --strip-paths they have no folder, and its head states that the files are to be copied beside it.
 std::string scene_for_folder(const DesignSpec& spec, const OptimisedDesign& design,
                              const std::filesystem::path& folder);
 

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace viscard {
@@ -73,6 +74,23 @@ TestStudy study_tests(const TestStudyRequest& request) {
                         request.specimen);
   std::vector<WantedQuantity> wanted;
   for (const std::string& text : request.want) wanted.push_back(wanted_from_text(text));
+  if (request.scene && std::all_of(wanted.begin(), wanted.end(), [](const WantedQuantity& one) {
+        return is_of_material(one.name);
+      })) {
+    throw std::invalid_argument(
+        *request.scene +
+        " has no effect, because all that is wanted is of the material; "
+        "want a result of the scene, such as --want voltage=5%, or omit it");
+  }
+  if (!request.scene) {
+    for (const WantedQuantity& one : wanted) {
+      if (is_of_material(one.name)) continue;
+      throw std::invalid_argument("--want " + one.name +
+                                  ": known are E0, E_inf, sum_g, and E_i, g_i, tau_i of term i; a "
+                                  "result of a scene, such as voltage, needs the scene as well: "
+                                  "name its file, viscard cost SCENE.toml --rig ...");
+    }
+  }
   if (request.scene) take_results_of_scene(*request.scene, study.guess, wanted);
   ProtocolOptions options;
   options.is_given = request.test.has_value();

@@ -58,6 +58,8 @@ double result_at(Scene scene, const std::vector<double>& logarithms, const std::
   return std::abs(result->value);
 }
 
+}  // namespace
+
 bool is_of_material(const std::string& name) {
   const PronySeries many{1.0, std::vector<MaxwellTerm>(999, {1.0, 1.0})};
   try {
@@ -67,8 +69,6 @@ bool is_of_material(const std::string& name) {
     return false;
   }
 }
-
-}  // namespace
 
 void take_results_of_scene(const std::string& path, const Material& guess,
                            std::vector<WantedQuantity>& wanted) {

@@ -1,11 +1,13 @@
 #include "io/flow/scenes/compared_answers.h"
 
+#include "io/flow/scenes/answer_scene.h"
 #include "io/flow/scenes/named_values.h"
 #include "models/maths/result_visitor.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 namespace viscard {
@@ -142,6 +144,20 @@ std::vector<VoltageProfile> voltage_profiles(const Scene& scene, const SceneAnsw
   }
   std::erase_if(profiles, [](const VoltageProfile& one) { return one.x_m.size() < 2; });
   return profiles;
+}
+
+std::optional<OtherScene> other_scene(const std::optional<std::string>& named,
+                                      const SceneFile& file, const std::string& path,
+                                      std::optional<double> tolerance, Plausible judged) {
+  if (!named && file.compare.empty()) return std::nullopt;
+  const std::string other_path =
+      named ? *named : (std::filesystem::path(path).parent_path() / file.compare).string();
+  OtherScene other{other_path, read_scene(other_path, judged)};
+  if (!file.sweep.is_empty() || !other.file.sweep.is_empty()) {
+    throw std::invalid_argument("--compare is for single answers; omit [sweep] in both scenes");
+  }
+  if (tolerance) set_tolerance(*tolerance, other.file.scene);
+  return other;
 }
 
 ComparedAnswers compare_answers(const AnsweredScene& here, const AnsweredScene& other,

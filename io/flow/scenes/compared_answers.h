@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/scenes/scene_file.h"
 #include "models/answer/scene_answer.h"
 #include "models/scene/scene.h"
 
@@ -46,6 +47,17 @@ struct ComparedAnswers {
   std::vector<ComparedProfile> profiles;
 };
 void show_keys(ResultVisitor& v, const ComparedAnswers& compared);
+
+// The scene beside one: `named`, or without it the one of its key compare.
+struct OtherScene {
+  std::string path;
+  SceneFile file;
+};
+// path: of the first scene, whose folder its key refers to. The other one keeps its tolerance if none is given. Nothing
+// if none is named. Throws std::invalid_argument if one of the two is a sweep.
+std::optional<OtherScene> other_scene(const std::optional<std::string>& named,
+                                      const SceneFile& file, const std::string& path,
+                                      std::optional<double> tolerance, Plausible judged);
 
 // A scene with its answer.
 struct AnsweredScene {

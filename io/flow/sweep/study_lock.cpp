@@ -1,6 +1,7 @@
 #include "io/flow/sweep/study_lock.h"
 
 #include "io/basics/missing_file.h"
+#include "io/basics/output_name.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/sqlite_database.h"
 
@@ -43,12 +44,9 @@ void refuse_other_kind(const std::filesystem::path& path) {
     throw std::runtime_error(path.string() + ": is a folder; name a file in it, such as " +
                              (path / "points.sqlite").string());
   }
+  refuse_output_name(path);
+  refuse_orphaned_log(path, "sweep");
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored) && std::filesystem::is_symlink(path, ignored)) {
-    throw std::runtime_error(path.string() + ": leads to " +
-                             std::filesystem::read_symlink(path).string() +
-                             ", which does not exist; name the file itself");
-  }
   if (!std::filesystem::exists(path) || std::filesystem::file_size(path, ignored) == 0) return;
   Database database(path, Database::Access::kReadOnly);
   if (database.text_of("PRAGMA application_id") != "0") refuse_other_file(path);

@@ -231,6 +231,12 @@ StudyPoint point_from(std::int64_t number, const nlohmann::ordered_json& values,
   return point;
 }
 
+// As files state them: a value may be the name of a file.
+StudyValues written_values(StudyValues values) {
+  for (auto& [key, value] : values) value = written_path(value);
+  return values;
+}
+
 constexpr const char* kColumns = "point, parameters, results, failure, kind, crc32";
 
 // Of a row with these columns. Rows of before there were checksums have none; stores that state their inputs
@@ -318,7 +324,7 @@ std::int64_t StudyStore::count(PointKind kind) {
 void StudyStore::add(const StudyPoint& point) {
   if (lock_) lock_->check_file();
   if (point.kind == PointKind::kPassing) return;
-  const std::string values = text_from_json(json_from(point.values)),
+  const std::string values = text_from_json(json_from(written_values(point.values))),
                     results = text_from_json(json_from(point.results)), kind = word_of(point.kind);
   insert_.run_with(point.point, std::string_view(values), std::string_view(results),
                    std::string_view(point.failure), std::string_view(kind),
@@ -363,6 +369,12 @@ void StudyStore::for_each(const std::function<void(const StudyPoint&)>& take) {
   }
 }
 
+void check_study_store(const std::filesystem::path& path, const Study& study,
+                       const StoreOptions& options) {
+  bool is_recorded = false;
+  opened_to_read(path, study, options, is_recorded);
+}
+
 std::string csv_from_study(StudyStore& store, const Study& study) {
   // In the order in which the points first have them: some parameters change what is answered.
   std::vector<std::string> names;
@@ -382,13 +394,13 @@ std::string csv_from_study(StudyStore& store, const Study& study) {
   text += ",failure\n";
   store.for_each([&](const StudyPoint& point) {
     text += std::to_string(point.point);
-    for (const auto& [key, value] : point.values) text += "," + csv_cell(value);
+    for (const auto& [key, value] : written_values(point.values)) text += "," + csv_cell(value);
     std::vector<std::string> cells(names.size(), ",,");
     for (const NamedValue& one : point.results) {
       cells[column.at(name_of(one))] = fmt::format(",{},{:.3g}", one.value, one.error_estimate);
     }
     for (const std::string& cell : cells) text += cell;
-    text += point.failure.empty() ? ",\n" : "," + csv_cell(point.failure) + "\n";
+    text += "," + (point.failure.empty() ? "" : csv_cell(written_text(point.failure))) + "\n";
   });
   return text;
 }

@@ -85,6 +85,10 @@ class StudyStore {
   Statement insert_;
 };
 
+// Throws what merge() of this file would, before anything is written.
+void check_study_store(const std::filesystem::path& path, const Study& study,
+                       const StoreOptions& options);
+
 // Columns: point, the parameters, then value and error estimate of each result that any point has,
 // then why a point has no answer.
 std::string csv_from_study(StudyStore& store, const Study& study);

@@ -150,6 +150,16 @@ FitOptions options_from(const FitWords& words) {
   options.white_noise = noise == "white";
   options.vertical_shift = vertical_shift_from_word(words.vertical_shift.value_or("auto"));
   options.constraints = constraints_from(words);
+  if (words.model && !options.constraints.empty()) {
+    throw OptionError(
+        "--fix and --bound are for the terms of a series, and --model fits a law without terms; "
+        "omit them, or omit --model and give --terms");
+  }
+  if (words.model && options.n_bootstrap > 0) {
+    throw OptionError(
+        "--bootstrap is for the terms of a series; the intervals of a law (--model) follow from "
+        "its covariance. Omit it");
+  }
   if (!options.constraints.empty() && !options.n_terms) {
     throw OptionError("--fix and --bound name terms by number, so they need --terms N");
   }
@@ -195,10 +205,21 @@ std::optional<Specimen> specimen_from(const FitWords& words) {
   return specimen;
 }
 
+// A time in s. The refusal of a frequency, which is meant for a table of them, names what the option is for.
+std::optional<double> time_of(const FitWords& words, FitWords::Text FitWords::*text,
+                              const char* name) {
+  const FitWords::Text& typed = words.*text;
+  if (typed && typed->ends_with("Hz")) {
+    throw OptionError("--" + std::string(name) + " is for records in time, and " + *typed +
+                      " is a frequency; omit it");
+  }
+  return quantity(words, text, name, "s");
+}
+
 // The options that choose rows, and the depth of a record of force.
 void add_chosen_part(const FitWords& words, FitRequest& request) {
-  request.from_s = quantity(words, &FitWords::from, "from", "s");
-  request.to_s = quantity(words, &FitWords::to, "to", "s");
+  request.from_s = time_of(words, &FitWords::from, "from");
+  request.to_s = time_of(words, &FitWords::to, "to");
   if (request.from_s && request.to_s && !(*request.from_s < *request.to_s)) {
     throw OptionError("--from must be before --to");
   }

@@ -42,6 +42,10 @@ PredictionRequest prediction_request(const PredictWords& words, bool is_sweep, P
   request.n_cycles = words.cycles.value_or(request.n_cycles);
   request.from = positive(words.from, "from", is_sweep ? "Hz" : "s");
   request.to = positive(words.to, "to", is_sweep ? "Hz" : "s");
+  if (request.from && request.to && !(*request.to > *request.from)) {
+    throw OptionError("--from " + *words.from + " --to " + *words.to +
+                      ": the range must end after it begins; exchange them");
+  }
   request.points = words.points.value_or(request.points);
   if (request.n_cycles < 1 || request.n_cycles > 10000) {
     throw OptionError("--cycles must lie between 1 and 10000");

@@ -74,6 +74,14 @@ class UncertainResult(TypedDict, total=False):
     share_errors: Dict[str, float]
 
 
+class Compared(TypedDict):
+    """Two answers beside each other: what both have. The keys of the lists are those of ``--json``."""
+
+    scene: str
+    values: List[Dict[str, Any]]
+    profiles: List[Dict[str, Any]]
+
+
 class Uncertainty(TypedDict):
     """Intervals of results, and what they come from."""
 
@@ -164,8 +172,16 @@ class Answer(Tabular):
         "shares" {input: share of the variance}, "share_errors"}}, "answers", "first_order_answers", "failed",
         "failed_share" (of the samples of the intervals), "notes". Samples without an answer count as beyond either
         end; if they are more than 2.5 %, "interval_95" is None and "no_interval" says why.
+    compared : dict or None
+        With ``simulate(..., compare="other.toml")``: "scene" (the other file), "values", a list of {"name", "unit", "value",
+        "error", "other", "other_error", "ratio", "ratio_error"}, and "profiles", voltages along x.
     notes : list of str
     within_tolerance : bool
+        Every error estimate meets the tolerance.
+    effects_within_tolerance : bool
+        No effect that is not computed may change the results by more than the tolerance.
+    tolerance_doubt : str
+        Why the results are not within the tolerance, of both; "": they are. `simulate` warns of it with DoubtWarning.
     unknowns : int
 
     Examples
@@ -188,8 +204,11 @@ class Answer(Tabular):
                        for f in found["fields"]]
         self.effects: List[Effect] = found["effects"]
         self.uncertainty: Optional[Uncertainty] = _uncertainty(found["uncertainty"])
+        self.compared: Optional[Compared] = found["compared"]
         self.notes: List[str] = found["notes"]
-        self.within_tolerance: bool = found["within_tolerance"]
+        self.within_tolerance: bool = found["tolerance"]["within_tolerance"]
+        self.effects_within_tolerance: bool = found["tolerance"]["effects_within_tolerance"]
+        self.tolerance_doubt: str = found["tolerance"]["tolerance_doubt"]
         self.unknowns: int = found["unknowns"]
 
     def __getitem__(self, name: str) -> float:

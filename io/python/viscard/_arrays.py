@@ -8,6 +8,7 @@ from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Se
 
 import numpy as np
 
+from . import _core
 from ._check import is_boolean, is_number, shown
 from ._error import Error
 from ._types import Floats
@@ -32,11 +33,13 @@ def whole(value: Any, name: str, least: int, most: int = 2**31 - 1) -> Optional[
 
 
 def _as_float(value: Any) -> float:
-    """Infinite for a whole number beyond the range of float."""
+    """Infinite for a whole number beyond the range of float, NaN for a signalling NaN of decimal."""
     try:
         return float(value)
     except OverflowError:
         return float("inf")
+    except ValueError:
+        return float("nan")
 
 
 def number(value: Any, name: str) -> float:
@@ -136,9 +139,25 @@ def is_by_kind(value: Any) -> bool:
     """Tests by kind, {"creep": table or path}: a dict that holds paths, tables, captures, or lists of these."""
     if not isinstance(value, dict) or not value:
         return False
-    first = next(iter(value.values()))
-    first = first[0] if isinstance(first, (list, tuple)) and len(first) > 0 else first
-    return isinstance(first, (str, os.PathLike)) or hasattr(first, "keys") or hasattr(first, "moves")
+    first = _first_of(next(iter(value.values())))
+    is_test = isinstance(first, (str, os.PathLike)) or hasattr(first, "keys") or hasattr(first, "moves")
+    return is_test and not any(_is_column(one) for one in value.values())
+
+
+def _first_of(value: Any) -> Any:
+    return value[0] if isinstance(value, (list, tuple)) and len(value) > 0 else value
+
+
+def _is_column(value: Any) -> bool:
+    """A list or an array of numbers, or of texts that are numbers: no list of files."""
+    if hasattr(value, "keys") or getattr(value, "ndim", 1) == 0:
+        return False
+    first = _first_of(value)
+    try:
+        is_text_of_number = first is not value and isinstance(first, str) and float(first) is not None
+    except ValueError:
+        is_text_of_number = False
+    return is_text_of_number or hasattr(value, "__array__") or (first is not value and is_number(first))
 
 
 OR_TABLE = ", a dict of arrays by header or a DataFrame"
@@ -181,6 +200,9 @@ def given(data: Any, name: str, only_files: bool = False) -> Given:
                 raise Error(f"{name}[{shown(kind)}] is an empty list; give at least one test", "usage")
             for number, one in enumerate(each, 1):
                 out.add(one, kind if len(each) == 1 else f"{kind} {number}", f"{name}[{shown(kind)}]", kind)
+        for kind in data:
+            if kind not in _core.test_kinds():
+                raise Error(f"{name}: {_core.no_such_word('kind of test', str(kind), _core.test_kinds())}", "usage")
         return out
     if isinstance(data, (str, os.PathLike)) or hasattr(data, "moves") or (is_table(data) and not only_files):
         out.add(data, "arrays", name)

@@ -47,7 +47,8 @@ def is_number(value: Any) -> bool:
     """A real number, no boolean: of Python or numpy, or an array without dimension."""
     if isinstance(value, np.ndarray):
         return value.ndim == 0 and value.dtype.kind in "fiu"
-    return isinstance(value, numbers.Real) and not is_boolean(value)
+    is_real = isinstance(value, numbers.Number) and (isinstance(value, numbers.Real) or not isinstance(value, numbers.Complex))
+    return is_real and not is_boolean(value)  # a Decimal is a Number and neither of the two
 
 
 def _is_whole(value: Any) -> bool:
@@ -108,7 +109,7 @@ def value(name: str, given: Any, hint: Any) -> None:
     for number in [given] if is_number(given) else given if isinstance(given, (list, tuple, np.ndarray)) else []:
         try:
             is_finite = not is_number(number) or math.isfinite(number)
-        except OverflowError:
+        except (OverflowError, ValueError):  # a signalling NaN of decimal
             is_finite = False
         if not is_finite:
             raise Error(f"{name} is {shown(number)}; it must be a finite number", "usage")

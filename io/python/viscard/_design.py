@@ -149,11 +149,13 @@ _OF_LIMITS = ("diameter", "spacing", "length", "pressure", "modulus", "poisson",
               "sensitivity", "lattice")
 
 
-def _limits(require: Optional[Scene], tol: Optional[float], folder: OptionalPath, values: Dict[str, Quantity]) -> DesignLimits:
-    if require is not None:
-        raise Error("--require judges a scene; name its file, such as SCENE.toml", "usage")
-    if tol is not None or folder is not None:
-        raise Error("tol and folder belong to a scene; give one", "usage")
+def _refuse_idle(belong_to: str, **keywords: Any) -> None:
+    for name, value in keywords.items():
+        if value is not None:
+            raise Error(f"{name} belongs to {belong_to}", "usage")
+
+
+def _limits(values: Dict[str, Quantity]) -> DesignLimits:
     return DesignLimits(_core.design_limits({name: value for name, value in values.items() if value is not None}))
 
 
@@ -179,11 +181,11 @@ def design(scene: None = ..., require: None = ..., **values: Union[Quantity, Num
 @overload
 def design(scene: Scene, require: None = ..., *, progress: Progress = ...) -> Designs: ...
 @overload
-def design(scene: Scene, require: Scene, *, tol: Optional[float] = ..., search_time: Union[str, float] = ...,
+def design(scene: Scene, require: Scene, *, tol: Optional[float] = ..., search_time: Quantity = ...,
            folder: OptionalPath = ..., progress: Progress = ...) -> Judgement: ...
 @_check.arguments  # type: ignore[misc]
 def design(scene: Optional[Scene] = None, require: Optional[Scene] = None, *,
-           tol: Optional[float] = None, search_time: Union[str, float] = 60.0,
+           tol: Optional[float] = None, search_time: Quantity = None,
            folder: OptionalPath = None, progress: Progress = None, **values: Any) -> Union[Judgement, Designs, DesignLimits, List[DesignLimits]]:
     """Judge a scene by requirements, each against a computed quantity with its error; design one; or state closed-form limits.
 
@@ -192,7 +194,7 @@ def design(scene: Optional[Scene] = None, require: Optional[Scene] = None, *,
     scene, tol, folder, progress
         As in `simulate`; without `require` the file of a specification, as in `data_file("designs")`, for `Designs`.
     search_time : str or float
-        Processor time for the dimensions that would pass; a number counts seconds, 0 seeks none.
+        Processor time for the dimensions that would pass; a number counts seconds, 0 seeks none. Default: 60 s.
     require : path or dict
         A file with a table [require], or the contents of that table: `data_file("requirements/human_hand.toml")` is an example.
 
@@ -217,14 +219,14 @@ def design(scene: Optional[Scene] = None, require: Optional[Scene] = None, *,
         for point in [values] if points is None else points:
             for name, one in point.items():
                 _check.value(name, one, Quantity)
-        if points is None:
-            return _limits(require, tol, folder, values)
-        return [_limits(require, tol, folder, point) for point in points]
+        if require is not None:
+            raise Error("--require judges a scene; name its file, such as SCENE.toml", "usage")
+        _refuse_idle("a scene; give one, or omit it", tol=tol, folder=folder, search_time=search_time)
+        return _limits(values) if points is None else [_limits(point) for point in points]
     if values:
         raise Error(f"{next(iter(values))} belongs to the closed-form limits; a scene has its own values", "usage")
     if require is None:
-        if tol is not None or folder is not None:
-            raise Error("tol and folder belong to a scene that is judged by require", "usage")
+        _refuse_idle("a scene that is judged by require; omit it", tol=tol, folder=folder, search_time=search_time)
         return Designs(_core.design_of_spec(path_of(scene, "scene"), progress))
     tolerance = None if tol is None else float(tol)
     table = _scene_toml({"require": dict(require)}, "") if isinstance(require, Mapping) else None

@@ -17,9 +17,10 @@ def _keyword(match: "re.Match[str]") -> str:
     return _OTHER_NAMES.get(name, name.replace("-", "_"))
 
 
-# What messages advise to write: "write --column 'stress_Pa=1e6*stress'", quoted for a shell, and '--density "1.1 g/cm3"'.
+# What messages advise to write: "write --column 'stress_Pa=1e6*stress'", quoted for a shell, '--density "1.1 g/cm3"' and
+# 'write diameter "40 um"'.
 _COLUMN = re.compile(r"write --column (?:'((?:[^']|'\\'')*)'|([^\s;]+))")
-_TEXT = re.compile(r'--([a-z]+(?:-[a-z]+)*) (?=")')
+_TEXT = re.compile(r'(?:--|(?<=write ))([a-z]+(?:[-_][a-z]+)*) (?=")')
 
 
 def _column(match: "re.Match[str]") -> str:

@@ -119,8 +119,9 @@ def next_test(capture: Union[Path, Capture], want: Union[str, Sequence[str]], **
 
 @_check.arguments
 def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell to material", cards: Texts = None,
-           units: str = "mm-t-s", logo: OptionalPath = None, overwrite: bool = False, reproducible: bool = False, plausible: str = "on",
-           progress: Progress = None) -> None:
+           units: str = "mm-t-s", logo: OptionalPath = None, truth: Union[Path, Sequence[Path], None] = None,
+           pictures: OptionalPath = None, unverified: bool = False, overwrite: bool = False, reproducible: bool = False,
+           plausible: str = "on", progress: Progress = None) -> None:
     """Write one HTML page about captures, tables and materials, as ``viscard report`` does.
 
     Warns with DoubtWarning of results on it that are not to be trusted.
@@ -140,6 +141,12 @@ def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell t
         Unit system of the cards.
     logo : path
         Picture above the heading (PNG, JPEG or SVG).
+    truth : path or list of paths
+        Truth of each emulated capture, in their order. Default: the file beside the capture.
+    pictures : path
+        Folder to write every picture into, as SVG.
+    unverified : bool
+        Take damaged captures too, as in `fit`; the page says so.
     reproducible : bool
         Leave out the date, so that the same input gives the same bytes.
     plausible : "on" or "off"
@@ -156,7 +163,14 @@ def report(data: Any, out: Path, *, title: str = "Soft polymer, from load cell t
     if os.path.exists(page) and not overwrite:
         _core.write_file(page, "", False)  # refuses before the work begins
     targets = [cards] if isinstance(cards, str) else list(cards or ("abaqus", "ansys", "febio", "json"))
-    for defect in _core.report(given.words, page, title, targets, units, "" if logo is None else os.fspath(logo), overwrite, reproducible, plausible, progress):
+    if truth is not None and not isinstance(truth, (str, os.PathLike, list, tuple)):
+        raise TypeError(f"truth must be a path or a list of paths, not {_check.shown(truth)}")
+    truths = [] if truth is None else list(truth) if isinstance(truth, (list, tuple)) else [truth]
+    keywords: Dict[str, Any] = {"title": title, "cards": targets, "units": units, "plausible": plausible, "overwrite": overwrite,
+                "truth": [_arrays.path_of(one, "truth") for one in truths], "unverified": unverified,
+                "reproducible": reproducible, "logo": "" if logo is None else os.fspath(logo),
+                "pictures": "" if pictures is None else os.fspath(pictures)}
+    for defect in _core.report(given.words, page, keywords, progress):
         warnings.warn(defect, DoubtWarning, stacklevel=3)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import tempfile
+import warnings
 from collections.abc import Mapping
 from typing import Any, Callable, Dict, List, Optional, Tuple, TypeVar, Union
 
@@ -12,10 +13,10 @@ import numpy as np
 
 from . import _arrays, _check, _core
 from ._answer import Answer, Cost, Plan
-from ._types import Floats, Numbers, OptionalPath, Progress, Scene
+from ._types import Floats, Numbers, OptionalPath, Progress, Quantity, Scene
 
 _T = TypeVar("_T")
-from ._error import Error
+from ._error import DoubtWarning, Error
 from ._material import Material
 
 
@@ -57,10 +58,8 @@ def _toml(value: Any, key: str, folder: str) -> str:
         return "true" if value else "false"
     if isinstance(value, (int, np.integer)):
         return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        if not np.isfinite(value):
-            raise Error(f"{key} is {value}; it must be finite", "input")
-        return repr(float(value))
+    if _check.is_number(value) and not isinstance(value, np.ndarray):
+        return repr(_arrays.number(value, key))
     if isinstance(value, (str, os.PathLike)):
         text = os.fspath(value).replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
         return f'"{text}"'
@@ -105,7 +104,7 @@ def _with_scene(scene: Scene, folder: OptionalPath, work: Callable[[Optional[str
 
 @_check.arguments
 def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False, uncertainty: bool = False,
-             samples: Optional[int] = None, folder: OptionalPath = None, plausible: str = "on",
+             samples: Optional[int] = None, compare: OptionalPath = None, folder: OptionalPath = None, plausible: str = "on",
              progress: Progress = None) -> Answer:
     """Answer a scene; the mesh is refined until the estimated error meets the tolerance.
 
@@ -127,6 +126,8 @@ def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False,
         "40 um +- 1 um" and what material files state.
     samples : int
         With uncertainty: sample with about so many answers, also where the linear answer would do.
+    compare : path
+        A second scene file, by default that of the scene's own key compare: ``compared`` of the answer holds what both have.
     folder : path
         Of a dict: where files that it names are looked for; default: the working folder.
     plausible : "on" or "off"
@@ -153,8 +154,13 @@ def simulate(scene: Scene, *, tol: Optional[float] = None, fields: bool = False,
     if samples is not None and not uncertainty:
         raise Error("samples belongs to uncertainty=True; give both", "usage")
     tolerance = None if tol is None else float(tol)
-    return Answer(_with_scene(scene, folder, lambda text, path: _core.simulate(
-        text, path, tolerance, fields, uncertainty, _arrays.whole(samples, "samples", 1), plausible, progress)))
+    answer = Answer(_with_scene(scene, folder, lambda text, path: _core.simulate(
+        text, path, tolerance, fields, uncertainty, _arrays.whole(samples, "samples", 1),
+        None if compare is None else os.fspath(compare), plausible, progress)))
+    if answer.tolerance_doubt:
+        name = "the scene" if isinstance(scene, Mapping) else os.fspath(scene)
+        warnings.warn(f"{name}: {answer.tolerance_doubt}", DoubtWarning, stacklevel=3)
+    return answer
 
 
 @_check.arguments
@@ -277,8 +283,8 @@ def plan(scene: Scene, *, tol: Optional[float] = None, folder: OptionalPath = No
 
 
 @_check.arguments
-def cost(scene: Scene, *, budget: Union[str, float] = 60.0, folder: OptionalPath = None, plausible: str = "on",
-         progress: Progress = None) -> Cost:
+def cost(scene: Scene, *, budget: Union[str, float] = 60.0, cpu_budget: Quantity = None, folder: OptionalPath = None,
+         plausible: str = "on", progress: Progress = None) -> Cost:
     """What accuracy costs: error against processor time, memory and unknowns.
 
     Parameters
@@ -287,10 +293,12 @@ def cost(scene: Scene, *, budget: Union[str, float] = 60.0, folder: OptionalPath
         As in `simulate`.
     budget : str or float
         Wall time to spend, such as "20 s" or 20.
+    cpu_budget : str or float
+        Processor time to spend at most, such as "30 s" or 30.
 
     Examples
     --------
     >>> bool(viscard.cost(viscard.data_file("scenes/pillar_press.toml"), budget=0.2).pareto.any())
     True
     """
-    return Cost(_with_scene(scene, folder, lambda text, path: _core.cost(text, path, budget, plausible, progress)))
+    return Cost(_with_scene(scene, folder, lambda text, path: _core.cost(text, path, budget, cpu_budget, plausible, progress)))

@@ -6,9 +6,10 @@ import contextlib
 import os
 import re
 import tempfile
+import tomllib
 import warnings
 from collections.abc import Mapping
-from typing import Any, Dict, Iterator, List, Optional, Sequence, TypedDict, Union
+from typing import Any, Collection, Dict, Iterator, List, Optional, Sequence, TypedDict, Union
 
 import numpy as np
 
@@ -126,6 +127,17 @@ def _study_toml(over: HasValues, scene_file: str) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _keys_of(scene: Scene) -> Collection[str]:
+    """Of a scene or a study; none of a file that is no TOML, which its reader refuses."""
+    if isinstance(scene, Mapping):
+        return scene
+    try:
+        with open(scene, "rb") as file:
+            return tomllib.load(file)
+    except (OSError, ValueError):
+        return ()
+
+
 @contextlib.contextmanager
 def _study_file(study: Scene, over: Optional[HasValues]) -> Iterator[str]:
     """The path of a study: the one given, or one that is made of a scene and the values of its keys."""
@@ -136,6 +148,9 @@ def _study_file(study: Scene, over: Optional[HasValues]) -> Iterator[str]:
         return
     if not hasattr(over, "keys"):
         raise TypeError(f"over must be a dict of values by key of the scene, or a DataFrame, not {_check.shown(over)}")
+    if "parameter" in _keys_of(study):
+        raise Error(f"over is for a scene, and {_check.shown(study)} is a study, which states its own values; omit over, or give "
+                    "the scene of the study", "usage")
     with tempfile.TemporaryDirectory(prefix="viscard-") as own:
         scene_file = os.path.abspath(study) if not isinstance(study, Mapping) else "scene.toml"
         if isinstance(study, Mapping):

@@ -1,6 +1,6 @@
 // Puts the parts of the desk together. All that is made lies in the folder; the page holds what is chosen for each table.
 import { ask, drop, order, Unreachable } from "./api.js";
-import { askDensity, askRatio, chosenCard, showCard, showCardState, startCard } from "./desk_card.js";
+import { cardCall, chosenCard, forgetCard, showCard, showCardFields, showCardState, startCard } from "./desk_card.js";
 import { checkCard, startCheck } from "./desk_check.js";
 import { alsoCompare, compare, showCompareTables, startCompare } from "./desk_compare.js";
 import { forgetOrders, redrawFit, showFit, showFitState, shownRange } from "./desk_fit.js";
@@ -140,16 +140,14 @@ function readAndFit() {
 function makeCard() {
   if (table === null) return showCardState("Choose a table first.", "note");
   showCardState("Writing …", "");
-  askDensity(isRubber());
+  showCardFields(isRubber() ? "rubber" : isByRatio() ? "ratios" : "linear");
   return latest("card", async (isNow) => {
     const answer = await order("/api/desk/card", { ...request(), card: chosenCard() });
     if (!isNow()) return;
     showCard(answer);
-    const { for: target, units, ratio, density, ...more } = chosenCard();
-    const material = isRubber() ? "result" : `result.material${isByRatio() ? `(${ratio})` : ""}`;
-    const words = pythonKeywords(more) + (Number.isFinite(Number(density)) ? `, density_kg_m3=${Number(density)}` : "");
+    const call = cardCall(isRubber() ? "result" : "result.material", answer.options, pythonKeywords);
     showSame(element("card-same"), `${answer.fit_command}\n${answer.command}`,
-             `${pythonOf(pythonData(), fitKeywords())}\nprint(${material}.card(${JSON.stringify(target)}, ${JSON.stringify(units)}${words}))`, answer.result);
+             call && `${pythonOf(pythonData(), fitKeywords())}\n${call}`, answer.result);
   }, (text) => showCardState(text, "alert"));
 }
 
@@ -208,7 +206,7 @@ function open(name) {
   forgetOrders();
   showIsotherms([], {});
   if (!together[name]) alsoCompare(name);
-  askRatio(together[name]?.[0].ratio);
+  forgetCard(together[name]?.[0].ratio);
   showTables();
   element("table-name").textContent = name;
   if (view !== "table" && view !== "fit") showView("fit");

@@ -1,6 +1,15 @@
-// The card of a solver: target and units from lists, the text, what it cannot take, download.
+// The card of a solver: target and units from lists, its options as the program describes them, the text, what it cannot
+// take, download.
+import { fieldOf } from "./desk_options.js";
 import { element, list, make, sentence, show, showText } from "./format.js";
 
+// Fields beside the solver; all others are behind "All options of a card".
+const kBeside = ["ratio", "extrapolate", "density", "approximate", "accept-flags"];
+// Options of a fit over mixing ratios, and of a law of rubber, alone; and those that a law of rubber does not take.
+const kOfRatios = ["ratio", "extrapolate"], kOfRubber = ["density", "bulk-modulus"];
+const kOfLinear = ["terms", "at-temperature", "bound", "band", "clamp-nu"];
+
+let chosen = {}, shownOf = "";  // options of this table, and what the fields are of
 let card = null, choices = null, stem = "material", onChoice = () => {};
 
 const saved = (key, otherwise) => localStorage.getItem(`viscard-${key}`) ?? otherwise;
@@ -13,8 +22,7 @@ export function startCard(described, handler) {
   element("units").append(...choices.units.map((one) => make("label", { title: one.description },
     make("input", { type: "radio", name: "units", value: one.name, checked: one.name === saved("units", "SI") }), one.name)));
   element("target").value = saved("target", choices.targets[0].name);
-  for (const id of ["card-ratio", "card-density"]) element(id).addEventListener("change", () => onChoice());
-  for (const id of ["target", "units", "approximate"]) {
+  for (const id of ["target", "units"]) {
     element(id).addEventListener("change", () => {
       localStorage.setItem("viscard-target", element("target").value);
       localStorage.setItem("viscard-units", unitsNow());
@@ -26,23 +34,47 @@ export function startCard(described, handler) {
 
 const unitsNow = () => document.querySelector("input[name='units']:checked").value;
 
-// ratio: the first of a fit over mixing ratios; undefined: the fit is of one material.
-export function askRatio(ratio) {
-  show(element("card-ratio-field"), ratio !== undefined);
-  element("card-ratio").value = ratio ?? "";
+const isOf = (what, { name }) => (kOfRatios.includes(name) ? what === "ratios" : kOfRubber.includes(name) ? what === "rubber"
+  : what !== "rubber" || !kOfLinear.includes(name));
+
+// A number with a comma is one with a point; a band has two numbers.
+const tidy = (option, value) => (typeof value === "string" && option.type !== "text" ? value.replace(",", ".") : value);
+
+function showFields() {
+  const field = (option) => fieldOf(option, chosen, "card", (value) => {
+    chosen = Object.fromEntries(Object.entries({ ...chosen, [option.name]: tidy(option, value) }).filter(([, one]) => one !== undefined));
+    onChoice();
+  }, "not chosen");
+  const own = choices.card.filter((option) => isOf(shownOf, option));
+  element("card-fields").replaceChildren(...kBeside.map((name) => own.find((one) => one.name === name)).filter(Boolean).map(field));
+  element("card-more-fields").replaceChildren(...own.filter(({ name }) => !kBeside.includes(name)).map(field));
 }
 
-// A law of rubber has no density of its own.
-export function askDensity(isAsked) {
-  show(element("card-density-field"), isAsked);
-  if (!isAsked) element("card-density").value = "";
+// what: "linear", "ratios" or "rubber".
+export function showCardFields(what) {
+  if (shownOf === what) return;
+  shownOf = what;
+  showFields();
+}
+
+// What was chosen for one table, such as to accept its flags, is not for another. ratio: the first of a fit over mixing
+// ratios; undefined: the fit is of one material.
+export function forgetCard(ratio) {
+  chosen = ratio === undefined ? {} : { ratio };
+  shownOf = "";
 }
 
 export function chosenCard() {
-  const typed = (id) => element(id).value.trim().replace(",", ".");
-  const ratio = typed("card-ratio"), density = typed("card-density");
-  return { for: element("target").value, units: unitsNow(), ...(ratio ? { ratio } : {}), ...(density ? { density } : {}),
-           ...(element("approximate").checked ? { approximate: true } : {}) };
+  const own = choices.card.filter((option) => chosen[option.name] !== undefined && isOf(shownOf, option));
+  return { for: element("target").value, units: unitsNow(), ...Object.fromEntries(own.map(({ name }) => [name, chosen[name]])) };
+}
+
+// The line of Python for the options as its keywords; of a band it has none. material: "result.material", or "result".
+export function cardCall(material, options, keywords) {
+  if ("band" in options) return "";
+  const { ratio, extrapolate, ...more } = options;
+  const of = ratio === undefined ? material : `${material}(${Number(ratio)}${extrapolate ? ", may_extrapolate=True" : ""})`;
+  return `print(${of}.card(${JSON.stringify(element("target").value)}, ${JSON.stringify(unitsNow())}${keywords(more, choices.card)}))`;
 }
 
 const targetNow = () => choices.targets.find((one) => one.name === element("target").value);

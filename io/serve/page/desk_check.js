@@ -9,7 +9,9 @@ export function startCheck(described) {
   targets = described.targets;
   element("check-target").replaceChildren(make("option", { value: "" }, "named in the card"),
     ...targets.map((one) => make("option", { value: one.name }, `${one.code} (${one.name})`)));
-  element("check-target").addEventListener("change", check);
+  element("check-units").replaceChildren(make("option", { value: "" }, "stated in the card, or SI"),
+    ...described.units.map((one) => make("option", { value: one.name, title: one.description }, one.name)));
+  for (const id of ["check-target", "check-units", "check-plausible"]) element(id).addEventListener("change", check);
   element("check-text").addEventListener("input", check);
 }
 
@@ -24,12 +26,33 @@ function showLines(text, remarks) {
   show(element("check-lines"), remarks.length > 0);
 }
 
-function meaningOf(result) {
-  const { material } = result;
-  if (!material) return [];
-  const terms = material.terms.map((term) => `g ${significant(term.g)} at ${significant(term.tau_s)} s`);
-  return [`${result.target}, units ${result.units}`, `E0 ${significant(material.E0_Pa, 6)} Pa`, `Poisson ratio ${significant(material.nu, 6)}`,
-          `density ${significant(material.rho_kg_m3, 6)} kg/m³`, ...terms];
+// "mu_1_Pa" and 2e5 as "mu_1 200000 Pa".
+function valueOf({ name, value }) {
+  const isPressure = name.endsWith("_Pa");
+  return `${name.replace(/_Pa$/, "")} ${significant(value, 6)}${isPressure ? " Pa" : ""}`;
+}
+
+// What the check has read, as the command prints it; of a card without a solid nothing.
+function valuesOf(result) {
+  const termOf = (term) => `g ${significant(term.g)} at ${significant(term.tau_s)} s`;
+  if (result.law !== undefined) {
+    return [`Law ${result.law}, ${result.basis}`, ...result.parameters.map(valueOf), ...result.terms.map(termOf),
+            result.bulk_modulus_Pa === null ? "incompressible" : `bulk modulus ${significant(result.bulk_modulus_Pa, 6)} Pa`];
+  }
+  const { material, values } = result, kFewValues = 8;  // a reduction, not a table
+  if (!material) return values && values.length <= kFewValues ? values.map(valueOf) : [];
+  return [`E0 ${significant(material.E0_Pa, 6)} Pa`, `Poisson ratio ${significant(material.nu, 6)}`,
+          material.rho_kg_m3 > 0 ? `density ${significant(material.rho_kg_m3, 6)} kg/m³` : "no density", ...material.terms.map(termOf)];
+}
+
+function showResult(result, text) {
+  const values = valuesOf(result), { findings } = result;
+  const status = element("check-status");
+  status.className = findings.some((one) => one.mistake) || !result.agrees ? "alert" : findings.length > 0 ? "note" : "good";
+  showText(status, `${sentence(result.verdict)} ${values.length > 0 ? "This is what a solver reads:" : "No values were read."}`);
+  list(element("check-meaning"), [...findings.map((one) => sentence(one.text)), `${result.target}, units ${result.units}`, ...values,
+                                  ...(result.understood ? [sentence(result.understood.conventions)] : [])]);
+  showLines(text, findings.map((one) => one.text));
 }
 
 let asked = 0;
@@ -43,14 +66,11 @@ async function check() {
   await new Promise((done) => setTimeout(done, 300));  // while somebody types
   if (number !== asked) return;
   try {
-    const target = element("check-target").value;
-    const { command, result } = await order("/api/desk/check", { card: text, ...(target ? { for: target } : {}) });
+    const target = element("check-target").value, units = element("check-units").value;
+    const { command, result } = await order("/api/desk/check", { card: text, ...(target ? { for: target } : {}), ...(units ? { units } : {}),
+                                                                 ...(element("check-plausible").checked ? { plausible: "off" } : {}) });
     if (number !== asked) return;
-    const mistakes = result.findings.filter((one) => one.mistake);
-    tell(mistakes.length === 0 ? "No mistake was found in the card itself. This is what it means:"
-      : `${mistakes.length} mistake${mistakes.length === 1 ? "" : "s"}. This is what a solver reads:`, mistakes.length === 0 ? "good" : "alert");
-    list(element("check-meaning"), [...result.findings.map((one) => sentence(one.text)), ...meaningOf(result), sentence(result.understood.conventions)]);
-    showLines(text, result.findings.map((one) => one.text));
+    showResult(result, text);
     showSame(element("check-same"), `${command}  # CARD: the file of this card`, "", result);
   } catch (error) {
     if (number !== asked) return;

@@ -98,6 +98,8 @@ export async function compare() {
   showRows();
   const names = fitted();
   if (names.length === 0) return;
+  const doubtful = names.filter((name) => fits[name].trustworthy === false);
+  if (doubtful.length > 0) tell(`${element("compare-status").textContent} Do not trust the fit of ${doubtful.join(", ")} before you have read its flags.`.trim(), "alert");
   const calls = names.map((name) => fitCall(name, kept[name])).join(",\n        ");
   showSame(element("compare-same"), names.map((name) => commands[name]).join("\n"), `import viscard\nfits = [${calls}]`,
            { input_files: names.flatMap((name) => fits[name].input_files ?? []) });

@@ -1,5 +1,5 @@
 // The options of a fit as fields. What they are, the program itself says: names, values, meanings.
-import { element, make, sentence } from "./format.js";
+import { element, make, nameFieldsBy, sentence } from "./format.js";
 
 // Fields that stand above the rows, by the kind of test; all others are behind "All options".
 const kAlways = ["kind", "from", "to"];
@@ -8,18 +8,41 @@ const kOfModuli = ["modulus-kind", "poisson-ratio"];
 const kOfForce = ["depth", "punch-diameter", "layer-thickness", "gauge-length", "area"];
 const kOfRubber = ["kind", "model", "gauge-length", "area"];
 
+// Options that name times: a table of frequencies has none.
+const kOfTime = ["from", "to", "hold", "crop", "time-zero"];
+
 let options = [], rubberKinds = [], onChange = () => {};
 
 export function startOptions(described, handler) {
   options = described.options;
   rubberKinds = described.large_strain;
   onChange = handler;
+  nameFieldsBy(inFields);
+}
+
+// A message that names options, "pass --accept-flags", with the names of their fields: 'set "Accept flags"'. Those of the
+// view that is shown come first. Options without a field stay as they are.
+function inFields(text) {
+  const nameOf = (option) => {
+    const fields = [...document.querySelectorAll(`[data-option="${option}"]`)];
+    const field = fields.find((one) => one.closest("[role=tabpanel]:not([hidden])")) ?? fields[0];
+    return field && `"${field.dataset.label ?? labelOf(option)}"`;
+  };
+  return text
+    .replaceAll(/, as in ([a-z-]+)=(?:'[^']*'|[^\s(]+)(?: \(or ([^)]*)\))?/g, (whole, kind, others) => (!kinds().includes(kind) ? whole
+      : ` in the field "Kind", such as ${kind}${others ? ` (or ${others.replaceAll("=", "")})` : ""}`))
+    .replaceAll(/(\b[Pp]ass )?(?<![\w-])--([a-z][a-z-]*[a-z])(?:=(?=\S))?/g, (whole, pass, option) => {
+      const name = nameOf(option);
+      if (!name) return whole;
+      const set = !pass ? "" : pass.startsWith("P") ? "Set " : "set ";
+      return `${set}${name}${whole.endsWith("=") ? " " : ""}`;
+    });
 }
 
 export const kinds = () => options.find((one) => one.name === "kind").choices;
 export const isRubberKind = (kind) => rubberKinds.includes(kind);
 
-const labelOf = (name) => { const text = name.replaceAll("-", " "); return text[0].toUpperCase() + text.slice(1); };
+export const labelOf = (name) => { const text = name.replaceAll("-", " "); return text[0].toUpperCase() + text.slice(1); };
 
 // The value of a field as the request holds it; undefined: not set.
 function valueOf(option, input) {
@@ -33,9 +56,9 @@ function valueOf(option, input) {
 export const hintOf = (option, unit = option.unit) => (unit === "1" ? "0.01, or 1 %" : unit ? `in ${unit}, or with unit`
   : option.is_list ? "several: a; b" : option.default ?? "");
 
-function controlOf(option, value, id) {
+function controlOf(option, value, id, unset) {
   if (option.choices.length > 0 && !option.is_list && option.type === "text") {
-    const none = make("option", { value: "" }, option.default ? `${option.default} (as usual)` : "by the table");
+    const none = make("option", { value: "" }, option.default ? `${option.default} (as usual)` : unset);
     const select = make("select", { id }, none, ...option.choices.map((one) => make("option", { value: one }, one)));
     select.value = value ?? "";
     return select;
@@ -49,13 +72,18 @@ function controlOf(option, value, id) {
                          value: Array.isArray(value) ? value.join("; ") : value ?? "" });
 }
 
-function fieldOf(option, chosen, prefix) {
+// onValue(value, or undefined: not set). unset: what a list shows without a choice.
+export function fieldOf(option, chosen, prefix, onValue, unset = "by the table") {
   const id = `${prefix}-${option.name}`;
-  const control = controlOf(option, chosen[option.name], id);
+  const control = controlOf(option, chosen[option.name], id, unset);
   if (chosen[option.name] !== undefined) control.classList.add("set");
-  control.addEventListener("change", () => onChange(option.name, valueOf(option, control)));
+  control.addEventListener("change", () => {
+    const value = valueOf(option, control);
+    control.classList.toggle("set", value !== undefined);
+    onValue(value);
+  });
   const isSwitch = option.type === "flag";
-  return make("label", { title: option.description, class: isSwitch ? "switch" : undefined },
+  return make("label", { title: option.description, "data-option": option.name, class: isSwitch ? "switch" : undefined },
               ...(isSwitch ? [control, labelOf(option.name)] : [labelOf(option.name), control]));
 }
 
@@ -64,13 +92,16 @@ export function showFields(table, chosen) {
   const isForce = table.modulus_kind === "" && table.kind !== "indentation";
   const names = isRubberKind(table.kind) ? kOfRubber
     : [...new Set([...kAlways, ...(kByKind[table.kind] ?? (isForce ? kOfForce : kOfModuli)), "density"])];
+  // One that was chosen all the same can be taken away.
+  const isFor = ({ name }) => table.kind !== "dma" || !kOfTime.includes(name) || chosen[name] !== undefined;
   const find = (name) => options.find((option) => option.name === name);
-  element("fields").replaceChildren(...names.map(find).filter(Boolean).map((one) => fieldOf(one, chosen, "field")));
+  const field = (one, prefix) => fieldOf(one, chosen, prefix, (value) => onChange(one.name, value));
+  element("fields").replaceChildren(...names.map(find).filter(Boolean).filter(isFor).map((one) => field(one, "field")));
   const groups = [...new Set(options.map((option) => option.group))];
   element("more-fields").replaceChildren(...groups.flatMap((group) => {
-    const rest = options.filter((option) => option.group === group && !names.includes(option.name));
+    const rest = options.filter((option) => option.group === group && !names.includes(option.name) && isFor(option));
     if (rest.length === 0) return [];
-    return [make("h3", {}, group), make("div", { class: "fields" }, ...rest.map((one) => fieldOf(one, chosen, "more")))];
+    return [make("h3", {}, group), make("div", { class: "fields" }, ...rest.map((one) => field(one, "more")))];
   }));
 }
 

@@ -1,6 +1,6 @@
 // What the fitted material does in another test, with its band; measured values of another table beside it.
-import { Chart } from "./charts.js";
-import { hintOf, pythonKeywords } from "./desk_options.js";
+import { Chart, thinned } from "./charts.js";
+import { hintOf, labelOf, pythonKeywords } from "./desk_options.js";
 import { axisOf, element, list, make, nameLogSwitch, sentence, show, showText, significant } from "./format.js";
 
 // Fields by the kind of test, which the program describes, and which axes are logarithmic at first.
@@ -11,9 +11,10 @@ const kTests = {
   cycles: { fields: ["strain", "period", "cycles"], logs: { x: false, y: false } },
   oscillation: { fields: ["from", "to"], logs: { x: true, y: true } },
 };
-const kColors = ["fit", "depth"];
+const kColors = ["fit", "depth"], kMeasuredColors = ["series-1", "series-3"];
+const kMostPoints = 3000;
 
-let options = [], values = {}, onChange = () => {}, charts = [], curve = null;
+let options = [], values = {}, onChange = () => {}, charts = [], curve = null, measured = [];
 
 export function startPredict(described, handler) {
   options = described.predict;
@@ -33,7 +34,7 @@ function showFields() {
     const unit = test === "oscillation" ? "Hz" : option.unit;  // of --from and --to
     const input = make("input", { autocomplete: "off", placeholder: option.default ?? hintOf(option, unit) });
     input.addEventListener("change", () => { values[option.name] = input.value.trim(); onChange(); });
-    return make("label", { title: option.description }, option.name.replaceAll("-", " "), input);
+    return make("label", { title: option.description, "data-option": option.name }, labelOf(option.name), input);
   }));
 }
 
@@ -53,6 +54,7 @@ export function chosenPrediction() {
 
 const isBand = (name) => /_(low|high)_95$/.test(name);
 const bandOf = (name) => [`${name}_low_95`, `${name}_high_95`].filter((one) => curve[one]);
+const measuredName = (name) => `${name} measured`;
 const shortName = (name) => axisOf(name).label.replace(/ \(.*\)$/, "");
 
 // What the test gives, not what is put in (the strain of cycles): only that has a band. The loss tangent has a chart of its own.
@@ -66,16 +68,25 @@ function answers() {
 function chartOf(id, names, logs, titles, readout) {
   const [argument] = Object.keys(curve);
   const shown = [...names.flatMap(bandOf), ...names];  // the band first, so that the prediction lies on it
-  const largest = shown.flatMap((name) => curve[name]).reduce((most, y) => Math.max(most, Math.abs(y ?? 0)), 0);
+  const rowsOfTable = measured.filter((one) => names.includes(one.quantity));
+  const largest = [...shown.map((name) => curve[name]), ...rowsOfTable.map((one) => one.values)].flat()
+    .reduce((most, y) => Math.max(most, Math.abs(y ?? 0)), 0);
   const axis = axisOf(names[0], largest);
   const valueOf = (y) => (y === null || (logs().y && !(y > 0)) ? null : axis.factor * y);  // a band may reach below zero
-  const rows = curve[argument].map((x, i) => [x, ...shown.map((name) => valueOf(curve[name][i]))])
-    .filter((row) => (!logs().x || row[0] > 0) && row.slice(1).some((y) => y !== null));
+  const isDrawn = (row) => (!logs().x || row[0] > 0) && row.slice(1).some((y) => y !== null);
+  const points = rowsOfTable.map((one) => measuredName(one.quantity));
+  const predicted = curve[argument].map((x, i) => [x, ...shown.map((name) => valueOf(curve[name][i])), ...points.map(() => null)]);
+  const ofTable = rowsOfTable.flatMap((one, k) => thinned(one.at.map((x, i) => [x, valueOf(one.values[i])]), kMostPoints)
+    .map(([x, y]) => [x, ...shown.map(() => null), ...points.map((_, j) => (j === k ? y : null))]));
+  const rows = [...predicted, ...ofTable].filter(isDrawn).sort((a, b) => a[0] - b[0]);
   const chart = new Chart(element(id), {
-    labels: [argument, ...shown], colors: shown.map((name) => (isBand(name) ? "measured" : kColors[names.indexOf(name)])), logs,
+    labels: [argument, ...shown, ...points], points, logs,
+    colors: [...shown.map((name) => (isBand(name) ? "measured" : kColors[names.indexOf(name)])),
+             ...rowsOfTable.map((one) => kMeasuredColors[names.indexOf(one.quantity)])],
     titles: { ylabel: names.length === 1 ? axis.label : `modulus (${axis.unit})`, ...titles },
     readout: (x, i) => {
       const row = x === null ? null : chart.data[i];
+      if (row && row.slice(1, 1 + shown.length).every((y) => y === null)) return;  // a row of the table, between those of the curve
       readout(!row ? "" : `${significant(row[0], 4)} ${axisOf(argument).unit}: `
         + names.map((name) => `${shortName(name)} ${significant(row[1 + shown.indexOf(name)], 5)} ${axis.unit}`.trim()).join(", "));
     },
@@ -94,7 +105,9 @@ function draw() {
   nameLogSwitch("predict-log-x-name", argument);
   const key = (color, text) => [make("span", { class: `key ${color}` }), `${text} `];
   element("predict-legend").replaceChildren(...names.flatMap((name, k) => key(kColors[k], names.length === 1 ? "prediction" : shortName(name))),
-                                            ...key("measured", "95 % band"));
+                                            ...key("measured", "95 % band"),
+                                            ...names.flatMap((name, k) => (measured.some((one) => one.quantity === name)
+                                              ? key(kMeasuredColors[k], names.length === 1 ? "measured" : `${shortName(name)}, measured`) : [])));
   show(element("predict-loss-chart"), hasLoss);
   charts.push(chartOf("predict-chart", names, logs, { xlabel: axisOf(argument).label }, readout));
   if (hasLoss) charts.push(chartOf("predict-loss-chart", ["tan_delta"], () => ({ x: logs().x, y: false }), {}, readout));
@@ -103,12 +116,18 @@ function draw() {
 export function showPrediction(answer) {
   const { result } = answer;
   curve = result.curve;
-  const status = element("predict-status");
-  status.className = result.trustworthy ? "good" : "note";
-  const against = result.against ? result.against.quantities.map((one) =>
-    ` ${one.quantity} of ${result.against.file}: ${significant(100 * one.rms_relative, 3)} % rms, ${significant(100 * one.share_inside_band_and_noise, 3)} % of `
-    + `${one.n} values inside band and noise.`).join("") : "";
-  showText(status, `By the material in ${answer.material}.`
+  measured = result.against?.measured ?? [];
+  const status = element("predict-status"), compared = result.against?.quantities ?? [];
+  const disagrees = compared.some((one) => one.agrees === false), isJudged = compared.every((one) => one.agrees === true);
+  status.className = !result.trustworthy || disagrees ? "alert" : isJudged ? "good" : "note";
+  // A material without a band, or a table with too few rows for its noise, has no share.
+  const shareOf = (one) => {
+    const [share, where] = one.share_inside_band_and_noise !== null ? [one.share_inside_band_and_noise, "band and noise"] : [one.share_inside_band, "the band"];
+    return share === null ? "" : `, ${significant(100 * share, 3)} % of ${one.n} values inside ${where}`;
+  };
+  const against = compared.map((one) => ` ${shortName(one.quantity)} of ${result.against.file}: ${significant(100 * one.rms_relative, 3)} % rms${shareOf(one)}`
+    + `${one.agrees === false ? "; they disagree" : ""}.`).join("");
+  showText(status, `${result.trustworthy ? "" : "Do not trust the fit of this material. "}By the material in ${answer.material}.`
     + (result.n_outside_window ? ` ${result.n_outside_window} points lie outside the times that were measured.` : "") + against);
   list(element("predict-notes"), [...answer.notes, ...result.notes].map(sentence));
   show(element("predict-body"), true);

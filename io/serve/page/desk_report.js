@@ -34,9 +34,10 @@ async function makeReport() {
   try {
     const title = element("report-title").value.trim();
     made = await order("/api/desk/report", { tables: [...chosen], ...(title ? { title } : {}) });
-    tell(`Written as ${made.name} in the folder.`, "good");
+    const doubts = [...made.result.defects, ...made.result.disagreements];
+    tell(`Written as ${made.name} in the folder.${doubts.length > 0 ? " Not all that it shows is to be trusted." : ""}`, doubts.length > 0 ? "alert" : "good");
     show(element("report-link"), true);
-    list(element("report-notes"), made.notes.map(sentence));
+    list(element("report-notes"), [...doubts, ...made.notes].map(sentence));
     const { card: cards, ...options } = made.options;
     showSame(element("report-same"), made.command,
              `import viscard\nviscard.report(${JSON.stringify(made.files)}, ${JSON.stringify(made.next_name)}${pythonKeywords({ ...options, cards })})`, made.result);

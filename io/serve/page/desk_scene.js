@@ -2,7 +2,7 @@
 import { order } from "./api.js";
 import { Chart } from "./charts.js";
 import { showSame } from "./desk_options.js";
-import { element, list, make, sentence, show, showText, significant } from "./format.js";
+import { axisOf, element, list, make, sentence, show, showText, significant } from "./format.js";
 
 let scene = "", kept = "", asked = 0, chart = null, refresh = () => {};
 
@@ -80,8 +80,9 @@ function solve() {
     showEffects(result.effects);
     showPictures(pictures);
     showSame(element("scene-same"), command, pythonOf("simulate"), result);
-    tell(result.within_tolerance ? `Every error is within the tolerance; ${result.unknowns} unknowns, ${significant(result.wall_s, 2)} s.`
-      : "Some errors are above the tolerance.", result.within_tolerance ? "good" : "alert");
+    const doubt = result.tolerance_doubt;
+    tell(doubt ? sentence(doubt) : `Errors and effects are within the tolerance; ${result.unknowns} unknowns, ${significant(result.wall_s, 2)} s.`,
+         doubt ? "alert" : "good");
   });
 }
 
@@ -93,9 +94,11 @@ function cost() {
 }
 
 function showPictures(pictures) {
-  element("scene-pictures").replaceChildren(...pictures.map(({ name, svg }) =>
-    make("figure", {}, make("img", { src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`, alt: name.replaceAll("_", " ") }),
-         make("figcaption", {}, name.replaceAll("_", " ")))));
+  element("scene-pictures").replaceChildren(...pictures.map(({ name, svg }) => {
+    const caption = axisOf(name).label;  // "static_stress_zz_Pa"
+    return make("figure", {}, make("img", { src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`, alt: caption }),
+                make("figcaption", {}, caption));
+  }));
 }
 
 // A bar from a millionth to one of the answer.

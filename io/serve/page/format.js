@@ -20,10 +20,16 @@ export function significant(value, digits = 4) {
   return text.replace("-", "−");
 }
 
+let named = (text) => text;
+// Messages of commands name options; a page that has fields for them names these: naming(text).
+export function nameFieldsBy(naming) {
+  named = naming;
+}
+
 // "the port is busy" -> "The port is busy." A name keeps its letters: "a.csv: holds ...", "tau_1 is ...".
-export function sentence(text) {
-  if (!text) return "";
-  const whole = /[.!?:]$/.test(text) ? text : `${text}.`;
+export function sentence(message) {
+  if (!message) return "";
+  const text = named(message), whole = /[.!?:]$/.test(text) ? text : `${text}.`;
   const isWord = /^\p{Ll}[\p{L}'’]*(?=[\s,;.!?)]*(\s|$))/u.test(whole);
   return isWord ? whole[0].toUpperCase() + whole.slice(1) : whole;
 }
@@ -93,7 +99,7 @@ export const nameLogSwitch = (id, argument) => showText(element(id), argument ==
 const kUnits = { N_m: "N/m" };
 // "storage_modulus_Pa" -> how it is shown: "storage modulus (MPa)" and its factor. largest: of the values.
 export function axisOf(name, largest = 0) {
-  const found = /^(.*?)_(1_Pa|N_m|Pa|N|s|Hz)$/.exec(name);
+  const found = /^(.*?)_(1_Pa|N_m|Pa|N|s|Hz|m|V)$/.exec(name);
   if (!found) return { label: name.replaceAll("_", " "), factor: 1, unit: "" };
   const scale = largest > 0 ? modulusUnit(found[2] === "1_Pa" ? 1 / largest : largest) : { factor: 1, unit: "Pa" };
   const { factor, unit } = found[2] === "Pa" ? scale

@@ -7,7 +7,7 @@ const kWatch_ms = 120;  // the stage stops when nobody has asked for half a seco
 const kSteps_um = [10, 50, 200, 1000];
 const kLift_mm = 2;
 
-let rig = null, isMoving = false, isBusy = false, position_m = null, zero_m = 0, onDone = () => {};
+let rig = null, isEmulated = true, isMoving = false, isBusy = false, position_m = null, zero_m = 0, onDone = () => {};
 
 // --- the stage ------------------------------------------------------------------------------------
 
@@ -18,7 +18,8 @@ function showButtons() {
   const isFree = Boolean(rig) && !rig.trouble && !isBusy && !isMoving;
   for (const id of ["jog-toward", "jog-away", "jog-lift", "jog-home", "weigh"]) element(id).disabled = !isFree;
   element("jog-stop").disabled = !isMoving;
-  element("jog-zero").disabled = position_m === null || isMoving;
+  element("jog-zero").disabled = position_m === null || !isFree;
+  element("force-zero").disabled = !isFree;
 }
 
 function showPosition() {
@@ -38,6 +39,8 @@ function showEnd({ moved, trouble, position_m: now_m }) {
     element("jog-force").textContent = "–";
     return tell(sentence(trouble), "alert");
   }
+  if (moved.zero_m !== null) zero_m = moved.zero_m;
+  showPosition();
   element("jog-force").textContent = `${fixed(moved.force_after_N, 3)} N`;
   const way = `${significant(Math.abs(moved.to_m - moved.from_m) * 1e6, 4)} µm`;
   if (moved.is_stopped_by_force) tell(`The force stopped the stage after ${way}.`, "note");
@@ -76,6 +79,31 @@ async function stopMove() {
   }
 }
 
+async function zero(work) {
+  isBusy = true;
+  showButtons();
+  try {
+    await work();
+  } catch (error) {
+    tell(sentence(error.message), "alert");
+  }
+  isBusy = false;
+  showButtons();
+}
+
+// The rig file keeps the zero of a stage; an emulated one has it as long as this page.
+const zeroPosition = () => zero(async () => {
+  zero_m = isEmulated ? position_m : (await order("/api/zero", { what: "position" })).zero_m;
+  showPosition();
+  tell("Positions count from here.", "good");
+});
+
+const zeroForce = () => zero(async () => {
+  const zeroed = await order("/api/zero", { what: "force" });
+  element("jog-force").textContent = `${fixed(zeroed.force_after_N, 3)} N`;
+  tell(`The instrument was zeroed; it read ${fixed(zeroed.force_before_N, 3)} N before.`, "good");
+});
+
 function startStage() {
   element("jog-steps").append(...kSteps_um.map((um, i) => make("label", {},
     make("input", { type: "radio", name: "step", value: um, checked: i === 0 }), um < 1000 ? `${um} µm` : `${um / 1000} mm`)));
@@ -84,7 +112,8 @@ function startStage() {
   element("jog-lift").addEventListener("click", () => move("away", kLift_mm));
   element("jog-home").addEventListener("click", () => move("home", 0));
   element("jog-stop").addEventListener("click", stopMove);
-  element("jog-zero").addEventListener("click", () => { zero_m = position_m; showPosition(); });
+  element("jog-zero").addEventListener("click", zeroPosition);
+  element("force-zero").addEventListener("click", zeroForce);
   document.addEventListener("keydown", (event) => { if (event.key === "Escape" && isMoving) stopMove(); });
 }
 
@@ -168,6 +197,7 @@ function startCell() {
 
 export function showHands(state) {
   rig = state.rig;
+  isEmulated = state.is_emulated;
   const canUse = !state.is_emulated && !rig.trouble;
   show(element("weigh-use-field"), canUse);
   if (!canUse) element("weigh-use").checked = false;

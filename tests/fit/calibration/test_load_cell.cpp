@@ -98,6 +98,23 @@ TEST_CASE("weights in air are lighter by their buoyancy", "[fit]") {
   CHECK(weight_N_from_mass_kg(0.2, 9.80665) == Approx(0.2 * 9.80665 * 0.99985).epsilon(1e-12));
 }
 
+TEST_CASE("points far off a line are of no frame on a rigid block, however many they are",
+          "[fit]") {
+  BlockPoints air, soft;
+  for (int i = 0; i < 4000; ++i) {
+    const double share = i / 4000.0;
+    air.position_m.push_back(1.5e-3 * share);
+    air.force_N.push_back(1.8 * std::max(0.0, share - 0.6) + 1e-4 * share);
+    soft.position_m.push_back(1.5e-3 * std::sqrt(share));  // stiffens as it is pressed
+    soft.force_N.push_back(1.8 * share);
+  }
+  CHECK_THROWS_WITH(fit_frame_stiffness(air, 0.0), Contains("no frame on a rigid block"));
+  CHECK_THROWS_WITH(fit_frame_stiffness(soft, 0.0), Contains("no frame on a rigid block"));
+  CapturedRun run;
+  run.plan.protocol = "staircase";
+  CHECK_THROWS_WITH(block_points_from_capture(run), Contains("protocol 'staircase'"));
+}
+
 TEST_CASE("the stiffness of the frame comes from the slope of position over force", "[fit]") {
   BlockPoints points;
   for (int i = 1; i <= 6; ++i) {

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/program.h"
+#include "io/capture/capture_check.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "tests/io/capture/capture_samples.h"
@@ -93,6 +94,33 @@ TEST_CASE("a finished capture reads back as it was written, bit for bit", "[io][
   CHECK(raw[0].bytes == std::string("?\0\xff\n", 4));
   CHECK(raw[0].is_sent);
   CHECK(raw[1].device == Device::kLoadCell);
+}
+
+TEST_CASE("what became known later is added to a finished capture, which then is still sound",
+          "[io][capture]") {
+  const ScratchFolder folder;
+  const auto path = folder / "run.viscap";
+  {
+    CaptureWriter writer(path, demo_run());
+    write_one_of_each(writer);
+    writer.append(RunEvent{12.5, "finished", "", "The run is complete"});
+    CHECK(contains(error_text([&] { add_late_event(path, "doubt", "lost_steps", "26 um"); }),
+                   "is being written"));
+    writer.finish("finished");
+  }
+  add_late_event(path, "doubt", "lost_steps", "26 um");
+  add_late_event(path, "depth", "counted", "not measured");
+  const CapturedRun run = read_capture(path);
+  CHECK(run.status == "finished");
+  REQUIRE(run.events.size() == 4);
+  CHECK(run.events[2].host_time_s == 12.5);  // at the end of the run
+  CHECK(run.events[2].name == "doubt");
+  CHECK(run.events[2].value == "lost_steps");
+  CHECK(run.events[2].text == "26 um");
+  CHECK(run.events[3].name == "depth");
+  CHECK(check_capture(path).faults.empty());
+  CHECK(run.load_samples.size() == 3);
+  CHECK_FALSE(std::filesystem::exists(path.string() + "-journal"));
 }
 
 TEST_CASE("a capture being written reads as running, and afterwards as interrupted unless finished",

@@ -2,6 +2,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_check.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/capture_lock.h"
 #include "io/capture/integrity_notes.h"
 #include "tests/io/capture/capture_samples.h"
 #include "tests/support/error_text.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <random>
 #include <thread>
 
@@ -30,7 +32,10 @@ struct KilledCapture {
   std::filesystem::path file;
   std::string log_name() const { return file.string() + "-wal"; }
   std::string log() const { return read_file(log_name()); }
-  void put_log(const std::string& bytes) const { write_file(log_name(), bytes, true); }
+  // Not by write_file(), which refuses the name of a log.
+  void put_log(const std::string& bytes) const {
+    std::ofstream(log_name(), std::ios::binary) << bytes;
+  }
   void flip(std::size_t at) const {
     std::string bytes = log();
     bytes.at(at) = static_cast<char>(bytes.at(at) ^ 0x10);
@@ -201,6 +206,96 @@ TEST_CASE("a hole among frames that were not synced is flagged, as a power cut l
   CHECK(is_flagged(run, "side-file-torn"));
   CHECK_FALSE(is_flagged(run, "unverified"));
   CHECK(check_capture(killed.file).faults.size() == 1);
+}
+
+// What --force does with a capture when the process that records the new one is killed, too: it stays aside.
+void force_and_die(const std::filesystem::path& capture) {
+  PreviousCapture previous(capture, true);
+  REQUIRE(previous.is_aside());
+  for (const char* part : {"", "-wal", "-shm"}) {
+    const std::string kept = capture.string() + ".previous" + part;
+    if (std::filesystem::exists(kept)) std::filesystem::rename(kept, kept + ".kept");
+  }
+  previous.drop();
+  for (const char* part : {"", "-wal", "-shm"}) {
+    const std::string kept = capture.string() + ".previous" + part;
+    if (std::filesystem::exists(kept + ".kept")) std::filesystem::rename(kept + ".kept", kept);
+  }
+}
+
+TEST_CASE("a killed capture that --force keeps is one file with all records", "[io][capture]") {
+  const ScratchFolder folder;
+  const KilledCapture killed = killed_capture(folder);
+  force_and_die(killed.file);
+  const std::string kept = killed.file.string() + ".previous";
+  CHECK_FALSE(std::filesystem::exists(kept + "-wal"));
+  CHECK_FALSE(std::filesystem::exists(kept + "-shm"));
+  std::filesystem::rename(kept, folder / "old.viscap");
+  const CapturedRun run = read_capture(folder / "old.viscap");
+  CHECK(run.status == "interrupted");
+  CHECK(run.load_samples.size() == 400);
+  CHECK(integrity_notes(run).empty());
+  CHECK(check_capture(folder / "old.viscap").faults.empty());
+}
+
+TEST_CASE("a capture whose log is damaged is kept in all its parts, which the refusal names",
+          "[io][capture]") {
+  const ScratchFolder folder;
+  const KilledCapture killed = killed_capture(folder);
+  killed.flip(kHeader_B + kFrame_B + 100);
+  const std::string log = killed.log(), kept = killed.file.string() + ".previous";
+  force_and_die(killed.file);
+  REQUIRE(read_file(kept + "-wal") == log);
+  write_file(killed.file, "", false);
+  const std::string both = error_text([&] { PreviousCapture(killed.file, true); });
+  CHECK(contains(both, kept + ", " + kept + "-wal"));
+  CHECK(contains(both, "move them away together"));
+  // Who moves the main file alone has not moved the records.
+  std::filesystem::rename(kept, folder / "old.viscap");
+  const std::string orphaned = error_text([&] { PreviousCapture(killed.file, true); });
+  CHECK(contains(orphaned, kept + "-wal belongs to an earlier capture whose main file is gone"));
+  CHECK(read_file(kept + "-wal") == log);
+}
+
+TEST_CASE("the option --force deletes no log of a capture that was moved away", "[io][capture]") {
+  const ScratchFolder folder;
+  const KilledCapture killed = killed_capture(folder);
+  const std::string log = killed.log();
+  std::filesystem::rename(killed.file, folder / "old.viscap");
+  const auto forced = [&] {
+    return error_text([&] {
+      PreviousCapture previous(killed.file, true);
+      CaptureWriter(killed.file, demo_run(), {.overwrite = true});
+    });
+  };
+  SECTION("nothing in its place") {
+    CHECK(contains(forced(), "killed.viscap-wal belongs to an earlier capture"));
+  }
+  SECTION("an empty file in its place") {
+    write_file(killed.file, "", false);
+    CHECK(contains(forced(), "killed.viscap-wal belongs to an earlier capture"));
+  }
+  SECTION("another capture in its place") {
+    { CaptureWriter(folder / "other.viscap", demo_run()); }
+    std::filesystem::rename(folder / "other.viscap", killed.file);
+    CHECK(contains(forced(), "killed.viscap-wal belongs to another run"));
+  }
+  CHECK(killed.log() == log);
+  std::filesystem::rename(folder / "old.viscap", killed.file);
+  CHECK(read_capture(killed.file).load_samples.size() == 400);
+}
+
+TEST_CASE("a capture does not replace a link that leads to nothing", "[io][capture]") {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder / "real");
+  std::filesystem::create_symlink("real/run.viscap", folder / "link.viscap");
+  for (const bool is_forced : {false, true}) {
+    CHECK(contains(error_text([&] {
+                     CaptureWriter(folder / "link.viscap", demo_run(), {.overwrite = is_forced});
+                   }),
+                   "leads to real/run.viscap, which does not exist; name the file itself"));
+    CHECK(std::filesystem::is_symlink(folder / "link.viscap"));
+  }
 }
 
 }  // namespace

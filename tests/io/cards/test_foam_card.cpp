@@ -77,6 +77,19 @@ TEST_CASE("foam cards: each solver's convention", "[cards][foam]") {
                           "                  .2                 .05\n"));
 }
 
+TEST_CASE("the header of a rubber card states names of files as those of all cards do",
+          "[cards][foam]") {
+  HyperelasticFile file = one_term();
+  file.raw_files = {{"x--\u00fc.csv", std::string(64, 'a')}, {"plain.csv", std::string(64, 'b')}};
+  RubberCardOptions options = with_units("abaqus");
+  options.file_name = "gr\u00fcn.json";
+  options.file_sha256 = std::string(64, 'c');
+  CHECK_THAT(rubber_file_card(file, "foam.json", options),
+             Contains("** raw data x-%2D%C3%BC.csv sha256 aaaa") &&
+                 Contains("** raw data plain.csv sha256 bbbb") &&
+                 Contains("** material file gr%C3%BCn.json sha256 cccc"));
+}
+
 TEST_CASE("foam cards: other targets and a bulk modulus are refused", "[cards][foam]") {
   for (const std::string& target : rubber_card_targets()) {
     if (target == "abaqus" || target == "calculix" || target == "lsdyna" || target == "openradioss")

@@ -45,6 +45,18 @@ TEST_CASE("the demo's rig reads as its comments say", "[io][config]") {
   CHECK(rig.safety.soft_fraction == 0.8);
 }
 
+TEST_CASE("a rig file without depth_relative_u gets that of an ordinary screw, a capture none",
+          "[io][config]") {
+  const std::string minimal = std::string("[stage]\nport = \"a\"\n") + kMinimalRig;
+  const std::string stated = "[stage]\ndepth_relative_u = 0\n" + std::string(kMinimalRig);
+  const auto in_file = [](const std::string& text) {
+    return rig_of_text(text, "rig.toml", Plausible::kMeasured).stage.depth_relative_u;
+  };
+  CHECK(in_file(minimal) == kScrewDepth_u);
+  CHECK(in_file(stated) == 0.0);
+  CHECK(rig_from_toml(minimal, "captured").stage.depth_relative_u == 0.0);
+}
+
 TEST_CASE("a thermometer and a converter are read, stored and checked", "[io][config]") {
   const std::string thermometer =
       "[thermometer]\ndriver = \"scpi\"\nquery = \"READ?\"\nperiod = \"2 s\"\n"

@@ -1,6 +1,9 @@
 // Designs that choose among materials and kinds besides their ranges.
 #include "io/basics/atomic_file.h"
+#include "io/basics/json_string.h"
+#include "io/basics/written_path.h"
 #include "io/flow/optimise/optimised_output.h"
+#include "io/results/result_json.h"
 #include "tests/io/optimise/spec_files.h"
 
 #include <cmath>
@@ -99,4 +102,40 @@ TEST_CASE("film material and kind of electrode are chosen as the best single spe
   CHECK(front.designs[0].objectives.at(0).value == Approx(most).epsilon(1e-9));
   CHECK(front.designs[0].values.at(0).second == film);
   CHECK(front.designs[0].values.at(1).second == kind);
+}
+
+TEST_CASE("with --strip-paths the files of a design state no folder", "[io][design]") {
+  DesignSpec spec;
+  spec.path = "spec.toml";
+  spec.scene_path = "scenes/scene.toml";
+  spec.choices = {{"materials.pillar.file", {"/home/anna/a.json", "../../anna/deep/b.json"}}};
+  spec.objectives = {{"geometry.length", "largest"}, {"bandwidth", "largest"}};
+  DesignFront front;
+  for (const std::string& file : spec.choices[0].values) {
+    OptimisedDesign design;
+    design.values = {{"materials.pillar.file", file}};
+    design.scene_text = "[materials]\npillar = { file = \"" + file + "\" }\n";
+    const auto value = static_cast<double>(file.size());  // of two designs that differ
+    design.objectives = {{"geometry.length", "m", value}, {"bandwidth", "Hz", 100.0 - value}};
+    front.designs.push_back(design);
+  }
+  const auto written = [&] {
+    std::string all =
+        csv_from_front(spec, front) + text_from_front(spec, front) +
+        svg_from_plot(picture_of_front(spec, front), "front") +
+        text_from_json(json_from_keys([&](ResultVisitor& v) { show_front(v, spec, front); }), 2);
+    for (const OptimisedDesign& design : front.designs)
+      all += scene_for_folder(spec, design, "out");
+    return all;
+  };
+  CHECK(written().find("Written with --strip-paths") == std::string::npos);
+  CHECK(written().find("/home/anna/a.json") != std::string::npos);
+  strip_written_paths(true);
+  const std::string stripped = written();
+  strip_written_paths(false);
+  CAPTURE(stripped);
+  CHECK(stripped.find("anna") == std::string::npos);
+  CHECK(stripped.find("a.json") != std::string::npos);
+  CHECK(stripped.find("b.json") != std::string::npos);
+  CHECK(stripped.find("# Written with --strip-paths") != std::string::npos);
 }

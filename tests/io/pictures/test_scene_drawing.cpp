@@ -49,6 +49,33 @@ TEST_CASE("a drawing of a row has its pillars, electrodes, loads and lengths", "
   CHECK(count_of(svg_from_scene(scene, ""), kElectrodeFill) == 0);
 }
 
+TEST_CASE("a shape above a row is drawn there and not called pressed", "[io][scene]") {
+  ArrayScene scene = row_of(8);
+  scene.press = ShapePress{.depth_m = -2.5e-6};
+  scene.press->shape.kind = ShapeKind::kCylinder;
+  scene.press->shape.radius_m = 0.02;
+  const char* const rigid = "fill=\"#8a8f94\"";
+  const std::string svg = svg_from_scene(scene, "row.toml");
+  CHECK(svg.find("a rigid cylinder of radius 20 mm lifted to 2.5 µm above first contact") !=
+        std::string::npos);
+  CHECK(svg.find("pressed") == std::string::npos);
+  CHECK(count_of(svg, rigid) == 1);
+  scene.press->depth_m = 5e-6;
+  const std::string pressed = svg_from_scene(scene, "");
+  CHECK(pressed.find("of radius 20 mm pressed 5 µm deep") != std::string::npos);
+  CHECK(count_of(pressed, rigid) == 1);
+  scene.geometry.count = 400;  // the places of a long row are not to scale
+  CHECK(count_of(svg_from_scene(scene, ""), rigid) == 0);
+}
+
+TEST_CASE("a length without room for its number has its letter only", "[io][scene]") {
+  ArrayScene scene = row_of(8);
+  scene.geometry.film_edge_m = 100e-6;
+  CHECK(svg_from_scene(scene, "").find(">edge</text>") != std::string::npos);
+  scene.geometry.film_edge_m = 200e-6;
+  CHECK(svg_from_scene(scene, "").find(">edge 200 µm</text>") != std::string::npos);
+}
+
 TEST_CASE("a drawing of a long row has its first and its last pillars", "[io][scene]") {
   const std::string svg = svg_from_scene(row_of(400), "row.toml");
   CHECK(count_of(svg, kPillarFill) == 16);

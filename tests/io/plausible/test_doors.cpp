@@ -291,6 +291,7 @@ TEST_CASE("an option that is not plausible is refused as a wrong word", "[io][cl
       {{"fit", table_file, "--poisson-ratio", "0.7", "--punch-diameter", "4 mm"}, "-1 to 0.5"},
       {{"fit", table_file, "--punch-diameter", "4.4"}, "--punch-diameter \"4.4 mm\""},
       {{"fit", "uniaxial=" + stretches, "--youngs-modulus", "1.2"}, "\"1.2 MPa\""},
+      {{"fit", "uniaxial=" + stretches, "--youngs-modulus", "E_inf=1.2"}, "\"E_inf=1.2 MPa\""},
       {{"predict", material, "--strain", "5"}, "--strain \"5 %\""},
       {{"predict", material, "--test", "creep", "--stress", "1e15"}, "--plausible off"},
       {{"predict", material, "--temperature", "5000"}, "-200"},

@@ -1,11 +1,15 @@
 #include "io/plots/plot.h"
+#include "io/plots/plot_points.h"
 #include "io/plots/plot_script.h"
 #include "io/plots/plot_svg.h"
+#include "io/plots/plot_ticks.h"
 #include "tests/io/plots/markup.h"
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -67,6 +71,15 @@ Frame frame_of(const std::string& svg) {
   return {};
 }
 
+// Where a text begins or has its middle, px from the left.
+double left_of(const std::string& svg, const std::string& text) {
+  const std::size_t at = svg.find(">" + text + "<");
+  REQUIRE(at != std::string::npos);
+  double x = 0.0;
+  REQUIRE(std::sscanf(svg.c_str() + svg.rfind("translate(", at), "translate(%lf", &x) == 1);
+  return x;
+}
+
 }  // namespace
 
 TEST_CASE("a plot is well-formed SVG with a title and a description", "[io][report]") {
@@ -102,6 +115,69 @@ TEST_CASE("a line passes through its points at the scale of the axes", "[io][rep
     CHECK(x[i] == Approx(frame.left + frame.width * value / 4.0).margin(0.02));
     CHECK(y[i] == Approx(frame.bottom - frame.height * value * value / 10.0).margin(0.02));
   }
+}
+
+TEST_CASE("the name of a phase stands at its line on a logarithmic axis too", "[io][report]") {
+  Plot plot = small_plot();
+  PlotPanel& panel = plot.panels[0];
+  panel.x.is_log = true;
+  panel.series[0].x = {0.01, 1.0, 100.0};
+  panel.notes = {{0.05, "first"}, {1.0, "second"}, {20.0, "third"}};
+  const std::string svg = svg_from_plot(plot, "n");
+  const Frame frame = frame_of(svg);
+  const AxisSpan span = panel_spans(panel).x;
+  for (const PlotNote& note : panel.notes) {
+    CAPTURE(note.text);
+    // Half the width of a letter: what gnuplot may leave beside a text.
+    CHECK(left_of(svg, note.text) ==
+          Approx(frame.left + frame.width * fraction_of(span, note.x)).margin(3.0));
+  }
+}
+
+TEST_CASE("the label of an axis has room beside long numbers", "[io][report]") {
+  Plot plot = small_plot();
+  plot.panels[0].y.label = "strain";
+  plot.panels[0].series[0].y = {-1e-4, 3e-4, 6e-4};
+  const std::string svg = svg_from_plot(plot, "n");
+  CHECK(left_of(svg, "strain") > 12.0);  // the height of its letters, which are turned
+}
+
+TEST_CASE("numbers below a narrow panel stand apart", "[io][report]") {
+  const double low = GENERATE(0.0, 1.83846, -250000.0);
+  const double length = GENERATE(2.6e-4, 0.3, 7.0, 8e4);
+  const double length_px = GENERATE(60.0, 160.0, 900.0);
+  const AxisTicks ticks = ticks_of({}, {low, low + length, false}, length_px, true, false);
+  CAPTURE(low, length, length_px, ticks.step, ticks.characters);
+  CHECK(ticks.shown.low <= low + 1e-6 * length);  // rounding only
+  CHECK(ticks.shown.high >= low + (1.0 - 1e-6) * length);
+  const double apart_px = length_px * ticks.step / (ticks.shown.high - ticks.shown.low);
+  const double least_px = 6.7 * static_cast<double>(ticks.characters);  // digits of the font
+  CHECK((apart_px >= least_px || apart_px >= 0.5 * length_px));         // two numbers at least
+}
+
+TEST_CASE("an axis of numbers that doubles hardly tell apart has numbers too", "[io][report]") {
+  const double low = GENERATE(1e17, -1e300);
+  const AxisTicks ticks =
+      ticks_of({}, {low, std::nextafter(low, INFINITY), false}, 400.0, true, false);
+  CHECK(ticks.characters > 3);
+  CHECK(ticks.step > 0.0);
+}
+
+TEST_CASE("all logarithmic axes of a picture write their numbers alike", "[io][report]") {
+  Plot plot = small_plot();
+  PlotPanel& panel = plot.panels[0];
+  panel.x.is_log = panel.y.is_log = true;
+  panel.series[0].x = {0.01, 0.1, 10.0};
+  panel.series[0].y = {1.0, 10.0, 100.0};
+  CHECK(svg_from_plot(plot, "n").find(">0.01<") != std::string::npos);
+  CHECK(number_on_axes(plot, 1e-3) == "0.001");
+  plot.panels.push_back(panel);
+  plot.panels[1].series[0].y = {1e-5, 1e-3, 1.0};
+  plot.height_px = 600;
+  CHECK(svg_from_plot(plot, "n").find(">0.01<") == std::string::npos);
+  CHECK(number_on_axes(plot, 1e-3) == "10⁻³");
+  CHECK(number_on_axes(plot, 2e-3) == "2×10⁻³");
+  CHECK(number_on_axes(plot, 1e3) == "10³");
 }
 
 TEST_CASE("two figures on one page share no id and refer only to their own", "[io][report]") {
@@ -191,6 +267,23 @@ TEST_CASE("a plot of nothing, of no size or without a proper id is refused", "[i
   plot.panels[0].x.is_log = true;
   plot.panels[0].series[0].x = {-1.0, 0.0, -3.0};
   CHECK_THROWS_WITH(svg_from_plot(plot, "a"), Catch::Contains("nothing to draw"));
+}
+
+TEST_CASE("a picture that the limit on the size of files cuts off is named so", "[io][plots]") {
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handled = std::signal(SIGXFSZ, SIG_IGN);  // as the program does
+  const rlimit small{4096, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+  std::string text;
+  try {
+    svg_from_plot(small_plot(), "a");
+  } catch (const std::runtime_error& error) {
+    text = error.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handled);
+  CHECK(text.find("ulimit -f") != std::string::npos);
 }
 
 TEST_CASE("without gnuplot the message says how to get it", "[io][report]") {

@@ -2,6 +2,7 @@
 import copy
 import inspect
 import warnings
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -54,7 +55,7 @@ WRONG_TYPES = [
     (lambda **k: viscard.next_test(want="E0=1%", **k), "capture", NO_PATH, "a path"),
     (lambda **k: viscard.sweep("a.toml", **k), "over", (3, [1]), "a dict of values"),
     (lambda **k: viscard.sweep("a.toml", "a.sqlite", **k), "merge", NO_PATH[:2], "a path or a list of paths"),
-    (lambda **k: viscard.design("a.toml", {}, **k), "search_time", (True, [1], None), "a text or a number"),
+    (lambda **k: viscard.design("a.toml", {}, **k), "search_time", (True, [1]), "a text or a number"),
     (viscard.design, "lattice", (True, [1]), "a text or a number"),
     (lambda **k: viscard.cost_of_tests(RIG, SPECIMEN, **k), "want", (3, [1], None), "a text or a list of texts"),
     (lambda **k: viscard.capture("a.viscap", **k), "speed", NO_NUMBER, "a number"),
@@ -93,6 +94,18 @@ WRONG_VALUES = [
     (rows_of([0.0, 0.0, 0.0, float("inf")]), r"voltages\[0, 0\] is .*inf.*four NaN where no pillar stands"),
     (rows_of([0.0, float("nan"), 0.0, 0.0]), r"voltages\[0, 0\] is .*nan"),
     (lambda: viscard.check_scene(PRESS, svg="x.png"), "svg is 'x.png'; the drawing is an SVG file, so end its name with .svg"),
+    (lambda: viscard.Material(Decimal("NaN"), 0.4), "E0_Pa is .*NaN.*; it must be a finite number"),
+    (lambda: viscard.Material(Decimal("sNaN"), 0.4), "E0_Pa is .*NaN.*; it must be a finite number"),
+    (lambda: viscard.design(diameter=40), 'write diameter="40 um"; if'),
+    (lambda: viscard.design(search_time=5), "search_time belongs to a scene; give one, or omit it"),
+    (lambda: viscard.design(diameter="40 um", search_time=-5), "search_time belongs to a scene; give one, or omit it"),
+    (lambda: viscard.design("a.toml", search_time=5), "search_time belongs to a scene that is judged by require; omit it"),
+    (lambda: viscard.fit({"relaxaton": {"time_s": [1.0], "modulus_Pa": [1.0]}}),
+     "^data: there is no kind of test 'relaxaton'; did you mean 'relaxation'.*There are: relaxation, creep, .*uniaxial"),
+    (lambda: viscard.fit({"time_s": [1.0, 2.0, 3.0], "modulus_Pa": [np.nan] * 3}),
+     "^arrays: column 2 'modulus_Pa' for modulus_Pa: no row has a number; "),
+    (lambda: viscard.sweep(viscard.data_file("studies/pillar.toml"), over={"geometry.diameter": [36e-6]}),
+     "^over is for a scene, and .*pillar.toml' is a study, which states its own values; omit over"),
     (lambda: viscard.data_file("/etc"), "no file '/etc' comes with viscard"),
 ]
 
@@ -107,6 +120,8 @@ WRONG_ARRAYS = [
     (lambda: MATERIAL.relaxation([1.0, True]), "time_s must hold real numbers, not True or False"),
     (lambda: MATERIAL.relaxation(np.array([True])), "time_s must hold real numbers, not True or False"),
     (lambda: MATERIAL.relaxation([[1.0], [1.0, 2.0]]), "time_s must hold numbers in rows of one length"),
+    (lambda: viscard.fit({"time_s": ["0.1", "0.2"], "modulus_Pa": [1.8e6, 1.7e6]}), "^time_s must hold real numbers, not text"),
+    (lambda: viscard.fit({"time_s": ["0.1", "0.2"], "modulus_Pa": ["2e6", "1e6"]}), "^time_s must hold real numbers, not text"),
     (lambda: viscard.forces_from_voltages(ARRAY, "abc"), "voltages must hold real numbers, not text"),
     (lambda: viscard.forces_from_voltages({**ARRAY, "analysis": 3}, np.zeros((1, 2, 4))), "analysis must be a dict, not 3"),
 ]
@@ -135,6 +150,16 @@ def test_an_unknown_keyword_gets_the_nearest_name(call, words):
 def test_no_times_give_no_values():
     value, low, high = MATERIAL.relaxation([], band=True)
     assert value.shape == low.shape == high.shape == (0,)
+
+
+def test_decimals_are_numbers(relaxation):
+    as_decimals = [[Decimal(str(one)) for one in column] for column in relaxation]
+    fitted = viscard.fit(dict(zip(("time_s", "modulus_Pa"), as_decimals)))
+    assert fitted.E0_Pa == viscard.fit(dict(zip(("time_s", "modulus_Pa"), relaxation))).E0_Pa
+    assert viscard.Material(Decimal("2e6"), 0.49).E0_Pa == 2e6
+    scene = copy.deepcopy(PRESS)
+    scene["geometry"]["diameter"] = Decimal("40e-6")
+    assert viscard.check_scene(scene) == "pillar"
 
 
 def test_numbers_of_numpy_are_numbers():

@@ -25,8 +25,9 @@ def test_validate_is_the_command(program):
     off = found.relaxation["stress_Pa"] / found.relaxation["exact_stress_Pa"] - 1
     assert np.abs(off).max() == pytest.approx(found.relaxation["largest_relative_error"])
     assert not viscard.Material.load(SEED).validate(max_error=1e-15).passed
-    with pytest.raises(viscard.Error, match="max_error is 0; it must be positive"):
-        viscard.Material.load(SEED).validate(max_error=0)
+    for wrong in (0, 1, 2, 1e9):
+        with pytest.raises(viscard.Error, match=r"max_error is .*; it must lie between 0 and 1"):
+            viscard.Material.load(SEED).validate(max_error=wrong)
 
 
 def test_export_is_the_command(program, run, tmp_path):
@@ -70,6 +71,10 @@ def test_the_report_is_the_command(program, run, tmp_path):
     assert refused.value.code == "exists"
     with pytest.raises(viscard.Error, match="'abacus'"):
         viscard.report(SEED, tmp_path / "other.html", cards="abacus")
+    with pytest.raises(viscard.Error, match="2 truth files for 1 capture: give one truth for each"):
+        viscard.report([run, SEED], tmp_path / "other.html", truth=["a.json", "b.json"])
+    with pytest.raises(TypeError, match="truth must be a path or a list of paths, not 3"):
+        viscard.report(SEED, tmp_path / "other.html", truth=3)
     arrays = {"time_s": [1.0, 2.0], "modulus_Pa": [2.0, 1.0]}
     for no_file in (arrays, [SEED, arrays], viscard.Material.load(SEED)):
         with pytest.raises(TypeError, match=r"^data.* must be a path(,| or) a Capture.*; save arrays and materials to a file"):
@@ -77,6 +82,15 @@ def test_the_report_is_the_command(program, run, tmp_path):
     with pytest.raises(viscard.Error, match="data is empty; give at least one file"):
         viscard.report([], tmp_path / "other.html")
     assert not (tmp_path / "other.html").exists()
+
+
+def test_pictures_of_a_report_are_files_too(program, tmp_path):
+    viscard.report(SEED, tmp_path / "python.html", pictures=tmp_path / "python", unverified=True)
+    printed(program, "report", SEED, "--out", str(tmp_path / "command.html"), "--pictures", str(tmp_path / "command"))
+    names = sorted(one.name for one in (tmp_path / "command").iterdir())
+    assert names and sorted(one.name for one in (tmp_path / "python").iterdir()) == names
+    for name in names:
+        assert (tmp_path / "python" / name).read_text() == (tmp_path / "command" / name).read_text()
 
 
 def test_calibrations_of_readings_are_the_command(program, tmp_path):

@@ -4,6 +4,7 @@ import json
 import subprocess
 import threading
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -33,6 +34,32 @@ def test_an_answer_equals_the_command_line(program):
         assert answer.unknowns == printed["unknowns"]
 
 
+def test_an_effect_that_is_not_computed_is_doubted_as_the_command_does(program, tmp_path):
+    bent = {"tolerance": 1e-2, "geometry": {"diameter": "40 um", "length": "120 um"},
+            "materials": {"pillar": {"E": "1.8 MPa", "nu": 0.33, "rho": "965 kg/m3"}},
+            "analysis": {"kind": "static", "load": {"shear": "10 kPa", "on": "top", "direction": "lateral"}}}
+    with pytest.warns(viscard.DoubtWarning, match="not within the tolerance: finite_strain is not computed"):
+        answer = viscard.simulate(bent)
+    assert answer.within_tolerance and not answer.effects_within_tolerance
+    file = tmp_path / "bent.toml"
+    file.write_text("""tolerance = 1e-2
+[geometry]
+diameter = "40 um"
+length = "120 um"
+[materials]
+pillar = { E = "1.8 MPa", nu = 0.33, rho = "965 kg/m3" }
+[analysis]
+kind = "static"
+load = { shear = "10 kPa", on = "top", direction = "lateral" }
+""")
+    printed = subprocess.run([program, "simulate", file], capture_output=True, text=True, check=True).stdout
+    assert printed.split("\n")[0] == f"{file}: {answer.tolerance_doubt}"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", viscard.DoubtWarning)
+        answer = viscard.simulate({**bent, "tolerance": 0.5})
+    assert answer.effects_within_tolerance and answer.tolerance_doubt == ""
+
+
 def test_a_dict_equals_its_file():
     of_file, of_dict = viscard.simulate("data/scenes/pillar_press.toml"), viscard.simulate(PRESS)
     assert of_file.results == of_dict.results
@@ -44,6 +71,37 @@ def test_a_dict_equals_its_file():
     with_folder = copy.deepcopy(PRESS)
     with_folder["materials"]["pvdf"]["file"] = "pvdf_film_manual.json"
     assert viscard.simulate(with_folder, folder="data/materials").results == of_file.results
+
+
+def test_two_scenes_beside_each_other_are_those_of_the_command(program, tmp_path):
+    paths = []
+    for name, modulus in (("stiff", "2 MPa"), ("soft", "1 MPa")):
+        paths.append(tmp_path / f"{name}.toml")
+        paths[-1].write_text(f"""[geometry]
+diameter = "40 um"
+length = "120 um"
+[materials]
+pillar = {{ E = "{modulus}", nu = 0.33, rho = "965 kg/m3" }}
+[analysis]
+kind = "modal"
+modes = 1
+""")
+    found = viscard.simulate(paths[0], compare=paths[1]).compared
+    printed = json.loads(subprocess.run([program, "simulate", *map(str, paths[:1]), "--compare", str(paths[1]), "--json"],
+                                        capture_output=True, text=True, check=True).stdout)["compared"]
+    assert found["scene"] == str(paths[1])
+    assert [one["ratio"] for one in found["values"]] == [one["ratio"] for one in printed["values"]]
+    assert found["values"][0]["ratio"] == pytest.approx(np.sqrt(2.0), rel=1e-3)
+    assert viscard.simulate(paths[0]).compared is None
+    with pytest.raises(viscard.Error, match="absent.toml"):
+        viscard.simulate(paths[0], compare=tmp_path / "absent.toml")
+
+
+def test_the_processor_time_of_a_study_of_costs_is_limited():
+    found = viscard.cost(PRESS, budget=20, cpu_budget="0.2 s")
+    assert found.json["rows_left_out"] > 0
+    with pytest.raises(viscard.Error, match="cpu_budget is 0 s; it must be positive"):
+        viscard.cost(PRESS, cpu_budget=0)
 
 
 def test_fields_are_arrays():

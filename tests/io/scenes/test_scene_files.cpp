@@ -73,9 +73,9 @@ quantities = ["deviation_percent"]
 )");
   const auto folder = answered(scene);
   const std::string picture = read_file(folder / "deviation_percent_2.svg");
-  CHECK(picture.find("spacing (um)") != std::string::npos);
-  CHECK(count_of(picture, "diameter 20 um") == 1);
-  CHECK(count_of(picture, "diameter 40 um") == 1);
+  CHECK(picture.find("spacing (µm)") != std::string::npos);
+  CHECK(count_of(picture, "diameter 20 µm") == 1);
+  CHECK(count_of(picture, "diameter 40 µm") == 1);
   CHECK(picture.find("limit") != std::string::npos);
   CHECK(read_file(folder / "results.csv").find("\"deviation_percent_1 at diameter 20 um, ") !=
         std::string::npos);

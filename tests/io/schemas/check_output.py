@@ -78,6 +78,12 @@ def check_rig():
     run(["rig", "check", "--emulate", "--seconds", "1"], "rig-check")
     run(["rig", "touch", "--emulate"], "rig-touch")
     run(["rig", "jog", "--emulate", "--away", "0.1 mm"], "rig-move")
+    bench = data("demo/01_rig.toml").read_text()
+    bench = bench.replace('driver = "grbl"', 'driver = "zaber"\nmicrostep = "0.047625 um"')
+    bench = bench.replace('driver = "hx711"', 'driver = "mt-sics"').replace('"0.7255 V/N"', '"1 V/N"')
+    pathlib.Path("bench.toml").write_text(bench)
+    run(["rig", "set-zero", "--emulate", "--rig", "bench.toml"], "rig-zero")
+    run(["rig", "zero-force", "--emulate", "--rig", "bench.toml"], "rig-zero-force")
     run(["rig", "overshoot"], "rig-overshoot")
     pathlib.Path("test.toml").write_text('[ramp]\ndepth = "0.13 mm"\nduration = "1 s"\nhold = "3 s"\n')
     fast = ["--emulate", "--speed", "500", "--test", "test.toml"]

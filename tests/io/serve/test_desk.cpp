@@ -243,6 +243,12 @@ TEST_CASE("the page sets options of a fit, and none that reads or writes another
   for (const Json& option : described.at("options")) {
     CHECK(option.at("name") != "specimen");
   }
+  // All that a message of card names can be set, in the order in which the page shows it.
+  std::set<std::string> of_card;
+  for (const Json& option : described.at("card")) of_card.insert(option.at("name"));
+  for (const char* name : {"accept-flags", "approximate", "extrapolate", "density", "terms"})
+    CHECK(of_card.contains(name));
+  CHECK_FALSE(of_card.contains("out"));
   CHECK(described.at("targets").size() > 10);
   CHECK(described.at("units").size() > 4);
 }
@@ -299,7 +305,16 @@ TEST_CASE("the desk predicts by the material of a table and compares with anothe
   CHECK(creep.json.at("result").at("curve").contains("time_s"));
   const ApiAnswer against = desk.order(
       "predict", {{"table", "a.csv"}, {"predict", Json::object()}, {"against", "a.csv"}});
-  CHECK(against.json.at("result").at("against").at("quantities").at(0).at("rms_relative") < 1e-3);
+  const Json& found = against.json.at("result").at("against");
+  CHECK(found.at("quantities").at(0).at("rms_relative") < 1e-3);
+  CHECK(found.at("quantities").at(0).at("agrees") == true);
+  CHECK(found.at("measured").at(0).at("values").size() == found.at("quantities").at(0).at("n"));
+  desk.drop("half.csv", ServedDesk::example(0.5));
+  const Json half =
+      desk.order("predict",
+                 {{"table", "a.csv"}, {"predict", Json::object()}, {"against", "half.csv"}})
+          .json;
+  CHECK(half.at("result").at("against").at("quantities").at(0).at("agrees") == false);
   CHECK(desk.order("predict", {{"table", "a.csv"}, {"against", "../a.csv"}}).status == 404);
   CHECK(desk.order("predict", {{"table", "a.csv"}, {"predict", {{"out", "x"}}}}).status == 400);
   CHECK(desk.order("predict", {{"table", "a.csv"}, {"predict", {{"history", "x"}}}}).status == 400);
@@ -319,6 +334,18 @@ TEST_CASE("the desk reads a pasted card back and tells its mistakes", "[serve][d
   CHECK(checked.at("result").at("material").at("terms").size() == 2);
   CHECK(desk.order("check", {{"card", "*ELASTIC\nnonsense\n"}, {"for", "abaqus"}}).status == 422);
   CHECK(desk.order("check", {{"card", ""}}).status == 422);
+  // A card of another program, in mm-t-s.
+  const std::string foreign = "*MATERIAL, NAME=A\n*ELASTIC, MODULI=INSTANTANEOUS\n1.88, 0.495\n";
+  const auto of_foreign = [&](const Json& more) {
+    Json request{{"card", foreign}, {"for", "abaqus"}};
+    request.update(more);
+    return desk.order("check", request).json;
+  };
+  CHECK(of_foreign(Json::object()).at("result").at("verdict") == "the card is wrong");
+  const Json in_mm = of_foreign({{"units", "mm-t-s"}});
+  CHECK(in_mm.at("result").at("verdict") == "no mistake found");
+  CHECK(in_mm.at("command") == "viscard card --check=CARD --for=abaqus --units=mm-t-s");
+  CHECK(of_foreign({{"plausible", "off"}}).at("result").at("agrees") == true);
   CHECK(desk.order("check", {{"card", card}, {"for", "../x"}}).status == 422);
   CHECK(names_in(desk.folder()) == std::set<std::string>{"a.csv", "a.json"});
 }
@@ -363,6 +390,8 @@ TEST_CASE(
   CHECK(solved.at("command") == "viscard simulate pillar_press.toml --tol=1e-3");
   CHECK(solved.at("result").at("results").at("electrode_voltage").at("value").get<double>() ==
         Approx(0.02853).epsilon(1e-3));
+  CHECK(contains(solved.at("result").at("tolerance_doubt"),
+                 "not within the tolerance: finite_strain is not computed"));
   CHECK(solved.at("pictures").size() >= 3);
   CHECK(names_in(desk.folder()) ==
         std::set<std::string>{"own.2.toml", "own.toml", "pillar_press.toml"});
@@ -419,6 +448,14 @@ TEST_CASE("a table at large strain is fitted by the kind that is chosen for it, 
     CHECK(desk.runs(card.at("fit_command").get<std::string>() + "\n" +
                     card.at("command").get<std::string>()));
   }
+  // Python takes the density as a number in SI.
+  const Json dense = desk.order("card", {{"table", "rubber.csv"},
+                                         {"card", {{"for", "lsdyna"}, {"density", "1.1 g/cm3"}}}})
+                         .json;
+  INFO(dense.dump());
+  CHECK(contains(dense.at("command"), "'--density=1.1 g/cm3'"));
+  CHECK(dense.at("options").size() == 1);
+  CHECK(dense.at("options").at("density_kg_m3").get<double>() == Approx(1100.0));
   const ApiAnswer predicted =
       desk.order("predict", {{"table", "rubber.csv"}, {"predict", {{"test", "creep"}}}});
   CHECK(predicted.status == 422);

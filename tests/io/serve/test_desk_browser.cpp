@@ -5,6 +5,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+
 namespace viscard {
 namespace {
 
@@ -88,7 +93,16 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   set_field(browser, "#predict-test", "relaxation");
   set_field(browser, "#predict-against", "b.csv");
   REQUIRE(shows(browser, "#predict-status", "of b.csv"));
+  CHECK(browser.wait_until(has_line("#predict-chart", "series-1"), 20));  // the rows of the table
+  const auto class_of = [&](const char* id) {
+    return browser.run(std::string("return document.getElementById('") + id + "').className")
+        .get<std::string>();
+  };
+  CHECK(class_of("predict-status") == "good");
   look_at_desk(browser, "desk_predict");
+  set_field(browser, "#predict-against", "d.csv");
+  REQUIRE(shows(browser, "#predict-status", "they disagree"));
+  CHECK(class_of("predict-status") == "alert");
   browser.click("#tab-compare");
   browser.click("#compare-tables .specimen:nth-child(2) label input");
   REQUIRE(browser.wait_until(has_line("#compare-chart", "series-2"), 30));
@@ -122,17 +136,34 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   look_at_desk(browser, "desk_ratios");
   CHECK(browser.wait_until(has_line("#ratio-chart", "fit"), 20));
   browser.click("#tab-card");
-  set_field(browser, "#card-ratio", "15");
+  set_field(browser, "#card-ratio", "30");
   set_field(browser, "#target", "abaqus");
+  REQUIRE(shows(browser, "#card-status", R"("Extrapolate")"));  // its field, not its option
+  browser.click("#card-extrapolate");
+  REQUIRE(shows(browser, "#card-same", "may_extrapolate=True"));
+  browser.click("#card-extrapolate");
+  set_field(browser, "#card-ratio", "15");
   REQUIRE(shows(browser, "#card-text", "*VISCOELASTIC"));
   CHECK(shows(browser, "#card-same", "--ratio=15"));
   const auto card = desk.order("card", {{"table", "b.csv"}, {"card", {{"for", "abaqus"}}}});
   browser.click("#tab-check");
   set_field(browser, "#check-text", card.json.at("result").at("card"));
   REQUIRE(shows(browser, "#check-status", "No mistake"));
+  const std::string series =
+      "*MATERIAL, NAME=x\n*ELASTIC, MODULI=INSTANTANEOUS\n1.88, 0.495\n*VISCOELASTIC, "
+      "TIME=PRONY\n0.2, 0.2, 1.0\n";
+  set_field(browser, "#check-target", "abaqus");
+  set_field(browser, "#check-text", series);
+  REQUIRE(shows(browser, "#check-meaning", R"(("Units" mm-t-s))"));
+  CHECK(class_of("check-status") == "alert");
+  set_field(browser, "#check-units", "mm-t-s");
+  REQUIRE(shows(browser, "#check-status", "No mistake"));
+  CHECK(shows(browser, "#check-meaning", "no density"));
+  set_field(browser, "#check-text", series + "0.9, 0.9, 2.0\n");
+  REQUIRE(shows(browser, "#check-status", "No values were read"));
+  CHECK_FALSE(contains(browser.text("#check-meaning"), "E0"));
   set_field(browser, "#check-text",
             "*MATERIAL, NAME=x\n*ELASTIC, MODULI=INSTANTANEOUS\n1.88e6, abc\n");
-  set_field(browser, "#check-target", "abaqus");
   REQUIRE(browser.wait_until("return document.querySelectorAll('#check-lines .wrong').length === 1",
                              30));
   look_at_desk(browser, "desk_check");
@@ -157,7 +188,7 @@ TEST_CASE("a rubber is fitted by the kind that is chosen, alone and with others"
   REQUIRE(
       browser.wait_until("return document.getElementById('link').textContent === 'connected'", 20));
   drop_on_page(browser, "rubber.csv", ServedDesk::rubber());
-  REQUIRE(shows(browser, "#table-error", "Name the kind of test"));
+  REQUIRE(shows(browser, "#table-error", R"(Name the kind of test in the field "Kind")"));
   CHECK(browser.text("#table-error").starts_with("rubber.csv: holds"));  // as the file is named
   set_field(browser, "#field-kind", "uniaxial");
   REQUIRE(shows(browser, "#table-summary", "Read as uniaxial"));
@@ -169,8 +200,12 @@ TEST_CASE("a rubber is fitted by the kind that is chosen, alone and with others"
   browser.click("#tab-card");
   set_field(browser, "#target", "abaqus");
   REQUIRE(shows(browser, "#card-text", "*HYPERELASTIC"));
-  browser.click("#approximate");
+  browser.click("#card-approximate");
   CHECK(shows(browser, "#card-same", R"(result.card("abaqus", "SI", approximate=True))"));
+  set_field(browser, "#target", "lsdyna");
+  REQUIRE(shows(browser, "#card-status", R"(needs a density: "Density")"));
+  set_field(browser, "#card-density", "1.1 g/cm3");
+  CHECK(shows(browser, "#card-same", "density_kg_m3=1100"));
   browser.click("#tab-predict");
   REQUIRE(shows(browser, "#predict-status", "A law of rubber gives cards"));
   CHECK_FALSE(browser.is_shown("#predict-form"));
@@ -223,7 +258,7 @@ TEST_CASE("a prediction is drawn by its unit, and its lines are those of this pr
   set_field(browser, "#predict-test", "recovery");
   REQUIRE(shows(browser, "#predict-same", "--test=recovery"));
   set_field(browser, "#predict-fields label:nth-child(2) input", "-5");
-  REQUIRE(shows(browser, "#predict-status", "--hold"));
+  REQUIRE(shows(browser, "#predict-status", R"("Hold")"));
   CHECK(browser.run("return document.getElementById('predict-same').children.length") == 0);
   browser.click("#tab-card");
   REQUIRE(shows(browser, "#card-same", "test -e a.json || viscard fit a.csv --out=a.json"));
@@ -243,6 +278,42 @@ TEST_CASE("a prediction is drawn by its unit, and its lines are those of this pr
                                                             "time-zero is."});
 }
 
+TEST_CASE("a long name widens no view of a phone, and a table of frequencies offers no times",
+          "[desk][slow]") {
+  if (has_no_browser()) return;
+  ServedDesk desk;
+  ScratchFolder scratch;
+  desk.drop(std::string(90, 'x') + ".csv", ServedDesk::example());
+  std::string sweep = "frequency_Hz,storage_modulus_Pa,loss_modulus_Pa\n";
+  for (int i = 0; i < 30; ++i) {
+    const double f_Hz = std::pow(10.0, 0.1 * i - 1.5), x = f_Hz * f_Hz;
+    sweep += std::to_string(f_Hz) + "," + std::to_string(1e6 + 2e5 * x / (1 + x)) + "," +
+             std::to_string(2e5 * f_Hz / (1 + x) + 1e3) + "\n";
+  }
+  desk.drop("dma.csv", sweep);
+  Browser browser(scratch / "profile");
+  browser.set_window(390, 844, false, true);
+  browser.open(desk.server().address());
+  browser.click("#tables li:last-child button");
+  REQUIRE(shows(browser, "#table-summary", "Read as relaxation"));
+  CHECK(browser.run("return document.getElementById('field-from') !== null").get<bool>());
+  for (const char* view : {"table", "fit", "card", "predict", "compare", "report"}) {
+    CAPTURE(view);
+    browser.click(std::string("#tab-") + view);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    CHECK(browser.run("return document.documentElement.scrollWidth <= innerWidth").get<bool>());
+  }
+  browser.click("#tab-table");
+  browser.click("#tables li:first-child button");
+  REQUIRE(shows(browser, "#table-summary", "Read as dma"));
+  CHECK(browser
+            .run("return document.getElementById('field-from') === null && "
+                 "document.getElementById('more-hold') === null && "
+                 "document.getElementById('more-terms') !== null")
+            .get<bool>());
+  CHECK(browser.errors() == nlohmann::json::array());
+}
+
 TEST_CASE(
     "isotherms are dragged by mouse and finger, moved by keys, fitted from there and taken back",
     "[desk][slow]") {
@@ -259,6 +330,10 @@ TEST_CASE(
   const std::string warm = "#isotherm-list .isotherm:nth-child(3)";
   REQUIRE(shows(browser, cold, "1.00"));  // as fitted
   REQUIRE(shows(browser, warm, "−1.00"));
+  CHECK(browser
+            .run("const table = document.getElementById('moduli'); return table.offsetWidth <= "
+                 "table.parentElement.clientWidth")
+            .get<bool>());
   CHECK(shows(browser, "#isotherm-list .isotherm:nth-child(2)", "reference"));
   look_at_desk(browser, "desk_isotherms");
   const auto shift_of = [&](const std::string& slider) {
@@ -354,8 +429,10 @@ TEST_CASE("the voltage of a pillar with what its accuracy costs, and a report", 
   browser.click("#scene-choices button:last-child");
   REQUIRE(shows(browser, "#scene-results", "electrode voltage"));
   CHECK(shows(browser, "#scene-results", "±"));
+  CHECK(shows(browser, "#scene-status", "Not within the tolerance: finite_strain is not computed"));
   CHECK(browser.wait_until("return document.querySelectorAll('#scene-pictures img').length >= 3",
                            10));
+  CHECK(shows(browser, "#scene-pictures", "stress zz (Pa)"));
   CHECK(person.n_clicks <= 5);
   look_at_desk(browser, "desk_answer");
   set_field(browser, "#scene-text",

@@ -89,6 +89,17 @@ TEST_CASE("a move by hand ends when it is stopped, and when nobody watches it", 
   CHECK(rig.ask("/api/state").json.at("job") == "");
 }
 
+TEST_CASE("a zero that nothing keeps is refused with its reason", "[serve][pty]") {
+  ServedRig rig;
+  CHECK(rig.order("/api/zero", {{"what", "time"}}).status == 400);
+  CHECK(contains(message_of(rig.order("/api/zero", {{"what", "position"}})),
+                 "no rig file keeps the zero of an emulated stage"));
+  const ApiAnswer force = rig.order("/api/zero", {{"what", "force"}});
+  CHECK(force.status == 422);
+  CHECK(contains(message_of(force), "has no zero that this program can set"));
+  CHECK(rig.ask("/api/state").json.at("job") == "");
+}
+
 TEST_CASE("weights on the load cell make a record on the page", "[serve][pty]") {
   ServedRig rig;
   Json points = Json::array();

@@ -158,8 +158,16 @@ TEST_CASE("a bad cell is refused with file, line, column and its text", "[io][cs
   CHECK(error_of("time_s,force_N\n0,1\n1,abc\n", "force_N") ==
         "t.csv:3: column 2 'force_N' for force_N: 'abc' is not a finite number; expected a number");
   CHECK(contains(error_of("time_s,force_N\n0,1\n1,\n", "force_N"), "the cell is empty"));
-  CHECK(contains(error_of("time_s,force_N\n0,nan\n", "force_N"), "'nan' is not a finite number"));
+  CHECK(contains(error_of("time_s,force_N\n0,1\n1,nan\n", "force_N"),
+                 "'nan' is not a finite number"));
   CHECK(first("time_s,force_N\n0,1\n1,abc\n", "time_s") == 0.0);  // the other column is good
+}
+
+TEST_CASE("a column without any number is refused as a whole", "[io][csv]") {
+  const std::string gaps = GENERATE(as<std::string>(), "0,nan\n1,nan\n", "0,\n1,n/a\n");
+  CHECK(error_of("time_s,force_N\n" + gaps, "force_N") ==
+        "t.csv: column 2 'force_N' for force_N: no row has a number; fill it in, or give another "
+        "column");
 }
 
 TEST_CASE("rows of one segment are selected by name", "[io][csv]") {

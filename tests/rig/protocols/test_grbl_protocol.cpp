@@ -74,6 +74,13 @@ TEST_CASE("settings and messages are read", "[rig]") {
   CHECK(parse_grbl_message("[MSG:Reset to continue]").value() == "Reset to continue");
 }
 
+TEST_CASE("the letters of a build show whether it homes one axis alone", "[rig]") {
+  CHECK(parse_grbl_build_options("[OPT:VH,15,128]").value() == "VH");
+  CHECK(parse_grbl_build_options("[OPT:VNMH,35,1024,3,0]\r").value() == "VNMH");
+  CHECK(parse_grbl_build_options("[OPT:,15,128]").value().empty());
+  CHECK_FALSE(parse_grbl_build_options("[VER:1.1h.20190830:HOME]"));
+}
+
 TEST_CASE("a jog fits GRBL's line buffer and does not depend on the locale", "[rig]") {
   CHECK(format_grbl_jog('Z', -1.23456, 7.8) == "$J=G53G90G21Z-1.23456F7.800");
   CHECK(format_grbl_jog('X', -123.456789, 12345.678).size() < 80);

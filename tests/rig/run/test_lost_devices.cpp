@@ -52,6 +52,11 @@ TEST_CASE("a stage whose port comes back lifts the punch as far as it had presse
   INFO(phase << ": " << outcome.reason);
   CHECK(outcome.status == "interrupted");
   CHECK_THAT(outcome.reason, !Contains("by hand") && !Contains("BY HAND"));
+  // A board that restarts counts from where it stands.
+  CHECK_THAT(outcome.reason, !Contains("above the contact") && !Contains("where it started"));
+  if (phase != "approach") {
+    CHECK_THAT(outcome.reason, Contains("lifted by 0.") && Contains("position is not known"));
+  }
   CHECK_FALSE(rig.emulated.outcome().is_moving);
   CHECK(rig.emulated.outcome().final_position_m < options.truth.surface_position_m);
   CHECK(rig.emulated.outcome().final_position_m > -1e-3);  // no further than it had come

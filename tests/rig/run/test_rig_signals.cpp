@@ -119,8 +119,59 @@ TEST_CASE("a motor that stands from the start touches nothing, and the motor is 
   plan.approach_limit_m = 1e-3;
   const FaultedRun run = run_with(rig_with("dead-motor"), plan);
   CHECK(run.outcome.status == "interrupted");
-  CHECK_THAT(run.said, Contains("motor is dead"));
+  CHECK_THAT(run.said, Contains("motor is dead") && Contains("by its count, which is in doubt"));
   CHECK(run.bench.peak_force_N == 0.0);
+}
+
+TEST_CASE("a motor that dies after a third of the ramp is noticed within the ramp", "[rig][pty]") {
+  TestPlan plan = short_plan();
+  plan.ramp_s = 2.0;
+  const FaultedRun run = run_with(rig_with("dead-motor@ramp+0.7"), plan);
+  INFO(run.said);
+  CHECK(run.outcome.code == "no-response");
+  CHECK(run.outcome.phase == "ramp");
+  CHECK_THAT(run.said, Contains("pressed on by") && Contains("motor does not turn"));
+}
+
+TEST_CASE("a motor that dies in the approach leaves a small force, and the run says so",
+          "[rig][pty]") {
+  // Below the contact threshold of 20 mN, at the touch, and while the touch is tried.
+  const auto [from_N, word] = GENERATE(std::pair<double, std::string>{0.014, "motor is dead"},
+                                       std::pair<double, std::string>{0.03, "motor does not turn"},
+                                       std::pair<double, std::string>{0.07, "motor does not turn"});
+  EmulatedRigOptions options = rig_with("dead-motor@pressing");
+  options.truth.surface_position_m = 0.06e-3;
+  RigFixture rig(options);
+  const double least_N = from_N;
+  rig.sink = [&rig, least_N](const RunRecord& record) {
+    rig.records.push_back(record);
+    if (rig.emulated.outcome().peak_force_N > least_N) rig.emulated.enter_phase("pressing");
+  };
+  TestPlan plan = short_plan();
+  plan.approach_speed_m_s = 0.02e-3;
+  plan.contact_force_N = 0.02;
+  plan.approach_limit_m = 0.4e-3;
+  const RunOutcome outcome = rig.run(plan);
+  INFO(least_N << ": " << outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK(outcome.phase == "approach");
+  CHECK_THAT(outcome.reason, Contains(word) && Contains("THE PUNCH MAY STILL PRESS") &&
+                                 Contains("by hand") &&
+                                 Contains("by its count, which is in doubt") &&
+                                 !Contains("This is no contact") && !Contains("NOT LIFTED"));
+  CHECK(rig.emulated.outcome().final_position_m > options.truth.surface_position_m);
+}
+
+TEST_CASE("a punch that is not lifted by a dead motor has one reason, on coarse steps too",
+          "[rig][pty]") {
+  EmulatedRigOptions options = rig_with("dead-motor@retract");
+  options.truth.steps_per_m = 250e3;
+  options.truth.surface_position_m = GENERATE(0.4e-3, 0.4013e-3, 0.4027e-3);
+  const FaultedRun run = run_with(options);
+  INFO(run.said);
+  CHECK(run.outcome.code == "not-lifted");
+  CHECK_THAT(run.said, Contains("MAY STILL PRESS") && Contains("motor does not turn") &&
+                           !Contains("NOT LIFTED") && !Contains("$20"));
 }
 
 TEST_CASE("a zero that drifts during a run is a doubt that says where the punch is", "[rig][pty]") {

@@ -147,6 +147,15 @@ TEST_CASE("at rest an error of 8 times the noise is found, and noise is not mark
   CHECK(spikes_in(values).size() <= n_off + 1);
 }
 
+TEST_CASE("an hour of noise has no spikes, and an error of 12 times the noise is found in it",
+          "[rig]") {
+  std::vector<double> values = noisy(std::vector<double>(300'000, 1000.0), 10.0);
+  CHECK(spikes_in(values).empty());
+  const std::size_t place = values.size() - 100;
+  values[place] = 1000.0 + 12.0 * 10.0;
+  CHECK(spikes_in(values) == std::vector<std::int64_t>{static_cast<std::int64_t>(place)});
+}
+
 TEST_CASE("readings made a little early or late on a ramp are no spikes", "[rig]") {
   // 40 times the noise per reading, and a fifth of the period of unevenness in time.
   std::mt19937 random(3);
@@ -169,6 +178,38 @@ TEST_CASE("the staircase of a coarse stage has no spikes", "[rig]") {
     values[200] += 60.0 * 38.0 * 300.0;
     CHECK(spikes_in(noisy(values, 300.0)) == std::vector<std::int64_t>{200});
   }
+}
+
+TEST_CASE("a specimen that relaxes between the steps of a coarse stage makes no spikes", "[rig]") {
+  // Steps of 4 um at 4.7 N/mm, as counts; a ramp of 1.1 s with a step in 2.4 of 88 readings.
+  constexpr double kStep = 11300.0, kNoise = 330.0, kRelaxing = 0.3, kTau = 24.0;
+  std::mt19937 random(11);
+  std::normal_distribution<double> noise(0.0, kNoise);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  int n_found = 0, n_garbled = 0;
+  constexpr int kRamps = 200;
+  for (int ramp = 0; ramp < kRamps; ++ramp) {
+    SpikeWatch watch;
+    watch.expect_step(kStep);
+    const double phase = share(random);
+    double force = 0.0, relaxing = 0.0;
+    int n_steps = 0;
+    for (int i = 0; i < 400; ++i) {
+      const int due = static_cast<int>(std::clamp(i - 150, 0, 88) / 2.4 + phase);
+      relaxing *= std::exp(-1.0 / kTau);
+      for (; n_steps < due; ++n_steps) {
+        force += (1.0 - kRelaxing) * kStep;
+        relaxing += kRelaxing * kStep;
+      }
+      const double garbled = i == 200 ? 10.0 * kStep : 0.0;
+      for (const std::int64_t index :
+           watch.take(i, i, 12000.0 + force + relaxing + garbled + noise(random))) {
+        ++(index == 200 ? n_garbled : n_found);
+      }
+    }
+  }
+  CHECK(n_found == 0);
+  CHECK(n_garbled == kRamps);
 }
 
 TEST_CASE("single steps of a quiet converter are no spikes", "[rig]") {

@@ -1,3 +1,4 @@
+#include "io/cards/header_name.h"
 #include "io/cards/targets/card_targets.h"
 #include "tests/io/cards/card_materials.h"
 #include "tests/io/cli/card/card_command.h"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -170,6 +172,51 @@ TEST_CASE("card --prove leaves a certificate beside the card that leads to the r
   CHECK(command.run({file, "--prove", card, "--force"}) == kDone);
   CHECK_THAT(command.out, Contains("chain: not complete") && Contains("run.csv has changed"));
   CHECK(nlohmann::json::parse(read_file(path)).at("chain").at("complete") == false);
+}
+
+TEST_CASE("card --verify finds files of any name from the card of any target", "[cards][cli]") {
+  CardCommand command;
+  Material material = reference_material();
+  material.terms.resize(1);
+  material.provenance.raw_files.clear();
+  const std::vector<std::string> names{
+      "pr\u00fcfung.csv", "x--y---z.csv", "say \"a\".csv", "back\\slash.csv", "tab\there.csv",
+      "line\nbreak.csv",  "50%.csv",      "a%41.csv",      "raw data 1.csv",  "a sha256 b.csv"};
+  for (const std::string& name : names) {
+    write_file(command.path(name), "of " + name, true);
+    material.provenance.raw_files.push_back({name, sha256_of_file(command.path(name))});
+  }
+  const std::string file = command.save(material, "gr\u00fcn--\"m\".json");
+  for (const CardTarget& target : card_targets()) {
+    CAPTURE(target.name);
+    const std::string path = command.path("named" + target.extension);
+    REQUIRE(command.run({file, "--for", target.name, "--out", path, "--force"}) == kDone);
+    const std::string card = read_file(path);
+    CHECK(std::all_of(card.begin(), card.end(),
+                      [](char c) { return c == '\n' || c == '\t' || (c >= ' ' && c <= '~'); }));
+    CHECK_THAT(card, Contains("raw data pr%C3%BCfung.csv sha256 ") &&
+                         Contains("raw data 50%.csv sha256 "));
+    CHECK(command.run({"--verify", path}) == kDone);
+    CHECK_THAT(command.out, Contains("every stated sum matches") && Contains("gr\u00fcn--"));
+  }
+}
+
+TEST_CASE("a name in the header of a card is the name again when it is read", "[cards]") {
+  std::mt19937 random(5);
+  const std::string letters = "ab4C%-- \"\\\n\xc3\xbc";
+  std::uniform_int_distribution<std::size_t> place(0, letters.size() - 1), length(0, 8);
+  for (int i = 0; i < 5000; ++i) {
+    std::string name;
+    for (std::size_t n = length(random); n > 0; --n) name += letters[place(random)];
+    CAPTURE(name, name_in_header(name));
+    CHECK(name_from_header(name_in_header(name)) == name);
+    CHECK(name_in_header(name).find("--") == std::string::npos);
+  }
+  for (const char* ordinary : {"data/run 1.csv", "../a-b_c.json", "50% strain.csv", "a(1)+b.csv"})
+    CHECK(name_in_header(ordinary) == ordinary);
+  // As older cards state names.
+  for (const char* old : {"a%20b.csv", "x--y.csv", "pr??fung.csv"})
+    CHECK(name_from_header(old) == old);
 }
 
 TEST_CASE("card --solver and --solver-path are explained when they do not fit", "[cards][cli]") {

@@ -222,6 +222,33 @@ TEST_CASE("viscard card --check exits 0 for a right card and 1 for a wrong one",
   CHECK(is_named);
 }
 
+TEST_CASE(
+    "viscard card --check states no values of a card that describes no solid, and its verdict",
+    "[cards][cli]") {
+  CardCommand card;
+  const std::string path = card.path("sent.inp");
+  const auto checked = [&](const std::string& first_g) {
+    write_file(path,
+               "*MATERIAL, NAME=A\n*ELASTIC, MODULI=INSTANTANEOUS\n1.88e6, 0.495\n"
+               "*VISCOELASTIC, TIME=PRONY\n" +
+                   first_g + ", " + first_g + ", 0.2\n0.2, 0.2, 1.0\n",
+               true);
+    card.run({"--check", path, "--for", "abaqus"});
+    const std::string text = card.out;
+    card.run({"--check", path, "--for", "abaqus", "--json"});
+    const auto json = nlohmann::json::parse(card.out);
+    CHECK(text.find(json.at("verdict").get<std::string>()) != std::string::npos);
+    CHECK((text.find("E0 =") != std::string::npos) == json.at("material").is_object());
+    return json;
+  };
+  const auto wrong = checked("0.9");
+  CHECK(wrong.at("verdict") == "the card is wrong");
+  CHECK(wrong.at("material").is_null());
+  const auto right = checked("0.3");
+  CHECK(right.at("verdict") == "no mistake found");
+  CHECK(right.at("material").at("rho_kg_m3") == 0.0);
+}
+
 TEST_CASE("viscard card --bound writes both ends of the intervals", "[cards][cli]") {
   CardCommand card;
   Material material = reference_material();

@@ -289,22 +289,36 @@ TEST_CASE("options that a table cannot use are refused, not ignored", "[cli]") {
     const std::string& file;
     const char *option, *value;
   };
-  for (const auto& [file, option, value] :
-       {Without{creep_file, "--gauge-length", "25 mm"}, Without{creep_file, "--area", "12 mm2"},
-        Without{creep_file, "--youngs-modulus", "1.5 MPa"},
-        Without{creep_file, "--punch-diameter", "4 mm"},
-        Without{creep_file, "--frame-stiffness", "10 N/mm"},
-        Without{dma_file, "--time-zero", "0.1"}, Without{dma_file, "--vertical-shift", "on"},
-        Without{depth, "--vertical-shift", "off"}, Without{depth, "--area", "12 mm2"},
-        Without{capture, "--area", "12 mm2"}, Without{capture, "--sheet", "x"},
-        Without{capture, "--skip", "2"}, Without{capture, "--reference-temperature", "20 degC"},
-        Without{capture, "--vertical-shift", "on"}, Without{uniaxial, "--gauge-length", "25 mm"},
-        Without{uniaxial, "--area", "12 mm2"}}) {
+  for (const auto& [file, option, value] : {Without{creep_file, "--gauge-length", "25 mm"},
+                                            Without{creep_file, "--area", "12 mm2"},
+                                            Without{creep_file, "--youngs-modulus", "1.5 MPa"},
+                                            Without{creep_file, "--punch-diameter", "4 mm"},
+                                            Without{creep_file, "--frame-stiffness", "10 N/mm"},
+                                            Without{dma_file, "--time-zero", "0.1"},
+                                            Without{dma_file, "--from", "0.1 s"},
+                                            Without{dma_file, "--to", "10"},
+                                            Without{dma_file, "--hold", "1"},
+                                            Without{dma_file, "--crop", "auto"},
+                                            Without{dma_file, "--vertical-shift", "on"},
+                                            Without{depth, "--vertical-shift", "off"},
+                                            Without{depth, "--area", "12 mm2"},
+                                            Without{capture, "--area", "12 mm2"},
+                                            Without{capture, "--sheet", "x"},
+                                            Without{capture, "--skip", "2"},
+                                            Without{capture, "--reference-temperature", "20 degC"},
+                                            Without{capture, "--vertical-shift", "on"},
+                                            Without{uniaxial, "--gauge-length", "25 mm"},
+                                            Without{uniaxial, "--area", "12 mm2"}}) {
     INFO(file << " " << option);
     ran = run_command({"fit", file, option, value});
     CHECK(ran.status == kFailed);
     CHECK_THAT(ran.err, Contains(option));
     CHECK_THAT(ran.err, Contains("omit"));
+  }
+  for (const char* option : {"--from", "--to"}) {  // which a table of frequencies seems to take
+    ran = run_command({"fit", dma_file, option, "1 Hz"});
+    CHECK(ran.status == kBadWords);
+    CHECK_THAT(ran.err, Contains(std::string(option) + " is for records in time"));
   }
   ran = run_command({"fit", creep_file, "--terms", "1", "--max-terms", "5"});
   CHECK(ran.status == kBadWords);

@@ -74,8 +74,30 @@ TEST_CASE("a fitted material predicts its own data to the noise, with a band", "
   CHECK(found["share_inside_band"].get<double>() < 0.6);
   CHECK(found["rms_relative"].get<double>() < 3e-4);
   CHECK(std::abs(found["worst"].get<double>()) >= found["rms"].get<double>());
+  CHECK(found["agrees"] == true);
+  const auto& measured = json["against"]["measured"][0];
+  CHECK(measured["quantity"] == "modulus_Pa");
+  CHECK(measured["at"].size() == found["n"]);
+  CHECK(measured["values"].size() == found["n"]);
   CHECK(json["curve"]["modulus_Pa_low_95"].size() == json["curve"]["time_s"].size());
   CHECK_THAT(read_file(folder.file("E.svg")), Contains("95 % band") && Contains("measured"));
+}
+
+TEST_CASE("a prediction that lies apart from a table disagrees, in words and as a key", "[cli]") {
+  const TableFolder folder;
+  const std::string material = fitted_example(folder);
+  const PronySeries series = young_series(read_material(material).material);
+  std::ostringstream text;
+  text << "time_s,modulus_Pa\n";
+  for (int i = 0; i < 40; ++i) {
+    const double t_s = 0.1 * (i + 1);
+    text << t_s << "," << 1.1 * relaxation_modulus_Pa(series, t_s) << "\n";
+  }
+  const std::string table = folder.write("other.csv", text.str());
+  const auto found = predicted({material, "--against", table})["against"]["quantities"][0];
+  CHECK(found["agrees"] == false);
+  CHECK_THAT(run_command({"predict", material, "--against", table}).out,
+             Contains(": they disagree"));
 }
 
 TEST_CASE("a predicted creep test is read by fit again and gives the same material", "[cli]") {
@@ -355,4 +377,34 @@ TEST_CASE("a material states the sum of the contents that were fitted", "[cli]")
   const Material material = material_from_fitted(fitted, {});
   REQUIRE(material.provenance.raw_files.size() == 1);
   CHECK(material.provenance.raw_files[0].sha256 == sha256_of_text(first));
+}
+
+TEST_CASE("examples and remedies of refused options are those of the quantity", "[cli]") {
+  const std::string seed = kData + "materials/pdms_1to10_seed.json";
+  const auto err = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"predict", seed});
+    const CommandOutcome ran = run_command(words);
+    CHECK(ran.status != kDone);
+    return ran.err;
+  };
+  for (const char* strain : {"1 pct", "1 mm", "x"}) {
+    CAPTURE(strain);
+    CHECK_THAT(err({"--test", "relaxation", "--strain", strain}),
+               Contains("write it like \"1 %\"") && !Contains("0.495"));
+  }
+  const auto range =
+      run_command({"predict", seed, "--test", "oscillation", "--from", "10Hz", "--to", "1Hz"});
+  CHECK(range.status == kBadWords);
+  CHECK_THAT(range.err, Contains("--from 10Hz --to 1Hz"));
+}
+
+TEST_CASE("a strain that follows from the load passes the rule of one that is stated", "[cli]") {
+  const std::string seed = kData + "materials/pdms_1to10_seed.json";
+  for (const char* test : {"creep", "recovery"}) {
+    CAPTURE(test);
+    const auto ran = run_command({"predict", seed, "--test", test, "--stress", "1 GPa"});
+    CHECK(ran.status != kDone);
+    CHECK_THAT(ran.err, Contains("its largest strain is") && Contains("--plausible off"));
+    CHECK(run_command({"predict", seed, "--test", test, "--stress", "10 kPa"}).status == kDone);
+  }
 }

@@ -32,6 +32,9 @@ TEST_CASE("a wrong command line gives one line and exit status 2", "[cli]") {
       {{"fit", file, "--layer-thickness", "1 mm"}, "needs --punch-diameter"},
       {{"fit", file, "--column", "modulus=2"}, "modulus"},
       {{"fit", file, "--bootstrap", "5"}, "outside 20 to 100000"},
+      {{"fit", file, "--model", "kww", "--fix", "E0=1.8e6"}, "--model fits a law without terms"},
+      {{"fit", file, "--model", "kww", "--bootstrap", "50"}, "--bootstrap is for the terms"},
+      {{"fit", file, "relaxation=" + file, "--terms", "1"}, "states no kind of test"},
       {{"fit", file, "--liquid", "--terms", "0"}, "at least one term"},
       {{"fit", file, file, "--out", folder.file("m.json")}, "one input file"}};
   for (const auto& [words, expected] : cases) {
@@ -223,6 +226,71 @@ TEST_CASE("a stress without its strain is no modulus, and an extension needs the
       run_command({"fit", with_extension, "--gauge-length", "20 mm", "--json"});
   REQUIRE(ran.status == 0);
   CHECK(nlohmann::json::parse(ran.out)["E0_Pa"].get<double>() == Approx(1.5e6).epsilon(1e-3));
+}
+
+TEST_CASE("a relaxation of a table of compliances is refused by what the table has", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream creep;
+  creep << "t (s),J (1/MPa)\n";
+  for (int i = 1; i <= 60; ++i) creep << i << "," << 0.5 + 0.1 * (1.0 - std::exp(-i / 9.0)) << "\n";
+  const auto ran =
+      run_command({"fit", folder.write("creep.csv", creep.str()), "--kind", "relaxation"});
+  CHECK(ran.status == 1);
+  CHECK_THAT(ran.err, Contains("--kind creep") && !Contains("''"));
+}
+
+TEST_CASE("a unit that is none is named with the one that was meant", "[cli]") {
+  const TableFolder folder;
+  for (const char* const header : {"E (Mpa)", "modulus (mpa)"}) {
+    std::ostringstream table;
+    table << "t (s)," << header << "\n";
+    for (int i = 1; i <= 60; ++i) table << i << "," << 1.6 + 0.2 * std::exp(-i / 9.0) << "\n";
+    const std::string file = folder.write("E.csv", table.str());
+    const auto ran = run_command({"fit", file});
+    CAPTURE(header, ran.err);
+    CHECK(ran.status == 1);
+    CHECK_THAT(ran.err, Contains("is not a known unit") && Contains("If MPa was meant") &&
+                            Contains("modulus_Pa=") && !Contains("compliance"));
+    const std::string name = std::string(header).substr(0, std::string(header).find(' '));
+    const auto meant =
+        run_command({"fit", file, "--column", "modulus_Pa=" + name + " (MPa)", "--json"});
+    REQUIRE(meant.status == 0);
+    CHECK(nlohmann::json::parse(meant.out)["E0_Pa"].get<double>() == Approx(1.8e6).epsilon(0.02));
+  }
+}
+
+TEST_CASE("files of other kinds are refused by what they are", "[cli]") {
+  const TableFolder folder;
+  const std::string page =
+      folder.write("rep.html", "<!DOCTYPE html>\n<html><p>1,5 and 2.5</p></html>\n");
+  CHECK_THAT(run_command({"fit", page}).err, Contains("is an HTML page, not a table"));
+  const std::string table = folder.write("E.csv", relaxation_table());
+  CHECK_THAT(run_command({"card", "--check", table}).err,
+             Contains("is a table of numbers, not a material card"));
+  const std::string material = VISCARD_SOURCE_DIR "/data/materials/pdms_1to10_seed.json";
+  CHECK_THAT(
+      run_command({"report", material, "relaxation=" + table, "--out", folder.file("r.html")}).err,
+      Contains("is a material, not a test") && !Contains("creep="));
+}
+
+TEST_CASE("the option --unverified beside a table that no capture was exported to is refused", "[cli]") {
+  const TableFolder folder;
+  const auto ran = run_command({"fit", folder.write("E.csv", relaxation_table()), "--unverified"});
+  CHECK(ran.status != 0);
+  CHECK_THAT(ran.err, Contains("--unverified is for captures"));
+}
+
+TEST_CASE("the row of the order that was fitted shows the constrained fit", "[cli]") {
+  const TableFolder folder;
+  const std::string file = folder.write("E.csv", relaxation_table());
+  const auto ran =
+      run_command({"fit", file, "--terms", "2", "--fix", "tau_1=1", "--fix", "tau_2=30", "--json"});
+  const auto json = nlohmann::json::parse(ran.out);
+  for (const auto& row : json["orders"]) {
+    if (!row["chosen"].get<bool>()) continue;
+    CHECK(row["n_terms"] == 2);
+    CHECK(row["rss"].get<double>() == Approx(json["rss"].get<double>()).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("a sweep of the strain amplitude is refused with its linear range", "[cli]") {

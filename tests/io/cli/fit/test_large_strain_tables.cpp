@@ -87,7 +87,7 @@ TEST_CASE("an unsorted table of one curve without times is sorted, not taken for
       table << s << "," << (i % 2 == 0 ? 1.0 : 1.0 - softening) * 4e5 * (s - 1.0 / (s * s)) << "\n";
     }
     std::vector<std::string> words{"fit", "uniaxial=" + folder.write("rows.csv", table.str()),
-                                   "--model", "neo-hooke", "--force"};
+                                   "--model", "neo-hooke"};
     words.insert(words.end(), more.begin(), more.end());
     return run_command(words);
   };

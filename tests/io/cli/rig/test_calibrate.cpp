@@ -167,6 +167,35 @@ TEST_CASE("mixed-up weights make no record, and the error names the reading", "[
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
+TEST_CASE("readings of a test calibrate neither a frame nor a load cell", "[cli]") {
+  const ScratchFolder folder;
+  // As viscard export writes them: in air, pressed down, held while the specimen relaxes.
+  std::string test = "time_s,host_time_s,volts,force_N,stage_position_m,phase\n";
+  std::string bare = "position_m,force_N\n";
+  for (int i = 0; i < 60; ++i) {
+    const double position_m = 25e-6 * std::min(i, 40);
+    const double pressed_N = 8e3 * std::max(0.0, position_m - 800e-6);
+    const double force_N = i <= 40 ? pressed_N : pressed_N * (0.6 + 0.4 / (i - 39));
+    const std::string place = std::to_string(position_m) + ",";
+    test += std::to_string(0.1 * i) + "," + std::to_string(0.1 * i) + "," +
+            std::to_string(0.7255 * force_N) + "," + std::to_string(force_N) + "," + place +
+            (i <= 40 ? "ramp\n" : "hold\n");
+    bare += place + std::to_string(force_N) + "\n";
+  }
+  write(folder / "test.csv", test);
+  write(folder / "bare.csv", bare);
+  const std::string out = (folder / "o.toml").string();
+  const std::string exported = (folder / "test.csv").string();
+  CHECK_THROWS_WITH(calibrate({"--compliance", "--data", exported, "--out", out}),
+                    Contains("a table of viscard export") && Contains("--compliance --data"));
+  CHECK_THROWS_WITH(calibrate({"--data", exported, "--capacity", "250 gf", "--out", out}),
+                    Contains("a table of viscard export") && Contains("mass_kg"));
+  CHECK_THROWS_WITH(
+      calibrate({"--compliance", "--data", (folder / "bare.csv").string(), "--out", out}),
+      Contains("no frame on a rigid block"));
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
 TEST_CASE("wrong options of calibrate are named", "[cli]") {
   CHECK_THROWS_AS(calibrate({"--out", "x.toml"}), UsageError);
   CHECK_THROWS_WITH(calibrate({"--emulate"}), Contains("--out"));
@@ -189,6 +218,13 @@ TEST_CASE("wrong options of calibrate are named", "[cli]") {
                     Catch::Contains("--valid-until 2020-01-31 is in the past"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", "soon"}),
                     Contains("'soon'"));
+  for (const char* day :
+       {"2099-02-31", "2098-13-01", "2098-06-31", "2099-02-29", "2098-6-3", "2098-06-03T10:00"}) {
+    CAPTURE(day);
+    CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", day}),
+                      Contains("--valid-until '" + std::string(day) + "'") &&
+                          Contains("is not a day of the calendar"));
+  }
 }
 
 TEST_CASE("options of calibrate that belong to weights, a block or the rig alone are refused there",
@@ -234,6 +270,15 @@ TEST_CASE("options of calibrate that belong to weights, a block or the rig alone
     CHECK_THROWS_WITH(calibrate(all),
                       Contains(std::string(option) + " is for") && Contains("omit it"));
   }
+  for (std::vector<std::string> words : {points, table}) {
+    words.emplace_back("--yes");
+    CHECK_THROWS_WITH(calibrate(words), Contains("--yes is for a block on the rig"));
+    words.back() = "--unverified";
+    CHECK_THROWS_WITH(calibrate(words), Contains("--unverified is for captures"));
+  }
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--out", out, "--id", ""}), Contains("--id is empty"));
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--data", "w.csv", "--out", out}),
+                    Contains("--data and --emulate exclude each other"));
   CHECK_THROWS_WITH(calibrate({"--rig", "none.toml", "--out", out, "--yes"}),
                     Contains("--yes is for a block"));
 }

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace viscard {
@@ -246,10 +247,13 @@ TEST_CASE("every command of a rig names the file and line of a port that it cann
   const ScratchFolder folder;
   std::string rig = read_file(demo("01_rig.toml"));
   const std::string cell = "/dev/serial/by-id/load_cell";
+  const auto at = static_cast<std::ptrdiff_t>(rig.find(cell));
+  const auto line = 1 + std::count(rig.begin(), rig.begin() + at, '\n');
   rig.replace(rig.find(cell), cell.size(), "tcp://bench");
   write_file(folder / "rig.toml", rig, false);
   CHECK(contains(run_command({"rig", "check", "--rig", folder / "rig.toml"}).err,
-                 "rig.toml:29: port under [load_cell] 'tcp://bench' needs a host and a number"));
+                 "rig.toml:" + std::to_string(line) +
+                     ": port under [load_cell] 'tcp://bench' needs a host and a number"));
 }
 
 TEST_CASE("a capture that is given as another kind of test is refused with the words that fit it",
@@ -401,7 +405,10 @@ TEST_CASE("a damaged capture is never taken for a table", "[cli][capture]") {
 TEST_CASE("options of rig check are refused by the other subcommands", "[cli][rig]") {
   const auto outcome = run_command({"rig", "overshoot", "--rig", "none.toml"});
   CHECK(outcome.status == kBadWords);
-  CHECK(contains(outcome.err, "--rig belongs to 'viscard rig check'"));
+  CHECK(contains(outcome.err, "--rig is for viscard rig list, check, touch, jog, lift or home"));
+  const auto listed = run_command({"rig", "list", "--seconds", "1 s"});
+  CHECK(listed.status == kBadWords);
+  CHECK(contains(listed.err, "--seconds is for viscard rig check or touch"));
 }
 
 TEST_CASE("rig home has no speed and no limit of its own", "[cli][rig]") {

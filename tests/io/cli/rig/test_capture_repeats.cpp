@@ -267,4 +267,108 @@ TEST_CASE("repeated captures of scattering specimens give the three levels in th
   CHECK(contains(html, "10 : 1 (2 specimens)"));
 }
 
+namespace {
+
+// The rig of the demonstration, homed before and after, and a test without an unloading in contact.
+Strings homed_words(const ScratchFolder& folder, const Strings& more) {
+  write_file(folder / "rig.toml",
+             replaced(read_file(VISCARD_SOURCE_DIR "/data/demo/01_rig.toml"), "home = false",
+                      "home = true "),
+             true);
+  Strings words = repeat_words(folder, {"--rig", folder / "rig.toml", "--repeat", "2"});
+  write_file(folder / "test.toml", R"(
+protocol = "levels"
+[approach]
+speed = "0.2 mm/s"
+baseline = "1 s"
+[[levels]]
+depth = "0.13 mm"
+duration = "1 s"
+hold = "3 s"
+)",
+             true);
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::string last_value(const CapturedRun& run, const std::string& event) {
+  std::string value;
+  for (const RunEvent& one : run.events) {
+    if (one.name == event) value = one.value;
+  }
+  return value;
+}
+
+int phases_named(const CapturedRun& run, const std::string& phase) {
+  int n = 0;
+  for (const RunEvent& one : run.events) n += one.name == "phase" && one.value == phase ? 1 : 0;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("repeats home the stage once at the end, and both captures state what that has shown",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const auto series = run_command(homed_words(folder, {}));
+  INFO(series.err);
+  REQUIRE(series.status == kDone);
+  const auto json = last_line(series);
+  REQUIRE(json["runs"].size() == 2);
+  std::vector<CapturedRun> runs;
+  for (const auto& run : json["runs"]) {
+    CHECK(run["depth_is"] == "compared");
+    CHECK(run["doubts"].empty());
+    runs.push_back(read_capture(run["file"].get<std::string>()));
+    CHECK(last_value(runs.back(), "depth") == "compared");
+  }
+  CHECK(phases_named(runs[0], "home") == 0);
+  CHECK(phases_named(runs[1], "home") == 1);
+}
+
+TEST_CASE("a stage without a comparison is homed before the first touch of a series only",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const Strings words = homed_words(folder, {});
+  write_file(folder / "rig.toml",
+             replaced(read_file(folder / "rig.toml"), "driver = \"grbl\"",
+                      "driver = \"zaber\"\nmicrostep = \"0.3125 um\""),
+             true);
+  const auto series = run_command(words);
+  INFO(series.err);
+  REQUIRE(series.status == kDone);
+  std::vector<int> n_homings;
+  for (const auto& run : last_line(series)["runs"]) {
+    CHECK(run["depth_is"] == "counted");
+    n_homings.push_back(0);
+    read_raw_bytes(run["file"].get<std::string>(), [&](const RawBytes& raw) {
+      if (raw.is_sent && raw.device == Device::kStage && contains(raw.bytes, " home")) {
+        ++n_homings.back();
+      }
+    });
+  }
+  CHECK(n_homings == std::vector<int>{1, 0});
+}
+
+TEST_CASE("steps lost in a series are a doubt of each of its runs, and a flag of their fits",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const auto series = run_command(homed_words(folder, {"--fault", "lost-steps"}));
+  INFO(series.err);
+  REQUIRE(series.status == kDone);
+  const auto json = last_line(series);
+  REQUIRE(json["runs"].size() == 2);
+  for (const auto& run : json["runs"]) {
+    CAPTURE(run.dump());
+    CHECK(run["is_doubtful"] == true);
+    CHECK(run["count_off_m"].get<double>() > 30e-6);  // of both runs
+    CHECK(contains(run["doubts"].dump(), "has lost steps while it pressed"));
+    const auto fit = run_command({"fit", run["file"].get<std::string>(), "--json"});
+    INFO(fit.err);
+    REQUIRE(fit.status == kDone);
+    CHECK(contains(last_line(fit)["flags"].dump(), "lost-steps"));
+  }
+  CHECK(contains(json["runs"][0]["doubts"].dump(), "homed after 2 runs"));
+}
+
 }  // namespace viscard

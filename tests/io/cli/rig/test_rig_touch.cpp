@@ -66,6 +66,47 @@ TEST_CASE("a touch of the load cell is waited for, and its day is written into t
                     Catch::Contains("no section [load_cell]"));
 }
 
+TEST_CASE("a zero of positions stands in the rig file, and moves are counted from it too",
+          "[cli][rig][pty]") {
+  const ScratchFolder folder;
+  const std::string file = folder / "rig.toml";
+  std::string text = read_file(VISCARD_SOURCE_DIR "/data/demo/01_rig.toml");
+  const std::string grbl = "driver = \"grbl\"";
+  write_file(file, text, false);
+  const std::vector<std::string> set_zero{"rig", "set-zero", "--emulate", "--rig", file};
+  const auto refused = run_command(set_zero);
+  CHECK(refused.status == kFailed);
+  CHECK(contains(refused.err, "the stage with driver 'grbl' cannot keep a zero"));
+  CHECK(contains(refused.err, "restarts when the port is opened"));
+
+  text.replace(text.find(grbl), grbl.size(), "driver = \"zaber\"\nmicrostep = \"0.047625 um\"");
+  write_file(file, text, true);
+  const auto here = run_command(set_zero);
+  INFO(here.err);
+  CHECK(here.status == kDone);
+  CHECK(contains(here.out, "positions count from here, 0.000 mm of the controller"));
+  CHECK(read_file(file) == text);  // that of an emulated stage is kept nowhere
+
+  write_zero(file, 0.5e-3);
+  write_zero(file, 0.25e-3);
+  CHECK(contains(read_file(file), "[stage]\nzero = \"0.250000 mm\"\n"));
+  CHECK_FALSE(contains(read_file(file), "0.500000"));
+  CHECK(read_rig(file).stage.zero_m == Approx(0.25e-3).epsilon(1e-12));
+  const auto moved = run_command({"rig", "jog", "--emulate", "--rig", file, "--away", "0.1 mm"});
+  INFO(moved.err);
+  CHECK(contains(moved.out, "to -0.100 mm (-0.350 mm from your zero)"));
+
+  CHECK(run_command({"rig", "set-zero", "--emulate"}).status == kBadWords);
+  CHECK(run_command({"rig", "set-zero", "--rig", file, "--limit", "1 N"}).status == kBadWords);
+}
+
+TEST_CASE("only an instrument that has a zero of its own is zeroed", "[cli][rig][pty]") {
+  const auto refused = run_command({"rig", "zero-force", "--emulate"});
+  CHECK(refused.status == kFailed);
+  CHECK(contains(refused.err, "driver 'hx711' has no zero that this program can set"));
+  CHECK(run_command({"rig", "zero-force"}).status == kBadWords);
+}
+
 TEST_CASE("the day of an answer is read from the rig file, and another text is refused",
           "[cli][rig]") {
   std::string rig = read_file(VISCARD_SOURCE_DIR "/data/demo/01_rig.toml");

@@ -130,6 +130,19 @@ TEST_CASE("viscard cost --rig refuses what it cannot use, and reports why", "[cl
   const CommandOutcome unknown = run_command(cost_words({"--want", "Young=1%"}));
   CHECK(unknown.status != 0);
   CHECK(unknown.err.find("known are E0") != std::string::npos);
+  CHECK_THAT(run_command(cost_words({"--want", "voltage=5%"})).err,
+             Catch::Contains("needs the scene as well"));
+  const std::string sensor = VISCARD_SOURCE_DIR "/data/scenes/pillar_sensor.toml";
+  CHECK_THAT(run_command(cost_words({"--scene", sensor, "--want", "E0=1%"})).err,
+             Catch::Contains("pillar_sensor.toml has no effect"));
+  // Nothing is written if no test fits into the time.
+  const ScratchFolder none;
+  const CommandOutcome brief = run_command({"cost", "--rig", demo_file("01_rig.toml"), "--specimen",
+                                            demo_file("03_pdms_1to10.toml"), "--want", "E0=1%",
+                                            "--at-most", "1s", "--out", none / "o"});
+  CHECK(brief.status == 1);
+  CHECK_THAT(brief.err, Catch::Contains("no test fits into 1 s; the shortest takes"));
+  CHECK_FALSE(std::filesystem::exists(none / "o"));
   // Without the noise of the rig nothing can be said.
   const ScratchFolder folder;
   std::string rig = read_file(demo_file("01_rig.toml"));

@@ -39,6 +39,9 @@ TEST_CASE("a design that cannot be is refused in one line", "[cli][design]") {
       Case{{"--lattice", "sqare"}, "did you mean 'square'"}, Case{{"--modulus", "0"}, "modulus"},
       Case{{"--diameter", "40"}, "--diameter is 40 m; plausible are 0 to 1 m"},
       Case{{"--diameter", "40 m"}, "write --diameter \"40 um\""},
+      Case{{"--spacing", "-1um"}, "--spacing is -1um; it must be positive"},
+      Case{{"--aspect-ratio", "-2"}, "--aspect-ratio is -2; it must be positive"},
+      Case{{"--sensitivity", "x"}, "expected a plain number; write it like 0.05"},
       Case{{"--nonsense", "1"}, "nonsense"});
   CAPTURE(c.words[0], c.words[1]);
   std::vector<std::string> words = {"design"};

@@ -114,6 +114,9 @@ load = { shear = ")") + c.shear +
   CHECK(text.status == c.status);
   const std::string first = text.out.substr(0, text.out.find('\n'));
   CHECK((first.find("finite_strain is not computed") != std::string::npos) == !c.is_within);
+  // Other interfaces show the same text.
+  const auto doubt = nlohmann::json::parse(json.out)["tolerance_doubt"].get<std::string>();
+  CHECK(first == scene.path() + (c.is_within ? "" : ": " + doubt));
 }
 
 TEST_CASE("the plan is one object with every effect, estimate and reason", "[cli][scene]") {
@@ -193,10 +196,11 @@ TEST_CASE("the cost of accuracy: rows, a front, and advice that meets its tolera
         study["rows"].size() + study["rows_left_out"].get<std::size_t>());
   std::stringstream picture;
   picture << std::ifstream(out + "/cost.svg").rdbuf();
-  for (const char* part : {"processor time (s)", "the scene's tolerance, 0.001", ">p2/1<"}) {
+  for (const char* part : {"processor time (s)", "the scene's tolerance, 10⁻³", ">p2/1<"}) {
     CAPTURE(part);
     CHECK(picture.str().find(part) != std::string::npos);
   }
+  CHECK(picture.str().find(" um<") == std::string::npos);  // as in all pictures, µm
   CHECK(run_command({"cost", scene.path(), "--budget", "soon"}).status == 2);
 }
 

@@ -313,6 +313,16 @@ TEST_CASE("parts of a sweep that were answered with different materials are not 
   CHECK(says(outcome.err, "1.sqlite: its points were answered with other files"));
 }
 
+TEST_CASE("a merge of parts that cannot be read leaves no store", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string none = files.scene.beside("none.sqlite");
+  write_file(files.scene.beside("other.sqlite"), "no database", false);
+  for (const std::string& part : {none, files.scene.beside("other.sqlite")}) {
+    CHECK(files.sweep({"--out", files.store, "--merge", part}).status == 1);
+    CHECK_FALSE(std::filesystem::exists(files.store));
+  }
+}
+
 TEST_CASE("the table of a sweep has the sums of its inputs beside it", "[cli][scene][sweep]") {
   const FilmStudy files;
   const std::string table = files.scene.beside("a.csv");
@@ -456,6 +466,20 @@ TEST_CASE("a store of another study keeps its bytes, and a link that leads nowhe
   std::filesystem::create_symlink(files.scene.beside("nothing.sqlite"), link);
   CHECK(says(files.sweep({"--out", link}).err, "which does not exist"));
   CHECK_FALSE(std::filesystem::exists(files.scene.beside("nothing.sqlite")));
+}
+
+TEST_CASE("a sweep deletes no log of a store that was moved away", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string log = files.store + "-wal";
+  write_file(log, "the newest points", false);
+  for (const bool is_empty : {false, true}) {
+    if (is_empty) write_file(files.store, "", false);
+    const CommandOutcome refused = files.sweep({"--out", files.store});
+    CHECK(refused.status == 1);
+    CHECK(says(refused.err, log + " belongs to an earlier sweep whose main file is gone"));
+    CHECK(read_file(log) == "the newest points");
+    CHECK(std::filesystem::exists(files.store) == is_empty);
+  }
 }
 
 #ifndef __SANITIZE_ADDRESS__  // whose shadow needs terabytes of addresses

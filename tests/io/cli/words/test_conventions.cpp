@@ -156,6 +156,26 @@ TEST_CASE("a misspelt option gives one line with the nearest option, and status 
   }
 }
 
+TEST_CASE("an option with an empty value is refused before any work, with status 2", "[cli]") {
+  const std::vector<std::vector<std::string>> lines{
+      {"fit", "missing.csv", "--out"},
+      {"fit", "missing.csv", "--terms"},
+      {"card", "m.json", "--for"},
+      {"predict", "m.json", "--against"},
+      {"simulate", "s.toml", "--out"},
+      {"sweep", "s.toml", "--csv"},
+      {"report", "m.json", "--out", "r.html", "--logo"},
+      {"calibrate", "--data", "w.csv", "--id"}};
+  for (std::vector<std::string> words : lines) {
+    const std::string option = words.back();
+    words.emplace_back("");
+    CAPTURE(words);
+    const auto outcome = run_command(words);
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, option + " is empty, as by a variable that is not set"));
+  }
+}
+
 TEST_CASE("a number that cannot be read is refused with option, value and what is expected",
           "[cli]") {
   const std::string scene = VISCARD_SOURCE_DIR "/data/scenes/pillar_modal.toml";
@@ -194,6 +214,7 @@ TEST_CASE("a wrong subcommand is named, with the nearest one", "[cli]") {
       {{"rig", "lits"}, "there is no 'viscard rig lits'; did you mean 'list'?"},
       {{"card", "check", "m.json"},
        "there is no 'viscard card check'; did you mean 'viscard card --check'?"},
+      {{"predict", "m.json", "m.json"}, "too many words on the command line, from 'm.json' on"},
       {{"plan", "a.toml", "b.toml"}, "too many words on the command line, from 'b.toml' on"},
       {{"help", "fti"}, "there is no command 'fti'; did you mean 'fit'?"},
       {{"help", "scene", "chekc"}, "there is no 'scene chekc'; did you mean 'check'?"},

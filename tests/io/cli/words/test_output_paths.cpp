@@ -8,6 +8,9 @@
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -44,6 +47,34 @@ TEST_CASE("no output replaces an input of the same command, even with --force", 
     CHECK(contains(outcome.err, "is also read by this command; choose another name"));
     CHECK(read_file(input) == "time_s,force_N\n0,1\n");
   }
+}
+
+TEST_CASE("no output replaces the side file of a database, or a link that leads to nothing",
+          "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string table = VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv";
+  const auto answer = [&](const std::string& out, bool is_forced) {
+    std::vector<std::string> words{"fit", table, "--out", out};
+    if (is_forced) words.emplace_back("--force");
+    const auto outcome = run_command(words);
+    CHECK(outcome.status == kFailed);
+    return outcome.err;
+  };
+  const std::string database = (folder / "run.viscap").string(),
+                    link = (folder / "link.json").string();
+  write_file(database, std::string("SQLite format 3\0", 16) + std::string(84, ' '), false);
+  std::filesystem::create_symlink("none.json", link);
+  for (const bool is_forced : {false, true}) {
+    for (const char* ending : {"-wal", "-shm", "-journal"}) {
+      CHECK(contains(answer(database + ending, is_forced),
+                     "is the name of a side file of " + database));
+    }
+    CHECK(contains(answer(link, is_forced),
+                   "leads to none.json, which does not exist; name the file itself"));
+  }
+  CHECK(std::filesystem::is_symlink(link));
+  CHECK_FALSE(std::filesystem::exists(database + "-wal"));
+  write_file(folder / "notes-wal", "beside no database", false);  // an ordinary name
 }
 
 TEST_CASE("two outputs of one command cannot share a file", "[cli]") {
@@ -203,6 +234,46 @@ TEST_CASE("a device or pipe is never replaced by a file, even with --force", "[c
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK_THROWS_WITH(write_file(pipe, "text", true), Catch::Contains("is a device or pipe"));
   CHECK(std::filesystem::is_fifo(pipe));
+}
+
+TEST_CASE("an output with the ending of another format is refused", "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string material = VISCARD_SOURCE_DIR "/data/materials/pdms_1to10_seed.json";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"predict", material, "--svg", folder / "a.png"}, ".png is another format"},
+      {{"predict", material, "--svg", folder / "a.HTML"}, "end its name with .svg"},
+      {{"predict", material, "--csv", folder / "a.xlsx"}, "end its name with .csv"},
+      {{"report", material, "--out", folder / "r.pdf"}, "what is written is html"},
+      {{"report", material, "--out", folder / "r.svg"}, "end its name with .html"},
+      {{"simulate", "s.toml", "--out", folder / "x.png"}, "no command writes .png"}};
+  for (const auto& [words, text] : cases) {
+    CAPTURE(words);
+    const auto outcome = run_command(words);
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, text));
+  }
+  CHECK(std::filesystem::is_empty(folder / "."));
+  CHECK(run_command({"predict", material, "--csv", folder / "a.dat"}).status == kDone);
+}
+
+TEST_CASE("the option --force without an output is refused by every command that replaces files", "[cli]") {
+  const std::vector<std::vector<std::string>> all{{"fit", "a.csv"},
+                                                  {"card", "m.json", "--for", "abaqus"},
+                                                  {"predict", "m.json"},
+                                                  {"validate", "m.json"},
+                                                  {"simulate", "s.toml"},
+                                                  {"scene", "check", "s.toml"},
+                                                  {"design"},
+                                                  {"cost", "s.toml"},
+                                                  {"sweep", "s.toml"},
+                                                  {"export", "r.viscap"}};
+  for (std::vector<std::string> words : all) {
+    words.emplace_back("--force");
+    CAPTURE(words);
+    const auto outcome = run_command(words);
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, "--force has no effect without --"));
+  }
 }
 
 }  // namespace

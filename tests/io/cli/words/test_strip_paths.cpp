@@ -1,6 +1,7 @@
 // What is written with --strip-paths.
 #include "io/basics/atomic_file.h"
 #include "io/basics/written_path.h"
+#include "io/cli/words/folderless_stream.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -61,7 +63,7 @@ TEST_CASE("cards and laws of rubber of materials with folders are stripped, too"
   CHECK_THAT(read_file(card), !Contains("miller"));
 }
 
-TEST_CASE("with --strip-paths no command states a folder in stdout or in a file", "[cli]") {
+TEST_CASE("with --strip-paths no command states a folder in what it prints or in a file", "[cli]") {
   const ScratchFolder scratch;
   const std::string mine = (scratch / "home/miller").string(), out = mine + "/out",
                     other = (scratch / "home/osterkamp").string();
@@ -73,7 +75,8 @@ TEST_CASE("with --strip-paths no command states a folder in stdout or in a file"
   }
   const std::string table = mine + "/demo/example_relaxation.csv", material = out + "/m.json",
                     card = out + "/c.inp", capture = out + "/r.viscap", test = mine + "/short.toml",
-                    scene = mine + "/scenes/pillar_creep.toml", study = other + "/study.toml";
+                    scene = mine + "/scenes/pillar_creep.toml", study = other + "/study.toml",
+                    film = mine + "/film.toml", lost = mine + "/lost.toml";
   write_file(test,
              "[approach]\nspeed = \"0.2 mm/s\"\nbaseline = \"1 s\"\n[ramp]\ndepth = \"0.13 mm\"\n"
              "duration = \"1 s\"\nhold = \"3 s\"\n[recovery]\nhold = \"2 s\"\n",
@@ -82,7 +85,28 @@ TEST_CASE("with --strip-paths no command states a folder in stdout or in a file"
              "scene = \"../miller/scenes/pillar_press.toml\"\n[[parameter]]\n"
              "key = \"geometry.diameter\"\nvalues = [\"40 um\"]\n",
              false);
+  write_file(other + "/soft.json",
+             "{\"schema\": \"viscard-material/1\", \"E0_Pa\": 1.8e6, \"nu\": 0.4, \"terms\": []}\n",
+             false);
+  write_file(mine + "/film_scene.toml",
+             "tolerance = 1e-2\n[geometry]\ndiameter = \"40 um\"\nlength = \"120 um\"\n"
+             "[materials]\npillar = { file = \"../osterkamp/soft.json\" }\n"
+             "[analysis]\nkind = \"static\"\nload = { pressure = \"1 kPa\", on = \"top\" }\n"
+             "[want]\nquantities = [\"top_displacement\"]\n",
+             false);
+  const auto study_of_files = [&](const std::string& values) {
+    return "scene = \"film_scene.toml\"\n[[parameter]]\nkey = \"materials.pillar.file\"\nvalues = "
+           "[" +
+           values + "]\n";
+  };
+  // Values that are names of files: by their full path, from the scene, and one that is not there.
+  write_file(film, study_of_files("\"../osterkamp/soft.json\", \"" + other + "/soft.json\""),
+             false);
+  write_file(lost, study_of_files("\"../osterkamp/lost.json\""), false);
   const std::vector<std::vector<std::string>> all{
+      {"sweep", film, "--out", out + "/f.sqlite", "--csv", out + "/f.csv"},
+      {"sweep", lost, "--out", out + "/l.sqlite", "--csv", out + "/l.csv"},
+      {"fit", mine + "/demo/lost_far_away.csv"},
       {"fit", table, "--out", material, "--svg", out + "/m.svg"},
       {"fit", table, "--show-table"},
       {"fit", mine + "/missing.csv"},
@@ -117,6 +141,7 @@ TEST_CASE("with --strip-paths no command states a folder in stdout or in a file"
       const CommandOutcome outcome = run_command(words);
       CAPTURE(words, outcome.out, outcome.err);
       CHECK_FALSE(has_folder(outcome.out));
+      CHECK_FALSE(has_folder(outcome.err));
       CHECK(outcome.status != kBadWords);
     }
   }
@@ -128,6 +153,7 @@ TEST_CASE("with --strip-paths no command states a folder in stdout or in a file"
     ++n_files;
   }
   CHECK(n_files > 15);
+  CHECK_THAT(read_file(out + "/f.csv"), Contains("soft.json"));
   strip_written_paths(false);  // for the tests behind it
 }
 
@@ -142,8 +168,27 @@ TEST_CASE("a text loses the folders of files that the command reads, and no othe
   CHECK(written_text("/home/Anna Miller/database/b.csv") == "/home/Anna Miller/database/b.csv");
   CHECK(written_text("E/E0 in 1/Pa") == "E/E0 in 1/Pa");
   CHECK(written_path("../secret/c.csv") == "c.csv");
+  // As a scene in another folder names it.
+  remember_folder_of("scenes/../../hidden/deep/m.json");
+  CHECK(written_text("no '../../hidden/deep/m.json' here") == "no 'm.json' here");
   strip_written_paths(false);
   CHECK(written_text("/home/Anna Miller/data/b.csv") == "/home/Anna Miller/data/b.csv");
+}
+
+TEST_CASE("a question without a line break is printed when it is flushed, without folders",
+          "[cli]") {
+  strip_written_paths(true);
+  remember_folder_of("/home/anna/soft.toml");
+  std::ostringstream shown;
+  {
+    FolderlessStream stream(shown);
+    stream << "Put /home/anna/";
+    CHECK(shown.str().empty());
+    stream << "soft.toml under the punch: " << std::flush;
+    CHECK(shown.str() == "Put soft.toml under the punch: ");
+  }
+  CHECK(shown.str() == "Put soft.toml under the punch: ");
+  strip_written_paths(false);
 }
 
 TEST_CASE("only absolute paths are cut, in words too", "[cli]") {

@@ -1,0 +1,110 @@
+// Homing of GrblStage, and the comparison of its count with the limit switch.
+#include "models/maths/text_of_number.h"
+#include "rig/stages/grbl_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kAxisHomed_wall_s = 180.0;
+constexpr double kBack_m_s = 1e-3;      // to where it was homed
+constexpr double kTouch_m_s = 0.1e-3;   // to the switch: so slow that it stops within a step
+constexpr double kPastSwitch = 2.0;     // of the pull-off: the longest way to the switch
+constexpr int kHardLimit = 1;           // the alarm of a limit switch
+constexpr double kUsualPullOff_mm = 1;  // $27 of gnea/grbl defaults.h
+constexpr double kStepsDoubted = 2.0;
+
+}  // namespace
+
+bool GrblStage::has_bit(int number, int bit) const {
+  return (static_cast<long>(setting(number, 0.0)) >> bit & 1) != 0;
+}
+
+void GrblStage::plan_count_check(std::optional<double> homed_at_m) {
+  compares_count_ = true;
+  homed_before_m_ = homed_at_m;
+}
+
+// A build that homes all axes at once would move the punch over the specimens.
+std::string GrblStage::trouble_with_count_check(const Pump& pump) {
+  const std::string letter(1, config_.axis);
+  const std::string remedy = ", or set home = false under [stage] of the rig file";
+  const auto refused = [&](const std::string& why, const std::string& what) {
+    return "home = true cannot compare the stage's count after a run: " + why + ". " + what +
+           remedy;
+  };
+  if (!has_bit(22, 0)) return refused("homing is switched off ($22=0)", "Set $22=1");
+  if (!has_bit(21, 0)) {
+    return refused("its limit switch does not stop it ($21=0)", "Set $21=1");
+  }
+  // $23 has a bit for each axis that homes to its negative end.
+  if ((has_bit(23, axis_) ? -1.0 : 1.0) * toward_ > 0.0) {
+    return refused("axis " + letter + " homes toward the specimen ($23, toward_specimen)",
+                   "Put its switch at the other end");
+  }
+  build_options_.reset();
+  command("$I", pump);
+  if (build_options_ && build_options_->find(kGrblHomesOneAxis) != std::string::npos) return "";
+  return refused("this build of the firmware homes all axes or none",
+                 is_hal_ ? "Set bit 1 of $22 on it"
+                         : "Build it with HOMING_SINGLE_AXIS_COMMANDS (grbl/config.h)");
+}
+
+void GrblStage::home(const Pump& pump) {
+  polls_ = false;  // while homing, no '?' is answered
+  forget_questions();
+  command(compares_count_ ? std::string("$H") + config_.axis : "$H", pump, kAxisHomed_wall_s);
+  ask_position(pump);
+  exact_m_ = reported_m_;
+  homed_at_m_ = reported_m_;
+}
+
+void GrblStage::go(double to_m, double speed_m_s, const Pump& pump) {
+  begin_move(to_m, speed_m_s, "home");
+  while (active_) pump();
+}
+
+// The count at which the switch stops the stage. The firmware keeps it through the alarm and the
+// reset (gnea/grbl main.c clears sys_position only at power-up).
+double GrblStage::touch_switch(const Pump& pump) {
+  const double pull_off_m = setting(27, kUsualPullOff_mm) * 1e-3;
+  alarm_code_ = 0;
+  try {
+    go(*homed_at_m_, kBack_m_s, pump);
+    go(*homed_at_m_ - kPastSwitch * pull_off_m, kTouch_m_s, pump);
+  } catch (const StageAlarm&) {
+    if (alarm_code_ != kHardLimit) throw;
+    recover(pump);
+    return position_m();
+  }
+  // With soft limits the stage is stopped at machine zero, which is where the switch was found.
+  if (has_bit(20, 0)) return position_m();
+  throw RigError("the stage passed the place of its limit switch by " +
+                 text_from_number((kPastSwitch - 1.0) * pull_off_m * 1e3, 1) +
+                 " mm and was not stopped. Check the switch and its cable");
+}
+
+std::optional<CountCheck> GrblStage::check_count(const Pump& pump) {
+  if (!compares_count_ || !homed_at_m_) return std::nullopt;
+  try {
+    const double counted_m = touch_switch(pump);
+    home(pump);
+    const double found_m = touch_switch(pump);
+    home(pump);  // leaves the switch
+    const double steps_per_m = dynamics().steps_per_m;
+    // Both were reported with as many decimals.
+    const double decimals_m = 2.0 * (resolution_m() - 1.0 / steps_per_m);
+    const double off_m = counted_m - found_m;
+    return CountCheck{off_m, off_m * steps_per_m, kStepsDoubted / steps_per_m + decimals_m};
+  } catch (const PortHungUp&) {
+    throw;
+  } catch (...) {
+    stop_hard();  // nothing else ends a homing cycle
+    throw;
+  }
+}
+
+}  // namespace viscard

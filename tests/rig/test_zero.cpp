@@ -1,0 +1,111 @@
+// The zero of positions, which a stage keeps or not, and the zero of an instrument's own.
+#include "rig/lines/serial_line.h"
+#include "rig/zero_force.h"
+#include "tests/rig/device_fixture.h"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+EmulatedRigOptions with_instrument(const std::string& driver) {
+  EmulatedRigOptions options = DeviceFixture::options("grbl", driver);
+  options.truth.sample_rate_Hz = 40.0;
+  options.truth.force_offset_N = 0.05;
+  options.config.load_cell.expected_rate_Hz = 40.0;
+  return options;
+}
+
+ZeroedForce zeroed_on(DeviceFixture& bench) {
+  return zero_force(*bench.devices.load_cell, bench.config, bench.clock, nullptr);
+}
+
+// At the second connection: at the first one every board has just been switched on.
+std::string trouble_on(const EmulatedRigOptions& options) {
+  EmulatedRig emulated(options);
+  const RigConfig config = emulated.config();
+  const RigClock clock = emulated.clock();
+  std::string trouble;
+  for (int i = 0; i < 2; ++i) {
+    // The emulator looks every few milliseconds whether the port is open.
+    if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    SerialLine line(config.stage.port, 115200, clock);
+    const auto stage = make_stage(line, config.stage, clock, [](const RunRecord&) {});
+    stage->connect([&] {
+      wait_readable({&line}, clock, 0.002);
+      stage->service();
+    });
+    trouble = stage->trouble_with_zero();
+  }
+  return trouble;
+}
+
+// A GRBL on a board with native USB, homed since it was switched on.
+EmulatedRigOptions homed_grbl() {
+  EmulatedRigOptions options = DeviceFixture::options();
+  options.grbl.is_homing_enabled = options.grbl.has_hard_limits = true;
+  options.grbl.is_homed = true;
+  options.resets_on_open = false;
+  return options;
+}
+
+TEST_CASE("a balance or gauge makes the force at rest its own zero", "[rig][pty]") {
+  const std::string driver = GENERATE("mark10", "mt-sics", "sartorius");
+  CAPTURE(driver);
+  DeviceFixture bench(with_instrument(driver));
+  const ZeroedForce zeroed = zeroed_on(bench);
+  CHECK(zeroed.before_N == Approx(0.05).margin(0.005));
+  CHECK(zeroed.after_N == Approx(0.0).margin(0.005));
+}
+
+TEST_CASE("a force that is no rest, a refusal, and a cell without its own zero are not zeroed",
+          "[rig][pty]") {
+  EmulatedRigOptions options = with_instrument("mark10");
+  std::string expected;
+  SECTION("a weight hangs on it") {
+    options.truth.force_offset_N = 0.4;
+    expected = "Take away what presses on it";
+  }
+  SECTION("the gauge has no such command") {
+    options.gauge.has_no_zero = true;
+    expected = "it answered '*10'";
+  }
+  SECTION("a bare amplifier") {
+    options = DeviceFixture::options();
+    expected = "driver 'hx711' has no zero that this program can set";
+  }
+  DeviceFixture bench(options);
+  CHECK_THROWS_WITH(zeroed_on(bench), Contains(expected));
+}
+
+TEST_CASE("stages whose count lasts have no trouble with a zero", "[rig][pty]") {
+  CHECK(trouble_on(homed_grbl()) == "");
+  CHECK(trouble_on(DeviceFixture::options("zaber")) == "");
+}
+
+TEST_CASE("a stage that counts anew at each connection names why it keeps no zero", "[rig][pty]") {
+  EmulatedRigOptions options = homed_grbl();
+  std::string expected;
+  SECTION("its board restarts") {
+    options.resets_on_open = true;
+    expected = "restarts when the port is opened";
+  }
+  SECTION("it does not home") {
+    options.grbl.is_homing_enabled = options.grbl.is_homed = false;
+    expected = "$22=0";
+  }
+  SECTION("Marlin") {
+    options = DeviceFixture::options("marlin");
+    expected = "when it connects (G92)";
+  }
+  CHECK_THAT(trouble_on(options), Contains(expected));
+}
+
+}  // namespace
+}  // namespace viscard
