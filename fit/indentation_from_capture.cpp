@@ -140,7 +140,6 @@ double free_again_s(const CapturedRun& run, IndentationData& data) {
          data.start_early_s + kFreeAgain_s;
 }
 
-<<<<<<< HEAD
 // The specimen remembers the touch of the approach.
 void take_approach(const CapturedRun& run, const CommandedMove& first, IndentationData& data) {
   constexpr double kSamePlace_m = 5e-6;  // a stop is reported with three decimals of a mm
@@ -160,14 +159,14 @@ void take_approach(const CapturedRun& run, const CommandedMove& first, Indentati
   } else if (data.approach.empty() && run.integrity.is_damage_accepted) {
     data.approach_doubt = "the capture is damaged and holds no move before the ramp";
   }
-=======
+}
+
 // The stage is homed after the test: its acceleration shakes the cell.
 double homed_from_s(const CapturedRun& run) {
   for (const RunEvent& event : run.events) {
     if (event.name == "phase" && event.value == "home") return event.host_time_s;
   }
   return 1e300;
->>>>>>> 1d41716d340b717c20540a0d94c25189d4fbfd12
 }
 
 void take_moves_in_contact(const CapturedRun& run, IndentationData& data) {
@@ -290,11 +289,8 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   data.contact_to_s = readings.time_s.back();
   const double free_s = free_again_s(run, data);
   const double still_s = still_since_s(run, *ramp);
-<<<<<<< HEAD
   take_approach(run, *ramp, data);
-=======
   const double homed_s = homed_from_s(run);
->>>>>>> 1d41716d340b717c20540a0d94c25189d4fbfd12
   take_moves_in_contact(run, data);
   if (data.moves.empty()) {
     throw std::runtime_error(
