@@ -36,13 +36,16 @@ WholeRecord settled_record(const ContactTable& table, SpectralState state, Prony
   const auto [low, high] = std::minmax_element(table.depth_m.begin(), table.depth_m.end());
   const bool may_drift = options.with_drift && options.drift != TableDrift::kNone;
   std::vector<double> last;
+  TouchCourse last_touch;
   for (int round = 1;; ++round) {
     const double contact_m = table.contact.is_fitted ? state.nuisance[0] : 0.0;
     WholeRecord whole = whole_record(table, series, contact_m, may_drift);
     whole.input.with_drift |= with_drift;
-    const bool is_same = largest_change(last, whole.input.input) <= kSame * (*high - *low);
+    const bool is_same = largest_change(last, whole.input.input) <= kSame * (*high - *low) &&
+                         relative_change(last_touch, whole.input.touch) <= kSameTouch;
     if (is_same || round == kRounds) return whole;
     last = whole.input.input;
+    last_touch = whole.input.touch;
     const HistoryModel model(std::move(whole.input), options);
     state = fitted_again(model, state);
     series = relaxation_series_of(model, options.is_liquid)(state);

@@ -137,6 +137,65 @@ std::vector<std::size_t> rows_in_tension(const ContactTable& table,
   return rows;
 }
 
+// Depths of the stage become those of the punch.
+void take_frame_off(const Column& force_N, double stiffness_N_m, Column& depth_m) {
+  if (!(stiffness_N_m > 0.0)) return;
+  for (std::size_t i = 0; i < depth_m.size(); ++i) depth_m[i] -= force_N[i] / stiffness_N_m;
+}
+
+// The rows before those of the table, in order of time.
+void take_rows_before(const IndentationData& data, ContactTable& table) {
+  const ForceDepthRows& rows = data.before;
+  Column depth_m = rows.depth_m;
+  take_frame_off(rows.force_N, data.frame_stiffness_N_m, depth_m);
+  for (std::size_t i = 0; i < rows.time_s.size(); ++i) {
+    const bool is_known =
+        std::isfinite(depth_m[i]) && rows.time_s[i] < table.time_s.front() &&
+        (table.touch_time_s.empty() || rows.time_s[i] > table.touch_time_s.back());
+    if (!is_known) continue;
+    table.touch_time_s.push_back(rows.time_s[i]);
+    table.touch_depth_m.push_back(depth_m[i]);
+  }
+}
+
+// The surface from the end of the first loading back to its begin: where no earlier touch is known, it rests until
+// the punch passes the contact.
+ContactCourse course_of(const ContactTable& table, double contact_m, const PronySeries& series) {
+  std::size_t first = table.loaded;
+  if (table.touch_time_s.empty()) {
+    while (first > 0 && table.depth_m[first - 1] > contact_m) --first;
+    return contact_course(table.time_s, table.depth_m, contact_m, first, series);
+  }
+  Column time_s = table.touch_time_s, depth_m = table.touch_depth_m;
+  time_s.insert(time_s.end(), table.time_s.begin(), table.time_s.end());
+  depth_m.insert(depth_m.end(), table.depth_m.begin(), table.depth_m.end());
+  const auto touched =
+      std::find_if(depth_m.begin(), depth_m.end(), [&](double depth) { return depth > contact_m; });
+  ContactCourse course = contact_course(
+      time_s, depth_m, contact_m, static_cast<std::size_t>(touched - depth_m.begin()), series);
+  const auto n_touch = static_cast<std::ptrdiff_t>(table.touch_time_s.size());
+  course.surface_m.erase(course.surface_m.begin(), course.surface_m.begin() + n_touch);
+  course.is_free.erase(course.is_free.begin(), course.is_free.begin() + n_touch);
+  while (first > 0 && !course.is_free[first - 1]) --first;
+  // The rows before the loading are those of a punch that has not touched yet.
+  std::copy_n(table.depth_m.begin(), first, course.surface_m.begin());
+  std::fill_n(course.is_free.begin(), first, 0);
+  course.n_contacts = count_contacts(course.is_free, first);
+  return course;
+}
+
+// The surface pressed by the earlier touch, then free until the first loading ends.
+TouchCourse touch_of(const ContactTable& table, double contact_m, const PronySeries& series) {
+  constexpr double kLifted_m = -1.0;
+  Column time_s = table.touch_time_s, depth_m = table.touch_depth_m;
+  for (double& depth : depth_m) depth -= contact_m;
+  if (time_s.empty()) return {};
+  time_s.insert(time_s.end(), table.time_s.begin(),
+                table.time_s.begin() + static_cast<std::ptrdiff_t>(table.loaded) + 1);
+  depth_m.resize(time_s.size(), kLifted_m);
+  return touch_course(time_s, depth_m, series);
+}
+
 template <typename Value>
 void drop_rows(std::vector<Value>& column, const std::vector<std::size_t>& rows) {
   auto next = rows.begin();
@@ -176,17 +235,25 @@ ContactTable contact_table(const IndentationData& data) {
   check_depth(table.force_N, table.depth_m);
   if (data.frame_stiffness_N_m > 0.0) {
     check_frame(table.force_N, table.depth_m, data.frame_stiffness_N_m);
-    for (std::size_t i = 0; i < table.time_s.size(); ++i) {
-      table.depth_m[i] -= table.force_N[i] / data.frame_stiffness_N_m;
-    }
+    take_frame_off(table.force_N, data.frame_stiffness_N_m, table.depth_m);
   }
   if (data.contact) table.law = depth_law(*data.contact);
   find_first_contact(table);
   if (!table.contact.is_fitted) return table;
+  const bool is_remembered = table.law.power == 1.0;
+  if (is_remembered) take_rows_before(data, table);
   table.n_touch = end_of_earlier_touch(table.depth_m, table.loaded, table.contact.depth_m);
   if (table.n_touch == 0) return table;
+  const auto n_touch = static_cast<std::ptrdiff_t>(table.n_touch);
+  if (is_remembered) {
+    const auto append = [&](const Column& from, Column& to) {
+      to.insert(to.end(), from.begin(), from.begin() + n_touch);
+    };
+    append(table.time_s, table.touch_time_s);
+    append(table.depth_m, table.touch_depth_m);
+  }
   for (Column* column : {&table.time_s, &table.force_N, &table.depth_m}) {
-    column->erase(column->begin(), column->begin() + static_cast<std::ptrdiff_t>(table.n_touch));
+    column->erase(column->begin(), column->begin() + n_touch);
   }
   find_first_contact(table);
   return table;
@@ -203,10 +270,8 @@ WholeRecord whole_record(const ContactTable& table, const PronySeries& series, d
                          bool with_drift) {
   WholeRecord whole;
   HistoryInput& input = whole.input = input_of(table);
-  // The first sample in contact, going back from the end of loading.
-  std::size_t first = table.loaded;
-  while (first > 0 && table.depth_m[first - 1] > contact_m) --first;
-  ContactCourse course = contact_course(table.time_s, table.depth_m, contact_m, first, series);
+  ContactCourse course = course_of(table, contact_m, series);
+  input.touch = touch_of(table, contact_m, series);
   whole.n_contacts = course.n_contacts;
   input.input = std::move(course.surface_m);
   input.is_free = std::move(course.is_free);

@@ -11,8 +11,8 @@
 
 namespace viscard {
 
-// A table of force and depth, prepared for a fit: rows without numbers, spikes, an earlier touch
-// and the frame's part of the depth are removed.
+// A table of force and depth, prepared for a fit: rows without numbers, spikes, rows of an earlier
+// touch and the frame's part of the depth are removed.
 struct ContactTable {
   std::vector<double> time_s, force_N, depth_m;
   DepthLaw law{1.0, 1.0};
@@ -20,6 +20,8 @@ struct ContactTable {
   std::size_t loaded = 0;  // index of the end of the first loading
   bool goes_back = false;  // the punch is pulled back by at least a fifth of its travel
   RecordNotes notes;       // of the check of the record
+  // Before these rows: an earlier touch, which a specimen under a flat punch remembers.
+  std::vector<double> touch_time_s, touch_depth_m;
   // Rows left out, by reason.
   std::size_t n_not_a_number = 0, n_spikes = 0, n_depth_spikes = 0, n_touch = 0;
 };
@@ -34,7 +36,7 @@ ContactTable contact_table(const IndentationData& data);
 HistoryInput first_contact(const ContactTable& table);
 
 // The whole record under a flat punch, with contact lost and made again as the series predicts
-// (contact_course.h). Rows in tension (adhesion) are left out if there are many.
+// (contact_course.h), and what an earlier touch has left. Rows in tension (adhesion) are left out if there are many.
 struct WholeRecord {
   HistoryInput input;
   std::size_t n_contacts = 1, n_adhesion = 0;

@@ -10,10 +10,12 @@
 #include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
+#include "fit/search/separable.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -210,11 +212,54 @@ void report_stage_fit(const StageModel& model, const IndentationData& data,
 struct Preparation {
   Eigen::VectorXd start;
   StageNoise noise;
+  TouchCourse touch;
+  SpectralState state;  // of the last of these fits
 };
+
+// The depth of the punch in the approach and until the ramp ends; for the latter the punch counts as lifted. The
+// points lie close after every stop, where the force changes fast.
+struct PunchCourse {
+  std::vector<double> time_s, depth_m;
+};
+
+PunchCourse punch_before_ramp(const IndentationData& data, const SpectralState& state) {
+  constexpr double kLifted_m = -1.0, kFinest_s = 5e-3, kShareOfRest = 0.02;
+  PunchCourse course;
+  const StageMove& ramp = data.moves.front();
+  const double direction = ramp.to_m > ramp.from_m ? 1.0 : -1.0;
+  const double contact_m = state.nuisance[contact_nuisance(data)];
+  std::size_t first = 0;  // that reaches the surface
+  const auto depth_m = [&](double position) { return direction * (position - contact_m); };
+  while (first < data.approach.size() && depth_m(data.approach[first].to_m) <= 0.0 &&
+         depth_m(data.approach[first].from_m) <= 0.0) {
+    ++first;
+  }
+  for (std::size_t m = first; m < data.approach.size(); ++m) {
+    const bool is_last = m + 1 == data.approach.size();
+    const StageMove& move = data.approach[m];
+    const double moved_s = move.start_time_s + duration_s(move);
+    const double until_s = is_last ? ramp.start_time_s + duration_s(ramp) + data.start_late_s
+                                   : data.approach[m + 1].start_time_s;
+    for (double t = move.start_time_s; t < until_s;
+         t += std::max(kFinest_s, kShareOfRest * (t - moved_s))) {
+      course.time_s.push_back(t + state.nuisance[0]);
+      course.depth_m.push_back(is_last && t > moved_s ? kLifted_m : depth_m(position_m(move, t)));
+    }
+  }
+  return course;
+}
+
+// The surface before the ramp, if it is that of this fit. The moves begin as late as the ramp.
+TouchCourse touch_of_approach(const IndentationData& data, const StageModel& model,
+                              const SpectralState& state, bool is_liquid) {
+  const PunchCourse punch = punch_before_ramp(data, state);
+  if (punch.time_s.empty()) return {};
+  return touch_course(punch.time_s, punch.depth_m, relaxation_series_of(model, is_liquid)(state));
+}
 
 Preparation prepared(const IndentationData& data, const AveragedRun& run,
                      const FitOptions& options) {
-  Preparation now{nuisance_start(data), {}};
+  Preparation now{.start = nuisance_start(data)};
   OrderPathOptions path_options;
   path_options.max_terms = 4;
   for (int pass = 0; pass < 2; ++pass) {
@@ -225,7 +270,7 @@ Preparation prepared(const IndentationData& data, const AveragedRun& run,
           "no model fits these readings: every fitted modulus is zero or not finite. Check the "
           "sign of the force, the calibration and the moves of the capture");
     }
-    const SpectralState& state = path.back();
+    const SpectralState& state = now.state = path.back();
     now.start = state.nuisance;
     StageResidual left{run.rows.time_s, model.is_moving(), model.is_out_of_contact(), {}, {}};
     left.fitted_N = model.fitted(state).cwiseProduct(model.row_sigma());
@@ -236,12 +281,49 @@ Preparation prepared(const IndentationData& data, const AveragedRun& run,
   return now;
 }
 
+// The touch of the approach and the fit depend on one another: the fit sees where the surface is and how it
+// recovers. Both are found in turn, first with the terms of the preparation.
+void settle_touch(const IndentationData& data, const AveragedRun& run, const FitOptions& options,
+                  Preparation& now) {
+  constexpr int kRounds = 8;
+  for (int round = 0; round < kRounds; ++round) {
+    const StageModel model(run, data, now.start, now.noise, options, now.touch);
+    if (round > 0) now.state = quick_search(model, now.state, {.tolerance = 1e-10});
+    now.start = now.state.nuisance;
+    TouchCourse touch = touch_of_approach(data, model, now.state, options.is_liquid);
+    const bool is_same = relative_change(touch, now.touch) <= kSameTouch;
+    now.touch = std::move(touch);
+    if (is_same) return;
+  }
+}
+
+struct StageFit {
+  std::unique_ptr<StageModel> model;
+  SpectralFit fit;
+};
+
+StageFit settled_fit(const IndentationData& data, const AveragedRun& run, const FitOptions& options,
+                     Preparation& now) {
+  constexpr int kRounds = 4;
+  settle_touch(data, run, options, now);
+  for (int round = 1;; ++round) {
+    StageFit of{std::make_unique<StageModel>(run, data, now.start, now.noise, options, now.touch),
+                {}};
+    of.fit =
+        fit_spectrum(*of.model, log_time_blocks(run.rows.time_s, data.contact_from_s, 4), options);
+    TouchCourse touch = touch_of_approach(data, *of.model, of.fit.state, options.is_liquid);
+    if (round == kRounds || relative_change(touch, now.touch) <= kSameTouch) return of;
+    now.touch = std::move(touch);
+    now.start = of.fit.state.nuisance;
+  }
+}
+
 ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options) {
   const AveragedRun run = averaged_run(data, options.full_data);
-  const Preparation prepared_for = prepared(data, run, options);
-  const StageModel model(run, data, prepared_for.start, prepared_for.noise, options);
-  const SpectralFit fit =
-      fit_spectrum(model, log_time_blocks(run.rows.time_s, data.contact_from_s, 4), options);
+  Preparation prepared_for = prepared(data, run, options);
+  const StageFit settled = settled_fit(data, run, options, prepared_for);
+  const StageModel& model = *settled.model;
+  const SpectralFit& fit = settled.fit;
 
   ContactFit out;
   FitResult& result = out.result;
@@ -291,6 +373,13 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
                                     " of the test lifted the punch off the specimen; this move and "
                                     "all later ones were left out. Unload to a larger share of the "
                                     "depth, and check modulus_guess of the specimen"});
+  }
+  if (!data.approach_doubt.empty()) {
+    fit.result.flags.push_back({"touch-unknown", 0,
+                                data.approach_doubt +
+                                    ": what the touch of the approach has left in the specimen is "
+                                    "not known, and g may lie low for terms that are not fast "
+                                    "beside the baseline. Repeat the run with viscard capture"});
   }
   add_left_out(fit.result, left_out::kLifted, data.time_s.size() - kept.time_s.size());
   return fit.result;

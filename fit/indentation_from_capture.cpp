@@ -2,6 +2,7 @@
 
 #include "fit/samples/median.h"
 #include "models/experiment/sample_force.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,6 +140,27 @@ double free_again_s(const CapturedRun& run, IndentationData& data) {
          data.start_early_s + kFreeAgain_s;
 }
 
+// The specimen remembers the touch of the approach.
+void take_approach(const CapturedRun& run, const CommandedMove& first, IndentationData& data) {
+  constexpr double kSamePlace_m = 5e-6;  // a stop is reported with three decimals of a mm
+  for (const CommandedMove& move : run.moves) {
+    if (&move == &first) break;
+    data.approach.push_back(move.move);
+  }
+  double gap_m = 0.0;
+  for (std::size_t m = 0; m < data.approach.size(); ++m) {
+    const bool is_last = m + 1 == data.approach.size();
+    const StageMove& next = is_last ? first.move : data.approach[m + 1];
+    gap_m = std::max(gap_m, std::abs(next.from_m - data.approach[m].to_m));
+  }
+  if (gap_m > kSamePlace_m) {
+    data.approach_doubt = "the moves before the ramp do not follow one another (" +
+                          text_of(1e6 * gap_m, 3) + " um are missing)";
+  } else if (data.approach.empty() && run.integrity.is_damage_accepted) {
+    data.approach_doubt = "the capture is damaged and holds no move before the ramp";
+  }
+}
+
 // The stage is homed after the test: its acceleration shakes the cell.
 double homed_from_s(const CapturedRun& run) {
   for (const RunEvent& event : run.events) {
@@ -267,6 +289,7 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   data.contact_to_s = readings.time_s.back();
   const double free_s = free_again_s(run, data);
   const double still_s = still_since_s(run, *ramp);
+  take_approach(run, *ramp, data);
   const double homed_s = homed_from_s(run);
   take_moves_in_contact(run, data);
   if (data.moves.empty()) {

@@ -87,7 +87,7 @@ struct HiddenTerms {
 
 // Visits values of the modulus of the hidden term within the likelihood region that is left after
 // `rise` variances, each with the best values of all other parameters and the region left for
-// these. A fit with a negative modulus is no material and is skipped.
+// these. A state of no material is skipped.
 void carry_hidden_term(const SpectralModel& model, const SpectralFit& fit,
                        const SeriesFromState& series_from_state, const SpectralState& state,
                        double rise, FitResult& result, HiddenTerms& hidden) {
@@ -101,7 +101,7 @@ void carry_hidden_term(const SpectralModel& model, const SpectralFit& fit,
   for (int step = -kSteps; step <= kSteps; ++step) {
     const double part = std::sqrt(left) * step / kSteps;  // of the 95 % interval
     const SpectralState moved = moved_by(state, std::sqrt(kChiSquare95) * part * slope);
-    if (moved.coefficients.segment(modulus, state.n_terms()).minCoeff() < 0.0) continue;
+    if (!possible_series(model, moved, series_from_state)) continue;
     FitResult other;
     fill_parameters(model, moved, (left - part * part) * (covariance - slope * slope.transpose()),
                     series_from_state, other);

@@ -55,9 +55,10 @@ void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
         std::abs(fit.scores.rows[i].bic - fit.scores.rows[fit.scores.chosen].bic) < kStrong;
     if (i == fit.scores.chosen || !is_near || !is_within_range(model, fit.path[i])) continue;
     if (starts_at_zero(model, fit.path[i])) continue;
-    const PronySeries series = series_from_state(fit.path[i]);
-    widen(result.E0_interval_95, instantaneous_modulus_Pa(series), result.E0_se_Pa);
-    widen(result.E_inf_interval_95, series.equilibrium_modulus_Pa, result.E_inf_se_Pa);
+    const auto series = possible_series(model, fit.path[i], series_from_state);
+    if (!series) continue;
+    widen(result.E0_interval_95, instantaneous_modulus_Pa(*series), result.E0_se_Pa);
+    widen(result.E_inf_interval_95, series->equilibrium_modulus_Pa, result.E_inf_se_Pa);
     others += (others.empty() ? "" : ", ") + std::to_string(fit.path[i].n_terms());
     last = static_cast<std::size_t>(fit.path[i].n_terms());
   }

@@ -50,7 +50,8 @@ class Surface {
   double depth_m_, rest_m_, dt_s_ = -1.0;
 };
 
-// Runs of contact of at least three samples, each after at least three free ones.
+}  // namespace
+
 std::size_t count_contacts(const std::vector<char>& is_free, std::size_t first) {
   constexpr std::size_t kLeast = 3;
   std::size_t count = 1, free_run = 0, contact_run = 0;
@@ -65,8 +66,6 @@ std::size_t count_contacts(const std::vector<char>& is_free, std::size_t first) 
   }
   return count;
 }
-
-}  // namespace
 
 ContactCourse contact_course(std::span<const double> time_s, std::span<const double> depth_m,
                              double contact_m, std::size_t first, const PronySeries& series) {

@@ -23,4 +23,7 @@ struct ContactCourse {
 ContactCourse contact_course(std::span<const double> time_s, std::span<const double> depth_m,
                              double contact_m, std::size_t first, const PronySeries& series);
 
+// Runs of contact of at least three samples, each after at least three free ones. first: first sample in contact.
+std::size_t count_contacts(const std::vector<char>& is_free, std::size_t first);
+
 }  // namespace viscard

@@ -156,14 +156,19 @@ HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
   }
   // The last crossing of the contact position before the input stays above it.
   Onset onset{*in_.loaded, 0.0, contact_input};
-  while (onset.first > 0 && in_.input[onset.first - 1] > contact_input) --onset.first;
+  const auto surface = [&](std::size_t k) {
+    return contact_input + in_.touch.depth_at_m(in_.time_s[k]);
+  };
+  while (onset.first > 0 && in_.input[onset.first - 1] > surface(onset.first - 1)) --onset.first;
   const std::size_t first = onset.first;
   onset.time_s = in_.time_s[first];
   if (first > 0 && in_.input[first] > in_.input[first - 1]) {
+    const double before = surface(first - 1) - in_.input[first - 1];
     const double share =
-        (contact_input - in_.input[first - 1]) / (in_.input[first] - in_.input[first - 1]);
+        before / (in_.input[first] - in_.input[first - 1] - surface(first) + surface(first - 1));
     onset.time_s = in_.time_s[first - 1] + share * (in_.time_s[first] - in_.time_s[first - 1]);
   }
+  onset.depth = in_.touch.depth_at_m(onset.time_s);
   return onset;
 }
 
@@ -197,7 +202,12 @@ void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) cons
   StepFactors step;
   double q = 0.0, slope = 0.0;
   double q_by_contact = 0.0;  // used for spheres and cones
-  double previous_s = onset.time_s, previous = 0.0, previous_slope = 0.0;
+  double previous_s = onset.time_s, previous = onset.depth, previous_slope = 0.0;
+  if (!in_.touch.is_empty()) {
+    const TouchCourse::Memory left = in_.touch.memory_at(onset.time_s, tau_s);
+    q = left.value_m;
+    slope = left.slope_m;
+  }
   if (in_.step_s) q = previous = powered(in_.input[onset.first] - onset.input, in_.power);
   for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
     step.set(in_.time_s[k] - previous_s, tau_s);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fit/curves/spectral_model.h"
+#include "fit/curves/touch_course.h"
 #include "fit/samples/fit_data.h"
 
 #include <Eigen/Core>
@@ -44,6 +45,7 @@ struct HistoryInput {
   // averages restarts there. Empty: none.
   std::vector<char> has_moved;
   bool is_creep = false;  // the input is the stress
+  TouchCourse touch;      // before the contact, which it needs as a nuisance; may be empty
 };
 
 // First sample with at least 98 % of the largest input: the end of loading, despite later drift.
@@ -92,11 +94,11 @@ class HistoryModel final : public SpectralModel {
                               bool with_slopes) const;
   Eigen::MatrixXd averaged(const Eigen::MatrixXd& samples) const;
   Eigen::VectorXd residual(const SpectralState& state) const;  // of every sample
-  // The first sample in contact, the time between samples at which contact begins, and the input
-  // there. The history counts from 0 at that time.
+  // The first sample in contact, the time between samples at which contact begins, and the input of
+  // the surface at rest. The history counts from that time, at which a touch has left the depth.
   struct Onset {
     std::size_t first = 0;
-    double time_s = 0.0, input = 0.0;
+    double time_s = 0.0, input = 0.0, depth = 0.0;
   };
   Onset onset_at(double contact_input) const;
   // One number per sample each; nullptr for derivatives that are not needed.

@@ -46,6 +46,20 @@ double crossing_s(const IndentationData& data, double from_s, double level_N, bo
       "the moves in the capture");
 }
 
+// When the punch meets the surface: at its position of rest, or where a touch has left it.
+double contact_time_s(const StageMove& ramp, double contact_m, const TouchCourse& touch) {
+  if (touch.is_empty()) return time_at_position_s(ramp, contact_m);
+  double low = ramp.start_time_s, high = ramp.start_time_s + duration_s(ramp);
+  const double direction = ramp.to_m >= ramp.from_m ? 1.0 : -1.0;
+  for (int step = 0; step < 200; ++step) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    const double depth_m = direction * (position_m(ramp, middle) - contact_m);
+    (depth_m < touch.depth_at_m(middle) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 bool is_correction(const StageMove& move, const StageMove& ramp, double contact_m) {
@@ -91,15 +105,15 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
 }
 
 StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start,
-                       const StageNoise& noise, const FitOptions& options)
-    : time_s_(data.time_s), moves_(data.moves) {
+                       const StageNoise& noise, const FitOptions& options, TouchCourse touch)
+    : time_s_(data.time_s), moves_(data.moves), touch_(std::move(touch)) {
   set_up(data, usual_step_s(time_s_), start, noise, options);
 }
 
 StageModel::StageModel(const AveragedRun& run, const IndentationData& readings,
                        const Eigen::VectorXd& start, const StageNoise& noise,
-                       const FitOptions& options)
-    : time_s_(run.rows.time_s), moves_(run.rows.moves) {
+                       const FitOptions& options, TouchCourse touch)
+    : time_s_(run.rows.time_s), moves_(run.rows.moves), touch_(std::move(touch)) {
   if (run.has_averages()) {
     run_ = &run;
     readings_ = &readings;
@@ -180,6 +194,8 @@ struct StageModel::Drive {
   std::vector<StageMove> moves;
   std::vector<StageResponse> responses;
   std::vector<std::vector<StageResponse::Branch>> branches;
+  std::vector<double> tau_s;
+  std::vector<TouchCourse::Memory> touch;  // of each branch, at contact
   double contact_m = 0.0, contact_s = 0.0;
   double direction = 1.0;
 };
@@ -193,12 +209,17 @@ StageModel::Drive StageModel::drive(const Eigen::VectorXd& ln_tau,
     drive.moves.push_back(
         timed(moves_[static_cast<std::size_t>(m)], nuisance[m], nuisance[n_moves + 1]));
     const StageMove& move = drive.moves.back();
-    if (m == 0) drive.contact_s = time_at_position_s(move, drive.contact_m);
+    if (m == 0) drive.contact_s = contact_time_s(move, drive.contact_m, touch_);
     drive.responses.emplace_back(move, m == 0 ? drive.contact_s : move.start_time_s);
     std::vector<StageResponse::Branch>& branches = drive.branches.emplace_back();
     for (Index i = 0; i < ln_tau.size(); ++i) {
       branches.push_back(drive.responses.back().branch(std::exp(ln_tau[i])));
     }
+  }
+  for (Index i = 0; i < ln_tau.size(); ++i) {
+    drive.tau_s.push_back(std::exp(ln_tau[i]));
+    if (touch_.is_empty()) continue;
+    drive.touch.push_back(touch_.memory_at(drive.contact_s, drive.tau_s.back()));
   }
   drive.direction = drive.moves[0].to_m >= drive.moves[0].from_m ? 1.0 : -1.0;
   return drive;
@@ -241,6 +262,20 @@ void StageModel::add_move(const Drive& drive, std::size_t m, Index row, bool wit
   }
 }
 
+// Adds what the touch has left in the branches. The punch meets the surface with a continuous depth, so a change of
+// contact, start or speed changes the branches as it does without a touch.
+void StageModel::add_touch(const Drive& drive, Index row, bool with_slopes,
+                           ModelColumns& out) const {
+  const double since_s = time_s_[static_cast<std::size_t>(row)] - drive.contact_s;
+  for (std::size_t i = 0; i < drive.touch.size(); ++i) {
+    const double x = since_s / drive.tau_s[i], decay = std::exp(-x);
+    const TouchCourse::Memory& left = drive.touch[i];
+    const auto term = static_cast<Index>(i);
+    out.values(row, n_common() + term) += decay * left.value_m;
+    if (with_slopes) out.term_slopes(row, term) += decay * (x * left.value_m + left.slope_m);
+  }
+}
+
 ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                                  bool with_slopes) const {
   const Index n_terms = ln_tau.size();
@@ -263,12 +298,14 @@ ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vec
     for (std::size_t m = 0; m < moved.moves.size(); ++m) {
       if (t > moved.responses[m].from_s()) add_move(moved, m, row, with_slopes, out);
     }
+    add_touch(moved, row, with_slopes, out);
     if (!with_slopes) continue;
     Eigen::MatrixXd& contact = out.nuisance_slopes[moved.moves.size()];
     add_depth(contact, row, -moved.direction);
     for (Index i = 0; i < n_terms; ++i) {
       contact(row, n_common() + i) =
-          -moved.direction * std::exp(-(t - moved.contact_s) / std::exp(ln_tau[i]));
+          -moved.direction *
+          std::exp(-(t - moved.contact_s) / moved.tau_s[static_cast<std::size_t>(i)]);
     }
   }
   const Eigen::VectorXd weights = root_count_.cwiseQuotient(sigma_N_);

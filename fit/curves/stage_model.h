@@ -2,6 +2,7 @@
 
 #include "fit/curves/averaged_run.h"
 #include "fit/curves/spectral_model.h"
+#include "fit/curves/touch_course.h"
 #include "fit/samples/fit_data.h"
 #include "fit/samples/noise_model.h"
 
@@ -24,17 +25,17 @@ namespace viscard {
 // correction is that it is as late as the ramp), the contact position, and the logarithm of the true
 // speed of all moves over the commanded one, because the stage's clock is its own; its prior is
 // normal, 0 +- 0.2 %. The kinks of the force determine all of them sharply. Out of contact the force
-// is zero.
+// is zero. z begins as the touch of the approach has left the surface (TouchCourse).
 class StageModel final : public SpectralModel {
  public:
   // nuisance_start: shifts of the starts first (s), then the contact position (m), then the
   // logarithm of the speed. The half-widths of the bounds of the first two come from the data.
   StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start,
-             const StageNoise& noise, const FitOptions& options);
+             const StageNoise& noise, const FitOptions& options, TouchCourse touch = {});
   // Of a long run whose readings are averaged; both must outlive the model.
   StageModel(const AveragedRun& run, const IndentationData& readings,
              const Eigen::VectorXd& nuisance_start, const StageNoise& noise,
-             const FitOptions& options);
+             const FitOptions& options, TouchCourse touch = {});
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;
@@ -68,9 +69,11 @@ class StageModel final : public SpectralModel {
   void add_depth(Eigen::MatrixXd& matrix, Eigen::Index row, double depth_m) const;
   void add_move(const Drive& drive, std::size_t m, Eigen::Index row, bool with_slopes,
                 ModelColumns& out) const;
+  void add_touch(const Drive& drive, Eigen::Index row, bool with_slopes, ModelColumns& out) const;
 
   std::vector<double> time_s_;
   std::vector<StageMove> moves_;
+  TouchCourse touch_;
   std::vector<bool> is_moving_;
   std::vector<bool> is_out_of_contact_;
   Eigen::VectorXd sigma_N_;

@@ -77,8 +77,8 @@ void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
     resampled.move_priors(priors);
     const SpectralState refitted =
         quick_search(resampled, state, {.max_iterations = 60, .tolerance = 1e-8});
-    const PronySeries series = series_from_state(refitted);
-    if (series.terms.size() == result.terms.size()) drawn.add(series);
+    const auto series = possible_series(resampled, refitted, series_from_state);
+    if (series && series->terms.size() == result.terms.size()) drawn.add(*series);
   }
   if (drawn.E0.size() < 20) return;  // too few values for percentiles
   result.E0_interval_95 = middle_95(drawn.E0);

@@ -30,7 +30,7 @@ constexpr std::array kReasons{
     Reason{left_out::kSaturated, Kind::kLost, "at the end of the converter's range"},
     Reason{left_out::kGlitch, Kind::kLost, "that the amplifier garbled"},
     Reason{left_out::kBeforeZero, Kind::kOutside, "before t = 0"},
-    Reason{left_out::kEarlierTouch, Kind::kLost, "of an earlier touch"},
+    Reason{left_out::kEarlierTouch, Kind::kOutside, "of an earlier touch"},
     Reason{left_out::kUnloading, Kind::kLost, "after the depth of a sphere or cone fell"},
     Reason{left_out::kContactLost, Kind::kLost, "after contact was lost"},
     Reason{left_out::kLifted, Kind::kByFormula, "from the move that lifted the punch off"},

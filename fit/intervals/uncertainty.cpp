@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <string>
 #include <vector>
@@ -84,6 +85,21 @@ Interval symmetric(double value, double error) {
 }
 
 }  // namespace
+
+std::optional<PronySeries> possible_series(const SpectralModel& model, const SpectralState& state,
+                                           const SeriesFromState& series_from_state) {
+  const std::vector<bool> is_free = free_columns(model, state.n_terms());
+  for (Index j = 0; j < state.coefficients.size(); ++j) {
+    if (!is_free[static_cast<std::size_t>(j)] && !(state.coefficients[j] >= 0.0)) {
+      return std::nullopt;
+    }
+  }
+  try {
+    return series_from_state(state);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
 
 void add_slow_part(Eigen::MatrixXd& covariance, const Eigen::VectorXd& white,
                    const Autoregression& noise) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -46,6 +47,11 @@ void add_slow_part(Eigen::MatrixXd& covariance, const Eigen::VectorXd& white,
 
 // The material's series for a state, terms in the order of the state.
 using SeriesFromState = std::function<PronySeries(const SpectralState&)>;
+
+// The series of a state that may be none of a material, such as one within the uncertainty of the optimum; nothing
+// if a modulus that may not be negative is, or if a frame in series is softer than the whole.
+std::optional<PronySeries> possible_series(const SpectralModel& model, const SpectralState& state,
+                                           const SeriesFromState& series_from_state);
 
 // Fills terms, E0, E_inf, their standard errors, 95 % intervals and covariance of a result from a
 // state and the covariance of its parameters, by first-order propagation through series_from_state.

@@ -32,6 +32,11 @@ struct RelaxationData {
   std::size_t n_missing = 0;   // rows of the table between these that are left out already
 };
 
+// Rows of a table of force and depth.
+struct ForceDepthRows {
+  std::vector<double> time_s, force_N, depth_m;
+};
+
 // Flat-punch indentation, F(t) = c int E(t-s) d(depth)/ds ds + offset + drift t (fit/README.md, eq.
 // 2) with c = force_per_modulus_and_depth_m(contact). Without a contact c = 1 and the results are
 // stiffnesses in N/m. Depth is measured (depth_m) or follows from moves and frame compliance.
@@ -60,6 +65,11 @@ struct IndentationData {
   std::size_t n_missing = 0;    // as in RelaxationData
   std::size_t n_saturated = 0;  // already left out
   std::size_t n_glitch = 0;
+
+  // What the specimen remembers although it is not fitted: an earlier touch.
+  std::vector<StageMove> approach;  // of a capture: all moves before the ramp
+  std::string approach_doubt;       // why these may not be all of them, or ""
+  ForceDepthRows before;            // of a table: the rows before these
 };
 
 // Creep compliance J(t) in 1/Pa after a stress step at t = 0. With `stress_Pa` the strain follows the measured

@@ -175,6 +175,8 @@ FitResult fit_indentation_table(const CsvTable& table, const FitRequest& request
   data.time_s = time_of(table, request);
   data.force_N = column_SI(table, "force_N", request.columns);
   data.depth_m = column_SI(table, "depth_m", request.columns);
+  data.before = request.before_test;
+  for (double& time : data.before.time_s) time -= request.time_zero_s.value_or(0.0);
   data.frame_stiffness_N_m = request.frame_stiffness_N_m;
   data.n_missing = missing_rows(table);
   if (request.specimen) data.contact = request.specimen->contact;

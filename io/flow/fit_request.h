@@ -66,7 +66,9 @@ struct FitRequest {
   std::optional<ModulusKind> modulus_kind;
   std::optional<double> nu;   // converts other moduli to Young's; none: 0.495
   double young_factor = 1.0;  // Young's modulus over the moduli of this table; set by fit_table()
-  std::optional<double> T_ref_C;               // reference temperature of a master curve
+  std::optional<double> T_ref_C;  // reference temperature of a master curve
+  // Rows of this table before the test, in which the rig touched; set by fit_csv().
+  ForceDepthRows before_test;
   std::vector<StartShift> start_shifts;        // MasterData::start_shifts
   Plausible plausible = Plausible::kMeasured;  // kOff accepts any value, and flags the result
   // Fit a capture whose description, events or moves are damaged; the result is flagged "unverified".

@@ -35,6 +35,25 @@ std::vector<std::string> segments_of_test(const CsvTable& table, const FitReques
   return names;
 }
 
+// Rows of force and depth before the test, which the specimen remembers.
+ForceDepthRows rows_before_test(const CsvTable& table, const FitRequest& request) {
+  ForceDepthRows rows;
+  for (const char* name : {"time_s", "force_N", "depth_m"}) {
+    if (!find_column(table, name, request.columns)) return rows;
+  }
+  if (!request.segments.empty() || segments_of_test(table, request).empty()) return rows;
+  const std::vector<std::string> segments = column_text(table, "segment", request.columns);
+  const auto n = std::find(segments.begin(), segments.end(), "baseline") - segments.begin();
+  const auto first_rows = [&](const char* name) {
+    const std::vector<double> all = column_with_gaps_SI(table, name, request.columns);
+    return std::vector<double>(all.begin(), all.begin() + n);
+  };
+  rows.time_s = first_rows("time_s");
+  rows.force_N = first_rows("force_N");
+  rows.depth_m = first_rows("depth_m");
+  return rows;
+}
+
 // The rows of the chosen segments, in the order of the file.
 CsvTable rows_of_segments(CsvTable table, const FitRequest& request) {
   const std::vector<std::string> segments =
@@ -312,6 +331,7 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   if (!request.specimen && !request.depth_m) request.size = size_from_notes(all, request.size);
   const OptionUses uses = uses_of(asked.size, derive_columns(all, request.columns, request.size));
   if (!request.is_beside_others) refuse_idle(uses);
+  request.before_test = rows_before_test(all, request);
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
   std::size_t n_gaps = 0;

@@ -223,3 +223,36 @@ TEST_CASE("holds between several ramps do not count as ramp", "[fit]") {
   CHECK_FALSE(has_flag(fit, "tau-below-ramp"));  // the times are 0.8 and 40 s
   CHECK(fit.fastest_s == Approx(2.0).epsilon(0.1));
 }
+
+TEST_CASE("an earlier touch in a table, or in the rows before it, counts as history", "[fit]") {
+  // From so far that the punch goes back by less than a fifth of its way.
+  const Points touched{{0.0, -3e-4}, {0.5, 4e-5}, {1.9, 4e-5}, {2.0, -2e-5},
+                       {3.0, -2e-5}, {4.0, 1e-4}, {60.0, 1e-4}};
+  IndentationData data = record_of(touched, 0.02, 1e-6);
+  const bool stands_before = GENERATE(false, true);
+  if (stands_before) {
+    constexpr std::ptrdiff_t kBefore = 120;  // 2.4 s
+    const auto divide = [](std::vector<double>& from, std::vector<double>& to) {
+      to.assign(from.begin(), from.begin() + kBefore);
+      from.erase(from.begin(), from.begin() + kBefore);
+    };
+    divide(data.time_s, data.before.time_s);
+    divide(data.force_N, data.before.force_N);
+    divide(data.depth_m, data.before.depth_m);
+  }
+  const FitResult fit = fit_indentation(data, {.n_terms = 2});
+  CAPTURE(stands_before, fit.E0_Pa, fit.E_inf_Pa);
+  CHECK((count_of(fit, "earlier_touch") > 0) == !stands_before);
+  CHECK_FALSE(has_flag(fit, "rows-left-out"));
+  CHECK(fit.n_contacts == 1);
+  REQUIRE(fit.terms.size() == 2);
+  CHECK(fit.terms[0].g == Approx(0.12 / 1.8).margin(1e-4));
+  CHECK(fit.terms[1].g == Approx(0.08 / 1.8).margin(1e-4));
+  CHECK(fit.E0_Pa == Approx(1.8).epsilon(2e-4));
+  // Forgotten, the touch makes g too small.
+  data.before = {};
+  if (!stands_before) return;
+  const FitResult forgotten = fit_indentation(data, {.n_terms = 2});
+  REQUIRE(forgotten.terms.size() == 2);
+  CHECK(forgotten.terms[0].g < fit.terms[0].g - 5e-4);
+}

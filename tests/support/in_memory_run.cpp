@@ -71,7 +71,8 @@ Plan true_moves(const EmulatedTruth& truth, const TestPlan& plan, const RunCondi
       quantised_m(believed_m + plan.unload_to_fraction * plan.depth_m * share, truth.steps_per_m);
   const double away_m = quantised_m(believed_m - plan.retract_m, truth.steps_per_m);
   Plan result;
-  double t = plan.baseline_s;
+  const bool with_touch = conditions.touch_m > 0.0;
+  double t = with_touch ? 0.5 : plan.baseline_s;
   const auto add = [&](const char* purpose, double a_m, double b_m, double speed, double then_s) {
     CommandedMove move;
     move.move = {t, a_m, b_m, speed, truth.acceleration_m_s2};
@@ -79,6 +80,12 @@ Plan true_moves(const EmulatedTruth& truth, const TestPlan& plan, const RunCondi
     result.moves.push_back(move);
     t += duration_s(at_true_speed(move.move, conditions.stage_speed)) + then_s;
   };
+  if (with_touch) {
+    const double deep_m =
+        quantised_m(truth.surface_position_m + conditions.touch_m, truth.steps_per_m);
+    add("approach", from_m, deep_m, 0.2e-3, conditions.touch_s);
+    add("back off", deep_m, from_m, plan.retract_speed_m_s, plan.baseline_s);
+  }
   const double speed = plan.depth_m * share / plan.ramp_s;
   add("ramp", from_m, full_m, speed, plan.hold_s);
   if (plan.recovery_s > 0.0) {
@@ -160,7 +167,7 @@ CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
   run.rig.load_cell.volts_per_count = kVoltsPerCount;
   run.rig.frame = {truth.frame_stiffness_N_m, 0.02};
   run.status = "finished";
-  const double ramp_s = moves.moves.front().move.start_time_s;
+  const double ramp_s = moves.moves[conditions.touch_m > 0.0 ? 2 : 0].move.start_time_s;
   for (std::size_t i = 0; i < times_s.size(); ++i) {
     const double since_ramp_s = times_s[i] - ramp_s;
     const double noise_N = truth.force_noise_N * normal(random);

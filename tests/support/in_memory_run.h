@@ -24,6 +24,10 @@ struct RunConditions {
   // The motor makes a step when the move has gone that far, as GRBL does: on the way it lies half a step behind on
   // the average. false: it makes the step half a step earlier.
   bool steps_when_due = true;
+  // Before the baseline the punch touches: it goes so far beyond the surface (frame included), stays, and backs off.
+  // 0: no touch, and the run begins with the baseline.
+  double touch_m = 0.0;
+  double touch_s = 1.4;
 };
 CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
                           const RunConditions& conditions = {});

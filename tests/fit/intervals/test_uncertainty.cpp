@@ -1,11 +1,15 @@
 #include "fit/assembly/kramers_kronig.h"
+#include "fit/assembly/stage_specimen.h"
 #include "fit/curves/dma_model.h"
+#include "fit/curves/stage_model.h"
 #include "fit/fit_dma.h"
 #include "fit/fit_relaxation.h"
+#include "fit/indentation_from_capture.h"
 #include "fit/intervals/uncertainty.h"
 #include "fit/samples/noise_model.h"
 #include "tests/fit/fit_checks.h"
 #include "tests/fit/spectra.h"
+#include "tests/support/in_memory_run.h"
 
 #include <catch2/catch.hpp>
 
@@ -148,4 +152,19 @@ TEST_CASE("a contradiction is found among more frequencies than ranges are looke
   // The spectrum follows a part of the edges.
   CHECK(std::abs(std::log10(found->from_Hz / data.frequency_Hz[4001])) < 0.3);
   CHECK(std::abs(std::log10(found->to_Hz / data.frequency_Hz[5999])) < 0.3);
+}
+
+TEST_CASE("a negative modulus, or a frame softer than the whole, is no material and no error",
+          "[fit]") {
+  const IndentationData data = indentation_from_capture(in_memory_run(demo_truth(10, 1), {}));
+  const StageModel model(data, nuisance_start(data), {.resting_N = 5e-4, .moving_N = 7e-4}, {});
+  SpectralState state =
+      solve_coefficients(model, Eigen::VectorXd::Constant(1, 0.0), model.nuisance_start());
+  const SeriesFromState series = specimen_series_of(model, data, /*is_liquid=*/false);
+  CHECK(possible_series(model, state, series));
+  const double E_inf_N_m = state.coefficients[0];
+  state.coefficients[0] = -1e-3 * E_inf_N_m;
+  CHECK_FALSE(possible_series(model, state, series));
+  state.coefficients[0] = 2.0 * data.frame_stiffness_N_m;
+  CHECK_FALSE(possible_series(model, state, series));
 }
