@@ -185,7 +185,7 @@ ContactCourse course_of(const ContactTable& table, double contact_m, const Prony
 }
 
 // The surface pressed by the earlier touch, then free until the first loading ends.
-TouchCourse touch_of(const ContactTable& table, double contact_m, const PronySeries& series) {
+EarlierTouch touch_of(const ContactTable& table, double contact_m, const PronySeries& series) {
   constexpr double kLifted_m = -1.0;
   Column time_s = table.touch_time_s, depth_m = table.touch_depth_m;
   for (double& depth : depth_m) depth -= contact_m;
@@ -193,7 +193,7 @@ TouchCourse touch_of(const ContactTable& table, double contact_m, const PronySer
   time_s.insert(time_s.end(), table.time_s.begin(),
                 table.time_s.begin() + static_cast<std::ptrdiff_t>(table.loaded) + 1);
   depth_m.resize(time_s.size(), kLifted_m);
-  return touch_course(time_s, depth_m, series);
+  return earlier_touch(time_s, depth_m, series);
 }
 
 template <typename Value>

@@ -212,7 +212,7 @@ void report_stage_fit(const StageModel& model, const IndentationData& data,
 struct Preparation {
   Eigen::VectorXd start;
   StageNoise noise;
-  TouchCourse touch;
+  EarlierTouch touch;
   SpectralState state;  // of the last of these fits
 };
 
@@ -250,11 +250,11 @@ PunchCourse punch_before_ramp(const IndentationData& data, const SpectralState& 
 }
 
 // The surface before the ramp, if it is that of this fit. The moves begin as late as the ramp.
-TouchCourse touch_of_approach(const IndentationData& data, const StageModel& model,
-                              const SpectralState& state, bool is_liquid) {
+EarlierTouch touch_of_approach(const IndentationData& data, const StageModel& model,
+                               const SpectralState& state, bool is_liquid) {
   const PunchCourse punch = punch_before_ramp(data, state);
   if (punch.time_s.empty()) return {};
-  return touch_course(punch.time_s, punch.depth_m, relaxation_series_of(model, is_liquid)(state));
+  return earlier_touch(punch.time_s, punch.depth_m, relaxation_series_of(model, is_liquid)(state));
 }
 
 Preparation prepared(const IndentationData& data, const AveragedRun& run,
@@ -290,7 +290,7 @@ void settle_touch(const IndentationData& data, const AveragedRun& run, const Fit
     const StageModel model(run, data, now.start, now.noise, options, now.touch);
     if (round > 0) now.state = quick_search(model, now.state, {.tolerance = 1e-10});
     now.start = now.state.nuisance;
-    TouchCourse touch = touch_of_approach(data, model, now.state, options.is_liquid);
+    EarlierTouch touch = touch_of_approach(data, model, now.state, options.is_liquid);
     const bool is_same = relative_change(touch, now.touch) <= kSameTouch;
     now.touch = std::move(touch);
     if (is_same) return;
@@ -311,7 +311,7 @@ StageFit settled_fit(const IndentationData& data, const AveragedRun& run, const 
                 {}};
     of.fit =
         fit_spectrum(*of.model, log_time_blocks(run.rows.time_s, data.contact_from_s, 4), options);
-    TouchCourse touch = touch_of_approach(data, *of.model, of.fit.state, options.is_liquid);
+    EarlierTouch touch = touch_of_approach(data, *of.model, of.fit.state, options.is_liquid);
     if (round == kRounds || relative_change(touch, now.touch) <= kSameTouch) return of;
     now.touch = std::move(touch);
     now.start = of.fit.state.nuisance;

@@ -204,7 +204,7 @@ void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) cons
   double q_by_contact = 0.0;  // used for spheres and cones
   double previous_s = onset.time_s, previous = onset.depth, previous_slope = 0.0;
   if (!in_.touch.is_empty()) {
-    const TouchCourse::Memory left = in_.touch.memory_at(onset.time_s, tau_s);
+    const EarlierTouch::Memory left = in_.touch.memory_at(onset.time_s, tau_s);
     q = left.value_m;
     slope = left.slope_m;
   }

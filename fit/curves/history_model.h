@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fit/curves/earlier_touch.h"
 #include "fit/curves/spectral_model.h"
-#include "fit/curves/touch_course.h"
 #include "fit/samples/fit_data.h"
 
 #include <Eigen/Core>
@@ -45,7 +45,7 @@ struct HistoryInput {
   // averages restarts there. Empty: none.
   std::vector<char> has_moved;
   bool is_creep = false;  // the input is the stress
-  TouchCourse touch;      // before the contact, which it needs as a nuisance; may be empty
+  EarlierTouch touch;     // before the contact, which it needs as a nuisance; may be empty
 };
 
 // First sample with at least 98 % of the largest input: the end of loading, despite later drift.

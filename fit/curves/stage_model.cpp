@@ -47,7 +47,7 @@ double crossing_s(const IndentationData& data, double from_s, double level_N, bo
 }
 
 // When the punch meets the surface: at its position of rest, or where a touch has left it.
-double contact_time_s(const StageMove& ramp, double contact_m, const TouchCourse& touch) {
+double contact_time_s(const StageMove& ramp, double contact_m, const EarlierTouch& touch) {
   if (touch.is_empty()) return time_at_position_s(ramp, contact_m);
   double low = ramp.start_time_s, high = ramp.start_time_s + duration_s(ramp);
   const double direction = ramp.to_m >= ramp.from_m ? 1.0 : -1.0;
@@ -105,14 +105,14 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
 }
 
 StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start,
-                       const StageNoise& noise, const FitOptions& options, TouchCourse touch)
+                       const StageNoise& noise, const FitOptions& options, EarlierTouch touch)
     : time_s_(data.time_s), moves_(data.moves), touch_(std::move(touch)) {
   set_up(data, usual_step_s(time_s_), start, noise, options);
 }
 
 StageModel::StageModel(const AveragedRun& run, const IndentationData& readings,
                        const Eigen::VectorXd& start, const StageNoise& noise,
-                       const FitOptions& options, TouchCourse touch)
+                       const FitOptions& options, EarlierTouch touch)
     : time_s_(run.rows.time_s), moves_(run.rows.moves), touch_(std::move(touch)) {
   if (run.has_averages()) {
     run_ = &run;
@@ -195,7 +195,7 @@ struct StageModel::Drive {
   std::vector<StageResponse> responses;
   std::vector<std::vector<StageResponse::Branch>> branches;
   std::vector<double> tau_s;
-  std::vector<TouchCourse::Memory> touch;  // of each branch, at contact
+  std::vector<EarlierTouch::Memory> touch;  // of each branch, at contact
   double contact_m = 0.0, contact_s = 0.0;
   double direction = 1.0;
 };
@@ -269,7 +269,7 @@ void StageModel::add_touch(const Drive& drive, Index row, bool with_slopes,
   const double since_s = time_s_[static_cast<std::size_t>(row)] - drive.contact_s;
   for (std::size_t i = 0; i < drive.touch.size(); ++i) {
     const double x = since_s / drive.tau_s[i], decay = std::exp(-x);
-    const TouchCourse::Memory& left = drive.touch[i];
+    const EarlierTouch::Memory& left = drive.touch[i];
     const auto term = static_cast<Index>(i);
     out.values(row, n_common() + term) += decay * left.value_m;
     if (with_slopes) out.term_slopes(row, term) += decay * (x * left.value_m + left.slope_m);

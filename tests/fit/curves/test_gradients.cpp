@@ -119,7 +119,7 @@ TEST_CASE("slopes of the stage model equal finite differences in times, starts a
   const CapturedRun run = in_memory_run(demo_truth(10, 1), {});
   const IndentationData data = indentation_from_capture(run);
   const bool is_touched = GENERATE(false, true);
-  TouchCourse touch;
+  EarlierTouch touch;
   if (is_touched) touch = {{8.0, 8.2, 9.0, 9.1, 12.0}, {0.0, 3e-5, 3e-5, 4e-6, 1e-6}};
   const StageModel model(data, nuisance_start(data), {.resting_N = 5e-4, .moving_N = 7e-4}, {},
                          touch);

@@ -1,4 +1,4 @@
-#include "fit/curves/touch_course.h"
+#include "fit/curves/earlier_touch.h"
 
 #include "fit/curves/contact_course.h"
 #include "models/material/hereditary.h"
@@ -8,7 +8,7 @@
 
 namespace viscard {
 
-double TouchCourse::depth_at_m(double at_s) const {
+double EarlierTouch::depth_at_m(double at_s) const {
   if (is_empty() || at_s <= time_s.front()) return 0.0;
   if (at_s >= time_s.back()) return depth_m.back();
   const auto next = std::upper_bound(time_s.begin(), time_s.end(), at_s);
@@ -18,7 +18,7 @@ double TouchCourse::depth_at_m(double at_s) const {
 }
 
 // d phi_1/d ln tau = x (phi_1 - phi_2).
-TouchCourse::Memory TouchCourse::memory_at(double at_s, double tau_s) const {
+EarlierTouch::Memory EarlierTouch::memory_at(double at_s, double tau_s) const {
   Memory memory;
   for (std::size_t i = 1; i <= time_s.size() && time_s[i - 1] < at_s; ++i) {
     const double end_s = i < time_s.size() ? std::min(time_s[i], at_s) : at_s;
@@ -31,9 +31,9 @@ TouchCourse::Memory TouchCourse::memory_at(double at_s, double tau_s) const {
   return memory;
 }
 
-TouchCourse touch_course(std::span<const double> time_s, std::span<const double> depth_m,
-                         const PronySeries& series) {
-  TouchCourse touch;
+EarlierTouch earlier_touch(std::span<const double> time_s, std::span<const double> depth_m,
+                           const PronySeries& series) {
+  EarlierTouch touch;
   const auto touched =
       std::find_if(depth_m.begin(), depth_m.end(), [](double z) { return z > 0.0; });
   const auto first = static_cast<std::size_t>(touched - depth_m.begin());
@@ -51,9 +51,9 @@ TouchCourse touch_course(std::span<const double> time_s, std::span<const double>
   return touch;
 }
 
-double relative_change(const TouchCourse& a, const TouchCourse& b) {
+double relative_change(const EarlierTouch& a, const EarlierTouch& b) {
   double change_m = 0.0, deepest_m = 0.0;
-  for (const TouchCourse* course : {&a, &b}) {
+  for (const EarlierTouch* course : {&a, &b}) {
     for (std::size_t i = 0; i < course->time_s.size(); ++i) {
       const double at_s = course->time_s[i];
       change_m = std::max(change_m, std::abs(a.depth_at_m(at_s) - b.depth_at_m(at_s)));

@@ -11,7 +11,7 @@ namespace viscard {
 // without force. The relaxation that the touch began goes on in the fitted contact, which meets the surface
 // where it then stands. Depths count from the contact position. Between its points the course is linear; before
 // the first the surface rests at 0, after the last it stays.
-struct TouchCourse {
+struct EarlierTouch {
   std::vector<double> time_s, depth_m;
 
   bool is_empty() const { return time_s.empty(); }
@@ -26,11 +26,11 @@ struct TouchCourse {
 
 // depth_m: of the punch, below 0 out of contact. Empty if it never touches. The scale of the series does not
 // matter.
-TouchCourse touch_course(std::span<const double> time_s, std::span<const double> depth_m,
-                         const PronySeries& series);
+EarlierTouch earlier_touch(std::span<const double> time_s, std::span<const double> depth_m,
+                           const PronySeries& series);
 
 // Largest difference of two courses over the deepest point of both.
-double relative_change(const TouchCourse& a, const TouchCourse& b);
+double relative_change(const EarlierTouch& a, const EarlierTouch& b);
 inline constexpr double kSameTouch =
     1e-3;  // of it: what such a change does to a modulus is beyond any reading
 
