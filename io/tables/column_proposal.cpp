@@ -168,11 +168,12 @@ std::string unknown_unit(const CsvTable& table) {
       // "E" may be of several quantities; the unit that was meant decides.
       const std::string meant(unit_in_right_case(unit, kind.unit.si));
       if (meant.empty() || !match_header(bare, kind)) continue;
+      const double factor = scale_to_si(meant, kind.unit.si).factor;
+      const std::string times = factor == 1.0 ? "" : text_from_number(factor) + "*";
       return "column " + std::to_string(i + 1) + " '" + column.header + "' is by its name " +
              kind.name + ", but '" + unit + "' is not a known unit (capitals matter). If " + meant +
              " was meant, write " +
-             quoted_for_shell(
-                 {"--column", std::string(kind.name) + "=" + name + " (" + meant + ")"});
+             quoted_for_shell({"--column", std::string(kind.name) + "=" + times + column.header});
     }
   }
   return "";
