@@ -98,7 +98,7 @@ bool has_something_to_draw(const PlotPanel& panel);
 // True if the logarithmic axes of the picture show 10³ rather than 1000: all of them, if one goes beyond 0.001 or 20 000.
 bool has_powers_of_ten(const Plot& plot);
 
-// A number of a legend, written as on the logarithmic axes of its picture: "0.001", or "10⁻³" and "2×10⁻³".
+// `value`, a number of a legend in the unit of the axes, written as on the logarithmic axes of its picture: "0.001", or "10⁻³" and "2×10⁻³".
 std::string number_on_axes(const Plot& plot, double value);
 
 }  // namespace viscard

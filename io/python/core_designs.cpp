@@ -71,7 +71,10 @@ PythonResult closed_form(const py::dict& keywords) {
     std::string keyword = name;
     std::replace(keyword.begin(), keyword.end(), '-', '_');
     if (!keywords.contains(keyword)) return std::nullopt;
-    return quantity_from(keyword.c_str(), keywords[keyword.c_str()], unit);
+    const py::object typed = keywords[keyword.c_str()];
+    const double value = quantity_from(keyword.c_str(), typed, unit);
+    refuse_negative(keyword, value, py::str(typed));
+    return value;
   };
   std::optional<std::string> lattice;
   if (keywords.contains("lattice")) lattice = text_from("lattice", keywords["lattice"]);

@@ -39,9 +39,9 @@ class LoadCell {
   Transport& transport() { return transport_; }
   // Waits until readings arrive and the format of the lines is known.
   virtual void connect(const Pump& pump) = 0;
-  // True if the instrument can be asked to make the force that acts its zero, by set_zero(). Then
-  // its readings count from there, also after this program. Throws RigError if it refuses.
+  // True if the instrument can be asked to make the force that acts its zero.
   virtual bool has_own_zero() const { return false; }
+  // Asks it: its readings count from there, also after this program. Throws RigError if it refuses.
   virtual void set_zero(const Pump& /*pump*/) {}
   // True for an instrument that sends by itself: its readings can fall behind on a slow line.
   virtual bool sends_by_itself() const { return false; }

@@ -94,17 +94,12 @@ bool is_specification(const DesignWords& words) {
   return words.scene && !words.require && is_design_spec(read_file(*words.scene));
 }
 
-// As typed, before the formulas name the quantities in SI. An auxetic pillar has a negative Poisson ratio.
-void refuse_negative(const CommandSyntax& syntax, const LimitValues& limits) {
-  for (const auto& [name, value] : limits) {
-    if (!value || *value >= 0.0 || name == "poisson") continue;
-    throw UsageError("--" + name + " is " + given_words(syntax, {name.c_str()}).front() +
-                     "; it must be positive");
-  }
-}
-
-ClosedFormDesign design_from(const LimitValues& limits, const std::optional<std::string>& lattice) {
+ClosedFormDesign design_from(const CommandSyntax& syntax, const LimitValues& limits,
+                             const std::optional<std::string>& lattice) {
   try {
+    for (const auto& [name, value] : limits) {
+      if (value) refuse_negative("--" + name, *value, given_words(syntax, {name.c_str()}).front());
+    }
     return closed_form_design(
         [&](const char* name, const QuantityOrUnit&) { return limits.at(name); }, lattice);
   } catch (const std::invalid_argument& error) {
@@ -129,8 +124,7 @@ int run_design(const Words& words, Streams& streams) {
   refuse_idle<UsageError>(
       {{"--tol", asked.tolerance.has_value(), false, "a scene, and none is named"},
        {"--search-time", is_given(syntax, "search-time"), false, "a scene, and none is named"}});
-  refuse_negative(syntax, limits);
-  const ClosedFormDesign design = design_from(limits, lattice);
+  const ClosedFormDesign design = design_from(syntax, limits, lattice);
   const JsonHead head{"viscard-design/1", {}};
   const auto show = [&](const std::string& command) {
     return [&design, command](ResultVisitor& v) {

@@ -61,6 +61,11 @@ std::vector<DesignOption> options_of(ClosedFormDesign& d) {
        &r.least_relative_sensitivity}};
 }
 
+void refuse_negative(const std::string& name, double value, const std::string& typed) {
+  if (value >= 0.0 || name.ends_with("poisson")) return;
+  throw std::invalid_argument(name + " is " + typed + "; it must be positive");
+}
+
 ClosedFormDesign closed_form_design(
     const std::function<std::optional<double>(const char* name, const QuantityOrUnit& unit)>& given,
     const std::optional<std::string>& lattice) {

@@ -30,6 +30,10 @@ struct DesignOption {
 // All quantities of `design`, which must outlive them.
 std::vector<DesignOption> options_of(ClosedFormDesign& design);
 
+// Refuses a value below 0, in SI, with its text as typed: "diameter is -1 um; it must be positive". An auxetic pillar has
+// a negative Poisson ratio. Throws std::invalid_argument.
+void refuse_negative(const std::string& name, double value, const std::string& typed);
+
 // The design with the values (in SI) that `given` returns for the name and the unit of an option;
 // if it returns nothing, the default is used. lattice: "square", "hexagonal" or "plain". Without
 // work of adhesion, twice the surface energy is used (equal surfaces). Throws std::invalid_argument

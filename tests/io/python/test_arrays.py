@@ -34,7 +34,7 @@ def test_tests_of_one_material_by_kind(tmp_path):
     assert arrays.file == "relaxation + creep" and arrays.material.json["provenance"].get("raw_files", []) == []
     twice = viscard.fit({"relaxation": [files["relaxation"], {"time_s": T, "modulus_Pa": 1.001 * E}]})
     assert len(twice.json["tests"]) == 2
-    with pytest.raises(viscard.Error, match="'creeep' is no kind of test; did you mean 'creep'"):
+    with pytest.raises(viscard.Error, match="there is no kind of test 'creeep'; did you mean 'creep'"):
         viscard.fit({"creeep": {"time_s": T, "compliance_1_Pa": J}})
 
 
