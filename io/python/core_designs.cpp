@@ -72,8 +72,8 @@ PythonResult closed_form(const py::dict& keywords) {
     std::replace(keyword.begin(), keyword.end(), '-', '_');
     if (!keywords.contains(keyword)) return std::nullopt;
     const py::object typed = keywords[keyword.c_str()];
-    const double value = quantity_from(keyword.c_str(), typed, unit);
-    refuse_negative(keyword, value, py::str(typed));
+    const std::optional<double> value = quantity_from(keyword.c_str(), typed, unit);
+    if (value) refuse_negative(keyword, *value, py::str(typed));
     return value;
   };
   std::optional<std::string> lattice;
