@@ -143,9 +143,12 @@ void refuse_drift(TestRun& run, const ForceMean& change) {
   const bool is_positive = run.rig.load_cell.compression_is_positive;
   throw RigError(
       "the force rose by " + millinewtons(change_N) + " when the stage was to lift the punch by " +
-      in_mm_lifted(way_m) + ", before the approach. It went back to where it stood. If it " +
-      "moved toward the specimen, set toward_specimen = " + std::to_string(-sign) +
-      " under [stage] of the rig file (it is " + std::to_string(sign) +
+      in_mm_lifted(way_m) +
+      ", before the approach. It went back to where it stood. If the force also changes while the "
+      "stage " +
+      "stands, look for an open wire of the load cell. If the stage moved toward the specimen, set "
+      "toward_specimen = " +
+      std::to_string(-sign) + " under [stage] of the rig file (it is " + std::to_string(sign) +
       "); if it did lift, and a finger that presses on the cell lowers the force of 'viscard rig "
       "check', set compression_is_positive = " +
       (is_positive ? "false" : "true") + " under [load_cell] (it is " +
