@@ -256,7 +256,8 @@ TEST_CASE("an output with the ending of another format is refused", "[cli]") {
   CHECK(run_command({"predict", material, "--csv", folder / "a.dat"}).status == kDone);
 }
 
-TEST_CASE("the option --force without an output is refused by every command that replaces files", "[cli]") {
+TEST_CASE("the option --force without an output is refused by every command that replaces files",
+          "[cli]") {
   const std::vector<std::vector<std::string>> all{{"fit", "a.csv"},
                                                   {"card", "m.json", "--for", "abaqus"},
                                                   {"predict", "m.json"},
