@@ -1,6 +1,7 @@
 #include "fit/intervals/uncertainty.h"
 
 #include "models/maths/dense.h"
+#include "models/maths/failure_text.h"
 
 #include <Eigen/Core>
 
@@ -96,7 +97,9 @@ std::optional<PronySeries> possible_series(const SpectralModel& model, const Spe
   }
   try {
     return series_from_state(state);
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    if (!is_refusal(error))
+      throw;  // a lack of memory or a request to stop is no property of the state
     return std::nullopt;
   }
 }
