@@ -150,7 +150,7 @@ void UsbtmcLine::read_answer() {
     if (n < 0 && is_timeout(errno)) return recover();
     if (n < 0) return hang_up(std::strerror(errno));
     answer.append(buffer.data(), static_cast<std::size_t>(n));
-  } while (n == static_cast<ssize_t>(buffer.size()));
+  } while (n == static_cast<ssize_t>(buffer.size()) && answer.back() != '\n');
   if (answer.empty()) return;
   if (answer.back() != '\n') answer += '\n';
   // Readings are far shorter than the pipe; what a program does not fetch is dropped.

@@ -25,7 +25,7 @@ std::string not_compared(RunSession& session, const RigConfig& rig, const RunCon
   } catch (const RigError& error) {
     outcome.doubts.push_back(
         "the stage could not be homed after the lift, so whether it has lost steps is not known: " +
-        failure_text(error, "the homing"));
+        failure_text(error, "the homing") + ". Look at the punch before the next run");
     session.event("doubt", "not_homed", outcome.doubts.back());
     return "the stage could not be homed";
   }

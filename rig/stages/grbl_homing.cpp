@@ -40,6 +40,9 @@ std::string GrblStage::trouble_with_count_check(const Pump& pump) {
   if (!has_bit(21, 0)) {
     return refused("its limit switch does not stop it ($21=0)", "Set $21=1");
   }
+  if (has_bit(20, 0)) {
+    return refused("soft limits end its way before the switch ($20=1)", "Set $20=0");
+  }
   // $23 has a bit for each axis that homes to its negative end.
   if ((has_bit(23, axis_) ? -1.0 : 1.0) * toward_ > 0.0) {
     return refused("axis " + letter + " homes toward the specimen ($23, toward_specimen)",
@@ -73,18 +76,18 @@ double GrblStage::touch_switch(const Pump& pump) {
   const double pull_off_m = setting(27, kUsualPullOff_mm) * 1e-3;
   alarm_code_ = 0;
   try {
-    go(*homed_at_m_, kBack_m_s, pump);
+    if (*homed_at_m_ < position_m())
+      go(*homed_at_m_, kBack_m_s, pump);  // never toward the specimen
     go(*homed_at_m_ - kPastSwitch * pull_off_m, kTouch_m_s, pump);
   } catch (const StageAlarm&) {
     if (alarm_code_ != kHardLimit) throw;
     recover(pump);
     return position_m();
   }
-  // With soft limits the stage is stopped at machine zero, which is where the switch was found.
-  if (has_bit(20, 0)) return position_m();
   throw RigError("the stage passed the place of its limit switch by " +
                  text_from_number((kPastSwitch - 1.0) * pull_off_m * 1e3, 1) +
-                 " mm and was not stopped. Check the switch and its cable");
+                 " mm and was not stopped. Check the switch and its cable; or it has lost "
+                 "more than that in steps while it lifted");
 }
 
 std::optional<CountCheck> GrblStage::check_count(const Pump& pump) {

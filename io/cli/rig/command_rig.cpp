@@ -429,8 +429,10 @@ int run_rig(const Words& words, Streams& streams) {
     if (belongs || !is_given(syntax, option)) continue;
     const char* const verbs = is_of_move            ? "jog, lift or home"
                               : option == "seconds" ? "check or touch"
-                              : option == "rig"     ? "list, check, touch, jog, lift or home"
-                                                    : "check, touch, jog, lift or home";
+                              : option == "rig"
+                                  ? "list, check, touch, jog, lift, home, set-zero or zero-force"
+                                  : "check, touch, jog, lift, home, set-zero or "
+                                    "zero-force";
     throw UsageError("--" + option + " is for viscard rig " + verbs + "; omit it");
   }
   const bool is_home = asked.what == "home";

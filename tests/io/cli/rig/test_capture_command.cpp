@@ -405,7 +405,7 @@ TEST_CASE("a damaged capture is never taken for a table", "[cli][capture]") {
 TEST_CASE("options of rig check are refused by the other subcommands", "[cli][rig]") {
   const auto outcome = run_command({"rig", "overshoot", "--rig", "none.toml"});
   CHECK(outcome.status == kBadWords);
-  CHECK(contains(outcome.err, "--rig is for viscard rig list, check, touch, jog, lift or home"));
+  CHECK(contains(outcome.err, "--rig is for viscard rig list, check, touch, jog, lift, home"));
   const auto listed = run_command({"rig", "list", "--seconds", "1"});
   CHECK(listed.status == kBadWords);
   CHECK(contains(listed.err, "--seconds is for viscard rig check or touch"));
