@@ -94,7 +94,7 @@ void GrblStage::converse(const Pump& pump) {
     if (!trouble.empty()) throw RigError(trouble);
   }
   homed_at_m_ = homed_before_m_;
-  if (homed_at_m_ && (state_ == "Alarm" || restarts_when_opened_)) throw_count_lost();
+  if (homed_at_m_ && state_ == "Alarm") throw_count_lost();
   if (config_.home && !homed_at_m_) {
     home(pump);
   } else if (state_ == "Alarm") {
