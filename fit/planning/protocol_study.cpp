@@ -172,10 +172,10 @@ ProtocolStudy study_protocols(const Bench& bench, const std::vector<WantedQuanti
       study.rows.push_back(row);
     }
   }
-  if (shortest_s > options.longest_s) {
-    const auto seconds = [](double time_s) { return text_of(time_s, 3) + " s"; };
+  if (study.rows.empty()) {
+    const auto seconds = [](double time_s) { return text_of(time_s, 7) + " s"; };
     throw std::runtime_error("no test fits into " + seconds(options.longest_s) +
-                             "; the shortest takes " + seconds(shortest_s) +
+                             "; the shortest takes " + seconds(std::ceil(shortest_s)) +
                              " at the rig. Allow at least that (--at-most)");
   }
   study.n_tried = study.rows.size();

@@ -193,14 +193,15 @@ bool run_step(const SeriesStep& step, const SeriesStep* previous, const CaptureW
 // What homing after the last run has shown concerns those before it.
 void share_count_of_last(SeriesResult& result, const SeriesHoming& homing,
                          const CaptureWords& words, Streams& streams) {
+  // Steps that were finished before have no run here.
+  const auto behind = std::find_if(result.runs.rbegin(), result.runs.rend(),
+                                   [](const CaptureOfSeries& one) { return one.run.has_value(); });
+  if (behind == result.runs.rend()) return;
+  const RunOutcome& last = *behind->run;
   std::vector<EarlierRun> earlier;
   for (CaptureOfSeries& capture : result.runs) {
-    if (capture.run && &capture != &result.runs.back()) {
-      earlier.push_back({capture.file, &*capture.run});
-    }
+    if (capture.run && &capture != &*behind) earlier.push_back({capture.file, &*capture.run});
   }
-  if (result.runs.empty() || !result.runs.back().run) return;
-  const RunOutcome& last = *result.runs.back().run;
   if (homing.homed_at_m && homing.is_doubtful && !last.count) {
     streams.err << "viscard: a run is doubtful, so the stage was not homed after it, and its count "
                    "was not compared\n";
