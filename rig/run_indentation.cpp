@@ -256,7 +256,7 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
 RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
                            const TestPlan& plan, const Specimen& specimen, const RecordSink& sink,
                            const RunControl& control) {
-  if (rig.stage.home) stage.plan_count_check(control.homed_at_m);
+  if (rig.stage.home) stage.plan_count_check(control.homed_before);
   const RecordSink safe_sink = failing_once(sink);
   RunSession session(stage, load_cell, rig, safe_sink, control);
   TestRun run{session, rig, plan, specimen, phases_from_plan(plan), {}};

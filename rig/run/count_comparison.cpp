@@ -53,7 +53,9 @@ std::string lost_steps_doubt(const CountCheck& found) {
 void compare_count(RunSession& session, const RigConfig& rig, const RunControl& control,
                    RunOutcome& outcome) {
   if (!session.is_stage_connected()) return;
-  outcome.homed_at_m = session.stage().homed_at_m();
+  if (const auto homed_at_m = session.stage().homed_at_m()) {
+    outcome.homed = HomedStage{*homed_at_m, session.stage().position_m()};
+  }
   if (session.stage().measures_position()) {
     outcome.depth_is = "measured";
     return session.event("depth", outcome.depth_is, "The stage measures its position");

@@ -2,6 +2,7 @@
 
 #include "rig/lines/rig_clock.h"
 #include "rig/lines/rig_error.h"
+#include "rig/stages/stage.h"
 
 #include <atomic>
 #include <functional>
@@ -41,11 +42,11 @@ struct RunControl {
   // ending.
   bool lifts_at_start = false;
   Thermometer* thermometer = nullptr;  // read beside the run; may be nullptr
-  // With home = true under [stage], and for a series of runs: where an earlier one has homed the
-  // stage (RunOutcome::homed_at_m), so that this one does not; and whether this one homes it after
+  // With home = true under [stage], and for a series of runs: what an earlier one that has homed
+  // the stage has left (RunOutcome::homed), so that this one does not; and whether this one homes it after
   // its lift. Between the runs of a series the stage is not homed: drivers without a comparison then
   // get home = false.
-  std::optional<double> homed_at_m;
+  std::optional<HomedStage> homed_before;
   bool homes_after = true;
 };
 

@@ -14,12 +14,6 @@ constexpr double kReset_wall_s = 1.5;    // from a soft reset to the welcome
 constexpr int kResets = 3;               // one is lost while an alarm is being reported
 constexpr int kMostReadings = 4;         // of the settings, until two agree
 
-[[noreturn]] void throw_count_lost() {
-  throw RigError(
-      "the stage's controller has restarted since it was homed at the beginning of the series, so "
-      "its count is lost. Start the series again, with --resume for the captures that are left");
-}
-
 }  // namespace
 
 void GrblStage::command(const std::string& line, const Pump& pump, double timeout_wall_s) {
@@ -93,8 +87,10 @@ void GrblStage::converse(const Pump& pump) {
     const std::string trouble = trouble_with_count_check(pump);
     if (!trouble.empty()) throw RigError(trouble);
   }
-  homed_at_m_ = homed_before_m_;
-  if (homed_at_m_ && state_ == "Alarm") throw_count_lost();
+  if (homed_before_) {
+    refuse_lost_count();
+    homed_at_m_ = homed_before_->homed_at_m;
+  }
   if (config_.home && !homed_at_m_) {
     home(pump);
   } else if (state_ == "Alarm") {

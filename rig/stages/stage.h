@@ -43,6 +43,12 @@ struct CountCheck {
   double within_m = 0.0;  // a smaller difference shows nothing
 };
 
+// What a run of a series knows of the count that the runs before it have left.
+struct HomedStage {
+  double homed_at_m = 0.0;  // where homing has left the stage
+  double stood_at_m = 0.0;  // at the end of the run before
+};
+
 // One motorised axis that presses a punch into a specimen. Positions in m from the controller's own
 // zero, growing toward the specimen. No call blocks by itself: while it waits for an answer it
 // calls `pump`, so that the caller can watch the force. All calls throw PortHungUp, StageAlarm,
@@ -55,8 +61,9 @@ class Stage {
   virtual Transport& transport() = 0;
 
   // Before connect(): the count will be compared by check_count(), so connect() homes this axis alone
-  // (and refuses if it cannot), or not at all if an earlier run has homed it, at homed_at_m.
-  virtual void plan_count_check(std::optional<double> /*homed_at_m*/) {}
+  // (and refuses if it cannot), or not at all if an earlier run has homed it. It refuses then
+  // if the stage does not stand where that run has left it.
+  virtual void plan_count_check(std::optional<HomedStage> /*before*/) {}
   // Waits for the controller, identifies it, reads its settings, unlocks it, asks for its position.
   virtual void connect(const Pump& pump) = 0;
   // Handles what has arrived and asks for the position when that is due. Call often.
