@@ -113,6 +113,7 @@ class ProgressReport {
   // From now on depths are counted from that position.
   void set_contact_m(double contact_m) { contact_m_ = contact_m; }
   bool has_contact() const { return contact_m_.has_value(); }
+  const std::string& phase() const { return phase_; }
 
   // Passes on a reading at that position, unless the last report is younger than a tenth of a second.
   void report(double force_N, double position_m);

@@ -86,7 +86,14 @@ std::string GrblStage::trouble_with_count_check(const Pump& pump) {
 void GrblStage::home(const Pump& pump) {
   polls_ = false;  // while homing, no '?' is answered
   forget_questions();
-  command(compares_count_ ? std::string("$H") + config_.axis : "$H", pump, kAxisHomed_wall_s);
+  try {
+    command(compares_count_ ? std::string("$H") + config_.axis : "$H", pump, kAxisHomed_wall_s);
+  } catch (const PortHungUp&) {
+    throw;
+  } catch (...) {
+    stop_hard();  // nothing else ends a homing cycle
+    throw;
+  }
   ask_position(pump);
   exact_m_ = reported_m_;
   homed_at_m_ = reported_m_;
@@ -119,19 +126,12 @@ double GrblStage::touch_switch(const Pump& pump) {
 
 std::optional<CountCheck> GrblStage::check_count(const Pump& pump) {
   if (!compares_count_ || !homed_at_m_) return std::nullopt;
-  try {
-    const double counted_m = touch_switch(pump);
-    home(pump);
-    const double found_m = touch_switch(pump);
-    home(pump);  // leaves the switch
-    const double off_m = counted_m - found_m;
-    return CountCheck{off_m, off_m * dynamics().steps_per_m, count_slack_m()};
-  } catch (const PortHungUp&) {
-    throw;
-  } catch (...) {
-    stop_hard();  // nothing else ends a homing cycle
-    throw;
-  }
+  const double counted_m = touch_switch(pump);
+  home(pump);
+  const double found_m = touch_switch(pump);
+  home(pump);  // leaves the switch
+  const double off_m = counted_m - found_m;
+  return CountCheck{off_m, off_m * dynamics().steps_per_m, count_slack_m()};
 }
 
 }  // namespace viscard

@@ -107,7 +107,8 @@ class Stage {
   // driver has none. Moves nothing.
   virtual std::string trouble_with_count_check(const Pump& /*pump*/) { return ""; }
   // Goes to the limit switch by the count, homes this axis alone, and goes there again. The punch
-  // must be lifted. Nothing if this driver cannot compare them.
+  // must be lifted. Nothing if this driver cannot compare them. An exception ends a homing cycle, but
+  // a move goes on until the caller stops it.
   virtual std::optional<CountCheck> check_count(const Pump& /*pump*/) { return std::nullopt; }
 };
 

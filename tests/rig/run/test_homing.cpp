@@ -5,8 +5,10 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 
 namespace viscard {
 namespace {
@@ -113,6 +115,50 @@ TEST_CASE("after a doubtful run the stage is not homed", "[rig][pty]") {
   CHECK_FALSE(outcome.count);
   CHECK(homings_sent(doubtful) == 1);  // before the test
   CHECK_FALSE(doubtful.has_event("phase", kHomePhase));
+}
+
+TEST_CASE(
+    "Ctrl-C and a force limit while the stage is homed after the lift end the run as in a test",
+    "[rig][pty]") {
+  RigFixture rig(homing_rig());
+  std::string status = "interrupted", code = "interrupted", cause = "the run was interrupted";
+  SECTION("Ctrl-C on the way to the switch") {
+    when_phase(rig, kHomePhase, [&] { rig.stop = true; });
+  }
+  // During the homing cycle after the test, which is the second one.
+  int n_homings = 0;
+  std::function<void()> in_cycle;
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* raw = std::get_if<RawBytes>(&record);
+    if (raw == nullptr || !raw->is_sent || raw->bytes != "$HZ\n") return;
+    if (++n_homings == 2 && in_cycle) in_cycle();
+  };
+  SECTION("Ctrl-C in the homing cycle") {
+    in_cycle = [&] { rig.stop = true; };
+  }
+  SECTION("a force, in two steps that are no jump") {
+    const double limit_N = rig.config.safety.soft_fraction * rig.config.calibration.capacity_N;
+    when_phase(rig, kHomePhase, [&rig, limit_N] { rig.emulated.hang_weight(0.6 * limit_N); });
+    in_cycle = [&rig, limit_N] { rig.emulated.hang_weight(1.05 * limit_N); };
+    status = "stopped";
+    code = "force-limit";
+    cause = " N, while the stage was homed after the test";
+  }
+  const RunOutcome outcome = rig.run(short_plan());
+  CAPTURE(outcome.reason);
+  CHECK(outcome.status == status);
+  CHECK(outcome.code == code);
+  CHECK(outcome.phase == kHomePhase);
+  CHECK_THAT(outcome.reason, Contains("The test was complete; the stage was stopped while it was "
+                                      "homed, after a lift to") &&
+                                 Contains("above the contact"));
+  CHECK_THAT(outcome.cause, Contains(cause));
+  CHECK(outcome.doubts.empty());
+  CHECK(outcome.depth_is == "counted");
+  CHECK_FALSE(outcome.count);
+  CHECK(homings_sent(rig) < 3);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.all<RunEvent>().back().name == status);
 }
 
 TEST_CASE("a series homes before its first run and after its last one only", "[rig][pty]") {
