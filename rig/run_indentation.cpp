@@ -71,8 +71,8 @@ class IndentationRun {
   bool is_begun() const { return is_begun_; }
   // The phase that is carried out.
   const std::string& name() const { return name_; }
-  // A stage position at which the punch is probably free. Once the test is complete, it is free where
-  // it is, and a homing cycle that was cut short leaves a position without meaning.
+  // A stage position at which the punch is probably free. Once the test is complete, it is free
+  // where it is, and a homing cycle that was cut short leaves a position without meaning.
   double safe_position_m() const {
     if (lifted_to_m_) return std::numeric_limits<double>::infinity();
     if (run_.outcome.contact_position_m) return run_.contact_m - run_.plan.retract_m;

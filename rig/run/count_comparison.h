@@ -10,8 +10,8 @@ namespace viscard {
 
 // After the lift of a finished run with home = true, and only if nothing else makes it doubtful:
 // homes the stage and compares its count. Lost steps, and a stage that could not be homed, are
-// doubts. Returns why the count was not compared, or "". Throws LimitReached and RunInterrupted; the
-// stage must be made safe then.
+// doubts. Returns why the count was not compared, or "". Throws LimitReached and RunInterrupted;
+// the stage must be made safe then.
 std::string compare_count(RunSession& session, const RigConfig& rig, const RunControl& control,
                           RunOutcome& outcome);
 

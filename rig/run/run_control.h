@@ -43,9 +43,9 @@ struct RunControl {
   bool lifts_at_start = false;
   Thermometer* thermometer = nullptr;  // read beside the run; may be nullptr
   // With home = true under [stage], and for a series of runs: what an earlier one that has homed
-  // the stage has left (RunOutcome::homed), so that this one does not; and whether this one homes it after
-  // its lift. Between the runs of a series the stage is not homed: drivers without a comparison then
-  // get home = false.
+  // the stage has left (RunOutcome::homed), so that this one does not; and whether this one homes
+  // it after its lift. Between the runs of a series the stage is not homed: drivers without a
+  // comparison then get home = false.
   std::optional<HomedStage> homed_before;
   bool homes_after = true;
 };

@@ -34,8 +34,8 @@ double GrblStage::count_slack_m() const {
   return kStepsDoubted * step_m + 2.0 * (resolution_m() - step_m);
 }
 
-// The firmware keeps its count over a soft reset, not over a restart: that begins in an alarm, or at
-// another count if its build does not lock it (grbl/config.h, HOMING_INIT_LOCK).
+// The firmware keeps its count over a soft reset, not over a restart: that begins in an alarm, or
+// at another count if its build does not lock it (grbl/config.h, HOMING_INIT_LOCK).
 void GrblStage::refuse_lost_count() const {
   const std::string since = " since it was homed at the beginning of the series";
   const std::string next =
@@ -97,6 +97,7 @@ void GrblStage::home(const Pump& pump) {
   ask_position(pump);
   exact_m_ = reported_m_;
   homed_at_m_ = reported_m_;
+  was_in_alarm_ = false;
 }
 
 void GrblStage::go(double to_m, double speed_m_s, const Pump& pump) {
