@@ -33,6 +33,14 @@ void refuse(const RestReadings& seen, const RigConfig& rig, bool is_toward) {
   }
 }
 
+// The next command finds an unlocked controller, so only this one can warn.
+std::string note_of(const Stage& stage) {
+  if (!stage.is_unlocked_unhomed()) return "";
+  return "the stage was locked and has been unlocked without homing, so its position counts from "
+         "where it stood, and rig set-zero cannot notice that later. Home it with: viscard rig "
+         "home";
+}
+
 // In the short jogs of an approach, because nothing is known of what lies in the way. True if the
 // force stopped it.
 bool press(RunSession& session, double from_m, const StageOrder& order) {
@@ -70,6 +78,7 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
                         "A move outside of any test");
     moved.force_before_N = rest.force_N;
     moved.from_m = stage.position_m();
+    moved.note = note_of(stage);
     if (order.is_home) {
       moved.to_m = moved.from_m;
       moved.force_after_N = moved.force_before_N;
@@ -93,9 +102,11 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     const double back_m =
         order.is_home ? stage.position_m() : std::min(moved.from_m, stage.position_m());
     const SafeEnd end = session.make_safe(back_m, order.speed_m_s);
+    const std::string note = note_of(stage);
     throw StageStands((is_asked_for ? "the move was stopped" : failure_text(error, "this move")) +
                           ". The stage was stopped at " + in_mm(stage.position_m()) +
-                          (end.trouble.empty() ? "" : "; " + end.trouble),
+                          (end.trouble.empty() ? "" : "; " + end.trouble) +
+                          (note.empty() ? "" : "; " + note),
                       stage.position_m());
   }
   return moved;

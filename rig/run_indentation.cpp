@@ -4,6 +4,7 @@
 #include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
 #include "rig/run/approach_phase.h"
+#include "rig/run/count_comparison.h"
 #include "rig/run/force_phases.h"
 #include "rig/run/preflight.h"
 #include "rig/run/rest_findings.h"
@@ -14,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
+#include <limits>
 #include <optional>
 
 namespace viscard {
@@ -55,12 +58,23 @@ class IndentationRun {
     }
   }
 
+  // Why the count was not compared after the test, or "".
+  std::string compare(const RunControl& control) {
+    name_ = kHomePhase;
+    lifted_to_m_ = run_.session.stage().position_m();
+    return compare_count(run_.session, run_.rig, control, run_.outcome);
+  }
+
+  // Where the lift of a test that is complete has ended; nothing before that.
+  std::optional<double> lifted_to_m() const { return lifted_to_m_; }
   // Both devices are connected and the pre-flight check has found no problem.
   bool is_begun() const { return is_begun_; }
   // The phase that is carried out.
   const std::string& name() const { return name_; }
-  // A stage position at which the punch is probably free.
+  // A stage position at which the punch is probably free. Once the test is complete, it is free
+  // where it is, and a homing cycle that was cut short leaves a position without meaning.
   double safe_position_m() const {
+    if (lifted_to_m_) return std::numeric_limits<double>::infinity();
     if (run_.outcome.contact_position_m) return run_.contact_m - run_.plan.retract_m;
     return presses_at_start() ? run_.start_m - run_.plan.retract_m : run_.start_m;
   }
@@ -163,6 +177,7 @@ class IndentationRun {
   };
   std::optional<LastMove> last_move_;  // in contact, not judged yet
   double depth_asked_m_ = 0.0;         // where the last phase that changed the depth has left it
+  std::optional<double> lifted_to_m_;
   bool is_begun_ = false;
   std::string name_ = "connect";
 };
@@ -198,6 +213,11 @@ std::string place_of_punch(TestRun& run, const SafeEnd& end, bool had_moved, boo
   if (!had_moved) return ". The stage was not moved: the punch is where it was before the run";
   return knows_position ? ". The stage was stopped: " + counted + place_of_stage(run)
                         : ". The stage was stopped; it was not lifted: look at the punch";
+}
+
+std::string place_in_homing(const TestRun& run, double lifted_to_m) {
+  return ". The test was complete; the stage was stopped while it was homed, after a lift to " +
+         mm_text(run.contact_m - lifted_to_m) + " above the contact";
 }
 
 template <typename Type>
@@ -247,7 +267,9 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   if (end.is_force_left) run.is_place_doubtful = true;
   const bool knows_position =
       !is_a<DeviceRestarted>(error) && !is_a<StageAlarm>(error) && !run.session.is_position_lost();
-  outcome.reason += place_of_punch(run, end, run.session.has_moved(), knows_position);
+  outcome.reason += phases.lifted_to_m()
+                        ? place_in_homing(run, *phases.lifted_to_m())
+                        : place_of_punch(run, end, run.session.has_moved(), knows_position);
   if (!end.trouble.empty()) outcome.reason += ". And: " + end.trouble;
 }
 
@@ -256,25 +278,35 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
 RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
                            const TestPlan& plan, const Specimen& specimen, const RecordSink& sink,
                            const RunControl& control) {
-  if (rig.stage.home) stage.plan_count_check(control.homed_at_m);
+  if (rig.stage.home) stage.plan_count_check(control.homed_before);
   const RecordSink safe_sink = failing_once(sink);
   RunSession session(stage, load_cell, rig, safe_sink, control);
   TestRun run{session, rig, plan, specimen, phases_from_plan(plan), {}};
   run.lifts_at_start = control.lifts_at_start;
   IndentationRun phases(run);
-  try {
+  const auto carry_out = [&](const std::function<void()>& part) {
+    try {
+      part();
+    } catch (const LimitReached& error) {
+      if (!session.is_stage_connected()) throw;
+      end_early(run, phases, "stopped", error);
+    } catch (const std::exception& error) {
+      if (!phases.is_begun()) throw;
+      end_early(run, phases, "interrupted", error);
+    }
+  };
+  carry_out([&] {
     phases.connect();
     phases.measure();
     run.outcome.status = "finished";
     run.outcome.has_begun = true;
-  } catch (const LimitReached& error) {
-    if (!session.is_stage_connected()) throw;
-    end_early(run, phases, "stopped", error);
-  } catch (const std::exception& error) {
-    if (!phases.is_begun()) throw;
-    end_early(run, phases, "interrupted", error);
+  });
+  judge_record(session, rig, control, run.outcome);
+  std::string not_compared = kNotHomed;
+  if (run.outcome.status == "finished") {
+    carry_out([&] { not_compared = phases.compare(control); });
   }
-  conclude(session, rig, control, run.outcome);
+  record_end(session, not_compared, run.outcome);
   return run.outcome;
 }
 

@@ -98,7 +98,7 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   control.lifts_at_start = request.lifts_at_start;
   control.thermometer = devices.thermometer.get();
   if (request.homing != nullptr) {
-    control.homed_at_m = request.homing->homed_at_m;
+    control.homed_before = request.homing->homed;
     control.homes_after = request.homing->is_last && !request.homing->is_doubtful;
   }
   RunOutcome outcome = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan,
@@ -112,7 +112,7 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   close_file(writer, outcome);
   if (request.homing != nullptr) {
     request.homing->has_homed = true;
-    request.homing->homed_at_m = outcome.homed_at_m;
+    request.homing->homed = outcome.homed;
     request.homing->is_doubtful |= outcome.status != "finished" || !outcome.doubts.empty();
   }
   return outcome;
@@ -124,7 +124,8 @@ EmulatedRigOptions emulated_options(const CaptureRequest& request) {
   EmulatedRigOptions options = able_rig(*setup.truth, setup.rig);
   options.fault = setup.fault;
   if (request.homing == nullptr) return options;
-  options.grbl.is_homed = request.homing->homed_at_m.has_value();
+  options.grbl.is_homed = request.homing->homed.has_value();
+  if (options.grbl.is_homed) options.grbl.counts_m = request.homing->emulated_counted_m;
   options.lost_before_m = request.homing->emulated_lost_m;
   return options;
 }
@@ -159,7 +160,10 @@ RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& wa
   }
   EmulatedRig emulated(emulated_options(request));
   RunOutcome outcome = capture_with(emulated.config(), emulated.clock(), &emulated, request, watch);
-  if (request.homing != nullptr) request.homing->emulated_lost_m = emulated.outcome().lost_m;
+  if (request.homing != nullptr) {
+    request.homing->emulated_lost_m = emulated.outcome().lost_m;
+    request.homing->emulated_counted_m = emulated.outcome().counted_m;
+  }
   if (watch.note && emulated.awaits_fault()) {
     watch.note("the fault '" + name_of(request.setup.fault.kind) +
                "' was never reached: the run ended before it");

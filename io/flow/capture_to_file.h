@@ -32,9 +32,10 @@ struct CaptureSetup {
 struct SeriesHoming {
   bool is_last = true;  // the run that comes next
   bool is_doubtful = false;
-  bool has_homed = false;            // an earlier run
-  std::optional<double> homed_at_m;  // where, if its driver compares the count
-  double emulated_lost_m = 0.0;      // what an emulated stage has lost so far
+  bool has_homed = false;           // an earlier run
+  std::optional<HomedStage> homed;  // if its driver compares the count
+  // Of an emulated stage: what it has lost so far, and where it counts itself on its bench.
+  double emulated_lost_m = 0.0, emulated_counted_m = 0.0;
 };
 
 // One capture: what is run, and the file it goes to.

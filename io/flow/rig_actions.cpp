@@ -126,6 +126,7 @@ void write_in_section(const std::filesystem::path& file, const std::string& sect
 RigCheck check_rig_config(const RigConfig& rig, bool is_emulated, double seconds) {
   OpenRig open(rig, is_emulated, 0.0, OpenRig::Homes::kNo);  // a check moves nothing
   RigDevices& devices = open.devices();
+  devices.stage->keep_locked();
   RigCheck found = check_rig(*devices.stage, *devices.load_cell, open.config(), open.clock(),
                              seconds, devices.thermometer.get());
   if (!rig.stage.home) return found;
@@ -190,6 +191,8 @@ void write_zero(const std::filesystem::path& rig_file, double position_m) {
 double lasting_position_m(const RigConfig& rig, bool is_emulated) {
   OpenRig open(rig, is_emulated, 0.0, OpenRig::Homes::kNo);
   RigDevices& devices = open.devices();
+  devices.stage
+      ->keep_locked();  // unlocked by a command that is refused, the next one would accept it
   devices.stage->connect([&] {
     wait_readable({devices.stage_line.get()}, open.clock(), 0.005);
     devices.stage->service();

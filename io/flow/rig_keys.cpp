@@ -96,6 +96,7 @@ void show_keys(ResultVisitor& v, const StageMoved& moved) {
   v("zero_m", number_or_null(moved.zero_m),
     "position of the controller that counts as 0 for a person (rig set-zero); null: none, or this "
     "stage does not keep it");
+  v("note", moved.note, "what to know of the position from now on; empty: nothing");
 }
 
 void show_keys(ResultVisitor& v, const ZeroedForce& zeroed) {

@@ -18,10 +18,12 @@ struct AnswerHabits {
 };
 
 // A motion controller, as a host sees it on the wire, and the stage that it moves. Times on the
-// emulated clock; positions in m on the axis that grows toward the specimen, 0 at power-up.
+// emulated clock; positions in m on the axis that grows toward the specimen.
 class EmulatedController {
  public:
-  explicit EmulatedController(double steps_per_m) : motion_(steps_per_m, 0.0) {}
+  // position_m: at power-up.
+  explicit EmulatedController(double steps_per_m, double position_m = 0.0)
+      : motion_(steps_per_m, position_m) {}
   virtual ~EmulatedController() = default;
   EmulatedController& operator=(EmulatedController&&) = delete;  // neither copied nor moved
 

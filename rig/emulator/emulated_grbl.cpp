@@ -35,7 +35,7 @@ double timer_speed_m_s(double speed_m_s, double steps_per_m) {
 
 EmulatedGrbl::EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_specimen,
                            const GrblHabits& habits)
-    : EmulatedController(truth.steps_per_m),
+    : EmulatedController(truth.steps_per_m, habits.counts_m),
       habits_(habits),
       axis_(axis == 'X' ? 0 : (axis == 'Y' ? 1 : 2)),
       toward_(toward_specimen < 0 ? -1.0 : 1.0) {
@@ -89,7 +89,8 @@ void EmulatedGrbl::reset(double time_s) {
     output_ = "error:7\r\n" + settings_text();
     is_eeprom_dumped_ = true;
   }
-  state_ = habits_.is_homing_enabled && !habits_.is_homed ? "Alarm" : "Idle";
+  const bool is_locked = !habits_.is_homed && !habits_.is_unlocked_at_boot;
+  state_ = habits_.is_homing_enabled && is_locked ? "Alarm" : "Idle";
   habits_.is_homed = false;  // a further restart forgets it
   is_silent_ = false;
   deaf_until_s_.reset();

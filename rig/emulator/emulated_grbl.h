@@ -17,6 +17,8 @@ struct GrblHabits {
   bool has_empty_eeprom = false;       // sends error:7 and its settings before the first welcome
   bool is_homing_enabled = false;      // $22=1: boots into Alarm
   bool is_homed = false;               // before power-up: its count goes on, and it boots into Idle
+  double counts_m = 0.0;               // where it counts itself on the bench at power-up, if homed
+  bool is_unlocked_at_boot = false;    // built without HOMING_INIT_LOCK: boots into Idle
   bool homes_all_axes = false;         // the build knows no $HX, $HY, $HZ
   bool has_hard_limits = false;        // $21=1: the switch at home stops the stage with an alarm
   int lose_status_every = 0;           // every n-th '?' gets no answer

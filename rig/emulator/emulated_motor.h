@@ -9,9 +9,9 @@ namespace viscard {
 class EmulatedMotor {
  public:
   // travel_scale: true travel over the counted one (an error of the screw's pitch).
-  // lost_m: steps lost before.
-  explicit EmulatedMotor(double travel_scale = 1.0, double lost_m = 0.0)
-      : scale_(travel_scale), lost_m_(lost_m) {}
+  // lost_m: steps lost before; counted_m: at power-up.
+  explicit EmulatedMotor(double travel_scale = 1.0, double lost_m = 0.0, double counted_m = 0.0)
+      : scale_(travel_scale), lost_m_(lost_m), counted_m_(counted_m) {}
 
   void set_fault(RigFaultKind kind) { kind_ = kind; }
   // The true position when the controller counts counted_m and that force presses on the punch.
@@ -31,8 +31,8 @@ class EmulatedMotor {
  private:
   double scale_;
   double lost_m_;
+  double counted_m_;
   RigFaultKind kind_ = RigFaultKind::kNone;
-  double counted_m_ = 0.0;
 };
 
 }  // namespace viscard

@@ -44,7 +44,7 @@ class EmulatedRig::Impl final : public WaitingRig {
         amplifier_(options.truth, options.config.calibration,
                    options.config.load_cell.volts_per_count, amplifier_options(options)),
         thermometer_(options.config.thermometer, options.thermometer),
-        motor_(options.travel_scale, options.lost_before_m),
+        motor_(options.travel_scale, options.lost_before_m, stage_->bench_position_m(0.0)),
         pace_(options.config.clock_speed) {
     if (options.fault.kind == RigFaultKind::kStagePortBack) stage_port_.name_stably();
     if (options.fault.phase.empty()) enter_phase("");
@@ -133,6 +133,7 @@ class EmulatedRig::Impl final : public WaitingRig {
           motor_.position_m(stage_->bench_position_m(now_s), specimen_.force_N());
       outcome_.is_moving = stage_->is_moving(now_s);
       outcome_.lost_m = motor_.lost_m();
+      outcome_.counted_m = stage_->bench_position_m(now_s);
     }
     serve_stage(now_s);
   }

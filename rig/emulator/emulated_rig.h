@@ -27,7 +27,8 @@ struct EmulatedOutcome {
   bool is_cell_broken = false;  // the force went above truth.overload_N
   double final_position_m = 0.0;
   bool is_moving = false;
-  double lost_m = 0.0;  // what the stage has counted and not travelled
+  double lost_m = 0.0;     // what the stage has counted and not travelled
+  double counted_m = 0.0;  // where the stage counts itself
 };
 
 // A stage (of any driver) and a load cell (HX711 amplifier, multimeter or force gauge) behind two

@@ -12,31 +12,6 @@ std::string micrometres_of(double length_m) {
   return text_from_number(std::abs(length_m) * 1e6, 1) + " um";
 }
 
-// Homes the stage; why it was not compared, if it was not.
-std::string not_compared(RunSession& session, const RigConfig& rig, const RunControl& control,
-                         RunOutcome& outcome) {
-  Stage& stage = session.stage();
-  if (outcome.status != "finished" || !rig.stage.home || !control.homes_after) return "not homed";
-  if (!outcome.doubts.empty()) return "the run is doubtful, so the stage was not homed after it";
-  if (!stage.homed_at_m()) return "this driver does not compare the count with a switch";
-  session.begin_phase(kHomePhase, 0.0, "Homing the stage, which shows whether it has lost steps");
-  try {
-    outcome.count = stage.check_count([&] { session.pump(); });
-  } catch (const RigError& error) {
-    outcome.doubts.push_back(
-        "the stage could not be homed after the lift, so whether it has lost steps is not known: " +
-        failure_text(error, "the homing") + ". Look at the punch before the next run");
-    session.event("doubt", "not_homed", outcome.doubts.back());
-    return "the stage could not be homed";
-  }
-  if (!outcome.count) return "not homed";
-  const std::string doubt = lost_steps_doubt(*outcome.count);
-  if (doubt.empty()) return "";
-  outcome.doubts.push_back(doubt);
-  session.event("doubt", kLostStepsDoubt, doubt);
-  return "the count was wrong";
-}
-
 }  // namespace
 
 std::string lost_steps_doubt(const CountCheck& found) {
@@ -50,15 +25,44 @@ std::string lost_steps_doubt(const CountCheck& found) {
          "acceleration, or raise the motor's current";
 }
 
-void compare_count(RunSession& session, const RigConfig& rig, const RunControl& control,
-                   RunOutcome& outcome) {
+std::string compare_count(RunSession& session, const RigConfig& rig, const RunControl& control,
+                          RunOutcome& outcome) {
+  Stage& stage = session.stage();
+  if (const auto homed_at_m = stage.homed_at_m()) {
+    outcome.homed = HomedStage{*homed_at_m, stage.position_m()};
+  }
+  if (stage.measures_position() || !rig.stage.home || !control.homes_after) return kNotHomed;
+  if (!outcome.doubts.empty()) return "the run is doubtful, so the stage was not homed after it";
+  if (!stage.homed_at_m()) return "this driver does not compare the count with a switch";
+  session.begin_phase(kHomePhase, 0.0, "Homing the stage, which shows whether it has lost steps");
+  try {
+    outcome.count = stage.check_count([&] { session.pump(); });
+  } catch (const LimitReached&) {
+    throw;
+  } catch (const RunInterrupted&) {
+    throw;
+  } catch (const RigError& error) {
+    session.stop_if_moving();
+    outcome.doubts.push_back(
+        "the stage could not be homed after the lift, so whether it has lost steps is not known: " +
+        failure_text(error, "the homing") + ". Look at the punch before the next run");
+    session.event("doubt", "not_homed", outcome.doubts.back());
+    return "the stage could not be homed";
+  }
+  if (!outcome.count) return kNotHomed;
+  const std::string doubt = lost_steps_doubt(*outcome.count);
+  if (doubt.empty()) return "";
+  outcome.doubts.push_back(doubt);
+  session.event("doubt", kLostStepsDoubt, doubt);
+  return "the count was wrong";
+}
+
+void record_depth(RunSession& session, const std::string& why, RunOutcome& outcome) {
   if (!session.is_stage_connected()) return;
-  outcome.homed_at_m = session.stage().homed_at_m();
   if (session.stage().measures_position()) {
     outcome.depth_is = "measured";
     return session.event("depth", outcome.depth_is, "The stage measures its position");
   }
-  const std::string why = not_compared(session, rig, control, outcome);
   if (why.empty()) outcome.depth_is = "compared";
   session.event("depth", outcome.depth_is,
                 why.empty()

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <utility>
 
 namespace viscard {
@@ -104,17 +105,27 @@ void record_hidden_error(RunSession& session, RunOutcome& outcome) {
           "five and the last two readings above twice that");
 }
 
+// What fails after an early end is added to its reason.
+void record(RunOutcome& outcome, const std::function<void()>& part) {
+  try {
+    part();
+  } catch (const std::exception& error) {
+    if (outcome.reason.empty()) throw;
+    outcome.reason += "; besides: " + failure_text(error, "the end of the run");
+  }
+}
+
 }  // namespace
 
-void conclude(RunSession& session, const RigConfig& rig, const RunControl& control,
-              RunOutcome& outcome) {
+void judge_record(RunSession& session, const RigConfig& rig, const RunControl& control,
+                  RunOutcome& outcome) {
   const RigClock& clock = *control.clock;
   outcome.peak_force_N = session.peak_force_N();
   outcome.stream = session.load_cell().counts();
   outcome.n_late = session.n_late();
   outcome.longest_late_s = session.longest_late_s();
   outcome.line_format = session.load_cell().line_format();
-  try {
+  record(outcome, [&] {
     session.finish_marking();
     const std::vector<std::string>& seen = session.doubts();
     outcome.doubts.insert(outcome.doubts.end(), seen.begin(), seen.end());
@@ -126,13 +137,15 @@ void conclude(RunSession& session, const RigConfig& rig, const RunControl& contr
     doubt_gap(
         session, outcome,
         std::max(kLongGapPeriods * session.load_cell().period_s(), clock.from_wall_s(kLongGap_s)));
-    compare_count(session, rig, control, outcome);
+  });
+}
+
+void record_end(RunSession& session, const std::string& why, RunOutcome& outcome) {
+  record(outcome, [&] {
+    record_depth(session, why, outcome);
     session.event(outcome.status, outcome.reason.empty() ? "" : "reason",
                   outcome.reason.empty() ? "The run is complete" : outcome.reason);
-  } catch (const std::exception& error) {
-    if (outcome.reason.empty()) throw;
-    outcome.reason += "; besides: " + failure_text(error, "the end of the run");
-  }
+  });
 }
 
 }  // namespace viscard

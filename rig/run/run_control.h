@@ -2,6 +2,7 @@
 
 #include "rig/lines/rig_clock.h"
 #include "rig/lines/rig_error.h"
+#include "rig/stages/stage.h"
 
 #include <atomic>
 #include <functional>
@@ -41,11 +42,11 @@ struct RunControl {
   // ending.
   bool lifts_at_start = false;
   Thermometer* thermometer = nullptr;  // read beside the run; may be nullptr
-  // With home = true under [stage], and for a series of runs: where an earlier one has homed the
-  // stage (RunOutcome::homed_at_m), so that this one does not; and whether this one homes it after
-  // its lift. Between the runs of a series the stage is not homed: drivers without a comparison then
-  // get home = false.
-  std::optional<double> homed_at_m;
+  // With home = true under [stage], and for a series of runs: what an earlier one that has homed
+  // the stage has left (RunOutcome::homed), so that this one does not; and whether this one homes
+  // it after its lift. Between the runs of a series the stage is not homed: drivers without a
+  // comparison then get home = false.
+  std::optional<HomedStage> homed_before;
   bool homes_after = true;
 };
 
@@ -112,6 +113,7 @@ class ProgressReport {
   // From now on depths are counted from that position.
   void set_contact_m(double contact_m) { contact_m_ = contact_m; }
   bool has_contact() const { return contact_m_.has_value(); }
+  const std::string& phase() const { return phase_; }
 
   // Passes on a reading at that position, unless the last report is younger than a tenth of a second.
   void report(double force_N, double position_m);

@@ -37,8 +37,8 @@ struct RunOutcome {
   // What the depth is: "measured" by the stage's encoder; "counted" in steps; "compared": counted,
   // and the count was right when the stage was homed after the lift.
   std::string depth_is = "counted";
-  std::optional<double> homed_at_m;  // where the stage stood when it was homed before the test
-  std::optional<CountCheck> count;   // what homing after the lift has shown
+  std::optional<HomedStage> homed;  // before the test, if the driver compares its count
+  std::optional<CountCheck> count;  // what homing after the lift has shown
   StreamCounts stream;
   // Delays of this computer in which nothing could be watched, of at least 0.1 s.
   int n_late = 0;

@@ -195,6 +195,11 @@ void RunSession::throw_limit(GuardAction action, double force_N) const {
                        "else presses on the cell. Take that away, or correct zero_volts of the "
                        "calibration");
   }
+  if (progress_.phase() == kHomePhase) {
+    throw LimitReached(reached +
+                       ", while the stage was homed after the test. Look what touches the punch or "
+                       "pulls at the load cell, then start the run again");
+  }
   if (!progress_.has_contact()) {
     throw LimitReached(reached +
                        ", in the approach. Lower speed under [approach] of the test file, or "
@@ -276,6 +281,14 @@ SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s,
                  {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_, noise_N_,
                   zero_drift_N}};
   return lift.carry_out();
+}
+
+void RunSession::stop_if_moving() {
+  if (!stage().is_moving()) return;
+  try {
+    devices_.stop_hard();
+  } catch (const PortHungUp&) {  // the error before has named it
+  }
 }
 
 void RunSession::guard_again() {

@@ -93,6 +93,8 @@ class RunSession {
   // the zero of the tare; nothing if there was no tare.
   SafeEnd make_safe(double retract_to_m, double speed_m_s,
                     std::optional<double> zero_drift_N = std::nullopt);
+  // At once, after an error that leaves nothing to lift; nothing if its port is gone.
+  void stop_if_moving();
   // Guards again after make_safe(), as if nothing had happened.
   void guard_again();
 

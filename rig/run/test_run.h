@@ -47,11 +47,13 @@ void check_lifted(TestRun& run, double before_N);
 // Keeps the deepest indentation so far as outcome.achieved_depth_m.
 void note_depth(TestRun& run);
 
-// Fills in the totals of a run, adds the doubts about a finished one, and records how it ended. If
-// that cannot be recorded any more, the outcome still carries the reason for the early end. With
-// home = true a finished run without a doubt ends with compare_count().
-void conclude(RunSession& session, const RigConfig& rig, const RunControl& control,
-              RunOutcome& outcome);
+// Fills in the totals of a run and adds the doubts about a finished one. If they cannot be recorded
+// any more, the outcome still carries the reason for the early end.
+void judge_record(RunSession& session, const RigConfig& rig, const RunControl& control,
+                  RunOutcome& outcome);
+
+// Records what the depth is (why: of compare_count()) and how the run ended, in the same way.
+void record_end(RunSession& session, const std::string& why, RunOutcome& outcome);
 
 // Where a jog of the approach ended, and the force there (from the tare).
 struct JogEnd {

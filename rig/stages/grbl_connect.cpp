@@ -14,12 +14,6 @@ constexpr double kReset_wall_s = 1.5;    // from a soft reset to the welcome
 constexpr int kResets = 3;               // one is lost while an alarm is being reported
 constexpr int kMostReadings = 4;         // of the settings, until two agree
 
-[[noreturn]] void throw_count_lost() {
-  throw RigError(
-      "the stage's controller has restarted since it was homed at the beginning of the series, so "
-      "its count is lost. Start the series again, with --resume for the captures that are left");
-}
-
 }  // namespace
 
 void GrblStage::command(const std::string& line, const Pump& pump, double timeout_wall_s) {
@@ -93,12 +87,15 @@ void GrblStage::converse(const Pump& pump) {
     const std::string trouble = trouble_with_count_check(pump);
     if (!trouble.empty()) throw RigError(trouble);
   }
-  homed_at_m_ = homed_before_m_;
-  if (homed_at_m_ && state_ == "Alarm") throw_count_lost();
+  if (homed_before_) {
+    refuse_lost_count();
+    homed_at_m_ = homed_before_->homed_at_m;
+  }
   if (config_.home && !homed_at_m_) {
     home(pump);
   } else if (state_ == "Alarm") {
-    is_locked_at_first_ = true;
+    was_in_alarm_ = true;
+    if (keeps_locked_) return;
     command("$X", pump);
     note(clock_.now_s(), "stage_unlocked", "",
          "The stage was unlocked without homing; positions count from where it stood");
@@ -122,7 +119,7 @@ void GrblStage::connect(const Pump& pump) {
       if (n_welcomes == n_welcomes_ || i == kResets) throw;
     }
   }
-  if (state_ != "Idle") {
+  if (state_ != "Idle" && !(keeps_locked_ && state_ == "Alarm")) {
     throw RigError("the stage reports '" + state_ +
                    "' and is not ready. Close its door, release its switches, and retry");
   }
@@ -151,6 +148,7 @@ void GrblStage::recover(const Pump& pump) {
                    "' does not answer a reset: IT MAY STILL PRESS. Lift the punch by hand");
   }
   wait_for([] { return false; }, pump, kSettle_wall_s);
+  was_in_alarm_ = true;
   command("$X", pump);
   ask_position(pump);
   exact_m_ = reported_m_;
@@ -168,10 +166,16 @@ std::string GrblStage::trouble_with_zero() const {
     return "homing is switched off ($22=0), so it counts from where it was switched on. Set $22=1 "
            "and home it with: viscard rig home";
   }
-  if (is_locked_at_first_) {
-    return "it has not been homed since it was switched on. Home it with: viscard rig home";
+  if (was_in_alarm_) {
+    return "it has not been homed since it was switched on, or since an alarm. Home it with: "
+           "viscard "
+           "rig home";
   }
   return "";
+}
+
+bool GrblStage::is_unlocked_unhomed() const {
+  return was_in_alarm_ && !keeps_locked_ && has_bit(22, 0);
 }
 
 std::vector<std::string> GrblStage::advice() const {

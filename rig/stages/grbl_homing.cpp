@@ -23,9 +23,36 @@ bool GrblStage::has_bit(int number, int bit) const {
   return (static_cast<long>(setting(number, 0.0)) >> bit & 1) != 0;
 }
 
-void GrblStage::plan_count_check(std::optional<double> homed_at_m) {
+void GrblStage::plan_count_check(std::optional<HomedStage> before) {
   compares_count_ = true;
-  homed_before_m_ = homed_at_m;
+  homed_before_ = before;
+}
+
+// Between two counts of the same place, both reported with as many decimals.
+double GrblStage::count_slack_m() const {
+  const double step_m = 1.0 / dynamics().steps_per_m;
+  return kStepsDoubted * step_m + 2.0 * (resolution_m() - step_m);
+}
+
+// The firmware keeps its count over a soft reset, not over a restart: that begins in an alarm, or
+// at another count if its build does not lock it (grbl/config.h, HOMING_INIT_LOCK).
+void GrblStage::refuse_lost_count() const {
+  const std::string since = " since it was homed at the beginning of the series";
+  const std::string next =
+      ". Start the series again, with --resume for the captures that are left: it homes the stage "
+      "first";
+  if (state_ == "Alarm") {
+    throw RigError("the stage's controller has restarted" + since + ", so its count is lost" +
+                   next);
+  }
+  if (std::abs(reported_m_ - homed_before_->stood_at_m) <= count_slack_m()) return;
+  const auto in_mm = [](double position_m) {
+    return text_from_number(position_m * 1e3, 3) + " mm";
+  };
+  throw RigError("the stage's controller counts " + in_mm(reported_m_) + ", but " +
+                 in_mm(homed_before_->stood_at_m) +
+                 " at the end of the run before: it has restarted" + since +
+                 ", or something else has moved it, so its count does not hold" + next);
 }
 
 // A build that homes all axes at once would move the punch over the specimens.
@@ -59,10 +86,18 @@ std::string GrblStage::trouble_with_count_check(const Pump& pump) {
 void GrblStage::home(const Pump& pump) {
   polls_ = false;  // while homing, no '?' is answered
   forget_questions();
-  command(compares_count_ ? std::string("$H") + config_.axis : "$H", pump, kAxisHomed_wall_s);
+  try {
+    command(compares_count_ ? std::string("$H") + config_.axis : "$H", pump, kAxisHomed_wall_s);
+  } catch (const PortHungUp&) {
+    throw;
+  } catch (...) {
+    stop_hard();  // nothing else ends a homing cycle
+    throw;
+  }
   ask_position(pump);
   exact_m_ = reported_m_;
   homed_at_m_ = reported_m_;
+  was_in_alarm_ = false;
 }
 
 void GrblStage::go(double to_m, double speed_m_s, const Pump& pump) {
@@ -92,22 +127,12 @@ double GrblStage::touch_switch(const Pump& pump) {
 
 std::optional<CountCheck> GrblStage::check_count(const Pump& pump) {
   if (!compares_count_ || !homed_at_m_) return std::nullopt;
-  try {
-    const double counted_m = touch_switch(pump);
-    home(pump);
-    const double found_m = touch_switch(pump);
-    home(pump);  // leaves the switch
-    const double steps_per_m = dynamics().steps_per_m;
-    // Both were reported with as many decimals.
-    const double decimals_m = 2.0 * (resolution_m() - 1.0 / steps_per_m);
-    const double off_m = counted_m - found_m;
-    return CountCheck{off_m, off_m * steps_per_m, kStepsDoubted / steps_per_m + decimals_m};
-  } catch (const PortHungUp&) {
-    throw;
-  } catch (...) {
-    stop_hard();  // nothing else ends a homing cycle
-    throw;
-  }
+  const double counted_m = touch_switch(pump);
+  home(pump);
+  const double found_m = touch_switch(pump);
+  home(pump);  // leaves the switch
+  const double off_m = counted_m - found_m;
+  return CountCheck{off_m, off_m * dynamics().steps_per_m, count_slack_m()};
 }
 
 }  // namespace viscard

@@ -18,7 +18,8 @@ class GrblStage final : public PolledStage {
   GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock, RecordSink sink,
             double patience = 1.0);
 
-  void plan_count_check(std::optional<double> homed_at_m) override;
+  void plan_count_check(std::optional<HomedStage> before) override;
+  void keep_locked() override { keeps_locked_ = true; }
   void connect(const Pump& pump) override;
   void service() override;
   StageDynamics dynamics() const override;
@@ -31,6 +32,7 @@ class GrblStage final : public PolledStage {
   void recover(const Pump& pump) override;
   std::optional<double> homed_at_m() const override { return homed_at_m_; }
   std::string trouble_with_zero() const override;
+  bool is_unlocked_unhomed() const override;
   std::string trouble_with_count_check(const Pump& pump) override;
   std::optional<CountCheck> check_count(const Pump& pump) override;
 
@@ -77,6 +79,8 @@ class GrblStage final : public PolledStage {
   void refuse_old_firmware() const;
   void ask_position(const Pump& pump);
   void read_settings(const Pump& pump);
+  void refuse_lost_count() const;
+  double count_slack_m() const;
   void home(const Pump& pump);
   void go(double to_m, double speed_m_s, const Pump& pump);
   double touch_switch(const Pump& pump);
@@ -99,11 +103,12 @@ class GrblStage final : public PolledStage {
   std::vector<double> work_offset_mm_;
   int n_welcomes_ = 0;
   bool restarts_when_opened_ = false;
-  bool is_locked_at_first_ = false;  // it has not been homed since it was switched on
-  int alarm_code_ = 0;               // of the newest alarm
+  bool keeps_locked_ = false;
+  bool was_in_alarm_ = false;  // and has not been homed since, so its count may mean nothing
+  int alarm_code_ = 0;         // of the newest alarm
 
-  bool compares_count_ = false;           // plan_count_check() was called
-  std::optional<double> homed_before_m_;  // where an earlier run of the series has homed
+  bool compares_count_ = false;             // plan_count_check() was called
+  std::optional<HomedStage> homed_before_;  // by an earlier run of the series
   std::optional<double> homed_at_m_;
   std::optional<std::string> build_options_;  // of $I
 

@@ -43,6 +43,12 @@ struct CountCheck {
   double within_m = 0.0;  // a smaller difference shows nothing
 };
 
+// What a run of a series knows of the count that the runs before it have left.
+struct HomedStage {
+  double homed_at_m = 0.0;  // where homing has left the stage
+  double stood_at_m = 0.0;  // at the end of the run before
+};
+
 // One motorised axis that presses a punch into a specimen. Positions in m from the controller's own
 // zero, growing toward the specimen. No call blocks by itself: while it waits for an answer it
 // calls `pump`, so that the caller can watch the force. All calls throw PortHungUp, StageAlarm,
@@ -55,8 +61,11 @@ class Stage {
   virtual Transport& transport() = 0;
 
   // Before connect(): the count will be compared by check_count(), so connect() homes this axis alone
-  // (and refuses if it cannot), or not at all if an earlier run has homed it, at homed_at_m.
-  virtual void plan_count_check(std::optional<double> /*homed_at_m*/) {}
+  // (and refuses if it cannot), or not at all if an earlier run has homed it. It refuses then
+  // if the stage does not stand where that run has left it.
+  virtual void plan_count_check(std::optional<HomedStage> /*before*/) {}
+  // Before connect(): a controller that is locked stays locked, because nothing will be moved.
+  virtual void keep_locked() {}
   // Waits for the controller, identifies it, reads its settings, unlocks it, asks for its position.
   virtual void connect(const Pump& pump) = 0;
   // Handles what has arrived and asks for the position when that is due. Call often.
@@ -92,6 +101,9 @@ class Stage {
   // Why position_m() will mean another place when the stage is connected again; empty if the
   // controller keeps its zero.
   virtual std::string trouble_with_zero() const { return ""; }
+  // True if the controller was unlocked although it is not homed, as far as this connection knows.
+  // It cannot report that to the next one, which would take its count for that of a homed stage.
+  virtual bool is_unlocked_unhomed() const { return false; }
   // True if position_m() is measured by an encoder, false if it is a count of steps.
   virtual bool measures_position() const { return false; }
   // Where the last homing left the stage.
@@ -100,7 +112,8 @@ class Stage {
   // driver has none. Moves nothing.
   virtual std::string trouble_with_count_check(const Pump& /*pump*/) { return ""; }
   // Goes to the limit switch by the count, homes this axis alone, and goes there again. The punch
-  // must be lifted. Nothing if this driver cannot compare them.
+  // must be lifted. Nothing if this driver cannot compare them. An exception ends a homing cycle,
+  // but a move goes on until the caller stops it.
   virtual std::optional<CountCheck> check_count(const Pump& /*pump*/) { return std::nullopt; }
 };
 

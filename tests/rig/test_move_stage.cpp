@@ -55,4 +55,18 @@ TEST_CASE("a stage does not move toward a specimen with a load cell that does no
   CHECK(rig.emulated.outcome().final_position_m == 0.0);
 }
 
+TEST_CASE("a move that unlocks a stage which is not homed warns, because no later command can",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.grbl.is_homing_enabled = true;
+  options.grbl.is_homed = GENERATE(false, true);
+  RigFixture rig(options);
+  const StageMoved moved = moved_on(rig, jog(-0.1e-3));
+  if (options.grbl.is_homed) {
+    CHECK(moved.note.empty());
+  } else {
+    CHECK_THAT(moved.note, Contains("unlocked without homing") && Contains("viscard rig home"));
+  }
+}
+
 }  // namespace viscard

@@ -34,6 +34,7 @@ std::string trouble_on(const EmulatedRigOptions& options) {
     if (i > 0) wait_readable({}, clock, 0.5);  // so that the emulator sees the port closed
     SerialLine line(config.stage.port, 115200, clock);
     const auto stage = make_stage(line, config.stage, clock, [](const RunRecord&) {});
+    stage->keep_locked();
     stage->connect([&] {
       wait_readable({&line}, clock, 0.002);
       stage->service();
@@ -96,6 +97,10 @@ TEST_CASE("a stage that counts anew at each connection names why it keeps no zer
   SECTION("it does not home") {
     options.grbl.is_homing_enabled = options.grbl.is_homed = false;
     expected = "$22=0";
+  }
+  SECTION("it was not homed, and the connection before has not unlocked it") {
+    options.grbl.is_homed = false;
+    expected = "has not been homed since it was switched on";
   }
   SECTION("Marlin") {
     options = DeviceFixture::options("marlin");

@@ -202,7 +202,7 @@ void share_count_of_last(SeriesResult& result, const SeriesHoming& homing,
   for (CaptureOfSeries& capture : result.runs) {
     if (capture.run && &capture != &*behind) earlier.push_back({capture.file, &*capture.run});
   }
-  if (homing.homed_at_m && homing.is_doubtful && !last.count) {
+  if (homing.homed && homing.is_doubtful && !last.count) {
     streams.err << "viscard: a run is doubtful, so the stage was not homed after it, and its count "
                    "was not compared\n";
   }

@@ -404,6 +404,7 @@ int move_and_print(const RigWords& words, const CommandSyntax& syntax, Streams& 
                               moved.from_m * 1e3, moved.to_m * 1e3, counted, moved.force_after_N,
                               moved.force_before_N));
   }
+  if (!moved.note.empty()) streams.err << "viscard: " << moved.note << "\n";
   if (!moved.is_stopped_by_force) return kDone;
   streams.err << fmt::format(
       "viscard: the stage stopped before the end of its way, because the force changed by {} N\n",

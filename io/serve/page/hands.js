@@ -42,8 +42,10 @@ function showEnd({ moved, trouble, position_m: now_m }) {
   if (moved.zero_m !== null) zero_m = moved.zero_m;
   showPosition();
   element("jog-force").textContent = `${fixed(moved.force_after_N, 3)} N`;
+  const note = moved.note ? ` ${sentence(moved.note)}` : "";
   const way = `${significant(Math.abs(moved.to_m - moved.from_m) * 1e6, 4)} µm`;
-  if (moved.is_stopped_by_force) tell(`The force stopped the stage after ${way}.`, "note");
+  if (moved.is_stopped_by_force) tell(`The force stopped the stage after ${way}.${note}`, "note");
+  else if (moved.note) tell(`Moved by ${way}.${note}`, "note");
   else tell(moved.to_m === moved.from_m ? "The stage stands." : `Moved by ${way}.`, "good");
 }
 

@@ -132,7 +132,7 @@ StudyRun study_run(std::uint64_t seed, bool is_faulted) {
   try {
     RunControl control;
     control.clock = &rig.clock;
-    control.homed_at_m = kHomedAt_m;
+    control.homed_before = HomedStage{kHomedAt_m, kHomedAt_m - kHomeAt_m};  // it begins at 0
     run.outcome =
         run_indentation(rig.stage, rig.load_cell, rig.config, plan, specimen, rig.sink, control);
     run.said = run.outcome.reason;

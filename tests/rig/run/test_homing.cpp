@@ -5,8 +5,10 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 
 namespace viscard {
 namespace {
@@ -53,12 +55,12 @@ std::string value_of(const RigFixture& rig, const std::string& event) {
 }
 
 // A run with drivers of its own on the lines of the rig, as each capture of a series has.
-RunOutcome run_of_series(RigFixture& rig, std::optional<double> homed_at_m, bool is_last) {
+RunOutcome run_of_series(RigFixture& rig, std::optional<HomedStage> before, bool is_last) {
   GrblStage stage(rig.stage_line, rig.config.stage, rig.clock, rig.sink);
   Hx711LoadCell load_cell(rig.cell_line, rig.config.load_cell, rig.clock, rig.sink);
   RunControl control;
   control.clock = &rig.clock;
-  control.homed_at_m = homed_at_m;
+  control.homed_before = before;
   control.homes_after = is_last;
   return run_indentation(stage, load_cell, rig.config, one_level(), demo_specimen(10.0), rig.sink,
                          control);
@@ -115,16 +117,60 @@ TEST_CASE("after a doubtful run the stage is not homed", "[rig][pty]") {
   CHECK_FALSE(doubtful.has_event("phase", kHomePhase));
 }
 
+TEST_CASE(
+    "Ctrl-C and a force limit while the stage is homed after the lift end the run as in a test",
+    "[rig][pty]") {
+  RigFixture rig(homing_rig());
+  std::string status = "interrupted", code = "interrupted", cause = "the run was interrupted";
+  SECTION("Ctrl-C on the way to the switch") {
+    when_phase(rig, kHomePhase, [&] { rig.stop = true; });
+  }
+  // During the homing cycle after the test, which is the second one.
+  int n_homings = 0;
+  std::function<void()> in_cycle;
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* raw = std::get_if<RawBytes>(&record);
+    if (raw == nullptr || !raw->is_sent || raw->bytes != "$HZ\n") return;
+    if (++n_homings == 2 && in_cycle) in_cycle();
+  };
+  SECTION("Ctrl-C in the homing cycle") {
+    in_cycle = [&] { rig.stop = true; };
+  }
+  SECTION("a force, in two steps that are no jump") {
+    const double limit_N = rig.config.safety.soft_fraction * rig.config.calibration.capacity_N;
+    when_phase(rig, kHomePhase, [&rig, limit_N] { rig.emulated.hang_weight(0.6 * limit_N); });
+    in_cycle = [&rig, limit_N] { rig.emulated.hang_weight(1.05 * limit_N); };
+    status = "stopped";
+    code = "force-limit";
+    cause = " N, while the stage was homed after the test";
+  }
+  const RunOutcome outcome = rig.run(short_plan());
+  CAPTURE(outcome.reason);
+  CHECK(outcome.status == status);
+  CHECK(outcome.code == code);
+  CHECK(outcome.phase == kHomePhase);
+  CHECK_THAT(outcome.reason, Contains("The test was complete; the stage was stopped while it was "
+                                      "homed, after a lift to") &&
+                                 Contains("above the contact"));
+  CHECK_THAT(outcome.cause, Contains(cause));
+  CHECK(outcome.doubts.empty());
+  CHECK(outcome.depth_is == "counted");
+  CHECK_FALSE(outcome.count);
+  CHECK(homings_sent(rig) < 3);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.all<RunEvent>().back().name == status);
+}
+
 TEST_CASE("a series homes before its first run and after its last one only", "[rig][pty]") {
   RigFixture rig(homing_rig_that_loses_steps());
   const RunOutcome first = run_of_series(rig, std::nullopt, false);
   INFO(first.reason);
   REQUIRE(first.status == "finished");
   CHECK(first.doubts.empty());
-  REQUIRE(first.homed_at_m);
+  REQUIRE(first.homed);
   CHECK(homings_sent(rig) == 1);
   const double lost_before_m = rig.emulated.outcome().lost_m;
-  const RunOutcome last = run_of_series(rig, first.homed_at_m, true);
+  const RunOutcome last = run_of_series(rig, first.homed, true);
   INFO(last.reason);
   REQUIRE(last.count);
   CHECK(homings_sent(rig) == 3);
@@ -137,11 +183,30 @@ TEST_CASE("a controller that restarts within a series has lost its count, and th
           "[rig][pty]") {
   RigFixture rig(homing_rig());
   const RunOutcome first = run_of_series(rig, std::nullopt, false);
-  REQUIRE(first.homed_at_m);
+  REQUIRE(first.homed);
   rig.emulated.cause(Incident::kRestartStage);
-  CHECK_THROWS_WITH(run_of_series(rig, first.homed_at_m, true),
+  CHECK_THROWS_WITH(run_of_series(rig, first.homed, true),
                     Contains("has restarted since it was homed"));
   CHECK(homings_sent(rig) == 1);
+}
+
+TEST_CASE("a controller that restarts within a series without a lock stands at another count",
+          "[rig][pty]") {
+  EmulatedRigOptions options = homing_rig();
+  options.grbl.is_unlocked_at_boot = true;
+  RigFixture rig(options);
+  const RunOutcome first = run_of_series(rig, std::nullopt, false);
+  REQUIRE(first.homed);
+  CHECK(std::abs(first.homed->stood_at_m) > 0.1e-3);  // else a restart would count the same
+  const double stood_m = rig.emulated.outcome().final_position_m;
+  const auto n_moves = rig.all<CommandedMove>().size();
+  rig.emulated.cause(Incident::kRestartStage);
+  CHECK_THROWS_WITH(run_of_series(rig, first.homed, true),
+                    Contains("controller counts 0.000 mm") && Contains("end of the run before") &&
+                        Contains("has restarted since it was homed") && Contains("--resume"));
+  CHECK(homings_sent(rig) == 1);
+  CHECK(rig.all<CommandedMove>().size() == n_moves);
+  CHECK(rig.emulated.outcome().final_position_m == Approx(stood_m).margin(1e-9));
 }
 
 TEST_CASE("a stage that cannot be homed alone or stopped by its switch is refused before it moves",

@@ -3,6 +3,7 @@
 #include "io/config/config_file.h"
 #include "io/flow/rig_actions.h"
 #include "rig/emulator/demo_rig.h"
+#include "rig/emulator/emulated_rig.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
@@ -98,6 +99,20 @@ TEST_CASE("a zero of positions stands in the rig file, and moves are counted fro
 
   CHECK(run_command({"rig", "set-zero", "--emulate"}).status == kBadWords);
   CHECK(run_command({"rig", "set-zero", "--rig", file, "--limit", "1 N"}).status == kBadWords);
+}
+
+TEST_CASE("a zero that was refused to a locked stage is refused again", "[rig][pty]") {
+  EmulatedRigOptions options;
+  options.truth = demo_truth(10.0, 1);
+  options.config = demo_rig();
+  options.grbl.is_homing_enabled = true;
+  options.resets_on_open = false;
+  options.is_on_wall_clock = true;  // its ports are opened as those of a real rig
+  const EmulatedRig emulated(options);
+  for (int i = 0; i < 2; ++i) {
+    CHECK_THROWS_WITH(lasting_position_m(emulated.config(), false),
+                      Catch::Contains("cannot keep a zero for the next command"));
+  }
 }
 
 TEST_CASE("only an instrument that has a zero of its own is zeroed", "[cli][rig][pty]") {
