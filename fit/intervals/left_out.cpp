@@ -36,6 +36,7 @@ constexpr std::array kReasons{
     Reason{left_out::kLifted, Kind::kByFormula, "from the move that lifted the punch off"},
     Reason{left_out::kAdhesion, Kind::kLost, "in tension (adhesion)"},
     Reason{left_out::kBeforeTest, Kind::kOutside, "before the first baseline"},
+    Reason{left_out::kAfterTest, Kind::kOutside, "of the homing after the test"},
     Reason{left_out::kNotChosen, Kind::kOutside, "outside the chosen part"}};
 
 const Reason* reason_of(const std::string& key) {

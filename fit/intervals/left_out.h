@@ -26,6 +26,7 @@ inline constexpr const char* kContactLost = "contact_lost";
 inline constexpr const char* kLifted = "lifted_off";
 inline constexpr const char* kAdhesion = "adhesion";
 inline constexpr const char* kBeforeTest = "before_test";
+inline constexpr const char* kAfterTest = "after_test";
 inline constexpr const char* kNotChosen = "not_chosen";
 }  // namespace left_out
 

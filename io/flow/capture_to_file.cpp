@@ -132,24 +132,39 @@ EmulatedRigOptions emulated_options(const CaptureRequest& request) {
 
 }  // namespace
 
-void share_count(const std::vector<EarlierRun>& earlier, const RunOutcome& last) {
-  if (!last.count) return;
+std::vector<UnchangedCapture> share_count(const std::vector<EarlierRun>& earlier,
+                                          const RunOutcome& last) {
+  std::vector<UnchangedCapture> unchanged;
+  if (!last.count) return unchanged;
   std::string doubt = lost_steps_doubt(*last.count);
-  if (!doubt.empty()) {
+  const bool is_right = doubt.empty();
+  if (!is_right) {
     doubt += fmt::format(". The stage was homed after {} runs: in which of them is not known",
                          earlier.size() + 1);
   }
+  const RunEvent event =
+      is_right ? RunEvent{0.0, "depth", last.depth_is,
+                          "Counted in steps; homed at the end of the series, the stage stood there"}
+               : RunEvent{0.0, "doubt", kLostStepsDoubt, doubt};
   for (const EarlierRun& run : earlier) {
     run.outcome->count = last.count;
-    if (doubt.empty()) {
+    if (is_right) {
       run.outcome->depth_is = last.depth_is;
-      add_late_event(run.path, "depth", last.depth_is,
-                     "Counted in steps; homed at the end of the series, the stage stood there");
     } else {
       run.outcome->doubts.push_back(doubt);
-      add_late_event(run.path, "doubt", kLostStepsDoubt, doubt);
+    }
+    try {
+      add_late_event(run.path, event.name, event.value, event.text);
+    } catch (const std::exception& error) {
+      unchanged.push_back(
+          {run.path, (is_right ? "that the count of steps was compared is missing in a capture, "
+                                 "and its fit takes the depth as counted: "
+                               : "the doubt that the stage has lost steps is missing in a capture; "
+                                 "leave that one out of fits: ") +
+                         std::string(error.what())});
     }
   }
+  return unchanged;
 }
 
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch) {

@@ -67,13 +67,18 @@ struct CaptureWatch {
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch);
 
 // What homing after the last run of a series has shown holds for all runs since the stage was homed
-// before: adds it to the outcome and the capture of each earlier one. Throws std::runtime_error if a
-// capture cannot be changed.
+// before: adds it to the outcome and the capture of each earlier one. A capture that cannot be
+// changed does not keep it from the others; the captures in which it is missing are returned.
 struct EarlierRun {
   std::filesystem::path path;
   RunOutcome* outcome = nullptr;
 };
-void share_count(const std::vector<EarlierRun>& earlier, const RunOutcome& last);
+struct UnchangedCapture {
+  std::filesystem::path path;
+  std::string why;  // what is missing, and why it could not be added; with the path
+};
+std::vector<UnchangedCapture> share_count(const std::vector<EarlierRun>& earlier,
+                                          const RunOutcome& last);
 
 // Extension of the file, beside an emulated capture, that holds its truth.
 inline constexpr const char* kTruthEnding = ".truth.json";

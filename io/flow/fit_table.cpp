@@ -19,6 +19,8 @@
 namespace viscard {
 namespace {
 
+constexpr const char* kHomingSegment = "home";  // after the lift at the end of a run
+
 // Segments of the exported table of a capture from its first baseline on; empty for any other
 // table. Before that the rig searches the surface, and its touch is an indentation of its own; after
 // the test it may be homed, which shakes the load cell.
@@ -29,7 +31,7 @@ std::vector<std::string> segments_of_test(const CsvTable& table, const FitReques
   if (baseline == rows.end() || std::find(rows.begin(), baseline, "tare") == baseline) return {};
   std::vector<std::string> names;
   for (auto row = baseline; row != rows.end(); ++row) {
-    if (*row == "home") continue;
+    if (*row == kHomingSegment) continue;
     if (std::find(names.begin(), names.end(), *row) == names.end()) names.push_back(*row);
   }
   return names;
@@ -52,6 +54,14 @@ ForceDepthRows rows_before_test(const CsvTable& table, const FitRequest& request
   rows.force_N = first_rows("force_N");
   rows.depth_m = first_rows("depth_m");
   return rows;
+}
+
+// Rows of an exported capture in which the stage is homed after the test.
+std::size_t count_after_test(const CsvTable& table, const FitRequest& request) {
+  if (!request.segments.empty() || segments_of_test(table, request).empty()) return 0;
+  const std::vector<std::string> rows = column_text(table, "segment", request.columns);
+  const auto baseline = std::find(rows.begin(), rows.end(), "baseline");
+  return static_cast<std::size_t>(std::count(baseline, rows.end(), kHomingSegment));
 }
 
 // The rows of the chosen segments, in the order of the file.
@@ -332,6 +342,7 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
   const OptionUses uses = uses_of(asked.size, derive_columns(all, request.columns, request.size));
   if (!request.is_beside_others) refuse_idle(uses);
   request.before_test = rows_before_test(all, request);
+  const std::size_t n_after = count_after_test(all, request);
   CsvTable table = rows_of_segments(std::move(all), request);
   const std::size_t n_in_segments = table.lines.size();
   std::size_t n_gaps = 0;
@@ -374,10 +385,11 @@ FittedFile fit_csv(CsvTable all, const FitRequest& asked) {
     flag_left_out(fitted.result);
   }
   add_left_out(fitted.result, left_out::kNotChosen, n_in_segments - n_gaps - table.lines.size());
-  const std::size_t n_other = n_all - n_in_segments;
+  const std::size_t n_other = n_all - n_in_segments - n_after;
   if (request.segments.empty()) fitted.n_before_test = n_other;
   add_left_out(fitted.result,
                request.segments.empty() ? left_out::kBeforeTest : left_out::kNotChosen, n_other);
+  add_left_out(fitted.result, left_out::kAfterTest, n_after);
   return fitted;
 }
 

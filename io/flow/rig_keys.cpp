@@ -140,7 +140,8 @@ void show_keys(ResultVisitor& v, const CaptureOfSeries& capture) {
          {"finished", "interrupted", "stopped", "not begun", "finished before"},
          "how the run ended");
   v.when(capture.run.has_value(), [&] { v("reason", run.reason, "why it ended"); });
-  v("error", error_of(capture), "why it did not finish");
+  v("error", error_of(capture),
+    "why it did not finish, or lacks what homing at the end of its series has shown");
   v.when(capture.run.has_value(), [&] { show_run(v, run); });
   v.when(!capture.specimen.empty(),
          [&] { v("specimen", capture.specimen, "id of the specimen, with --repeat"); });

@@ -24,17 +24,18 @@ void show_keys(ResultVisitor& v, const ZeroedForce& zeroed);
 // A capture of `viscard capture`: a run, or why there was none.
 struct CaptureOfSeries {
   std::string file;
-  std::string status;                 // of a run that was not made: "not begun", "finished before"
-  std::optional<CommandError> error;  // of one that could not begin
+  std::string status;  // of a run that was not made: "not begun", "finished before"
+  // Of one that could not begin, or could not be changed after it had finished.
+  std::optional<CommandError> error;
   std::optional<RunOutcome> run;
   std::string specimen;  // of a repeated one
   int touch = 0;         // from 1; 0: not repeated
 };
-// With "error" if it did not finish.
+// With "error" if it did not finish, or could not be changed afterwards.
 void show_keys(ResultVisitor& v, const CaptureOfSeries& capture);
 // How the capture ended, in one word.
 std::string status_of(const CaptureOfSeries& capture);
-// Why it did not finish; nothing if it did.
+// Why it did not finish, or could not be changed afterwards; nothing if all is well.
 std::optional<CommandError> error_of(const CaptureOfSeries& capture);
 
 }  // namespace viscard

@@ -108,7 +108,9 @@ void GaugeLoadCell::set_zero(const Pump& pump) {
   is_connected_ = false;  // nothing is asked, and the answer to an open question is dropped
   asked_s_.reset();
   wait(pump, kAnswer_wall_s);
+  is_zeroing_ = true;
   const auto answer = ask_text(protocol_.zero, pump);
+  is_zeroing_ = false;
   is_connected_ = true;
   const auto& expected = protocol_.zeroed;
   const bool is_set = expected.empty() ? !answer
@@ -145,9 +147,17 @@ void GaugeLoadCell::feed(const Chunk& chunk) {
   take_answer(answer, chunk.time_s);
 }
 
+// False for the late answer to a question for a reading, and for the echo of an adapter: an
+// instrument that sends these alone has not answered the command.
+bool GaugeLoadCell::may_answer_zero(const std::string& text) const {
+  if (trimmed(text) == trimmed(protocol_.zero)) return false;
+  const auto late = protocol_.parse(text);
+  return !late || !late->error.empty();
+}
+
 void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
   if (awaits_text_) {
-    text_answer_ = std::string(trimmed(text));
+    if (!is_zeroing_ || may_answer_zero(text)) text_answer_ = std::string(trimmed(text));
     return;
   }
   if (!is_connected_) return;

@@ -28,6 +28,7 @@ class GaugeLoadCell final : public LoadCell {
 
  private:
   void feed(const Chunk& chunk);
+  bool may_answer_zero(const std::string& text) const;
   void take_answer(const std::string& text, double time_s);
   void take_reading(const GaugeAnswer& answer, double time_s);
   void ask_if_due(double now_s);
@@ -37,6 +38,7 @@ class GaugeLoadCell final : public LoadCell {
   std::string begun_;  // the first bytes of an answer without terminator
   std::optional<std::string> text_answer_;
   bool awaits_text_ = false;
+  bool is_zeroing_ = false;  // the text is the answer to the command for zero
   std::optional<double> asked_s_;
   double quiet_since_s_ = 0.0;
   bool waits_for_quiet_ = false;

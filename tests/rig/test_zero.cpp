@@ -1,4 +1,7 @@
 // The zero of positions, which a stage keeps or not, and the zero of an instrument's own.
+#include "rig/cells/gauge_load_cell.h"
+#include "rig/emulator/pty_port.h"
+#include "rig/lines/rig_error.h"
 #include "rig/lines/serial_line.h"
 #include "rig/zero_force.h"
 #include "tests/rig/device_fixture.h"
@@ -6,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include <string>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -44,6 +48,31 @@ std::string trouble_on(const EmulatedRigOptions& options) {
   return trouble;
 }
 
+// Why an instrument is not zeroed that sends these lines, one by one, once it was asked to; empty: it
+// is zeroed.
+std::string refusal_of(const std::string& driver, const std::vector<std::string>& lines) {
+  PtyPort device;
+  const RigClock clock;
+  SerialLine line(device.path(), 115200, clock);
+  LoadCellConfig config;
+  config.driver = driver;
+  GaugeLoadCell cell(line, config, clock, [](const RunRecord&) {});
+  std::string received;
+  std::size_t n_sent = 0;
+  const Pump pump = [&] {
+    received += device.read_available();
+    if (!received.empty() && n_sent < lines.size()) device.write(lines[n_sent++]);
+    wait_readable({&line}, clock, 0.005);
+    cell.service();
+  };
+  try {
+    cell.set_zero(pump);
+  } catch (const RigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 // A GRBL on a board with native USB, homed since it was switched on.
 EmulatedRigOptions homed_grbl() {
   EmulatedRigOptions options = DeviceFixture::options();
@@ -80,6 +109,17 @@ TEST_CASE("a force that is no rest, a refusal, and a cell without its own zero a
   }
   DeviceFixture bench(options);
   CHECK_THROWS_WITH(zeroed_on(bench), Contains(expected));
+}
+
+TEST_CASE("a late reading, or the echo of an adapter, is no answer to the command for zero",
+          "[rig][pty]") {
+  const char* kBalance = "S D      1.234 g\r\n";
+  CHECK(refusal_of("mark10", {"Z\r\n", "1.23 N\r\n"}) == "");  // it sends no answer
+  CHECK(refusal_of("sartorius", {"+    1.234 g  \r\n", "+    1.235 g  \r\n"}) == "");
+  CHECK(refusal_of("mt-sics", {"ZI\r\n", kBalance, "ZI D\r\n"}) == "");
+  CHECK_THAT(refusal_of("mt-sics", {kBalance}), Contains("it did not answer"));
+  CHECK_THAT(refusal_of("mt-sics", {kBalance, "ZI I\r\n"}), Contains("it answered 'ZI I'"));
+  CHECK_THAT(refusal_of("mark10", {"1.23 N\r\n", "*10\r\n"}), Contains("it answered '*10'"));
 }
 
 TEST_CASE("stages whose count lasts have no trouble with a zero", "[rig][pty]") {

@@ -28,16 +28,20 @@ struct SeriesResult {
   std::vector<CaptureOfSeries> runs;
   std::string trouble;  // why the series ended early; empty if it did not
   std::string code = "interrupted";
+  std::string unchanged;  // a capture that lacks what homing at the end has shown; empty: none
 };
 
 void show_keys(ResultVisitor& v, const SeriesResult& series) {
   v("runs", series.runs,
     "one for each capture, in their order, with the keys of viscard-capture/1");
   v("reason", series.trouble, "why the series ended early; empty: it did not");
-  v.when(!series.trouble.empty(), [&] {
+  v.when(!series.trouble.empty() || !series.unchanged.empty(), [&] {
     const auto last = series.runs.empty() ? std::nullopt : error_of(series.runs.back());
-    v("error", last ? *last : command_error(series.code, series.trouble),
-      "why the series ended early");
+    v("error",
+      series.trouble.empty() ? command_error("file", series.unchanged)
+      : last                 ? *last
+                             : command_error(series.code, series.trouble),
+      "why the series ended early, or a capture lacks what homing at its end has shown");
   });
 }
 
@@ -206,7 +210,13 @@ void share_count_of_last(SeriesResult& result, const SeriesHoming& homing,
     streams.err << "viscard: a run is doubtful, so the stage was not homed after it, and its count "
                    "was not compared\n";
   }
-  share_count(earlier, last);
+  for (const UnchangedCapture& one : share_count(earlier, last)) {
+    streams.err << "viscard: " << one.why << "\n";
+    if (result.unchanged.empty()) result.unchanged = one.why;
+    for (CaptureOfSeries& capture : result.runs) {
+      if (capture.file == one.path) capture.error = command_error("file", one.why);
+    }
+  }
   if (!last.count || last.doubts.empty() || words.as_json) return;
   FittedText fitted(streams);
   std::ostream& out = fitted;
@@ -287,7 +297,7 @@ int run_capture(const Words& words, Streams& streams) {
           streams, -1);
     }
   }
-  if (result.trouble.empty()) return kDone;
+  if (result.trouble.empty()) return result.unchanged.empty() ? kDone : kFailed;
   streams.err << "viscard: " << result.trouble << "\n";
   if (steps.size() > 1 || asked.resumes) {
     print_rest(steps, result, asked, streams.err);

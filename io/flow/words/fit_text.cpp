@@ -187,8 +187,7 @@ void print_source(const FittedFile& fitted, std::ostream& out) {
   if (!fitted.chosen.empty()) out << "  chosen: " << fitted.chosen << "\n";
   if (fitted.n_before_test > 0) {
     out << "  not fitted: the " << counted(fitted.n_before_test, "row")
-        << " before the first baseline, in which the rig looks for the surface, or in which it is "
-           "homed after the test\n";
+        << " before the first baseline, in which the rig looks for the surface\n";
   }
   if (const std::string left = left_out_text(fit); !left.empty()) out << "  " << left << "\n";
   if (fit.n_contacts > 1) {

@@ -2,7 +2,9 @@
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
+#include "io/flow/capture_to_file.h"
 #include "rig/emulator/emulated_touch.h"
+#include "tests/io/capture/capture_samples.h"
 #include "tests/io/cli/rig/outside_rig.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
@@ -10,8 +12,12 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 namespace viscard {
 namespace {
@@ -370,6 +376,78 @@ TEST_CASE("steps lost in a series are a doubt of each of its runs, and a flag of
     CHECK(contains(last_line(fit)["flags"].dump(), "lost-steps"));
   }
   CHECK(contains(json["runs"][0]["doubts"].dump(), "homed after 2 runs"));
+}
+
+TEST_CASE("a capture of a series that has gone does not keep the others from what homing has shown",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const bool loses_steps = GENERATE(true, false);
+  CAPTURE(loses_steps);
+  Strings words = homed_words(folder, {});
+  std::replace(words.begin(), words.end(), std::string("2"), std::string("3"));  // touches
+  if (loses_steps) words.insert(words.end(), {"--fault", "lost-steps"});
+  const auto capture = [&](const char* touch) {
+    return folder / (std::string("campaign/01_specimen_touch") + touch + ".viscap");
+  };
+  std::atomic<bool> is_over{false};
+  std::thread remover([&] {  // as soon as the second touch has begun
+    while (!is_over && !std::filesystem::exists(capture("02"))) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::filesystem::remove(capture("01"));
+  });
+  const auto series = run_command(words);
+  is_over = true;
+  remover.join();
+  INFO(series.err);
+  CHECK(series.status == kFailed);
+  const std::string missing = loses_steps ? "the doubt that the stage has lost steps is missing"
+                                          : "that the count of steps was compared is missing";
+  CHECK(contains(series.err, "01_specimen_touch01.viscap"));
+  CHECK(contains(series.err, missing));
+  CHECK(series.err.find(missing) == series.err.rfind(missing));
+  CHECK_FALSE(contains(series.err, "--resume"));  // there is nothing to repeat
+  const auto json = last_line(series);
+  REQUIRE(json["runs"].size() == 3);
+  for (const auto& run : json["runs"]) {
+    CHECK(run["status"] == "finished");
+    CHECK(run["is_doubtful"] == loses_steps);
+    CHECK(run["depth_is"] == (loses_steps ? "counted" : "compared"));
+  }
+  CHECK(json["reason"] == "");
+  CHECK(json["error"]["code"] == "file");
+  CHECK(json["runs"][0]["error"]["code"] == "file");
+  CHECK_FALSE(json["runs"][1].contains("error"));
+  const CapturedRun second = read_capture(capture("02"));
+  CHECK(last_value(second, "depth") == (loses_steps ? "counted" : "compared"));
+  CHECK(last_value(second, "doubt") == (loses_steps ? "lost_steps" : ""));
+}
+
+TEST_CASE("steps that were lost are a doubt in every capture that can be changed",
+          "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string held = folder / "held.viscap", free = folder / "free.viscap",
+                    gone = folder / "gone.viscap";
+  CaptureWriter writer(held, test::demo_run());
+  {
+    CaptureWriter finished(free, test::demo_run());
+    finished.append(RunEvent{12.5, "finished", "", "The run is complete"});
+    finished.finish("finished");
+  }
+  RunOutcome of_held, of_gone, of_free, last;
+  last.count = CountCheck{26e-6, 83.2, 1.6e-6};
+  const auto unchanged = share_count({{held, &of_held}, {gone, &of_gone}, {free, &of_free}}, last);
+  REQUIRE(unchanged.size() == 2);
+  CHECK(unchanged[0].path == held);
+  CHECK(contains(unchanged[0].why, "held.viscap: is being written"));
+  CHECK(unchanged[1].path == gone);
+  CHECK(contains(unchanged[1].why, "gone.viscap"));
+  CHECK(contains(unchanged[1].why, "leave that one out of fits"));
+  CHECK(last_value(read_capture(free), "doubt") == "lost_steps");
+  for (const RunOutcome* outcome : {&of_held, &of_gone, &of_free}) {
+    CHECK(outcome->doubts.size() == 1);
+    CHECK(outcome->count.has_value());
+  }
 }
 
 }  // namespace viscard

@@ -15,6 +15,7 @@
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -92,6 +93,45 @@ TEST_CASE("a capture on the emulator, its export and the fit of the table give o
   check_same_answer(of_table, fitted.result);
   // Real ports make each run a little different, so one in twenty would be outside one half-width.
   CHECK(half_widths_apart(of_table, fitted.result) < 2.0);
+}
+
+std::size_t times_in(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST_CASE("rows of the homing after a test are not called rows before it", "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::string demo = VISCARD_SOURCE_DIR "/data/demo/";
+  std::string rig = read_file(demo + "01_rig.toml");
+  const std::string not_homed = "home = false";
+  rig.replace(rig.find(not_homed), not_homed.size(), "home = true");
+  write_file(folder / "rig.toml", rig, true);
+  const std::string capture = folder / "run.viscap", table = folder / "run.csv";
+  const auto captured = test::run_command(
+      {"capture", "--emulate", "--rig", folder / "rig.toml", "--test", demo + "02_test.toml",
+       "--specimen", demo + "03_pdms_1to10.toml", "--speed", "500", "--out", capture});
+  INFO(captured.err);
+  REQUIRE(captured.status == kDone);
+  REQUIRE(test::run_command({"export", capture, "--out", table}).status == kDone);
+  const std::string text = read_file(table);
+  const std::size_t n_homing = times_in(text, ",home,");
+  REQUIRE(n_homing > 0);
+  const std::size_t baseline = text.find(",baseline,");
+  REQUIRE(baseline != std::string::npos);
+  const std::size_t header = text.find("time_s,");
+  const std::size_t n_before = times_in(text.substr(header, baseline - header), "\n") - 1;
+  const std::vector<std::string> words{"fit", table, "--punch-diameter", "4.4 mm"};
+  std::vector<std::string> as_json = words;
+  as_json.emplace_back("--json");
+  const auto json = nlohmann::json::parse(test::run_command(as_json).out);
+  CHECK(json["n_before_test"] == n_before);
+  CHECK(json["left_out"]["before_test"] == n_before);
+  CHECK(json["left_out"]["after_test"] == n_homing);
+  CHECK(json["n_left_out"].get<std::size_t>() >= n_before + n_homing);
+  CHECK(contains(test::run_command(words).out,
+                 std::to_string(n_homing) + " rows of the homing after the test"));
 }
 
 // The run in a capture whose rig file was changed afterwards.

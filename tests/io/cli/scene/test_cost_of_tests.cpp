@@ -155,6 +155,47 @@ TEST_CASE("viscard cost --rig refuses what it cannot use, and reports why", "[cl
   CHECK(silent.err.find("[performance]") != std::string::npos);
 }
 
+// An advice is worth what happens to the person who takes it.
+TEST_CASE("the time that viscard cost --rig names as the shortest is enough", "[cli]") {
+  struct Setting {
+    const char* handling;  // of the rig; whole and broken seconds, and more than a thousand
+    const char* specimen;
+  };
+  const auto setting =
+      GENERATE(Setting{"0 s", "03_pdms_1to10.toml"}, Setting{"7.313 s", "05_pdms_1to20.toml"},
+               Setting{"1234.56 s", "04_pdms_1to13.toml"});
+  CAPTURE(setting.handling, setting.specimen);
+  const ScratchFolder folder;
+  std::string rig = read_file(demo_file("01_rig.toml"));
+  const std::string handling = "handling = \"0 s\"";
+  REQUIRE(rig.find(handling) != std::string::npos);
+  rig.replace(rig.find(handling), handling.size(),
+              std::string("handling = \"") + setting.handling + "\"");
+  const std::string file = (folder / "rig.toml").string();
+  write_file(file, rig, false);
+  const auto within = [&](const std::string& time) {
+    return run_command({"cost", "--rig", file, "--specimen", demo_file(setting.specimen), "--want",
+                        "g_2=20%", "--at-most", time, "--json"});
+  };
+  const CommandOutcome brief = within("1s");
+  REQUIRE(brief.status == 1);
+  const std::string before = "the shortest takes ";
+  const std::size_t begin = brief.err.find(before);
+  REQUIRE(begin != std::string::npos);
+  const std::size_t time = begin + before.size();
+  const std::string advised = brief.err.substr(time, brief.err.find(" at the rig", time) - time);
+  CAPTURE(advised);
+  const CommandOutcome allowed = within(advised);
+  CAPTURE(allowed.err);
+  REQUIRE(allowed.status == 0);
+  const auto study = nlohmann::json::parse(allowed.out);
+  REQUIRE(study["recommended"].is_number());
+  const auto& row = study["rows"][study["recommended"].get<std::size_t>()];
+  const double advised_s = std::stod(advised);
+  CHECK(row["time_s"].get<double>() <= advised_s);
+  CHECK(row["time_s"].get<double>() > advised_s - 1.0);  // and no more than is needed
+}
+
 TEST_CASE("viscard fit --want reports what to measure next", "[cli]") {
   const ScratchFolder folder;
   const std::string file = (folder / "run.viscap").string();
