@@ -149,19 +149,27 @@ std::string written_word(const std::string& word) {
 
 WrittenValues::WrittenValues(const std::vector<std::string>& values, const fs::path& folder) {
   if (!paths_are_stripped) return;
+  const auto full_path = [&](const std::string& value) {
+    std::error_code none;
+    const fs::path path = fs::absolute(folder / value, none).lexically_normal();
+    return path.has_filename() ? path : path.parent_path();
+  };
   std::set<std::string> as_they_stand;
+  std::map<std::string, std::string> standing;  // the same by path
+  for (const std::string& value : values) {
+    if (written_path(value) != value || !as_they_stand.insert(value).second) continue;
+    standing[full_path(value).string()] = value;
+  }
   ListedFiles files;
   std::map<std::string, std::string> path_of;  // by value
   std::vector<std::string> paths;              // in the order of the values
   for (const std::string& value : values) {
-    if (written_path(value) == value) {
-      as_they_stand.insert(value);
+    const fs::path path = full_path(value);
+    if (as_they_stand.count(value) > 0 || !path.has_filename()) continue;
+    if (const auto same = standing.find(path.string()); same != standing.end()) {
+      written_[value] = same->second;
       continue;
     }
-    std::error_code none;
-    fs::path path = fs::absolute(folder / value, none).lexically_normal();
-    if (!path.has_filename()) path = path.parent_path();
-    if (!path.has_filename()) continue;  // "/.."
     path_of[value] = path.string();
     if (files.try_emplace(path.string(), listed_file(path)).second) paths.push_back(path.string());
   }

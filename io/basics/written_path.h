@@ -31,6 +31,15 @@ class WrittenValues {
   std::map<std::string, std::string> written_;  // of those that --strip-paths changes
 };
 
+// The same of all files of a list that have a path, which the command names.
+template <typename File>
+void write_paths_of(std::vector<File>& files) {
+  std::vector<std::string> paths;
+  for (const File& file : files) paths.push_back(file.path);
+  const WrittenValues written(paths, "");
+  for (File& file : files) file.path = written(file.path);
+}
+
 // With --strip-paths, remembers the folder of a file that the command reads or writes ...
 void remember_folder_of(const std::filesystem::path& file);
 // ... and takes all these folders, the one of the command and that of the user out of a text, such as a message.

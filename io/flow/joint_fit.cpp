@@ -129,9 +129,12 @@ void refuse_repeated_records(const std::vector<JointRecord>& records) {
 
 // What is known of how the records were made and read goes on into the joint fit and its cards.
 void add_doubts(const std::vector<JointRecord>& records, RatioFit& fit) {
+  std::vector<std::string> files;
+  for (const JointRecord& one : records) files.push_back(one.file);
+  const WrittenValues written(files, "");
   for (const JointRecord& one : records) {
     const auto add = [&](const std::string& flag, const std::string& text) {
-      const MaterialFlag named{flag, 0, written_path(one.file) + ": " + text};
+      const MaterialFlag named{flag, 0, written(one.file) + ": " + text};
       fit.flags.push_back(named);
       fit.common.flags.push_back(named);
     };

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -223,6 +224,7 @@ TEST_CASE("with --strip-paths values of a list that are different files stay dif
   CHECK(written({"m.json", "../m.json"}) == Texts{"m.json", "m.json (1)"});
   // Two names of one file.
   CHECK(written({"../m.json", "/home/anna/m.json"}) == Texts{"m.json", "m.json"});
+  CHECK(written({"/home/anna/study/m.json", "m.json"}) == Texts{"m.json", "m.json"});
   CHECK(WrittenValues({}, "")("/home/anna/m.json") == "m.json");
   strip_written_paths(false);
 }
@@ -262,5 +264,32 @@ TEST_CASE("with --strip-paths rows of a sweep over files of one name in two fold
     CHECK_THAT(text, Contains("alpha/m.json"));
     CHECK_THAT(text, Contains("beta/m.json"));
     CHECK_THAT(text, !Contains("../beta/m.json"));
+  }
+}
+
+TEST_CASE("with --strip-paths fits of files of one name in two folders stay different", "[cli]") {
+  const ScratchFolder scratch;
+  std::vector<std::string> words{"fit"};
+  for (const char* const folder : {"alpha", "beta"}) {
+    std::filesystem::create_directory(scratch / folder);
+    words.push_back((scratch / folder / "x.csv").string());
+    const double factor = folder[0] == 'a' ? 1.0 : 2.0;
+    std::string table = "time_s,modulus_Pa\n";
+    for (int k = 1; k <= 200; ++k) {
+      const double E_Pa = 1e6 * (1.0 + 0.2 * std::exp(-0.05 * k) + 1e-4 * std::sin(7.0 * k));
+      table += std::to_string(0.05 * k) + "," + std::to_string(factor * E_Pa) + "\n";
+    }
+    write_file(words.back(), table, false);
+  }
+  const std::string csv = (scratch / "fits.csv").string();
+  words.insert(words.end(), {"--strip-paths", "--csv", csv});
+  run_command(words);
+  words.insert(words.end(), {"--force", "--json"});
+  const CommandOutcome json = run_command(words);
+  strip_written_paths(false);
+  CAPTURE(json.out, json.err);
+  for (const std::string& text : {read_file(csv), json.out}) {
+    CHECK_THAT(text, Contains("\"alpha/x.csv\"") && Contains("\"beta/x.csv\""));
+    CHECK_THAT(text, !Contains(scratch.path().string()));
   }
 }
