@@ -272,6 +272,23 @@ void add_systematic_parts_to(const IndentationData& data, FitResult& result) {
 
 }  // namespace
 
+void flag_readings(const IndentationData& data, FitResult& result) {
+  if (!data.force_doubt.empty())
+    result.flags.push_back({"beyond-calibration", 0, data.force_doubt});
+  if (!data.approach_doubt.empty()) {
+    result.flags.push_back({"touch-unknown", 0,
+                            data.approach_doubt +
+                                ": what the touch of the approach has left in the specimen is "
+                                "not known, and g may lie low for terms that are not fast "
+                                "beside the baseline. Repeat the run with viscard capture"});
+  }
+  if (data.n_saturated > 0) {
+    add_defect(
+        result, "saturated",
+        counted(data.n_saturated, "reading") + " at the end of the converter's range left out");
+  }
+}
+
 FitResult fit_indentation(const IndentationData& data, const FitOptions& options) {
   if (!data.moves.empty() && data.contact && data.contact->shape != TipShape::kFlat) {
     throw std::runtime_error(
@@ -282,16 +299,10 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
       data.moves.empty() ? fit_depth_table(data, options) : fit_stage_indentation(data, options);
   result.kind = FitKind::kIndentation;
   add_systematic_parts_to(data, result);
-  if (!data.force_doubt.empty())
-    result.flags.push_back({"beyond-calibration", 0, data.force_doubt});
   add_left_out(result, left_out::kSaturated, data.n_saturated);
   add_left_out(result, left_out::kGlitch, data.n_glitch);
   flag_left_out(result);
-  if (data.n_saturated > 0) {
-    add_defect(
-        result, "saturated",
-        counted(data.n_saturated, "reading") + " at the end of the converter's range left out");
-  }
+  flag_readings(data, result);
   keep_intervals_positive(options, result);
   return result;
 }

@@ -14,4 +14,8 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
 // fit_indentation() for data whose depth follows from stage moves.
 FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& options);
 
+// Adds the flags of what is doubtful about the readings of a capture: saturated, beyond-calibration,
+// touch-unknown. fit_indentation() does so itself; a fit of the table of a capture does not know them.
+void flag_readings(const IndentationData& data, FitResult& result);
+
 }  // namespace viscard

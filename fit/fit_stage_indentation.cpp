@@ -374,13 +374,6 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
                                     "all later ones were left out. Unload to a larger share of the "
                                     "depth, and check modulus_guess of the specimen"});
   }
-  if (!data.approach_doubt.empty()) {
-    fit.result.flags.push_back({"touch-unknown", 0,
-                                data.approach_doubt +
-                                    ": what the touch of the approach has left in the specimen is "
-                                    "not known, and g may lie low for terms that are not fast "
-                                    "beside the baseline. Repeat the run with viscard capture"});
-  }
   add_left_out(fit.result, left_out::kLifted, data.time_s.size() - kept.time_s.size());
   return fit.result;
 }

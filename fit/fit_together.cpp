@@ -13,7 +13,6 @@
 #include "models/maths/distributions.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -139,33 +138,13 @@ FittedTest fitted_test(const MaterialTest& test, const JointTests& joint, std::s
   return one;
 }
 
-// Flags of a test's own fit that concern its data. Flags about its window are dropped, because
-// other tests may cover the missing times.
+// Flags of a test's own fit about its record, and about rows that no curve of it describes.
 void carry_flags(const MaterialTest& test, FitResult& result) {
-  constexpr std::array kAboutData{"spikes-left-out",
-                                  "first-row-left-out",
-                                  "last-row-left-out",
-                                  "samples-before-zero",
-                                  "step-before-record",
-                                  "unloading-left-out",
-                                  "lack-of-fit",
-                                  "misfit",
-                                  "modulus-rises",
-                                  "saturated",
-                                  "gap-in-ramp",
-                                  "contact-lost",
-                                  "rows-left-out",
-                                  "rows-lost",
-                                  "slow-noise",
-                                  "drift-fitted",
-                                  "storage-loss-contradict",
-                                  "temperature-drift",
-                                  "history-left-out",
-                                  "history-missing",
-                                  "times-rounded"};
   for (const MaterialFlag& flag : test.own.flags) {
-    if (std::find(kAboutData.begin(), kAboutData.end(), flag.name) == kAboutData.end()) continue;
-    result.flags.push_back({flag.name, 0, test.name + ": " + flag.text});
+    const bool is_misfit =
+        flag.name == "misfit" || flag.name == "lack-of-fit" || flag.name == "slow-noise";
+    if (is_misfit || is_about_record(flag.name))
+      result.flags.push_back({flag.name, 0, test.name + ": " + flag.text});
   }
   for (const LeftOutRows& rows : test.own.left_out) add_left_out(result, rows.reason, rows.count);
   result.n_spikes += test.own.n_spikes;

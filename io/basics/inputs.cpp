@@ -174,7 +174,7 @@ std::vector<InputFile> InputRecorder::files() const {
 
 std::vector<InputFile> provenance_of_inputs() {
   std::vector<InputFile> files = files_of_innermost();
-  for (InputFile& file : files) file.path = written_path(file.path);
+  write_paths_of(files);
   return files;
 }
 

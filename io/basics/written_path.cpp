@@ -40,6 +40,67 @@ void remember(const fs::path& folder) {
   if (text.size() > 1 && leaves_folder(text + "/")) folders().insert(text);
 }
 
+// A file of a list: its name and the folders above it that may be written, the nearest first.
+struct ListedFile {
+  std::vector<std::string> parts;
+  std::size_t n_written = 1;  // parts
+
+  std::string text() const {
+    std::string all = parts.front();
+    for (std::size_t i = 1; i < n_written; ++i) all = parts[i] + "/" + all;
+    return all;
+  }
+};
+
+// Folders that have the name of the user, or lie beside the homes of users.
+bool is_home(const std::string& folder, const std::string& above) {
+  if (above == "home" || above == "Users" || above == "users") return true;
+  for (const char* const name : {"HOME", "USER", "LOGNAME"}) {
+    const char* const value = std::getenv(name);
+    if (value != nullptr && fs::path(value).filename() == folder) return true;
+  }
+  return folder == "home" || folder == "Users" || folder == "users";
+}
+
+// file: absolute and without "..".
+ListedFile listed_file(const fs::path& file) {
+  std::vector<std::string> all;
+  for (const fs::path& part : file.relative_path()) {
+    if (!part.empty()) all.push_back(part.string());
+  }
+  ListedFile listed;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (is_home(all[i], i == 0 ? "" : all[i - 1])) begin = i + 1;
+  }
+  listed.parts.assign(all.rbegin(), all.rend() - static_cast<std::ptrdiff_t>(begin));
+  return listed;
+}
+
+using ListedFiles = std::map<std::string, ListedFile>;  // by their full path
+
+std::map<std::string, std::vector<std::string>> files_by_text(const ListedFiles& files) {
+  std::map<std::string, std::vector<std::string>> of_text;
+  for (const auto& [path, file] : files) of_text[file.text()].push_back(path);
+  return of_text;
+}
+
+// Adds folders to the files whose text others have, too: other files, or values that are written as they stand.
+void keep_apart(const std::set<std::string>& as_they_stand, ListedFiles& files) {
+  for (bool is_longer = true; is_longer;) {
+    is_longer = false;
+    for (const auto& [text, same] : files_by_text(files)) {
+      if (same.size() == 1 && as_they_stand.count(text) == 0) continue;
+      for (const std::string& path : same) {
+        ListedFile& file = files.at(path);
+        if (file.n_written == file.parts.size()) continue;
+        ++file.n_written;
+        is_longer = true;
+      }
+    }
+  }
+}
+
 bool is_of_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_' || c == '-';
 }
@@ -84,6 +145,49 @@ std::string written_word(const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos) return written_path(word);
   return word.substr(0, equals + 1) + written_path(word.substr(equals + 1));
+}
+
+WrittenValues::WrittenValues(const std::vector<std::string>& values, const fs::path& folder) {
+  if (!paths_are_stripped) return;
+  const auto full_path = [&](const std::string& value) {
+    std::error_code none;
+    const fs::path path = fs::absolute(folder / value, none).lexically_normal();
+    return path.has_filename() ? path : path.parent_path();
+  };
+  std::set<std::string> as_they_stand;
+  std::map<std::string, std::string> standing;  // the same by path
+  for (const std::string& value : values) {
+    if (written_path(value) != value || !as_they_stand.insert(value).second) continue;
+    standing[full_path(value).string()] = value;
+  }
+  ListedFiles files;
+  std::map<std::string, std::string> path_of;  // by value
+  std::vector<std::string> paths;              // in the order of the values
+  for (const std::string& value : values) {
+    const fs::path path = full_path(value);
+    if (as_they_stand.count(value) > 0 || !path.has_filename()) continue;
+    if (const auto same = standing.find(path.string()); same != standing.end()) {
+      written_[value] = same->second;
+      continue;
+    }
+    path_of[value] = path.string();
+    if (files.try_emplace(path.string(), listed_file(path)).second) paths.push_back(path.string());
+  }
+  keep_apart(as_they_stand, files);
+  const auto of_text = files_by_text(files);
+  std::map<std::string, std::size_t> n_of_text;
+  std::map<std::string, std::string> text_of;  // by path
+  for (const std::string& path : paths) {
+    const std::string text = text_of[path] = files.at(path).text();
+    if (of_text.at(text).size() > 1 || as_they_stand.count(text) > 0)
+      text_of[path] += " (" + std::to_string(++n_of_text[text]) + ")";
+  }
+  for (const auto& [value, path] : path_of) written_[value] = text_of[path];
+}
+
+std::string WrittenValues::operator()(const std::string& value) const {
+  const auto found = written_.find(value);
+  return found == written_.end() ? written_path(value) : found->second;
 }
 
 void remember_folder_of(const fs::path& file) {

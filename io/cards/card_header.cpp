@@ -77,9 +77,10 @@ void add_provenance(std::vector<std::string>& lines, const Material& material,
                     const CardOptions& options) {
   const Provenance& provenance = material.provenance;
   lines.push_back(fmt::format("tests behind it: {}", provenance.raw_files.size()));
-  for (const RawFile& file : provenance.raw_files) {
-    lines.push_back("raw data " + name_in_header(written_path(file.path)) + " sha256 " +
-                    file.sha256);
+  std::vector<RawFile> files = provenance.raw_files;
+  write_paths_of(files);
+  for (const RawFile& file : files) {
+    lines.push_back("raw data " + name_in_header(file.path) + " sha256 " + file.sha256);
   }
   if (!options.material_sha256.empty()) {
     lines.push_back("material file " +

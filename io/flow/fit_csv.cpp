@@ -1,5 +1,6 @@
 #include "io/basics/inputs.h"
 #include "io/basics/number_text.h"
+#include "io/basics/written_path.h"
 #include "io/flow/fit_file.h"
 #include "models/maths/failure_text.h"
 #include "models/maths/result_visitor.h"
@@ -125,10 +126,13 @@ std::string csv_from_fits(const std::vector<FileOutcome>& outcomes, const std::s
       head_of_table(command) +
       "file,kind,unit,E0,E0_low,E0_high,E_inf,E_inf_low,E_inf_high,n_terms,n_samples,"
       "trustworthy,flags,error\n";
+  std::vector<std::string> paths;
+  for (const FileOutcome& outcome : outcomes) paths.push_back(outcome.path);
+  const WrittenValues written(paths, "");
   for (const FileOutcome& outcome : outcomes) {
-    text += csv_cell(outcome.path);
+    text += csv_cell(written(outcome.path));
     if (!outcome.fitted) {
-      text += ",,,,,,,,,,,0,," + csv_cell(text_of_failure(outcome)) + "\n";
+      text += ",,,,,,,,,,,0,," + csv_cell(written_text(text_of_failure(outcome))) + "\n";
       continue;
     }
     const FitResult& fit = outcome.fitted->result;

@@ -103,6 +103,7 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   FittedFile fitted;
   if (request.is_one_of_several) {
     fitted = fit_as_table(path, run, request);
+    flag_readings(indentation_from_capture(run), fitted.result);
   } else {
     fitted.result = fit_indentation(indentation_from_capture(run), request.options);
   }

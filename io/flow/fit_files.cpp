@@ -159,6 +159,8 @@ FittedFile fit_tests(const std::vector<TestFile>& tests, const FitRequest& reque
     if (fitted.specimen_id.empty()) fitted.specimen_id = own[k].specimen_id;
     if (own[k].temperature) fitted.temperature = own[k].temperature;
     fitted.n_before_test += own[k].n_before_test;
+    for (const std::string& note : own[k].notes)
+      fitted.notes.push_back(together[k].name + ": " + note);
   }
   fitted.result = fit_together(together, request.options);
   for (std::size_t k = 0; k < tests.size(); ++k) {

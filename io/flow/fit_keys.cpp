@@ -87,9 +87,13 @@ CommandError reason_of(const std::exception_ptr& thrown) {
 }  // namespace
 
 void show_keys(ResultVisitor& v, const FittedFile& fitted) {
+  std::vector<TestFile> tests = fitted.tests;
+  write_paths_of(tests);
+  std::string files = tests.empty() ? written_path(fitted.path) : tests.front().path;
+  for (std::size_t k = 1; k < tests.size(); ++k) files += " + " + tests[k].path;
   const FitResult& fit = fitted.result;
   const ModulusNames names = modulus_names(fit.is_stiffness, fitted.has_no_depth);
-  v("file", written_path(fitted.path), "the table or capture");
+  v("file", files, "the table or capture");
   v.when(!fitted.maker.empty(),
          [&] { v("maker", fitted.maker, "maker of the machine that wrote the table"); });
   v.when(!fitted.notes.empty(),

@@ -2,7 +2,6 @@
 #include "io/flow/fit_file.h"
 #include "io/flow/input_files.h"
 #include "io/materials/material_file.h"
-#include "io/materials/material_json.h"
 #include "models/material/liquid.h"
 #include "models/maths/text_of_number.h"
 
@@ -128,15 +127,22 @@ void refuse_repeated_records(const std::vector<JointRecord>& records) {
   }
 }
 
-// What is known against a record goes on into the joint fit and its cards.
+// What is known of how the records were made and read goes on into the joint fit and its cards.
 void add_doubts(const std::vector<JointRecord>& records, RatioFit& fit) {
+  std::vector<std::string> files;
+  for (const JointRecord& one : records) files.push_back(one.file);
+  const WrittenValues written(files, "");
   for (const JointRecord& one : records) {
-    for (const MaterialFlag& flag : one.material.flags) {
-      if (!is_doubt_of_record(flag)) continue;
-      const MaterialFlag named{flag.name, 0, written_path(one.file) + ": " + flag.text};
+    const auto add = [&](const std::string& flag, const std::string& text) {
+      const MaterialFlag named{flag, 0, written(one.file) + ": " + text};
       fit.flags.push_back(named);
       fit.common.flags.push_back(named);
+    };
+    for (const MaterialFlag& flag : one.material.flags) {
+      if (is_about_record(flag.name)) add(flag.name, flag.text);
     }
+    if (!one.fitted) continue;
+    for (const std::string& note : one.fitted->notes) add("as-read", note);
   }
 }
 

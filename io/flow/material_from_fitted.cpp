@@ -84,8 +84,9 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
   }
   if (fitted.tests.empty() && !fitted.is_in_memory) files.push_back(fitted.path);
   for (const std::string& file : files) {
-    material.provenance.raw_files.push_back({written_path(file), sha256_as_read(file)});
+    material.provenance.raw_files.push_back({file, sha256_as_read(file)});
   }
+  write_paths_of(material.provenance.raw_files);
   return material;
 }
 

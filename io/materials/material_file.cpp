@@ -39,7 +39,7 @@ namespace {
 
 // Without folders where the user wants none.
 Material as_written(Material material) {
-  for (RawFile& file : material.provenance.raw_files) file.path = written_path(file.path);
+  write_paths_of(material.provenance.raw_files);
   for (MaterialFlag& flag : material.flags) flag.text = written_text(flag.text);
   return material;
 }

@@ -97,6 +97,47 @@ bool is_defect(const std::string& flag_name) {
   return std::find(kDefects.begin(), kDefects.end(), flag_name) != kDefects.end();
 }
 
+bool is_about_record(const std::string& flag_name) {
+  constexpr std::array kAboutOneFit{"tau-below-sampling",
+                                    "tau-below-ramp",
+                                    "tau-beyond-window",
+                                    "fast-term-hidden",
+                                    "slow-term-hidden",
+                                    "modulus-may-be-zero",
+                                    "terms-correlated",
+                                    "confused-with-drift",
+                                    "liquid",
+                                    "solid-or-liquid",
+                                    "on-bound",
+                                    "faster-relaxation",
+                                    "slower-relaxation",
+                                    "order-uncertain",
+                                    "fewer-terms",
+                                    "few-rows",
+                                    "law-as-series",
+                                    "law-at-bound",
+                                    "law-not-a-series",
+                                    "constraints-strained",
+                                    "contradicts-data",
+                                    "E0-extrapolated",
+                                    "E0-unknown",
+                                    "time-zero-doubtful",
+                                    "not-converged",
+                                    "noise-grows",
+                                    "noise-floor",
+                                    "slow-noise",
+                                    "lack-of-fit",
+                                    "misfit",
+                                    "storage-alone",
+                                    "fast-dashpot",
+                                    "slow-dashpot",
+                                    "tests-disagree",
+                                    "plausible-off"};  // is stated once
+  // The conversion to Young's modulus is that of the whole fit.
+  if (flag_name.starts_with("measured-as-")) return false;
+  return std::find(kAboutOneFit.begin(), kAboutOneFit.end(), flag_name) == kAboutOneFit.end();
+}
+
 bool has_constant_poisson_ratio(const Material& material) {
   return std::all_of(material.terms.begin(), material.terms.end(),
                      [](const MaterialTerm& term) { return term.k == term.g; });

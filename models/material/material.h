@@ -73,6 +73,9 @@ struct MaterialFlag {
 void show_keys(ResultVisitor& v, const MaterialFlag& flag);
 // True for a flag that makes the whole fit untrustworthy. Cards refuse it like a flagged term.
 bool is_defect(const std::string& flag_name);
+// True for a flag of how a record was made or read, which holds for every fit that the record is part of. Others
+// are about what one fit determines in its window, which other tests may cover, and how well it describes its rows.
+bool is_about_record(const std::string& flag_name);
 
 // A file of measured data.
 struct RawFile {

@@ -375,6 +375,9 @@ TEST_CASE("a capture whose moves before the ramp are incomplete is fitted with a
   CapturedRun run = touched_run({1.5, 3.0, 0.0}, 1);
   REQUIRE(run.moves[1].purpose == "back off");
   run.moves.erase(run.moves.begin() + 1);
-  const FitResult fit = fit_indentation(indentation_from_capture(run), {.with_curves = false});
-  CHECK(has_flag(fit, "touch-unknown"));
+  const IndentationData data = indentation_from_capture(run);
+  CHECK(has_flag(fit_indentation(data, {.with_curves = false}), "touch-unknown"));
+  FitResult of_table;  // which knows no moves
+  flag_readings(data, of_table);
+  CHECK(has_flag(of_table, "touch-unknown"));
 }

@@ -286,3 +286,26 @@ TEST_CASE("coverage of several tests together", "[fit][together][slow]") {
     CHECK(n_found == 100);
   }
 }
+
+TEST_CASE("what is known of how a record was made and read stands in a fit of several tests",
+          "[fit][together]") {
+  std::vector<MaterialTest> tests = three_tests(kSolid, 1);
+  const bool is_trustworthy = fit_together(tests, {}).is_trustworthy;
+  const std::vector<std::string> of_record{
+      "touch-unknown",   "unit-assumed",       "run-stopped",   "lost-steps",
+      "samples-damaged", "beyond-calibration", "times-rounded", "modulus-kind-assumed"};
+  for (const std::string& name : of_record) tests[1].own.flags.push_back({name, 0, "why"});
+  tests[1].own.flags.push_back({"E0-unknown", 0, "other tests may tell it"});
+  const FitResult fit = fit_together(tests, {});
+  for (const std::string& name : of_record) {
+    CAPTURE(name);
+    const auto flag = std::find_if(fit.flags.begin(), fit.flags.end(),
+                                   [&](const MaterialFlag& one) { return one.name == name; });
+    REQUIRE(flag != fit.flags.end());
+    CHECK(flag->text == "creep: why");
+  }
+  CHECK_FALSE(has_flag(fit, "E0-unknown"));
+  CHECK(fit.is_trustworthy == is_trustworthy);
+  tests[0].own.flags.push_back({"unverified", 0, "damaged"});
+  CHECK_FALSE(fit_together(tests, {}).is_trustworthy);
+}

@@ -114,8 +114,11 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
                     text_of(stable.low, 3),
                     text_of(stable.high, 3) + (stable.high_is_open ? " and more" : "")));
   }
+  std::vector<std::string> paths;
+  for (const auto& raw : file.raw_files) paths.push_back(raw.file);
+  const WrittenValues written(paths, "");
   for (const auto& raw : file.raw_files)
-    lines.push_back("raw data " + name_in_header(written_path(raw.file)) +
+    lines.push_back("raw data " + name_in_header(written(raw.file)) +
                     (raw.sha256.empty() ? " in memory" : " sha256 " + raw.sha256));
   if (!options.file_sha256.empty())
     lines.push_back("material file " + name_in_header(written_path(options.file_name)) +

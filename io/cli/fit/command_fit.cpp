@@ -1,5 +1,6 @@
 #include "fit/intervals/flags.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/written_path.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
@@ -41,7 +42,12 @@ void show_fit(ResultVisitor& v, const FileOutcome& outcome, const NextMeasuremen
 }
 
 void show_fits(ResultVisitor& v, const std::vector<FileOutcome>& outcomes) {
-  v.list("fits", "one for each file, in their order, with the keys of viscard-fit/1", outcomes,
+  std::vector<FileOutcome> shown = outcomes;
+  write_paths_of(shown);
+  for (FileOutcome& outcome : shown) {
+    if (outcome.fitted) outcome.fitted->path = outcome.path;
+  }
+  v.list("fits", "one for each file, in their order, with the keys of viscard-fit/1", shown,
          [&](const FileOutcome& outcome) {
            show_head(v, {"viscard-fit/1", {outcome.path}});
            show_keys(v, outcome);

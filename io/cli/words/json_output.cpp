@@ -31,8 +31,9 @@ void print_line(const nlohmann::ordered_json& object, Streams& streams, int inde
 void show_head(ResultVisitor& v, const JsonHead& head) {
   v.word("schema", head.schema, {head.schema}, "name and version of the description");
   v("version", VISCARD_VERSION, "version of viscard");
+  const WrittenValues written(head.inputs, "");
   std::vector<std::string> inputs;
-  for (const std::string& input : head.inputs) inputs.push_back(written_path(input));
+  for (const std::string& input : head.inputs) inputs.push_back(written(input));
   v("inputs", inputs, "the files that were read, as they were named");
   v.when(head.accepts_implausible, [&] {
     v.word("plausible", "off", {"off"}, "that ranges of plausible values were switched off");

@@ -148,9 +148,11 @@ void show_keys(ResultVisitor& v, const FittedLargeStrain& fitted) {
   const LargeStrainResult& result = fitted.result;
   const FittedRubber best = result.laws.empty() ? FittedRubber{} : result.best();
   std::vector<ShownTest> tests;
+  auto files = fitted.files;
+  write_paths_of(files);
   for (std::size_t i = 0; i < result.tests.size(); ++i) {
-    tests.push_back({result.tests[i], written_path(fitted.files[i].path), fitted.sums[i],
-                     times_of(fitted.tests[i]), fitted.cycles[i]});
+    tests.push_back({result.tests[i], files[i].path, fitted.sums[i], times_of(fitted.tests[i]),
+                     fitted.cycles[i]});
   }
   v("law", name_of(best), "the chosen law");
   v("trustworthy", best.is_trustworthy, "it may be used");

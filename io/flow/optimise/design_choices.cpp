@@ -1,7 +1,5 @@
 #include "io/flow/optimise/design_choices.h"
 
-#include "io/basics/written_path.h"
-
 namespace viscard {
 
 std::vector<DesignSpec> chosen_specs(const DesignSpec& spec) {
@@ -23,10 +21,17 @@ std::vector<DesignSpec> chosen_specs(const DesignSpec& spec) {
   return specs;
 }
 
-std::string text_of_chosen(const StudyValues& chosen) {
+WrittenValues written_choices(const DesignSpec& spec) {
+  std::vector<std::string> all;
+  for (const DesignChoice& choice : spec.choices)
+    all.insert(all.end(), choice.values.begin(), choice.values.end());
+  return {all, spec.scene_path.parent_path()};
+}
+
+std::string text_of_chosen(const StudyValues& chosen, const WrittenValues& written) {
   std::string text;
   for (const auto& [key, value] : chosen)
-    text += (text.empty() ? "" : ", ") + key + " = " + written_path(value);
+    text += (text.empty() ? "" : ", ") + key + " = " + written(value);
   return text;
 }
 

@@ -102,8 +102,9 @@ DesignFront design_front(const DesignSpec& spec,
   DesignFront all;
   const std::vector<DesignSpec> specs = chosen_specs(spec);
   const auto n = static_cast<double>(specs.size());
+  const WrittenValues written = written_choices(spec);
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    const std::string chosen = text_of_chosen(specs[i].chosen);
+    const std::string chosen = text_of_chosen(specs[i].chosen, written);
     try {
       const DesignFront one = front_of(specs[i], [&](double part, const std::string& what) {
         if (progress) {
@@ -132,18 +133,20 @@ DesignFront design_front(const DesignSpec& spec,
 Plot picture_of_front(const DesignSpec& spec, const DesignFront& front) {
   PlotPanel panel;
   PlotSeries line{.mark = Mark::kLine, .ink = Ink::kGrey};
+  const WrittenValues written = written_choices(spec);
   std::map<StudyValues, PlotSeries> dots;  // by the values of the choices
   for (const OptimisedDesign& design : front.designs) {
     const auto first_range =
         design.values.begin() + static_cast<std::ptrdiff_t>(spec.choices.size());
     const StudyValues chosen(design.values.begin(), first_range);
     PlotSeries& own =
-        dots.try_emplace(chosen,
-                         PlotSeries{.mark = Mark::kPoints,
-                                    .label = chosen.empty() ? "designs" : text_of_chosen(chosen),
-                                    .ink = ink_of_series(dots.size()),
-                                    .pattern = static_cast<int>(dots.size()),
-                                    .size = 1.5})
+        dots.try_emplace(
+                chosen,
+                PlotSeries{.mark = Mark::kPoints,
+                           .label = chosen.empty() ? "designs" : text_of_chosen(chosen, written),
+                           .ink = ink_of_series(dots.size()),
+                           .pattern = static_cast<int>(dots.size()),
+                           .size = 1.5})
             .first->second;
     for (PlotSeries* const one : {&own, &line}) {
       one->x.push_back(design.objectives[0].value);

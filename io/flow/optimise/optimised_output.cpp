@@ -3,12 +3,15 @@
 #include "io/basics/written_path.h"
 #include "io/config/toml_text.h"
 #include "io/flow/design/judgement_output.h"
+#include "io/flow/optimise/design_choices.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <functional>
 #include <map>
 #include <sstream>
+#include <string_view>
 
 namespace viscard {
 namespace {
@@ -34,32 +37,63 @@ void show_lines(ResultVisitor& v, const OptimisedDesign& design) {
       });
 }
 
-// Takes the folders out of all texts that are names of files (--strip-paths); returns whether there were any.
-bool strip_folders(toml::node& node) {
-  bool is_changed = false;
+void for_each_text(toml::node& node, const std::function<void(std::string&)>& take) {
   if (toml::table* const table = node.as_table()) {
-    for (auto&& [key, inner] : *table) is_changed |= strip_folders(inner);
+    for (auto&& [key, inner] : *table) for_each_text(inner, take);
   } else if (toml::array* const list = node.as_array()) {
-    for (toml::node& inner : *list) is_changed |= strip_folders(inner);
+    for (toml::node& inner : *list) for_each_text(inner, take);
   } else if (auto* const text = node.as_string()) {
-    const std::string written = written_path(text->get());
-    is_changed = written != text->get();
-    text->get() = written;
+    take(text->get());
   }
+}
+
+// The name of a file as it leads there from `folder`.
+std::string seen_from(const std::filesystem::path& folder, const std::string& name,
+                      const std::filesystem::path& scene_folder) {
+  if (std::filesystem::path(name).is_absolute()) return name;
+  const std::filesystem::path there =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(scene_folder / name));
+  const std::filesystem::path here =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(folder.empty() ? "." : folder));
+  return there.lexically_relative(here).string();
+}
+
+bool names_file(std::string_view key) {
+  return key == "file" || key == "positions";
+}
+
+// Takes the folders out of all texts of a scene in `folder` that are names of files (--strip-paths); returns whether
+// there were any. The files of other choices count, so that two designs do not give two files one name.
+bool strip_folders(toml::table& scene, const DesignSpec& spec,
+                   const std::filesystem::path& folder) {
+  std::vector<std::string> all;
+  for (const DesignChoice& choice : spec.choices) {
+    const bool is_file = names_file(choice.key.substr(choice.key.rfind('.') + 1));
+    for (const std::string& value : choice.values)
+      all.push_back(is_file ? seen_from(folder, value, spec.scene_path.parent_path()) : value);
+  }
+  for_each_text(scene, [&](std::string& text) { all.push_back(text); });
+  const WrittenValues written(all, folder);
+  bool is_changed = false;
+  for_each_text(scene, [&](std::string& text) {
+    const std::string as_read = text;
+    text = written(as_read);
+    is_changed |= text != as_read;
+  });
   return is_changed;
 }
 
 // As it stands, unless it names files in folders that are not to be written.
-std::string scene_as_written(const std::string& scene_text) {
+std::string scene_as_written(const DesignSpec& spec, const std::string& scene_text) {
   if (scene_text.empty()) return scene_text;
   toml::table scene = parsed_toml(scene_text);
-  if (!strip_folders(scene)) return scene_text;
+  if (!strip_folders(scene, spec, spec.scene_path.parent_path())) return scene_text;
   std::ostringstream text;
   text << scene << "\n";
   return text.str();
 }
 
-void show_design(ResultVisitor& v, const OptimisedDesign& design) {
+void show_design(ResultVisitor& v, const DesignSpec& spec, const OptimisedDesign& design) {
   v("active", design.active, "limits and ends of ranges that hold it, or that stop every design");
   v("feasible", design.is_feasible, "whether all lines pass, with the probability that was asked");
   show_lines(v, design);
@@ -69,33 +103,29 @@ void show_design(ResultVisitor& v, const OptimisedDesign& design) {
     v("unit", one.unit, "of both");
     v("value", one.value, "of the design");
   });
-  v("scene", scene_as_written(design.scene_text),
+  v("scene", scene_as_written(spec, design.scene_text),
     "the scene file, for the folder of the specification's scene");
   const std::map<std::string, std::string> values(design.values.begin(), design.values.end());
   const std::vector<std::pair<std::string, std::string>> sorted(values.begin(), values.end());
-  v.map("values", "of the ranges, by key", sorted, [&](const auto& value) {
-    v(value.first, written_path(value.second), "value with its unit");
-  });
+  const WrittenValues written = written_choices(spec);
+  v.map("values", "of the ranges, by key", sorted,
+        [&](const auto& value) { v(value.first, written(value.second), "value with its unit"); });
 }
 
 void point_from(toml::table& table, const std::filesystem::path& scene_folder,
                 const std::filesystem::path& folder) {
   for (auto&& [key, node] : table) {
     if (toml::table* const inner = node.as_table()) point_from(*inner, scene_folder, folder);
-    if (key != "file" && key != "positions") continue;
-    const auto name = node.value<std::string>();
-    if (!name || std::filesystem::path(*name).is_absolute()) continue;
-    const std::filesystem::path there =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(scene_folder / *name));
-    const std::filesystem::path here =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(folder));
-    node.ref<std::string>() = there.lexically_relative(here).string();
+    if (!names_file(key.str())) continue;
+    if (const auto name = node.value<std::string>())
+      node.ref<std::string>() = seen_from(folder, *name, scene_folder);
   }
 }
 
 }  // namespace
 
-std::string text_from_front(const DesignSpec&, const DesignFront& front) {
+std::string text_from_front(const DesignSpec& spec, const DesignFront& front) {
+  const WrittenValues written = written_choices(spec);
   std::string text;
   for (std::size_t i = 0; i < front.designs.size(); ++i) {
     const OptimisedDesign& design = front.designs[i];
@@ -104,7 +134,7 @@ std::string text_from_front(const DesignSpec&, const DesignFront& front) {
                 ? "  confirmed by the solver\n"
                 : "  INFEASIBLE: no design within the ranges keeps all limits; nearest:\n";
     for (const auto& [key, value] : design.values)
-      text += fmt::format("  {:<32} {}\n", key, written_path(value));
+      text += fmt::format("  {:<32} {}\n", key, written(value));
     for (const DesignedObjective& one : design.objectives) {
       text += fmt::format("  {:<32} {:.5g} +- {:.1g} {}\n", one.quantity, one.value,
                           one.error_estimate, one.unit == "1" ? "" : one.unit);
@@ -122,7 +152,7 @@ std::string text_from_front(const DesignSpec&, const DesignFront& front) {
 
 void show_front(ResultVisitor& v, const DesignSpec& spec, const DesignFront& front) {
   v.list("designs", "best in the first objective first; if none is feasible, the nearest",
-         front.designs, [&](const OptimisedDesign& design) { show_design(v, design); });
+         front.designs, [&](const OptimisedDesign& design) { show_design(v, spec, design); });
   v("feasible", !front.designs.empty() && front.designs[0].is_feasible,
     "whether there is a design");
   v.list("objectives", "what was sought", spec.objectives, [&](const DesignObjective& one) {
@@ -145,8 +175,9 @@ std::string csv_from_front(const DesignSpec& spec, const DesignFront& front) {
     text += std::string(line.kind->key) + " margin,";
   }
   text.back() = '\n';
+  const WrittenValues written = written_choices(spec);
   for (const OptimisedDesign& design : front.designs) {
-    for (const auto& [key, value] : design.values) text += written_path(value) + ",";
+    for (const auto& [key, value] : design.values) text += written(value) + ",";
     for (const DesignedObjective& one : design.objectives) {
       text += fmt::format("{:.9g},{:.3g},", one.value, one.error_estimate);
     }
@@ -163,7 +194,7 @@ std::string scene_for_folder(const DesignSpec& spec, const OptimisedDesign& desi
   point_from(scene, spec.scene_path.parent_path(), folder);
   std::ostringstream text;
   text << "# A design of viscard, from " << spec.path.filename().string() << "\n";
-  if (strip_folders(scene)) {
+  if (strip_folders(scene, spec, folder)) {
     text
         << "# Written with --strip-paths: copy the files that it names beside it before it runs.\n";
   }

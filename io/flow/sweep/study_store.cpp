@@ -232,9 +232,16 @@ StudyPoint point_from(std::int64_t number, const nlohmann::ordered_json& values,
 }
 
 // As files state them: a value may be the name of a file.
-StudyValues written_values(StudyValues values) {
-  for (auto& [key, value] : values) value = written_path(value);
+StudyValues written_with(const WrittenValues& written, StudyValues values) {
+  for (auto& [key, value] : values) value = written(value);
   return values;
+}
+
+WrittenValues written_values_of(const Study& study) {
+  std::vector<std::string> all;
+  for (const StudyParameter& parameter : study.parameters)
+    all.insert(all.end(), parameter.values.begin(), parameter.values.end());
+  return {all, study.scene_path.parent_path()};
 }
 
 constexpr const char* kColumns = "point, parameters, results, failure, kind, crc32";
@@ -295,6 +302,7 @@ StudyStore::StudyStore(const std::filesystem::path& path, const Study& study,
                 ? std::optional<StudyLock>(std::in_place, path, options.on_gone, options.waits_s)
                 : std::nullopt),
       database_(opened(path, study, options, has_recorded_inputs_)),
+      written_(written_values_of(study)),
       insert_(database_.prepare(kInsert)) {
   Statement forget = database_.prepare("DELETE FROM points WHERE point = ?");
   for (const std::int64_t point : damaged_rows(database_, has_recorded_inputs_)) {
@@ -324,7 +332,7 @@ std::int64_t StudyStore::count(PointKind kind) {
 void StudyStore::add(const StudyPoint& point) {
   if (lock_) lock_->check_file();
   if (point.kind == PointKind::kPassing) return;
-  const std::string values = text_from_json(json_from(written_values(point.values))),
+  const std::string values = text_from_json(json_from(written_with(written_, point.values))),
                     results = text_from_json(json_from(point.results)), kind = word_of(point.kind);
   insert_.run_with(point.point, std::string_view(values), std::string_view(results),
                    std::string_view(point.failure), std::string_view(kind),
@@ -392,9 +400,11 @@ std::string csv_from_study(StudyStore& store, const Study& study) {
   for (const std::string& name : names)
     text += "," + csv_cell(name) + "," + csv_cell("error " + name);
   text += ",failure\n";
+  const WrittenValues written = written_values_of(study);
   store.for_each([&](const StudyPoint& point) {
     text += std::to_string(point.point);
-    for (const auto& [key, value] : written_values(point.values)) text += "," + csv_cell(value);
+    for (const auto& [key, value] : written_with(written, point.values))
+      text += "," + csv_cell(value);
     std::vector<std::string> cells(names.size(), ",,");
     for (const NamedValue& one : point.results) {
       cells[column.at(name_of(one))] = fmt::format(",{},{:.3g}", one.value, one.error_estimate);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/basics/written_path.h"
 #include "io/capture/sqlite_database.h"
 #include "io/flow/scenes/named_values.h"
 #include "io/flow/sweep/study.h"
@@ -81,6 +82,7 @@ class StudyStore {
   std::optional<StudyLock> lock_;  // first: SQLite's connection must be closed before it ends
   bool has_recorded_inputs_ = true;
   Database database_;
+  WrittenValues written_;
   std::size_t n_damaged_ = 0;
   Statement insert_;
 };

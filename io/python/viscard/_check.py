@@ -28,15 +28,30 @@ _SHORT = reprlib.Repr()  # bounded in depth and length for every value
 _SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxother, _SHORT.maxlong = 4, 80, 80, 5000
 
 
+def _is_path(value: Any) -> bool:
+    return isinstance(value, os.PathLike) or (isinstance(value, str) and os.sep in value and "\n" not in value)
+
+
+def _cut_path(text: str, most: int = 200) -> str:
+    """Cut in the middle if it is long: the end names the file."""
+    if len(text) <= most:
+        return text
+    n_end = min(max(most // 2, len(text) - text.rfind(os.sep)), most - 20)
+    return text[:most - 3 - n_end] + "..." + text[-n_end:]
+
+
 def shown(value: Any) -> str:
     """A value in a message, cut if it is long."""
     try:
+        if _is_path(value):
+            return repr(_cut_path(value)) if isinstance(value, str) else _cut_path(repr(value))
         text = _SHORT.repr(value)
     except Exception:  # of somebody's class, or a whole number of more digits than Python writes
         text = f"<{type(value).__name__}>"
     if "\n" in text:  # of a DataFrame
         text = " ".join(text.split())
-    return text if len(text) <= 60 else text[:57] + "..."
+    most = 200 if isinstance(value, (list, tuple)) and any(_is_path(one) for one in value[:6]) else 60
+    return text if len(text) <= most else text[:most - 3] + "..."
 
 
 def is_boolean(value: Any) -> bool:

@@ -3,12 +3,14 @@
 
 #include <catch2/catch.hpp>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace viscard {
@@ -73,6 +75,28 @@ TEST_CASE("a folder for temporary files that is not there is named with what to 
   CHECK_THROWS_WITH(TemporaryFolder(),
                     Catch::Contains("cannot make a folder for temporary files: ") &&
                         Catch::Contains("set TMPDIR"));
+}
+
+TEST_CASE(
+    "a folder for temporary files that cannot be locked, because too many files are open, is "
+    "not used",
+    "[io][temporary]") {
+  const test::ScratchFolder place;
+  const TemporaryPlace of_test(place.path());
+  rlimit usual{};
+  REQUIRE(getrlimit(RLIMIT_NOFILE, &usual) == 0);
+  rlimit none = usual;
+  none.rlim_cur = 0;
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &none) == 0);
+  std::string reason;
+  try {
+    const TemporaryFolder unlocked;
+  } catch (const std::runtime_error& error) {
+    reason = error.what();
+  }
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &usual) == 0);
+  CHECK_THAT(reason, Catch::Contains("too many files are open; raise the limit (ulimit -n)"));
+  CHECK(fs::is_empty(place.path()));
 }
 
 }  // namespace

@@ -139,3 +139,33 @@ TEST_CASE("with --strip-paths the files of a design state no folder", "[io][desi
   CHECK(stripped.find("b.json") != std::string::npos);
   CHECK(stripped.find("# Written with --strip-paths") != std::string::npos);
 }
+
+TEST_CASE("with --strip-paths designs with files of one name in two folders stay different",
+          "[io][design]") {
+  DesignSpec spec;
+  spec.path = "spec.toml";
+  spec.scene_path = "scene.toml";
+  spec.choices = {{"materials.pillar.file", {"../alpha/m.json", "../beta/m.json"}}};
+  spec.objectives = {{"geometry.length", "largest"}};
+  DesignFront front;
+  for (const std::string& file : spec.choices[0].values) {
+    OptimisedDesign design;
+    design.values = {{"materials.pillar.file", file}};
+    design.scene_text = "[materials]\npillar = { file = \"" + file + "\" }\n";
+    design.objectives = {{"geometry.length", "m", 1e-3}};
+    front.designs.push_back(design);
+  }
+  strip_written_paths(true);
+  std::vector<std::string> all{
+      csv_from_front(spec, front), text_from_front(spec, front),
+      text_from_json(json_from_keys([&](ResultVisitor& v) { show_front(v, spec, front); }), 2), ""};
+  for (const OptimisedDesign& design : front.designs)
+    all.back() += scene_for_folder(spec, design, "out");
+  strip_written_paths(false);
+  for (const std::string& text : all) {
+    CAPTURE(text);
+    CHECK(text.find("alpha/m.json") != std::string::npos);
+    CHECK(text.find("beta/m.json") != std::string::npos);
+    CHECK(text.find("../") == std::string::npos);
+  }
+}

@@ -1,6 +1,7 @@
 """Arguments of the wrong type or value: one sentence that names the keyword, before anything is computed."""
 import copy
 import inspect
+import pathlib
 import warnings
 from decimal import Decimal
 
@@ -108,6 +109,21 @@ WRONG_VALUES = [
      "^over is for a scene, and .*pillar.toml' is a study, which states its own values; omit over"),
     (lambda: viscard.data_file("/etc"), "no file '/etc' comes with viscard"),
 ]
+
+
+@pytest.mark.parametrize("length", [10, 80, 190, 5000])
+def test_a_path_in_a_message_keeps_its_end(length):
+    folder = "/" + "/".join(["a" * 40] * 200)[:length]
+    for path in (folder + "/pillar.toml", pathlib.Path(folder) / "pillar.toml", folder + "/" + "b" * 90 + "pillar.toml"):
+        for value in (path, [path]):
+            with pytest.raises(TypeError) as caught:
+                viscard.Material(1e6, value)
+            message = str(caught.value)
+            assert "pillar.toml'" in message
+            assert len(message) < 300
+            assert value is not path or length > 90 or str(path) in message
+    with pytest.raises(TypeError, match="^nu must be a number, not 'xxx.*x\\.\\.\\.$"):  # no path
+        viscard.Material(1e6, "x" * 5000)
 
 
 @pytest.mark.parametrize("call, words", WRONG_VALUES)

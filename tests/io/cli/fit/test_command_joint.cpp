@@ -301,3 +301,25 @@ TEST_CASE("a wrong command line of a joint fit gives one clear line", "[cli][joi
                      "--terms", "2"}),
              Contains("--terms is for records"));
 }
+
+TEST_CASE("flags of how a record was made and read stand in the joint fit", "[cli][joint]") {
+  const ScratchFolder folder;
+  Tables tables = write_tables(folder);
+  const std::string material = (folder.path() / "m.json").string();
+  REQUIRE(run_command({"fit", tables.files[0], "--out", material}).status == kDone);
+  std::ifstream in(material);
+  auto json = nlohmann::ordered_json::parse(in);
+  for (const char* const name : {"touch-unknown", "tau-beyond-window"})
+    json["flags"].push_back({{"name", name}, {"term", 0}, {"text", "why"}});
+  std::ofstream(material) << json.dump();
+  tables.files[0] = material;
+  const CommandOutcome ran =
+      run_command(joined({"fit", "--joint", "--json"}, {tables.files, tables.ratios}));
+  INFO(ran.err);
+  REQUIRE(ran.status == kDone);
+  const auto fit = nlohmann::json::parse(ran.out);
+  for (const auto& flags : {fit["flags"], fit["common"]["flags"]}) {
+    CHECK_THAT(flags.dump(), Contains("touch-unknown") && Contains(material + ": why"));
+    CHECK_THAT(flags.dump(), !Contains("tau-beyond-window"));
+  }
+}

@@ -102,3 +102,31 @@ TEST_CASE("a rig check and a capture on an emulated rig show the thermometer", "
   CHECK(nlohmann::json::parse(capture.out)["temperature"]["mean_C"] == 23.4);
   CHECK(read_capture(folder.file("run.viscap")).temperatures.size() > 5);
 }
+
+TEST_CASE("a fit of several tests states what the run of a capture reported", "[cli]") {
+  const TableFolder folder;
+  CapturedRun captured = in_memory_run(demo_truth(13, 4), {});
+  captured.rig.stage.depth_relative_u = 0.0;
+  {
+    CaptureWriter writer(folder.file("run.viscap"), captured);
+    for (const LoadSample& sample : captured.load_samples) writer.append(sample);
+    for (const CommandedMove& move : captured.moves) writer.append(move);
+    writer.append(RunEvent{0.0, "tare", "0.013", ""});
+    const double surface_m = demo_truth(13, 4).surface_position_m;
+    writer.append(RunEvent{0.0, "contact", std::to_string(surface_m), ""});
+    writer.append(RunEvent{0.0, "depth", "counted", ""});
+    writer.append(RunEvent{0.0, "doubt", "lost_steps", "the stage has lost steps"});
+    writer.finish("stopped");
+  }
+  const std::string table = folder.write("relaxation.csv", relaxation_table());
+  const CommandOutcome ran = run_command(
+      {"fit", "indentation=" + folder.file("run.viscap"), "relaxation=" + table, "--json"});
+  INFO(ran.err);
+  const auto json = nlohmann::json::parse(ran.out);
+  for (const char* const name : {"lost-steps", "run-stopped"}) {
+    CAPTURE(name);
+    CHECK(has_flag(json, name));
+  }
+  REQUIRE(json.contains("notes"));
+  CHECK_THAT(json["notes"].dump(), Contains("indentation: the depth is counted in steps"));
+}

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -201,4 +202,94 @@ TEST_CASE("only absolute paths are cut, in words too", "[cli]") {
   CHECK(written_word("modulus_Pa=1e6*E/2") == "modulus_Pa=1e6*E/2");
   strip_written_paths(false);
   CHECK(written_path("/home/a/b.csv") == "/home/a/b.csv");
+}
+
+TEST_CASE("with --strip-paths values of a list that are different files stay different", "[cli]") {
+  const auto written = [](const std::vector<std::string>& values) {
+    const WrittenValues of(values, "/home/anna/study");
+    std::vector<std::string> all;
+    for (const std::string& value : values) all.push_back(of(value));
+    return all;
+  };
+  using Texts = std::vector<std::string>;
+  CHECK(written({"/x/alpha/m.json", "/x/beta/m.json"}) ==
+        Texts{"/x/alpha/m.json", "/x/beta/m.json"});
+  strip_written_paths(true);
+  CHECK(written({"/x/alpha/m.json", "/x/beta/m.json", "/x/beta/n.json"}) ==
+        Texts{"alpha/m.json", "beta/m.json", "n.json"});
+  CHECK(written({"/x/p/m.json", "/y/p/m.json", "/y/q/m.json"}) ==
+        Texts{"x/p/m.json", "y/p/m.json", "q/m.json"});
+  CHECK(written({"../../bert/m.json", "/home/anna/m.json", "/data/x/m.json", "40 um"}) ==
+        Texts{"m.json (1)", "m.json (2)", "x/m.json", "40 um"});
+  CHECK(written({"m.json", "../m.json"}) == Texts{"m.json", "m.json (1)"});
+  // Two names of one file.
+  CHECK(written({"../m.json", "/home/anna/m.json"}) == Texts{"m.json", "m.json"});
+  CHECK(written({"/home/anna/study/m.json", "m.json"}) == Texts{"m.json", "m.json"});
+  CHECK(WrittenValues({}, "")("/home/anna/m.json") == "m.json");
+  strip_written_paths(false);
+}
+
+TEST_CASE("with --strip-paths rows of a sweep over files of one name in two folders differ",
+          "[cli]") {
+  const ScratchFolder scratch;
+  const std::string study = (scratch / "study.toml").string(),
+                    store = (scratch / "s.sqlite").string(), csv = (scratch / "s.csv").string();
+  for (const char* const folder : {"alpha", "beta", "scenes"})
+    std::filesystem::create_directory(scratch / folder);
+  for (const char* const name : {"alpha/m.json", "beta/m.json"}) {
+    write_file(scratch / name,
+               "{\"schema\": \"viscard-material/1\", \"E0_Pa\": " +
+                   std::string(name[0] == 'a' ? "1.0e6" : "2.0e6") +
+                   ", \"nu\": 0.4, \"terms\": []}\n",
+               false);
+  }
+  write_file(scratch / "scenes/scene.toml",
+             "tolerance = 1e-2\n[geometry]\ndiameter = \"40 um\"\nlength = \"120 um\"\n"
+             "[materials]\npillar = { file = \"../alpha/m.json\" }\n"
+             "[analysis]\nkind = \"static\"\nload = { pressure = \"1 kPa\", on = \"top\" }\n"
+             "[want]\nquantities = [\"top_displacement\"]\n",
+             false);
+  write_file(study,
+             "scene = \"scenes/scene.toml\"\n[[parameter]]\nkey = \"materials.pillar.file\"\n"
+             "values = [\"../alpha/m.json\", \"../beta/m.json\"]\n",
+             false);
+  const CommandOutcome outcome =
+      run_command({"sweep", study, "--out", store, "--csv", csv, "--strip-paths"});
+  strip_written_paths(false);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  for (const std::string& file : {csv, store}) {
+    CAPTURE(file);
+    const std::string text = read_file(file);
+    CHECK_THAT(text, Contains("alpha/m.json"));
+    CHECK_THAT(text, Contains("beta/m.json"));
+    CHECK_THAT(text, !Contains("../beta/m.json"));
+  }
+}
+
+TEST_CASE("with --strip-paths fits of files of one name in two folders stay different", "[cli]") {
+  const ScratchFolder scratch;
+  std::vector<std::string> words{"fit"};
+  for (const char* const folder : {"alpha", "beta"}) {
+    std::filesystem::create_directory(scratch / folder);
+    words.push_back((scratch / folder / "x.csv").string());
+    const double factor = folder[0] == 'a' ? 1.0 : 2.0;
+    std::string table = "time_s,modulus_Pa\n";
+    for (int k = 1; k <= 200; ++k) {
+      const double E_Pa = 1e6 * (1.0 + 0.2 * std::exp(-0.05 * k) + 1e-4 * std::sin(7.0 * k));
+      table += std::to_string(0.05 * k) + "," + std::to_string(factor * E_Pa) + "\n";
+    }
+    write_file(words.back(), table, false);
+  }
+  const std::string csv = (scratch / "fits.csv").string();
+  words.insert(words.end(), {"--strip-paths", "--csv", csv});
+  run_command(words);
+  words.insert(words.end(), {"--force", "--json"});
+  const CommandOutcome json = run_command(words);
+  strip_written_paths(false);
+  CAPTURE(json.out, json.err);
+  for (const std::string& text : {read_file(csv), json.out}) {
+    CHECK_THAT(text, Contains("\"alpha/x.csv\"") && Contains("\"beta/x.csv\""));
+    CHECK_THAT(text, !Contains(scratch.path().string()));
+  }
 }
