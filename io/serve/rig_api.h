@@ -67,7 +67,8 @@ class RigApi {
   nlohmann::ordered_json stop_run(const nlohmann::ordered_json& request);
   // The run, with the points from number `from` on if `keep_every` still holds, else all.
   nlohmann::ordered_json run(std::size_t from, std::size_t keep_every) const;
-  // {"capture", "keep"}: fits it; the material of a finished one is written beside it unless it is there, or keep is false.
+  // {"capture", "keep"}: fits it; the material of a finished one is written beside it unless it is
+  // there, or keep is false.
   nlohmann::ordered_json fit(const nlohmann::ordered_json& request);
 
   // No more work is begun; a run is stopped gently. Returns at once, with true if no work is going
