@@ -49,6 +49,7 @@ TEST_CASE("a newcomer comes from a dropped table to the card in at most six clic
   look_at_desk(browser, "desk_fit");
   browser.click("#fit-chart ~ .chart-bar button:first-child");
   CHECK_FALSE(browser.is_shown("#fit-chart ~ .cursor-values"));
+  browser.run("scrollTo(0, 0)");
   person.click("#tab-card");
   person.choose("#target", "abaqus");
   person.click("#units input[value=mm-t-s]");
