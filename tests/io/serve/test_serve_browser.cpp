@@ -23,7 +23,8 @@ constexpr const char* kForce =
     "return parseFloat(document.getElementById('run-force').textContent) > ";
 
 // The page has no fault of accessibility. With VISCARD_SCREENSHOTS=FOLDER the test leaves pictures of it there.
-void look_at(Browser& browser, const std::string& name) {
+// place: what they show, if not the begin of the page.
+void look_at(Browser& browser, const std::string& name, const std::string& place = "") {
   const char* folder = std::getenv("VISCARD_SCREENSHOTS");
   const struct {
     const char* ending;
@@ -36,6 +37,9 @@ void look_at(Browser& browser, const std::string& name) {
   for (const auto& view : views) {
     browser.set_window(view.width, view.height, view.is_dark, view.is_phone);
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    if (!place.empty()) {
+      browser.run("document.querySelector('" + place + "').scrollIntoView()");
+    }
     CAPTURE(name, view.ending);
     CHECK(browser.accessibility_faults() == nlohmann::json::array());
     if (folder == nullptr) continue;
@@ -340,7 +344,7 @@ TEST_CASE(
   CHECK(cursor_of(browser, chart, 0) < begin_s);
   CHECK(browser.run("return document.querySelector('" + chart + " canvas') !== null") == true);
   const double dragged_s = cursor_of(browser, chart, 0);
-  look_at(browser, "10_overlay");
+  look_at(browser, "10_overlay", "#captures");
   browser.set_window(390, 844, false, true);
   drag_a(60.0, true);
   CHECK(browser.wait_until("return Number(document.querySelector('" + a +
@@ -362,7 +366,7 @@ TEST_CASE(
   browser.click("#captures-log-x");
   browser.click("#captures-relative");
   REQUIRE(test::shows(browser, "#captures-chart .dygraph-ylabel", "relative value"));
-  look_at(browser, "11_overlay_fits");
+  look_at(browser, "11_overlay_fits", "#captures");
 
   browser.run(test::kKeepDownloads);
   browser.click(chart + " ~ .chart-bar button:nth-child(2)");
@@ -378,7 +382,7 @@ TEST_CASE(
   REQUIRE(browser.wait_until(test::has_line("#fit-chart", "fit"), 30));
   browser.click("#fit-chart ~ .chart-bar button:first-child");
   REQUIRE(test::shows(browser, "#fit-chart ~ .cursor-values", "measured (N)"));
-  look_at(browser, "12_cursors");
+  look_at(browser, "12_cursors", "#result");
   CHECK(browser.errors() == nlohmann::json::array());
 }
 
