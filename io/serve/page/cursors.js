@@ -9,7 +9,7 @@ const kNames = ["A", "B"], kStart = [1 / 3, 2 / 3];
 
 const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 const number = (text) => make("td", { class: "number" }, text);
-const short = (value) => { const text = significant(value, 4); return text.length > 8 ? value.toExponential(2).replace(/^-/, "−") : text; };
+const short = (value) => { const text = significant(value, 4); return text.length > 9 ? value.toExponential(2).replace(/^-/, "−") : text; };
 
 class Cursors {
   constructor(node) {
