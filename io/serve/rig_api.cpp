@@ -10,6 +10,7 @@
 #include "io/flow/rig_actions.h"
 #include "io/flow/rig_keys.h"
 #include "io/flow/series_files.h"
+#include "io/flow/table_from_capture.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
 #include "io/results/result_json.h"
@@ -50,9 +51,9 @@ void add_port_troubles(Json& rig) {
   }
 }
 
-// False if the key is missing. Throws ApiError 400 unless it is true or false.
-bool is_set(const Json& request, const char* key) {
-  if (!request.contains(key)) return false;
+// Throws ApiError 400 unless it is true or false.
+bool is_set(const Json& request, const char* key, bool otherwise = false) {
+  if (!request.contains(key)) return otherwise;
   if (request.at(key).is_boolean()) return request.at(key).get<bool>();
   throw ApiError(400, "bad-value", std::string("'") + key + "' must be true or false");
 }
@@ -227,6 +228,32 @@ Json RigApi::note_capture(const Json& request) {
   return {{"file", file}};
 }
 
+Json RigApi::export_capture(const Json& request) {
+  const std::string file = text_at(request, "capture");
+  folder_.specimen_of_capture(file);
+  job_.begin("the table of " + file);
+  const JobEnd at_end(job_);
+  const std::string table = table_from_capture(read_capture(folder_.path() / file));
+  const fs::path out = (folder_.path() / file).replace_extension(".csv");
+  if (!fs::is_regular_file(fs::symlink_status(out)) || read_file(out) != table) {
+    write_file(out, table, false);
+  }
+  return {{"file", out.filename().string()}};
+}
+
+Json RigApi::capture_curve(const Json& request) {
+  const std::string file = text_at(request, "capture");
+  folder_.specimen_of_capture(file);
+  job_.begin("reading " + file);
+  const JobEnd at_end(job_);
+  const ContactCurve curve = contact_curve(read_capture(folder_.path() / file));
+  return {{"file", file},
+          {"contact_s", curve.contact_s},
+          {"zero_N", curve.zero_N},
+          {"time_s", rounded(curve.time_s, 1e-4)},
+          {"force_N", rounded(curve.force_N, 1e-6)}};
+}
+
 // As `viscard capture` does.
 void RigApi::check_before_run(const CaptureSetup& setup) const {
   safe_preflight(setup);
@@ -309,6 +336,7 @@ Json RigApi::run(std::size_t from, std::size_t keep_every) const {
 
 Json RigApi::fit(const Json& request) {
   const std::string file = text_at(request, "capture");
+  const bool keeps = is_set(request, "keep", true);
   const std::string specimen = folder_.specimen_of_capture(file).name;
   const std::filesystem::path path = folder_.path() / file;
   job_.begin("the fit of " + file);
@@ -322,7 +350,7 @@ Json RigApi::fit(const Json& request) {
   json["curves"] = curves_of(fitted.result.curves);
   json["material_file"] = nullptr;
   json["material_trouble"] = "";
-  if (json["status"] != "finished") return json;
+  if (json["status"] != "finished" || !keeps) return json;
   try {  // a folder that cannot be written to does not hide the fit
     json["material_file"] = save_material(fitted, specimen);
   } catch (const std::exception& error) {

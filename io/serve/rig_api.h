@@ -56,6 +56,10 @@ class RigApi {
   nlohmann::ordered_json remove_capture(const nlohmann::ordered_json& request);
   // {"capture", "note"}: what a person wants to remember of a run.
   nlohmann::ordered_json note_capture(const nlohmann::ordered_json& request);
+  // {"capture"}: its table (viscard export) as NAME.csv in the folder; a file there is not replaced.
+  nlohmann::ordered_json export_capture(const nlohmann::ordered_json& request);
+  // {"capture"}: force against time since contact.
+  nlohmann::ordered_json capture_curve(const nlohmann::ordered_json& request);
   // {"specimen", "test", "repeat", "lift"}; test: what the page has shown of it; repeat: although there is a finished capture; lift: a punch that
   // presses at the start is lifted, and the test goes on.
   nlohmann::ordered_json start_run(const nlohmann::ordered_json& request);
@@ -63,7 +67,8 @@ class RigApi {
   nlohmann::ordered_json stop_run(const nlohmann::ordered_json& request);
   // The run, with the points from number `from` on if `keep_every` still holds, else all.
   nlohmann::ordered_json run(std::size_t from, std::size_t keep_every) const;
-  // {"capture"}: fits it; the material of a finished one is written beside it unless it is there.
+  // {"capture", "keep"}: fits it; the material of a finished one is written beside it unless it is
+  // there, or keep is false.
   nlohmann::ordered_json fit(const nlohmann::ordered_json& request);
 
   // No more work is begun; a run is stopped gently. Returns at once, with true if no work is going

@@ -79,6 +79,8 @@ class RigServer::Impl {
     add("/api/specimens/rename", [this](const Json& r) { return api_.rename_specimen(r); });
     add("/api/captures/remove", [this](const Json& r) { return api_.remove_capture(r); });
     add("/api/captures/note", [this](const Json& r) { return api_.note_capture(r); });
+    add("/api/captures/export", [this](const Json& r) { return api_.export_capture(r); });
+    add("/api/captures/curve", [this](const Json& r) { return api_.capture_curve(r); });
     add("/api/move", [this](const Json& r) { return hands_.move(r); });
     add("/api/zero", [this](const Json& r) { return hands_.zero(r); });
     add("/api/weigh", [this](const Json& r) { return hands_.weigh(r); });

@@ -1,6 +1,7 @@
 // Puts the parts of the page together and asks viscard serve what is new. The page holds nothing that
 // the folder of the series and the running test do not: reloading or closing it changes nothing.
 import { ask, Unreachable } from "./api.js";
+import { showCaptures, startCaptures } from "./captures.js";
 import { element, sentence, showText } from "./format.js";
 import { showHands, startHands } from "./hands.js";
 import { refreshPlan, showCourse, showPlan, showStart, startPlan } from "./plan.js";
@@ -23,6 +24,7 @@ async function refresh() {
   showRigLimits(state);
   showSeries(state);
   showPlan(state);
+  showCaptures(state);
 }
 
 function showLink(error) {
@@ -71,5 +73,6 @@ startSeries({
 });
 startPlan({ onStart: () => quietly(async () => { await pollRun(); await refresh(); }) });
 startRun({ onEnd: (run) => quietly(() => runEnded(run)) });
+startCaptures();
 startResult({ onFitted: () => quietly(refresh) });
 pollForever();

@@ -1,5 +1,6 @@
 // Line charts by dygraphs (MIT): force and depth with the limit lines of the load cell.
 /* global Dygraph */
+import { cursorsOf } from "./cursors.js";
 
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 const isTouch = matchMedia("(pointer: coarse)").matches;
@@ -16,8 +17,9 @@ function shortNumber(value) {
 
 // One chart. options: labels of the columns, colors by name, right: label of the column on the right
 // axis, titles: {xlabel, ylabel, y2label}, limits: [{value, text, color}], range() of the left axis, window()
-// of the time, onWindow([from, to]) when that changes, readout(row), points, sizeOf(label) of their points, band, logs() =
-// {x, y}: which axes are logarithmic, isStill: dragging does not choose a part.
+// of the time, onWindow([from, to]) when that changes, readout(row), points, sizeOf(label) of their points, dashes by label, band,
+// logs() = {x, y}: which axes are logarithmic, isStill: dragging does not choose a part. With units, one for each label, it has
+// cursors (cursors.js): names of the columns if not the labels, file(): name of a file of them, without its ending.
 export class Chart {
   constructor(node, options) {
     this.node = node;
@@ -29,6 +31,7 @@ export class Chart {
       if (this.graph && this.isSeen()) this.graph.resize();
       else this.buildIfSeen();
     });
+    this.cursors = options.units ? cursorsOf(node) : null;
     this.observer.observe(node);
     charts.add(this);
   }
@@ -94,10 +97,10 @@ export class Chart {
   }
 
   build() {
-    const { labels, colors, right, points, sizeOf, titles, onWindow } = this.options;
+    const { labels, colors, right, points, sizeOf, dashes, titles, onWindow } = this.options;
     const series = {};
     labels.slice(1).forEach((name, i) => {
-      series[name] = { color: color(colors[i]), strokeWidth: 1.75 };
+      series[name] = { color: color(colors[i]), strokeWidth: 1.75, ...(dashes?.[name] ? { strokePattern: dashes[name] } : {}) };
       if (name === right) series[name].axis = "y2";
       if (points && points.includes(name)) {
         Object.assign(series[name], { strokeWidth: 0, drawPoints: true, pointSize: sizeOf ? sizeOf(name) : 2.2 });
@@ -109,13 +112,17 @@ export class Chart {
       connectSeparatedPoints: true,
       gridLineColor: color("line"), axisLineColor: color("line"), axisLabelFontSize: 13,
       digitsAfterDecimal: 4, xLabelHeight: 16, yLabelWidth: 16, ...titles, ...this.ranges(),
-      ...(onWindow ? { drawCallback: (graph) => onWindow(graph.xAxisRange()) } : {}),
+      drawCallback: (graph) => {
+        if (onWindow) onWindow(graph.xAxisRange());
+        if (this.cursors) this.cursors.place();
+      },
       // A finger must be able to scroll the page over a chart.
       ...(isTouch || this.options.isStill ? { interactionModel: {} } : {}),
       underlayCallback: (context, area, graph) => this.drawUnder(context, area, graph),
       highlightCallback: (event, x, row) => this.options.readout && this.options.readout(x, row),
       unhighlightCallback: () => this.options.readout && this.options.readout(null),
     });
+    if (this.cursors) this.cursors.attach(this);
   }
 
   drawUnder(context, area, graph) {

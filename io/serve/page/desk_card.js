@@ -1,7 +1,7 @@
 // The card of a solver: target and units from lists, its options as the program describes them, the text, what it cannot
 // take, download.
 import { fieldOf } from "./desk_options.js";
-import { element, list, make, sentence, show, showText } from "./format.js";
+import { element, list, make, save, sentence, show, showText } from "./format.js";
 
 // Fields beside the solver; all others are behind "All options of a card".
 const kBeside = ["ratio", "extrapolate", "density", "approximate", "accept-flags"];
@@ -78,15 +78,6 @@ export function cardCall(material, options, keywords) {
 }
 
 const targetNow = () => choices.targets.find((one) => one.name === element("target").value);
-
-function save(name, text) {
-  const address = URL.createObjectURL(new Blob([text], { type: "text/plain" }));
-  const link = make("a", { href: address, download: name });
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(address), 60000);
-}
 
 function download() {
   save(stem + targetNow().extension, card.card);

@@ -1,13 +1,9 @@
 // Several tables in one picture: data and fit of each, and their moduli in a table.
 import { order } from "./api.js";
-import { Chart } from "./charts.js";
 import { fitCall, kinds, showSame } from "./desk_options.js";
 import { lawOf } from "./desk_rubber.js";
-import { axisOf, element, make, nameLogSwitch, sentence, show, showText, significant } from "./format.js";
-import { rowsOf } from "./moduli.js";
-
-const kColors = ["series-1", "series-2", "series-3", "series-4", "series-5", "series-6"];
-const kMost = 12;  // of one fit; the picture shows as many as there are colours that can be told apart
+import { element, make, sentence, show, showText } from "./format.js";
+import { keyOf, kMostCurves, overlay, showModuliBeside, startOverlay } from "./overlay.js";
 
 // The mixing ratio that a name states: "pdms_1to13.csv", "13-1 b.csv"; otherwise nothing.
 function ratioIn(name) {
@@ -25,7 +21,7 @@ export function startCompare(handlers) {
   ({ optionsOf, onTogether, onKind } = handlers);
   element("compare-together").addEventListener("click", () => onTogether(withKind().map((name) => ({ table: name, kind: kindOf(name) }))));
   element("compare-ratios").addEventListener("click", () => onTogether(withRatio().map((name) => ({ table: name, ratio: ratios[name] }))));
-  for (const id of ["compare-log-x", "compare-log-y", "compare-relative"]) element(id).addEventListener("change", draw);
+  startOverlay("compare", draw);
 }
 
 export function showCompareTables(names) {
@@ -34,7 +30,7 @@ export function showCompareTables(names) {
     const box = make("input", { type: "checkbox" });
     box.checked = chosen.has(name);
     box.addEventListener("change", () => {
-      if (box.checked && chosen.size >= kMost) { box.checked = false; return tell(`At most ${kMost} tables are compared.`); }
+      if (box.checked && chosen.size >= kMostCurves) { box.checked = false; return tell(`At most ${kMostCurves} tables are compared.`); }
       if (box.checked) chosen.add(name); else chosen.delete(name);
       compare();
     });
@@ -70,7 +66,7 @@ function showKinds() {
 }
 
 export function alsoCompare(name) {
-  if (chosen.size < kMost) chosen.add(name);
+  if (chosen.size < kMostCurves) chosen.add(name);
 }
 
 const tell = (text, kind = "note") => { element("compare-status").className = kind; showText(element("compare-status"), text); };
@@ -114,56 +110,26 @@ function showButtons() {
   element("compare-ratios").disabled = withRatio().length < 3;  // fewer show no law
 }
 
-// Those without a curve have none.
-const colorOf = (name) => kColors[fitted().filter((one) => fits[one].curves).indexOf(name)];
-
+// Those without a curve have no key. Of a law of rubber the moduli at rest; its parameters are not those of others.
+const drawn = () => fitted().filter((name) => fits[name].curves);
 function showRows() {
-  const names = fitted();
-  const head = make("tr", {}, make("th", { scope: "col" }, "Quantity"), ...names.map((name) =>
-    make("th", { scope: "col", class: "number" }, ...(colorOf(name) ? [make("span", { class: `key ${colorOf(name)}` })] : []), name)));
-  // Of a law of rubber the moduli at rest; its parameters are not those of others.
-  const columns = names.map((name) => rowsOf(fits[name].laws ? { ...lawOf(fits[name]), terms: [] } : fits[name]));
-  const longest = columns.reduce((most, rows) => (rows.length > most.length ? rows : most), []);
-  const body = longest.map(([label], i) => make("tr", {}, make("th", { scope: "row" }, ...label.map((node) => node.cloneNode(true))),
-    ...columns.map((rows) => make("td", { class: "number" }, ...(rows[i] ? [rows[i][1], make("br"), make("small", {}, rows[i][2])] : [])))));
-  element("compare-moduli").tHead.replaceChildren(head);
-  element("compare-moduli").tBodies[0].replaceChildren(...body);
+  showModuliBeside(element("compare-moduli"), fitted().map((name) => ({ name, key: fits[name].curves && keyOf(drawn().indexOf(name)),
+                                                                       fit: fits[name].laws ? { ...lawOf(fits[name]), terms: [] } : fits[name] })));
 }
 
 function draw() {
   if (chart) chart.close();
   chart = null;
-  const drawn = fitted().filter((name) => fits[name].curves), names = drawn.slice(0, kColors.length);
+  const names = drawn();
   showButtons();
-  if (drawn.length > names.length) tell(`The picture shows the first ${kColors.length}.`);
   show(element("compare-body"), fitted().length > 0);
   show(element("compare-chart"), names.length > 0);
   if (names.length === 0) return;
   const kinds = new Set(names.map((name) => `${fits[name].curves.argument} ${fits[name].curves.columns[0].name}`));
-  const isRelative = element("compare-relative").checked;
-  if (kinds.size > 1 && !isRelative) tell("These tables are of different quantities; relative values can be compared.");
-  const logs = () => ({ x: element("compare-log-x").checked, y: element("compare-log-y").checked });
-  const rows = [];
+  if (kinds.size > 1 && !element("compare-relative").checked) tell("These tables are of different quantities; relative values can be compared.");
   const { argument, columns: [quantity] } = fits[names[0]].curves;
-  nameLogSwitch("compare-log-x-name", argument);
-  const largest = isRelative ? 0 : names.flatMap((name) => fits[name].curves.columns[0].fitted).reduce((most, y) => Math.max(most, Math.abs(y)), 0);
-  const axis = axisOf(quantity.name, largest);
-  names.forEach((name, k) => {
-    const { values, columns } = fits[name].curves;
-    const first = columns[0], scale = isRelative ? 1 / Math.max(...first.fitted.map(Math.abs)) : axis.factor;
-    values.forEach((x, i) => {
-      const row = new Array(1 + 2 * names.length).fill(null);
-      [row[0], row[1 + 2 * k], row[2 + 2 * k]] = [x, first.measured[i] * scale, first.fitted[i] * scale];
-      if ((!logs().x || x > 0) && (!logs().y || (row[1 + 2 * k] > 0 && row[2 + 2 * k] > 0))) rows.push(row);
-    });
-  });
-  rows.sort((a, b) => a[0] - b[0]);
-  const labels = names.flatMap((name) => [`${name} data`, `${name} fit`]);
-  chart = new Chart(element("compare-chart"), {
-    labels: [argument, ...labels], colors: names.flatMap((name, k) => [kColors[k], kColors[k]]),
-    points: labels.filter((label) => label.endsWith(" data")), logs,
-    titles: { xlabel: axisOf(argument).label, ylabel: isRelative ? "relative value" : axis.label },
-    readout: (x) => { element("compare-readout").textContent = x === null ? "" : significant(x, 4); },
-  });
-  chart.show(rows);
+  chart = overlay("compare", names.map((name) => {
+    const { values, columns: [{ measured, fitted: ofFit }] } = fits[name].curves;
+    return { name, x: values, measured, fit_x: values, fitted: ofFit };
+  }), { argument, quantity: quantity.name, file: () => "comparison" });
 }

@@ -33,6 +33,7 @@ function drawCharts() {
   fitChart = new Chart(element("fit-chart"), {
     labels: [argument, ...names], colors: names.map((name) => (name.endsWith("data") ? "measured" : "fit")),
     points: names.filter((name) => name.endsWith("data")), logs,
+    units: [unit, ...names.map(() => axis.unit)], file: () => `${element("table-name").textContent.replace(/\.[^.]*$/, "")} fit`,
     titles: { xlabel: axisOf(argument).label, ylabel: several ? `modulus (${axis.unit})` : axis.label },
     onWindow: (range) => { residualChart?.showWindow(range); window_s = range; element("fit-range").disabled = argument !== "time_s" || !isZoomed(); },
     readout: (x, i) => {

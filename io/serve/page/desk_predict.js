@@ -80,7 +80,10 @@ function chartOf(id, names, logs, titles, readout) {
     .map(([x, y]) => [x, ...shown.map(() => null), ...points.map((_, j) => (j === k ? y : null))]));
   const rows = [...predicted, ...ofTable].filter(isDrawn).sort((a, b) => a[0] - b[0]);
   const chart = new Chart(element(id), {
-    labels: [argument, ...shown, ...points], points, logs,
+    labels: [argument, ...shown, ...points], points, logs, file: () => `prediction ${element("predict-test").value}`,
+    units: [axisOf(argument).unit, ...shown.map(() => axis.unit), ...points.map(() => axis.unit)],
+    names: [shortName(argument), ...shown.map((name) => (isBand(name) ? name.replace(/^(.*)_(low|high)_95$/, (_, of, end) => `${shortName(of)}, ${end} end of 95 %`) : shortName(name))),
+            ...rowsOfTable.map((one) => `${shortName(one.quantity)} measured`)],
     colors: [...shown.map((name) => (isBand(name) ? "measured" : kColors[names.indexOf(name)])),
              ...rowsOfTable.map((one) => kMeasuredColors[names.indexOf(one.quantity)])],
     titles: { ylabel: names.length === 1 ? axis.label : `modulus (${axis.unit})`, ...titles },

@@ -1,17 +1,13 @@
 // One page to hand on about the chosen tables.
 import { order } from "./api.js";
 import { pythonKeywords, showSame } from "./desk_options.js";
-import { element, list, make, sentence, show, showText } from "./format.js";
+import { element, list, make, save, sentence, show, showText } from "./format.js";
 
 let chosen = new Set(), made = null;
 
 export function startReport() {
   element("report-make").addEventListener("click", makeReport);
-  element("report-download").addEventListener("click", () => {
-    const link = make("a", { href: URL.createObjectURL(new Blob([made.html], { type: "text/html" })), download: made.name });
-    link.click();
-    URL.revokeObjectURL(link.href);
-  });
+  element("report-download").addEventListener("click", () => save(made.name, made.html, "text/html"));
 }
 
 export function showReportTables(names, open) {

@@ -79,6 +79,16 @@ export function list(node, texts) {
   node.hidden = texts.length === 0;
 }
 
+// Offers a text as a file.
+export function save(name, text, type = "text/plain") {
+  const address = URL.createObjectURL(new Blob([text], { type }));
+  const link = make("a", { href: address, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(address), 60000);
+}
+
 // A number field: key and factor of the request, label, unit and starting value as shown.
 export function numberField(prefix, field) {
   const input = make("input", { id: `${prefix}-${field.key}`, name: field.key, inputmode: "decimal",

@@ -18,6 +18,7 @@ const kWait_ms = 400;  // after the last key
 let state = null, expected = null, isGood = false, isUnkept = false, isStarting = false, timer = 0, asked = 0, onStart = () => {};
 const chart = new Chart(element("plan-chart"), {
   labels: ["time", "force", "depth"], colors: ["force", "depth"], right: "depth",
+  units: ["s", "N", "µm"], file: () => `${chosenSpecimen()} expected`,
   titles: { xlabel: "time (s)", ylabel: "force, at most (N)", y2label: "depth (µm)" },
   limits: () => limitsOf(state && state.rig), phases: () => (expected ? expected.phases : []),
   range: () => {

@@ -21,6 +21,7 @@ const isWhole = () => element("fit-whole").checked;
 
 const fitChart = new Chart(element("fit-chart"), {
   labels: ["time", "measured", "fit"], colors: ["measured", "fit"], points: ["measured"],
+  units: ["s", "N", "N"], file: () => `${element("result-name").textContent.replace(/\.viscap$/, "")} fit`,
   titles: { xlabel: "time (s)", ylabel: "force (N)" },
   onWindow: (range) => residualChart.showWindow(range),
   window: () => {
@@ -66,10 +67,10 @@ function showFit(fit) {
 }
 
 // Another page may fit just now, for example the same run.
-async function fitWhenFree(capture, onWait) {
+export async function orderWhenFree(path, body, onWait = () => {}) {
   for (let n = 0; ; ++n) {
     try {
-      return await order("/api/fit", { capture });
+      return await order(path, body);
     } catch (error) {
       if (error.code !== "busy" || isRunning() || n >= kMostTries) throw error;
       onWait(error);
@@ -87,7 +88,7 @@ export async function fitCapture(capture) {
   status.className = "";
   showText(status, "Fitting …");
   try {
-    const fit = await fitWhenFree(capture, (error) => {
+    const fit = await orderWhenFree("/api/fit", { capture }, (error) => {
       if (number === asked) showText(status, `Waiting: ${sentence(error.message)}`);
     });
     if (number !== asked) return;  // the person asked for another fit meanwhile

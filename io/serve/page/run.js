@@ -9,6 +9,7 @@ let rig = null, run = null, points = [], keepEvery = 0, isWatched = false, onEnd
 
 const chart = new Chart(element("run-chart"), {
   labels: ["time", "force", "depth"], colors: ["force", "depth"], right: "depth",
+  units: ["s", "N", "µm"], file: () => `${run.file.replace(/\.viscap$/, "")} shown`,
   titles: { xlabel: "time (s)", ylabel: "force (N)", y2label: "depth (µm)" },
   limits: () => limitsOf(rig),
   range: () => (element("run-limits").checked && rig && !rig.trouble ? [-0.05 * rig.hard_N, 1.12 * rig.hard_N] : null),

@@ -80,6 +80,7 @@ function choose(name) {
 }
 
 async function tellOrder(path, body, done) {
+  showText(element("series-done"), "");
   try {
     const answer = await order(path, body);
     showText(element("series-error"), "");
@@ -113,6 +114,8 @@ function actionsOfCapture(capture, which) {
   if (capture.status === "running") return [];
   const note = link("note", `Note on ${file}`, () => edited(note, `Note on ${file}`, capture.note, (text) => tellOrder("/api/captures/note", { capture: file, note: text })));
   return [...(capture.status === "unreadable" ? [] : [link(`fit${which}`, `Fit ${file}`, () => onFit(file))]), note,
+          ...(capture.status === "unreadable" ? [] : [link("CSV", `Write ${file} as a table`, () => tellOrder("/api/captures/export", { capture: file }, (answer) =>
+            showText(element("series-done"), `${file} is written as ${answer.file} in the folder.`)))]),
           link("take away", `Move ${file} into the folder trash`, () => tellOrder("/api/captures/remove", { capture: file })),
           ...(capture.note ? [make("div", { class: "hint" }, capture.note)] : [])];
 }

@@ -37,7 +37,19 @@ TEST_CASE("a newcomer comes from a dropped table to the card in at most six clic
   CHECK(contains(browser.text("#moduli"), "MPa"));
   CHECK(browser.wait_until(has_line("#fit-chart", "fit"), 10));
   CHECK(browser.wait_until(has_line("#residual-chart", "depth"), 10));
+  // Cursors at the desk are those of the rig.
+  browser.click("#fit-chart ~ .chart-bar button:first-child");
+  REQUIRE(shows(browser, "#fit-chart ~ .cursor-values", "data (MPa)"));
+  browser.run("document.querySelector('#fit-chart ~ .cursor').focus()");
+  const std::string at = "return Number(document.activeElement.getAttribute('aria-valuenow'))";
+  const double at_s = browser.run(at).get<double>();
+  browser.press_key("\uE014");
+  CHECK(browser.run(at).get<double>() > 1.001 * at_s);
+  browser.run("document.activeElement.blur()");
   look_at_desk(browser, "desk_fit");
+  browser.click("#fit-chart ~ .chart-bar button:first-child");
+  CHECK_FALSE(browser.is_shown("#fit-chart ~ .cursor-values"));
+  browser.run("scrollTo(0, 0)");
   person.click("#tab-card");
   person.choose("#target", "abaqus");
   person.click("#units input[value=mm-t-s]");
@@ -107,6 +119,8 @@ TEST_CASE("guesses are changed in place, undone, predicted, compared, and a card
   browser.click("#compare-tables .specimen:nth-child(2) label input");
   REQUIRE(browser.wait_until(has_line("#compare-chart", "series-2"), 30));
   CHECK(shows(browser, "#compare-moduli", "b.csv"));
+  browser.click("#compare-chart ~ .chart-bar button:first-child");
+  CHECK(shows(browser, "#compare-chart ~ .cursor-values", "b.csv fit (MPa)"));
   look_at_desk(browser, "desk_compare");
   browser.click("#compare-tables .specimen:nth-child(1) label input");
   browser.click("#compare-tables .specimen:nth-child(3) label input");

@@ -2,6 +2,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
 #include "tests/io/serve/browser.h"
+#include "tests/io/serve/desk_person.h"
 #include "tests/io/serve/served_rig.h"
 #include "tests/support/error_text.h"
 
@@ -22,7 +23,8 @@ constexpr const char* kForce =
     "return parseFloat(document.getElementById('run-force').textContent) > ";
 
 // The page has no fault of accessibility. With VISCARD_SCREENSHOTS=FOLDER the test leaves pictures of it there.
-void look_at(Browser& browser, const std::string& name) {
+// place: what they show, if not the begin of the page.
+void look_at(Browser& browser, const std::string& name, const std::string& place = "") {
   const char* folder = std::getenv("VISCARD_SCREENSHOTS");
   const struct {
     const char* ending;
@@ -35,6 +37,9 @@ void look_at(Browser& browser, const std::string& name) {
   for (const auto& view : views) {
     browser.set_window(view.width, view.height, view.is_dark, view.is_phone);
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    if (!place.empty()) {
+      browser.run("document.querySelector('" + place + "').scrollIntoView()");
+    }
     CAPTURE(name, view.ending);
     CHECK(browser.accessibility_faults() == nlohmann::json::array());
     if (folder == nullptr) continue;
@@ -273,6 +278,111 @@ TEST_CASE("a jog, a calibration, another protocol and a note are done on the pag
       "const i = document.querySelector('td.state input'); i.value = 'wet surface'; i.blur()");
   REQUIRE(has_text(browser, "td.state", "wet surface"));
   look_at(browser, "8_note");
+  CHECK(browser.errors() == nlohmann::json::array());
+}
+
+// Where a cursor is, as its slider states it.
+double cursor_of(Browser& browser, const std::string& chart, int place) {
+  return browser
+      .run("return Number(document.querySelectorAll('" + chart + " ~ .cursor')[" +
+           std::to_string(place) + "].getAttribute('aria-valuenow'))")
+      .get<double>();
+}
+
+TEST_CASE(
+    "captures lie over one another with cursors, switched on and off, with fits, and as a table",
+    "[serve][slow]") {
+  if (is_without_browser()) return;
+  test::ServedRig rig;
+  const std::string first = rig.prepare();
+  test::Json other = test::ServedRig::specimen();
+  other["id"] = "PDMS 1:20";
+  other["mixing_ratio"] = 20.0;
+  const std::string second = rig.order("/api/specimens", {{"specimen", other}}).json.at("name");
+  for (const std::string& name : {first, second, first}) {
+    REQUIRE(rig.order("/api/run", {{"specimen", name}, {"repeat", true}}).status == 200);
+    REQUIRE(rig.wait_for_end().at("outcome").at("status") == "finished");
+  }
+  ScratchFolder scratch;
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 1000, false, false);
+  browser.open(rig.server().address());
+  browser.click("#captures-open summary");
+  for (const char* color : {"series-2", "series-3"}) {  // the repeat lies upon the first
+    CAPTURE(color);
+    REQUIRE(browser.wait_until(test::has_line("#captures-chart", color), 30));
+  }
+  CHECK(browser.errors() == nlohmann::json::array());
+
+  const std::string chart = "#captures-chart", a = chart + " ~ .cursor:nth-of-type(2)";
+  browser.click(chart + " ~ .chart-bar button:first-child");
+  REQUIRE(test::shows(browser, chart + " ~ .cursor-values", "B / A"));
+  CHECK(browser.run("return document.querySelectorAll('" + chart +
+                    " ~ .cursor-values tbody tr').length") == 4);  // time and three captures
+  const double begin_s = cursor_of(browser, chart, 0), width_s = cursor_of(browser, chart, 1);
+  CHECK(begin_s < width_s);
+  // The keyboard.
+  browser.run("document.querySelector('" + a + "').focus()");
+  browser.press_key("\uE014");
+  const double moved_s = cursor_of(browser, chart, 0);
+  CHECK(moved_s > begin_s);
+  CHECK(contains(browser.run("return document.activeElement.getAttribute('aria-valuetext')")
+                     .get<std::string>(),
+                 first + " data"));
+  browser.press_key("\uE012");
+  CHECK(cursor_of(browser, chart, 0) == Approx(begin_s).margin(1e-4));
+  // The mouse, then a finger.
+  const auto drag_a = [&](double by_px, bool is_touch) {
+    browser.run("document.querySelector('" + chart + "').scrollIntoView({block: 'center'})");
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const nlohmann::json place =
+        browser.run("const r = document.querySelector('" + a +
+                    " b').getBoundingClientRect(); return [r.left + r.width / 2, r.top + 12]");
+    browser.drag(place.at(0), place.at(1), by_px, is_touch);
+  };
+  drag_a(-100.0, false);
+  CHECK(cursor_of(browser, chart, 0) < begin_s);
+  CHECK(browser.run("return document.querySelector('" + chart + " canvas') !== null") == true);
+  const double dragged_s = cursor_of(browser, chart, 0);
+  look_at(browser, "10_overlay", "#captures");
+  browser.set_window(390, 844, false, true);
+  drag_a(60.0, true);
+  CHECK(browser.wait_until("return Number(document.querySelector('" + a +
+                               "').getAttribute('aria-valuenow')) > " + std::to_string(dragged_s),
+                           10));
+  browser.set_window(1280, 1000, false, false);
+
+  browser.click("#captures-list label:nth-child(2) input");  // of the repeat
+  REQUIRE(browser.wait_until(
+      "return document.querySelectorAll('" + chart + " ~ .cursor-values tbody tr').length === 3",
+      20));
+  CHECK_FALSE(browser.wait_until(test::has_line(chart, "series-2"), 1));
+  CHECK(browser.wait_until(test::has_line(chart, "series-1"), 10));
+  CHECK(browser.wait_until(test::has_line(chart, "series-3"), 10));  // it keeps its colour
+  browser.click("#captures-fit");
+  REQUIRE(test::shows(browser, "#captures-moduli", "MPa"));
+  CHECK(browser.run("return document.querySelectorAll('#captures-moduli thead th').length") == 3);
+  CHECK_FALSE(std::filesystem::exists(rig.folder() / (first + ".json")));  // only to look at
+  browser.click("#captures-log-x");
+  browser.click("#captures-relative");
+  REQUIRE(test::shows(browser, "#captures-chart .dygraph-ylabel", "relative value"));
+  look_at(browser, "11_overlay_fits", "#captures");
+
+  browser.run(test::kKeepDownloads);
+  browser.click(chart + " ~ .chart-bar button:nth-child(2)");
+  REQUIRE(browser.wait_until("return window.saved.length === 1", 10));
+  const nlohmann::json saved = browser.run("return window.saved[0]");
+  CHECK(saved.at(0) == "captures.csv");
+  CHECK(contains(saved.at(1), "time (s)," + first + " data," + first + " fit," + second));
+  browser.click("td.state button[aria-label^=Write]");
+  REQUIRE(test::shows(browser, "#series-done", first + ".csv"));
+  CHECK(contains(read_file(rig.folder() / (first + ".csv")), "force_N"));
+  // The chart of one capture has the same cursors.
+  browser.click("td.state button[aria-label^=Fit]");
+  REQUIRE(browser.wait_until(test::has_line("#fit-chart", "fit"), 30));
+  browser.click("#fit-chart ~ .chart-bar button:first-child");
+  REQUIRE(test::shows(browser, "#fit-chart ~ .cursor-values", "measured (N)"));
+  look_at(browser, "12_cursors", "#result");
   CHECK(browser.errors() == nlohmann::json::array());
 }
 

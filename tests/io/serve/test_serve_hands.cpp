@@ -5,11 +5,13 @@
 #include "io/config/config_file.h"
 #include "io/flow/rig_actions.h"
 #include "io/flow/series_files.h"
+#include "io/flow/table_from_capture.h"
 #include "tests/io/serve/served_rig.h"
 #include "tests/support/error_text.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace viscard {
@@ -217,6 +219,43 @@ TEST_CASE("a run has a note, and is taken away unless a material was made of it"
   REQUIRE(rig.order("/api/captures/note", {{"capture", second}, {"note", "dry"}}).status == 200);
   CHECK(rig.order("/api/captures/remove", {{"capture", second}}).json.at("file") != second);
   CHECK(read_file(rig.folder() / "trash" / (second + ".note.txt")) == "wet <b>");
+}
+
+TEST_CASE(
+    "a capture is written as a table and drawn from its contact; a fit to look at keeps nothing",
+    "[serve][pty]") {
+  ServedRig rig;
+  const std::string specimen = rig.prepare(), file = specimen + ".viscap";
+  REQUIRE(rig.order("/api/run", {{"specimen", specimen}}).status == 200);
+  rig.wait_for_end();
+  REQUIRE(rig.order("/api/captures/export", {{"capture", file}}).json.at("file") ==
+          specimen + ".csv");
+  const auto table = rig.folder() / (specimen + ".csv");
+  CHECK(read_file(table) == table_from_capture(read_capture(rig.folder() / file)));
+  CHECK(rig.order("/api/captures/export", {{"capture", file}}).status == 200);  // it is there
+  write_file(table, "mine\n", true);
+  CHECK(rig.order("/api/captures/export", {{"capture", file}}).status == 422);
+  CHECK(read_file(table) == "mine\n");
+  CHECK(rig.order("/api/captures/export", {{"capture", "../x"}}).status == 404);
+
+  const Json curve = rig.order("/api/captures/curve", {{"capture", file}}).json;
+  INFO(curve.dump());
+  const auto time_s = curve.at("time_s").get<std::vector<double>>();
+  const auto force_N = curve.at("force_N").get<std::vector<double>>();
+  REQUIRE(time_s.size() == force_N.size());
+  REQUIRE(time_s.size() > 100);
+  CHECK(std::is_sorted(time_s.begin(), time_s.end()));
+  CHECK(time_s.front() >= 0.0);
+  CHECK(std::abs(force_N.front()) < 0.2);  // the zero is taken off
+  CHECK(*std::max_element(force_N.begin(), force_N.end()) > 1.0);
+
+  const Json fit = rig.order("/api/fit", {{"capture", file}, {"keep", false}}).json;
+  CHECK(fit.at("material_file").is_null());
+  CHECK_FALSE(std::filesystem::exists(rig.folder() / (specimen + ".json")));
+  // On one clock, and about one force.
+  CHECK(fit.at("curves").at("motion_start_s").at(0).get<double>() ==
+        Approx(curve.at("contact_s").get<double>()).margin(3.0));
+  CHECK(rig.order("/api/fit", {{"capture", file}, {"keep", "no"}}).status == 400);
 }
 
 TEST_CASE("a specimen is renamed while nothing was captured of it", "[serve][pty]") {
