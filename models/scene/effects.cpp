@@ -69,6 +69,12 @@ std::vector<Effect> base_effects() {
           return {.reason = "open electrodes, before charge leaks"};
         }},
         Space{leakage_estimate}}},
+      {"dielectric_loss",
+       "the film leaks, and its polarisation follows late",
+       "a term of the reading for each of the film",
+       {Pillar{dielectric_loss_estimate, [](PillarScene& scene) { scene.film_loss = {}; }},
+        Row{dielectric_loss_estimate, [](ArrayScene& scene) { scene.film_loss = {}; }},
+        Space{dielectric_loss_estimate, [](SpaceScene& scene) { scene.film_loss = {}; }}}},
   };
 }
 
