@@ -118,6 +118,9 @@ MediumFile medium_from(const nlohmann::json& object, const std::string& name, Pl
   }
   const Matrix6d stiffness = stiffness_from(elastic);
   if (!object.contains("charge_C_N")) {
+    if (object.contains("dielectric")) {
+      throw std::invalid_argument("'dielectric' needs 'charge_C_N' and 'relative_permittivity'");
+    }
     file.medium = elastic_medium(stiffness, rho);
     return file;
   }

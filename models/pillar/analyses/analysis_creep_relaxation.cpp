@@ -163,7 +163,7 @@ NearbyPillars quasi_static_nearby(const PillarScene& scene, const Discretisation
       stepped(scene, body, reduced, readings_of(scene, body, scratch), control, {});
   nearby.push_back(
       std::make_unique<NearbyPillar>(scene.geometry, mesh, media_of(scene), body.model->options()));
-  if (scene.readout || film_loses(scene)) nearby.back()->solve();
+  if (scene.readout || !scene.film_loss.is_lossless()) nearby.back()->solve();
   nearby.back()->keep_reduced({nearby_basis(body.system, reduced.basis, goals.outputs), run.level});
   return nearby;
 }

@@ -240,7 +240,7 @@ NearbyPillars harmonic_nearby(const PillarScene& scene, const Discretisation& me
       reduce_at(body.system, loads_and_duals(scene, body), angular_frequencies(scene));
   nearby.push_back(std::make_unique<NearbyPillar>(scene.geometry, scratch.discretisation,
                                                   media_of(scene), body.model->options()));
-  if (scene.readout || film_loses(scene)) nearby.back()->solve();
+  if (scene.readout || !scene.film_loss.is_lossless()) nearby.back()->solve();
   nearby.back()->keep_reduced({nearby_basis(body.system, reduced.basis, outputs)});
   return nearby;
 }

@@ -114,7 +114,7 @@ ReadoutFilter quadrant_filter(const Readout& readout) {
 
 FilmPort electrode_port(const PillarScene& scene, const SceneBody& body) {
   const PiezoAnswer at_rest = piezo_static(*body.model, 1.0);
-  if (!film_loses(scene)) return {at_rest.capacitance_F, at_rest.capacitance_F};
+  if (scene.film_loss.is_lossless()) return {at_rest.capacitance_F, at_rest.capacitance_F};
   // To second order, the charge of a ceramic changes by 1.7 times the first, that of PVDF by 1.01.
   constexpr double kSecondOrder = 2.0;
   const PermittivityChange change = permittivity_change(*body.model, at_rest);
@@ -134,7 +134,7 @@ std::vector<BodyReading> readings_of(const PillarScene& scene, const SceneBody& 
   if (scene.readout && !has_electrode) {
     throw std::invalid_argument("a readout needs an electrode with a radius");
   }
-  if (readings.empty() || !(scene.readout || film_loses(scene))) return readings;
+  if (readings.empty() || !(scene.readout || !scene.film_loss.is_lossless())) return readings;
   if (reads_quadrants(scene) && has_electrode) {  // at 0 V, where a film loses nothing
     if (!scene.readout) return readings;
     readings.push_back({1, "reading", "V", quadrant_filter(*scene.readout)});

@@ -201,7 +201,7 @@ FilmAnswer film_answer(const PillarScene& scene, SceneAnswer& answer) {
   per_Pa.area_m2 = coupled.top_traction().sum();
   if (coupled.electrode_dof() >= 0) {
     per_Pa.piezo = elastic ? piezo_one_way(*elastic, coupled, 1.0) : piezo_static(coupled, 1.0);
-    if (!elastic && film_loses(scene)) {
+    if (!elastic && !scene.film_loss.is_lossless()) {
       per_Pa.piezo.dielectric_F = permittivity_change(coupled, per_Pa.piezo).dielectric_F;
     }
     if (moves_unloaded(scene)) per_Pa.unloaded = unloaded_answer(scene, coupled, per_Pa.piezo);

@@ -2,7 +2,6 @@
 
 #include "models/answer/drive_parts.h"
 
-#include <cmath>
 #include <numbers>
 
 namespace viscard {
@@ -88,11 +87,6 @@ double slowest_rad_s(const PillarScene& scene) {
       scene.drive, [](const auto& d) requires requires { d.end_time_s; } { return d.end_time_s; },
       has_history(scene) ? history(scene).back().time_s : 0.0);
   return end_s > 0.0 ? 1.0 / end_s : 0.0;
-}
-
-bool film_loses(const PillarScene& scene) {
-  return !scene.film_loss.is_lossless() ||
-         (scene.readout && std::isfinite(scene.readout->film_leakage_s));
 }
 
 double free_face_m(const PillarScene& scene) {

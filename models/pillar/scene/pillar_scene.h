@@ -61,9 +61,6 @@ const std::vector<HistoryPoint>& history(const PillarScene& scene);
 // The slowest that the load changes: its lowest frequency, or once over its duration; 0: it is at rest.
 double slowest_rad_s(const PillarScene& scene);
 
-// Whether charge moves in the film: by what is known of it (film_loss), or of the readout.
-bool film_loses(const PillarScene& scene);
-
 // Height of the film's face that is not grounded; only with electrodes.
 double free_face_m(const PillarScene& scene);
 

@@ -58,7 +58,7 @@ ReadoutFilter readout_filter(const Readout& r, const FilmPort& film) {
   }
   const double whole_F = film.capacitance_F + r.capacitance_F;
   const double gain = film.capacitance_F / whole_F;
-  const double conductance_S = 1.0 / r.resistance_Ohm + film.dielectric_F / r.film_leakage_s +
+  const double conductance_S = 1.0 / r.resistance_Ohm + film.capacitance_F / r.film_leakage_s +
                                film.dielectric_F / film.loss.leakage_s;
   if (film.loss.terms.empty()) return decaying(gain, whole_F / conductance_S);
   RetardationSpectrum charge{1.0, {}, conductance_S / whole_F};  // over that at once
@@ -112,7 +112,7 @@ std::vector<double> film_charge_of(const Readout& readout, const FilmPort& film,
   }
   HereditaryStress lacking(std::move(not_yet));
   std::vector<double> charge;
-  const double leaks_1_s = share / film.loss.leakage_s + share / readout.film_leakage_s;
+  const double leaks_1_s = share / film.loss.leakage_s + 1.0 / readout.film_leakage_s;
   double leaked_Vs = 0.0;
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     const double dt_s = i == 0 ? 0.0 : time_s[i] - time_s[i - 1];

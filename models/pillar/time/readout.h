@@ -24,7 +24,9 @@ struct Readout {
   ReadoutKind kind = ReadoutKind::kVoltage;
   double resistance_Ohm = std::numeric_limits<double>::infinity();  // input, or feedback
   double capacitance_F = 0.0;                                       // input, or feedback
-  double film_leakage_s = std::numeric_limits<double>::infinity();  // rho eps
+  // After which an open electrode has lost its charge through the film, taken as rho eps^S, of which strain
+  // makes some per cent more; FilmPort::loss knows it exactly.
+  double film_leakage_s = std::numeric_limits<double>::infinity();
 };
 
 // Throws std::invalid_argument for a value that is not positive or a charge amplifier without C_f.
