@@ -149,7 +149,9 @@ std::vector<BodyReading> readings_of(const PillarScene& scene, const SceneBody& 
   readings.front().filter = open_filter(port);
   readings.front().film_error = error;
   if (!scene.readout) return readings;
-  readings.push_back({1, "reading", "V", readout_filter(*scene.readout, port), error});
+  const bool is_held = scene.readout->kind == ReadoutKind::kCharge;  // at 0 V: nothing is lost
+  readings.push_back(
+      {1, "reading", "V", readout_filter(*scene.readout, port), is_held ? 0.0 : error});
   answer.results.push_back({"electrode_capacitance", port.capacitance_F, "F"});
   add_time_constant(readings.back().filter.time_constant_s, answer);
   return readings;
