@@ -25,7 +25,8 @@ FilmPort bonded_port(const Medium& film, const FilmLoss& loss) {
   const double free_F_m =
       held_F_m + e.dot(Eigen::VectorXd(viscard::inverse(film.stiffness_Pa) * e.transpose()));
   const double bonded_F_m = held_F_m + e[2] * e[2] / film.stiffness_Pa(2, 2);
-  return {1.0, held_F_m / bonded_F_m, loss, 1.0 - held_F_m / free_F_m};
+  const double error = 1.0 - held_F_m / free_F_m;
+  return {1.0, held_F_m / bonded_F_m, loss, error, error};
 }
 
 ReadoutFilter decaying(double gain, double time_constant_s) {

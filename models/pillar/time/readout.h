@@ -39,8 +39,9 @@ struct FilmPort {
   // rest is the strain that a voltage makes.
   double dielectric_F = 0.0;
   FilmLoss loss = {};
-  // Relative error of a voltage, over the share of it that the film loses (lost_share()).
-  double error = 0.0;
+  // Relative errors of the voltage of an open electrode, and of the reading of a circuit, over the share that
+  // the film loses (lost_share()).
+  double error = 0.0, error_in_circuit = 0.0;
 };
 // A face of a film that is bonded to a base and wide beside its thickness: its potentials fall as those of
 // a condenser of permittivity eps^S + e33^2/c33. By the part of C that strain makes, that of a film
