@@ -87,6 +87,8 @@ std::filesystem::path named_file(const std::string& key, const SceneFile& file,
 
 // The film's material under `name`. Throws SceneMistake if it has neither a file nor a modulus, or is unphysical.
 MediumFile film_medium(const SceneFile& file, const std::string& name);
+// What the film's material states of its losses, into the scene. Throws SceneMistake for terms without a permittivity.
+void set_film_loss(SceneFile& file);
 // A material under `name`. A file of rubber gives the modulus at rest and the terms; the scene gives nu and rho. Throws
 // SceneMistake for neither file nor modulus.
 Material pillar_material(const SceneFile& file, const std::string& name);

@@ -131,10 +131,17 @@ double noisy_capacitance_F(const SpaceScene& scene, const SpaceArray& array) {
                                                        : charge.capacitance_F();
 }
 
+// With what the film's material states of its leakage.
+Readout noisy_readout(const SpaceScene& scene) {
+  Readout readout = *scene.noise_readout;
+  readout.film_leakage_s = std::min(readout.film_leakage_s, scene.film_loss.leakage_s);
+  return readout;
+}
+
 void add_noise(const SpaceScene& scene, double own_V_Pa, SceneAnswer& answer) {
   const SpaceArray array = array_of(scene);
   const double capacitance_F = noisy_capacitance_F(scene, array);
-  const ThermalNoise noise = thermal_noise(*scene.noise, *scene.noise_readout, capacitance_F);
+  const ThermalNoise noise = thermal_noise(*scene.noise, noisy_readout(scene), capacitance_F);
   const double area_m2 = 0.25 * std::numbers::pi * scene.diameter_m * scene.diameter_m;
   const double signal_V_Pa = std::abs(noise.gain * own_V_Pa);
   const auto put = [&](const char* name, double value, const char* unit) {
@@ -215,7 +222,7 @@ void check_heat_and_noise(const SpaceScene& scene) {
 
 double quarter_noise_V(const SpaceScene& scene) {
   if (!scene.noise) return scene.quadrants.noise_V;
-  const ThermalNoise noise = thermal_noise(*scene.noise, *scene.noise_readout,
+  const ThermalNoise noise = thermal_noise(*scene.noise, noisy_readout(scene),
                                            noisy_capacitance_F(scene, array_of(scene)));
   return noise.total_V() / noise.gain;
 }
