@@ -21,11 +21,12 @@ using Eigen::Vector2d;
 constexpr double kPi = std::numbers::pi;
 constexpr double kGrading =
     3.0;  // cells shrink toward each edge as (i/n)^3, where the charge is singular
-constexpr double kOrder = 2.6;      // of the answers in the number of cells, measured (README)
-constexpr double kChord = 0.06;     // rad of an arc per straight piece
-constexpr double kNear = 2.0;       // times the sizes of two cells: closer ones are integrated
-constexpr double kStep = 1.0 / 24;  // of the table of added potentials, over the film's thickness
-constexpr int kPatterns = 4;        // even or odd in x and in y: 1 for odd in x, 2 for odd in y
+constexpr double kOrder = 2.6;   // of the answers in the number of cells, measured (README)
+constexpr double kChord = 0.06;  // rad of an arc per straight piece
+constexpr double kNear = 2.0;    // times the sizes of two cells: closer ones are integrated
+constexpr double kTableStep =
+    1.0 / 24;                 // of the table of added potentials, over the film's thickness
+constexpr int kPatterns = 4;  // even or odd in x and in y: 1 for odd in x, 2 for odd in y
 
 double sign_of(int pattern, int quarter) {
   const bool is_left = quarter == 1 || quarter == 2, is_low = quarter >= 2;
@@ -245,13 +246,13 @@ Eigen::MatrixXd amplitudes_at(const std::vector<DiscFunction>& functions, const 
 }
 
 // The quarters on one mesh of cells, lengths over the radius and potentials times it.
-struct Charged {
+struct ChargedMesh {
   Eigen::Matrix4d potentials;
   Eigen::MatrixXd readings, induced;
 };
 
-Charged charged(const std::vector<Cell>& cells, const std::vector<DiscFunction>& functions,
-                const PointCharge& charge, double radius_m) {
+ChargedMesh charges_on(const std::vector<Cell>& cells, const std::vector<DiscFunction>& functions,
+                       const PointCharge& charge, double radius_m) {
   const auto count = static_cast<Eigen::Index>(cells.size());
   const auto all = static_cast<Eigen::Index>(functions.size());
   std::array<Eigen::MatrixXd, kPatterns> by_mirror;
@@ -275,8 +276,8 @@ Charged charged(const std::vector<Cell>& cells, const std::vector<DiscFunction>&
       means.row(i) += cell.weights[p] * values_at(functions, cell.points[p]).transpose();
     }
   }
-  Charged found{Eigen::Matrix4d::Zero(), Eigen::MatrixXd::Zero(4, all),
-                Eigen::MatrixXd::Zero(all, all)};
+  ChargedMesh found{Eigen::Matrix4d::Zero(), Eigen::MatrixXd::Zero(4, all),
+                    Eigen::MatrixXd::Zero(all, all)};
   for (int pattern = 0; pattern < kPatterns; ++pattern) {
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
     for (int mirror = 0; mirror < kPatterns; ++mirror) {
@@ -315,7 +316,7 @@ PointCharge::PointCharge(const LayeredFilm& film, double reach_m, int film_degre
   const double t_m = film.layers.front().thickness_m;
   const ScreenedWaves waves = screened_waves(film, std::min(4.0 / reach_m, 1.5 / t_m), film_degree);
   near_Vm_C_ = waves.limit_Vm_C / (2.0 * kPi);
-  step_m_ = kStep * t_m;
+  step_m_ = kTableStep * t_m;
   const int count = static_cast<int>(reach_m / step_m_) + 4;
   for (int i = 0; i < count; ++i) {
     double sum = 0.0;
@@ -365,11 +366,11 @@ MetalQuarters::MetalQuarters(const LayeredFilm& film, double radius_m, double ga
   const PointCharge charge(film, 2.02 * radius_m, accuracy.film_degree);
   const auto on_mesh = [&](int n) {
     const double coarsest = film.layers.front().thickness_m / radius_m;
-    return charged(cells_of(gap_m / radius_m, n, coarsest), functions_, charge, radius_m);
+    return charges_on(cells_of(gap_m / radius_m, n, coarsest), functions_, charge, radius_m);
   };
   // From two meshes to what they tend to.
   const int coarse = 2 * accuracy.cells / 3;
-  const Charged before = on_mesh(coarse), now = on_mesh(accuracy.cells);
+  const ChargedMesh before = on_mesh(coarse), now = on_mesh(accuracy.cells);
   const double more = 1.0 / (std::pow(static_cast<double>(accuracy.cells) / coarse, kOrder) - 1.0);
   potentials_V_C_ = now.potentials + more * (now.potentials - before.potentials);
   readings_ = now.readings + more * (now.readings - before.readings);
