@@ -176,6 +176,24 @@ TEST_CASE("a narrow gap takes from the shear that quarters read, not from the pr
   }
 }
 
+TEST_CASE("quarters of metal read what an independent program finds", "[models]") {
+  // Its own foot forces, film and cells in numpy; mV/kPa, extrapolated from 9 and 12 cells.
+  const SpaceArray array = pillars_in_quarters(2e-6);
+  const SpaceResponse response(array, space_accuracies(array)[3]);
+  const auto own = response.kernel(0, 0.0, 0.0);
+  CHECK(own(1, 0) == Approx(-1.7823e-6).epsilon(5e-4));
+  CHECK(own(1, 1) == Approx(-5.9295e-6).epsilon(1e-3));
+  CHECK(own(1, 2) == Approx(-5.5485e-6).epsilon(1e-3));
+  CHECK(own(1, 3) == Approx(0.2474e-6).epsilon(2e-3));
+  // Beside a loaded pillar, per cent of its own, with 9 cells: the charge on its quarters adds to 0.8005, 3.597 and to
+  // -0.7997, -1.1328.
+  const auto near = response.kernel(0, 60e-6, 0.0), along = response.kernel(0, 100e-6, 0.0);
+  CHECK(100.0 * near(1, 0) / own(1, 0) == Approx(0.9029).margin(0.02));
+  CHECK(100.0 * near(2, 0) / own(1, 0) == Approx(3.8414).margin(0.02));
+  CHECK(100.0 * along(1, 1) / own(1, 1) == Approx(-0.8925).margin(0.01));
+  CHECK(100.0 * along(2, 1) / own(1, 1) == Approx(-1.3455).margin(0.01));
+}
+
 TEST_CASE("gaps between quarters that are not resolved are refused", "[models]") {
   for (const double gap_m : {0.1e-6, 11e-6}) {
     SpaceArray array = pillars_in_quarters(gap_m);
