@@ -158,11 +158,12 @@ std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
          "end");
   if (scene.pillars.size() > kMostDrawn) d.legend("too many pillars to draw: the field they fill");
   if (has_room_for_parts(scene)) {
-    d.legend(fmt::format(
-        "orange: {} on the {} of the film, radius {}; the other face is grounded",
-        has_quarters(scene.electrode) ? "quarters that are read" : "discs that are read",
-        scene.grounded == FilmFace::kTop ? "bottom" : "top",
-        in_unit(electrode_radius_m(scene), "m")));
+    d.legend(fmt::format("orange: {} on the {} of the film, radius {}; the other face is grounded",
+                         !has_quarters(scene.electrode) ? "discs that are read"
+                         : is_metal(scene.electrode)    ? "quarters of metal"
+                                                        : "quarters that are read",
+                         scene.grounded == FilmFace::kTop ? "bottom" : "top",
+                         in_unit(electrode_radius_m(scene), "m")));
   }
   return d.document(title);
 }

@@ -291,6 +291,12 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   if (senses_forces(scene))
     std::ranges::move(sensed_notes(scene), std::back_inserter(answer.notes));
   add_stretching_note(scene, backing, answer);
+  if (scene.electrode == SpaceElectrode::kMetalQuadrants) {
+    answer.notes.push_back("each quarter is a conductor with one voltage, with gaps of " +
+                           micrometres(scene.electrode_gap_m, 3) +
+                           " between them; without metal (kind = \"sampled\") quarters read means "
+                           "over their areas");
+  }
   return answer;
 }
 
