@@ -52,8 +52,8 @@ double direction_spread(const SpaceScene& scene) {
 // What charges on the quarters of the nearest pillars add to a voltage that is left out (eq. S19), over the pillar's own:
 // the potential around the pillar, with that of its own charges, makes a neighbour's quarters gain charges, which act back.
 double quarter_error(const SpaceScene& scene) {
-  constexpr double kOfSpread = 0.02;  // change of a reading over that of the charge's potential
-  constexpr double kMostNear = 8.0;   // nearest pillars
+  constexpr double kOfSpread = 0.1;  // change of a reading over that of the charge's potential
+  constexpr double kMostNear = 8.0;  // nearest pillars
   const SpaceArray array = array_of(scene);
   const double error = kOfSpread * direction_spread(scene);
   if (array.pillars.size() < 2) return error;
