@@ -147,14 +147,14 @@ TEST_CASE("the charge on a pillar's own quarters is felt around it as point char
     const PotentialByLoad added = with.potential(0, x_m, y_m) - without.potential(0, x_m, y_m);
     CAPTURE(x_m, y_m);
     const double size_V = std::abs(without.kernel(0, 0.0, 0.0)(2, 1));
-    CHECK((added.transpose() - direct).cwiseAbs().maxCoeff() < 2e-4 * size_V);
+    CHECK((added.transpose() - direct).cwiseAbs().maxCoeff() < 5e-5 * size_V);
     CHECK(direct.cwiseAbs().maxCoeff() > 2e-4 * size_V);
   }
   // What a quarter reads under its own pillar does not contain it.
   const auto read = with.kernel(0, 0.0, 0.0);
   const Eigen::MatrixXd by_points = rule.weights * own;
   CHECK((read.bottomRows<4>() - by_points).cwiseAbs().maxCoeff() <
-        1e-5 * by_points.cwiseAbs().maxCoeff());
+        1e-4 * by_points.cwiseAbs().maxCoeff());
   CHECK(read.row(0).isApprox(read.bottomRows<4>().colwise().mean()));
 }
 
