@@ -168,9 +168,11 @@ const WordTable<FilmFace>& grounded_by_electrode_face() {
 }
 
 void show_electrode(FieldVisitor& v, FilmFace& grounded, SpaceElectrode& electrode,
-                    double& radius_m) {
-  bool quadrants = electrode == SpaceElectrode::kQuadrants;
-  if (quadrants) electrode = SpaceElectrode::kSampled;
+                    double& radius_m, double* gap_m) {
+  bool quadrants = has_quarters(electrode);
+  if (quadrants) {
+    electrode = is_metal(electrode) ? SpaceElectrode::kEquipotential : SpaceElectrode::kSampled;
+  }
   v.choice({"face", "bottom"}, grounded_by_electrode_face(), grounded);
   v.choice(
       {"kind", "sampled"},
@@ -178,15 +180,15 @@ void show_electrode(FieldVisitor& v, FilmFace& grounded, SpaceElectrode& electro
       electrode);
   v.quantity(length_key("radius"), radius_m);
   v.boolean("quadrants", quadrants);
+  if (gap_m != nullptr) v.quantity(length_key("gap"), *gap_m);
   if (!quadrants) return;
-  v.after_all_keys([is_one = electrode == SpaceElectrode::kEquipotential] {
-    if (!is_one) return;
-    throw SceneMistake(
-        "geometry.electrode.kind",
-        "quadrants are read on a charge-free face; write kind = \"sampled\", or leave "
-        "quadrants out");
+  v.after_all_keys([is_refused = is_metal(electrode) && gap_m == nullptr] {
+    if (!is_refused) return;
+    throw SceneMistake("geometry.electrode.kind",
+                       "quadrants under a layer are read on a charge-free face; write kind = "
+                       "\"sampled\", or leave quadrants out");
   });
-  electrode = SpaceElectrode::kQuadrants;
+  electrode = is_metal(electrode) ? SpaceElectrode::kMetalQuadrants : SpaceElectrode::kQuadrants;
 }
 
 namespace {

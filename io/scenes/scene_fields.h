@@ -61,9 +61,10 @@ void show_shape(FieldVisitor& v, SceneFile& file, const ShapePress* now,
 
 // The face that is grounded, by that of the electrode.
 const WordTable<FilmFace>& grounded_by_electrode_face();
-// geometry.electrode of an array in the plane or a layer: face, kind, quadrants and radius.
+// geometry.electrode of an array in the plane or a layer: face, kind, quadrants, radius and, where quarters may be of
+// metal, the gap between them.
 void show_electrode(FieldVisitor& electrode_table, FilmFace& grounded, SpaceElectrode& electrode,
-                    double& radius_m);
+                    double& radius_m, double* gap_m = nullptr);
 
 // The value of a word. Throws SceneMistake with the known words, and the nearest, for another.
 template <typename Value>

@@ -34,10 +34,19 @@ HeatPath heat_path(const SpaceScene& scene) {
           .permittivity_F_m = free_permittivity_F_m(scene.film)};
 }
 
+MetalQuarters metal_quarters(const SpaceArray& array) {
+  return {array.film, array.electrode_radius_m, array.electrode_gap_m,
+          space_accuracies(array)[2].quarters};
+}
+
 ElectrodeWeight weight_of(const SpaceScene& scene, const SpaceArray& array,
                           const std::string& reading) {
   if (reading == "centre") return [](double) { return 1.0; };
   const double a_m = array.electrode_radius_m;
+  if (scene.electrode == SpaceElectrode::kMetalQuadrants) {
+    const auto quarters = std::make_shared<const MetalQuarters>(metal_quarters(array));
+    return [quarters](double k_1_m) { return quarters->weight(k_1_m); };
+  }
   if (scene.electrode == SpaceElectrode::kEquipotential) {
     const auto charge =
         std::make_shared<const DiscCharge>(array.film, a_m, 1, kModes, kSensedFilmDegree);
@@ -123,9 +132,11 @@ class HeatResults {
   SceneAnswer* answer_;
 };
 
-// Noise of one electrode. A quarter of it has a quarter of that, apart from the effect of the gaps
+// Noise of one electrode. A quarter of a charge-free face has a quarter of that, apart from the effect of the gaps
 // between quarters.
 double noisy_capacitance_F(const SpaceScene& scene, const SpaceArray& array) {
+  if (scene.electrode == SpaceElectrode::kMetalQuadrants)
+    return metal_quarters(array).capacitance_F();
   const DiscCharge charge(array.film, array.electrode_radius_m, 1, kModes, kSensedFilmDegree);
   return scene.electrode == SpaceElectrode::kQuadrants ? 0.25 * charge.capacitance_F()
                                                        : charge.capacitance_F();
@@ -243,8 +254,7 @@ void add_heat_and_noise(const SpaceScene& scene, SceneAnswer& answer) {
     }
   }
   if (scene.noise) {
-    const Eigen::Index own =
-        scene.electrode == SpaceElectrode::kQuadrants ? 2 : 0;  // a quarter, or the electrode
+    const Eigen::Index own = has_quarters(scene.electrode) ? first_quarter(scene.electrode) : 0;
     add_noise(scene, kernel(own, static_cast<int>(TopLoad::kPressure)), answer);
   }
 }

@@ -210,7 +210,7 @@ void check_readout(const SpaceScene& scene) {
   if (scene.electrode == SpaceElectrode::kEquipotential) return;
   throw SceneMistake("readout",
                      "needs electrodes to be wired to; say electrode = { kind = \"equipotential\", "
-                     "... }");
+                     "... } without quadrants");
 }
 
 // Where the columns of the array bear most.
