@@ -7,8 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <complex>
+#include <numbers>
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -40,10 +43,58 @@ Matrix6d stiffness_from(const nlohmann::json& elastic) {
   return 0.5 * (inverse + inverse.transpose()) / s11;
 }
 
+std::vector<double> numbers_in(const nlohmann::json& object, const char* key) {
+  const nlohmann::json& list = object.at(key);
+  if (!list.is_array()) throw std::invalid_argument(std::string("'") + key + "' must be a list");
+  std::vector<double> numbers;
+  for (const nlohmann::json& one : list) numbers.push_back(one.get<double>());
+  return numbers;
+}
+
+// The loss over the permittivity at constant stress; the permittivity becomes that at once. leakage_s is the
+// resistivity.
+FilmLoss loss_from(const nlohmann::json& dielectric, Eigen::Matrix3d& permittivity_F_m) {
+  static const std::set<std::string> kKnown = {"resistivity_Ohm_m", "terms", "frequency_Hz",
+                                               "tan_delta", "permittivity_at_Hz"};
+  for (const auto& [key, value] : dielectric.items()) {
+    if (!kKnown.contains(key)) {
+      throw std::invalid_argument("there is no key 'dielectric." + key + "'");
+    }
+  }
+  FilmLoss loss;
+  loss.leakage_s = number_in(dielectric, "resistivity_Ohm_m", loss.leakage_s);
+  for (const nlohmann::json& term : dielectric.value("terms", nlohmann::json::array())) {
+    const double added_F_m = number_in(term, "relative_permittivity") * kVacuumPermittivity_F_m;
+    loss.terms.push_back({added_F_m / permittivity_F_m(2, 2), number_in(term, "tau_s")});
+  }
+  if (dielectric.contains("tan_delta")) {
+    if (!loss.terms.empty()) {
+      throw std::invalid_argument(
+          "'dielectric' has both 'terms' and 'tan_delta'; give one of them");
+    }
+    const std::vector<double> frequency_Hz = numbers_in(dielectric, "frequency_Hz");
+    loss.terms = terms_from_tan_delta(frequency_Hz, numbers_in(dielectric, "tan_delta"));
+    const double at_rad_s = 2.0 * std::numbers::pi * number_in(dielectric, "permittivity_at_Hz");
+    if (!(at_rad_s > 0.0)) throw std::invalid_argument("'permittivity_at_Hz' must be positive");
+    const FilmLoss polarisation{.terms = loss.terms};
+    permittivity_F_m /=
+        1.0 + added_permittivity(polarisation, std::complex<double>(0.0, at_rad_s)).real();
+  }
+  validate(loss);
+  return loss;
+}
+
+// Strain adds the same permittivity at all times.
+FilmLoss of_constant_strain(FilmLoss loss, double stress_F_m, double strain_F_m) {
+  loss.leakage_s *= strain_F_m;
+  for (FilmTerm& term : loss.terms) term.share *= stress_F_m / strain_F_m;
+  return loss;
+}
+
 MediumFile medium_from(const nlohmann::json& object, const std::string& name, Plausible judged) {
   static const std::set<std::string> kKnown = {"schema",  "name",       "rho_kg_m3",
                                                "elastic", "charge_C_N", "relative_permittivity",
-                                               "source",  "plausible"};
+                                               "source",  "plausible",  "dielectric"};
   for (const auto& [key, value] : object.items()) {
     if (!kKnown.contains(key)) throw std::invalid_argument("there is no key '" + key + "'");
   }
@@ -67,6 +118,9 @@ MediumFile medium_from(const nlohmann::json& object, const std::string& name, Pl
   }
   const Matrix6d stiffness = stiffness_from(elastic);
   if (!object.contains("charge_C_N")) {
+    if (object.contains("dielectric")) {
+      throw std::invalid_argument("'dielectric' needs 'charge_C_N' and 'relative_permittivity'");
+    }
     file.medium = elastic_medium(stiffness, rho);
     return file;
   }
@@ -85,8 +139,10 @@ MediumFile medium_from(const nlohmann::json& object, const std::string& name, Pl
   for (Eigen::Index i = 0; i < 3; ++i) {
     eps(i, i) = permittivity[static_cast<std::size_t>(i)].get<double>() * kVacuumPermittivity_F_m;
   }
+  const FilmLoss stated = loss_from(object.value("dielectric", nlohmann::json::object()), eps);
   file.permittivity_stress_F_m = eps(2, 2);
   file.medium = piezo_medium(stiffness, file.charge_C_N, eps, rho);
+  file.loss = of_constant_strain(stated, eps(2, 2), file.medium.permittivity_F_m(2, 2));
   return file;
 }
 

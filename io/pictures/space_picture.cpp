@@ -33,7 +33,7 @@ void draw_electrode(SceneDrawing& d, const SpaceScene& scene, const SpacePillar&
   const double radius_m = electrode_radius_m(scene);
   const char* const ink = R"(stroke="#d55e00" stroke-width="1.2")";
   d.disc(one.x_m, one.y_m, radius_m, R"(fill="none" stroke="#d55e00" stroke-width="1.2")");
-  if (scene.electrode != SpaceElectrode::kQuadrants) return;
+  if (!has_quarters(scene.electrode)) return;
   d.line(d.x(one.x_m - radius_m), d.y(one.y_m), d.x(one.x_m + radius_m), d.y(one.y_m), ink);
   d.line(d.x(one.x_m), d.y(one.y_m - radius_m), d.x(one.x_m), d.y(one.y_m + radius_m), ink);
 }
@@ -162,8 +162,9 @@ std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
   if (scene.pillars.size() > kMostDrawn) d.legend("too many pillars to draw: the field they fill");
   if (has_room_for_parts(scene)) {
     d.legend(fmt::format("orange: {} on the {} of the film, radius {}; the other face is grounded",
-                         scene.electrode == SpaceElectrode::kQuadrants ? "quarters that are read"
-                                                                       : "discs that are read",
+                         !has_quarters(scene.electrode) ? "discs that are read"
+                         : is_metal(scene.electrode)    ? "quarters of metal"
+                                                        : "quarters that are read",
                          scene.grounded == FilmFace::kTop ? "bottom" : "top",
                          in_unit(electrode_radius_m(scene), "m")));
   }

@@ -186,7 +186,7 @@ void show_wiring(FieldVisitor& v, PillarScene& scene) {
     if (!scene.electrodes || scene.electrodes->electrode_radius_m == 0.0) {
       throw SceneMistake("readout", "needs an electrode with a radius to be wired to");
     }
-    scene.readout = readout_of(*keys, *scene.film);
+    scene.readout = readout_of(*keys, *scene.film, scene.film_loss);
     at_key("readout", [&] { validate(*scene.readout); });
   });
 }

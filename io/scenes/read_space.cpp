@@ -194,7 +194,8 @@ void show_geometry(FieldVisitor& v, SceneFile& file, SpaceScene& scene, PlaceKey
   });
   show_film(v, file, scene);
   v.section("electrode", [&](FieldVisitor& e) {
-    show_electrode(e, scene.grounded, scene.electrode, scene.electrode_radius_m);
+    show_electrode(e, scene.grounded, scene.electrode, scene.electrode_radius_m,
+                   &scene.electrode_gap_m);
   });
   show_poling(v, file);
 }

@@ -378,10 +378,14 @@ std::shared_ptr<ReadoutKeys> show_readout(FieldVisitor& v, const std::optional<R
   return keys;
 }
 
-Readout readout_of(const ReadoutKeys& keys, const Medium& film) {
+Readout readout_of(const ReadoutKeys& keys, const Medium& film, const FilmLoss& loss) {
   Readout readout{.kind = *keys.kind, .capacitance_F = keys.capacitance_F};
   if (keys.resistance_Ohm > 0.0) readout.resistance_Ohm = keys.resistance_Ohm;
   if (keys.film_resistivity_Ohm_m > 0.0) {
+    if (std::isfinite(loss.leakage_s)) {
+      throw SceneMistake("readout.film_resistivity",
+                         "the film's material states its resistivity, too; give one of them");
+    }
     readout.film_leakage_s = keys.film_resistivity_Ohm_m * film.permittivity_F_m(2, 2);
   }
   return readout;

@@ -31,7 +31,7 @@ struct ReadoutKeys {
 // `now` and its film: what is written.
 std::shared_ptr<ReadoutKeys> show_readout(FieldVisitor& v, const std::optional<Readout>& now,
                                           const Medium* film);
-// Of keys that have a kind, on this film.
-Readout readout_of(const ReadoutKeys& keys, const Medium& film);
+// Of keys that have a kind, on this film. Throws SceneMistake for a resistivity that the film's material states, too.
+Readout readout_of(const ReadoutKeys& keys, const Medium& film, const FilmLoss& loss);
 
 }  // namespace viscard

@@ -31,13 +31,17 @@ void show_effects(FieldVisitor& v, EffectChoices& choices) {
   }
 }
 
-void show_material(FieldVisitor& v, NamedMaterial& m) {
+void show_material(FieldVisitor& v, NamedMaterial& m, bool is_film) {
   m.judged = v.judged();
   v.text({"file", "pdms_1to10_seed.json"}, m.file);
   v.quantity({.key = "ratio", .range = Range::kPositive, .is_exact = true}, m.ratio);
   v.quantity({.key = "E", .unit = quantities::kModulus, .range = Range::kPositive}, m.E_Pa);
   v.quantity({.key = "nu", .unit = quantities::kPoissonRatio}, m.nu);
   v.quantity({.key = "rho", .unit = "kg/m3", .range = Range::kPositive}, m.rho_kg_m3);
+  if (!is_film) return;
+  v.quantity({.key = "resistivity", .unit = "ohm m", .range = Range::kPositive},
+             m.resistivity_Ohm_m);
+  v.quantity_pairs("dielectric", "s", "1", m.dielectric_s);
 }
 
 const NamedMaterial& named(const SceneFile& file, const std::string& name) {
@@ -130,8 +134,9 @@ void show_materials(FieldVisitor& v, const char* body, SceneFile& file,
       if (names[i].empty() ||
           std::find(names.begin(), names.begin() + i, names[i]) != names.begin() + i)
         continue;
-      m.section(names[i].c_str(),
-                [&](FieldVisitor& one) { show_material(one, sources.materials[names[i]]); });
+      m.section(names[i].c_str(), [&](FieldVisitor& one) {
+        show_material(one, sources.materials[names[i]], names[i] == sources.film);
+      });
     }
     if (others) others(m);
   });
@@ -139,6 +144,7 @@ void show_materials(FieldVisitor& v, const char* body, SceneFile& file,
     SceneCommon& scene = common(file.scene);
     scene.pillar = pillar_material(file, body);
     scene.surroundings.shift_factor = bring_to_temperature(file, scene.pillar);
+    if (!file.sources.film.empty()) set_film_loss(file);
   });
 }
 
@@ -162,9 +168,11 @@ const WordTable<FilmFace>& grounded_by_electrode_face() {
 }
 
 void show_electrode(FieldVisitor& v, FilmFace& grounded, SpaceElectrode& electrode,
-                    double& radius_m) {
-  bool quadrants = electrode == SpaceElectrode::kQuadrants;
-  if (quadrants) electrode = SpaceElectrode::kSampled;
+                    double& radius_m, double* gap_m) {
+  bool quadrants = has_quarters(electrode);
+  if (quadrants) {
+    electrode = is_metal(electrode) ? SpaceElectrode::kEquipotential : SpaceElectrode::kSampled;
+  }
   v.choice({"face", "bottom"}, grounded_by_electrode_face(), grounded);
   v.choice(
       {"kind", "sampled"},
@@ -172,15 +180,15 @@ void show_electrode(FieldVisitor& v, FilmFace& grounded, SpaceElectrode& electro
       electrode);
   v.quantity(length_key("radius"), radius_m);
   v.boolean("quadrants", quadrants);
+  if (gap_m != nullptr) v.quantity(length_key("gap"), *gap_m);
   if (!quadrants) return;
-  v.after_all_keys([is_one = electrode == SpaceElectrode::kEquipotential] {
-    if (!is_one) return;
-    throw SceneMistake(
-        "geometry.electrode.kind",
-        "quadrants are read on a charge-free face; write kind = \"sampled\", or leave "
-        "quadrants out");
+  v.after_all_keys([is_refused = is_metal(electrode) && gap_m == nullptr] {
+    if (!is_refused) return;
+    throw SceneMistake("geometry.electrode.kind",
+                       "quadrants under a layer are read on a charge-free face; write kind = "
+                       "\"sampled\", or leave quadrants out");
   });
-  electrode = SpaceElectrode::kQuadrants;
+  electrode = is_metal(electrode) ? SpaceElectrode::kMetalQuadrants : SpaceElectrode::kQuadrants;
 }
 
 namespace {
@@ -229,6 +237,35 @@ MediumFile film_medium(const SceneFile& file, const std::string& name) {
   } catch (const std::invalid_argument& error) {
     throw SceneMistake(key, error.what());
   }
+}
+
+void set_film_loss(SceneFile& file) {
+  const std::string& name = file.sources.film;
+  const NamedMaterial& raw = named(file, name);
+  FilmLoss& loss = common(file.scene).film_loss;
+  loss = {};
+  const bool is_stated = raw.resistivity_Ohm_m > 0.0 || !raw.dielectric_s.empty();
+  const std::string key = "materials." + name;
+  if (raw.file.empty()) {
+    if (!is_stated) return;
+    throw SceneMistake(key,
+                       "resistivity and dielectric are those of a film from a file that states its "
+                       "permittivity");
+  }
+  const MediumFile film = film_medium(file, name);
+  loss = film.loss;
+  const double at_once_F_m = film.medium.permittivity_F_m(2, 2);
+  if (is_stated && !(at_once_F_m > 0.0)) {
+    throw SceneMistake(key, "'" + raw.file +
+                                "' states no relative_permittivity, beside which "
+                                "resistivity and dielectric mean nothing");
+  }
+  if (raw.resistivity_Ohm_m > 0.0) loss.leakage_s = raw.resistivity_Ohm_m * at_once_F_m;
+  if (!raw.dielectric_s.empty()) loss.terms.clear();
+  for (const auto& [tau_s, added] : raw.dielectric_s) {
+    loss.terms.push_back({added * kVacuumPermittivity_F_m / at_once_F_m, tau_s});
+  }
+  at_key((key + ".dielectric").c_str(), [&] { validate(loss); });
 }
 
 std::optional<HyperelasticFile> pillar_rubber(const SceneFile& file, const std::string& name) {

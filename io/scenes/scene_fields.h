@@ -61,9 +61,10 @@ void show_shape(FieldVisitor& v, SceneFile& file, const ShapePress* now,
 
 // The face that is grounded, by that of the electrode.
 const WordTable<FilmFace>& grounded_by_electrode_face();
-// geometry.electrode of an array in the plane or a layer: face, kind, quadrants and radius.
+// geometry.electrode of an array in the plane or a layer: face, kind, quadrants, radius and, where quarters may be of
+// metal, the gap between them.
 void show_electrode(FieldVisitor& electrode_table, FilmFace& grounded, SpaceElectrode& electrode,
-                    double& radius_m);
+                    double& radius_m, double* gap_m = nullptr);
 
 // The value of a word. Throws SceneMistake with the known words, and the nearest, for another.
 template <typename Value>
@@ -87,6 +88,8 @@ std::filesystem::path named_file(const std::string& key, const SceneFile& file,
 
 // The film's material under `name`. Throws SceneMistake if it has neither a file nor a modulus, or is unphysical.
 MediumFile film_medium(const SceneFile& file, const std::string& name);
+// What the film's material states of its losses, into the scene. Throws SceneMistake for terms without a permittivity.
+void set_film_loss(SceneFile& file);
 // A material under `name`. A file of rubber gives the modulus at rest and the terms; the scene gives nu and rho. Throws
 // SceneMistake for neither file nor modulus.
 Material pillar_material(const SceneFile& file, const std::string& name);

@@ -10,6 +10,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -37,6 +38,9 @@ struct NamedMaterial {
   double ratio = 0.0;
   double E_Pa = 0.0, nu = 0.0, rho_kg_m3 = 0.0;
   Plausible judged = Plausible::kScene;  // the numbers of the file
+  // Of a film; what is given replaces that of the file.
+  double resistivity_Ohm_m = 0.0;                       // 0: not given
+  std::vector<std::pair<double, double>> dielectric_s;  // time and added relative permittivity
 };
 
 // What a scene file names, and a scene holds only in its result.

@@ -226,7 +226,7 @@ void show_reading(FieldVisitor& v, SpaceScene& scene, const std::shared_ptr<Touc
   v.section("readout", [&](FieldVisitor& r) { keys = show_readout(r, now, &scene.film); });
   v.after_all_keys([&scene, touch, keys] {
     std::optional<Readout> readout;
-    if (keys->kind) readout = readout_of(*keys, scene.film);
+    if (keys->kind) readout = readout_of(*keys, scene.film, scene.film_loss);
     if (scene.noise) scene.noise_readout = readout;
     if (!touch->path->empty()) {
       refuse_beside_path(*touch, scene);

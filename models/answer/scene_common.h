@@ -2,6 +2,7 @@
 
 #include "models/answer/effect_estimate.h"
 #include "models/answer/surroundings.h"
+#include "models/material/film_loss.h"
 #include "models/material/material.h"
 
 #include <functional>
@@ -14,6 +15,7 @@ namespace viscard {
 struct SceneCommon {
   double tolerance = 1e-3;          // relative error of the results
   Material pillar;                  // of every pillar
+  FilmLoss film_loss;               // of a film with electrodes
   std::vector<std::string> wanted;  // names of results; empty: all
   EffectChoices effects;            // choices that the plan must respect
   Surroundings surroundings;

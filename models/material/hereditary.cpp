@@ -68,4 +68,12 @@ double HereditaryStress::stress_Pa() const {
   return stress_Pa;
 }
 
+double HereditaryStress::falling_Pa_s() const {
+  double rate_Pa_s = 0.0;
+  for (std::size_t i = 0; i < branch_Pa_.size(); ++i) {
+    rate_Pa_s += branch_Pa_[i] / series_.terms[i].relaxation_time_s;
+  }
+  return rate_Pa_s;
+}
+
 }  // namespace viscard

@@ -32,6 +32,7 @@ class HereditaryStress {
   double carried_Pa(double dt_s) const;
 
   double stress_Pa() const;
+  double falling_Pa_s() const;  // the rate at which it falls if the strain stays
   double strain() const { return strain_; }
 
  private:

@@ -168,13 +168,25 @@ std::vector<Effect> surroundings_effects() {
   };
 }
 
+// What the film loses; behind all others, because lists of effects keep their order.
+std::vector<Effect> film_effects() {
+  return {
+      {"dielectric_loss",
+       "the film leaks, and its polarisation follows late",
+       "a term of the reading for each of the film",
+       {Pillar{dielectric_loss_estimate, [](PillarScene& scene) { scene.film_loss = {}; }},
+        Row{dielectric_loss_estimate, [](ArrayScene& scene) { scene.film_loss = {}; }},
+        Space{dielectric_loss_estimate, [](SpaceScene& scene) { scene.film_loss = {}; }}}},
+  };
+}
+
 }  // namespace
 
 const std::vector<Effect>& effects() {
   static const std::vector<Effect> kEffects = [] {
     std::vector<Effect> all;
     for (const auto& group : {material_effects(), base_effects(), neighbour_effects(),
-                              load_effects(), surroundings_effects()}) {
+                              load_effects(), surroundings_effects(), film_effects()}) {
       all.insert(all.end(), group.begin(), group.end());
     }
     return all;

@@ -237,6 +237,29 @@ EffectEstimate inertia_estimate(const PillarScene& scene) {
           "rings out after each ramp; not in a quasi-static answer"};
 }
 
+EffectEstimate film_loss_estimate(const FilmLoss& loss, double slowest_rad_s, double in_time) {
+  if (loss.is_lossless()) return {.reason = "no losses of the film are given"};
+  if (!(slowest_rad_s > 0.0)) {
+    return {.reason = "answers right after loading, before the film loses charge"};
+  }
+  const double share = lost_share(loss, slowest_rad_s);
+  return {EffectRole::kOptional, in_time * share, "lost share of the voltage", share,
+          "the film's polarisation follows late, and charge leaks through it"};
+}
+
+EffectEstimate dielectric_loss_estimate(const PillarScene& scene) {
+  if (!scene.electrodes) return {.reason = "no electrode"};
+  if (reads_quadrants(scene) && scene.electrodes->electrode_radius_m > 0.0) {
+    return {.reason = "quadrants at 0 V, where the film loses nothing"};
+  }
+  if (is_lateral(scene) && !reads_quadrants(scene)) {
+    return {.reason = "a round electrode reads nothing of a sideways load"};
+  }
+  return film_loss_estimate(
+      scene.film_loss, slowest_rad_s(scene),
+      loss_in_time(analysis_of(scene).swings_from_Hz != nullptr, scene.readout.has_value()));
+}
+
 EffectEstimate leakage_estimate(const PillarScene& scene) {
   if (!scene.electrodes) return {.reason = "no electrode"};
   if (scene.readout) {

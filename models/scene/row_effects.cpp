@@ -166,6 +166,12 @@ EffectEstimate finite_strain_estimate(const ArrayScene& scene) {
           "small strains are assumed; not in the error"};
 }
 
+EffectEstimate dielectric_loss_estimate(const ArrayScene& scene) {
+  if (!is_electric(scene)) return {.reason = "the film has no permittivity"};
+  return film_loss_estimate(scene.film_loss, slowest_rad_s(scene),
+                            loss_in_time(history(scene).empty(), false));
+}
+
 EffectEstimate relaxation_estimate(const ArrayScene& scene) {
   if (scene.pillar.terms.empty()) return {.reason = "the material is elastic"};
   if (analysis_of(scene).relaxes) {

@@ -18,12 +18,22 @@ void leave_out_piezo_coupling(PillarScene& scene);
 EffectEstimate relaxation_estimate(const PillarScene& scene);
 EffectEstimate inertia_estimate(const PillarScene& scene);
 EffectEstimate leakage_estimate(const PillarScene& scene);
+EffectEstimate dielectric_loss_estimate(const PillarScene& scene);
 EffectEstimate incompressibility_estimate(const PillarScene& scene);
 EffectEstimate three_dimensional_estimate(const PillarScene& scene);
 EffectEstimate geometric_stiffness_estimate(const PillarScene& scene);
 void leave_out_geometric_stiffness(PillarScene& scene);
 EffectEstimate finite_strain_estimate(const PillarScene& scene);
 void leave_out_finite_strain(PillarScene& scene);
+
+// Of a film that loses under a load whose slowest change is given; 0: it is at rest. `in_time`: loss_in_time().
+EffectEstimate film_loss_estimate(const FilmLoss& loss, double slowest_rad_s, double in_time);
+// By how much the error in time of a step or any other load may exceed that of a slow oscillation (eq. E16): behind a
+// circuit what is lost rises and falls again.
+inline double loss_in_time(bool oscillates, bool has_circuit) {
+  if (oscillates) return 1.0;
+  return has_circuit ? 2.0 : 1.1;
+}
 
 // What a scene stands in (surroundings_effects.cpp). The first takes two other estimates of the scene: whether its
 // answer relaxes, and whether it vibrates.
@@ -51,6 +61,7 @@ EffectEstimate film_compliance_estimate(const ArrayScene& scene);
 EffectEstimate piezo_coupling_estimate(const ArrayScene& scene);
 void leave_out_piezo_coupling(ArrayScene& scene);
 EffectEstimate relaxation_estimate(const ArrayScene& scene);
+EffectEstimate dielectric_loss_estimate(const ArrayScene& scene);
 EffectEstimate inertia_estimate(const ArrayScene& scene);
 EffectEstimate incompressibility_estimate(const ArrayScene& scene);
 EffectEstimate crosstalk_estimate(const ArrayScene& scene);
@@ -67,6 +78,7 @@ EffectEstimate piezo_coupling_estimate(const SpaceScene& scene);
 EffectEstimate relaxation_estimate(const SpaceScene& scene);
 void leave_out_relaxation(SpaceScene& scene);
 EffectEstimate leakage_estimate(const SpaceScene& scene);
+EffectEstimate dielectric_loss_estimate(const SpaceScene& scene);
 EffectEstimate incompressibility_estimate(const SpaceScene& scene);
 EffectEstimate crosstalk_estimate(const SpaceScene& scene);
 EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene);

@@ -89,6 +89,19 @@ void leave_out_relaxation(SpaceScene& scene) {
   for (SpaceClass& one : scene.others) one.material.terms.clear();
 }
 
+EffectEstimate dielectric_loss_estimate(const SpaceScene& scene) {
+  if (!scene.touch) return film_loss_estimate(scene.film_loss, 0.0, 1.0);
+  if (scene.touch->readout && scene.touch->readout->kind == ReadoutKind::kCharge) {
+    return {.reason = "the amplifiers hold the film at 0 V, where it loses nothing"};
+  }
+  EffectEstimate estimate = film_loss_estimate(
+      scene.film_loss, 1.0 / scene.touch->history.back().time_s, loss_in_time(false, true));
+  if (scene.touch->readout || estimate.role == EffectRole::kAbsent) return estimate;
+  estimate.role = EffectRole::kOutside;
+  estimate.reason = "voltages are those of charges that stay; add [readout] to read them in time";
+  return estimate;
+}
+
 EffectEstimate leakage_estimate(const SpaceScene& scene) {
   if (!scene.touch || !scene.touch->readout) {
     return {.reason = "faces without charge, before any leaks in"};

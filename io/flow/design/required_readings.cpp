@@ -41,19 +41,14 @@ std::optional<Reading> at_pillar(const SceneAnswer& answer, const std::string& m
 }
 
 const char* disc_voltage(const SpaceScene& scene) {
-  return scene.electrode == SpaceElectrode::kEquipotential ? "electrode_voltage" : "mean_voltage";
-}
-
-bool has_quarters(const SpaceScene& scene) {
-  return scene.electrode != SpaceElectrode::kEquipotential &&
-         scene.electrode != SpaceElectrode::kSampled;
+  return is_metal(scene.electrode) ? "electrode_voltage" : "mean_voltage";
 }
 
 // A pressure on one pillar, or on all without a place; nothing else.
 SpaceScene pressed(SpaceScene array, std::optional<std::size_t> pillar) {
   array.press.reset();
   array.touch.reset();
-  if (has_quarters(array)) array.electrode = SpaceElectrode::kSampled;
+  if (array.electrode == SpaceElectrode::kQuadrants) array.electrode = SpaceElectrode::kSampled;
   array.pressure_Pa = kUnit_Pa;
   array.shear_x_Pa = array.shear_y_Pa = 0.0;
   array.loaded.clear();
@@ -255,7 +250,7 @@ RequiredValue required_pressure_per_kelvin(const Scene& scene, const Requirement
   if (array == nullptr || !array->heat) {
     return no_reading("needs an array in the plane (model = \"space\") with [heat]");
   }
-  const bool has_electrodes = array->electrode == SpaceElectrode::kEquipotential;
+  const bool has_electrodes = is_metal(array->electrode);
   const std::string name = has_electrodes ? "heat_electrode_pressure" : "heat_mean_pressure";
   const auto found = reading_in(sensing_answer(*array, {name}, solve), name);
   if (!found) return no_reading("the scene gives no " + name);

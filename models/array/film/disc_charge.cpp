@@ -28,6 +28,24 @@ double ChargePotential::at(double k_1_m) const {
          0.25 * directions_[2].reading(k_1_m)[3];
 }
 
+ScreenedWaves screened_waves(const LayeredFilm& film, double longest_1_m, int film_degree) {
+  const double largest_k_1_m = kFacesApart_kt / film.layers.front().thickness_m;
+  const ChargePotential potential(film, largest_k_1_m, film_degree);
+  ScreenedWaves waves;
+  waves.limit_Vm_C = largest_k_1_m * potential.at(largest_k_1_m);
+  const int panels = static_cast<int>(std::ceil(largest_k_1_m / longest_1_m));
+  const QuadratureRule rule = gauss_legendre(kChargePoints);
+  for (int panel = 0; panel < panels; ++panel) {
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const double k_1_m = largest_k_1_m * (panel + rule.points[q]) / panels;
+      waves.k_1_m.push_back(k_1_m);
+      waves.weight.push_back(rule.weights[q] * largest_k_1_m / panels / (2.0 * std::numbers::pi) *
+                             (k_1_m * potential.at(k_1_m) - waves.limit_Vm_C));
+    }
+  }
+  return waves;
+}
+
 DiscCharge::DiscCharge(const LayeredFilm& film, double radius_m, int harmonics, int modes,
                        int film_degree)
     : radius_m_(radius_m) {
@@ -47,29 +65,19 @@ DiscCharge::DiscCharge(const LayeredFilm& film, double radius_m, int harmonics, 
 }
 
 void DiscCharge::integrate(const LayeredFilm& film, int film_degree) {
-  const double t_m = film.layers.front().thickness_m;
-  const double largest_k_1_m = kFacesApart_kt / t_m;
-  const ChargePotential potential(film, largest_k_1_m, film_degree);
-  const double limit = largest_k_1_m * potential.at(largest_k_1_m);
+  const double longest_1_m = std::min(2.0 / radius_m_, 1.5 / film.layers.front().thickness_m);
+  const ScreenedWaves waves = screened_waves(film, longest_1_m, film_degree);
   // int j_n^2 dx = pi/(2 (2 n + 1)), other pairs of one parity give zero: Abramowitz & Stegun, 11.4.6.
   for (std::size_t m = 0; m < influence_.size(); ++m) {
     for (Eigen::Index l = 0; l < influence_[m].rows(); ++l) {
       const double n = static_cast<double>(m) + 2.0 * static_cast<double>(l);
-      influence_[m](l, l) = limit / (4.0 * radius_m_ * (2.0 * n + 1.0));
+      influence_[m](l, l) = waves.limit_Vm_C / (4.0 * radius_m_ * (2.0 * n + 1.0));
     }
   }
-  const double longest_1_m = std::min(2.0 / radius_m_, 1.5 / t_m);
-  const int panels = static_cast<int>(std::ceil(largest_k_1_m / longest_1_m));
-  const QuadratureRule rule = gauss_legendre(kChargePoints);
-  for (int panel = 0; panel < panels; ++panel) {
-    for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      const double k_1_m = largest_k_1_m * (panel + rule.points[q]) / panels;
-      const double weight = rule.weights[q] * largest_k_1_m / panels / (2.0 * std::numbers::pi) *
-                            (k_1_m * potential.at(k_1_m) - limit);
-      for (std::size_t m = 0; m < influence_.size(); ++m) {
-        const Eigen::VectorXd j = transforms(static_cast<int>(m), k_1_m);
-        influence_[m] += weight * j * j.transpose();
-      }
+  for (std::size_t i = 0; i < waves.k_1_m.size(); ++i) {
+    for (std::size_t m = 0; m < influence_.size(); ++m) {
+      const Eigen::VectorXd j = transforms(static_cast<int>(m), waves.k_1_m[i]);
+      influence_[m] += waves.weight[i] * j * j.transpose();
     }
   }
 }

@@ -52,4 +52,12 @@ class ChargePotential {
   std::vector<FilmWaves> directions_;
 };
 
+// The potential p(k) per charge less its limit c/k for short waves, which is that of a half-space: what the other face
+// adds, as a sum over waves of weight (k p - c) dk/(2 pi), on panels no longer than `longest`.
+struct ScreenedWaves {
+  double limit_Vm_C = 0.0;
+  std::vector<double> k_1_m, weight;
+};
+ScreenedWaves screened_waves(const LayeredFilm& film, double longest_1_m, int film_degree);
+
 }  // namespace viscard

@@ -55,6 +55,19 @@ double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double
   return error;
 }
 
+void let_film_lose(const ArrayScene& scene, ArrayTransfer& transfer) {
+  if (scene.film_loss.is_lossless() || !is_electric(scene)) return;
+  transfer.lose(bonded_port(scene.film, scene.film_loss));
+}
+
+double film_loss_error(const ArrayScene& scene, const ArrayTransfer& transfer) {
+  if (scene.film_loss.is_lossless() || transfer.voltages() == 0 || !asks_for_voltages(scene)) {
+    return 0.0;
+  }
+  return bonded_port(scene.film, scene.film_loss).error *
+         lost_share(scene.film_loss, slowest_rad_s(scene));
+}
+
 void refuse_moving_film(const ArrayScene& scene, double error, const std::string& what,
                         const std::string& instead) {
   if (error <= scene.tolerance) return;

@@ -57,6 +57,9 @@ int modes_for(const ArrayScene& scene, const Discretisation& mesh, double highes
 // A2). It applies to a voltage in full, to the displacement of a top only in the film's share.
 // Refused above the tolerance.
 double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double frequency_Hz);
+// Lets the film lose, and the relative error of a voltage that this makes (bonded_port()).
+void let_film_lose(const ArrayScene& scene, ArrayTransfer& transfer);
+double film_loss_error(const ArrayScene& scene, const ArrayTransfer& transfer);
 // Throws with what the film's inertia may change and the way out; no mesh reduces that error.
 void refuse_moving_film(const ArrayScene& scene, double error, const std::string& what,
                         const std::string& instead);

@@ -50,8 +50,9 @@ SceneAnswer run_row_harmonic(const ArrayScene& scene, const Discretisation& mesh
   const ArrayModel model(scene.geometry, scene.electrodes, media_of(scene), mesh,
                          {.modes = modes_for(scene, mesh, highest_Hz)});
   answer.unknowns = model.unknowns();
-  const ArrayTransfer transfer(model, scene.load, loaded_of(scene), scene.pillar);
-  answer.step_error = film_error(scene, transfer, highest_Hz);
+  ArrayTransfer transfer(model, scene.load, loaded_of(scene), scene.pillar);
+  let_film_lose(scene, transfer);
+  answer.step_error = film_error(scene, transfer, highest_Hz) + film_loss_error(scene, transfer);
   add_outputs(scene, transfer, answer);
   return answer;
 }

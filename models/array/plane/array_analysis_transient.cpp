@@ -42,8 +42,9 @@ int oversampling_for(const ArrayTransfer& transfer, const RowTransient& drive) {
 // are moved by the film alone and need fewer.
 Eigen::MatrixXd values_with(const ArrayScene& scene, const ArrayModel& model, int shapes) {
   const RowTransient& drive = row_transient_drive(scene);
-  const ArrayTransfer transfer(model, scene.load, loaded_of(scene), scene.pillar,
-                               {.of_loaded = shapes, .of_others = (shapes + 2) / 3});
+  ArrayTransfer transfer(model, scene.load, loaded_of(scene), scene.pillar,
+                         {.of_loaded = shapes, .of_others = (shapes + 2) / 3});
+  let_film_lose(scene, transfer);
   return response_in_time(transfer, drive.history, drive.end_time_s, drive.outputs,
                           oversampling_for(transfer, drive));
 }
@@ -158,7 +159,8 @@ SceneAnswer answer_with(const ArrayScene& scene, const Discretisation& mesh, Wav
   // The ringing consists of the lowest modes; the error of the film is taken at the third of them.
   const Eigen::VectorXd& rad_s = model.pillar().mode_rad_s;
   const double ring_rad_s = rad_s[std::min<Eigen::Index>(2, rad_s.size() - 1)];
-  answer.step_error = film_error(scene, statics, ring_rad_s / (2.0 * std::numbers::pi));
+  answer.step_error = film_error(scene, statics, ring_rad_s / (2.0 * std::numbers::pi)) +
+                      film_loss_error(scene, statics);
   add_outputs(scene, wave_answers(scene, model),
               lowest_rad_s(scene, model.pillar()) / (2.0 * std::numbers::pi), answer);
   waves.highest_rad_s = rad_s[rad_s.size() - 1];

@@ -2,6 +2,8 @@
 
 #include "models/answer/drive_parts.h"
 
+#include <numbers>
+
 namespace viscard {
 
 const std::vector<HistoryPoint>& history(const ArrayScene& scene) {
@@ -9,6 +11,14 @@ const std::vector<HistoryPoint>& history(const ArrayScene& scene) {
   return *part_of(
       scene.drive, [](const auto& d) requires requires { d.history; } { return &d.history; },
       &kNone);
+}
+
+double slowest_rad_s(const ArrayScene& scene) {
+  if (const auto* swept = std::get_if<RowHarmonic>(&scene.drive)) {
+    return 2.0 * std::numbers::pi * swept->frequencies_Hz.front();
+  }
+  const auto* in_time = std::get_if<RowTransient>(&scene.drive);
+  return in_time != nullptr ? 1.0 / in_time->end_time_s : 0.0;
 }
 
 bool is_electric(const ArrayScene& scene) {

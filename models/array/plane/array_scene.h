@@ -68,6 +68,9 @@ struct ArrayScene : SceneCommon {
 // The history of the load; empty if the drive has none.
 const std::vector<HistoryPoint>& history(const ArrayScene& scene);
 
+// The slowest that the load changes: its lowest frequency, or once over its duration; 0: it is at rest.
+double slowest_rad_s(const ArrayScene& scene);
+
 bool is_electric(const ArrayScene& scene);  // the film has a permittivity
 
 // Of the pillar's axis from the middle of the row; pillars are numbered from 0.

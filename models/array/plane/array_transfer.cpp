@@ -135,6 +135,11 @@ Eigen::VectorXcd ArrayTransfer::at(Complex s, Eigen::VectorXd* slope) const {
   Eigen::VectorXcd value =
       soft * static_pillar_.cast<Complex>() + static_film_.cast<Complex>() + out(weight);
   if (slope != nullptr) *slope = value.cwiseAbs() + out(steep).cwiseAbs();
+  if (voltages_ == 0 || film_.loss.is_lossless()) return value;
+  const Complex kept =
+      1.0 / (1.0 + film_.dielectric_F / film_.capacitance_F * added_permittivity(film_.loss, s));
+  value.tail(voltages_) *= kept;
+  if (slope != nullptr) slope->tail(voltages_) *= std::abs(kept);
   return value;
 }
 

@@ -3,6 +3,7 @@
 #include "models/array/plane/array_statics.h"
 #include "models/material/material.h"
 #include "models/pillar/time/load_history.h"
+#include "models/pillar/time/readout.h"
 
 #include <complex>
 #include <vector>
@@ -25,6 +26,10 @@ class ArrayTransfer {
   ArrayTransfer(const ArrayModel& model, ArrayLoad load, const std::vector<int>& loaded,
                 const Material& pillar, const ShapesInUse& in_use = {});
 
+  // Lets the film lose: the voltages of open electrodes and of a charge-free face all fall by one factor,
+  // because the film is the same everywhere (eq. 37).
+  void lose(const FilmPort& film) { film_ = film; }
+
   int outputs() const { return static_cast<int>(static_pillar_.size()); }  // tops, then voltages
   int voltages() const { return voltages_; }
   // All outputs at s; with `slope`, |y| + |s dy/ds| of the modes too.
@@ -44,6 +49,7 @@ class ArrayTransfer {
   Eigen::VectorXd in_pillar_, in_film_;          // per mode
   Eigen::VectorXd compliance_pillar_, compliance_film_;
   double highest_rad_s_ = 0.0;
+  FilmPort film_{1.0, 1.0};
 };
 
 // Response of every output to the load times history(t) at outputs + 1 equally spaced times, by the

@@ -181,14 +181,38 @@ void check_film(const SpaceScene& scene) {
     throw SceneMistake(
         "geometry.electrode.face",
         "cannot be the top here: the potential of a charge-free face has a steep rim at "
-        "each foot that stands on it. Read the bottom, or write kind = "
-        "\"equipotential\"");
+        "each foot that stands on it, and quarters are read through the film. Read the bottom, or "
+        "write kind = \"equipotential\" without quadrants");
   }
   const double beyond_m = electrode_radius_m(scene) - 0.5 * scene.diameter_m;
   if (beyond_m > scene.film_edge_m) {
     throw SceneMistake("geometry.electrode.radius",
                        "the outer electrodes reach beyond the film; make them smaller, or the "
                        "film's edge wider");
+  }
+}
+
+void check_quarter_gap(const SpaceArray& array, double radius_over_thickness) {
+  constexpr double kLeast = 0.02, kMost = 0.5;  // of the radius
+  constexpr double kWidest = 8.0;               // radius over the film's thickness
+  const double gap_m = array.electrode_gap_m, radius_m = array.electrode_radius_m;
+  if (array.electrode != SpaceElectrode::kMetalQuadrants) {
+    if (gap_m == 0.0) return;
+    throw SceneMistake("geometry.electrode.gap",
+                       "lies between quarters of metal: write kind = \"equipotential\" and "
+                       "quadrants = true, or remove the gap");
+  }
+  if (!(gap_m >= kLeast * radius_m && gap_m <= kMost * radius_m)) {
+    throw SceneMistake("geometry.electrode.gap",
+                       "between quarters of metal must lie between " +
+                           micrometres(kLeast * radius_m, 3) + " and " +
+                           micrometres(kMost * radius_m, 3) +
+                           ", a fiftieth and half of the electrode's radius");
+  }
+  if (radius_over_thickness > kWidest) {
+    throw SceneMistake("geometry.electrode.radius",
+                       "of quarters of metal is at most eight times the film's thickness; write "
+                       "kind = \"sampled\", whose means over the quarters they approach");
   }
 }
 
@@ -206,9 +230,9 @@ void validate(const SpaceArray& array) {
     throw SceneMistake("geometry.electrode.radius", "the electrode's radius must be positive");
   }
   const double radius_m = array.electrode_radius_m;
-  const bool is_metal = array.electrode == SpaceElectrode::kEquipotential;
-  const double least_m =
-      is_metal ? least_gap_m(array.film.layers.front().thickness_m, radius_m) : 0.0;
+  const double t_m = array.film.layers.front().thickness_m;
+  const double least_m = is_metal(array.electrode) ? least_gap_m(t_m, radius_m) : 0.0;
+  check_quarter_gap(array, radius_m / t_m);
   double widest = 2.0 * radius_m + least_m;
   for (const PillarClass& one : array.classes)
     widest = std::max(widest, 1.1 * widest_m(one.geometry));

@@ -187,19 +187,78 @@ PotentialSpectrum potential_spectrum(const LayeredFilm& film, const FootForces& 
   return spectrum;
 }
 
-std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectrum,
-                                                const LayeredFilm& film, const DiscCharge& charge,
-                                                const PotentialAccuracy& accuracy) {
-  const Eigen::Index count = spectrum.waves.front().amplitude.rows();
+namespace {
+
+// Potential per charge of each wave, quadrature weight included. The charge lies on the face that is read, so its short
+// waves must fade out on either face (eq. S6). If the spectrum has waves of its own, its weights already contain this.
+std::vector<double> wave_potentials(const PotentialSpectrum& spectrum, const LayeredFilm& film,
+                                    const PotentialAccuracy& accuracy) {
   const double largest_k_1_m = accuracy.largest_kt / thickness_m(film);
   const ChargePotential potential(film, largest_k_1_m, accuracy.film_degree);
   std::vector<double> per_charge;
-  // The charge lies on the face that is read, so its short waves must fade out on either face (eq.
-  // S6). If the spectrum has waves of its own, its weights already contain this.
   for (const PotentialSpectrum::Wave& wave : spectrum.waves) {
     const double share = accuracy.own_kt > 0.0 ? 1.0 : 1.0 - cut(wave.k_1_m / largest_k_1_m);
     per_charge.push_back(share * wave.weight_1_m2 * potential.at(wave.k_1_m));
   }
+  return per_charge;
+}
+
+// Whether a load leaves a potential of this angle: even cosines under pressure, odd ones along x, odd sines along y.
+bool has_angle(int load, const DiscFunction& function) {
+  const auto one = static_cast<TopLoad>(load);
+  if (one == TopLoad::kPressure) return function.order % 2 == 0 && !function.is_sine;
+  const bool is_along_y = one == TopLoad::kShearY || one == TopLoad::kTiltY;
+  return function.order % 2 != 0 && function.is_sine == is_along_y;
+}
+
+}  // namespace
+
+Eigen::MatrixXd disc_amplitudes(const PotentialSpectrum& spectrum, const MetalQuarters& quarters) {
+  const std::vector<DiscFunction>& functions = quarters.functions();
+  Eigen::MatrixXd amplitudes =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(functions.size()), kTopLoads);
+  for (const PotentialSpectrum::Wave& wave : spectrum.waves) {
+    const Eigen::VectorXd of_wave = quarters.transforms(wave.k_1_m);
+    for (Eigen::Index f = 0; f < of_wave.size(); ++f) {
+      const DiscFunction& one = functions[static_cast<std::size_t>(f)];
+      if (one.order / 2 >= wave.amplitude.rows()) continue;
+      for (int load = 0; load < kTopLoads; ++load) {
+        if (has_angle(load, one))
+          amplitudes(f, load) += of_wave[f] * wave.amplitude(one.order / 2, load);
+      }
+    }
+  }
+  return amplitudes;
+}
+
+std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectrum,
+                                                const LayeredFilm& film,
+                                                const MetalQuarters& quarters,
+                                                const Eigen::MatrixXd& charges,
+                                                const PotentialAccuracy& accuracy) {
+  const Eigen::Index count = spectrum.waves.front().amplitude.rows();
+  const std::vector<double> per_charge = wave_potentials(spectrum, film, accuracy);
+  std::vector<Eigen::MatrixXd> induced;
+  for (std::size_t i = 0; i < spectrum.waves.size(); ++i) {
+    const Eigen::VectorXd of_wave = quarters.transforms(spectrum.waves[i].k_1_m);
+    Eigen::MatrixXd& amplitude = induced.emplace_back(Eigen::MatrixXd::Zero(count, kTopLoads));
+    for (Eigen::Index f = 0; f < of_wave.size(); ++f) {
+      const DiscFunction& one = quarters.functions()[static_cast<std::size_t>(f)];
+      if (one.order / 2 >= count) continue;
+      const double factor = per_charge[i] * (one.order == 0 ? 1.0 : 2.0) * of_wave[f];
+      for (int load = 0; load < kTopLoads; ++load) {
+        if (has_angle(load, one)) amplitude(one.order / 2, load) += factor * charges(f, load);
+      }
+    }
+  }
+  return induced;
+}
+
+std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectrum,
+                                                const LayeredFilm& film, const DiscCharge& charge,
+                                                const PotentialAccuracy& accuracy) {
+  const Eigen::Index count = spectrum.waves.front().amplitude.rows();
+  const std::vector<double> per_charge = wave_potentials(spectrum, film, accuracy);
   std::vector<Eigen::MatrixXd> induced(spectrum.waves.size(),
                                        Eigen::MatrixXd::Zero(count, kTopLoads));
   for (int m = 0; m < 2 * count; ++m) {

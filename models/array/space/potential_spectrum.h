@@ -3,6 +3,7 @@
 #include "models/array/film/disc_coupling.h"
 #include "models/array/film/film_table.h"
 #include "models/array/film/layered_film.h"
+#include "models/array/film/metal_quarters.h"
 #include "models/array/space/foot_forces.h"
 #include "models/maths/near_sums.h"
 
@@ -61,6 +62,16 @@ Eigen::MatrixXd harmonics_of(const std::vector<Eigen::Vector4d>& at_angles, cons
 // charge is zero (eq. S5); amplitudes by wave, j x loads.
 std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectrum,
                                                 const LayeredFilm& film, const DiscCharge& charge,
+                                                const PotentialAccuracy& accuracy);
+
+// The potential over the disc under the pillar as amplitudes of the polynomials of quarters of metal, V/Pa: functions x
+// loads.
+Eigen::MatrixXd disc_amplitudes(const PotentialSpectrum& spectrum, const MetalQuarters& quarters);
+// The same part of the spectrum by these charges on the quarters (MetalQuarters::induced): functions x loads.
+std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectrum,
+                                                const LayeredFilm& film,
+                                                const MetalQuarters& quarters,
+                                                const Eigen::MatrixXd& charges,
                                                 const PotentialAccuracy& accuracy);
 
 // The potential around a loaded pillar, for electrodes that influence each other (coupled_discs.h).

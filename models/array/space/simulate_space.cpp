@@ -78,7 +78,7 @@ double beyond_reach(const SpaceScene& scene, const SpaceResponse& response,
   for (const SceneMap& map : answer.maps) {
     if (map.name == kCrosstalk && size_of(map) > 0.0) {
       // Per cent of the reading of a disc (space_maps.cpp).
-      const Eigen::Index disc = scene.electrode == SpaceElectrode::kEquipotential ? 0 : 1;
+      const Eigen::Index disc = whole_reading(scene.electrode);
       const double own_V = readings_V.col(disc).cwiseAbs().maxCoeff();
       if (own_V > 0.0) share = std::max(share, 100.0 * beyond_V[disc] / own_V / size_of(map));
     }
@@ -291,6 +291,12 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   if (senses_forces(scene))
     std::ranges::move(sensed_notes(scene), std::back_inserter(answer.notes));
   add_stretching_note(scene, backing, answer);
+  if (scene.electrode == SpaceElectrode::kMetalQuadrants) {
+    answer.notes.push_back("each quarter is a conductor with one voltage, with gaps of " +
+                           micrometres(scene.electrode_gap_m, 3) +
+                           " between them; without metal (kind = \"sampled\") quarters read means "
+                           "over their areas");
+  }
   return answer;
 }
 

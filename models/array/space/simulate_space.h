@@ -12,7 +12,8 @@ namespace viscard {
 // meets the tolerance. The maps, by pillar:
 //   centre_voltage, mean_voltage  of a charge-free face: under the axis, over the electrode's disc
 //   quadrant_1_voltage to _4_     means over the quarters (+,+), (-,+), (-,-), (+,-) of the disc
-//   electrode_voltage             of open equipotential electrodes, instead of those above
+//   electrode_voltage             of open equipotential electrodes, instead of centre and mean; of quarters of metal
+//                                 their mean, beside quadrant_1_voltage to _4_ of each
 //   crosstalk_percent             mean or electrode voltage of an unloaded pillar over the largest of a
 //                                 loaded one
 // The results are the largest and the smallest value of each map ("mean_voltage_largest") and the values

@@ -1,6 +1,5 @@
 #include "models/array/space/space_array.h"
 
-#include "models/maths/gauss_legendre.h"
 #include "models/maths/near_sums.h"
 
 #include <algorithm>
@@ -17,25 +16,8 @@ constexpr std::size_t kCentre = 0;  // readings of the tables; or the electrode 
 constexpr std::size_t kMean = 1;
 constexpr int kQuadrantPoints = 7;  // Gauss points along the radius and the angle of a quarter
 constexpr int kFarPoints = 3;       // of a quarter beyond the reach of the near table
-
-struct WeightedPoint {
-  double x_m, y_m, weight;
-};
-
-// Quadrature of the mean over one quarter of a disc, quadrant 0 to 3.
-std::vector<WeightedPoint> quarter(double radius_m, int quadrant, int count) {
-  const QuadratureRule rule = gauss_legendre(count);
-  std::vector<WeightedPoint> points;
-  for (std::size_t i = 0; i < rule.points.size(); ++i) {
-    for (std::size_t j = 0; j < rule.points.size(); ++j) {
-      const double r_m = radius_m * rule.points[i];
-      const double angle = 0.5 * std::numbers::pi * (quadrant + rule.points[j]);
-      points.push_back({r_m * std::cos(angle), r_m * std::sin(angle),
-                        2.0 * rule.points[i] * rule.weights[i] * rule.weights[j]});
-    }
-  }
-  return points;
-}
+constexpr int kFarPolynomials = 4;  // the same of quarters of metal
+constexpr int kMostPolynomials = 28;
 
 double largest_diameter_m(const SpaceArray& array) {
   double largest_m = 0.0;
@@ -48,13 +30,16 @@ double largest_diameter_m(const SpaceArray& array) {
 // Mapping of the readings of a pillar at a mirrored place under some of the loads: quarters change
 // places, and loads along the axis change sign.
 std::array<KernelMirror, 2> mirrors_of(Eigen::Index readings, const std::vector<TopLoad>& loads) {
-  constexpr std::array<std::array<int, 6>, 2> kQuarters = {
-      {{0, 1, 3, 2, 5, 4}, {0, 1, 5, 4, 3, 2}}};
+  constexpr std::array<std::array<int, 4>, 2> kQuarters = {{{1, 0, 3, 2}, {3, 2, 1, 0}}};
   constexpr std::array<std::array<TopLoad, 2>, 2> kTurned = {
       {{TopLoad::kShearX, TopLoad::kTiltX}, {TopLoad::kShearY, TopLoad::kTiltY}}};
   std::array<KernelMirror, 2> mirrors;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    mirrors[axis].reading.assign(kQuarters[axis].begin(), kQuarters[axis].begin() + readings);
+    for (Eigen::Index r = 0; r < readings; ++r) {
+      const Eigen::Index first = readings > 4 ? readings - 4 : readings;  // of the quarters
+      mirrors[axis].reading.push_back(static_cast<int>(
+          r < first ? r : first + kQuarters[axis].at(static_cast<std::size_t>(r - first))));
+    }
     mirrors[axis].reading_sign = Eigen::VectorXd::Ones(readings);
     mirrors[axis].load_sign = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(loads.size()));
     for (std::size_t l = 0; l < loads.size(); ++l) {
@@ -89,9 +74,9 @@ double array_diagonal_m(const SpaceArray& array) {
 }
 
 std::vector<std::string> reading_names(SpaceElectrode electrode) {
-  if (electrode == SpaceElectrode::kEquipotential) return {"electrode"};
-  std::vector<std::string> names = {"centre", "mean"};
-  if (electrode == SpaceElectrode::kQuadrants) {
+  std::vector<std::string> names = {"electrode"};
+  if (!is_metal(electrode)) names = {"centre", "mean"};
+  if (has_quarters(electrode)) {
     for (int q = 1; q <= 4; ++q) names.push_back("quadrant_" + std::to_string(q));
   }
   return names;
@@ -122,6 +107,13 @@ std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
                     .film_degree = one.potential.film_degree,
                     .beyond_nearest_m = (0.5 * degree) * t_m,
                     .far_m = one.potential.reach_m};
+    // Of cells as wide as the film is thick at most, and of waves that are felt through the film.
+    const double width = array.electrode_radius_m / t_m;
+    one.quarters = {
+        .cells = std::max(3 * degree, 3 * static_cast<int>(std::ceil(width))),
+        .polynomials =
+            std::min(kMostPolynomials, static_cast<int>((4 + 2 * degree) * std::max(1.0, width))),
+        .film_degree = one.potential.film_degree};
     if (array.film.backing) {
       one.potential.far_m = array_diagonal_m(array) + 2.0 * array.electrode_radius_m;
     }
@@ -149,6 +141,17 @@ SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accur
     if (accuracy.coupling.harmonics > 0 && array.pillars.size() > 1) {
       coupling_.emplace(array.film, *charge_, sources_of(array), accuracy.coupling);
     }
+  }
+  if (array.electrode == SpaceElectrode::kMetalQuadrants) {
+    quarters_ = std::make_unique<MetalQuarters>(array.film, array.electrode_radius_m,
+                                                array.electrode_gap_m, accuracy.quarters);
+    capacitance_F_ = quarters_->capacitance_F();
+    near_rule_ = quarters_->rule(accuracy.quarters.polynomials);
+    far_rule_ = quarters_->rule(kFarPolynomials);
+    readings = {point_reading()};
+  } else if (has_quarters(array.electrode)) {
+    near_rule_ = quarter_means(array.electrode_radius_m, kQuadrantPoints);
+    far_rule_ = quarter_means(array.electrode_radius_m, kFarPoints);
   }
   std::optional<FilmTable> film;
   if (array.film.backing) {
@@ -184,6 +187,11 @@ void SpaceResponse::add_class(const PillarClass& one, const SpaceAccuracy& accur
     coupling_->add_kind(field_around(spectrum), foot_m);
   } else if (charge_) {
     induced = induced_amplitudes(spectrum, array_->film, *charge_, potential);
+  } else if (quarters_) {
+    const Eigen::MatrixXd amplitudes = disc_amplitudes(spectrum, *quarters_);
+    own_.emplace_back(quarters_->readings() * amplitudes);
+    induced = induced_amplitudes(spectrum, array_->film, *quarters_,
+                                 quarters_->induced() * amplitudes, potential);
   }
   PotentialTable near(spectrum, induced, potential.reach_m, readings);
   if (film && potential.far_m > 0.0) {
@@ -196,21 +204,33 @@ void SpaceResponse::add_class(const PillarClass& one, const SpaceAccuracy& accur
 Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> SpaceResponse::kernel(int of_class, double x_m,
                                                                        double y_m) const {
   const WideTable& table = tables_[static_cast<std::size_t>(of_class)];
-  const bool has_quadrants = array_->electrode == SpaceElectrode::kQuadrants;
   Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(
       static_cast<Eigen::Index>(reading_names(array_->electrode).size()), kTopLoads);
+  const bool is_in_quarters = has_quarters(array_->electrode);
+  if (is_in_quarters) kernel.bottomRows<4>() = quarters_at(of_class, x_m, y_m);
+  if (quarters_) {
+    kernel.row(0) = kernel.bottomRows<4>().colwise().mean();
+    return kernel;
+  }
   kernel.row(0) = table.at(x_m, y_m, kCentre).transpose();
   if (coupling_) kernel.row(0) += coupling_->by_own_charge(of_class, x_m, y_m);
   if (kernel.rows() > 1) kernel.row(1) = table.at(x_m, y_m, kMean).transpose();
-  const int points = std::hypot(x_m, y_m) > reach_m_ ? kFarPoints : kQuadrantPoints;
-  for (int quadrant = 0; quadrant < 4 && has_quadrants; ++quadrant) {
-    PotentialByLoad mean = PotentialByLoad::Zero();
-    for (const WeightedPoint& point : quarter(array_->electrode_radius_m, quadrant, points)) {
-      mean += point.weight * table.at(x_m + point.x_m, y_m + point.y_m, kCentre);
-    }
-    kernel.row(2 + quadrant) = mean.transpose();
-  }
   return kernel;
+}
+
+Eigen::Matrix<double, 4, kTopLoads> SpaceResponse::quarters_at(int of_class, double x_m,
+                                                               double y_m) const {
+  const auto c = static_cast<std::size_t>(of_class);
+  const double distance_m = std::hypot(x_m, y_m);
+  if (quarters_ && distance_m < array_->electrode_radius_m) return own_[c];
+  const QuarterRule& rule = distance_m > reach_m_ ? far_rule_ : near_rule_;
+  Eigen::Matrix<double, 4, kTopLoads> read = Eigen::Matrix<double, 4, kTopLoads>::Zero();
+  for (std::size_t p = 0; p < rule.points_m.size(); ++p) {
+    read +=
+        rule.weights.col(static_cast<Eigen::Index>(p)) *
+        tables_[c].at(x_m + rule.points_m[p].x(), y_m + rule.points_m[p].y(), kCentre).transpose();
+  }
+  return read;
 }
 
 Eigen::MatrixXd SpaceResponse::added_by_electrodes(std::size_t pillar) const {

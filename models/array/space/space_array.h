@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/array/film/coupled_discs.h"
+#include "models/array/film/metal_quarters.h"
 #include "models/array/space/wide_table.h"
 #include "models/maths/offset_sums.h"
 
@@ -20,7 +21,24 @@ enum class SpaceElectrode {
   // Additionally its means over the quarters of the disc: 1 (+,+), 2 (-,+), 3 (-,-), 4 (+,-).
   kQuadrants,
   kEquipotential,  // the voltage of an open electrode on the disc
+  // The voltages of its quarters as four open electrodes with gaps between them (eq. S19), and their mean, which is that of
+  // the four joined.
+  kMetalQuadrants,
 };
+inline bool has_quarters(SpaceElectrode electrode) {
+  return electrode == SpaceElectrode::kQuadrants || electrode == SpaceElectrode::kMetalQuadrants;
+}
+inline bool is_metal(SpaceElectrode electrode) {
+  return electrode == SpaceElectrode::kEquipotential ||
+         electrode == SpaceElectrode::kMetalQuadrants;
+}
+// Index of the voltage of a whole electrode among its readings, and of that of its first quarter.
+inline Eigen::Index whole_reading(SpaceElectrode electrode) {
+  return is_metal(electrode) ? 0 : 1;
+}
+inline Eigen::Index first_quarter(SpaceElectrode electrode) {
+  return whole_reading(electrode) + 1;
+}
 
 // Pillars of one shape and material.
 struct PillarClass {
@@ -42,6 +60,7 @@ struct SpaceArray {
   LayeredFilm film;
   SpaceElectrode electrode = SpaceElectrode::kSampled;
   double electrode_radius_m = 0.0;
+  double electrode_gap_m = 0.0;  // between quarters of metal
 };
 
 // Where the pillars stand, for sums over their distances.
@@ -56,7 +75,7 @@ void validate(const SpaceArray& array);
 // Columns: values of TopLoad, Pa. Rows: pillars.
 using TopLoads = Eigen::Matrix<double, Eigen::Dynamic, kTopLoads>;
 
-// Names of the readings of an electrode: centre, mean, quadrant_1, ... or electrode.
+// Names of the readings of an electrode: centre, mean or electrode, then quadrant_1, ...
 std::vector<std::string> reading_names(SpaceElectrode electrode);
 
 // How finely an array is answered: foot_forces.h and potential_table.h.
@@ -64,6 +83,7 @@ struct SpaceAccuracy {
   Discretisation foot;
   PotentialAccuracy potential;
   CouplingAccuracy coupling;  // of open electrodes
+  MetalQuartersAccuracy quarters;
 };
 // Accuracies of rising cost, in the order of the foot's degree (3 to 9). If the loaded face is also
 // the one that is read, much shorter waves are needed than for the face below.
@@ -105,12 +125,14 @@ class SpaceResponse {
   // Forces at the feet of the pillars of a class.
   const FootForces& foot(int of_class) const { return feet_[static_cast<std::size_t>(of_class)]; }
   double capacitance_F() const { return capacitance_F_; }  // of one electrode; 0 if sampled
+  const MetalQuarters* quarters() const { return quarters_.get(); }  // null without them
   double reach_m() const { return reach_m_; }  // between axes, beyond which nothing is felt
   int unknowns() const { return unknowns_; }
 
  private:
   void add_class(const PillarClass& one, const SpaceAccuracy& accuracy, const FilmTable* film,
                  const std::vector<AxialReading>& readings);
+  Eigen::Matrix<double, 4, kTopLoads> quarters_at(int of_class, double x_m, double y_m) const;
   // Without the charges that electrodes induce on each other.
   Sums sums_alone(const std::vector<TopLoad>& loads, const std::vector<bool>& acts,
                   const OffsetSums::Kernel& of_loads) const;
@@ -118,6 +140,9 @@ class SpaceResponse {
   const SpaceArray* array_;
   std::unique_ptr<DiscCharge> charge_;    // of open electrodes
   std::optional<CoupledDiscs> coupling_;  // of several of them
+  std::unique_ptr<MetalQuarters> quarters_;
+  QuarterRule near_rule_, far_rule_;                      // of quarters of either kind
+  std::vector<Eigen::Matrix<double, 4, kTopLoads>> own_;  // by class: of quarters of metal
   double capacitance_F_ = 0.0;
   double reach_m_ = 0.0;  // between axes
   bool is_wide_ = false;  // a backing carries readings beyond the reach

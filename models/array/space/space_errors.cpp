@@ -31,14 +31,6 @@ double rigid_foot_error(const SpaceScene& scene) {
   return (is_sheared ? kSheared : kPressed) * stiffest_Pa / elasticity_of(scene.film).young_Pa;
 }
 
-double electrode_error(const SpaceScene& scene) {
-  if (scene.electrode != SpaceElectrode::kEquipotential || scene.pillars.size() < 2) return 0.0;
-  const SpaceArray array = array_of(scene);
-  const PotentialAccuracy accuracy = space_accuracies(array)[1].potential;
-  const DiscCharge charge(array.film, array.electrode_radius_m, 1, 4, accuracy.film_degree);
-  return influence_of_all(array.film, charge, sources_of(array), accuracy);
-}
-
 namespace {
 
 // How far the film's potential per charge along one axis differs from that over all directions, which the charges are
@@ -57,7 +49,59 @@ double direction_spread(const SpaceScene& scene) {
   return spread;
 }
 
+// What charges on the quarters of the nearest pillars add to a voltage that is left out (eq. S19), over the pillar's own:
+// the potential around the pillar, with that of its own charges, makes a neighbour's quarters gain charges, which act back.
+double quarter_error(const SpaceScene& scene) {
+  constexpr double kOfSpread = 0.1;  // change of a reading over that of the charge's potential
+  constexpr double kMostNear = 8.0;  // nearest pillars
+  const SpaceArray array = array_of(scene);
+  const double error = kOfSpread * direction_spread(scene);
+  if (array.pillars.size() < 2) return error;
+  const double pitch_m = smallest_pitch_m(scene);
+  const double a_m = array.electrode_radius_m;
+  const SpaceAccuracy accuracy = space_accuracies(array)[1];
+  const SpaceResponse response(array, accuracy);
+  const MetalQuarters& quarters = *response.quarters();
+  const QuarterRule rule = quarters.rule(accuracy.quarters.polynomials);
+  const Eigen::MatrixXd from_points = quarters.amplitudes_from_points();
+  const PointCharge charge(array.film, pitch_m + 2.01 * a_m, accuracy.potential.film_degree);
+  const auto count = static_cast<Eigen::Index>(rule.points_m.size());
+  double largest = 0.0;
+  for (std::size_t c = 0; c < array.classes.size(); ++c) {
+    const auto of_class = static_cast<int>(c);
+    const Eigen::MatrixXd own = response.kernel(of_class, 0.0, 0.0).bottomRows<4>();
+    for (const double angle : {0.0, 0.25 * std::numbers::pi, 0.5 * std::numbers::pi}) {
+      const Eigen::Vector2d way(pitch_m * std::cos(angle), pitch_m * std::sin(angle));
+      Eigen::MatrixXd potential(count, kTopLoads), back(count, count);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const Eigen::Vector2d there = way + rule.points_m[static_cast<std::size_t>(i)];
+        potential.row(i) = response.potential(of_class, there.x(), there.y()).transpose();
+        for (Eigen::Index j = 0; j < count; ++j) {
+          back(j, i) = charge.at((there - rule.points_m[static_cast<std::size_t>(j)]).norm());
+        }
+      }
+      const Eigen::MatrixXd charges =
+          from_points.transpose() * (quarters.induced() * (from_points * potential));
+      const Eigen::MatrixXd added = rule.weights * (back * charges);
+      for (Eigen::Index load = 0; load < kTopLoads; ++load) {
+        largest = std::max(
+            largest, added.col(load).cwiseAbs().maxCoeff() / own.col(load).cwiseAbs().maxCoeff());
+      }
+    }
+  }
+  return error + std::min(static_cast<double>(array.pillars.size()) - 1.0, kMostNear) * largest;
+}
+
 }  // namespace
+
+double electrode_error(const SpaceScene& scene) {
+  if (scene.electrode == SpaceElectrode::kMetalQuadrants) return quarter_error(scene);
+  if (scene.electrode != SpaceElectrode::kEquipotential || scene.pillars.size() < 2) return 0.0;
+  const SpaceArray array = array_of(scene);
+  const PotentialAccuracy accuracy = space_accuracies(array)[1].potential;
+  const DiscCharge charge(array.film, array.electrode_radius_m, 1, 4, accuracy.film_degree);
+  return influence_of_all(array.film, charge, sources_of(array), accuracy);
+}
 
 ElectrodeCoupling electrode_coupling(const SpaceScene& scene) {
   constexpr double kNegligible = 0.1;  // of the tolerance
@@ -65,6 +109,7 @@ ElectrodeCoupling electrode_coupling(const SpaceScene& scene) {
   constexpr double kLeast = 1e-8, kMost = 0.3;
   ElectrodeCoupling coupling;
   coupling.error = electrode_error(scene);
+  if (scene.electrode != SpaceElectrode::kEquipotential) return coupling;
   const bool has_percent = has_crosstalk(scene) && asks_for_map(scene, kCrosstalk);
   const double tolerance = (has_percent ? kCrosstalkScale / 100.0 : 1.0) * scene.tolerance;
   if (!scene.feels_neighbours || coupling.error <= kNegligible * tolerance) return coupling;

@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kTolerance = 1e-4;                 // decides on charges of other electrodes
 constexpr std::size_t kLevel = 2, kFinerLevel = 3;  // of space_accuracies(): 7e-5 and better
-constexpr Eigen::Index kFirstOfQuarters = 2;        // among the readings of an electrode
 
 // What charges on all electrodes of a lattice of like pillars add to the voltage of one in its middle, by the offset from a
 // loaded pillar (eq. S17). At the edge of an array electrodes are missing, which changes these charges.
@@ -93,10 +92,10 @@ class InverseKernel {
  public:
   InverseKernel(const SpaceScene& scene, std::size_t level, bool at_centre)
       : array_(array_of(scene)),
-        is_in_quarters_(scene.electrode == SpaceElectrode::kQuadrants),
-        row_(is_in_quarters_                                             ? kFirstOfQuarters
-             : scene.electrode == SpaceElectrode::kSampled && !at_centre ? 1
-                                                                         : 0),
+        is_in_quarters_(has_quarters(scene.electrode)),
+        row_(is_in_quarters_ ? first_quarter(scene.electrode)
+             : at_centre     ? 0
+                             : whole_reading(scene.electrode)),
         response_(array_, without_coupling(space_accuracies(array_)[level])) {}
 
   Eigen::MatrixXd at(int of_class, double x_m, double y_m) const {
@@ -184,7 +183,7 @@ void check_inverse(const SpaceScene& scene, const InverseOptions& options) {
   if (!(options.shear_Pa >= 0.0 && std::isfinite(options.shear_Pa))) {
     throw std::invalid_argument("shear must not be negative");
   }
-  if (options.shear_Pa > 0.0 && scene.electrode == SpaceElectrode::kQuadrants) {
+  if (options.shear_Pa > 0.0 && has_quarters(scene.electrode)) {
     throw std::invalid_argument("shear is found from quarters; it is stated for one electrode");
   }
   if (options.choice.weight && !(*options.choice.weight > 0.0)) {
@@ -195,11 +194,11 @@ void check_inverse(const SpaceScene& scene, const InverseOptions& options) {
 }  // namespace
 
 Eigen::Index inverse_readings(const SpaceScene& scene) {
-  return scene.electrode == SpaceElectrode::kQuadrants ? 4 : 1;
+  return has_quarters(scene.electrode) ? 4 : 1;
 }
 
 Eigen::Index inverse_loads(const SpaceScene& scene) {
-  return scene.electrode == SpaceElectrode::kQuadrants ? 3 : 1;
+  return has_quarters(scene.electrode) ? 3 : 1;
 }
 
 LoadReader load_reader(const SpaceScene& whole, const VoltageFrames& examples,

@@ -21,8 +21,8 @@ struct DiscReading {
   Eigen::Index row;  // of a kernel
 };
 DiscReading disc_reading(const SpaceScene& scene) {
-  const bool has_electrodes = scene.electrode == SpaceElectrode::kEquipotential;
-  return has_electrodes ? DiscReading{"electrode_voltage", 0} : DiscReading{"mean_voltage", 1};
+  return {is_metal(scene.electrode) ? "electrode_voltage" : "mean_voltage",
+          whole_reading(scene.electrode)};
 }
 // A pillar under shear has no centre or mean voltage of its own. The contributions of its
 // neighbours are judged relative to this share of the voltage that the same load would give as a

@@ -23,7 +23,6 @@ constexpr std::array<SensedForce, kSensedLoads> kForces = {
     {{TopLoad::kPressure, "normal"}, {TopLoad::kShearX, "shear_x"}, {TopLoad::kShearY, "shear_y"}}};
 constexpr const char* kWithoutNeighbours = "without_neighbours_percent";
 constexpr const char* kUnexplained = "unexplained_voltage";
-constexpr Eigen::Index kFirstQuarter = 2;  // among the readings of an electrode in quarters
 
 std::string map_name(const SensedForce& one) {
   return std::string("sensed_") + one.what + "_force";
@@ -55,7 +54,7 @@ QuadrantArray quadrant_array(const SpaceScene& scene, const SpaceResponse& respo
   array.classes = static_cast<int>(scene.others.size()) + 1;
   array.reach_m = response.reach_m();
   array.kernel = [&response](int of_class, double x_m, double y_m) -> Eigen::MatrixXd {
-    return response.kernel(of_class, x_m, y_m).block<4, kSensedLoads>(kFirstQuarter, 0);
+    return response.kernel(of_class, x_m, y_m).bottomLeftCorner<4, kSensedLoads>();
   };
   array.by_neighbours = scene.quadrants.by_neighbours && scene.feels_neighbours;
   if (!has_sums) return array;
@@ -63,7 +62,7 @@ QuadrantArray quadrant_array(const SpaceScene& scene, const SpaceResponse& respo
                           response.sums_of({TopLoad::kPressure, TopLoad::kShearX, TopLoad::kShearY},
                                            std::vector<bool>(scene.pillars.size(), true))](
                          const Eigen::MatrixXd& loads_Pa) -> Eigen::MatrixXd {
-    return sums(loads_Pa).middleCols<4>(kFirstQuarter);
+    return sums(loads_Pa).rightCols<4>();
   };
   return array;
 }
@@ -84,7 +83,7 @@ Eigen::MatrixXd quarters_V(const SpaceScene& scene, const SpaceResponse& respons
                            const TopLoads& loads_Pa, const Eigen::MatrixXd& readings_V) {
   const QuadrantSensing& sensing = scene.quadrants;
   if (sensing.measured_V.size() > 0) return sensing.measured_V;
-  if (!sensing.nodes) return readings_V.middleCols<4>(kFirstQuarter);
+  if (!sensing.nodes) return readings_V.rightCols<4>();
   const std::vector<QuadrantNode> nodes = nodes_of(*sensing.nodes, electrode_radius_m(scene));
   const SpaceArray array = array_of(scene);
   return NearSums(sources_of(array), std::vector<bool>(scene.pillars.size(), true),
@@ -119,14 +118,14 @@ double force_of_voltage_N(const SpaceScene& scene, const std::vector<QuadrantGai
 
 std::vector<std::string> sensed_maps(const SpaceScene& scene) {
   std::vector<std::string> names;
-  if (scene.electrode != SpaceElectrode::kQuadrants) return names;
+  if (!has_quarters(scene.electrode)) return names;
   for (const SensedForce& one : kForces) names.push_back(map_name(one));
   return names;
 }
 
 std::vector<std::string> sensed_results(const SpaceScene& scene) {
   std::vector<std::string> names;
-  if (scene.electrode != SpaceElectrode::kQuadrants) return names;
+  if (!has_quarters(scene.electrode)) return names;
   names = {kWithoutNeighbours, kUnexplained, "decoupling_condition"};
   for (const SensedForce& one : kForces) {
     names.push_back(std::string("gain_") + one.what);
@@ -269,7 +268,7 @@ std::vector<std::string> sensed_notes(const SpaceScene& scene) {
   const Eigen::MatrixXd means = node_means(
       response, nodes_of(*scene.quadrants.nodes, electrode_radius_m(scene)), 0, 0.0, 0.0);
   const Eigen::MatrixXd seen =
-      quadrant_gains(response.kernel(0, 0.0, 0.0).block<4, kSensedLoads>(kFirstQuarter, 0)) *
+      quadrant_gains(response.kernel(0, 0.0, 0.0).bottomLeftCorner<4, kSensedLoads>()) *
       means.leftCols<kSensedLoads>();
   const auto percent = [&](int reads, int of) {
     return text_of(100.0 * seen(reads, of), 3) + " %";
@@ -289,7 +288,7 @@ void check_quadrants(const SpaceScene& scene) {
   const QuadrantSensing& sensing = scene.quadrants;
   const bool is_measured = sensing.measured_V.size() > 0;
   if (!has_options(sensing)) return;
-  if (scene.electrode != SpaceElectrode::kQuadrants) {
+  if (!has_quarters(scene.electrode)) {
     throw SceneMistake(
         "quadrants",
         "belongs to electrodes in quarters: say electrode = { quadrants = true, ... }");
@@ -300,6 +299,11 @@ void check_quadrants(const SpaceScene& scene) {
         "cannot stand beside [noise], which gives the noise of an amplifier; leave one out");
   }
   if (sensing.nodes) {
+    if (is_metal(scene.electrode)) {
+      throw SceneMistake("quadrants.averages",
+                         "as means over nodes are those of a charge-free face; quarters of metal "
+                         "have one voltage each: write electrode.kind = \"sampled\"");
+    }
     at_key("quadrants", [&] { nodes_of(*sensing.nodes, electrode_radius_m(scene)); });
     if (is_measured) {
       throw SceneMistake(

@@ -92,6 +92,7 @@ SpaceArray array_of(const SpaceScene& scene) {
   if (scene.feels_backing) array.film.backing = scene.backing;
   array.electrode = scene.electrode;
   array.electrode_radius_m = electrode_radius_m(scene);
+  array.electrode_gap_m = scene.electrode_gap_m;
   return array;
 }
 

@@ -60,6 +60,7 @@ struct SpaceScene : SceneCommon {
   FilmFace grounded = FilmFace::kTop;
   SpaceElectrode electrode = SpaceElectrode::kSampled;
   double electrode_radius_m = 0.0;  // 0: that of the usual pillars
+  double electrode_gap_m = 0.0;     // between quarters of metal
 
   double pressure_Pa = 0.0;  // on the tops of the loaded pillars
   double shear_x_Pa = 0.0;

@@ -34,10 +34,19 @@ HeatPath heat_path(const SpaceScene& scene) {
           .permittivity_F_m = free_permittivity_F_m(scene.film)};
 }
 
+MetalQuarters metal_quarters(const SpaceArray& array) {
+  return {array.film, array.electrode_radius_m, array.electrode_gap_m,
+          space_accuracies(array)[2].quarters};
+}
+
 ElectrodeWeight weight_of(const SpaceScene& scene, const SpaceArray& array,
                           const std::string& reading) {
   if (reading == "centre") return [](double) { return 1.0; };
   const double a_m = array.electrode_radius_m;
+  if (scene.electrode == SpaceElectrode::kMetalQuadrants) {
+    const auto quarters = std::make_shared<const MetalQuarters>(metal_quarters(array));
+    return [quarters](double k_1_m) { return quarters->weight(k_1_m); };
+  }
   if (scene.electrode == SpaceElectrode::kEquipotential) {
     const auto charge =
         std::make_shared<const DiscCharge>(array.film, a_m, 1, kModes, kSensedFilmDegree);
@@ -123,18 +132,27 @@ class HeatResults {
   SceneAnswer* answer_;
 };
 
-// Noise of one electrode. A quarter of it has a quarter of that, apart from the effect of the gaps
+// Noise of one electrode. A quarter of a charge-free face has a quarter of that, apart from the effect of the gaps
 // between quarters.
 double noisy_capacitance_F(const SpaceScene& scene, const SpaceArray& array) {
+  if (scene.electrode == SpaceElectrode::kMetalQuadrants)
+    return metal_quarters(array).capacitance_F();
   const DiscCharge charge(array.film, array.electrode_radius_m, 1, kModes, kSensedFilmDegree);
   return scene.electrode == SpaceElectrode::kQuadrants ? 0.25 * charge.capacitance_F()
                                                        : charge.capacitance_F();
 }
 
+// With what the film's material states of its leakage.
+Readout noisy_readout(const SpaceScene& scene) {
+  Readout readout = *scene.noise_readout;
+  readout.film_leakage_s = std::min(readout.film_leakage_s, scene.film_loss.leakage_s);
+  return readout;
+}
+
 void add_noise(const SpaceScene& scene, double own_V_Pa, SceneAnswer& answer) {
   const SpaceArray array = array_of(scene);
   const double capacitance_F = noisy_capacitance_F(scene, array);
-  const ThermalNoise noise = thermal_noise(*scene.noise, *scene.noise_readout, capacitance_F);
+  const ThermalNoise noise = thermal_noise(*scene.noise, noisy_readout(scene), capacitance_F);
   const double area_m2 = 0.25 * std::numbers::pi * scene.diameter_m * scene.diameter_m;
   const double signal_V_Pa = std::abs(noise.gain * own_V_Pa);
   const auto put = [&](const char* name, double value, const char* unit) {
@@ -215,7 +233,7 @@ void check_heat_and_noise(const SpaceScene& scene) {
 
 double quarter_noise_V(const SpaceScene& scene) {
   if (!scene.noise) return scene.quadrants.noise_V;
-  const ThermalNoise noise = thermal_noise(*scene.noise, *scene.noise_readout,
+  const ThermalNoise noise = thermal_noise(*scene.noise, noisy_readout(scene),
                                            noisy_capacitance_F(scene, array_of(scene)));
   return noise.total_V() / noise.gain;
 }
@@ -236,8 +254,7 @@ void add_heat_and_noise(const SpaceScene& scene, SceneAnswer& answer) {
     }
   }
   if (scene.noise) {
-    const Eigen::Index own =
-        scene.electrode == SpaceElectrode::kQuadrants ? 2 : 0;  // a quarter, or the electrode
+    const Eigen::Index own = has_quarters(scene.electrode) ? first_quarter(scene.electrode) : 0;
     add_noise(scene, kernel(own, static_cast<int>(TopLoad::kPressure)), answer);
   }
 }

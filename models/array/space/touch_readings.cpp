@@ -2,6 +2,7 @@
 #include "models/array/film/disc_charge.h"
 #include "models/array/space/space_maps.h"
 #include "models/array/space/touch_curves.h"
+#include "models/array/space/touch_steps.h"
 #include "models/maths/neighbours.h"
 
 #include <algorithm>
@@ -111,17 +112,15 @@ struct Driven {
 
 // All electrodes are wired alike. The reading of one contains the effect of its neighbours'
 // charges, to first order in p12/p11 (eq. S16).
-std::vector<double> reading_from(const Readout& readout, const ReadoutFilter& filter,
+std::vector<double> reading_from(const Readout& readout, const FilmPort& film,
                                  const std::vector<double>& time_s, const Driven& driven) {
+  const ReadoutFilter filter = readout_filter(readout, film);
   std::vector<double> source_V = driven.open_V;
   for (std::size_t k = 0; k < source_V.size(); ++k) source_V[k] -= driven.mixed_V[k];
   if (readout.kind == ReadoutKind::kVoltage) {
     const std::vector<double> read_V = reading_of(filter, time_s, driven.mixed_V);
-    double leaked_Vs = 0.0;
-    for (std::size_t k = 0; k < source_V.size(); ++k) {
-      if (k > 0) leaked_Vs += 0.5 * (read_V[k] + read_V[k - 1]) * (time_s[k] - time_s[k - 1]);
-      source_V[k] += read_V[k] + leaked_Vs / readout.film_leakage_s;
-    }
+    const std::vector<double> charge_V = film_charge_of(readout, film, time_s, read_V);
+    for (std::size_t k = 0; k < source_V.size(); ++k) source_V[k] += charge_V[k];
   }
   return reading_of(filter, time_s, source_V);
 }
@@ -137,12 +136,13 @@ std::vector<double> without_new(const TouchCourse& course, const std::vector<dou
 
 // Error from the change between half and full number of steps; between samples the voltage is taken
 // as linear.
-void set_reading(const SpaceScene& scene, const TouchCourse& course, const ReadoutFilter& filter,
+void set_reading(const SpaceScene& scene, const TouchCourse& course, const FilmPort& film,
                  const Driven& driven, PillarCurve& curve) {
   const Readout& readout = *scene.touch->readout;
-  curve.value = reading_from(readout, filter, course.time_s, driven);
+  curve.value = reading_from(readout, film, course.time_s, driven);
+  const double film_error = film_loss_error(scene) * largest_size(curve.value);
   const std::vector<double> coarse_V =
-      reading_from(readout, filter, without_new(course, course.time_s),
+      reading_from(readout, film, without_new(course, course.time_s),
                    {without_new(course, driven.open_V), without_new(course, driven.mixed_V)});
   const std::vector<double> fine_V = without_new(course, curve.value);
   std::size_t next = 0;  // kept samples up to here
@@ -150,7 +150,7 @@ void set_reading(const SpaceScene& scene, const TouchCourse& course, const Reado
     if (!course.is_new[k]) ++next;
     double change_V = std::abs(fine_V[next - 1] - coarse_V[next - 1]);
     if (course.is_new[k]) change_V = std::max(change_V, std::abs(fine_V[next] - coarse_V[next]));
-    curve.step_change.push_back(change_V);
+    curve.step_change.push_back(change_V + film_error);
   }
 }
 
@@ -209,14 +209,15 @@ std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse&
     influence->visit(pillar, [&](std::size_t other, double share) {
       if (scene.feels_neighbours) mixed_V += share * voltages.of(other).col(0);
     });
-    const ReadoutFilter filter = readout_filter(*scene.touch->readout, response.capacitance_F());
+    const FilmPort film = film_port(scene, response.capacitance_F());
     PillarCurve reading{kTouchReading, pillar, {}, {}};
     if (is_size) {
       // A high-pass passes at most twice the largest value.
       const double largest_V = (own_V.col(0) + mixed_V).maxCoeff();
-      reading.value.assign(course.time_s.size(), 2.0 * filter.gain * largest_V);
+      const double gain = readout_filter(*scene.touch->readout, film).gain;
+      reading.value.assign(course.time_s.size(), 2.0 * gain * largest_V);
     } else {
-      set_reading(scene, course, filter, {column(own_V, 0), {mixed_V.begin(), mixed_V.end()}},
+      set_reading(scene, course, film, {column(own_V, 0), {mixed_V.begin(), mixed_V.end()}},
                   reading);
     }
     curves.push_back(std::move(reading));

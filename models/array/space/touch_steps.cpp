@@ -28,16 +28,33 @@ PronySeries relative_series(const std::vector<MaterialTerm>& terms) {
   return series;
 }
 
+}  // namespace
+
+FilmPort film_port(const SpaceScene& scene, double capacitance_F) {
+  FilmPort port = bonded_port(scene.film, scene.film_loss);
+  port.dielectric_F *= capacitance_F;
+  port.capacitance_F = capacitance_F;
+  return port;
+}
+
+double film_loss_error(const SpaceScene& scene) {
+  if (scene.film_loss.is_lossless()) return 0.0;
+  return bonded_port(scene.film, scene.film_loss).error *
+         lost_share(scene.film_loss, 1.0 / scene.touch->history.back().time_s);
+}
+
+namespace {
+
 // Of a plate condenser as wide as the electrode, less than what the electrode has.
 ReadoutFilter plate_filter(const SpaceScene& scene) {
   const double a_m = electrode_radius_m(scene);
   const double plate_F =
       scene.film.permittivity_F_m(2, 2) * std::numbers::pi * a_m * a_m / scene.film_thickness_m;
-  return readout_filter(*scene.touch->readout, plate_F);
+  return readout_filter(*scene.touch->readout, film_port(scene, plate_F));
 }
 
 double first_block_s(const SpaceScene& scene) {
-  double fastest_s = scene.touch->readout ? plate_filter(scene).time_constant_s : HUGE_VAL;
+  double fastest_s = scene.touch->readout ? plate_filter(scene).fastest_s() : HUGE_VAL;
   for (const MaterialTerm& term : scene.pillar.terms) fastest_s = std::min(fastest_s, term.tau_s);
   return std::max(0.25 * fastest_s, 1e-9 * scene.touch->history.back().time_s);
 }
@@ -193,7 +210,7 @@ void check_readout(const SpaceScene& scene) {
   if (scene.electrode == SpaceElectrode::kEquipotential) return;
   throw SceneMistake("readout",
                      "needs electrodes to be wired to; say electrode = { kind = \"equipotential\", "
-                     "... }");
+                     "... } without quadrants");
 }
 
 // Where the columns of the array bear most.

@@ -31,14 +31,17 @@ void add_quasi_static_curve(const std::string& name, const std::string& unit,
   answer.curves.push_back({name, unit, time_s, values});
 }
 
-// Times after every corner of the load that resolve the decay of the readout.
+// Times after every corner of the load that resolve the decay of what is read.
 std::vector<double> times_of_decay(const std::vector<HistoryPoint>& history,
-                                   const ReadoutFilter& filter) {
+                                   const std::vector<BodyReading>& readings) {
   std::vector<double> times_s;
-  if (!std::isfinite(filter.time_constant_s)) return times_s;
-  for (const HistoryPoint& corner : history) {
-    for (const double share : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0}) {
-      times_s.push_back(corner.time_s + share * filter.time_constant_s);
+  for (const BodyReading& reading : readings) {
+    for (const MaxwellTerm& term : reading.filter.step.terms) {
+      for (const HistoryPoint& corner : history) {
+        for (const double share : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0}) {
+          times_s.push_back(corner.time_s + share * term.relaxation_time_s);
+        }
+      }
     }
   }
   return times_s;
@@ -92,7 +95,8 @@ QuasiStaticGoals goals_of(const PillarScene& scene, const SceneBody& body) {
 
 // Steps through the history, at one level if it is given.
 HistoryResult stepped(const PillarScene& scene, const SceneBody& body, const ReducedBody& reduced,
-                      const ReadoutFilter& filter, Control control, std::optional<int> level) {
+                      const std::vector<BodyReading>& readings, Control control,
+                      std::optional<int> level) {
   std::vector<HistoryPoint> points = history(scene);
   const double unit = control == Control::kForce ? -top_area_m2(*body.model) : -1.0;
   for (HistoryPoint& point : points) point.value *= unit;
@@ -102,9 +106,9 @@ HistoryResult stepped(const PillarScene& scene, const SceneBody& body, const Red
   for (const BodyOutput& output : body.outputs) {
     options.observers.push_back(reduced.load(output.row));
   }
-  if (scene.readout) {
-    options.output_times_s = times_of_decay(history(scene), filter);
-    options.first_steps = 32;  // the reading takes the voltage as linear between recorded times
+  options.output_times_s = times_of_decay(history(scene), readings);
+  if (scene.readout || !options.output_times_s.empty()) {
+    options.first_steps = 32;  // a reading takes the voltage as linear between recorded times
   }
   return run_history(reduced.system, control, points, options);
 }
@@ -116,11 +120,10 @@ void run_quasi_static(const PillarScene& scene, Control control, SceneAnswer& an
   const ReducedBody reduced = nearby == nullptr
                                   ? reduce_quasi_static(body.system, goals_of(scene, body))
                                   : restricted_to(body.system, nearby->reduced().basis);
-  ReadoutFilter filter;
-  if (scene.readout) filter = readout_of(scene, body, answer);
+  const std::vector<BodyReading> readings = readings_of(scene, body, answer);
   std::optional<int> level;
   if (nearby != nullptr) level = nearby->reduced().level;
-  const HistoryResult run = stepped(scene, body, reduced, filter, control, level);
+  const HistoryResult run = stepped(scene, body, reduced, readings, control, level);
   if (!run.converged) {
     throw std::runtime_error("the time steps did not converge to the tolerance of " +
                              text_of(scene.tolerance) + "; ask for a larger one");
@@ -135,13 +138,11 @@ void run_quasi_static(const PillarScene& scene, Control control, SceneAnswer& an
     for (double& value : pressure_Pa) value *= -1.0 / top_area_m2(*body.model);
     add_quasi_static_curve("top_pressure", "Pa", run.time_s, pressure_Pa, answer);
   }
-  for (std::size_t i = 1; i < body.outputs.size(); ++i) {
-    add_quasi_static_curve(body.outputs[i].name, body.outputs[i].unit, run.time_s, run.observed[i],
+  for (const BodyReading& reading : readings) {
+    add_quasi_static_curve(reading.name, reading.unit, run.time_s,
+                           reading_of(reading.filter, run.time_s, run.observed[reading.output]),
                            answer);
-  }
-  if (scene.readout) {
-    add_quasi_static_curve("reading", "V", run.time_s,
-                           reading_of(filter, run.time_s, run.observed[1]), answer);
+    note_film_error(reading, answer);
   }
 }
 
@@ -158,12 +159,11 @@ NearbyPillars quasi_static_nearby(const PillarScene& scene, const Discretisation
   const ReducedBody reduced = reduce_quasi_static(body.system, goals);
   NearbyPillars nearby;
   if (!(reduced.error_of_solutions <= kAllowed)) return nearby;
-  ReadoutFilter filter;
-  if (scene.readout) filter = readout_of(scene, body, scratch);
-  const HistoryResult run = stepped(scene, body, reduced, filter, control, {});
+  const HistoryResult run =
+      stepped(scene, body, reduced, readings_of(scene, body, scratch), control, {});
   nearby.push_back(
       std::make_unique<NearbyPillar>(scene.geometry, mesh, media_of(scene), body.model->options()));
-  if (scene.readout) nearby.back()->solve();
+  if (scene.readout || !scene.film_loss.is_lossless()) nearby.back()->solve();
   nearby.back()->keep_reduced({nearby_basis(body.system, reduced.basis, goals.outputs), run.level});
   return nearby;
 }

@@ -215,17 +215,16 @@ void run_harmonic(const PillarScene& scene, SceneAnswer& answer) {
   add_sweep(first, is_base ? "1" : "m", f, sweeps[0], answer);
   if (!is_solved_one_by_one(scene)) add_peaks(scene, response, first, sweeps[0], answer);
   note_poles(scene, sweeps[0], answer);
-  if (sweeps.size() < 2) return;
-  add_sweep(body.outputs[1].name, body.outputs[1].unit, f, sweeps[1], answer);
-  if (!scene.readout) return;
-  const ReadoutFilter filter = readout_of(scene, body, answer);
-  Sweep reading = sweeps[1];
-  for (std::size_t i = 0; i < reading.value.size(); ++i) {
-    const Complex gain = viscard::response(filter, kTwoPi * f[i]);
-    reading.value[i] *= gain;
-    reading.allowed[i] *= std::abs(gain);
+  for (const BodyReading& reading : readings_of(scene, body, answer)) {
+    Sweep read = sweeps[reading.output];
+    for (std::size_t i = 0; i < read.value.size(); ++i) {
+      const Complex gain = viscard::response(reading.filter, kTwoPi * f[i]);
+      read.value[i] *= gain;
+      read.allowed[i] *= std::abs(gain);
+    }
+    add_sweep(reading.name, reading.unit, f, read, answer);
+    note_film_error(reading, answer);
   }
-  add_sweep("reading", "V", f, reading, answer);
 }
 
 // With the solutions and the dual solutions at a few frequencies, which are solved one by one.
@@ -241,7 +240,7 @@ NearbyPillars harmonic_nearby(const PillarScene& scene, const Discretisation& me
       reduce_at(body.system, loads_and_duals(scene, body), angular_frequencies(scene));
   nearby.push_back(std::make_unique<NearbyPillar>(scene.geometry, scratch.discretisation,
                                                   media_of(scene), body.model->options()));
-  if (scene.readout) nearby.back()->solve();
+  if (scene.readout || !scene.film_loss.is_lossless()) nearby.back()->solve();
   nearby.back()->keep_reduced({nearby_basis(body.system, reduced.basis, outputs)});
   return nearby;
 }

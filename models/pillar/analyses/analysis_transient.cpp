@@ -238,26 +238,27 @@ void add_curves(const PillarScene& scene, const SceneBody& body, const Transient
                 double first_Hz, SceneAnswer& answer) {
   const int outputs = transient_drive(scene).outputs;
   const std::vector<double> time_s = at_outputs(run.time_s, outputs);
-  for (std::size_t i = 0; i < body.outputs.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    const bool is_from_base = load_place(scene) == LoadPlace::kBase && i == 0;
-    const Eigen::VectorXd at_run = run.values.row(row);
-    OutputCurve curve{is_from_base ? "top_displacement_from_base" : body.outputs[i].name,
-                      body.outputs[i].unit, run.motion.time_s, run.motion.values.row(row),
+  const auto add = [&](const BodyReading& reading) {
+    const auto row = static_cast<Eigen::Index>(reading.output);
+    const ReadoutFilter& filter = reading.filter;
+    OutputCurve curve{reading.name, reading.unit, run.motion.time_s, run.motion.values.row(row),
                       run.motion.rates.row(row)};
-    const std::vector<double> values(at_run.begin(), at_run.end());
-    add_curve(curve, time_s, at_outputs(values, outputs), first_Hz, answer);
-    if (i != 1 || !scene.readout) continue;
-    const ReadoutFilter filter = readout_of(scene, body, answer);
-    const std::vector<double> open_V(curve.values.begin(), curve.values.end());
-    const std::vector<double> reading = reading_of(filter, curve.time_s, open_V);
-    curve.values = Eigen::VectorXd::Map(reading.data(), std::ssize(reading));
-    curve.rates = filter.gain * curve.rates - curve.values / filter.time_constant_s;  // eq. 23
-    curve.name = "reading";
-    curve.unit = "V";
-    const std::vector<double> at_times = reading_of(filter, run.time_s, values);
+    std::vector<double> falling;
+    const std::vector<double> motion(curve.values.begin(), curve.values.end());
+    const std::vector<double> read = reading_of(filter, curve.time_s, motion, &falling);
+    curve.values = Eigen::VectorXd::Map(read.data(), std::ssize(read));
+    curve.rates = filter.gain * curve.rates -
+                  Eigen::VectorXd::Map(falling.data(), std::ssize(falling));  // eq. 23b
+    const Eigen::VectorXd at_run = run.values.row(row);
+    const std::vector<double> at_times =
+        reading_of(filter, run.time_s, std::vector<double>(at_run.begin(), at_run.end()));
     add_curve(curve, time_s, at_outputs(at_times, outputs), first_Hz, answer);
-  }
+    note_film_error(reading, answer);
+  };
+  const bool is_from_base = load_place(scene) == LoadPlace::kBase;
+  add({0, is_from_base ? "top_displacement_from_base" : body.outputs[0].name,
+       body.outputs[0].unit});
+  for (const BodyReading& reading : readings_of(scene, body, answer)) add(reading);
 }
 
 void run_transient_analysis(const PillarScene& scene, SceneAnswer& answer) {

@@ -7,6 +7,8 @@
 #include "models/pillar/mesh/pillar_mesh.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 
@@ -103,20 +105,78 @@ SceneBody body_of(const PillarScene& scene, Motion motion, const SceneBodyOption
   return body;
 }
 
-ReadoutFilter readout_of(const PillarScene& scene, const SceneBody& body, SceneAnswer& answer) {
-  if (!scene.readout || body.model->electrode_dof() < 0) {
+namespace {
+
+// A charge amplifier on a quadrant: -Q/C_f, through R_f C_f.
+ReadoutFilter quadrant_filter(const Readout& readout) {
+  return decaying(-1.0 / readout.capacitance_F, readout.resistance_Ohm * readout.capacitance_F);
+}
+
+FilmPort electrode_port(const PillarScene& scene, const SceneBody& body) {
+  const PiezoAnswer at_rest = piezo_static(*body.model, 1.0);
+  if (scene.film_loss.is_lossless()) return {at_rest.capacitance_F, at_rest.capacitance_F};
+  const PermittivityChange change = permittivity_change(*body.model, at_rest);
+  // The charge grows by q x/(1 + x), q = charge_share, which an open electrode shows as if C' were by 1 + q less. What
+  // remains, compared with films of 1.1 to 100 times the permittivity, is 0.04 to 0.08 q for PVDF, 1.8 to 2.1 q for
+  // PZT-5H. A circuit reads the charge itself.
+  const double ratio = at_rest.capacitance_F / change.dielectric_F;
+  const double q = std::abs(change.charge_share);
+  return {.capacitance_F = at_rest.capacitance_F,
+          .dielectric_F = change.dielectric_F / (1.0 + change.charge_share),
+          .loss = scene.film_loss,
+          .error = q * (ratio * ratio - 0.9),
+          .error_in_circuit = 1.1 * q * ratio * ratio};
+}
+
+}  // namespace
+
+std::vector<BodyReading> readings_of(const PillarScene& scene, const SceneBody& body,
+                                     SceneAnswer& answer) {
+  std::vector<BodyReading> readings;
+  for (std::size_t i = 1; i < body.outputs.size(); ++i) {
+    readings.push_back({i, body.outputs[i].name, body.outputs[i].unit});
+  }
+  const bool has_electrode = body.model->electrode_dof() >= 0;
+  if (scene.readout && !has_electrode) {
     throw std::invalid_argument("a readout needs an electrode with a radius");
   }
-  if (reads_quadrants(scene)) {  // a charge amplifier: -Q/C_f, through R_f C_f
-    const double time_s = scene.readout->resistance_Ohm * scene.readout->capacitance_F;
-    add_time_constant(time_s, answer);
-    return {-1.0 / scene.readout->capacitance_F, time_s};
+  if (readings.empty() || !(scene.readout || !scene.film_loss.is_lossless())) return readings;
+  if (reads_quadrants(scene) && has_electrode) {  // at 0 V, where a film loses nothing
+    if (!scene.readout) return readings;
+    readings.push_back({1, "reading", "V", quadrant_filter(*scene.readout)});
+    add_time_constant(readings.back().filter.time_constant_s, answer);
+    return readings;
   }
-  const double capacitance_F = piezo_static(*body.model, 1.0).capacitance_F;
-  const ReadoutFilter filter = readout_filter(*scene.readout, capacitance_F);
-  answer.results.push_back({"electrode_capacitance", capacitance_F, "F"});
-  add_time_constant(filter.time_constant_s, answer);
-  return filter;
+  const FilmPort port =
+      has_electrode ? electrode_port(scene, body) : bonded_port(*scene.film, scene.film_loss);
+  const double lost =
+      scene.film_loss.is_lossless() ? 0.0 : lost_share(scene.film_loss, slowest_rad_s(scene));
+  readings.front().filter = open_filter(port);
+  readings.front().film_error = port.error * lost;
+  if (!scene.readout) return readings;
+  const bool is_held = scene.readout->kind == ReadoutKind::kCharge;  // at 0 V: nothing is lost
+  readings.push_back({1, "reading", "V", readout_filter(*scene.readout, port),
+                      is_held ? 0.0 : port.error_in_circuit * lost});
+  answer.results.push_back({"electrode_capacitance", port.capacitance_F, "F"});
+  add_time_constant(readings.back().filter.time_constant_s, answer);
+  return readings;
+}
+
+void note_film_error(const BodyReading& reading, SceneAnswer& answer) {
+  if (reading.film_error == 0.0) return;
+  const auto is_of_it = [&](const std::string& name) { return name.starts_with(reading.name); };
+  for (SceneCurve& curve : answer.curves) {
+    if (!is_of_it(curve.name)) continue;
+    curve.left_out.resize(curve.value.size(), 0.0);
+    const double peak = largest_size(curve.value);
+    for (std::size_t i = 0; i < curve.value.size(); ++i) {
+      curve.left_out[i] += reading.film_error * (curve.allowed.empty() ? peak : curve.allowed[i]);
+    }
+  }
+  for (SceneResult& result : answer.results) {
+    if (!is_of_it(result.name)) continue;
+    result.left_out += reading.film_error * std::max(std::abs(result.value), result.scale);
+  }
 }
 
 }  // namespace viscard

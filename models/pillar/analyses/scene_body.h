@@ -4,10 +4,12 @@
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/model_reduction.h"
+#include "models/pillar/time/readout.h"
 #include "models/pillar/time/viscoelastic_system.h"
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,8 +40,20 @@ struct SceneBodyOptions {
 SceneBody body_of(const PillarScene& scene, Motion motion, const SceneBodyOptions& options,
                   SceneAnswer& answer);
 
-// Filter between the electrode's open-circuit voltage (a quadrant's charge) and the reading; adds
-// time constant and capacitance to the results. Only with an electrode and a readout.
-ReadoutFilter readout_of(const PillarScene& scene, const SceneBody& body, SceneAnswer& answer);
+// What follows an output behind that of the top through a filter: the output itself, whose film may
+// lose (eq. 37), and the reading of the circuit on the electrode (a quadrant's charge).
+struct BodyReading {
+  std::size_t output = 1;
+  std::string name;
+  std::string unit;
+  ReadoutFilter filter = {};
+  // Relative: its charge is taken as that without losses of the film (permittivity_change()).
+  double film_error = 0.0;
+};
+// Adds the circuit's time constant and the electrode's capacitance to the results.
+std::vector<BodyReading> readings_of(const PillarScene& scene, const SceneBody& body,
+                                     SceneAnswer& answer);
+// Adds the error of the film to all that is called as the reading is.
+void note_film_error(const BodyReading& reading, SceneAnswer& answer);
 
 }  // namespace viscard

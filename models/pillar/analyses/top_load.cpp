@@ -61,11 +61,17 @@ void add_top_force(const PillarScene& scene, double force_N, double stiffness_N_
 
 namespace {
 
+// An electrode of that capacitance.
+FilmPort port_of(const PillarScene& scene, double capacitance_F, const PiezoAnswer& per_Pa) {
+  const double dielectric_F = per_Pa.dielectric_F > 0.0 ? per_Pa.dielectric_F : capacitance_F;
+  return {capacitance_F, dielectric_F, scene.film_loss};
+}
+
 // The reading right after the load, and the readout's time constant.
-void add_reading(const PillarScene& scene, double voltage_V, double capacitance_F,
+void add_reading(const PillarScene& scene, double voltage_V, const FilmPort& film,
                  SceneAnswer& answer) {
   if (!scene.readout) return;
-  const ReadoutFilter filter = readout_filter(*scene.readout, capacitance_F);
+  const ReadoutFilter filter = readout_filter(*scene.readout, film);
   answer.results.push_back({"reading_at_once", filter.gain * voltage_V, "V"});
   add_time_constant(filter.time_constant_s, answer);
 }
@@ -112,7 +118,7 @@ void add_moved_piezoelectric(const PillarScene& scene, const PiezoAnswer& per_Pa
                     {"electrode_capacitance", held_F, "F"}};
   const double moved_m = is_driven ? shorted_m : per_Pa.top_displacement_m;
   add_top_force(scene, -area_m2 * pressure_Pa, -area_m2 / moved_m, answer);
-  if (!is_driven) add_reading(scene, voltage_V, held_F, answer);
+  if (!is_driven) add_reading(scene, voltage_V, port_of(scene, held_F, per_Pa), answer);
 }
 
 // A voltage on the electrode, and the pressure if there is one (actuator). The stiffness of the
@@ -165,7 +171,7 @@ void add_pressed(const PillarScene& scene, const PiezoAnswer& per_Pa, const Piez
   if (!scene.one_way_potential) {
     answer.results.push_back({"displacement_per_volt", per_Pa.displacement_per_V_m, "m/V"});
   }
-  add_reading(scene, voltage_V, per_Pa.capacitance_F, answer);
+  add_reading(scene, voltage_V, port_of(scene, per_Pa.capacitance_F, per_Pa), answer);
 }
 
 }  // namespace
@@ -195,6 +201,9 @@ FilmAnswer film_answer(const PillarScene& scene, SceneAnswer& answer) {
   per_Pa.area_m2 = coupled.top_traction().sum();
   if (coupled.electrode_dof() >= 0) {
     per_Pa.piezo = elastic ? piezo_one_way(*elastic, coupled, 1.0) : piezo_static(coupled, 1.0);
+    if (!elastic && !scene.film_loss.is_lossless()) {
+      per_Pa.piezo.dielectric_F = permittivity_change(coupled, per_Pa.piezo).dielectric_F;
+    }
     if (moves_unloaded(scene)) per_Pa.unloaded = unloaded_answer(scene, coupled, per_Pa.piezo);
     return per_Pa;
   }

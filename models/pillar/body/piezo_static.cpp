@@ -55,6 +55,21 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
   return answer;
 }
 
+PermittivityChange permittivity_change(const PillarModel& model, const PiezoAnswer& answer) {
+  Medium dielectric;
+  dielectric.permittivity_F_m = model.medium(kFilmRegion).permittivity_F_m;
+  const SymmetricSparse form = model.system().form(model.system().kinematics().strain_and_field(),
+                                                   {{}, material_form(dielectric, true, false)});
+  const double scale_V = model.potential_scale_V();
+  const Eigen::VectorXd by_charge = times(form, answer.by_charge);
+  const double work = -by_charge.dot(answer.by_charge) * scale_V * scale_V;  // per C^2
+  PermittivityChange change{.dielectric_F = work * answer.capacitance_F * answer.capacitance_F};
+  if (answer.voltage_V == 0.0) return change;
+  const double voltage = -scale_V * by_charge.dot(answer.open.unknowns) / answer.voltage_V;
+  change.charge_share = voltage + change.dielectric_F / answer.capacitance_F;
+  return change;
+}
+
 PillarState piezo_sampled(const PillarModel& model, double pressure_Pa) {
   return model.solve(-pressure_Pa * model.top_traction());
 }

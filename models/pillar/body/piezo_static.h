@@ -15,10 +15,11 @@ struct PiezoRest {
 
 // The answer of one pillar on a film.
 struct PiezoAnswer {
-  double voltage_V = 0.0;             // electrode open (no charge flows)
-  double charge_C = 0.0;              // electrode shorted to ground: charge that flows onto it
-  double capacitance_F = 0.0;         // mechanically free: charge per volt without load
-  double top_displacement_m = 0.0;    // mean, electrode open
+  double voltage_V = 0.0;           // electrode open (no charge flows)
+  double charge_C = 0.0;            // electrode shorted to ground: charge that flows onto it
+  double capacitance_F = 0.0;       // mechanically free: charge per volt without load
+  double dielectric_F = 0.0;        // its part by permittivity, if permittivity_change() has set it
+  double top_displacement_m = 0.0;  // mean, electrode open
   double displacement_per_V_m = 0.0;  // actuator: mean top displacement per volt on the electrode
   PillarState open;                   // solution with the electrode open
   Eigen::VectorXd by_charge;          // for a unit entry of the electrode
@@ -32,6 +33,16 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa);
 // the top, `electrode` the unknown of its potential.
 PiezoAnswer piezo_answer(const StiffnessFactor& factor, const Eigen::VectorXd& traction,
                          int electrode, double scale_V, double pressure_Pa);
+
+// How an answer changes with the permittivity at constant strain, in all directions alike, at once and
+// to first order: dC/d(ln eps), and the relative change of the shorted electrode's charge per d(ln eps).
+// The charge hardly changes, because the strain that makes it does not: only what the film's field
+// acts back on it does.
+struct PermittivityChange {
+  double dielectric_F = 0.0;
+  double charge_share = 0.0;
+};
+PermittivityChange permittivity_change(const PillarModel& model, const PiezoAnswer& answer);
 
 // Solutions of one model: with the electrode open under a load, and for a unit entry of the
 // electrode. `dual` is the dual solution of the voltage if that is not `charged`.

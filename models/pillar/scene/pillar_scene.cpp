@@ -2,6 +2,8 @@
 
 #include "models/answer/drive_parts.h"
 
+#include <numbers>
+
 namespace viscard {
 namespace {
 
@@ -72,6 +74,19 @@ bool has_history(const PillarScene& scene) {
 const std::vector<HistoryPoint>& history(const PillarScene& scene) {
   static const std::vector<HistoryPoint> kNone;
   return *part_of(scene.drive, kReadHistory, &kNone);
+}
+
+double slowest_rad_s(const PillarScene& scene) {
+  const double lowest_Hz = part_of(
+      scene.drive, [](const auto& d) requires requires { d.frequencies_Hz; } {
+        return d.frequencies_Hz.front();
+      },
+      0.0);
+  if (lowest_Hz > 0.0) return 2.0 * std::numbers::pi * lowest_Hz;
+  const double end_s = part_of(
+      scene.drive, [](const auto& d) requires requires { d.end_time_s; } { return d.end_time_s; },
+      has_history(scene) ? history(scene).back().time_s : 0.0);
+  return end_s > 0.0 ? 1.0 / end_s : 0.0;
 }
 
 double free_face_m(const PillarScene& scene) {

@@ -58,6 +58,9 @@ bool plate_on_top(const PillarScene& scene);
 bool has_history(const PillarScene& scene);
 const std::vector<HistoryPoint>& history(const PillarScene& scene);
 
+// The slowest that the load changes: its lowest frequency, or once over its duration; 0: it is at rest.
+double slowest_rad_s(const PillarScene& scene);
+
 // Height of the film's face that is not grounded; only with electrodes.
 double free_face_m(const PillarScene& scene);
 

@@ -1,10 +1,13 @@
 #include "models/pillar/time/readout.h"
 
 #include "models/material/hereditary.h"
+#include "models/material/retardation_spectrum.h"
 #include "models/maths/require.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -16,6 +19,21 @@ void require_in_circuit(bool holds, const std::string& what, double value) {
 
 }  // namespace
 
+FilmPort bonded_port(const Medium& film, const FilmLoss& loss) {
+  const Eigen::RowVectorXd e = film.piezo_C_m2.row(2);
+  const double held_F_m = film.permittivity_F_m(2, 2);
+  const double free_F_m =
+      held_F_m + e.dot(Eigen::VectorXd(viscard::inverse(film.stiffness_Pa) * e.transpose()));
+  const double bonded_F_m = held_F_m + e[2] * e[2] / film.stiffness_Pa(2, 2);
+  const double error = 1.0 - held_F_m / free_F_m;
+  return {1.0, held_F_m / bonded_F_m, loss, error, error};
+}
+
+ReadoutFilter decaying(double gain, double time_constant_s) {
+  if (std::isinf(time_constant_s)) return {.gain = gain};
+  return {gain, {0.0, {{1.0, time_constant_s}}}, time_constant_s};
+}
+
 void validate(const Readout& r) {
   const bool is_charge = r.kind == ReadoutKind::kCharge;
   require_in_circuit(r.resistance_Ohm > 0.0, "resistance", r.resistance_Ohm);
@@ -25,35 +43,85 @@ void validate(const Readout& r) {
                      "leakage time of the film (resistivity times permittivity)", r.film_leakage_s);
 }
 
-ReadoutFilter readout_filter(const Readout& r, double film_capacitance_F) {
-  validate(r);
-  if (r.kind == ReadoutKind::kCharge) {
-    return {film_capacitance_F / r.capacitance_F, r.resistance_Ohm * r.capacitance_F};
+double ReadoutFilter::fastest_s() const {
+  double fastest_s = std::numeric_limits<double>::infinity();
+  for (const MaxwellTerm& term : step.terms) {
+    fastest_s = std::min(fastest_s, term.relaxation_time_s);
   }
-  const double whole_F = film_capacitance_F + r.capacitance_F;
-  const double conductance_S = 1.0 / r.resistance_Ohm + film_capacitance_F / r.film_leakage_s;
-  return {film_capacitance_F / whole_F, whole_F / conductance_S};
+  return fastest_s;
+}
+
+ReadoutFilter readout_filter(const Readout& r, const FilmPort& film) {
+  validate(r);
+  validate(film.loss);
+  if (r.kind == ReadoutKind::kCharge) {
+    return decaying(film.capacitance_F / r.capacitance_F, r.resistance_Ohm * r.capacitance_F);
+  }
+  const double whole_F = film.capacitance_F + r.capacitance_F;
+  const double gain = film.capacitance_F / whole_F;
+  const double conductance_S = 1.0 / r.resistance_Ohm + film.capacitance_F / r.film_leakage_s +
+                               film.dielectric_F / film.loss.leakage_s;
+  if (film.loss.terms.empty()) return decaying(gain, whole_F / conductance_S);
+  RetardationSpectrum charge{1.0, {}, conductance_S / whole_F};  // over that at once
+  for (const FilmTerm& term : film.loss.terms) {
+    charge.terms.push_back({film.dielectric_F / whole_F * term.share, term.tau_s});
+  }
+  ReadoutFilter filter{gain, relaxation_from_retardation(charge)};
+  if (conductance_S == 0.0) return filter;
+  filter.time_constant_s = 0.0;
+  for (const MaxwellTerm& term : filter.step.terms) {
+    filter.time_constant_s = std::max(filter.time_constant_s, term.relaxation_time_s);
+  }
+  return filter;
+}
+
+ReadoutFilter readout_filter(const Readout& readout, double film_capacitance_F) {
+  return readout_filter(readout, {film_capacitance_F, film_capacitance_F});
+}
+
+ReadoutFilter open_filter(const FilmPort& film) {
+  return readout_filter({}, film);
 }
 
 std::complex<double> response(const ReadoutFilter& filter, double omega_rad_s) {
-  if (std::isinf(filter.time_constant_s)) return filter.gain;
-  const std::complex<double> x(0.0, omega_rad_s * filter.time_constant_s);
-  return filter.gain * (std::abs(x) > 1.0 ? 1.0 / (1.0 + 1.0 / x) : x / (1.0 + x));
+  const ComplexModulus modulus = complex_modulus_Pa(filter.step, omega_rad_s);
+  return filter.gain * std::complex<double>(modulus.storage_Pa, modulus.loss_Pa);
 }
 
 std::vector<double> reading_of(const ReadoutFilter& filter, const std::vector<double>& time_s,
-                               const std::vector<double>& open_voltage_V) {
+                               const std::vector<double>& open_voltage_V,
+                               std::vector<double>* falling_V_s) {
   std::vector<double> reading;
-  double value = 0.0;
-  double last_V = 0.0;
+  HereditaryStress following(filter.step);
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     const double dt_s = i == 0 ? 0.0 : time_s[i] - time_s[i - 1];
-    const double x = dt_s / filter.time_constant_s;
-    value = std::exp(-x) * value + filter.gain * phi1(x) * (open_voltage_V[i] - last_V);
-    last_V = open_voltage_V[i];
-    reading.push_back(value);
+    reading.push_back(filter.gain * following.advance(dt_s, open_voltage_V[i]));
+    if (falling_V_s != nullptr) falling_V_s->push_back(filter.gain * following.falling_Pa_s());
   }
   return reading;
+}
+
+std::vector<double> film_charge_of(const Readout& readout, const FilmPort& film,
+                                   const std::vector<double>& time_s,
+                                   const std::vector<double>& voltage_V) {
+  const double share = film.dielectric_F / film.capacitance_F;
+  PronySeries not_yet{1.0, {}};  // the voltage, and polarisation that is still to come
+  double at_last = 2.0;
+  for (const FilmTerm& term : film.loss.terms) {
+    not_yet.terms.push_back({share * term.share, term.tau_s});
+    at_last += share * term.share;
+  }
+  HereditaryStress lacking(std::move(not_yet));
+  std::vector<double> charge;
+  const double leaks_1_s = share / film.loss.leakage_s + 1.0 / readout.film_leakage_s;
+  double leaked_Vs = 0.0;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const double dt_s = i == 0 ? 0.0 : time_s[i] - time_s[i - 1];
+    if (i > 0) leaked_Vs += 0.5 * (voltage_V[i] + voltage_V[i - 1]) * dt_s;
+    charge.push_back(at_last * voltage_V[i] + leaks_1_s * leaked_Vs -
+                     lacking.advance(dt_s, voltage_V[i]));
+  }
+  return charge;
 }
 
 }  // namespace viscard

@@ -33,6 +33,14 @@ kind = "static"
 const std::string kLoads =
     "load = { pressure = \"1 kPa\", shear_x = \"100 Pa\", pillars = [[2, 2], [1, 1]] }\n";
 
+// The scene with other electrodes.
+std::string with_electrodes(const std::string& keys) {
+  const std::string old = "kind = \"sampled\", quadrants = true";
+  std::string text = kQuarters;
+  return text.replace(text.find(old), old.size(), keys);
+}
+const char* const kMetal = "kind = \"equipotential\", quadrants = true, gap = \"2 um\"";
+
 CommandOutcome simulated(const SceneText& scene, const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"simulate", scene.path(), "--json"};
   words.insert(words.end(), more.begin(), more.end());
@@ -64,7 +72,10 @@ const std::string kHeader =
 }  // namespace
 
 TEST_CASE("the voltages that simulate writes lead back to the loads", "[cli][scene][array]") {
-  const SceneText made(kQuarters + kLoads +
+  const bool is_metal = GENERATE(false, true);
+  CAPTURE(is_metal);
+  const std::string quarters = is_metal ? with_electrodes(kMetal) : kQuarters;
+  const SceneText made(quarters + kLoads +
                        "[want]\nquantities = [\"sensed_normal_force\", \"sensed_shear_x_force\", " +
                        "\"sensed_shear_y_force\"]\n");
   const CommandOutcome first = simulated(made, {"--out", made.beside("out")});
@@ -72,7 +83,7 @@ TEST_CASE("the voltages that simulate writes lead back to the loads", "[cli][sce
   REQUIRE(first.status == 0);
   CHECK(read_file(made.beside("out/sensed_forces.svg")).find("arrows: shear, the longest") !=
         std::string::npos);
-  const SceneText scene(kQuarters + "[quadrants]\nvoltages = \"readings.csv\"\n");
+  const SceneText scene(quarters + "[quadrants]\nvoltages = \"readings.csv\"\n");
   write_file(scene.beside("readings.csv"), read_file(made.beside("out/pillars.csv")), true);
   const CommandOutcome second = simulated(scene);
   CAPTURE(second.err);
@@ -118,4 +129,27 @@ TEST_CASE("words of quarters that contradict each other are refused with the lin
         std::string::npos);
   CHECK(text_of("[quadrants]\nnoise = \"-1 V\"\n").find("quadrants.noise") != std::string::npos);
   CHECK(text_of("[quadrants]\nvoltages = \"none.csv\"\n").find("none.csv") != std::string::npos);
+}
+
+TEST_CASE("quarters of metal read their own names, and gaps that mean nothing are refused",
+          "[cli][scene][array]") {
+  const CommandOutcome outcome = simulated(SceneText(with_electrodes(kMetal) + kLoads));
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  const nlohmann::json results = nlohmann::json::parse(outcome.out).at("results");
+  CHECK(results.contains("electrode_voltage_largest"));
+  CHECK(results.contains("quadrant_4_voltage_largest"));
+  CHECK_FALSE(results.contains("centre_voltage_largest"));
+  const auto text_of = [](const std::string& keys, const std::string& more = "") {
+    const CommandOutcome refused = simulated(SceneText(with_electrodes(keys) + kLoads + more));
+    CHECK(refused.status != 0);
+    return refused.out + refused.err;
+  };
+  const auto has = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
+  CHECK(has(text_of("kind = \"equipotential\", quadrants = true"), "geometry.electrode.gap"));
+  CHECK(has(text_of("kind = \"sampled\", quadrants = true, gap = \"2 um\""), "quarters of metal"));
+  CHECK(has(text_of("kind = \"equipotential\", quadrants = true, gap = \"12 um\""), "10 um"));
+  CHECK(has(text_of(kMetal, "[quadrants]\naverages = \"nodes\"\n"), "quadrants.averages"));
 }

@@ -169,4 +169,69 @@ TEST_CASE("a medium file is refused with the key that is wrong", "[io]") {
              Catch::Contains("rho_kg_m3 is -5 kg/m3; it must be positive"));
 }
 
+TEST_CASE("a film's file and its scene state what it loses", "[io]") {
+  Files files;
+  const auto medium = [&](const std::string& rest) {
+    write_file(
+        files.folder.path() / "film.json",
+        "{\"schema\": \"viscard-medium/1\", \"rho_kg_m3\": 1780, \"elastic\": {\"E_Pa\": 2e9, "
+        "\"nu\": "
+        "0.29}, \"charge_C_N\": {\"d31\": 23e-12, \"d33\": -33e-12}, \"relative_permittivity\": "
+        "[12, 12, 12]" +
+            rest + "}",
+        true);
+    return read_medium(files.folder.path() / "film.json");
+  };
+  const double at_once = medium("").medium.permittivity_F_m(2, 2);
+  CHECK(medium("").loss.is_lossless());
+  const FilmLoss stated = medium(
+                              ", \"dielectric\": {\"resistivity_Ohm_m\": 1e13, \"terms\": "
+                              "[{\"relative_permittivity\": 0.6, \"tau_s\": 1e-3}]}")
+                              .loss;
+  CHECK(stated.leakage_s == Approx(1e13 * at_once).epsilon(1e-12));
+  REQUIRE(stated.terms.size() == 1);
+  CHECK(stated.terms[0].share ==
+        Approx(0.6 * kVacuumPermittivity_F_m / at_once).epsilon(1e-12));  // at constant strain
+  // The permittivity of a table is that at its frequency: less at once.
+  const MediumFile table = medium(
+      ", \"dielectric\": {\"frequency_Hz\": [1, 1e6], \"tan_delta\": [0.02, 0.02], "
+      "\"permittivity_at_Hz\": 1000}");
+  const double omega = 2.0 * 3.14159265358979 * 1000.0;
+  const double added = added_permittivity(table.loss, {0.0, omega}).real();
+  CHECK(table.permittivity_stress_F_m + added * table.medium.permittivity_F_m(2, 2) ==
+        Approx(12.0 * kVacuumPermittivity_F_m).epsilon(1e-12));
+  CHECK_THAT(error_text([&] { medium(", \"dielectric\": {\"tan\": 1}"); }),
+             Catch::Matchers::Contains("no key 'dielectric.tan'"));
+
+  medium(", \"dielectric\": {\"resistivity_Ohm_m\": 1e12}");
+  const std::string film =
+      "[geometry]\ndiameter = \"40 um\"\nlength = \"120 um\"\n"
+      "film = { thickness = \"25 um\", radius = \"60 um\", material = \"pvdf\" }\n"
+      "electrode = { face = \"top\", radius = \"20 um\" }\n"
+      "[analysis]\nkind = \"harmonic\"\nfrequencies = { from = \"10 Hz\", to = \"100 Hz\", count = 2 }\n"
+      "load = { pressure = \"1 kPa\", on = \"top\" }\n"
+      "[materials]\npillar = { E = \"1.8 MPa\", nu = 0.33, rho = \"965 kg/m3\" }\n";
+  const auto loss_of = [&](const std::string& rest) {
+    return common(files.read(rest, film).scene).film_loss;
+  };
+  CHECK(loss_of("pvdf = { file = \"film.json\" }").leakage_s ==
+        Approx(1e12 * at_once).epsilon(1e-12));
+  const std::string given =
+      "pvdf = { file = \"film.json\", resistivity = \"1e13 ohm m\", dielectric = [[\"1 ms\", "
+      "\"0.3\"]] }";
+  CHECK(loss_of(given).leakage_s == Approx(1e13 * at_once).epsilon(1e-12));
+  CHECK(loss_of(given).terms.at(0).tau_s == 1e-3);
+  const SceneFile read = files.read(given, film);
+  const SceneFile again = scene_from_toml(toml_of(read), files.folder.path() / "scene.toml");
+  CHECK(common(again.scene).film_loss.leakage_s == common(read.scene).film_loss.leakage_s);
+  CHECK(common(again.scene).film_loss.terms.at(0).share ==
+        common(read.scene).film_loss.terms.at(0).share);
+  CHECK_THAT(
+      files.error(given + "\n[readout]\nkind = \"voltage\"\nfilm_resistivity = \"1e13 ohm m\"",
+                  film),
+      Catch::Matchers::Contains("readout.film_resistivity"));
+  CHECK_THAT(files.error("pvdf = { E = \"2 GPa\", nu = 0.3, resistivity = \"1e13 ohm m\" }", film),
+             Catch::Matchers::Contains("materials.pvdf"));
+}
+
 }  // namespace viscard
