@@ -47,9 +47,8 @@ std::vector<double> reading_of(const ReadoutFilter& filter, const std::vector<do
   double value = 0.0;
   double last_V = 0.0;
   for (std::size_t i = 0; i < time_s.size(); ++i) {
-    const double dt_s = i == 0 ? 0.0 : time_s[i] - time_s[i - 1];
-    const double x = dt_s / filter.time_constant_s;
-    value = std::exp(-x) * value + filter.gain * phi1(x) * (open_voltage_V[i] - last_V);
+    const BranchStep step(i == 0 ? 0.0 : time_s[i] - time_s[i - 1], filter.time_constant_s);
+    value = step.decay * value + filter.gain * step.gain * (open_voltage_V[i] - last_V);
     last_V = open_voltage_V[i];
     reading.push_back(value);
   }
