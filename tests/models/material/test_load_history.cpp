@@ -62,6 +62,21 @@ TEST_CASE("small steps of a compliant solid lose no digits", "[models][stability
   CHECK(strain[2] == Approx(1e-9 - std::expm1(-1e-9)).epsilon(1e-12));
 }
 
+TEST_CASE("a course is zero before its first point, and jumps where two points have one time",
+          "[models]") {
+  const Course course{{1.0, 4.0}, {3.0, 8.0}, {3.0, -2.0}, {5.0, 0.0}};
+  CHECK(value_at(course, 0.5) == 0.0);
+  CHECK(value_at(course, 1.0, /*after=*/false) == 0.0);
+  CHECK(value_at(course, 1.0) == 4.0);
+  CHECK(value_at(course, 2.0) == 6.0);
+  CHECK(value_at(course, 3.0, /*after=*/false) == 8.0);
+  CHECK(value_at(course, 3.0) == -2.0);
+  CHECK(value_at(course, 4.0) == -1.0);
+  CHECK(value_at(course, 9.0) == 0.0);
+  CHECK(largest_size(course) == 8.0);
+  CHECK(value_at(Course(), 1.0) == 0.0);
+}
+
 TEST_CASE("more corners do not change the response", "[models][identity]") {
   for (const bool is_stress : {false, true}) {
     const Course coarse{{0.0, 0.0}, {1.0, 2.0}, {1.0, 3.0}, {3.0, 3.0}, {8.0, -1.0}};
