@@ -10,7 +10,8 @@
 
 namespace viscard {
 
-// One term of the relaxation beside a law: share g of the instantaneous stress, relaxing with tau.
+// One term of the relaxation beside a law: share g of the instantaneous stress, relaxing with tau. Not a MaterialTerm:
+// the body keeps its volume, so there is no share k of a bulk modulus; who needs one chooses it.
 struct RubberTerm {
   double g = 0.0;
   double tau_s = 0.0;
@@ -30,7 +31,7 @@ void validate(const std::vector<RubberTerm>& terms);
 //   H <- exp(-x) H + phi_1(x) (S_new - S_old),   x = dt/tau,  phi_1 = (1 - exp(-x))/x,
 // and steps of more than 2 % of strain are divided, so that the stress is linear within 1e-4 of itself.
 // FEBio's "uncoupled viscoelastic" has this rule with the long-term law (FEUncoupledViscoElasticMaterial.cpp).
-// The history is the course of the measured stretch. Before its first point the body was at rest; a first stretch
+// More than a Course: it holds the steps for one deformation. The history is the course of the measured stretch. Before its first point the body was at rest; a first stretch
 // other than 1 is a jump.
 class StretchCourse {
  public:
