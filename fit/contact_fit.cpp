@@ -36,7 +36,7 @@ WholeRecord settled_record(const ContactTable& table, SpectralState state, Prony
   const auto [low, high] = std::minmax_element(table.depth_m.begin(), table.depth_m.end());
   const bool may_drift = options.with_drift && options.drift != TableDrift::kNone;
   std::vector<double> last;
-  EarlierTouch last_touch;
+  Course last_touch;
   for (int round = 1;; ++round) {
     const double contact_m = table.contact.is_fitted ? state.nuisance[0] : 0.0;
     WholeRecord whole = whole_record(table, series, contact_m, may_drift);

@@ -149,12 +149,9 @@ void take_rows_before(const IndentationData& data, ContactTable& table) {
   Column depth_m = rows.depth_m;
   take_frame_off(rows.force_N, data.frame_stiffness_N_m, depth_m);
   for (std::size_t i = 0; i < rows.time_s.size(); ++i) {
-    const bool is_known =
-        std::isfinite(depth_m[i]) && rows.time_s[i] < table.time_s.front() &&
-        (table.touch_time_s.empty() || rows.time_s[i] > table.touch_time_s.back());
-    if (!is_known) continue;
-    table.touch_time_s.push_back(rows.time_s[i]);
-    table.touch_depth_m.push_back(depth_m[i]);
+    const bool is_known = std::isfinite(depth_m[i]) && rows.time_s[i] < table.time_s.front() &&
+                          (table.touch_m.empty() || rows.time_s[i] > table.touch_m.back().time_s);
+    if (is_known) table.touch_m.push_back({rows.time_s[i], depth_m[i]});
   }
 }
 
@@ -162,18 +159,18 @@ void take_rows_before(const IndentationData& data, ContactTable& table) {
 // the punch passes the contact.
 ContactCourse course_of(const ContactTable& table, double contact_m, const PronySeries& series) {
   std::size_t first = table.loaded;
-  if (table.touch_time_s.empty()) {
+  Course punch_m = table.touch_m;
+  const Course of_table = course_from_columns(table.time_s, table.depth_m);
+  punch_m.insert(punch_m.end(), of_table.begin(), of_table.end());
+  if (table.touch_m.empty()) {
     while (first > 0 && table.depth_m[first - 1] > contact_m) --first;
-    return contact_course(table.time_s, table.depth_m, contact_m, first, series);
+    return contact_course(punch_m, contact_m, first, series);
   }
-  Column time_s = table.touch_time_s, depth_m = table.touch_depth_m;
-  time_s.insert(time_s.end(), table.time_s.begin(), table.time_s.end());
-  depth_m.insert(depth_m.end(), table.depth_m.begin(), table.depth_m.end());
-  const auto touched =
-      std::find_if(depth_m.begin(), depth_m.end(), [&](double depth) { return depth > contact_m; });
+  const auto touched = std::find_if(punch_m.begin(), punch_m.end(),
+                                    [&](const CoursePoint& at) { return at.value > contact_m; });
   ContactCourse course = contact_course(
-      time_s, depth_m, contact_m, static_cast<std::size_t>(touched - depth_m.begin()), series);
-  const auto n_touch = static_cast<std::ptrdiff_t>(table.touch_time_s.size());
+      punch_m, contact_m, static_cast<std::size_t>(touched - punch_m.begin()), series);
+  const auto n_touch = std::ssize(table.touch_m);
   course.surface_m.erase(course.surface_m.begin(), course.surface_m.begin() + n_touch);
   course.is_free.erase(course.is_free.begin(), course.is_free.begin() + n_touch);
   while (first > 0 && !course.is_free[first - 1]) --first;
@@ -185,15 +182,13 @@ ContactCourse course_of(const ContactTable& table, double contact_m, const Prony
 }
 
 // The surface pressed by the earlier touch, then free until the first loading ends.
-EarlierTouch touch_of(const ContactTable& table, double contact_m, const PronySeries& series) {
+Course touch_of(const ContactTable& table, double contact_m, const PronySeries& series) {
   constexpr double kLifted_m = -1.0;
-  Column time_s = table.touch_time_s, depth_m = table.touch_depth_m;
-  for (double& depth : depth_m) depth -= contact_m;
-  if (time_s.empty()) return {};
-  time_s.insert(time_s.end(), table.time_s.begin(),
-                table.time_s.begin() + static_cast<std::ptrdiff_t>(table.loaded) + 1);
-  depth_m.resize(time_s.size(), kLifted_m);
-  return earlier_touch(time_s, depth_m, series);
+  if (table.touch_m.empty()) return {};
+  Course punch_m = table.touch_m;
+  for (CoursePoint& at : punch_m) at.value -= contact_m;
+  for (std::size_t k = 0; k <= table.loaded; ++k) punch_m.push_back({table.time_s[k], kLifted_m});
+  return earlier_touch(punch_m, series);
 }
 
 template <typename Value>
@@ -246,11 +241,9 @@ ContactTable contact_table(const IndentationData& data) {
   if (table.n_touch == 0) return table;
   const auto n_touch = static_cast<std::ptrdiff_t>(table.n_touch);
   if (is_remembered) {
-    const auto append = [&](const Column& from, Column& to) {
-      to.insert(to.end(), from.begin(), from.begin() + n_touch);
-    };
-    append(table.time_s, table.touch_time_s);
-    append(table.depth_m, table.touch_depth_m);
+    for (std::size_t k = 0; k < table.n_touch; ++k) {
+      table.touch_m.push_back({table.time_s[k], table.depth_m[k]});
+    }
   }
   for (Column* column : {&table.time_s, &table.force_N, &table.depth_m}) {
     column->erase(column->begin(), column->begin() + n_touch);

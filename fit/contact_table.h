@@ -21,7 +21,7 @@ struct ContactTable {
   bool goes_back = false;  // the punch is pulled back by at least a fifth of its travel
   RecordNotes notes;       // of the check of the record
   // Before these rows: an earlier touch, which a specimen under a flat punch remembers.
-  std::vector<double> touch_time_s, touch_depth_m;
+  Course touch_m;
   // Rows left out, by reason.
   std::size_t n_not_a_number = 0, n_spikes = 0, n_depth_spikes = 0, n_touch = 0;
 };

@@ -156,7 +156,7 @@ FitResult fit_contact_table(const IndentationData& data, const ContactTable& tab
     input.step_s = step_before(input.time_s, input.input);
   }
   HistoryFit fitted = fit_history(std::move(input), options);
-  if (table.goes_back || !table.touch_time_s.empty())
+  if (table.goes_back || !table.touch_m.empty())
     fitted = fit_whole(table, std::move(fitted), options);
   const HistoryModel& model = *fitted.model;
   FitResult result;

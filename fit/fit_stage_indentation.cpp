@@ -212,19 +212,15 @@ void report_stage_fit(const StageModel& model, const IndentationData& data,
 struct Preparation {
   Eigen::VectorXd start;
   StageNoise noise;
-  EarlierTouch touch;
+  Course touch;
   SpectralState state;  // of the last of these fits
 };
 
 // The depth of the punch in the approach and until the ramp ends; for the latter the punch counts as lifted. The
 // points lie close after every stop, where the force changes fast.
-struct PunchCourse {
-  std::vector<double> time_s, depth_m;
-};
-
-PunchCourse punch_before_ramp(const IndentationData& data, const SpectralState& state) {
+Course punch_before_ramp(const IndentationData& data, const SpectralState& state) {
   constexpr double kLifted_m = -1.0, kFinest_s = 5e-3, kShareOfRest = 0.02;
-  PunchCourse course;
+  Course course;
   const StageMove& ramp = data.moves.front();
   const double direction = ramp.to_m > ramp.from_m ? 1.0 : -1.0;
   const double contact_m = state.nuisance[contact_nuisance(data)];
@@ -242,19 +238,19 @@ PunchCourse punch_before_ramp(const IndentationData& data, const SpectralState& 
                                    : data.approach[m + 1].start_time_s;
     for (double t = move.start_time_s; t < until_s;
          t += std::max(kFinest_s, kShareOfRest * (t - moved_s))) {
-      course.time_s.push_back(t + state.nuisance[0]);
-      course.depth_m.push_back(is_last && t > moved_s ? kLifted_m : depth_m(position_m(move, t)));
+      course.push_back({t + state.nuisance[0],
+                        is_last && t > moved_s ? kLifted_m : depth_m(position_m(move, t))});
     }
   }
   return course;
 }
 
 // The surface before the ramp, if it is that of this fit. The moves begin as late as the ramp.
-EarlierTouch touch_of_approach(const IndentationData& data, const StageModel& model,
-                               const SpectralState& state, bool is_liquid) {
-  const PunchCourse punch = punch_before_ramp(data, state);
-  if (punch.time_s.empty()) return {};
-  return earlier_touch(punch.time_s, punch.depth_m, relaxation_series_of(model, is_liquid)(state));
+Course touch_of_approach(const IndentationData& data, const StageModel& model,
+                         const SpectralState& state, bool is_liquid) {
+  const Course punch_m = punch_before_ramp(data, state);
+  if (punch_m.empty()) return {};
+  return earlier_touch(punch_m, relaxation_series_of(model, is_liquid)(state));
 }
 
 Preparation prepared(const IndentationData& data, const AveragedRun& run,
@@ -290,7 +286,7 @@ void settle_touch(const IndentationData& data, const AveragedRun& run, const Fit
     const StageModel model(run, data, now.start, now.noise, options, now.touch);
     if (round > 0) now.state = quick_search(model, now.state, {.tolerance = 1e-10});
     now.start = now.state.nuisance;
-    EarlierTouch touch = touch_of_approach(data, model, now.state, options.is_liquid);
+    Course touch = touch_of_approach(data, model, now.state, options.is_liquid);
     const bool is_same = relative_change(touch, now.touch) <= kSameTouch;
     now.touch = std::move(touch);
     if (is_same) return;
@@ -311,7 +307,7 @@ StageFit settled_fit(const IndentationData& data, const AveragedRun& run, const 
                 {}};
     of.fit =
         fit_spectrum(*of.model, log_time_blocks(run.rows.time_s, data.contact_from_s, 4), options);
-    EarlierTouch touch = touch_of_approach(data, *of.model, of.fit.state, options.is_liquid);
+    Course touch = touch_of_approach(data, *of.model, of.fit.state, options.is_liquid);
     if (round == kRounds || relative_change(touch, now.touch) <= kSameTouch) return of;
     now.touch = std::move(touch);
     now.start = of.fit.state.nuisance;

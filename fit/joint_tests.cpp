@@ -17,12 +17,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-PronySeries series_of(const FitResult& fit) {
-  PronySeries series{fit.E_inf_Pa, {}};
-  for (const FittedTerm& term : fit.terms) series.terms.push_back({term.modulus_Pa, term.tau_s});
-  return series;
-}
-
 double fastest_s(const KeptRows& rows) {
   if (rows.shape == KeptRows::Shape::kOscillation) return rows.window.from_s;
   return std::max({rows.window.from_s, rows.window.ramp_s, rows.window.sampling_s});
@@ -41,8 +35,8 @@ double scale_between(const FitResult& test, const FitResult& reference) {
   const double from_s = std::max(fastest_s(*test.kept), fastest_s(*reference.kept));
   const double to_s = std::min(a.to_s, b.to_s);
   const double at_s = std::sqrt(std::max(from_s, 1e-300) * std::max(to_s, 1e-300));
-  return relaxation_modulus_Pa(series_of(test), at_s) /
-         relaxation_modulus_Pa(series_of(reference), at_s);
+  return relaxation_modulus_Pa(fitted_series(test), at_s) /
+         relaxation_modulus_Pa(fitted_series(reference), at_s);
 }
 
 // A dashpot stands for relaxation too fast for a sweep; a faster test resolves it as terms.
@@ -63,7 +57,8 @@ JointMember member_of(const MaterialTest& test, const std::vector<MaterialTest>&
           std::make_unique<StepModel>(rows.at, rows.value, StepShape::kRelaxation, options);
       break;
     case KeptRows::Shape::kCreep: {
-      auto creep = std::make_unique<CreepRows>(rows.at, rows.value, series_of(test.own), options);
+      auto creep =
+          std::make_unique<CreepRows>(rows.at, rows.value, fitted_series(test.own), options);
       member.creep = creep.get();
       member.model = std::move(creep);
       break;
@@ -120,9 +115,9 @@ std::vector<int> blocks_of_test(const KeptRows& rows, std::vector<double> time_s
 
 PronySeries starting_series(const std::vector<MaterialTest>& tests) {
   for (const MaterialTest& test : tests) {
-    if (test.own.kept->shape == KeptRows::Shape::kCreep) return series_of(test.own);
+    if (test.own.kept->shape == KeptRows::Shape::kCreep) return fitted_series(test.own);
   }
-  return series_of(tests.front().own);
+  return fitted_series(tests.front().own);
 }
 
 void set_sigma(std::size_t k, double sigma, JointTests& joint) {

@@ -22,9 +22,7 @@ double gain_drift_relative_u(const SpectralModel& model, const SpectralFit& fit,
 }
 
 void add_gain_drift(const SystematicPart& part, FitResult& result) {
-  PronySeries series{result.E_inf_Pa, {}};
-  for (const FittedTerm& term : result.terms) series.terms.push_back({term.modulus_Pa, term.tau_s});
-  const SeriesDirection direction = direction_of(series, part);
+  const SeriesDirection direction = direction_of(fitted_series(result), part);
   const double of_E_inf = result.E_inf_Pa > 0.0 ? direction.equilibrium_Pa / result.E_inf_Pa : 0.0;
   result.gain_drift_relative = part.E0;
   const auto widen = [](Interval& interval, double value, double relative_u) {

@@ -2,7 +2,7 @@
 
 #include "models/material/hereditary.h"
 
-#include <cmath>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -11,43 +11,34 @@ namespace {
 class Surface {
  public:
   Surface(const PronySeries& series, double at_rest_m)
-      : series_(series), q_m_(series.terms.size(), 0.0), depth_m_(at_rest_m), rest_m_(at_rest_m) {}
+      : series_(series), q_m_(series.terms.size()), depth_m_(at_rest_m), rest_m_(at_rest_m) {
+    for (const MaxwellTerm& term : series.terms) steps_.emplace_back(term.relaxation_time_s);
+  }
 
   // Takes a step; returns true if the surface is free at its end.
   bool advance(double dt_s, double punch_m) {
-    if (std::abs(dt_s - dt_s_) > 1e-10 * std::abs(dt_s_)) set_step(dt_s);
-    // Without force: E_inf (u + du) + sum E_i (decay q_i + phi_1 du) = 0.
+    // Without force: E_inf (u + du) + sum E_i (decay q_i + gain du) = 0.
     double pull = series_.equilibrium_modulus_Pa * (depth_m_ - rest_m_);
     double stiffness = series_.equilibrium_modulus_Pa;
     for (std::size_t i = 0; i < q_m_.size(); ++i) {
-      pull += series_.terms[i].modulus_Pa * decay_[i] * q_m_[i];
-      stiffness += series_.terms[i].modulus_Pa * phi_[i];
+      const BranchStep& step = steps_[i].of(dt_s);
+      pull += series_.terms[i].modulus_Pa * step.decay * q_m_[i].value;
+      stiffness += series_.terms[i].modulus_Pa * step.gain;
     }
     const double free_m = stiffness > 0.0 ? depth_m_ - pull / stiffness : depth_m_;
     const bool is_free = punch_m <= free_m;
     const double change_m = (is_free ? free_m : punch_m) - depth_m_;
-    for (std::size_t i = 0; i < q_m_.size(); ++i)
-      q_m_[i] = decay_[i] * q_m_[i] + phi_[i] * change_m;
+    for (std::size_t i = 0; i < q_m_.size(); ++i) q_m_[i].advance(steps_[i].of(dt_s), change_m);
     depth_m_ += change_m;
     return is_free;
   }
   double depth_m() const { return depth_m_; }
 
  private:
-  void set_step(double dt_s) {
-    dt_s_ = dt_s;
-    decay_.clear();
-    phi_.clear();
-    for (const MaxwellTerm& term : series_.terms) {
-      const double x = dt_s / term.relaxation_time_s;
-      decay_.push_back(std::exp(-x));
-      phi_.push_back(phi1(x));
-    }
-  }
-
   const PronySeries& series_;
-  std::vector<double> q_m_, decay_, phi_;
-  double depth_m_, rest_m_, dt_s_ = -1.0;
+  std::vector<StepsOfBranch> steps_;
+  std::vector<BranchState> q_m_;
+  double depth_m_, rest_m_;
 };
 
 }  // namespace
@@ -67,17 +58,17 @@ std::size_t count_contacts(const std::vector<char>& is_free, std::size_t first) 
   return count;
 }
 
-ContactCourse contact_course(std::span<const double> time_s, std::span<const double> depth_m,
-                             double contact_m, std::size_t first, const PronySeries& series) {
+ContactCourse contact_course(const Course& punch_m, double contact_m, std::size_t first,
+                             const PronySeries& series) {
   ContactCourse course;
-  course.surface_m.assign(depth_m.begin(), depth_m.end());
-  course.is_free.assign(depth_m.size(), 0);
+  for (const CoursePoint& sample : punch_m) course.surface_m.push_back(sample.value);
+  course.is_free.assign(punch_m.size(), 0);
   Surface surface(series, contact_m);
-  double last_s = time_s[first > 0 ? first - 1 : first];
-  for (std::size_t k = first; k < depth_m.size(); ++k) {
-    course.is_free[k] = surface.advance(time_s[k] - last_s, depth_m[k]) ? 1 : 0;
+  double last_s = punch_m[first > 0 ? first - 1 : first].time_s;
+  for (std::size_t k = first; k < punch_m.size(); ++k) {
+    course.is_free[k] = surface.advance(punch_m[k].time_s - last_s, punch_m[k].value) ? 1 : 0;
     course.surface_m[k] = surface.depth_m();
-    last_s = time_s[k];
+    last_s = punch_m[k].time_s;
   }
   course.n_contacts = count_contacts(course.is_free, first);
   return course;

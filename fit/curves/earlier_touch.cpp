@@ -1,65 +1,45 @@
 #include "fit/curves/earlier_touch.h"
 
 #include "fit/curves/contact_course.h"
-#include "models/material/hereditary.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace viscard {
 
-double EarlierTouch::depth_at_m(double at_s) const {
-  if (is_empty() || at_s <= time_s.front()) return 0.0;
-  if (at_s >= time_s.back()) return depth_m.back();
-  const auto next = std::upper_bound(time_s.begin(), time_s.end(), at_s);
-  const auto i = static_cast<std::size_t>(next - time_s.begin());
-  const double share = (at_s - time_s[i - 1]) / (time_s[i] - time_s[i - 1]);
-  return depth_m[i - 1] + share * (depth_m[i] - depth_m[i - 1]);
+BranchState left_by(const Course& touch, double at_s, double tau_s) {
+  BranchState state;
+  for (std::size_t i = 1; i <= touch.size() && touch[i - 1].time_s < at_s; ++i) {
+    const double end_s = i < touch.size() ? std::min(touch[i].time_s, at_s) : at_s;
+    const BranchStep step(end_s - touch[i - 1].time_s, tau_s, /*with_slope=*/true);
+    state.advance(step, value_at(touch, end_s) - touch[i - 1].value);
+  }
+  return state;
 }
 
-// d phi_1/d ln tau = x (phi_1 - phi_2).
-EarlierTouch::Memory EarlierTouch::memory_at(double at_s, double tau_s) const {
-  Memory memory;
-  for (std::size_t i = 1; i <= time_s.size() && time_s[i - 1] < at_s; ++i) {
-    const double end_s = i < time_s.size() ? std::min(time_s[i], at_s) : at_s;
-    const double x = (end_s - time_s[i - 1]) / tau_s;
-    const double change_m = depth_at_m(end_s) - depth_m[i - 1];
-    const double decay = std::exp(-x), p1 = phi1(x);
-    memory.slope_m = decay * (memory.slope_m + x * memory.value_m) + change_m * x * (p1 - phi2(x));
-    memory.value_m = decay * memory.value_m + p1 * change_m;
+Course earlier_touch(const Course& punch_m, const PronySeries& series) {
+  const auto touched = std::find_if(punch_m.begin(), punch_m.end(),
+                                    [](const CoursePoint& at) { return at.value > 0.0; });
+  if (touched == punch_m.end()) return {};
+  const auto first = static_cast<std::size_t>(touched - punch_m.begin());
+  const ContactCourse course = contact_course(punch_m, 0.0, first, series);
+  Course touch;
+  if (first > 0) touch.push_back({punch_m[first - 1].time_s, 0.0});
+  for (std::size_t k = first; k < punch_m.size(); ++k) {
+    touch.push_back({punch_m[k].time_s, course.surface_m[k]});
   }
-  return memory;
-}
-
-EarlierTouch earlier_touch(std::span<const double> time_s, std::span<const double> depth_m,
-                           const PronySeries& series) {
-  EarlierTouch touch;
-  const auto touched =
-      std::find_if(depth_m.begin(), depth_m.end(), [](double z) { return z > 0.0; });
-  const auto first = static_cast<std::size_t>(touched - depth_m.begin());
-  if (first == depth_m.size()) return touch;
-  const ContactCourse course = contact_course(time_s, depth_m, 0.0, first, series);
-  if (first > 0) {
-    touch.time_s.push_back(time_s[first - 1]);
-    touch.depth_m.push_back(0.0);
-  }
-  touch.time_s.insert(touch.time_s.end(), time_s.begin() + static_cast<std::ptrdiff_t>(first),
-                      time_s.end());
-  touch.depth_m.insert(touch.depth_m.end(),
-                       course.surface_m.begin() + static_cast<std::ptrdiff_t>(first),
-                       course.surface_m.end());
   return touch;
 }
 
-double relative_change(const EarlierTouch& a, const EarlierTouch& b) {
-  double change_m = 0.0, deepest_m = 0.0;
-  for (const EarlierTouch* course : {&a, &b}) {
-    for (std::size_t i = 0; i < course->time_s.size(); ++i) {
-      const double at_s = course->time_s[i];
-      change_m = std::max(change_m, std::abs(a.depth_at_m(at_s) - b.depth_at_m(at_s)));
-      deepest_m = std::max(deepest_m, std::abs(course->depth_m[i]));
+double relative_change(const Course& a, const Course& b) {
+  double change_m = 0.0;
+  for (const Course* course : {&a, &b}) {
+    for (const CoursePoint& at : *course) {
+      change_m = std::max(change_m, std::abs(value_at(a, at.time_s) - value_at(b, at.time_s)));
     }
   }
+  const double deepest_m = std::max(largest_size(a), largest_size(b));
   return deepest_m > 0.0 ? change_m / deepest_m : 0.0;
 }
 

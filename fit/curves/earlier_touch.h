@@ -1,36 +1,23 @@
 #pragma once
 
-#include "models/material/prony_series.h"
-
-#include <span>
-#include <vector>
+#include "models/material/hereditary.h"
+#include "models/maths/course.h"
 
 namespace viscard {
 
 // How deep the surface stood before the contact that is fitted: pressed by an earlier touch, then recovering
 // without force. The relaxation that the touch began goes on in the fitted contact, which meets the surface
-// where it then stands. Depths count from the contact position. Between its points the course is linear; before
-// the first the surface rests at 0, after the last it stays.
-struct EarlierTouch {
-  std::vector<double> time_s, depth_m;
+// where it then stands. Depths count from the contact position.
 
-  bool is_empty() const { return time_s.empty(); }
-  double depth_at_m(double time_s) const;
+// The surface under a punch, whose depth is below 0 out of contact. Empty if it never touches. The scale of the series
+// does not matter.
+Course earlier_touch(const Course& punch_m, const PronySeries& series);
 
-  // State of a branch, q = int exp(-(t - s)/tau) d(depth), and dq/d ln tau.
-  struct Memory {
-    double value_m = 0.0, slope_m = 0.0;
-  };
-  Memory memory_at(double time_s, double tau_s) const;
-};
-
-// depth_m: of the punch, below 0 out of contact. Empty if it never touches. The scale of the series does not
-// matter.
-EarlierTouch earlier_touch(std::span<const double> time_s, std::span<const double> depth_m,
-                           const PronySeries& series);
+// State of a branch that the touch has left at a time.
+BranchState left_by(const Course& touch, double time_s, double tau_s);
 
 // Largest difference of two courses over the deepest point of both.
-double relative_change(const EarlierTouch& a, const EarlierTouch& b);
+double relative_change(const Course& a, const Course& b);
 inline constexpr double kSameTouch =
     1e-3;  // of it: what such a change does to a modulus is beyond any reading
 

@@ -15,22 +15,6 @@ namespace {
 using Index = Eigen::Index;
 constexpr Index kLongHistory = 16384;
 
-// Coefficients of one time step, kept while the step stays the same.
-struct StepFactors {
-  double dt_s = -1.0;
-  double x = 0.0, decay = 1.0, p1 = 1.0, slope = 0.0;
-
-  void set(double next_dt_s, double tau_s) {
-    // Times read from text differ by rounding; treat such steps as equal.
-    if (std::abs(next_dt_s - dt_s) <= 1e-10 * std::abs(dt_s)) return;
-    dt_s = next_dt_s;
-    x = dt_s / tau_s;
-    decay = std::exp(-x);
-    p1 = phi1(x);
-    slope = x * (p1 - phi2(x));
-  }
-};
-
 // Depth from contact, to the power of the tip.
 double powered(double depth, double power) {
   if (power == 1.0) return depth;
@@ -157,7 +141,7 @@ HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
   // The last crossing of the contact position before the input stays above it.
   Onset onset{*in_.loaded, 0.0, contact_input};
   const auto surface = [&](std::size_t k) {
-    return contact_input + in_.touch.depth_at_m(in_.time_s[k]);
+    return contact_input + value_at(in_.touch, in_.time_s[k]);
   };
   while (onset.first > 0 && in_.input[onset.first - 1] > surface(onset.first - 1)) --onset.first;
   const std::size_t first = onset.first;
@@ -168,7 +152,7 @@ HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
         before / (in_.input[first] - in_.input[first - 1] - surface(first) + surface(first - 1));
     onset.time_s = in_.time_s[first - 1] + share * (in_.time_s[first] - in_.time_s[first - 1]);
   }
-  onset.depth = in_.touch.depth_at_m(onset.time_s);
+  onset.depth = value_at(in_.touch, onset.time_s);
   return onset;
 }
 
@@ -199,37 +183,29 @@ void HistoryModel::fill_flow(const Onset& onset, double* value) const {
 // position.
 void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) const {
   const double c = in_.factor;
-  StepFactors step;
-  double q = 0.0, slope = 0.0;
+  StepsOfBranch steps(tau_s, into.by_ln_tau != nullptr);
+  BranchState q;
   double q_by_contact = 0.0;  // used for spheres and cones
   double previous_s = onset.time_s, previous = onset.depth, previous_slope = 0.0;
-  if (!in_.touch.is_empty()) {
-    const EarlierTouch::Memory left = in_.touch.memory_at(onset.time_s, tau_s);
-    q = left.value_m;
-    slope = left.slope_m;
-  }
-  if (in_.step_s) q = previous = powered(in_.input[onset.first] - onset.input, in_.power);
+  if (!in_.touch.empty()) q = left_by(in_.touch, onset.time_s, tau_s);
+  if (in_.step_s) q.value = previous = powered(in_.input[onset.first] - onset.input, in_.power);
   for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
-    step.set(in_.time_s[k] - previous_s, tau_s);
+    const BranchStep& step = steps.of(in_.time_s[k] - previous_s);
     const double depth = in_.input[k] - onset.input;
     const double value = powered(depth, in_.power);
-    const double change = value - previous;
-    if (into.by_ln_tau != nullptr) {
-      slope = step.decay * (slope + step.x * q) + change * step.slope;
-      into.by_ln_tau[k] = is_free(k) ? 0.0 : c * slope;
-    }
-    q = step.decay * q + step.p1 * change;
+    q.advance(step, value - previous);
+    if (into.by_ln_tau != nullptr) into.by_ln_tau[k] = is_free(k) ? 0.0 : c * q.slope;
     previous_s = in_.time_s[k];
     previous = value;
     if (is_free(k)) continue;
-    into.value[k] = c * q;
+    into.value[k] = c * q.value;
     if (into.by_contact == nullptr) continue;
     if (in_.power == 1.0) {
       into.by_contact[k] = -c * std::exp(-(in_.time_s[k] - onset.time_s) / tau_s);
       continue;
     }
     const double next_slope = -powered_slope(depth, in_.power);
-    q_by_contact = step.decay * q_by_contact + step.p1 * (next_slope - previous_slope);
+    q_by_contact = step.decay * q_by_contact + step.gain * (next_slope - previous_slope);
     previous_slope = next_slope;
     into.by_contact[k] = c * q_by_contact;
   }

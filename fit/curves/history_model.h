@@ -19,6 +19,7 @@ namespace viscard {
 // in log time, the data and the basis alike. With the stress as the input and the strain as the output it is
 //   strain(t) = int J(t - s) d(stress),  J = J_g + sum J_j (1 - exp(-t/lambda_j)) [+ t/eta for a liquid],
 // creep, recovery and any sequence of stresses (Boltzmann's superposition; fit/README.md, eq. 5).
+// More than a Course: the samples of a test with what is known about it.
 struct HistoryInput {
   std::vector<double> time_s;  // sorted
   std::vector<double> input;   // depth in m, or strain
@@ -45,7 +46,8 @@ struct HistoryInput {
   // averages restarts there. Empty: none.
   std::vector<char> has_moved;
   bool is_creep = false;  // the input is the stress
-  EarlierTouch touch;     // before the contact, which it needs as a nuisance; may be empty
+  // The surface before the contact (earlier_touch.h), for which the contact must be a nuisance; empty: at rest.
+  Course touch;
 };
 
 // First sample with at least 98 % of the largest input: the end of loading, despite later drift.

@@ -47,15 +47,15 @@ double crossing_s(const IndentationData& data, double from_s, double level_N, bo
 }
 
 // When the punch meets the surface: at its position of rest, or where a touch has left it.
-double contact_time_s(const StageMove& ramp, double contact_m, const EarlierTouch& touch) {
-  if (touch.is_empty()) return time_at_position_s(ramp, contact_m);
+double contact_time_s(const StageMove& ramp, double contact_m, const Course& touch) {
+  if (touch.empty()) return time_at_position_s(ramp, contact_m);
   double low = ramp.start_time_s, high = ramp.start_time_s + duration_s(ramp);
   const double direction = ramp.to_m >= ramp.from_m ? 1.0 : -1.0;
   for (int step = 0; step < 200; ++step) {
     const double middle = 0.5 * (low + high);
     if (middle <= low || middle >= high) break;
     const double depth_m = direction * (position_m(ramp, middle) - contact_m);
-    (depth_m < touch.depth_at_m(middle) ? low : high) = middle;
+    (depth_m < value_at(touch, middle) ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -105,14 +105,14 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
 }
 
 StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start,
-                       const StageNoise& noise, const FitOptions& options, EarlierTouch touch)
+                       const StageNoise& noise, const FitOptions& options, Course touch)
     : time_s_(data.time_s), moves_(data.moves), touch_(std::move(touch)) {
   set_up(data, usual_step_s(time_s_), start, noise, options);
 }
 
 StageModel::StageModel(const AveragedRun& run, const IndentationData& readings,
                        const Eigen::VectorXd& start, const StageNoise& noise,
-                       const FitOptions& options, EarlierTouch touch)
+                       const FitOptions& options, Course touch)
     : time_s_(run.rows.time_s), moves_(run.rows.moves), touch_(std::move(touch)) {
   if (run.has_averages()) {
     run_ = &run;
@@ -195,7 +195,7 @@ struct StageModel::Drive {
   std::vector<StageResponse> responses;
   std::vector<std::vector<StageResponse::Branch>> branches;
   std::vector<double> tau_s;
-  std::vector<EarlierTouch::Memory> touch;  // of each branch, at contact
+  std::vector<BranchState> touch;  // of each branch, at contact
   double contact_m = 0.0, contact_s = 0.0;
   double direction = 1.0;
 };
@@ -218,8 +218,8 @@ StageModel::Drive StageModel::drive(const Eigen::VectorXd& ln_tau,
   }
   for (Index i = 0; i < ln_tau.size(); ++i) {
     drive.tau_s.push_back(std::exp(ln_tau[i]));
-    if (touch_.is_empty()) continue;
-    drive.touch.push_back(touch_.memory_at(drive.contact_s, drive.tau_s.back()));
+    if (touch_.empty()) continue;
+    drive.touch.push_back(left_by(touch_, drive.contact_s, drive.tau_s.back()));
   }
   drive.direction = drive.moves[0].to_m >= drive.moves[0].from_m ? 1.0 : -1.0;
   return drive;
@@ -252,13 +252,13 @@ void StageModel::add_move(const Drive& drive, std::size_t m, Index row, bool wit
   for (std::size_t i = 0; i < drive.branches[m].size(); ++i) {
     const BranchResponse response = drive.responses[m].at(drive.branches[m][i], t);
     const auto term = static_cast<Index>(i);
-    out.values(row, n_common() + term) += drive.direction * response.value_m;
+    out.values(row, n_common() + term) += drive.direction * response.value;
     if (shift == nullptr) continue;
-    out.term_slopes(row, term) += drive.direction * response.slope_m;
+    out.term_slopes(row, term) += drive.direction * response.slope;
     (*shift)(row, n_common() + term) -= drive.direction * response.rate_m_s;
     // A faster move is the same move on another scale of time, for which tau is longer.
     (*speed)(row, n_common() + term) +=
-        drive.direction * (since_s * response.rate_m_s + response.slope_m);
+        drive.direction * (since_s * response.rate_m_s + response.slope);
   }
 }
 
@@ -269,10 +269,10 @@ void StageModel::add_touch(const Drive& drive, Index row, bool with_slopes,
   const double since_s = time_s_[static_cast<std::size_t>(row)] - drive.contact_s;
   for (std::size_t i = 0; i < drive.touch.size(); ++i) {
     const double x = since_s / drive.tau_s[i], decay = std::exp(-x);
-    const EarlierTouch::Memory& left = drive.touch[i];
+    const BranchState& left = drive.touch[i];
     const auto term = static_cast<Index>(i);
-    out.values(row, n_common() + term) += decay * left.value_m;
-    if (with_slopes) out.term_slopes(row, term) += decay * (x * left.value_m + left.slope_m);
+    out.values(row, n_common() + term) += decay * left.value;
+    if (with_slopes) out.term_slopes(row, term) += decay * (x * left.value + left.slope);
   }
 }
 

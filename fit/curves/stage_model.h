@@ -25,17 +25,17 @@ namespace viscard {
 // correction is that it is as late as the ramp), the contact position, and the logarithm of the true
 // speed of all moves over the commanded one, because the stage's clock is its own; its prior is
 // normal, 0 +- 0.2 %. The kinks of the force determine all of them sharply. Out of contact the force
-// is zero. z begins as the touch of the approach has left the surface (EarlierTouch).
+// is zero. z begins as the touch of the approach has left the surface (earlier_touch.h).
 class StageModel final : public SpectralModel {
  public:
   // nuisance_start: shifts of the starts first (s), then the contact position (m), then the
   // logarithm of the speed. The half-widths of the bounds of the first two come from the data.
   StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start,
-             const StageNoise& noise, const FitOptions& options, EarlierTouch touch = {});
+             const StageNoise& noise, const FitOptions& options, Course touch = {});
   // Of a long run whose readings are averaged; both must outlive the model.
   StageModel(const AveragedRun& run, const IndentationData& readings,
              const Eigen::VectorXd& nuisance_start, const StageNoise& noise,
-             const FitOptions& options, EarlierTouch touch = {});
+             const FitOptions& options, Course touch = {});
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;
@@ -73,7 +73,7 @@ class StageModel final : public SpectralModel {
 
   std::vector<double> time_s_;
   std::vector<StageMove> moves_;
-  EarlierTouch touch_;
+  Course touch_;
   std::vector<bool> is_moving_;
   std::vector<bool> is_out_of_contact_;
   Eigen::VectorXd sigma_N_;

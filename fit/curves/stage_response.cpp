@@ -1,29 +1,20 @@
 #include "fit/curves/stage_response.h"
 
-#include "models/material/hereditary.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace viscard {
 namespace {
 
-struct Memory {
-  double value_m = 0.0;
-  double slope_m = 0.0;
-};
-
 // One step with velocity linear from v0 to v1, and its derivative. Uses d phi_1/d ln tau = x (phi_1
 // - phi_2), d phi_2/d ln tau = 2 phi_2 - phi_1.
-Memory stepped(const Memory& start, double dt_s, double v0, double v1, double tau_s) {
-  const double x = dt_s / tau_s;
-  const double decay = std::exp(-x);
-  const double p1 = phi1(x);
-  const double p2 = phi2(x);
-  Memory end;
-  end.value_m = decay * start.value_m + dt_s * (v0 * p1 + (v1 - v0) * p2);
-  end.slope_m = decay * (start.slope_m + x * start.value_m) +
-                dt_s * (v0 * x * (p1 - p2) + (v1 - v0) * (2.0 * p2 - p1));
+BranchState stepped(const BranchState& start, double dt_s, double v0, double v1, double tau_s) {
+  const BranchStep step(dt_s, tau_s);
+  const double x = step.x, p1 = step.gain, p2 = phi2(x);
+  BranchState end;
+  end.value = step.decay * start.value + dt_s * (v0 * p1 + (v1 - v0) * p2);
+  end.slope = step.decay * (start.slope + x * start.value) +
+              dt_s * (v0 * x * (p1 - p2) + (v1 - v0) * (2.0 * p2 - p1));
   return end;
 }
 
@@ -41,13 +32,10 @@ StageResponse::StageResponse(const StageMove& move, double from_s) {
 }
 
 StageResponse::Branch StageResponse::branch(double tau_s) const {
-  Branch branch{tau_s, {0.0}, {0.0}};
-  Memory memory;
+  Branch branch{tau_s, {{}}};
   for (std::size_t i = 1; i < knot_s_.size(); ++i) {
-    memory =
-        stepped(memory, knot_s_[i] - knot_s_[i - 1], velocity_m_s_[i - 1], velocity_m_s_[i], tau_s);
-    branch.value_m.push_back(memory.value_m);
-    branch.slope_m.push_back(memory.slope_m);
+    branch.at_knots.push_back(stepped(branch.at_knots.back(), knot_s_[i] - knot_s_[i - 1],
+                                      velocity_m_s_[i - 1], velocity_m_s_[i], tau_s));
   }
   return branch;
 }
@@ -64,9 +52,8 @@ BranchResponse StageResponse::at(const Branch& branch, double time_s) const {
   } else {
     v0 = 0.0;
   }
-  const Memory end =
-      stepped({branch.value_m[i], branch.slope_m[i]}, time_s - knot_s_[i], v0, v1, branch.tau_s);
-  return {end.value_m, end.slope_m, v1 - end.value_m / branch.tau_s};
+  const BranchState end = stepped(branch.at_knots[i], time_s - knot_s_[i], v0, v1, branch.tau_s);
+  return {end, v1 - end.value / branch.tau_s};
 }
 
 double time_at_position_s(const StageMove& move, double position) {

@@ -1,20 +1,19 @@
 #pragma once
 
 #include "models/experiment/motion_profile.h"
+#include "models/material/hereditary.h"
 
 #include <vector>
 
 namespace viscard {
 
-// Response of one Maxwell branch to one stage move: q(t) = int exp(-(t - s)/tau) v(s) ds over the
-// part of the move after `from_s`, in closed form at any time, with its derivatives.
-struct BranchResponse {
-  double value_m = 0.0;   // q
-  double slope_m = 0.0;   // dq/d ln tau
+// A branch that one stage move drives: q(t) = int exp(-(t - s)/tau) v(s) ds over the part of the move after `from_s`, in
+// m, in closed form at any time.
+struct BranchResponse : BranchState {
   double rate_m_s = 0.0;  // dq/dt
 };
 
-// The velocity of a move is linear between its knots. A step dt from velocity v_0 to v_1 takes q to
+// Other steps than BranchStep: not the position but the velocity of a move is linear between its knots. A step dt from velocity v_0 to v_1 takes q to
 // exp(-x) q + dt [v_0 phi_1(x) + (v_1 - v_0) phi_2(x)], x = dt/tau (fit/README.md, eq. 3).
 class StageResponse {
  public:
@@ -24,7 +23,7 @@ class StageResponse {
   // Response of the branch at the knots, for one relaxation time.
   struct Branch {
     double tau_s = 0.0;
-    std::vector<double> value_m, slope_m;
+    std::vector<BranchState> at_knots;
   };
   Branch branch(double tau_s) const;
 

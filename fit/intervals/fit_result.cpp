@@ -17,19 +17,25 @@ Interval combined_95(const Interval& interval, double value, double relative_u) 
 }
 
 ModulusIntervals combined_intervals(const FitResult& fit) {
-  PronySeries series{fit.E_inf_Pa, {}};
-  for (const FittedTerm& term : fit.terms) series.terms.push_back({term.modulus_Pa, term.tau_s});
-  const double of_E_inf = systematic_u_of_E_inf(fit.systematic_parts, series);
+  const double of_E_inf = systematic_u_of_E_inf(fit.systematic_parts, fitted_series(fit));
   return {combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative),
           combined_95(fit.E_inf_interval_95, fit.E_inf_Pa, of_E_inf)};
 }
 
-TermIntervals combined_intervals(const FitResult& fit, std::size_t term) {
-  const FittedTerm& one = fit.terms[term];
+TermUncertainty combined_intervals(const FitResult& fit, std::size_t term) {
+  FittedTerm one = fit.terms[term];
   const std::vector<SystematicPart>& parts = fit.systematic_parts;
-  return {combined_95(one.modulus_Pa_95, one.modulus_Pa, systematic_u_of_modulus(parts, term)),
-          combined_95(one.g_95, one.g, systematic_u_of_g(parts, term)),
-          combined_95(one.tau_s_95, one.tau_s, systematic_u_of_tau(parts, term))};
+  one.modulus_Pa_95 =
+      combined_95(one.modulus_Pa_95, one.modulus_Pa, systematic_u_of_modulus(parts, term));
+  one.g_95 = combined_95(one.g_95, one.g, systematic_u_of_g(parts, term));
+  one.tau_s_95 = combined_95(one.tau_s_95, one.tau_s, systematic_u_of_tau(parts, term));
+  return one;
+}
+
+PronySeries fitted_series(const FitResult& fit) {
+  PronySeries series{fit.E_inf_Pa, {}};
+  for (const FittedTerm& term : fit.terms) series.terms.push_back({term.modulus_Pa, term.tau_s});
+  return series;
 }
 
 Material material_from_fit(const FitResult& fit, double nu, double rho_kg_m3) {
@@ -51,8 +57,7 @@ Material material_from_fit(const FitResult& fit, double nu, double rho_kg_m3) {
   uncertainty.systematic_parts = fit.systematic_parts;
   for (const FittedTerm& term : fit.terms) {
     material.terms.push_back({term.g, term.g, term.tau_s});
-    uncertainty.terms.push_back(
-        {term.modulus_se_Pa, term.ln_tau_se, term.modulus_Pa_95, term.g_95, term.tau_s_95});
+    uncertainty.terms.push_back(term);
   }
   material.uncertainty = uncertainty;
   material.flags = fit.flags;

@@ -19,13 +19,10 @@ enum class FitKind { kIndentation, kRelaxation, kCreep, kDma, kSeveral };
 
 // One term of the fitted series; ascending tau. Without punch geometry "modulus" is a stiffness in
 // N/m (FitResult::is_stiffness).
-struct FittedTerm {
+struct FittedTerm : TermUncertainty {
   double modulus_Pa = 0.0;
   double g = 0.0;
   double tau_s = 0.0;
-  double modulus_se_Pa = 0.0;
-  double ln_tau_se = 0.0;
-  Interval modulus_Pa_95, g_95, tau_s_95;
 };
 
 // Noise of one sample about the fit.
@@ -242,11 +239,11 @@ struct ModulusIntervals {
   Interval E0_Pa, E_inf_Pa;
 };
 ModulusIntervals combined_intervals(const FitResult& fit);
-// The same for one term.
-struct TermIntervals {
-  Interval modulus_Pa, g, tau_s;  // g is a pure number
-};
-TermIntervals combined_intervals(const FitResult& fit, std::size_t term);  // from 0
+// The same for one term, from 0; the standard errors are those of the fit.
+TermUncertainty combined_intervals(const FitResult& fit, std::size_t term);
+
+// The fitted terms and E_inf as a series.
+PronySeries fitted_series(const FitResult& fit);
 
 // The material that a fit describes, without provenance. Throws std::invalid_argument if the fit is
 // of stiffnesses (no geometry was given).

@@ -25,10 +25,10 @@ void show_keys(ResultVisitor& v, const SystematicPart& part) {
   v("tau_s", part.tau, "of the relaxation times; empty: none");
 }
 
-void show_intervals(ResultVisitor& v, const TermIntervals& of, const std::string& modulus) {
-  v(modulus, of.modulus_Pa, "of the modulus, [low, high]");
-  v("g", of.g, "of g, [low, high]");
-  v("tau_s", of.tau_s, "of tau_s, [low, high]");
+void show_intervals(ResultVisitor& v, const TermUncertainty& of, const std::string& modulus) {
+  v(modulus, of.modulus_Pa_95, "of the modulus, [low, high]");
+  v("g", of.g_95, "of g, [low, high]");
+  v("tau_s", of.tau_s_95, "of tau_s, [low, high]");
 }
 
 // i: from 0.
@@ -40,11 +40,10 @@ void show_term(ResultVisitor& v, const FitResult& fit, std::size_t i, const Modu
   v("tau_s", term.tau_s, "relaxation time");
   v(names.stem + "_se" + names.unit, term.modulus_se_Pa, "its standard error");
   v("ln_tau_se", term.ln_tau_se, "standard error of ln tau");
-  v.object("interval_95", "95 % intervals", [&] {
-    show_intervals(v, {term.modulus_Pa_95, term.g_95, term.tau_s_95}, modulus);
-  });
+  v.object("interval_95", "95 % intervals", [&] { show_intervals(v, term, modulus); });
   v.object("combined_interval_95", "the same with the systematic parts, in quadrature", [&] {
-    show_intervals(v, i < fit.terms.size() ? combined_intervals(fit, i) : TermIntervals{}, modulus);
+    show_intervals(v, i < fit.terms.size() ? combined_intervals(fit, i) : TermUncertainty{},
+                   modulus);
   });
 }
 

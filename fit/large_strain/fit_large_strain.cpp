@@ -142,7 +142,7 @@ FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
                           : point_of_form(form, rows, tests, options);
   const double scale_Pa = rows.stress_scale_Pa();
   fitted.law = {form, scale_Pa * point.moduli, point.shapes};
-  for (const RubberTerm& term : point.terms) fitted.terms.push_back({term.g, 0.0, term.tau_s});
+  for (const RubberTerm& term : point.terms) fitted.terms.push_back({term});
   rows.set_terms(point.terms);
   const auto [slopes, residual] = linearised(form, rows, tests, point);
   fitted.inflation = inflation_of(tests, residual);

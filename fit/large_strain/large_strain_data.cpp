@@ -2,10 +2,10 @@
 
 namespace viscard {
 
-StretchHistory history_of(const LargeStrainTest& test) {
-  StretchHistory history = test.before;
-  history.time_s.insert(history.time_s.end(), test.time_s.begin(), test.time_s.end());
-  history.stretch.insert(history.stretch.end(), test.stretch.begin(), test.stretch.end());
+Course history_of(const LargeStrainTest& test) {
+  Course history = test.before;
+  const Course readings = course_from_columns(test.time_s, test.stretch);
+  history.insert(history.end(), readings.begin(), readings.end());
   return history;
 }
 

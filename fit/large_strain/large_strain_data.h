@@ -18,7 +18,7 @@ struct LargeStrainTest {
   Deformation deformation = Deformation::kUniaxial;
   std::vector<double> stretch, nominal_stress_Pa;
   std::vector<double> time_s = {};  // of the readings; empty: not known
-  StretchHistory before = {};       // what the body went through before the first reading
+  Course before = {};               // of the stretch, before the first reading
   // Of a foam: the kind of test, in which `stretch` is the measured quantity, and the stretch of the side of
   // each reading; empty: not measured.
   FoamTest foam_test = FoamTest::kUniaxial;
@@ -29,8 +29,8 @@ struct LargeStrainTest {
 inline bool has_times(const LargeStrainTest& test) {
   return !test.time_s.empty();
 }
-// The history with the readings at its end.
-StretchHistory history_of(const LargeStrainTest& test);
+// The course of the stretch with the readings at its end.
+Course history_of(const LargeStrainTest& test);
 
 // kEqual: every stress counts alike, so that the largest stresses decide. kRelative: every stress
 // counts by its own size, but not less than a hundredth of the largest one of its test.

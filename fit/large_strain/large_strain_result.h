@@ -17,10 +17,9 @@
 
 namespace viscard {
 
-// One term of relaxation beside a law: its share of the instantaneous stress, and its time.
-struct FittedRubberTerm {
-  double g = 0.0, g_se = 0.0;  // pure numbers; se: standard error
-  double tau_s = 0.0, ln_tau_se = 0.0;
+// One fitted term of relaxation beside a law. Not a FittedTerm: it has no modulus of its own.
+struct FittedRubberTerm : RubberTerm {
+  double g_se = 0.0, ln_tau_se = 0.0;         // standard errors, pure numbers
   Interval g_interval_95, tau_s_interval_95;  // of the time symmetric in the logarithm
 };
 
@@ -94,9 +93,7 @@ struct FittedRubber {
 
 // The terms of relaxation of a fitted law.
 inline std::vector<RubberTerm> relaxation_of(const FittedRubber& fitted) {
-  std::vector<RubberTerm> terms;
-  for (const FittedRubberTerm& term : fitted.terms) terms.push_back({term.g, term.tau_s});
-  return terms;
+  return {fitted.terms.begin(), fitted.terms.end()};
 }
 
 // Name of a fitted law, "yeoh" or "hyperfoam-2".

@@ -56,8 +56,8 @@ LargeStrainRows::LargeStrainRows(const std::vector<LargeStrainTest>& tests,
       const double stress = test.nominal_stress_Pa[i] / scale_Pa_;
       const bool is_relative = options.weight == StressWeight::kRelative;
       const double weight = is_relative ? 1.0 / std::max(std::abs(stress), least) : 1.0;
-      readings_.push_back({test.deformation, test.stretch[i], weight, weight * stress, t,
-                           test.before.stretch.size() + i});
+      readings_.push_back(
+          {test.deformation, test.stretch[i], weight, weight * stress, t, test.before.size() + i});
       largest_excess_ = std::max(largest_excess_, excess_at(test.deformation, test.stretch[i]));
     }
   }

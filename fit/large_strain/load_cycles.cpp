@@ -144,9 +144,7 @@ LargeStrainTest loading_of(const LargeStrainTest& test, const LoadCycle& cycle) 
     if (has_times(test)) out.time_s.push_back(test.time_s[i]);
   }
   if (!has_times(test)) return out;
-  const auto first = static_cast<std::ptrdiff_t>(cycle.first);
-  out.before = {{test.time_s.begin(), test.time_s.begin() + first},
-                {test.stretch.begin(), test.stretch.begin() + first}};
+  out.before = course_from_columns(std::span(test.time_s).first(cycle.first), test.stretch);
   return out;
 }
 

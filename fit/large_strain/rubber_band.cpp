@@ -40,7 +40,7 @@ std::vector<double> stresses_Pa(const FittedRubber& fitted, const LargeStrainTes
   for (const RubberTerm& term : relaxation_of(fitted)) {
     sum += term.g * (course.relaxed(stress, term.tau_s, false).values - at_once).col(0);
   }
-  const auto first = static_cast<std::ptrdiff_t>(test.before.stretch.size());
+  const auto first = static_cast<std::ptrdiff_t>(test.before.size());
   return {sum.begin() + first, sum.end()};
 }
 

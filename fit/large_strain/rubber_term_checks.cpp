@@ -17,26 +17,17 @@ struct TestRates {
   bool rests_or_returns = false;  // a hold or an unloading
 };
 
-double stretch_at(const StretchHistory& history, double time_s) {
-  const auto after = std::upper_bound(history.time_s.begin(), history.time_s.end(), time_s);
-  if (after == history.time_s.begin()) return history.stretch.front();
-  if (after == history.time_s.end()) return history.stretch.back();
-  const auto i = static_cast<std::size_t>(after - history.time_s.begin());
-  const double share = (time_s - history.time_s[i - 1]) / (*after - history.time_s[i - 1]);
-  return history.stretch[i - 1] + share * (history.stretch[i] - history.stretch[i - 1]);
-}
-
 TestRates rates_of(const LargeStrainTest& test) {
   constexpr int kParts = 20;
   constexpr double kHold = 0.05;  // of the largest rate
-  const StretchHistory history = history_of(test);
-  const double first_s = history.time_s.front();
-  const double part_s = (history.time_s.back() - first_s) / kParts;
+  const Course history = history_of(test);
+  const double first_s = history.front().time_s;
+  const double part_s = (history.back().time_s - first_s) / kParts;
   if (!(part_s > 0.0)) return {};
   std::vector<double> rates;
   for (int k = 0; k < kParts; ++k) {
     const double change =
-        stretch_at(history, first_s + (k + 1) * part_s) - stretch_at(history, first_s + k * part_s);
+        value_at(history, first_s + (k + 1) * part_s) - value_at(history, first_s + k * part_s);
     rates.push_back(change / part_s);
   }
   const auto [low, high] = std::minmax_element(rates.begin(), rates.end());
@@ -51,11 +42,11 @@ TestRates rates_of(const LargeStrainTest& test) {
 }
 
 bool are_ascending(const LargeStrainTest& test) {
-  const StretchHistory history = history_of(test);
-  const auto is_finite = [](double time_s) { return std::isfinite(time_s); };
-  return std::all_of(history.time_s.begin(), history.time_s.end(), is_finite) &&
-         std::is_sorted(history.time_s.begin(), history.time_s.end()) &&
-         history.time_s.back() > history.time_s.front();
+  const Course history = history_of(test);
+  const auto is_finite = [](const CoursePoint& point) { return std::isfinite(point.time_s); };
+  return std::all_of(history.begin(), history.end(), is_finite) &&
+         std::ranges::is_sorted(history, {}, &CoursePoint::time_s) &&
+         history.back().time_s > history.front().time_s;
 }
 
 // Why a test cannot show relaxation; empty if it can.
@@ -67,14 +58,12 @@ std::string without_times(const LargeStrainTest& test) {
 
 // Duration of the first loading: until the stretch is within 2 % of its largest distance from 1.
 double ramp_s(const LargeStrainTest& test) {
-  const StretchHistory history = history_of(test);
+  const Course history = history_of(test);
   double farthest = 0.0;
-  for (const double s : history.stretch) farthest = std::max(farthest, std::abs(s - 1.0));
+  for (const CoursePoint& at : history) farthest = std::max(farthest, std::abs(at.value - 1.0));
   constexpr double kThere = 0.98;
-  for (std::size_t i = 0; i < history.stretch.size(); ++i) {
-    if (std::abs(history.stretch[i] - 1.0) >= kThere * farthest) {
-      return history.time_s[i] - history.time_s.front();
-    }
+  for (const CoursePoint& at : history) {
+    if (std::abs(at.value - 1.0) >= kThere * farthest) return at.time_s - history.front().time_s;
   }
   return 0.0;
 }
@@ -225,7 +214,7 @@ void add_term_flags(const std::vector<LargeStrainTest>& tests, const LargeStrain
   add_flag_of_sum(fitted);
   constexpr double kRest = 0.02;
   for (const LargeStrainTest& test : tests) {
-    const double first = history_of(test).stretch.front();
+    const double first = history_of(test).front().value;
     if (std::abs(first - 1.0) < kRest) continue;
     fitted.flags.push_back({"step-before-record", 0,
                             "the " + test.name + " test begins at the stretch " +

@@ -176,10 +176,7 @@ PredictedFit known_fit(const FittedRun& run) {
   }
   PredictedFit known;
   known.result = run.fit;
-  known.series.equilibrium_modulus_Pa = run.fit.E_inf_Pa;
-  for (const FittedTerm& term : run.fit.terms) {
-    known.series.terms.push_back({term.modulus_Pa, term.tau_s});
-  }
+  known.series = fitted_series(run.fit);
   known.covariance = run.fit.covariance;
   known.result.gain_drift_relative = 0.0;  // the covariance contains it, so gain_drift stays empty
   const std::vector<TestPhase> phases = phases_from_plan(run.plan);

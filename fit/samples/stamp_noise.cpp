@@ -1,5 +1,6 @@
 #include "fit/samples/median.h"
 #include "fit/samples/noise_model.h"
+#include "models/maths/course.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,40 +13,26 @@ namespace {
 
 using Index = Eigen::Index;
 
-// The fitted force at any time in contact, linear between readings.
-class ForceCurve {
- public:
-  explicit ForceCurve(const StageResidual& left) {
-    for (std::size_t i = 0; i < left.time_s.size(); ++i) {
-      if (left.is_out_of_contact[i]) continue;
-      time_s_.push_back(left.time_s[i]);
-      force_N_.push_back(left.fitted_N[static_cast<Index>(i)]);
-    }
+// The fitted force in contact.
+Course force_in_contact(const StageResidual& left) {
+  Course force_N;
+  for (std::size_t i = 0; i < left.time_s.size(); ++i) {
+    if (left.is_out_of_contact[i]) continue;
+    force_N.push_back({left.time_s[i], left.fitted_N[static_cast<Index>(i)]});
   }
-  bool empty() const { return time_s_.empty(); }
-  double at(double t) const {
-    const auto next = std::upper_bound(time_s_.begin(), time_s_.end(), t);
-    if (next == time_s_.begin()) return force_N_.front();
-    if (next == time_s_.end()) return force_N_.back();
-    const auto i = static_cast<std::size_t>(next - time_s_.begin());
-    const double share = (t - time_s_[i - 1]) / (time_s_[i] - time_s_[i - 1]);
-    return force_N_[i - 1] + share * (force_N_[i] - force_N_[i - 1]);
-  }
-
- private:
-  std::vector<double> time_s_, force_N_;
-};
+  return force_N;
+}
 
 // Mean square of F(t + d) - F(t) for normal d, by three-point Gauss-Hermite quadrature.
-Eigen::VectorXd squares_of_stamps(const StageResidual& left, const ForceCurve& curve,
-                                  double stamp_s) {
+Eigen::VectorXd squares_of_stamps(const StageResidual& left, const Course& curve, double stamp_s) {
   const double reach_s = std::sqrt(3.0) * stamp_s;
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(left.fitted_N.size());
   for (std::size_t i = 0; i < left.time_s.size(); ++i) {
     if (left.is_out_of_contact[i]) continue;
     const double here_N = left.fitted_N[static_cast<Index>(i)];
-    const double later_N = curve.at(left.time_s[i] + reach_s) - here_N;
-    const double earlier_N = curve.at(left.time_s[i] - reach_s) - here_N;
+    const double later_N = value_at(curve, left.time_s[i] + reach_s) - here_N;
+    const double earlier_N =
+        value_at(curve, std::max(left.time_s[i] - reach_s, curve.front().time_s)) - here_N;
     squares[static_cast<Index>(i)] = (later_N * later_N + earlier_N * earlier_N) / 6.0;
   }
   return squares;
@@ -114,7 +101,7 @@ double log_likelihood(const StageResidual& left, const Eigen::VectorXd& squares,
 
 StageNoise stage_noise(const StageResidual& left) {
   StageNoise plain = plain_noise(left);
-  const ForceCurve curve(left);
+  const Course curve = force_in_contact(left);
   const double usual_N = usual_size(left.residual_N);
   if (curve.empty() || !(usual_N > 0.0)) return plain;
   constexpr double kShortest_s = 1e-4, kRatio = 1.25, kEnough = 6.0;

@@ -14,17 +14,17 @@ namespace viscard {
 namespace {
 
 // Time and, if the table has one, the controlled quantity, in order of time.
-struct Course {
+struct SortedRows {
   std::vector<std::size_t> rows;  // of the table
   std::vector<double> time_s, input, value;
 };
 
-Course course_of(const CsvTable& table, const FitRequest& request) {
+SortedRows sorted_rows(const CsvTable& table, const FitRequest& request) {
   const auto column = [&](const char* name) {
     return find_column(table, name, request.columns) ? column_SI(table, name, request.columns)
                                                      : std::vector<double>();
   };
-  Course course;
+  SortedRows course;
   std::vector<double> time_s = column_SI(table, "time_s", request.columns);
   course.rows.resize(time_s.size());
   std::iota(course.rows.begin(), course.rows.end(), std::size_t{0});
@@ -50,7 +50,7 @@ Course course_of(const CsvTable& table, const FitRequest& request) {
   return course;
 }
 
-RowRange hold_of(const Course& course, int number) {
+RowRange hold_of(const SortedRows& course, int number) {
   if (course.input.empty()) {
     throw std::runtime_error(
         "--hold finds holds in depth_m or strain, and the table has neither; choose the part with "
@@ -69,7 +69,7 @@ RowRange hold_of(const Course& course, int number) {
   return holds[static_cast<std::size_t>(number) - 1];
 }
 
-RowRange cropped(const Course& course) {
+RowRange cropped(const SortedRows& course) {
   if (!course.input.empty()) return up_to_longest_hold(course.time_s, course.input);
   if (!course.value.empty()) {
     RowRange part = from_largest(course.value);
@@ -80,7 +80,7 @@ RowRange cropped(const Course& course) {
 }
 
 // When the load rose, if --crop auto begins at its largest value and no time of the step was given.
-std::optional<Interval> rise_of(const Course& course, const FitRequest& request) {
+std::optional<Interval> rise_of(const SortedRows& course, const FitRequest& request) {
   if (!request.crop || !course.input.empty() || course.value.empty()) return std::nullopt;
   if (request.time_zero_s || request.from_s) return std::nullopt;
   const std::size_t peak = from_largest(course.value).begin;
@@ -105,7 +105,7 @@ void note_history(const std::vector<double>& input, std::size_t first, ChosenPar
 
 ChosenPart choose_part(CsvTable& table, const FitRequest& request) {
   if (!request.from_s && !request.to_s && request.hold == 0 && !request.crop) return {};
-  const Course course = course_of(table, request);
+  const SortedRows course = sorted_rows(table, request);
   const std::size_t n = course.rows.size();
   RowRange part{0, n};
   if (request.hold > 0) part = hold_of(course, request.hold);

@@ -109,7 +109,7 @@ bool is_given(const PredictFileRequest& request, const std::string& option) {
   return std::find(request.given.begin(), request.given.end(), option) != request.given.end();
 }
 
-LoadHistory history_from(const ReadTable& read) {
+void take_history(const ReadTable& read, PredictionRequest& wanted) {
   const bool has_strain = read.has("strain"), has_stress = read.has("stress_Pa");
   if (!has_strain && !has_stress) {
     throw std::runtime_error(read.table.file +
@@ -127,11 +127,9 @@ LoadHistory history_from(const ReadTable& read) {
                                     "stress_Pa alone; omit it, or name the column with --column "
                                     "strain=\"HEADER\""));
   }
-  LoadHistory history;
-  history.is_stress = has_stress && (!has_strain || by_stress);
-  history.time_s = read.argument("time_s");
-  history.value = read.column(history.is_stress ? "stress_Pa" : "strain");
-  return history;
+  wanted.is_stress_history = has_stress && (!has_strain || by_stress);
+  wanted.history = course_from_columns(
+      read.argument("time_s"), read.column(wanted.is_stress_history ? "stress_Pa" : "strain"));
 }
 
 double root_mean_square(const Values& values) {
@@ -311,8 +309,8 @@ PredictedFile predict_material(Material material, const PredictFileRequest& requ
           "a history has to be given: a table with time_s and strain or stress_Pa");
     }
     const ReadTable& course = history ? *history : *measured;
-    wanted.history = history_from(course);
-    if (!wanted.history->is_stress) {  // refuses per cent without a unit
+    take_history(course, wanted);
+    if (!wanted.is_stress_history) {  // refuses per cent without a unit
       strain_flag(course.table, request.columns, request.plausible);
     }
     // A table with both columns also contains the measured answer.

@@ -17,6 +17,7 @@ struct Estimate {
   Interval interval_95;  // {0, 0}: not given
 };
 
+// Not a FittedTerm: the page shows each number with its interval alone, and those of a material file may lack errors.
 struct TermEstimate {
   Estimate modulus_Pa, g, tau_s;
 };

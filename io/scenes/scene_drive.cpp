@@ -74,8 +74,8 @@ std::string only(const Part& part, const std::string& what) {
 // Straight pieces that stand for half a sine: they err by (pi/256)^2/8 = 2e-5 of its height.
 constexpr int kPulsePieces = 256;
 
-std::vector<HistoryPoint> half_sine(double height, double duration_s) {
-  std::vector<HistoryPoint> points;
+Course half_sine(double height, double duration_s) {
+  Course points;
   for (int i = 0; i <= kPulsePieces; ++i) {
     const double share = static_cast<double>(i) / kPulsePieces;
     points.push_back({share * duration_s, height * std::sin(std::numbers::pi * share)});
@@ -96,7 +96,7 @@ struct TimeKeys {
 template <typename Drive>
 TimeKeys times_of(const Drive& drive) {
   TimeKeys keys{.end_time_s = part_of(drive, kEndTime, 0.0)};
-  keys.history = pairs_of(part_of(drive, kHistory, std::vector<HistoryPoint>()));
+  keys.history = pairs_of(part_of(drive, kHistory, Course()));
   const auto f_Hz = part_of(drive, kFrequencies, std::vector<double>());
   if (f_Hz.empty()) return keys;
   keys.from_Hz = f_Hz.front();
@@ -123,7 +123,7 @@ std::vector<double> frequencies_of(const TimeKeys& keys) {
   return frequencies_Hz;
 }
 
-std::vector<HistoryPoint> history_or_pulse(const TimeKeys& keys) {
+Course history_or_pulse(const TimeKeys& keys) {
   if (!(keys.pulse_duration_s > 0.0)) return history_of(keys.history);
   if (!keys.history.empty()) {
     throw SceneMistake("analysis.pulse", "a scene has a history or a pulse, not both");
@@ -341,10 +341,10 @@ void show_analysis(FieldVisitor& v, ArrayScene& scene) {
   show_times(v, "Pa", array_analyses(), scene);
 }
 
-std::vector<HistoryPoint> history_of(const Pairs& pairs) {
-  std::vector<HistoryPoint> history;
+Course history_of(const Pairs& pairs) {
+  Course history;
   for (const auto& [time_s, value] : pairs) history.push_back({time_s, value});
-  validate(history);
+  validate_history(history);
   // A history may begin with nothing at time 0 and jump there.
   if (history.size() > 1 && history[0].time_s == history[1].time_s) {
     if (history[0].value == 0.0) history.erase(history.begin());
@@ -352,9 +352,9 @@ std::vector<HistoryPoint> history_of(const Pairs& pairs) {
   return history;
 }
 
-Pairs pairs_of(const std::vector<HistoryPoint>& history) {
+Pairs pairs_of(const Course& history) {
   Pairs pairs;
-  for (const HistoryPoint& point : history) pairs.emplace_back(point.time_s, point.value);
+  for (const CoursePoint& point : history) pairs.emplace_back(point.time_s, point.value);
   return pairs;
 }
 

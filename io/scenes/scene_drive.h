@@ -20,8 +20,8 @@ void show_analysis(FieldVisitor& v, ArrayScene& scene);
 
 // The points of a history, from rest.
 using Pairs = std::vector<std::pair<double, double>>;
-std::vector<HistoryPoint> history_of(const Pairs& pairs);
-Pairs pairs_of(const std::vector<HistoryPoint>& history);
+Course history_of(const Pairs& pairs);
+Pairs pairs_of(const Course& history);
 
 // [readout]; 0: not given.
 struct ReadoutKeys {

@@ -7,7 +7,7 @@ namespace viscard {
 // One point-to-point move of a motion controller: the speed rises at `acceleration` to `speed`,
 // stays constant and falls at the same rate (a trapezoid, or a triangle if the distance is too
 // short for full speed). Positions in m on an axis that grows toward the specimen, times in s,
-// speed > 0, acceleration > 0.
+// speed > 0, acceleration > 0. Not a Course: its velocity, not its position, is linear between the knots.
 struct StageMove {
   double start_time_s = 0.0;
   double from_m = 0.0;

@@ -1,5 +1,6 @@
 #include "models/hyperelastic/finite_viscoelasticity.h"
 
+#include "models/material/hereditary.h"
 #include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
 
@@ -10,33 +11,12 @@
 namespace viscard {
 namespace {
 
-// Weights of one step: H <- decay H + gain (S_new - S_old), and their derivatives by ln tau.
-struct StepWeights {
-  double decay = 1.0, gain = 1.0, decay_slope = 0.0, gain_slope = 0.0;
-};
-
-StepWeights step_weights(double dt_s, double tau_s) {
-  const double x = dt_s / tau_s;
-  if (!(x > 0.0)) return {};
-  StepWeights out;
-  out.decay = std::exp(-x);
-  out.gain = -std::expm1(-x) / x;
-  out.decay_slope = x * out.decay;
-  constexpr double kSmall = 1e-4;
-  // phi_1 - exp(-x) cancels for small x.
-  out.gain_slope = x < kSmall ? x * (0.5 - x / 3.0) : out.gain - out.decay;
-  return out;
-}
-
-void check_history(const StretchHistory& history) {
-  require(history.time_s.size() == history.stretch.size(),
-          "a history has " + std::to_string(history.time_s.size()) + " times, but " +
-              std::to_string(history.stretch.size()) + " stretches");
-  for (std::size_t i = 0; i < history.time_s.size(); ++i) {
+void check_history(const Course& history) {
+  for (std::size_t i = 0; i < history.size(); ++i) {
     const std::string point = " of point " + std::to_string(i + 1) + " of a history";
-    require_value(true, "the time" + point, history.time_s[i], "s", "finite");
-    require_positive("the stretch" + point, history.stretch[i], "");
-    require(i == 0 || history.time_s[i] >= history.time_s[i - 1],
+    require_value(true, "the time" + point, history[i].time_s, "s", "finite");
+    require_positive("the stretch" + point, history[i].value, "");
+    require(i == 0 || history[i].time_s >= history[i - 1].time_s,
             "the time" + point + " is before the one of the point before it");
   }
 }
@@ -55,25 +35,24 @@ void validate(const std::vector<RubberTerm>& terms) {
   require_value(sum <= 1.0 + kRounding, "the sum of all g", sum, "", "at most 1");
 }
 
-StretchCourse::StretchCourse(Deformation deformation, const StretchHistory& history)
+StretchCourse::StretchCourse(Deformation deformation, const Course& history)
     : deformation_(deformation) {
   check_history(history);
   constexpr double kMostStrain = 0.02;
-  double time_s = history.time_s.empty() ? 0.0 : history.time_s.front(), stretch = 1.0;
-  for (std::size_t i = 0; i < history.time_s.size(); ++i) {
-    const double dt_s = history.time_s[i] - time_s;
-    const double change = std::abs(std::log(history.stretch[i] / stretch));
+  double time_s = history.empty() ? 0.0 : history.front().time_s, stretch = 1.0;
+  for (const CoursePoint& point : history) {
+    const double dt_s = point.time_s - time_s;
+    const double change = std::abs(std::log(point.value / stretch));
     const bool is_jump = !(dt_s > 0.0);
     const int n = is_jump ? 1 : std::max(1, static_cast<int>(std::ceil(change / kMostStrain)));
     for (int k = 1; k <= n; ++k) {
-      const double at =
-          k == n ? history.stretch[i] : stretch + (history.stretch[i] - stretch) * k / n;
+      const double at = k == n ? point.value : stretch + (point.value - stretch) * k / n;
       log_stretch_.push_back(std::log(at));
       dt_s_.push_back(dt_s / n);
     }
     at_.push_back(log_stretch_.size() - 1);
-    time_s = history.time_s[i];
-    stretch = history.stretch[i];
+    time_s = point.time_s;
+    stretch = point.value;
   }
 }
 
@@ -129,17 +108,17 @@ StretchCourse::Relaxed StretchCourse::relaxed(const Stress& stress, double tau_s
   Relaxed out{Eigen::MatrixXd(size(), n), Eigen::MatrixXd(with_slope ? size() : 0, n)};
   // Columns: H_1, H_3. Rows: the columns of the model.
   Eigen::MatrixX2d h = Eigen::MatrixX2d::Zero(n, 2), slope = h, old = h, change = h;
-  StepWeights weights;
+  BranchStep weights;
   double last_dt_s = -1.0;
   Eigen::Index point = 0;
   for (std::size_t step = 0; step < log_stretch_.size(); ++step) {
     const auto at = static_cast<Eigen::Index>(step);
-    if (dt_s_[step] != last_dt_s) weights = step_weights(dt_s_[step], tau_s);
+    if (dt_s_[step] != last_dt_s) weights = BranchStep(dt_s_[step], tau_s, with_slope);
     last_dt_s = dt_s_[step];
     change.col(0) = stress.first.col(at) - old.col(0);
     change.col(1) = stress.third.col(at) - old.col(1);
     if (with_slope) {
-      slope = weights.decay * slope + weights.decay_slope * h + weights.gain_slope * change;
+      slope = weights.decay * slope + weights.x * weights.decay * h + weights.gain_slope * change;
     }
     h = weights.decay * h + weights.gain * change;
     old += change;
@@ -155,7 +134,7 @@ StretchCourse::Relaxed StretchCourse::relaxed(const Stress& stress, double tau_s
 
 std::vector<double> nominal_stress_Pa(const HyperelasticLaw& law,
                                       const std::vector<RubberTerm>& terms, Deformation deformation,
-                                      const StretchHistory& history) {
+                                      const Course& history) {
   validate(law);
   validate(terms);
   const StretchCourse course(deformation, history);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/hyperelastic/hyperelastic_law.h"
+#include "models/maths/course.h"
 
 #include <Eigen/Core>
 
@@ -9,7 +10,8 @@
 
 namespace viscard {
 
-// One term of the relaxation beside a law: share g of the instantaneous stress, relaxing with tau.
+// One term of the relaxation beside a law: share g of the instantaneous stress, relaxing with tau. Not a MaterialTerm:
+// the body keeps its volume, so there is no share k of a bulk modulus; who needs one chooses it.
 struct RubberTerm {
   double g = 0.0;
   double tau_s = 0.0;
@@ -18,13 +20,6 @@ struct RubberTerm {
 // Throws std::invalid_argument for a g that is negative or not finite, a tau that is not positive, and a
 // sum of g above 1.
 void validate(const std::vector<RubberTerm>& terms);
-
-// What a test did to a body: times that do not decrease, and the measured stretch, linear between them.
-// Before the first time the body was at rest; a first stretch other than 1 is a jump, and so is a step
-// of no duration.
-struct StretchHistory {
-  std::vector<double> time_s, stretch;
-};
 
 // Finite linear viscoelasticity of an incompressible body (Simo, Comput. Methods Appl. Mech. Eng. 60
 // (1987) 153; Simo & Hughes, Computational Inelasticity (1998), sect. 10.3). With the instantaneous
@@ -36,11 +31,13 @@ struct StretchHistory {
 //   H <- exp(-x) H + phi_1(x) (S_new - S_old),   x = dt/tau,  phi_1 = (1 - exp(-x))/x,
 // and steps of more than 2 % of strain are divided, so that the stress is linear within 1e-4 of itself.
 // FEBio's "uncoupled viscoelastic" has this rule with the long-term law (FEUncoupledViscoElasticMaterial.cpp).
+// More than a Course: it holds the steps for one deformation. The history is the course of the measured stretch. Before its first point the body was at rest; a first stretch
+// other than 1 is a jump.
 class StretchCourse {
  public:
   // Throws std::invalid_argument for times that decrease, a stretch that is not positive, numbers that
-  // are not finite, columns of different length.
-  StretchCourse(Deformation deformation, const StretchHistory& history);
+  // are not finite.
+  StretchCourse(Deformation deformation, const Course& history);
 
   // Number of points of the history.
   Eigen::Index size() const { return static_cast<Eigen::Index>(at_.size()); }
@@ -82,6 +79,6 @@ class StretchCourse {
 // Nominal stress at each point of a history, Pa, by (2).
 std::vector<double> nominal_stress_Pa(const HyperelasticLaw& law,
                                       const std::vector<RubberTerm>& terms, Deformation deformation,
-                                      const StretchHistory& history);
+                                      const Course& history);
 
 }  // namespace viscard

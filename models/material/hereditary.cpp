@@ -21,9 +21,16 @@ double phi2(double x) {
   for (int k = 1; k < 24; ++k) {
     term *= -x / static_cast<double>(k + 2);
     sum += term;
+    if (std::abs(term) < 1e-17 * sum) break;  // what follows does not change the sum
   }
   return sum;
 }
+
+BranchStep::BranchStep(double dt_s, double tau_s, bool with_slope)
+    : x(dt_s / tau_s),
+      decay(std::exp(-x)),
+      gain(phi1(x)),
+      gain_slope(with_slope ? x * (gain - phi2(x)) : 0.0) {}
 
 HereditaryStress::HereditaryStress(PronySeries series)
     : series_(std::move(series)), branch_Pa_(series_.terms.size(), 0.0) {
@@ -37,9 +44,9 @@ double HereditaryStress::advance(double dt_s, double strain) {
   }
   const double increment = strain - strain_;
   for (std::size_t i = 0; i < branch_Pa_.size(); ++i) {
-    const double x = dt_s / series_.terms[i].relaxation_time_s;
+    const BranchStep step(dt_s, series_.terms[i].relaxation_time_s);
     branch_Pa_[i] =
-        std::exp(-x) * branch_Pa_[i] + series_.terms[i].modulus_Pa * phi1(x) * increment;
+        step.decay * branch_Pa_[i] + series_.terms[i].modulus_Pa * step.gain * increment;
   }
   strain_ = strain;
   return stress_Pa();
@@ -56,8 +63,8 @@ double HereditaryStress::algorithmic_modulus_Pa(double dt_s) const {
 double HereditaryStress::carried_Pa(double dt_s) const {
   double carried_Pa = 0.0;
   for (std::size_t i = 0; i < branch_Pa_.size(); ++i) {
-    const double x = dt_s / series_.terms[i].relaxation_time_s;
-    carried_Pa += std::exp(-x) * branch_Pa_[i] - series_.terms[i].modulus_Pa * phi1(x) * strain_;
+    const BranchStep step(dt_s, series_.terms[i].relaxation_time_s);
+    carried_Pa += step.decay * branch_Pa_[i] - series_.terms[i].modulus_Pa * step.gain * strain_;
   }
   return carried_Pa;
 }

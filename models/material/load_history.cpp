@@ -13,30 +13,28 @@
 namespace viscard {
 namespace {
 
-// The input between two corners.
-double between(const LoadHistory& history, std::size_t left, double time_s) {
-  const double from_s = history.time_s[left], to_s = history.time_s[left + 1];
-  if (!(to_s > from_s)) return history.value[left + 1];
-  const double share = (time_s - from_s) / (to_s - from_s);
-  return (1.0 - share) * history.value[left] + share * history.value[left + 1];
-}
-
-double largest_input(const LoadHistory& history) {
-  double largest = 0.0;
-  for (const double value : history.value) largest = std::max(largest, std::abs(value));
-  return largest;
+void require_course(const Course& input) {
+  require(!input.empty(), "a history needs at least one corner");
+  for (std::size_t i = 0; i < input.size(); ++i) {
+    require(std::isfinite(input[i].time_s) && std::isfinite(input[i].value),
+            "corner " + std::to_string(i + 1) + " of the history is not finite");
+    require(i == 0 || input[i].time_s >= input[i - 1].time_s,
+            "the time of the history runs backwards from " +
+                text_of(input[i > 0 ? i - 1 : 0].time_s) + " s to " + text_of(input[i].time_s) +
+                " s");
+  }
 }
 
 // Time at which the input first exceeds the limit; infinite if it never does.
-double begin_of_loading_s(const LoadHistory& history, double limit) {
-  for (std::size_t i = 0; i < history.time_s.size(); ++i) {
-    const double now = std::abs(history.value[i]);
-    if (!(now > limit)) continue;
-    const double before = i > 0 ? history.value[i - 1] : 0.0;
-    if (i == 0 || !(history.time_s[i] > history.time_s[i - 1])) return history.time_s[i];
-    const double signed_limit = history.value[i] > 0.0 ? limit : -limit;
-    const double share = (signed_limit - before) / (history.value[i] - before);
-    return history.time_s[i - 1] + share * (history.time_s[i] - history.time_s[i - 1]);
+double begin_of_loading_s(const Course& input, double limit) {
+  for (std::size_t i = 0; i < input.size(); ++i) {
+    const CoursePoint& now = input[i];
+    if (!(std::abs(now.value) > limit)) continue;
+    if (i == 0 || !(now.time_s > input[i - 1].time_s)) return now.time_s;
+    const CoursePoint& before = input[i - 1];
+    const double signed_limit = now.value > 0.0 ? limit : -limit;
+    const double share = (signed_limit - before.value) / (now.value - before.value);
+    return before.time_s + share * (now.time_s - before.time_s);
   }
   return INFINITY;
 }
@@ -46,8 +44,10 @@ double begin_of_loading_s(const LoadHistory& history, double limit) {
 class RunningExtreme {
  public:
   explicit RunningExtreme(double sign) : sign_(sign) {}
-  void push(const std::vector<double>& value, std::size_t i) {
-    while (!kept_.empty() && sign_ * value[kept_.back()] <= sign_ * value[i]) kept_.pop_back();
+  void push(const Course& input, std::size_t i) {
+    while (!kept_.empty() && sign_ * input[kept_.back()].value <= sign_ * input[i].value) {
+      kept_.pop_back();
+    }
     kept_.push_back(i);
   }
   void drop_before(std::size_t first) {
@@ -61,23 +61,23 @@ class RunningExtreme {
 };
 
 // At each corner, the range of the input over the t_min_s before it.
-std::vector<double> trailing_range(const LoadHistory& history, double t_min_s) {
+std::vector<double> trailing_range(const Course& input, double t_min_s) {
   constexpr double kRounding = 1e-9;  // a corner exactly t_min after a jump no longer sees it
   const double back_s = t_min_s * (1.0 - kRounding);
-  if (!(t_min_s > 0.0)) return std::vector<double>(history.time_s.size(), 0.0);
+  if (!(t_min_s > 0.0)) return std::vector<double>(input.size(), 0.0);
   RunningExtreme high(1.0), low(-1.0);
   std::vector<double> range;
   std::size_t first = 0;  // first corner within the last t_min_s
-  for (std::size_t i = 0; i < history.time_s.size(); ++i) {
-    high.push(history.value, i);
-    low.push(history.value, i);
-    const double from_s = history.time_s[i] - back_s;
-    while (history.time_s[first] < from_s) ++first;
+  for (std::size_t i = 0; i < input.size(); ++i) {
+    high.push(input, i);
+    low.push(input, i);
+    const double from_s = input[i].time_s - back_s;
+    while (input[first].time_s < from_s) ++first;
     high.drop_before(first);
     low.drop_before(first);
-    const double at_begin = first > 0 ? between(history, first - 1, from_s) : 0.0;
-    range.push_back(std::max(history.value[high.index()], at_begin) -
-                    std::min(history.value[low.index()], at_begin));
+    const double at_begin = first > 0 ? value_between(input[first - 1], input[first], from_s) : 0.0;
+    range.push_back(std::max(input[high.index()].value, at_begin) -
+                    std::min(input[low.index()].value, at_begin));
   }
   return range;
 }
@@ -114,67 +114,49 @@ class HereditaryStrain {
 
 // `advance` of HereditaryStress or HereditaryStrain over all corners.
 template <typename Solid>
-std::vector<double> advanced(Solid solid, const LoadHistory& history) {
+std::vector<double> advanced(Solid solid, const Course& input) {
   std::vector<double> out;
-  out.reserve(history.time_s.size());
-  double last_s = history.time_s.front();
-  for (std::size_t i = 0; i < history.time_s.size(); ++i) {
-    out.push_back(solid.advance(history.time_s[i] - last_s, history.value[i]));
-    last_s = history.time_s[i];
+  out.reserve(input.size());
+  double last_s = input.front().time_s;
+  for (const CoursePoint& corner : input) {
+    out.push_back(solid.advance(corner.time_s - last_s, corner.value));
+    last_s = corner.time_s;
   }
   return out;
 }
 
 }  // namespace
 
-void validate(const LoadHistory& history) {
-  require(!history.time_s.empty() && history.time_s.size() == history.value.size(),
-          "a history needs at least one corner, and as many values as times");
-  for (std::size_t i = 0; i < history.time_s.size(); ++i) {
-    require(std::isfinite(history.time_s[i]) && std::isfinite(history.value[i]),
-            "corner " + std::to_string(i + 1) + " of the history is not finite");
-    require(i == 0 || history.time_s[i] >= history.time_s[i - 1],
-            "the time of the history runs backwards from " +
-                text_of(history.time_s[i > 0 ? i - 1 : 0]) + " s to " + text_of(history.time_s[i]) +
-                " s");
-  }
+std::vector<double> response(const PronySeries& series, const Course& input, bool is_stress) {
+  require_course(input);
+  if (!is_stress) return advanced(HereditaryStress(series), input);
+  return advanced(HereditaryStrain(retardation_from_relaxation(series)), input);
 }
 
-std::vector<double> response(const PronySeries& series, const LoadHistory& history) {
-  validate(history);
-  if (!history.is_stress) return advanced(HereditaryStress(series), history);
-  return advanced(HereditaryStrain(retardation_from_relaxation(series)), history);
-}
-
-LoadHistory with_corners_at(const LoadHistory& history, std::vector<double> time_s) {
-  validate(history);
+Course with_corners_at(const Course& input, std::vector<double> time_s) {
+  require_course(input);
   std::sort(time_s.begin(), time_s.end());
-  LoadHistory out{history.is_stress, {}, {}};
-  const auto add = [&](double t_s, double value) {
-    out.time_s.push_back(t_s);
-    out.value.push_back(value);
-  };
-  auto next = std::lower_bound(time_s.begin(), time_s.end(), history.time_s.front());
-  for (std::size_t i = 0; i < history.time_s.size(); ++i) {
-    for (; next != time_s.end() && *next < history.time_s[i]; ++next) {
-      if (i > 0 && *next > out.time_s.back()) add(*next, between(history, i - 1, *next));
+  Course out;
+  auto next = std::lower_bound(time_s.begin(), time_s.end(), input.front().time_s);
+  for (const CoursePoint& corner : input) {
+    for (; next != time_s.end() && *next < corner.time_s; ++next) {
+      if (*next > out.back().time_s) out.push_back({*next, value_at(input, *next)});
     }
-    while (next != time_s.end() && *next == history.time_s[i]) ++next;
-    add(history.time_s[i], history.value[i]);
+    while (next != time_s.end() && *next == corner.time_s) ++next;
+    out.push_back(corner);
   }
   for (; next != time_s.end(); ++next) {  // the input stays at its last value
-    if (*next > out.time_s.back()) add(*next, history.value.back());
+    if (*next > out.back().time_s) out.push_back({*next, input.back().value});
   }
   return out;
 }
 
-LoadHistory history_of_steps(bool is_stress, const std::vector<LoadStep>& steps, double first_s,
-                             int points) {
+Course course_of_steps(const std::vector<LoadStep>& steps, double first_s, int points) {
   require_positive("the first time after a motion", first_s, "s");
-  LoadHistory out{is_stress, {0.0}, {0.0}};
+  Course out{{0.0, 0.0}};
   for (const LoadStep& step : steps) {
     require_not_negative("the duration of a motion", step.duration_s, "s");
-    const double begin_s = out.time_s.back(), from = out.value.back();
+    const auto [begin_s, from] = out.back();
     const bool is_hold = from == step.target;
     const int count = step.duration_s > 0.0 ? std::max(1, points) : 1;
     const double first_share = std::min(0.5, first_s / std::max(first_s, step.duration_s));
@@ -184,22 +166,22 @@ LoadHistory history_of_steps(bool is_stress, const std::vector<LoadStep>& steps,
         share = std::pow(first_share, static_cast<double>(count - k) / (count - 1));
       }
       const bool is_last = k == count;
-      out.time_s.push_back(begin_s + (is_last ? step.duration_s : share * step.duration_s));
-      out.value.push_back(is_last || is_hold ? step.target : from + share * (step.target - from));
+      out.push_back({begin_s + (is_last ? step.duration_s : share * step.duration_s),
+                     is_last || is_hold ? step.target : from + share * (step.target - from)});
     }
   }
   return out;
 }
 
-std::vector<bool> is_within_window(const LoadHistory& history, double t_min_s, double t_max_s) {
-  validate(history);
+std::vector<bool> is_within_window(const Course& input, double t_min_s, double t_max_s) {
+  require_course(input);
   constexpr double kShare = 0.05, kRounding = 1e-9;
-  const double limit = kShare * largest_input(history);
-  const double last_s = begin_of_loading_s(history, limit) + t_max_s * (1.0 + kRounding);
-  const std::vector<double> range = trailing_range(history, t_min_s);
+  const double limit = kShare * largest_size(input);
+  const double last_s = begin_of_loading_s(input, limit) + t_max_s * (1.0 + kRounding);
+  const std::vector<double> range = trailing_range(input, t_min_s);
   std::vector<bool> is_inside;
   for (std::size_t i = 0; i < range.size(); ++i) {
-    is_inside.push_back(!(range[i] > limit) && history.time_s[i] <= last_s);
+    is_inside.push_back(!(range[i] > limit) && input[i].time_s <= last_s);
   }
   return is_inside;
 }

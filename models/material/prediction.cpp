@@ -72,7 +72,7 @@ class Predictor {
         if (!request_.strain && request_.ramp_s == 0.0) {
           of_argument("modulus_Pa", relaxation_modulus);
         } else {
-          of_history(held(false, request_.strain.value_or(kUsualStrain), false));
+          of_history(held(request_.strain.value_or(kUsualStrain), false), false);
         }
         break;
       case PredictedTest::kCreep:
@@ -80,22 +80,22 @@ class Predictor {
         if (!request_.stress_Pa && request_.ramp_s == 0.0) {
           of_argument("compliance_1_Pa", creep_compliance);
         } else {
-          of_history(held(true, request_.stress_Pa.value_or(kUsualStress_Pa), false));
+          of_history(held(request_.stress_Pa.value_or(kUsualStress_Pa), false), true);
         }
         break;
       case PredictedTest::kRecovery:
         refuse(request_.strain, "recovery follows a creep test, which holds a stress");
-        of_history(held(true, request_.stress_Pa.value_or(kUsualStress_Pa), true));
+        of_history(held(request_.stress_Pa.value_or(kUsualStress_Pa), true), true);
         break;
       case PredictedTest::kCycles:
-        of_history(cycles());
+        of_history(cycles(), request_.stress_Pa.has_value());
         break;
       case PredictedTest::kOscillation:
         of_frequency();
         break;
       case PredictedTest::kHistory:
         require(request_.history.has_value(), "a history has to be given");
-        of_history(*request_.history);
+        of_history(*request_.history, request_.is_stress_history);
         break;
     }
     if (!out_.is_window_known) out_.is_inside.assign(out_.at.size(), true);
@@ -141,7 +141,7 @@ class Predictor {
     }
   }
 
-  LoadHistory held(bool is_stress, double size, bool is_released) const {
+  Course held(double size, bool is_released) const {
     const double hold_s = request_.hold_s.value_or(request_.to.value_or(span_.last_s));
     require_positive("the duration of the hold", hold_s, "s");
     std::vector<LoadStep> steps{{request_.ramp_s, size}, {hold_s, size}};
@@ -151,14 +151,14 @@ class Predictor {
       steps.push_back({request_.ramp_s, 0.0});
       steps.push_back({recovery_s, 0.0});
     }
-    return history_of_steps(is_stress, steps, first_after_motion(hold_s), request_.points);
+    return course_of_steps(steps, first_after_motion(hold_s), request_.points);
   }
 
   double first_after_motion(double hold_s) const {
     return request_.from.value_or(std::min(span_.first_s, 1e-3 * hold_s));
   }
 
-  LoadHistory cycles() const {
+  Course cycles() const {
     require(!request_.strain || !request_.stress_Pa,
             "cycles are of a strain or of a stress, not of both");
     require_positive("the period of the cycles", request_.period_s, "s");
@@ -169,24 +169,25 @@ class Predictor {
             std::to_string(request_.n_cycles) + " cycles with " + std::to_string(request_.points) +
                 " points of each motion are above the limit of " +
                 std::to_string(kMostCyclePoints) + " points; use fewer points");
-    const bool is_stress = request_.stress_Pa.has_value();
-    const double size = is_stress ? *request_.stress_Pa : request_.strain.value_or(kUsualStrain);
+    const double size = request_.stress_Pa.value_or(request_.strain.value_or(kUsualStrain));
     std::vector<LoadStep> steps;
     for (int i = 0; i < request_.n_cycles; ++i) {
       steps.push_back({0.5 * request_.period_s, size});
       steps.push_back({0.5 * request_.period_s, 0.0});
     }
-    return history_of_steps(is_stress, steps, request_.period_s, request_.points);
+    return course_of_steps(steps, request_.period_s, request_.points);
   }
 
-  void of_history(const LoadHistory& course) {
-    const LoadHistory history = with_corners_at(course, request_.also_at);
-    out_.at = history.time_s;
-    out_.input = history.value;
-    out_.input_name = history.is_stress ? "stress_Pa" : "strain";
-    add(history.is_stress ? "strain" : "stress_Pa",
-        [&](const PronySeries& series) { return response(series, history); });
-    out_.is_inside = is_within_window(history, out_.t_min_s, out_.t_max_s);
+  void of_history(const Course& course, bool is_stress) {
+    const Course input = with_corners_at(course, request_.also_at);
+    for (const CoursePoint& corner : input) {
+      out_.at.push_back(corner.time_s);
+      out_.input.push_back(corner.value);
+    }
+    out_.input_name = is_stress ? "stress_Pa" : "strain";
+    add(is_stress ? "strain" : "stress_Pa",
+        [&](const PronySeries& series) { return response(series, input, is_stress); });
+    out_.is_inside = is_within_window(input, out_.t_min_s, out_.t_max_s);
   }
 
   void of_frequency() {

@@ -32,9 +32,10 @@ struct PredictionRequest {
   // First and last time of E(t) and J(t), or frequency in Hz; none: those of the window. `from` is
   // also the first time after each motion of the other tests.
   std::optional<double> from, to;
-  int points = 200;                    // of each motion
-  std::optional<LoadHistory> history;  // of kHistory
-  std::vector<double> also_at;         // more times or frequencies, such as those of measured data
+  int points = 200;               // of each motion
+  std::optional<Course> history;  // of kHistory: strain, or stress in Pa
+  bool is_stress_history = false;
+  std::vector<double> also_at;  // more times or frequencies, such as those of measured data
 };
 
 // One predicted quantity; the name has the unit: "modulus_Pa", "strain".

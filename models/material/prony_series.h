@@ -7,6 +7,7 @@ namespace viscard {
 // Generalised Maxwell solid, E(t) = E_inf + sum_i E_i exp(-t/tau_i)   (models/README.md, eq. 1)
 // Moduli in Pa, times in s. The same form serves shear and bulk moduli.
 // Source: Tschoegl, The Phenomenological Theory of Linear Viscoelastic Behavior (1989), ch. 3.
+// Not a MaterialTerm: a modulus of one kind in Pa, not shares of two.
 struct MaxwellTerm {
   double modulus_Pa = 0.0;
   double relaxation_time_s = 0.0;

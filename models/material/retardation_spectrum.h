@@ -7,7 +7,8 @@
 namespace viscard {
 
 // Creep compliance of the same solid, J(t) = J_g + sum_j J_j (1 - exp(-t/lambda_j)) + t/eta (eq.
-// 3). Compliances in 1/Pa, times in s. fluidity_1_Pa_s = 1/eta is zero except for a liquid.
+// 3). Compliances in 1/Pa, times in s. fluidity_1_Pa_s = 1/eta is zero except for a liquid. Not a MaxwellTerm: the strain
+// of a term grows towards J_j, where the stress of one of relaxation falls to zero.
 struct RetardationTerm {
   double compliance_1_Pa = 0.0;
   double retardation_time_s = 0.0;

@@ -89,7 +89,7 @@ ValidationResult validate_material(const Material& material, const ValidateOptio
   const ViscoelasticSystem& system = pillar.system();
   const ExactAnswer exact = exact_answer(material, system);
   const double end_s = options.end_time_s > 0.0 ? options.end_time_s : end_of_creep_s(material);
-  const std::vector<HistoryPoint> step = {{0.0, 1.0}, {end_s, 1.0}};
+  const Course step = {{0.0, 1.0}, {end_s, 1.0}};
 
   ValidationResult result;
   result.strain = options.strain;

@@ -166,9 +166,7 @@ EffectEstimate finite_strain_estimate(const PillarScene& scene) {
     strain *= (scene.plane ? 6.0 : 8.0) * scene.geometry.length_m / scene.geometry.diameter_m;
   }
   if (analysis_of(scene).history == HistoryOf::kShortening) {
-    for (const HistoryPoint& point : history(scene)) {
-      strain = std::max(strain, std::abs(point.value) / scene.geometry.length_m);
-    }
+    strain = std::max(strain, largest_size(history(scene)) / scene.geometry.length_m);
   }
   const Surroundings& around = scene.surroundings;
   if (!analysis_of(scene).has_inertia) {
@@ -201,7 +199,7 @@ void leave_out_finite_strain(PillarScene& scene) {
 
 namespace {
 
-double shortest_ramp_s(const std::vector<HistoryPoint>& points) {
+double shortest_ramp_s(const Course& points) {
   double shortest = std::numeric_limits<double>::infinity();
   if (!points.empty() && points.front().value != 0.0) shortest = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) {

@@ -151,9 +151,7 @@ EffectEstimate finite_strain_estimate(const ArrayScene& scene) {
     const RowFoundation pressed = row_foundation(scene);
     peak_Pa = std::max(pressed.largest_Pa, pressed.pull_Pa);
   }
-  for (const HistoryPoint& point : history(scene)) {
-    peak_Pa = std::max(peak_Pa, std::abs(point.value));
-  }
+  peak_Pa = std::max(peak_Pa, largest_size(history(scene)));
   if (peak_Pa == 0.0) {
     return {.reason = analysis_of(scene).has_inertia ? "small vibrations about the unloaded shape"
                                                      : "no load strains the pillars"};

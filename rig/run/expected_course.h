@@ -10,7 +10,7 @@ namespace viscard {
 
 // Depth and force that a test is expected to follow, from the end of the approach on: corners of a
 // line for each. The force is that of an elastic specimen with the guessed modulus, an upper bound
-// for one that relaxes.
+// for one that relaxes. Not a Course: two quantities have the same corners.
 struct ExpectedCourse {
   struct Phase {
     std::string name, text;

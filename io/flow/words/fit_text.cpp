@@ -63,7 +63,7 @@ std::string words_of_parts(const FitResult& fit) {
 void print_systematic_of_g(const FitResult& fit, std::ostream& out) {
   std::string words;
   for (std::size_t i = 0; i < fit.terms.size(); ++i) {
-    const Interval wide = combined_intervals(fit, i).g;
+    const Interval wide = combined_intervals(fit, i).g_95;
     if (wide.high - wide.low < 1.01 * (fit.terms[i].g_95.high - fit.terms[i].g_95.low)) continue;
     words += fmt::format("{}g_{} {}", words.empty() ? "" : ", ", i + 1, range(wide, 1.0, 4));
   }

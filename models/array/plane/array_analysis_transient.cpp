@@ -20,9 +20,9 @@ void check_row_transient(const ArrayScene& scene) {
   if (drive.history.size() < 2) {
     throw SceneMistake("analysis", "a transient analysis needs a history or a pulse");
   }
-  validate(drive.history);
+  validate_history(drive.history);
   check_outputs(drive.end_time_s, drive.outputs);
-  for (const HistoryPoint& point : drive.history) {
+  for (const CoursePoint& point : drive.history) {
     check_pressure(scene, point.value, "analysis.history");
   }
 }

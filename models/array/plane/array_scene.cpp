@@ -6,8 +6,8 @@
 
 namespace viscard {
 
-const std::vector<HistoryPoint>& history(const ArrayScene& scene) {
-  static const std::vector<HistoryPoint> kNone;
+const Course& history(const ArrayScene& scene) {
+  static const Course kNone;
   return *part_of(
       scene.drive, [](const auto& d) requires requires { d.history; } { return &d.history; },
       &kNone);

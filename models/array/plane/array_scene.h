@@ -30,7 +30,7 @@ struct RowHarmonic {
 
 // A load in time with inertia.
 struct RowTransient {
-  std::vector<HistoryPoint> history;  // load in Pa
+  Course history;  // load in Pa
   double end_time_s = 0.0;
   int outputs = 1000;  // equal intervals
 };
@@ -66,7 +66,7 @@ struct ArrayScene : SceneCommon {
 };
 
 // The history of the load; empty if the drive has none.
-const std::vector<HistoryPoint>& history(const ArrayScene& scene);
+const Course& history(const ArrayScene& scene);
 
 // The slowest that the load changes: its lowest frequency, or once over its duration; 0: it is at rest.
 double slowest_rad_s(const ArrayScene& scene);

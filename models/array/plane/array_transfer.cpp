@@ -16,7 +16,7 @@ using Complex = std::complex<double>;
 
 // Laplace transform of a history that is linear between its points and zero before the first; after
 // the last point its value stays.
-Complex transform_of(const std::vector<HistoryPoint>& history, Complex s) {
+Complex transform_of(const Course& history, Complex s) {
   Complex sum = history.front().value * std::exp(-s * history.front().time_s) / s;
   for (std::size_t i = 1; i < history.size(); ++i) {
     const double dt_s = history[i].time_s - history[i - 1].time_s;
@@ -155,9 +155,8 @@ Eigen::VectorXd ArrayTransfer::at_once() const {
   return static_pillar_ + static_film_ - (out_pillar_ + out_film_) * weight;
 }
 
-Eigen::MatrixXd response_in_time(const ArrayTransfer& transfer,
-                                 const std::vector<HistoryPoint>& history, double end_time_s,
-                                 int outputs, int oversampling) {
+Eigen::MatrixXd response_in_time(const ArrayTransfer& transfer, const Course& history,
+                                 double end_time_s, int outputs, int oversampling) {
   // The transform covers twice the time; the shift damps the part that is aliased to 1e-7.
   const int samples = 2 * outputs * oversampling;
   const double period_s = 2.0 * end_time_s;

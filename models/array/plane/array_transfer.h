@@ -55,8 +55,7 @@ class ArrayTransfer {
 // Response of every output to the load times history(t) at outputs + 1 equally spaced times, by the
 // numerical Laplace transform: the FFT along a line to the right of all poles, with `oversampling`
 // times as many samples. Wilcox, Int. J. Elect. Eng. Educ. 15 (1978) 247.
-Eigen::MatrixXd response_in_time(const ArrayTransfer& transfer,
-                                 const std::vector<HistoryPoint>& history, double end_time_s,
-                                 int outputs, int oversampling);
+Eigen::MatrixXd response_in_time(const ArrayTransfer& transfer, const Course& history,
+                                 double end_time_s, int outputs, int oversampling);
 
 }  // namespace viscard

@@ -14,7 +14,8 @@ namespace viscard {
 // (1966) 845; Lee & Radok, J. Appl. Mech. 27 (1960) 438. If any contact shrinks, the tops are
 // followed step by step (models/array/contact, eq. T6).
 
-// The loads on the tops in time. Rows of loads: the pillars that are touched at the deepest state.
+// The loads on the tops in time, the finest GridCourse with its errors. Rows of loads: the pillars that are touched at
+// the deepest state.
 struct TouchCourse {
   std::vector<double> time_s;  // a jump has the same time twice
   std::vector<bool> is_new;    // not among half as many steps

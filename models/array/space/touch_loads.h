@@ -10,7 +10,8 @@
 
 namespace viscard {
 
-// Loads on the tops in time, on one grid of the tops and with one set of steps.
+// Loads on the tops in time, on one grid of the tops and with one set of steps. Not a Course: each sample has the loads
+// of all touched pillars.
 struct GridCourse {
   std::vector<double> depth_m, force_N;  // by sample
   std::vector<int> contacts;

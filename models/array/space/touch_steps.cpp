@@ -112,14 +112,13 @@ double smallest_top_m(const SpaceScene& scene) {
 // Elastic pillars reach the same depth under the force int j(t - s) dF(s), where j is the relative
 // creep compliance.
 void set_elastic(const SpaceScene& scene, std::vector<TouchSample>& samples) {
-  LoadHistory history{true, {}, {}};
+  Course history;
   for (TouchSample& sample : samples) {
     sample.elastic = sample.value;
-    history.time_s.push_back(sample.time_s);
-    history.value.push_back(sample.value);
+    history.push_back({sample.time_s, sample.value});
   }
   if (!scene.touch->is_creep) return;
-  const std::vector<double> forces_N = response(relative_series(scene.pillar.terms), history);
+  const std::vector<double> forces_N = response(relative_series(scene.pillar.terms), history, true);
   for (std::size_t k = 0; k < samples.size(); ++k) samples[k].elastic = forces_N[k];
 }
 
@@ -188,8 +187,8 @@ void check_path(const SpaceScene& scene) {
 
 void check_history(const SpaceScene& scene) {
   if (scene.touch->is_path()) return check_path(scene);
-  const std::vector<HistoryPoint>& points = scene.touch->history;
-  validate(points);
+  const Course& points = scene.touch->history;
+  validate_history(points);
   if (points.size() < 2 || points.front().time_s != 0.0 || !(points.back().time_s > 0.0)) {
     throw SceneMistake("analysis.history",
                        "needs at least two points, the first at 0 s, the last later, such as [[\"0 "
@@ -281,9 +280,9 @@ RelaxationStep relaxation_step(const std::vector<MaterialTerm>& terms, double dt
   const PronySeries series = relative_series(terms);
   RelaxationStep step{series.equilibrium_modulus_Pa, {}, {}};
   for (const MaxwellTerm& term : series.terms) {
-    const double x = dt_s / term.relaxation_time_s;
-    step.kept.push_back(std::exp(-x));
-    step.gained.push_back(term.modulus_Pa * phi1(x));
+    const BranchStep own(dt_s, term.relaxation_time_s);
+    step.kept.push_back(own.decay);
+    step.gained.push_back(term.modulus_Pa * own.gain);
   }
   return step;
 }
@@ -357,7 +356,7 @@ void check_touch(const SpaceScene& scene) {
 
 double relaxed_share(const SpaceScene& scene) {
   const PronySeries series = relative_series(scene.pillar.terms);
-  const std::vector<HistoryPoint>& points = scene.touch->history;
+  const Course& points = scene.touch->history;
   double way = std::abs(points.front().value), largest = way;
   for (std::size_t i = 1; i < points.size(); ++i) {
     way += std::abs(points[i].value - points[i - 1].value);
@@ -367,8 +366,7 @@ double relaxed_share(const SpaceScene& scene) {
   if (!scene.touch->is_creep) {
     return (1.0 - relaxation_modulus_Pa(series, end_s)) * way / largest;
   }
-  const LoadHistory step{true, {0.0, end_s}, {1.0, 1.0}};
-  return (response(series, step).back() - 1.0) * way / largest;
+  return (response(series, {{0.0, 1.0}, {end_s, 1.0}}, true).back() - 1.0) * way / largest;
 }
 
 }  // namespace viscard

@@ -32,12 +32,12 @@ void add_quasi_static_curve(const std::string& name, const std::string& unit,
 }
 
 // Times after every corner of the load that resolve the decay of what is read.
-std::vector<double> times_of_decay(const std::vector<HistoryPoint>& history,
+std::vector<double> times_of_decay(const Course& history,
                                    const std::vector<BodyReading>& readings) {
   std::vector<double> times_s;
   for (const BodyReading& reading : readings) {
     for (const MaxwellTerm& term : reading.filter.step.terms) {
-      for (const HistoryPoint& corner : history) {
+      for (const CoursePoint& corner : history) {
         for (const double share : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0}) {
           times_s.push_back(corner.time_s + share * term.relaxation_time_s);
         }
@@ -48,29 +48,28 @@ std::vector<double> times_of_decay(const std::vector<HistoryPoint>& history,
 }
 
 // Sum of |changes| of the history over its largest value.
-double total_variation(const std::vector<HistoryPoint>& points) {
-  double last = 0.0, sum = 0.0, peak = 0.0;
-  for (const HistoryPoint& point : points) {
+double total_variation(const Course& points) {
+  double last = 0.0, sum = 0.0;
+  for (const CoursePoint& point : points) {
     sum += std::abs(point.value - last);
     last = point.value;
-    peak = std::max(peak, std::abs(last));
   }
+  const double peak = largest_size(points);
   return peak > 0.0 ? sum / peak : 1.0;
 }
 
 void check_quasi_static(const PillarScene& scene) {
-  const std::vector<HistoryPoint>& points = history(scene);
+  const Course& points = history(scene);
   if (points.size() < 2) {
     throw SceneMistake("analysis.history",
                        "creep and relaxation need a history of at least two points, such as [[\"0 "
                        "s\", \"10 kPa\"], [\"10 s\", \"10 kPa\"]]");
   }
-  validate(points);
+  validate_history(points);
   if (points.front().time_s != 0.0 || !(points.back().time_s > 0.0)) {
     throw SceneMistake("analysis.history", "a history starts at 0 s and ends later");
   }
-  const auto is_zero = [](const HistoryPoint& point) { return point.value == 0.0; };
-  if (std::all_of(points.begin(), points.end(), is_zero)) {
+  if (largest_size(points) == 0.0) {
     throw SceneMistake("analysis.history", "nothing happens: every value of the history is zero");
   }
 }
@@ -97,9 +96,9 @@ QuasiStaticGoals goals_of(const PillarScene& scene, const SceneBody& body) {
 HistoryResult stepped(const PillarScene& scene, const SceneBody& body, const ReducedBody& reduced,
                       const std::vector<BodyReading>& readings, Control control,
                       std::optional<int> level) {
-  std::vector<HistoryPoint> points = history(scene);
+  Course points = history(scene);
   const double unit = control == Control::kForce ? -top_area_m2(*body.model) : -1.0;
-  for (HistoryPoint& point : points) point.value *= unit;
+  for (CoursePoint& point : points) point.value *= unit;
   HistoryOptions options;
   options.tolerance = small_share(scene);
   options.only_level = level;
@@ -178,7 +177,7 @@ EffectEstimate relaxation_over_history(const PillarScene& scene, double lost_at_
 
 double creep_push_Pa(const PillarScene& scene) {
   double largest_Pa = 0.0;
-  for (const HistoryPoint& point : history(scene)) largest_Pa = std::max(largest_Pa, point.value);
+  for (const CoursePoint& point : history(scene)) largest_Pa = std::max(largest_Pa, point.value);
   return largest_Pa;
 }
 

@@ -43,12 +43,12 @@ struct Roughness {
   double jumps = 0.0;
   double kinks_1_s = 0.0;
 };
-Roughness roughness_of(const std::vector<HistoryPoint>& history) {
+Roughness roughness_of(const Course& history) {
   Roughness sum{std::abs(history.front().value), 0.0};
   double peak = sum.jumps, slope = 0.0;
   for (std::size_t i = 1; i < history.size(); ++i) {
-    const HistoryPoint& from = history[i - 1];
-    const HistoryPoint& to = history[i];
+    const CoursePoint& from = history[i - 1];
+    const CoursePoint& to = history[i];
     peak = std::max(peak, std::abs(to.value));
     const bool is_jump = to.time_s <= from.time_s;
     if (is_jump) sum.jumps += std::abs(to.value - from.value);
@@ -146,11 +146,10 @@ double static_over_peak(const ReducedBody& reduced, const TransientRequest& requ
   const ViscoelasticSystem body = without_rigid_motions(reduced.system);
   const Eigen::MatrixXd stiffness = dense(body.elastic) + dense(body.shear) + dense(body.bulk);
   const Eigen::Index size = stiffness.rows();
-  double peak = 0.0;
-  for (const HistoryPoint& point : request.history) peak = std::max(peak, std::abs(point.value));
   const Eigen::VectorXd load = request.load.tail(size);
   const double moved = observer.tail(size).dot(SymmetricFactor(stiffness).solve(load));
-  return std::abs(moved) * peak / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
+  return std::abs(moved) * largest_size(request.history) /
+         std::max(found.cwiseAbs().maxCoeff(), 1e-300);
 }
 
 // The share of the tolerance that waves too short for the meshes may take: more where ramps excite them.
@@ -162,14 +161,13 @@ double share_of_tail(const Roughness& load) {
 constexpr double kShortPulse = 2.0;
 
 // Duration of a rectangle with the peak and the area of a load.
-double lasting_s(const std::vector<HistoryPoint>& history) {
-  double peak = 1e-300, area = 0.0;
-  for (const HistoryPoint& point : history) peak = std::max(peak, std::abs(point.value));
+double lasting_s(const Course& history) {
+  double area = 0.0;
   for (std::size_t i = 1; i < history.size(); ++i) {
     area += 0.5 * (std::abs(history[i].value) + std::abs(history[i - 1].value)) *
             (history[i].time_s - history[i - 1].time_s);
   }
-  return area / peak;
+  return area / std::max(largest_size(history), 1e-300);
 }
 
 // The least tolerance, from `least` on, at which the load is not refused: after a larger one the reach is shorter, so
@@ -192,7 +190,7 @@ double proposed_tolerance(PillarScene scene, double least, double first_rad_s,
 // tolerance is raised accordingly. Mesh and basis use the rest of the tolerance.
 void refuse_sudden_load(const PillarScene& scene, double first_rad_s, double reach, double tail,
                         double static_share) {
-  const std::vector<HistoryPoint>& history = transient_drive(scene).history;
+  const Course& history = transient_drive(scene).history;
   const Roughness load = roughness_of(history);
   const bool has_jumps = load.jumps > 0.0;
   if (tail <= share_of_tail(load) * scene.tolerance) return;
@@ -222,7 +220,7 @@ void check_transient(const PillarScene& scene) {
   require(transient_drive(scene).history.size() >= 2,
           "a transient analysis needs a history of at least two points");
   check_outputs(transient_drive(scene).end_time_s, transient_drive(scene).outputs);
-  validate(transient_drive(scene).history);
+  validate_history(transient_drive(scene).history);
   check_sideways_in_time(scene);
 }
 

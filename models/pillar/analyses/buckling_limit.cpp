@@ -129,7 +129,7 @@ double largest_pressure_Pa(const PillarScene& scene) {
     largest = std::abs(*displacement_m(scene)) / scene.geometry.length_m * scene.pillar.E0_Pa;
   }
   if (analysis.history == HistoryOf::kPressure && load_place(scene) == LoadPlace::kTop) {
-    for (const HistoryPoint& p : history(scene)) largest = std::max(largest, std::abs(p.value));
+    largest = std::max(largest, largest_size(history(scene)));
   }
   return largest;
 }

@@ -58,7 +58,7 @@ double staying_pressure_Pa(const PillarScene& scene) {
   if (analysis.swings_from_Hz != nullptr) return std::abs(pressure_Pa(scene));
   double largest_Pa = 0.0;
   if (analysis.history != HistoryOf::kPressure) return largest_Pa;
-  for (const HistoryPoint& point : history(scene)) largest_Pa = std::max(largest_Pa, point.value);
+  for (const CoursePoint& point : history(scene)) largest_Pa = std::max(largest_Pa, point.value);
   return largest_Pa;
 }
 
@@ -76,11 +76,11 @@ FallingLimit limit_of(const PillarScene& scene, double pressure_Pa) {
 
 // The first time at which a history has stayed above a level for as long as the pillar bears that
 // level.
-double buckles_at_s(const std::vector<HistoryPoint>& points, double level, double bears_s) {
+double buckles_at_s(const Course& points, double level, double bears_s) {
   double since_s = points.front().value >= level ? points.front().time_s : kNever;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const HistoryPoint& from = points[i - 1];
-    const HistoryPoint& to = points[i];
+    const CoursePoint& from = points[i - 1];
+    const CoursePoint& to = points[i];
     const double share = (level - from.value) / (to.value - from.value);  // if it crosses
     const double crossed_s = from.time_s + share * (to.time_s - from.time_s);
     if (from.value < level && to.value >= level) since_s = crossed_s;
@@ -100,8 +100,7 @@ double level_Pa(const FallingLimit& limit, double largest_Pa, int number) {
 }
 
 // Sets the time at which the pillar buckles within a history, and the level that causes it.
-void find_in_history(const std::vector<HistoryPoint>& points, const FallingLimit& limit,
-                     CreepBuckling& found) {
+void find_in_history(const Course& points, const FallingLimit& limit, CreepBuckling& found) {
   const double largest_Pa = found.pressure_Pa;
   for (int i = 1; i <= kLevels; ++i) {
     const double level = level_Pa(limit, largest_Pa, i);

@@ -38,12 +38,12 @@ struct BucklingDrive {
 
 // A shortening in time without inertia.
 struct RelaxationDrive {
-  std::vector<HistoryPoint> history;  // shortening, m
+  Course history;  // shortening, m
 };
 
 // A pressure in time without inertia.
 struct CreepDrive {
-  std::vector<HistoryPoint> history;  // pressure on the top, Pa
+  Course history;  // pressure on the top, Pa
 };
 
 // A steady oscillation: pressure (axial) or shear (lateral) on the top, or the base shaken.
@@ -59,7 +59,7 @@ struct HarmonicDrive {
 struct TransientDrive {
   LoadPlace load_place = LoadPlace::kTop;
   LoadDirection direction = LoadDirection::kAxial;
-  std::vector<HistoryPoint> history;  // Pa on the top, m/s^2 of the base
+  Course history;  // Pa on the top, m/s^2 of the base
   double end_time_s = 0.0;
   int outputs = 1000;  // equal intervals
 };

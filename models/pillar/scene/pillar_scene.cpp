@@ -71,8 +71,8 @@ bool has_history(const PillarScene& scene) {
   return has_part(scene.drive, kReadHistory);
 }
 
-const std::vector<HistoryPoint>& history(const PillarScene& scene) {
-  static const std::vector<HistoryPoint> kNone;
+const Course& history(const PillarScene& scene) {
+  static const Course kNone;
   return *part_of(scene.drive, kReadHistory, &kNone);
 }
 

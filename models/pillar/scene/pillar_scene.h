@@ -56,7 +56,7 @@ double base_acceleration_m_s2(const PillarScene& scene);
 double drive_V(const PillarScene& scene);
 bool plate_on_top(const PillarScene& scene);
 bool has_history(const PillarScene& scene);
-const std::vector<HistoryPoint>& history(const PillarScene& scene);
+const Course& history(const PillarScene& scene);
 
 // The slowest that the load changes: its lowest frequency, or once over its duration; 0: it is at rest.
 double slowest_rad_s(const PillarScene& scene);

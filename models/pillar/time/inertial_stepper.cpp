@@ -1,6 +1,5 @@
 #include "models/pillar/time/inertial_stepper.h"
 
-#include "models/material/hereditary.h"
 #include "models/maths/dense.h"
 
 #include <cmath>
@@ -22,8 +21,7 @@ InertialStepper::InertialStepper(const ViscoelasticSystem& small) {
     branch_.push_back(stiffness);
     tau_s_.push_back(term.tau_s);
   }
-  decay_.resize(tau_s_.size());
-  weight_.resize(tau_s_.size());
+  steps_.resize(tau_s_.size());
   const Eigen::Index n = mass_.rows();
   u_ = Eigen::VectorXd::Zero(n);
   v_ = Eigen::VectorXd::Zero(n);
@@ -38,10 +36,8 @@ void InertialStepper::set_step(double dt_s) {
   dt_s_ = dt_s;
   Eigen::MatrixXd tangent = lasting_;
   for (std::size_t i = 0; i < branch_.size(); ++i) {
-    const double x = dt_s / tau_s_[i];
-    decay_[i] = std::exp(-x);
-    weight_[i] = phi1(x);
-    tangent += weight_[i] * branch_[i];
+    steps_[i] = BranchStep(dt_s, tau_s_[i]);
+    tangent += steps_[i].gain * branch_[i];
   }
   factor_ = Cholesky(2.0 / (dt_s * dt_s) * mass_ + 0.5 * tangent);
 }
@@ -58,7 +54,7 @@ void InertialStepper::advance(const Eigen::VectorXd& force_at_start,
                               const Eigen::VectorXd& force_at_end) {
   const Eigen::VectorXd at_start = restoring(memory_);
   for (std::size_t i = 0; i < branch_.size(); ++i) {
-    memory_.col(static_cast<Eigen::Index>(i)) *= decay_[i];
+    memory_.col(static_cast<Eigen::Index>(i)) *= steps_[i].decay;
   }
   const Eigen::VectorXd carried = restoring(memory_);
   const Eigen::VectorXd impulse = 0.5 * (force_at_start + force_at_end) +
@@ -67,7 +63,7 @@ void InertialStepper::advance(const Eigen::VectorXd& force_at_start,
   u_ += change;
   v_ = 2.0 / dt_s_ * change - v_;
   for (std::size_t i = 0; i < branch_.size(); ++i) {
-    memory_.col(static_cast<Eigen::Index>(i)) += weight_[i] * change;
+    memory_.col(static_cast<Eigen::Index>(i)) += steps_[i].gain * change;
   }
 }
 

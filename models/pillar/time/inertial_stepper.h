@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/material/hereditary.h"
 #include "models/maths/dense.h"
 #include "models/pillar/time/viscoelastic_system.h"
 
@@ -38,7 +39,7 @@ class InertialStepper {
   std::vector<double> tau_s_;
   Eigen::MatrixXd mass_;
   double dt_s_ = 0.0;
-  std::vector<double> decay_, weight_;  // exp(-x), phi_1(x)
+  std::vector<BranchStep> steps_;
   Cholesky factor_;
   Eigen::VectorXd u_, v_;
   Eigen::MatrixXd memory_;  // unknowns x branches

@@ -48,17 +48,17 @@ std::vector<double> block_ends(double start_s, double end_s, double first_s,
   return kept;
 }
 
-std::vector<Block> blocks_of(const std::vector<HistoryPoint>& history, double first_s,
+std::vector<Block> blocks_of(const Course& history, double first_s,
                              const std::vector<double>& wanted_s) {
-  validate(history);
+  validate_history(history);
   if (history.size() < 2 || history.front().time_s != 0.0 || !(history.back().time_s > 0.0)) {
     throw std::invalid_argument("a load history starts at 0 s and ends later");
   }
   std::vector<Block> blocks;
   if (history.front().value != 0.0) blocks.push_back({0.0, 0.0, 0.0, history.front().value});
   for (std::size_t i = 1; i < history.size(); ++i) {
-    const HistoryPoint& from = history[i - 1];
-    const HistoryPoint& to = history[i];
+    const CoursePoint& from = history[i - 1];
+    const CoursePoint& to = history[i];
     if (to.time_s == from.time_s) {
       blocks.push_back({to.time_s, to.time_s, from.value, to.value});
       continue;
@@ -143,9 +143,9 @@ std::vector<double> row_of(const Eigen::MatrixXd& values, Eigen::Index row) {
 
 }  // namespace
 
-void validate(const std::vector<HistoryPoint>& history) {
+void validate_history(const Course& history) {
   for (std::size_t i = 0; i < history.size(); ++i) {
-    const HistoryPoint& point = history[i];
+    const CoursePoint& point = history[i];
     const std::string key = "analysis.history." + std::to_string(i + 1);
     if (!std::isfinite(point.time_s) || !std::isfinite(point.value)) {
       throw SceneMistake(key, "point " + std::to_string(i + 1) + " of the history is not finite");
@@ -160,20 +160,8 @@ void validate(const std::vector<HistoryPoint>& history) {
   }
 }
 
-double value_at(const std::vector<HistoryPoint>& history, double time_s, bool after) {
-  const auto next =
-      std::partition_point(history.begin(), history.end(), [&](const HistoryPoint& point) {
-        return after ? point.time_s <= time_s : point.time_s < time_s;
-      });
-  if (next == history.begin()) return after || next->time_s > time_s ? 0.0 : next->value;
-  if (next == history.end()) return history.back().value;
-  const HistoryPoint& from = *(next - 1);
-  const double share = (time_s - from.time_s) / (next->time_s - from.time_s);
-  return from.value + share * (next->value - from.value);
-}
-
-HistoryResult run_history(const ViscoelasticSystem& system, Control control,
-                          const std::vector<HistoryPoint>& history, const HistoryOptions& options) {
+HistoryResult run_history(const ViscoelasticSystem& system, Control control, const Course& history,
+                          const HistoryOptions& options) {
   const std::vector<Block> blocks = blocks_of(
       history, kFirstBlock * relaxation_times(system.terms).fastest_s, options.output_times_s);
   HistoryResult result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/maths/course.h"
 #include "models/pillar/time/viscoelastic_system.h"
 
 #include <Eigen/Core>
@@ -10,19 +11,9 @@
 
 namespace viscard {
 
-// Value against time, linear between points; two points at the same time are a jump.
-struct HistoryPoint {
-  double time_s = 0.0;
-  double value = 0.0;  // in the unit of the load
-};
-
 // Throws SceneMistake with the key of the first wrong point, such as "analysis.history.3". Values
 // must be finite, and no time may be negative or earlier than that of the point before it.
-void validate(const std::vector<HistoryPoint>& history);
-
-// Value at a time, or just before it if it may be a jump; 0 before the first point, and the last
-// value after the last one.
-double value_at(const std::vector<HistoryPoint>& history, double time_s, bool after = true);
+void validate_history(const Course& history);
 
 // Accuracy and outputs of a run through a history.
 struct HistoryOptions {
@@ -56,7 +47,7 @@ struct HistoryResult {
 // All steps are halved together until the answer changes by less than the tolerance. The last
 // change is the error estimate; the next halving would reduce it by about 2^order. Throws
 // std::invalid_argument unless the history starts at time 0, ends later and never goes back.
-HistoryResult run_history(const ViscoelasticSystem& system, Control control,
-                          const std::vector<HistoryPoint>& history, const HistoryOptions& options);
+HistoryResult run_history(const ViscoelasticSystem& system, Control control, const Course& history,
+                          const HistoryOptions& options);
 
 }  // namespace viscard

@@ -17,7 +17,7 @@ std::vector<Stop> stops_of(const TransientRequest& r) {
   const double spacing_s = r.spacing_s();
   std::vector<Stop> stops;
   for (int i = 1; i <= r.outputs; ++i) stops.push_back({spacing_s * i, true});
-  for (const HistoryPoint& corner : r.history) {
+  for (const CoursePoint& corner : r.history) {
     const double corner_s = corner.time_s;
     const double nearest_s = spacing_s * std::round(corner_s / spacing_s);
     const bool is_new = corner_s > 0.0 && corner_s < r.end_s;

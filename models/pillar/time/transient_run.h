@@ -11,8 +11,8 @@ namespace viscard {
 
 // A load whose factor varies in time.
 struct TransientRequest {
-  Eigen::VectorXd load;               // of the small body; multiplied by the factor
-  std::vector<HistoryPoint> history;  // the factor
+  Eigen::VectorXd load;  // of the small body; multiplied by the factor
+  Course history;        // the factor
   double end_s = 0.0;
   int outputs = 1000;         // equal intervals between outputs
   double first_step_s = 0.0;  // longest step of the coarsest level

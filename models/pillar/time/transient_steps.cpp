@@ -52,7 +52,7 @@ TransientResult run_transient(const ViscoelasticSystem& small, const TransientRe
   require(r.end_s > 0.0 && r.outputs >= 2 && r.first_step_s > 0.0,
           "a transient needs a positive end and first step, and at least two outputs");
   require(!r.history.empty() && std::is_sorted(r.history.begin(), r.history.end(),
-                                               [](const HistoryPoint& a, const HistoryPoint& b) {
+                                               [](const CoursePoint& a, const CoursePoint& b) {
                                                  return a.time_s < b.time_s;
                                                }),
           "a transient load needs a history whose times do not go back");

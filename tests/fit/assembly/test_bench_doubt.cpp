@@ -59,7 +59,7 @@ TEST_CASE("shares fitted with a wrong frame are off as their systematic part sta
     const double stated = systematic_u_of_g(right.systematic_parts, i);
     CHECK(stated > 0.01);
     CHECK(std::log(wrong.terms[i].g / right.terms[i].g) == Approx(2.0 * stated).epsilon(0.1));
-    const Interval wide = combined_intervals(wrong, i).g;
+    const Interval wide = combined_intervals(wrong, i).g_95;
     CHECK(wide.low < right.terms[i].g);
     CHECK(right.terms[i].g < wide.high);
   }

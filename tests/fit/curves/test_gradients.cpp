@@ -96,7 +96,7 @@ TEST_CASE("slopes of the measured history equal finite differences", "[fit][grad
   input.with_drift = true;
   const bool is_touched = GENERATE(false, true);
   if (is_touched) {
-    input.touch = {{-2.0, -1.8, -1.0, -0.9, 1.0}, {0.0, 2e-5, 2e-5, 1e-6, 5e-7}};
+    input.touch = {{-2.0, 0.0}, {-1.8, 2e-5}, {-1.0, 2e-5}, {-0.9, 1e-6}, {1.0, 5e-7}};
   }
   const HistoryModel model(input, {});
   CHECK(worst_gradient_error(model, state_of(model, {0.05, 0.8, 40.0})) < kDifferences);
@@ -119,8 +119,8 @@ TEST_CASE("slopes of the stage model equal finite differences in times, starts a
   const CapturedRun run = in_memory_run(demo_truth(10, 1), {});
   const IndentationData data = indentation_from_capture(run);
   const bool is_touched = GENERATE(false, true);
-  EarlierTouch touch;
-  if (is_touched) touch = {{8.0, 8.2, 9.0, 9.1, 12.0}, {0.0, 3e-5, 3e-5, 4e-6, 1e-6}};
+  Course touch;
+  if (is_touched) touch = {{8.0, 0.0}, {8.2, 3e-5}, {9.0, 3e-5}, {9.1, 4e-6}, {12.0, 1e-6}};
   const StageModel model(data, nuisance_start(data), {.resting_N = 5e-4, .moving_N = 7e-4}, {},
                          touch);
   // The model is not differentiable at a sample within one step of a kink; there are none here.

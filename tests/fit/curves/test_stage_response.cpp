@@ -24,9 +24,9 @@ TEST_CASE("the response of a branch to a trapezoid equals that of fine steps", "
       fine.advance((t - start_s) / kSteps, position_m(move, s) - position_m(move, start_s));
     }
     // Linear pieces of 4e-6 s deviate from the parabola by 1e-9 of the displacement.
-    CHECK(response.at(branch, t).value_m == Approx(fine.stress_Pa()).epsilon(1e-6).margin(1e-12));
+    CHECK(response.at(branch, t).value == Approx(fine.stress_Pa()).epsilon(1e-6).margin(1e-12));
   }
-  CHECK(response.at(branch, 0.2).value_m == 0.0);
+  CHECK(response.at(branch, 0.2).value == 0.0);
 }
 
 TEST_CASE("a slow branch follows the stage, and after the move decays as exp(-t/tau)",
@@ -34,11 +34,11 @@ TEST_CASE("a slow branch follows the stage, and after the move decays as exp(-t/
   const StageMove move{1.0, 1e-3, 1.2e-3, 1e-3, 0.2};
   const StageResponse response(move, 0.0);
   const auto slow = response.branch(1e12);
-  CHECK(response.at(slow, 1.1).value_m == Approx(position_m(move, 1.1) - 1e-3).epsilon(1e-10));
+  CHECK(response.at(slow, 1.1).value == Approx(position_m(move, 1.1) - 1e-3).epsilon(1e-10));
   const auto fast = response.branch(0.1);
   const double end_s = response.end_s();
-  const double q = response.at(fast, end_s).value_m;
-  CHECK(response.at(fast, end_s + 0.25).value_m == Approx(q * std::exp(-2.5)).epsilon(1e-12));
+  const double q = response.at(fast, end_s).value;
+  CHECK(response.at(fast, end_s + 0.25).value == Approx(q * std::exp(-2.5)).epsilon(1e-12));
   CHECK(response.at(fast, end_s + 0.25).rate_m_s ==
         Approx(-q * std::exp(-2.5) / 0.1).epsilon(1e-12));
 }

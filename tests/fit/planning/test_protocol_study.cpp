@@ -50,9 +50,7 @@ double spread_of(EmulatedTruth truth, const TestPlan& plan, const WantedQuantity
     const FitResult fit =
         fit_indentation(indentation_from_capture(in_memory_run(truth, plan)), options);
     REQUIRE(fit.terms.size() == 2);
-    PronySeries series{fit.E_inf_Pa, {}};
-    for (const FittedTerm& term : fit.terms) series.terms.push_back({term.modulus_Pa, term.tau_s});
-    const double value = std::log(value_of(wanted, series));
+    const double value = std::log(value_of(wanted, fitted_series(fit)));
     sum += value;
     square += value * value;
   }

@@ -124,11 +124,11 @@ std::string card_of(const Rubber& rubber, const std::string& target, bool may_ap
 }
 
 std::vector<double> fitted_MPa(const Rubber& rubber) {
-  StretchHistory history;
-  for (int i = 0; i <= 1000; ++i) history.time_s.push_back(kRamp_s * i / 1000.0);
-  history.time_s.push_back(1.0);
-  history.time_s.push_back(kEnd_s);
-  for (const double time_s : history.time_s) history.stretch.push_back(stretch_at(time_s));
+  Course history;
+  const auto add = [&](double time_s) { history.push_back({time_s, stretch_at(time_s)}); };
+  for (int i = 0; i <= 1000; ++i) add(kRamp_s * i / 1000.0);
+  add(1.0);
+  add(kEnd_s);
   const auto all_Pa = nominal_stress_Pa(rubber.law, rubber.terms, Deformation::kUniaxial, history);
   return {1e-6 * all_Pa[500], 1e-6 * all_Pa[1000], 1e-6 * all_Pa[1001], 1e-6 * all_Pa[1002]};
 }

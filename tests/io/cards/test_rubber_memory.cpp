@@ -51,7 +51,7 @@ TEST_CASE("rubber cards: CalculiX gives the stress at once and after all relaxat
   const double stretch = 1.8;
   for (const Rubber& solid : rubbers()) {
     const double bulk_Pa = 4e3 * youngs_modulus_Pa(solid.law) / 3.0;
-    const StretchHistory jump{{0.0, 0.0, 1e6}, {1.0, stretch, stretch}};
+    const Course jump{{0.0, 1.0}, {0.0, stretch}, {1e6, stretch}};
     const auto exact_Pa = nominal_stress_Pa(solid.law, solid.terms, Deformation::kUniaxial, jump);
     for (const bool is_at_once : {true, false}) {
       CAPTURE(name_of(solid.law.form), is_at_once);
@@ -70,28 +70,22 @@ TEST_CASE("rubber cards: CalculiX gives the stress at once and after all relaxat
 TEST_CASE("rubber cards: SfePy with the memory of its module gives the relaxing stress",
           "[io][slow]") {
   if (!has_sfepy()) return;
-  StretchHistory history{{0.0}, {1.0}};
+  Course history{{0.0, 1.0}};
   constexpr int kSteps = 40;
-  for (int i = 1; i <= kSteps; ++i) {
-    history.time_s.push_back(0.5 * i / kSteps);
-    history.stretch.push_back(1.0 + 0.8 * i / kSteps);
-  }
-  for (const double time_s : {1.0, 6.0}) {
-    history.time_s.push_back(time_s);
-    history.stretch.push_back(1.8);
-  }
+  for (int i = 1; i <= kSteps; ++i) history.push_back({0.5 * i / kSteps, 1.0 + 0.8 * i / kSteps});
+  for (const double time_s : {1.0, 6.0}) history.push_back({time_s, 1.8});
   for (const Rubber& solid : rubbers()) {
     CAPTURE(name_of(solid.law.form));
     const auto rows = numbers_from_sfepy(
         solid_card(solid, "sfepy", 4e3 * youngs_modulus_Pa(solid.law) / 3.0), kRelaxation);
-    REQUIRE(rows.size() == 3 * (history.time_s.size() - 1));
+    REQUIRE(rows.size() == 3 * (history.size() - 1));
     const auto exact_Pa =
         nominal_stress_Pa(solid.law, solid.terms, Deformation::kUniaxial, history);
     for (const std::size_t step :
          {std::size_t{5}, std::size_t{40}, std::size_t{41}, std::size_t{42}}) {
       CAPTURE(step);
       const double at_once_MPa =
-          1e-6 * nominal_stress_Pa(solid.law, Deformation::kUniaxial, history.stretch[step]);
+          1e-6 * nominal_stress_Pa(solid.law, Deformation::kUniaxial, history[step].value);
       const double* row = &rows[3 * (step - 1)];
       CHECK(row[0] == Approx(at_once_MPa).epsilon(2e-6));
       CHECK(row[1] == Approx(1e-6 * exact_Pa[step]).epsilon(2e-6));

@@ -225,10 +225,12 @@ TEST_CASE("rubber cards: MTest relaxes the law with its terms where it is instal
     const double bulk_MPa = 4e-3 * youngs_modulus_Pa(rubber.law) / 3.0;
     const auto soft_MPa = folder.held_stresses(bulk_MPa),
                hard_MPa = folder.held_stresses(2.0 * bulk_MPa);
-    StretchHistory history{{0.0}, {1.0}};
+    Course history{{0.0, 1.0}};
     for (int i = 1; i <= 42; ++i) {
-      history.time_s.push_back(i <= 40 ? 0.5 * i / 40 : i == 41 ? 1.0 : 6.0);
-      history.stretch.push_back(1.0 + 0.8 * std::min(i, 40) / 40.0);
+      history.push_back({i <= 40   ? 0.5 * i / 40
+                         : i == 41 ? 1.0
+                                   : 6.0,
+                         1.0 + 0.8 * std::min(i, 40) / 40.0});
     }
     const auto exact_Pa =
         nominal_stress_Pa(rubber.law, rubber.terms, Deformation::kUniaxial, history);

@@ -269,15 +269,9 @@ TEST_CASE(
     "rubber proofs: a relaxing cube is the elastic one without terms, and tends to the "
     "incompressible one",
     "[io][reduction]") {
-  StretchHistory history{{0.0}, {1.0}};
-  for (int i = 1; i <= 40; ++i) {
-    history.time_s.push_back(0.02 * i);
-    history.stretch.push_back(1.0 + 0.015 * i);
-  }
-  for (const double end_s : {1.5, 4.0, 30.0}) {
-    history.time_s.push_back(end_s);
-    history.stretch.push_back(1.6);
-  }
+  Course history{{0.0, 1.0}};
+  for (int i = 1; i <= 40; ++i) history.push_back({0.02 * i, 1.0 + 0.015 * i});
+  for (const double end_s : {1.5, 4.0, 30.0}) history.push_back({end_s, 1.6});
   const HyperelasticLaw& law = rubbers()[2].law;
   const std::vector<RubberTerm> terms{{0.3, 0.4}, {0.2, 9.0}};
   const double G = youngs_modulus_Pa(law) / 3.0;
@@ -285,7 +279,7 @@ TEST_CASE(
       relaxing_stress_Pa(law, {}, 50.0 * G, history, VolumeRule::kLogSquared, false);
   for (std::size_t i = 0; i < elastic.size(); ++i)
     CHECK(elastic[i] == Approx(cube_stress_Pa(law, 50.0 * G, Deformation::kUniaxial,
-                                              history.stretch[i + 1], VolumeRule::kLogSquared))
+                                              history[i + 1].value, VolumeRule::kLogSquared))
                             .epsilon(1e-10));
   const auto exact = nominal_stress_Pa(law, terms, Deformation::kUniaxial, history);
   for (const bool is_projected : {false, true}) {

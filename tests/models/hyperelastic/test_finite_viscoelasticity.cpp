@@ -49,16 +49,12 @@ double by_quadrature(double g, double tau_s, double top, double ramp_s, double a
   return (s * s * total[0] - total[1] / s) / s;
 }
 
-StretchHistory ramp_and_hold(double top, double ramp_s, int n_ramp, double hold_s, int n_hold) {
-  StretchHistory history;
+Course ramp_and_hold(double top, double ramp_s, int n_ramp, double hold_s, int n_hold) {
+  Course history;
   for (int i = 0; i <= n_ramp; ++i) {
-    history.time_s.push_back(ramp_s * i / n_ramp);
-    history.stretch.push_back(1.0 + (top - 1.0) * i / n_ramp);
+    history.push_back({ramp_s * i / n_ramp, 1.0 + (top - 1.0) * i / n_ramp});
   }
-  for (int i = 1; i <= n_hold; ++i) {
-    history.time_s.push_back(ramp_s + hold_s * i / n_hold);
-    history.stretch.push_back(top);
-  }
+  for (int i = 1; i <= n_hold; ++i) history.push_back({ramp_s + hold_s * i / n_hold, top});
   return history;
 }
 
@@ -70,13 +66,13 @@ TEST_CASE("finite viscoelasticity: after a jump each term relaxes by exp(-t/tau)
   for (const auto deformation :
        {Deformation::kUniaxial, Deformation::kPlanar, Deformation::kEquibiaxial}) {
     for (const double stretch : {0.6, 1.7, 3.0}) {
-      const StretchHistory history{{0.0, 0.0, 0.4, 7.0, 200.0},
-                                   {1.0, stretch, stretch, stretch, stretch}};
+      const Course history{
+          {0.0, 1.0}, {0.0, stretch}, {0.4, stretch}, {7.0, stretch}, {200.0, stretch}};
       const std::vector<double> stress_Pa = nominal_stress_Pa(law, terms, deformation, history);
       const double at_once_Pa = nominal_stress_Pa(law, deformation, stretch);
       CHECK(stress_Pa[0] == Approx(0.0).margin(1e-9));
       for (std::size_t i = 1; i < stress_Pa.size(); ++i) {
-        const double t = history.time_s[i];
+        const double t = history[i].time_s;
         const double left = 0.5 + 0.3 * std::exp(-t / 0.5) + 0.2 * std::exp(-t / 40.0);
         CHECK(stress_Pa[i] == Approx(at_once_Pa * left).epsilon(1e-12));
       }
@@ -86,14 +82,14 @@ TEST_CASE("finite viscoelasticity: after a jump each term relaxes by exp(-t/tau)
 
 TEST_CASE("finite viscoelasticity: a ramp and a hold as the hereditary integral by quadrature",
           "[models][identity]") {
-  const StretchHistory history = ramp_and_hold(2.2, 3.0, 60, 10.0, 5);
+  const Course history = ramp_and_hold(2.2, 3.0, 60, 10.0, 5);
   const std::vector<double> stress_Pa =
       nominal_stress_Pa(mooney(), {{0.4, 1.3}}, Deformation::kUniaxial, history);
   for (const std::size_t i : {20u, 45u, 60u, 62u, 65u}) {
-    CAPTURE(history.time_s[i]);
+    CAPTURE(history[i].time_s);
     // The stress is taken as linear within steps of at most 2 %.
     CHECK(stress_Pa[i] ==
-          Approx(by_quadrature(0.4, 1.3, 2.2, 3.0, history.time_s[i])).epsilon(5e-5));
+          Approx(by_quadrature(0.4, 1.3, 2.2, 3.0, history[i].time_s)).epsilon(5e-5));
   }
 }
 
@@ -115,11 +111,11 @@ TEST_CASE("finite viscoelasticity: the step is of second order, and coarse recor
 
 TEST_CASE("finite viscoelasticity: slow and quick times give the two elastic limits",
           "[models][reduction]") {
-  const StretchHistory history = ramp_and_hold(1.8, 1.0, 30, 5.0, 4);
+  const Course history = ramp_and_hold(1.8, 1.0, 30, 5.0, 4);
   const auto slow_Pa = nominal_stress_Pa(mooney(), {{0.6, 1e9}}, Deformation::kPlanar, history);
   const auto quick_Pa = nominal_stress_Pa(mooney(), {{0.6, 1e-9}}, Deformation::kPlanar, history);
-  for (std::size_t i = 1; i < history.time_s.size(); ++i) {
-    const double law_Pa = nominal_stress_Pa(mooney(), Deformation::kPlanar, history.stretch[i]);
+  for (std::size_t i = 1; i < history.size(); ++i) {
+    const double law_Pa = nominal_stress_Pa(mooney(), Deformation::kPlanar, history[i].value);
     CHECK(slow_Pa[i] == Approx(law_Pa).epsilon(1e-8));
     CHECK(quick_Pa[i] == Approx(0.4 * law_Pa).epsilon(1e-6));
   }
@@ -140,13 +136,13 @@ TEST_CASE("finite viscoelasticity: derivative by ln tau as finite differences",
 }
 
 TEST_CASE("finite viscoelasticity: bad terms and histories are refused", "[models]") {
-  const auto stress_of = [](const std::vector<RubberTerm>& terms, const StretchHistory& history) {
+  const auto stress_of = [](const std::vector<RubberTerm>& terms, const Course& history) {
     return nominal_stress_Pa(mooney(), terms, Deformation::kUniaxial, history);
   };
-  CHECK_THROWS_WITH(stress_of({{0.7, 1.0}, {0.6, 2.0}}, {{0.0}, {1.0}}),
+  CHECK_THROWS_WITH(stress_of({{0.7, 1.0}, {0.6, 2.0}}, {{0.0, 1.0}}),
                     Contains("the sum of all g is 1.3; it must be at most 1"));
-  CHECK_THROWS_WITH(stress_of({{0.1, 0.0}}, {{0.0}, {1.0}}), Contains("tau_1 is 0 s"));
-  CHECK_THROWS_WITH(stress_of({}, {{0.0, -1.0}, {1.0, 1.1}}),
+  CHECK_THROWS_WITH(stress_of({{0.1, 0.0}}, {{0.0, 1.0}}), Contains("tau_1 is 0 s"));
+  CHECK_THROWS_WITH(stress_of({}, {{0.0, 1.0}, {-1.0, 1.1}}),
                     Contains("the time of point 2 of a history is before"));
   CHECK_THROWS_WITH(stress_of({}, {{0.0, 1.0}, {1.0, -1.1}}), Contains("the stretch of point 2"));
 }

@@ -49,6 +49,28 @@ TEST_CASE("the recursion is exact for linear strain and any step", "[models][sta
   CHECK(stress.stress_Pa() == Approx(time + 2.0 * -std::expm1(-time)).epsilon(2e-14));
 }
 
+TEST_CASE("a branch and its derivative by ln tau follow a polygon", "[models][gradient]") {
+  const auto after = [](double tau_s) {
+    BranchState state;
+    for (const double dt_s : {0.0, 1e-9, 0.3, 2.0, 40.0}) {
+      state.advance(BranchStep(dt_s, tau_s, /*with_slope=*/true), 1.0 + dt_s);
+    }
+    return state;
+  };
+  for (const double tau_s : {1e-3, 0.4, 30.0, 1e9}) {
+    CAPTURE(tau_s);
+    const double h = 1e-5;
+    const double difference =
+        (after(tau_s * std::exp(h)).value - after(tau_s * std::exp(-h)).value) / (2.0 * h);
+    CHECK(after(tau_s).slope == Approx(difference).epsilon(1e-6).margin(1e-9));
+  }
+  StepsOfBranch steps(2.0);
+  const double gain = steps.of(0.1).gain;
+  CHECK(gain == phi1(0.05));
+  CHECK(steps.of(0.1 * (1.0 + 1e-12)).gain == gain);  // read from text
+  CHECK(steps.of(0.0).decay == 1.0);
+}
+
 TEST_CASE("a jump costs the instantaneous modulus", "[models]") {
   HereditaryStress stress(pdms_1to10());
   CHECK(stress.advance(0.0, 0.5) == Approx(0.5 * 1.88).epsilon(1e-15));

@@ -68,20 +68,20 @@ TEST_CASE("the systematic part scales the curve and is added in quadrature", "[m
 TEST_CASE("the band of a strain is the scatter of materials drawn from the covariance",
           "[models][identity]") {
   const Material material = fitted_material();
-  const LoadHistory history =
-      history_of_steps(true, {{1.0, 1e4}, {20.0, 1e4}, {0.5, 0.0}, {20.0, 0.0}}, 0.1, 12);
-  const BandedCurve band =
-      banded_curve(material, [&](const PronySeries& series) { return response(series, history); });
+  const Course history =
+      course_of_steps({{1.0, 1e4}, {20.0, 1e4}, {0.5, 0.0}, {20.0, 0.0}}, 0.1, 12);
+  const BandedCurve band = banded_curve(
+      material, [&](const PronySeries& series) { return response(series, history, true); });
   const Eigen::MatrixXd factor = material.uncertainty->covariance.llt().matrixL();
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   constexpr int kDraws = 4000;
-  std::vector<double> squares(history.time_s.size(), 0.0);
+  std::vector<double> squares(history.size(), 0.0);
   for (int k = 0; k < kDraws; ++k) {
     const Eigen::Vector3d z(normal(random), normal(random), normal(random));
     const Eigen::Vector3d change = factor * z;
     const PronySeries drawn{1e6 + change[0], {{0.5e6 + change[1], 2.0 * std::exp(change[2])}}};
-    const std::vector<double> strain = response(drawn, history);
+    const std::vector<double> strain = response(drawn, history, true);
     for (std::size_t i = 0; i < strain.size(); ++i) {
       squares[i] += std::pow(strain[i] - band.value[i], 2) / kDraws;
     }
@@ -89,7 +89,7 @@ TEST_CASE("the band of a strain is the scatter of materials drawn from the covar
   double largest = 0.0;
   for (const double value : band.value) largest = std::max(largest, value);
   for (std::size_t i = 1; i < squares.size(); ++i) {
-    CAPTURE(history.time_s[i]);
+    CAPTURE(history[i].time_s);
     // Four standard errors of 4000 draws; curvature matters where the strain almost vanishes.
     CHECK(half_width(band, i) ==
           Approx(kNormal95 * std::sqrt(squares[i])).epsilon(0.05).margin(1e-5 * largest));

@@ -44,10 +44,10 @@ void draw_terms(Draw& draw, PillarScene& scene) {
   }
 }
 
-std::vector<HistoryPoint> draw_history(Draw& draw, double value) {
+Course draw_history(Draw& draw, double value) {
   const double ramp_s = draw.chance(0.5) ? 0.0 : draw.log_uniform(1e-3, 10.0);
   const double hold_s = draw.log_uniform(1e-2, 100.0);
-  std::vector<HistoryPoint> history = {{0.0, value}};
+  Course history = {{0.0, value}};
   if (ramp_s > 0.0) history = {{0.0, 0.0}, {ramp_s, value}};
   history.push_back({ramp_s + hold_s, value});
   if (draw.chance(0.3)) {

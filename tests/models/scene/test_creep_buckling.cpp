@@ -32,7 +32,7 @@ double bears_s(double pressure_Pa) {
   return -kTau_s * std::log(2.0 * pressure_Pa / kCritical_Pa - 1.0);
 }
 
-PillarScene creeping(std::vector<HistoryPoint> history) {
+PillarScene creeping(Course history) {
   PillarScene scene = relaxing_pillar();
   scene.drive = CreepDrive{std::move(history)};
   return scene;

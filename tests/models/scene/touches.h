@@ -14,7 +14,7 @@
 
 namespace viscard::test {
 
-using History = std::vector<HistoryPoint>;
+using History = Course;
 constexpr double kShare = 0.3, kTau_s = 0.2;  // of the only term
 
 inline RigidShape plane() {

@@ -81,9 +81,9 @@ void draw_load(Draw& draw, PillarScene& scene) {
     if (modes->pressure_Pa > 0.0) modes->pressure_Pa = bearable_Pa(scene, share);
   } else if (auto* creep = std::get_if<CreepDrive>(&scene.drive)) {
     double largest = 0.0;
-    for (const HistoryPoint& p : creep->history) largest = std::max(largest, p.value);
+    for (const CoursePoint& p : creep->history) largest = std::max(largest, p.value);
     const double factor = bearable_Pa(scene, share) / largest;
-    for (HistoryPoint& p : creep->history) p.value *= factor;
+    for (CoursePoint& p : creep->history) p.value *= factor;
   }
 }
 
@@ -108,9 +108,9 @@ std::string number(double value) {
   return fmt::format("{:.17g}", value);
 }
 
-std::string pairs_of(const std::vector<HistoryPoint>& points) {
+std::string pairs_of(const Course& points) {
   std::string text;
-  for (const HistoryPoint& p : points) {
+  for (const CoursePoint& p : points) {
     text += (text.empty() ? "[" : ", [") + number(p.time_s) + ", " + number(p.value) + "]";
   }
   return "[" + text + "]";

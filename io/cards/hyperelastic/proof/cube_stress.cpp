@@ -1,6 +1,7 @@
 #include "io/cards/hyperelastic/proof/cube_stress.h"
 
 #include "io/cards/hyperelastic/rubber_rows.h"
+#include "models/material/hereditary.h"
 
 #include <cmath>
 #include <limits>
@@ -70,17 +71,16 @@ double cube_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, Deformation de
 
 std::vector<double> relaxing_stress_Pa(const HyperelasticLaw& law,
                                        const std::vector<RubberTerm>& terms, double bulk_Pa,
-                                       const StretchHistory& history, VolumeRule rule,
-                                       bool is_projected) {
+                                       const Course& history, VolumeRule rule, bool is_projected) {
   double lasting = 1.0;
   for (const RubberTerm& term : terms) lasting -= term.g;
   Eigen::Vector3d elastic = Eigen::Vector3d::Zero();  // second Piola-Kirchhoff stress of the law
   std::vector<Eigen::Vector3d> branches(terms.size(), elastic);
   double side = 0.0;  // logarithm of the stretch of the sides
   std::vector<double> out;
-  for (std::size_t n = 1; n < history.time_s.size(); ++n) {
-    const double step_s = history.time_s[n] - history.time_s[n - 1],
-                 measured = std::log(history.stretch[n]);
+  for (std::size_t n = 1; n < history.size(); ++n) {
+    const double step_s = history[n].time_s - history[n - 1].time_s,
+                 measured = std::log(history[n].value);
     std::vector<Eigen::Vector3d> next;
     Eigen::Vector3d now;
     // Principal Kirchhoff stresses without the pressure, at the logarithm of a side's stretch.
@@ -91,8 +91,8 @@ std::vector<double> relaxing_stress_Pa(const HyperelasticLaw& law,
       Eigen::Vector3d sum = lasting * now;
       next = branches;
       for (std::size_t i = 0; i < terms.size(); ++i) {
-        const double x = step_s / terms[i].tau_s, mean = x > 0.0 ? -std::expm1(-x) / x : 1.0;
-        next[i] = std::exp(-x) * branches[i] + mean * (now - elastic);
+        const BranchStep step(step_s, terms[i].tau_s);
+        next[i] = step.decay * branches[i] + step.gain * (now - elastic);
         sum += terms[i].g * next[i];
       }
       Eigen::Vector3d pushed = sum.array() * squares;
@@ -110,7 +110,7 @@ std::vector<double> relaxing_stress_Pa(const HyperelasticLaw& law,
       (free_Pa(side) < 0.0 ? low : high) = side;
     }
     const Eigen::Vector3d found_Pa = stress_Pa(side);
-    out.push_back((found_Pa[0] - found_Pa[2]) / history.stretch[n]);
+    out.push_back((found_Pa[0] - found_Pa[2]) / history[n].value);
     branches = next;
     elastic = now;
   }

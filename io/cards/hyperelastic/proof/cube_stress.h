@@ -33,7 +33,6 @@ double confined_stress_Pa(const HyperelasticLaw& law, double bulk_Pa, double str
 // to the order of G/K.
 std::vector<double> relaxing_stress_Pa(const HyperelasticLaw& law,
                                        const std::vector<RubberTerm>& terms, double bulk_Pa,
-                                       const StretchHistory& history, VolumeRule rule,
-                                       bool is_projected);
+                                       const Course& history, VolumeRule rule, bool is_projected);
 
 }  // namespace viscard

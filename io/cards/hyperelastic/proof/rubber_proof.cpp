@@ -113,30 +113,26 @@ CubeTest hold_of(const std::vector<RubberTerm>& terms, double top) {
   return hold;
 }
 
-StretchHistory history_of(const CubeTest& hold) {
-  StretchHistory history{{0.0}, {1.0}};
+Course history_of(const CubeTest& hold) {
+  Course history{{0.0, 1.0}};
   for (int i = 1; i <= hold.steps; ++i) {
-    history.time_s.push_back(hold.ramp * i / hold.steps);
-    history.stretch.push_back(1.0 + (hold.top - 1.0) * i / hold.steps);
+    history.push_back({hold.ramp * i / hold.steps, 1.0 + (hold.top - 1.0) * i / hold.steps});
   }
-  for (const double end_s : hold.until) {
-    history.time_s.push_back(end_s);
-    history.stretch.push_back(hold.top);
-  }
+  for (const double end_s : hold.until) history.push_back({end_s, hold.top});
   return history;
 }
 
 using StressOfTerms = std::function<std::vector<double>(const std::vector<RubberTerm>&)>;
 
 // `stresses_of` gives the exact answer behind the start of the history for any terms.
-HoldProof compared_hold(const StretchHistory& history, const std::vector<CubeRow>& rows,
+HoldProof compared_hold(const Course& history, const std::vector<CubeRow>& rows,
                         const std::vector<RubberTerm>& terms, const StressOfTerms& stresses_of,
                         const UnitSystem& units, double resolves) {
   const auto exact_Pa = stresses_of(terms);
   if (rows.size() != exact_Pa.size())
     throw std::runtime_error("the run of the relaxing cube ended after " +
                              counted(rows.size(), "step"));
-  HoldProof out{.end_s = history.time_s.back(), .resolved = resolves};
+  HoldProof out{.end_s = history.back().time_s, .resolved = resolves};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double found_Pa = from_card(rows[i].stress, units.stress_exponent);
     const double error = std::abs(found_Pa / exact_Pa[i] - 1.0);
@@ -144,7 +140,7 @@ HoldProof compared_hold(const StretchHistory& history, const std::vector<CubeRow
       out.resolved = std::max(out.resolved, std::abs(rows[i].coarser / rows[i].stress - 1.0));
     if (error <= out.error) continue;
     out.error = error;
-    out.at_s = history.time_s[i + 1];
+    out.at_s = history[i + 1].time_s;
   }
   const auto change_with = [&](const std::vector<RubberTerm>& changed) {
     const auto changed_Pa = stresses_of(changed);
@@ -247,7 +243,7 @@ void run_each(const std::string& card, const std::vector<CubeTest>& tests,
   }
   if (!relaxes) return;
   CubeTest hold = hold_of(wanted.terms, tests.front().top);
-  const StretchHistory history = history_of(hold);
+  const Course history = history_of(hold);
   hold.ramp = to_card(hold.ramp, units.time_exponent);
   for (double& end : hold.until) end = to_card(end, units.time_exponent);
   hold.stress = to_card(wanted.stress_Pa(hold, hold.top), units.stress_exponent);
@@ -296,7 +292,7 @@ void run_sfepy(const std::string& card, const std::string& target,
   for (std::size_t i = 0; i < tests.size(); ++i)
     proof.cubes.push_back(compared(tests[i], rows[i], wanted, *read.units, resolves));
   if (read.terms.empty()) return;
-  const StretchHistory history = history_of(hold);
+  const Course history = history_of(hold);
   const auto stresses_of = [&](const std::vector<RubberTerm>& terms) {
     auto all = nominal_stress_Pa(wanted.law, terms, Deformation::kUniaxial, history);
     all.erase(all.begin());

@@ -41,20 +41,17 @@ std::string compression_table() {
 
 // A Neo-Hooke rubber with one term: loading to a stretch of 2 in 1 s, and a hold of 20 s.
 std::string hold_table(bool with_times) {
-  StretchHistory history;
-  for (int i = 0; i <= 210; ++i) {
-    history.time_s.push_back(0.1 * i);
-    history.stretch.push_back(std::min(2.0, 1.0 + 0.1 * i));
-  }
+  Course history;
+  for (int i = 0; i <= 210; ++i) history.push_back({0.1 * i, std::min(2.0, 1.0 + 0.1 * i)});
   const HyperelasticLaw law{HyperelasticForm::kNeoHooke, Eigen::VectorXd::Constant(1, 2e5), {}};
   const auto stress_Pa = nominal_stress_Pa(law, {{0.25, 1.5}}, Deformation::kUniaxial, history);
   std::ostringstream table;
   table.precision(10);
   table << (with_times ? "time_s," : "") << "stretch,nominal_stress_Pa\n";
   for (std::size_t i = 0; i < stress_Pa.size(); ++i) {
-    if (with_times) table << history.time_s[i] << ",";
+    if (with_times) table << history[i].time_s << ",";
     const double noise_Pa = 200.0 * std::sin(12.9898 * static_cast<double>(i * i + 1));
-    table << history.stretch[i] << "," << stress_Pa[i] + noise_Pa << "\n";
+    table << history[i].value << "," << stress_Pa[i] + noise_Pa << "\n";
   }
   return table.str();
 }

@@ -142,17 +142,14 @@ TEST_CASE("a history from a table is driven by strain or by stress, and compared
   const TableFolder folder;
   const std::string material = kData + "materials/pdms_1to10_seed.json";
   const PronySeries series = young_series(read_material(material).material);
-  LoadHistory course{false, {}, {}};
-  for (int i = 0; i <= 300; ++i) {
-    course.time_s.push_back(0.05 * i);
-    course.value.push_back(0.01 * std::sin(0.05 * i));
-  }
-  const std::vector<double> stress_Pa = response(series, course);
+  Course course;
+  for (int i = 0; i <= 300; ++i) course.push_back({0.05 * i, 0.01 * std::sin(0.05 * i)});
+  const std::vector<double> stress_Pa = response(series, course, false);
   std::ostringstream text;
   text.precision(17);
   text << "t (s),strain (%),stress (kPa)\n";
-  for (std::size_t i = 0; i < course.time_s.size(); ++i) {
-    text << course.time_s[i] << "," << 100.0 * course.value[i] << ","
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    text << course[i].time_s << "," << 100.0 * course[i].value << ","
          << 1e-3 * (stress_Pa[i] + (i == 200 ? 50.0 : 0.0)) << "\n";
   }
   const std::string table = folder.write("history.csv", text.str());
@@ -170,7 +167,7 @@ TEST_CASE("a history from a table is driven by strain or by stress, and compared
   const auto& strain = by_stress["against"]["quantities"][0];
   CHECK(strain["quantity"] == "strain");
   CHECK(strain["rms_inside_window"].get<double>() < 1e-5);
-  CHECK(by_stress["curve"]["strain"][60].get<double>() == Approx(course.value[60]).epsilon(1e-3));
+  CHECK(by_stress["curve"]["strain"][60].get<double>() == Approx(course[60].value).epsilon(1e-3));
 }
 
 TEST_CASE("options that have no effect on a predicted test are refused by name", "[cli]") {

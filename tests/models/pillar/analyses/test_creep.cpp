@@ -18,8 +18,7 @@ using namespace viscard::test;
 namespace {
 
 const Discretisation kMesh{.degree = 5, .layers = 2};
-const std::vector<HistoryPoint> kHeld = {
-    {0.0, 0.0}, {0.0, 1.0}, {10.0, 1.0}, {10.0, 0.0}, {30.0, 0.0}};
+const Course kHeld = {{0.0, 0.0}, {0.0, 1.0}, {10.0, 1.0}, {10.0, 0.0}, {30.0, 0.0}};
 
 // A pillar of PDMS on a film of PVDF that carries an electrode.
 PillarScene sensor(bool shear_only) {
@@ -56,8 +55,8 @@ TEST_CASE(
   PillarScene scene = sensor(GENERATE(true, false));
   scene.electrodes->electrode_radius_m = GENERATE(20e-6, 0.0);
   const bool is_creep = GENERATE(true, false);
-  std::vector<HistoryPoint> history = kHeld;
-  for (HistoryPoint& point : history) point.value *= is_creep ? 1e4 : 1e-6;
+  Course history = kHeld;
+  for (CoursePoint& point : history) point.value *= is_creep ? 1e4 : 1e-6;
   if (is_creep) {
     scene.drive = CreepDrive{.history = history};
   } else {

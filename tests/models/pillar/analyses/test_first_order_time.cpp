@@ -23,7 +23,7 @@ PillarScene relaxing(PillarScene scene) {
   return scene;
 }
 
-std::vector<HistoryPoint> ramp(double value) {
+Course ramp(double value) {
   return {{0.0, 0.0}, {2.0, value}};
 }
 

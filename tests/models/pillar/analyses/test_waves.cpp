@@ -291,7 +291,7 @@ TEST_CASE("a pulse much shorter than a period can be solved as its refusal propo
   PillarScene scene = rod_scene(0.33, 1e-4);
   test::as<TransientDrive>(scene).direction = LoadDirection::kAxial;
   const auto triangle = [](double rise_s) {
-    return std::vector<HistoryPoint>{{0.0, 0.0}, {rise_s, kPressure_Pa}, {2.0 * rise_s, 0.0}};
+    return Course{{0.0, 0.0}, {rise_s, kPressure_Pa}, {2.0 * rise_s, 0.0}};
   };
   const double step_s = 0.55e-6;  // twenty per period
   test::as<TransientDrive>(scene).history = {

@@ -42,7 +42,7 @@ TEST_CASE("reduced creep with a film and shear relaxation alone is the whole bod
   const ViscoelasticPillar pillar = pillar_on_film(soft(true));
   const ReducedBody reduced = reduce_quasi_static(pillar.system(), {.tolerance = 1e-5});
   CHECK(reduced.basis.cols() <= 8);
-  const std::vector<HistoryPoint> history = {{0.0, 1.0}, {3.0, 1.0}, {3.0, 0.0}, {9.0, 0.0}};
+  const Course history = {{0.0, 1.0}, {3.0, 1.0}, {3.0, 0.0}, {9.0, 0.0}};
   HistoryOptions options;
   options.tolerance = 1e-7;
   const HistoryResult small = run_history(reduced.system, Control::kForce, history, options);

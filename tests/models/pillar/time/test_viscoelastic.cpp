@@ -43,11 +43,10 @@ ViscoelasticPillar coarse_pillar(const Material& material) {
 
 // Creep of one constant-nu body under a force history by superposition of J(t); the mean of J over
 // a ramp in closed form, since a difference of integrals would cancel.
-double superposed_creep(const RetardationSpectrum& J, const std::vector<HistoryPoint>& history,
-                        double time_s) {
+double superposed_creep(const RetardationSpectrum& J, const Course& history, double time_s) {
   double u = history.front().value * creep_compliance_1_Pa(J, time_s);
   for (std::size_t i = 1; i < history.size() && history[i - 1].time_s < time_s; ++i) {
-    const HistoryPoint& a = history[i - 1];
+    const CoursePoint& a = history[i - 1];
     const double end_s = std::min(history[i].time_s, time_s);
     const double length_s = history[i].time_s - a.time_s;
     const double share = length_s > 0.0 ? (end_s - a.time_s) / length_s : 1.0;
@@ -148,7 +147,7 @@ TEST_CASE(
   const PronySeries series = young_series(material);
   const RetardationSpectrum J = retardation_from_relaxation(series);
   const double scale = elastic_compliance(pillar.system()) * instantaneous_modulus_Pa(series);
-  std::vector<HistoryPoint> history;
+  Course history;
   SECTION("a step and recovery") {
     history = {{0.0, 1.0}, {5.0, 1.0}, {5.0, 0.0}, {50.0, 0.0}};
   }
@@ -256,7 +255,7 @@ TEST_CASE("energy put into a viscoelastic pillar is never returned in excess",
 
 TEST_CASE("a history that goes back in time or has no length is refused", "[pillar]") {
   const ViscoelasticPillar pillar = coarse_pillar(soft_material());
-  const auto run = [&](const std::vector<HistoryPoint>& history) {
+  const auto run = [&](const Course& history) {
     return run_history(pillar.system(), Control::kForce, history, {});
   };
   CHECK_THROWS_AS(run({{0.0, 1.0}}), std::invalid_argument);
