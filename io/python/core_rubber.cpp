@@ -84,7 +84,8 @@ py::array rubber_stress(const HyperelasticFile& rubber, const std::string& defor
     return array_of(nominal_stress_Pa(rubber.law, *rubber.damage, kind, stretch));
   }
   if (time_s) {
-    return array_of(nominal_stress_Pa(rubber.law, rubber.terms, kind, {*time_s, stretch}));
+    const Course history = course_from_columns(*time_s, stretch);
+    return array_of(nominal_stress_Pa(rubber.law, rubber.terms, kind, history));
   }
   for (double& value : stretch) value = nominal_stress_Pa(rubber.law, kind, value);
   return array_of(std::move(stretch));

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 
 namespace viscard {
 
 Course course_from_columns(std::span<const double> time_s, std::span<const double> value) {
+  if (time_s.size() != value.size()) {
+    throw std::invalid_argument("a course has as many values as times");
+  }
   Course course;
   for (std::size_t i = 0; i < time_s.size(); ++i) course.push_back({time_s[i], value[i]});
   return course;

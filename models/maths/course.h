@@ -13,7 +13,7 @@ struct CoursePoint {
 };
 using Course = std::vector<CoursePoint>;
 
-// Two columns of equal length as a course.
+// Two columns of equal length as a course. Throws std::invalid_argument if they are not.
 Course course_from_columns(std::span<const double> time_s, std::span<const double> value);
 
 // Value at a time between two points.
