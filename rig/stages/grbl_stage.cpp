@@ -127,10 +127,10 @@ void GrblStage::take_answer(std::optional<int> error, double time_s) {
 
 void GrblStage::take_alarm(int code, double time_s) {
   alarm_code_ = code;
-  note(time_s, "stage_alarm", std::to_string(code), grbl_alarm_text(code));
+  note(time_s, "stage_alarm", std::to_string(code), grbl_alarm_text(code, is_hal_));
   if (is_recovering_ || awaits_welcome_) return;
   exact_m_.reset();
-  throw StageAlarm("the stage stopped with " + grbl_alarm_text(code));
+  throw StageAlarm("the stage stopped with " + grbl_alarm_text(code, is_hal_));
 }
 
 void GrblStage::take_welcome(const GrblWelcome& welcome, double time_s) {
