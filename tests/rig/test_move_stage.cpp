@@ -55,6 +55,17 @@ TEST_CASE("a stage does not move toward a specimen with a load cell that does no
   CHECK(rig.emulated.outcome().final_position_m == 0.0);
 }
 
+TEST_CASE("a homing by hand that fails is an error", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.grbl.is_homing_enabled = true;
+  options.grbl.fail_homing_number = 1;
+  options.config.stage.home = true;  // move_stage() is given a driver with the home of its order
+  RigFixture rig(options);
+  StageOrder order;
+  order.is_home = true;
+  CHECK_THROWS_WITH(moved_on(rig, order), Contains("alarm 8") && Contains("not homed"));
+}
+
 TEST_CASE("a move that unlocks a stage which is not homed warns, because no later command can",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options();
