@@ -147,6 +147,7 @@ void RunSession::move_once(double to_m, double speed_m_s, const std::string& pur
                            std::optional<double> stop_above_N) {
   stage().begin_move(to_m, speed_m_s, purpose);
   has_moved_ = true;
+  const bool has_begun = stage().is_moving();
   bool is_stopping = false;
   while (stage().is_moving()) {
     pump();
@@ -156,6 +157,7 @@ void RunSession::move_once(double to_m, double speed_m_s, const std::string& pur
       is_pressing_ = false;  // it comes to rest without more readings
     }
   }
+  if (has_begun) lag_s_ = std::max(lag_s_, stage().lag_s());
   // Readings made before standstill may still be on their way.
   if (stop_above_N) await_reading_after(clock_.now_s());
 }
