@@ -36,8 +36,8 @@ class GrblStage final : public PolledStage {
   std::string trouble_with_count_check(const Pump& pump) override;
   std::optional<CountCheck> check_count(const Pump& pump) override;
 
-  // Sends one line and waits for its answer. Throws RigError on error:N, if there is no answer, or if
-  // the controller starts instead.
+  // Sends one line and waits for its answer. Throws RigError on error:N, if there is no answer, or
+  // if the controller starts instead.
   void command(const std::string& line, const Pump& pump, double timeout_wall_s = 3.0);
   const std::string& state() const { return state_; }
 

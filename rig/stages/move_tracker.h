@@ -27,7 +27,8 @@ class MoveTracker {
   // Number of reports that no start time can reconcile with the trapezoid.
   int n_contradictions() const { return n_contradictions_; }
   // How much later than the trapezoid at least two reports have found the stage, beyond all that
-  // written commands, answers and other reports allow; 0 if they have not. One report may be garbled.
+  // written commands, answers and other reports allow; 0 if they have not. A single one may be
+  // garbled.
   double lag_s() const { return second_lag_s_; }
 
  private:

@@ -92,7 +92,8 @@ class Stage {
   virtual double expected_end_s() const = 0;
 
   // How much later than its settings say the stage was in the last move, if that is more than its
-  // clock and its answers explain; otherwise 0. The record then holds a course that it did not take.
+  // clock and its answers explain; the record then holds a course that it did not take. 0: it was
+  // not.
   virtual double lag_s() const { return 0.0; }
 
   // Decelerates; is_moving() is true until standstill.
