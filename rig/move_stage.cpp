@@ -89,7 +89,7 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
            is_toward);
     session.watch_life();
     moved.is_stopped_by_force = is_toward ? press(session, moved.from_m, order)
-                                          : session.move(moved.from_m + order.toward_m,
+                                          : session.lift(moved.from_m + order.toward_m,
                                                          order.speed_m_s, "lift", order.limit_N);
     moved.force_after_N = moved.force_before_N + session.mean_force(kRest_s).force_N;
     moved.to_m = stage.position_m();

@@ -16,7 +16,9 @@ namespace viscard {
 struct StageOrder {
   double toward_m = 0.0;  // way toward the specimen; negative: away from it
   double speed_m_s = 0.2e-3;
-  double limit_N = 0.0;  // the stage stops when the force has changed by this; > 0
+  // > 0. Toward the specimen the stage stops when the force has changed by this, away from it when
+  // the force has risen by this, or pulls with it: a lift ends no sooner than the punch is free.
+  double limit_N = 0.0;
   bool is_home = false;  // the controller's homing cycle, before any move
 };
 

@@ -55,6 +55,8 @@ class IndentationRun {
       name_ = phase.name;
       run_.session.begin_phase(phase.name, planned_from_s(i), phase.text);
       carry_out(phase);
+      const double lag_s = run_.session.take_lag_s();
+      if (is_in_record(phase.kind) && lag_s > 0.0) doubt_lag(phase.name, lag_s);
     }
   }
 
@@ -87,6 +89,21 @@ class IndentationRun {
   }
 
  private:
+  // A fit reads the course of these moves.
+  static bool is_in_record(TestPhase::Kind kind) {
+    return kind == TestPhase::Kind::kMove || kind == TestPhase::Kind::kLoad ||
+           kind == TestPhase::Kind::kHoldForce;
+  }
+
+  void doubt_lag(const std::string& phase, double lag_s) {
+    run_.outcome.doubts.push_back(
+        "in the phase '" + phase + "' the stage fell " + text_from_number(lag_s, 2) +
+        " s behind the course that the record holds: its controller stood still for so long, or "
+        "is slower than its settings say. Check its supply and what else keeps it busy, then "
+        "repeat the run");
+    run_.session.event("doubt", "stage_late", run_.outcome.doubts.back());
+  }
+
   void carry_out(const TestPhase& phase) {
     switch (phase.kind) {
       case TestPhase::Kind::kTare:

@@ -37,6 +37,10 @@ class EmulatedController {
   // A limit switch closes now; a controller without limit switches stalls.
   virtual void hit_limit(double time_s) = 0;
 
+  // Its processor is kept busy: the stage stands, and the move goes on afterwards. The rig keeps
+  // back the bytes of both directions meanwhile.
+  void stall(double time_s, double for_s) { motion_.stand_still(time_s, for_s); }
+
   std::string take_output() { return std::exchange(output_, {}); }
   double bench_position_m(double time_s) const { return motion_.position_m(time_s); }
   double next_knot_s(double time_s) const { return motion_.next_knot_s(time_s); }

@@ -277,9 +277,7 @@ void EmulatedGrbl::tick(double time_s) {
   ticked_s_ = std::max(ticked_s_, time_s);
   while (!motion_.is_moving(time_s)) {
     if (state_ == "Home") {
-      machine_origin_m_ = home_origin_m(motion_.end_position_m());
-      state_ = "Idle";
-      ok(time_s);
+      end_homing(time_s);
       break;
     }
     if (queue_.empty()) {

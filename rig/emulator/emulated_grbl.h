@@ -19,6 +19,8 @@ struct GrblHabits {
   bool is_homed = false;               // before power-up: its count goes on, and it boots into Idle
   double counts_m = 0.0;               // where it counts itself on the bench at power-up, if homed
   bool is_unlocked_at_boot = false;    // built without HOMING_INIT_LOCK: boots into Idle
+  int fail_homing_number = 0;          // the n-th homing cycle ends with homing_alarm and a welcome
+  int homing_alarm = 8;                // 8: it stays on its switch; 9: it finds none
   bool homes_all_axes = false;         // the build knows no $HX, $HY, $HZ
   bool has_hard_limits = false;        // $21=1: the switch at home stops the stage with an alarm
   int lose_status_every = 0;           // every n-th '?' gets no answer
@@ -68,6 +70,7 @@ class EmulatedGrbl final : public EmulatedController {
   void dollar(const std::string& text, double time_s);
   void jog(std::string_view words, double time_s);
   void home(double time_s, bool is_single);
+  void end_homing(double time_s);
   double home_m() const;
   double switch_m() const;
   double home_origin_m(double at_m) const;
@@ -109,7 +112,7 @@ class EmulatedGrbl final : public EmulatedController {
   bool is_held_ = false;       // takes no line although it reports Idle
   bool is_on_switch_ = false;  // a limit switch was hit and has not opened again
   double ticked_s_ = 0.0;
-  int n_status_ = 0, n_oks_ = 0, n_jogs_ = 0;
+  int n_status_ = 0, n_oks_ = 0, n_jogs_ = 0, n_homings_ = 0;
 };
 
 }  // namespace viscard

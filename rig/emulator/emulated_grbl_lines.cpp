@@ -146,8 +146,22 @@ void EmulatedGrbl::home(double time_s, bool is_single) {
   if (motion_.is_moving(time_s)) return error(time_s, 8);
   if (is_single && habits_.homes_all_axes) return error(time_s, 3);
   state_ = "Home";
+  ++n_homings_;
   is_on_switch_ = false;
   motion_.start(time_s, home_m(), settings_[25] / 60e3, acceleration_m_s2_);
+}
+
+// A cycle that fails resets the controller: no ok, an alarm, then a welcome in the alarm state
+// (gnea/grbl limits.c and main.c; grblHAL alike).
+void EmulatedGrbl::end_homing(double time_s) {
+  if (n_homings_ == habits_.fail_homing_number) {
+    state_ = "Alarm";
+    output_ += "ALARM:" + std::to_string(habits_.homing_alarm) + "\r\n";
+    return begin_alarm(time_s);
+  }
+  machine_origin_m_ = home_origin_m(motion_.end_position_m());
+  state_ = "Idle";
+  ok(time_s);
 }
 
 std::string EmulatedGrbl::status(double time_s) {

@@ -49,6 +49,7 @@ void EmulatedMotion::start(double time_s, double to_m, double speed_m_s, double 
                        acceleration_m_s2};
   move_ = move;
   pieces_.clear();
+  stalls_.clear();
   if (move.to_m == move.from_m) return;
   const double direction = move.to_m > move.from_m ? 1.0 : -1.0;
   const std::vector<double> knots = knots_s(move);
@@ -65,8 +66,34 @@ void EmulatedMotion::start(double time_s, double to_m, double speed_m_s, double 
 }
 
 void EmulatedMotion::extend(double to_m) {
+  const std::vector<Stall> stalls = stalls_;
   end_m_ = move_.from_m;
   start(move_.start_time_s, to_m, move_.speed_m_s, move_.acceleration_m_s2);
+  for (const Stall& stall : stalls) stand_still(stall.time_s, stall.for_s);
+}
+
+void EmulatedMotion::stand_still(double time_s, double for_s) {
+  if (!is_moving(time_s)) return;
+  stalls_.push_back({time_s, for_s});
+  std::vector<Piece> made;
+  for (Piece piece : pieces_) {
+    const double gone_s = time_s - piece.start_s;
+    if (gone_s >= piece.duration_s) {
+      made.push_back(piece);
+      continue;
+    }
+    if (gone_s >= 0.0) {
+      const double here_m = position_m(time_s);
+      const double here_m_s = velocity_m_s(time_s);
+      made.push_back(
+          {piece.start_s, gone_s, piece.from_m, piece.velocity_m_s, piece.acceleration_m_s2});
+      made.push_back({time_s, for_s, here_m, 0.0, 0.0});
+      piece = {time_s, piece.duration_s - gone_s, here_m, here_m_s, piece.acceleration_m_s2};
+    }
+    piece.start_s += for_s;
+    made.push_back(piece);
+  }
+  pieces_ = made;
 }
 
 void EmulatedMotion::cut(double time_s) {

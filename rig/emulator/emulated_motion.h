@@ -31,6 +31,8 @@ class EmulatedMotion {
   // The same move with a further end, as a planner joins moves in line. Precondition: it does not
   // brake yet.
   void extend(double to_m);
+  // The stage stands for that time and then goes on with its move.
+  void stand_still(double time_s, double for_s);
   void stop_gently(double time_s, double acceleration_m_s2);
   void stop_at_once(double time_s);
   void set_steps_per_m(double steps_per_m) { steps_per_m_ = steps_per_m; }
@@ -39,12 +41,16 @@ class EmulatedMotion {
   struct Piece {
     double start_s, duration_s, from_m, velocity_m_s, acceleration_m_s2;
   };
+  struct Stall {
+    double time_s, for_s;
+  };
   const Piece* piece_at(double time_s) const;
   void cut(double time_s);
 
   double steps_per_m_;
   double end_m_;
   std::vector<Piece> pieces_;  // of the current or last move
+  std::vector<Stall> stalls_;  // in it
   StageMove move_;
 };
 

@@ -26,6 +26,7 @@ constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulat
 constexpr double kShortestNap_s = 0.2e-3;  // wall
 constexpr double kLongestNap_s = 2e-3;     // wall; bounds the delay until an incident is noticed
 constexpr double kNever_s = 1e300;
+constexpr double kStageStall_s = 0.5;
 // In the place of the time at which the fault is due: it has begun.
 constexpr double kBegun_s = std::numeric_limits<double>::infinity();
 constexpr double kFrame_s = 1e-3;  // a rig that waits exchanges bytes so often, as USB does
@@ -174,6 +175,7 @@ class EmulatedRig::Impl final : public WaitingRig {
   }
 
   void serve_stage(double now_s) {
+    if (now_s < stage_stalls_until_s_) return;
     const std::string bytes = stage_port_.read_available();
     if (!stage_board_.is_running) {
       if (!stage_board_.is_open || now_s < stage_board_.boots_at_s) return;
@@ -256,6 +258,10 @@ class EmulatedRig::Impl final : public WaitingRig {
     gauge_.set_fault(kind);
     motor_.set_fault(kind);
     if (kind == RigFaultKind::kLoadCellPort) cell_port_.hang_up();
+    if (kind == RigFaultKind::kStageStall) {
+      stage_->stall(now_s, kStageStall_s);
+      stage_stalls_until_s_ = now_s + kStageStall_s;
+    }
     if (kind == RigFaultKind::kStagePort) stage_port_.hang_up();
     if (kind == RigFaultKind::kStagePortBack) {
       stage_port_.hang_up();
@@ -286,6 +292,7 @@ class EmulatedRig::Impl final : public WaitingRig {
   Board stage_board_, cell_board_;
   bool is_cell_silent_ = false;
   double stage_back_at_s_ = kNever_s;
+  double stage_stalls_until_s_ = 0.0;
   double now_s_ = 0.0;  // of a rig that waits
   WallPace pace_;
   std::thread thread_;

@@ -10,7 +10,7 @@
 namespace viscard {
 namespace {
 
-constexpr std::array<std::pair<RigFaultKind, const char*>, 12> kFaults{
+constexpr std::array<std::pair<RigFaultKind, const char*>, 13> kFaults{
     {{RigFaultKind::kFrozen, "frozen"},
      {RigFaultKind::kZeros, "zeros"},
      {RigFaultKind::kOpenWire, "open-wire"},
@@ -20,6 +20,7 @@ constexpr std::array<std::pair<RigFaultKind, const char*>, 12> kFaults{
      {RigFaultKind::kSlowReadings, "slow-readings"},
      {RigFaultKind::kDeadMotor, "dead-motor"},
      {RigFaultKind::kLostSteps, "lost-steps"},
+     {RigFaultKind::kStageStall, "stage-stall"},
      {RigFaultKind::kLoadCellPort, "load-cell-port"},
      {RigFaultKind::kStagePort, "stage-port"},
      {RigFaultKind::kStagePortBack, "stage-port-back"}}};

@@ -18,6 +18,7 @@ enum class RigFaultKind {
   kDeadMotor,     // the stage counts on, its motor stands
   kLostSteps,     // toward the specimen and under load every fifth step is lost
   kLoadCellPort,  // the port hangs up
+  kStageStall,    // the stage's controller does nothing for half a second, then goes on
   kStagePort,
   kStagePortBack,  // it hangs up and is back under its name after 1 s of wall time
 };

@@ -187,8 +187,8 @@ std::string grbl_error_text(int code) {
   return text_of_code("error ", code, kTexts);
 }
 
-std::string grbl_alarm_text(int code) {
-  static constexpr std::array<std::pair<int, const char*>, 10> kTexts{
+std::string grbl_alarm_text(int code, bool is_hal) {
+  static constexpr std::array<std::pair<int, const char*>, 9> kCommonTexts{
       {{1, "a limit switch was hit; the position is lost"},
        {2, "the target lies beyond the soft limits"},
        {3, "reset while moving; steps may be lost"},
@@ -196,10 +196,27 @@ std::string grbl_alarm_text(int code) {
        {5, "the probe touched nothing"},
        {6, "homing was interrupted by a reset"},
        {7, "homing was interrupted by the door"},
-       {8, "homing could not clear the limit switch: raise the pull-off $27"},
-       {9, "homing found no limit switch: check its wiring and the travel $130-132"},
-       {10, "homing found a second switch active"}}};
-  return text_of_code("alarm ", code, kTexts);
+       {8, "homing could not clear the limit switch: raise the pull-off $27, or check its wiring"},
+       {9, "homing found no limit switch: check its wiring and the travel $130-132"}}};
+  static constexpr std::array<std::pair<int, const char*>, 1> kGrblTexts{
+      {{10, "homing found no second limit switch of an axis with two motors: check its wiring"}}};
+  static constexpr std::array<std::pair<int, const char*>, 13> kHalTexts{
+      {{10, "the emergency stop is pressed: release it, then switch the controller off and on"},
+       {11, "it must be homed first: set home = true under [stage] of the rig file"},
+       {12, "a limit switch is pressed: free it"},
+       {13, "the protection of the probe was triggered: free the probe"},
+       {14, "the spindle did not come to its speed"},
+       {15, "homing found no second limit switch of an axis with two motors: check its wiring"},
+       {16, "its self-test at power-on failed"},
+       {17, "a motor driver reports a fault: check the motor and its supply"},
+       {18, "homing failed: its settings do not fit ($22-$27, $44-46)"},
+       {19, "a device on its Modbus does not answer"},
+       {20, "its input and output expander does not answer"},
+       {21, "its memory of the settings failed"},
+       {22, "a buffer overflowed"}}};
+  if (code < 10) return text_of_code("alarm ", code, kCommonTexts);
+  return is_hal ? text_of_code("alarm ", code, kHalTexts)
+                : text_of_code("alarm ", code, kGrblTexts);
 }
 
 }  // namespace viscard

@@ -71,6 +71,7 @@ std::string format_grbl_jog(char axis, double target_mm, double feed_mm_min);
 
 // What a code means and what to do about it.
 std::string grbl_error_text(int code);
-std::string grbl_alarm_text(int code);
+// From alarm 10 on the two dialects differ (grblHAL core alarms.h; 10 of newer forks of gnea/grbl).
+std::string grbl_alarm_text(int code, bool is_hal);
 
 }  // namespace viscard

@@ -89,7 +89,9 @@ ForceReadings::Reading ForceReadings::take(const LoadSample& sample, double made
   force_N_ = force_N;
   ++n_forces_;
   peak_force_N_ = std::max(peak_force_N_, force_N);
-  if (threshold_N_ && std::abs(force_N) > *threshold_N_) has_exceeded_ = true;
+  if (watched_ && (force_N < watched_->lowest_N || force_N > watched_->highest_N)) {
+    has_exceeded_ = true;
+  }
   last_made_s_ = std::max(last_made_s_, made_at_s);
   newest_made_s_ = made_at_s;
   if (collects_from_s_ && made_at_s >= *collects_from_s_) collect(absolute_N, made_at_s);
@@ -103,8 +105,8 @@ void ForceReadings::add_to_tare(double force_N) {
   peak_force_N_ = 0.0;
 }
 
-void ForceReadings::watch(std::optional<double> threshold_N) {
-  threshold_N_ = threshold_N;
+void ForceReadings::watch(double lowest_N, double highest_N) {
+  watched_ = Range{lowest_N, highest_N};
   has_exceeded_ = false;
 }
 

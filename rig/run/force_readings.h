@@ -60,9 +60,9 @@ class ForceReadings {
   // Moves the zero by this force and forgets the peak.
   void add_to_tare(double force_N);
 
-  // From now on has_exceeded() is true once a force lies above the threshold in either direction.
-  void watch(std::optional<double> threshold_N);
-  void stop_watching() { threshold_N_.reset(); }
+  // From now on has_exceeded() is true once a force lies above highest_N or below lowest_N.
+  void watch(double lowest_N, double highest_N);
+  void stop_watching() { watched_.reset(); }
   bool has_exceeded() const { return has_exceeded_; }
 
   // Collects the readings made at or after time_s until stop_collecting().
@@ -84,7 +84,10 @@ class ForceReadings {
   std::int64_t n_forces_ = 0;
   double last_made_s_ = 0.0;
   double newest_made_s_ = 0.0;
-  std::optional<double> threshold_N_;
+  struct Range {
+    double lowest_N = 0.0, highest_N = 0.0;
+  };
+  std::optional<Range> watched_;
   bool has_exceeded_ = false;
   std::optional<double> collects_from_s_;
   std::vector<double> collected_N_;  // before the tare is subtracted

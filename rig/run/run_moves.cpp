@@ -4,6 +4,7 @@
 #include "rig/run/run_session.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace viscard {
 namespace {
@@ -91,12 +92,21 @@ bool RunSession::pump_while(const std::function<bool()>& is_waiting, double list
 
 bool RunSession::move(double to_m, double speed_m_s, const std::string& purpose,
                       std::optional<double> stop_above_N) {
-  readings_.watch(stop_above_N);
+  const double most_N = stop_above_N.value_or(std::numeric_limits<double>::infinity());
+  readings_.watch(-most_N, most_N);
   if (to_m > stage().position_m()) {
     press(to_m, speed_m_s, purpose, stop_above_N);
   } else {
     move_once(to_m, speed_m_s, purpose, stop_above_N);
   }
+  readings_.stop_watching();
+  return readings_.has_exceeded();
+}
+
+bool RunSession::lift(double to_m, double speed_m_s, const std::string& purpose, double limit_N) {
+  // Forces count from the tare, and this was made while the punch may have pressed.
+  readings_.watch(-(std::max(0.0, readings_.tare_N()) + limit_N), limit_N);
+  move_once(to_m, speed_m_s, purpose, limit_N);
   readings_.stop_watching();
   return readings_.has_exceeded();
 }
@@ -137,6 +147,7 @@ void RunSession::move_once(double to_m, double speed_m_s, const std::string& pur
                            std::optional<double> stop_above_N) {
   stage().begin_move(to_m, speed_m_s, purpose);
   has_moved_ = true;
+  const bool has_begun = stage().is_moving();
   bool is_stopping = false;
   while (stage().is_moving()) {
     pump();
@@ -146,6 +157,7 @@ void RunSession::move_once(double to_m, double speed_m_s, const std::string& pur
       is_pressing_ = false;  // it comes to rest without more readings
     }
   }
+  if (has_begun) lag_s_ = std::max(lag_s_, stage().lag_s());
   // Readings made before standstill may still be on their way.
   if (stop_above_N) await_reading_after(clock_.now_s());
 }

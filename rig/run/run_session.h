@@ -19,6 +19,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -76,6 +77,12 @@ class RunSession {
   // round, its force falls while the punch presses.
   bool move(double to_m, double speed_m_s, const std::string& purpose,
             std::optional<double> stop_above_N = std::nullopt);
+  // A move away from the specimen by hand: true, after a gentle stop, if the force rose by more
+  // than limit_N, or pulls with more than that. A force that falls while the punch comes free does
+  // not stop it.
+  bool lift(double to_m, double speed_m_s, const std::string& purpose, double limit_N);
+  // How late the stage was in the latest of the moves since the last call (Stage::lag_s).
+  double take_lag_s() { return std::exchange(lag_s_, 0.0); }
   // Mean over the readings made from now on, for at least six periods. Throws RigError if fewer than five
   // arrive.
   ForceMean mean_force(double asked_s);
@@ -179,6 +186,7 @@ class RunSession {
   double pressed_from_m_ = 0.0, pressed_from_N_ = 0.0;
   RiseWatch rise_;
   double noise_N_ = 0.0;
+  double lag_s_ = 0.0;
   std::int64_t n_at_rest_ = 0;  // readings since the stage stands still
   bool is_doubtful_ = false;    // the newest reading has no force
   bool is_wild_ = false;        // the noise has grown many times

@@ -18,10 +18,15 @@ constexpr int kMostReadings = 4;         // of the settings, until two agree
 
 void GrblStage::command(const std::string& line, const Pump& pump, double timeout_wall_s) {
   awaited_error_.reset();
+  const int n_welcomes = n_welcomes_;
   send_line(line, true);
   if (!wait_for([&] { return pending_.empty(); }, pump, timeout_wall_s)) {
     throw RigError("the stage on '" + transport_.name() + "' did not answer '" + line +
                    "' within " + text_from_number(timeout_wall_s, 0) + " s. Switch it off and on");
+  }
+  if (n_welcomes != n_welcomes_) {
+    throw RigError("the stage's controller restarted and did not answer '" + line +
+                   "'. Check its supply, then try again");
   }
   if (awaited_error_) {
     throw RigError("the stage refused '" + line + "': " + grbl_error_text(*awaited_error_));
@@ -114,6 +119,8 @@ void GrblStage::connect(const Pump& pump) {
       if (n_welcomes == n_welcomes_) break;
       restarts_when_opened_ = true;
     } catch (const PortHungUp&) {
+      throw;
+    } catch (const HomingFailed&) {
       throw;
     } catch (const RigError&) {
       if (n_welcomes == n_welcomes_ || i == kResets) throw;

@@ -83,12 +83,29 @@ std::string GrblStage::trouble_with_count_check(const Pump& pump) {
                          : "Build it with HOMING_SINGLE_AXIS_COMMANDS (grbl/config.h)");
 }
 
+bool GrblStage::is_homing() const {
+  return !pending_.empty() && pending_.front().line.rfind("$H", 0) == 0;
+}
+
+// The firmware ends a failed cycle by an alarm and restarts itself, which is no ok (gnea/grbl
+// limits.c, limits_go_home; main.c).
+void GrblStage::throw_homing_failed(const std::string& how) {
+  throw HomingFailed("the homing of the stage ended " + how +
+                     ". The stage is not homed and stays locked. Look at its limit switch and at "
+                     "what is in its way, then home it again with: viscard rig home");
+}
+
 void GrblStage::home(const Pump& pump) {
   polls_ = false;  // while homing, no '?' is answered
   forget_questions();
+  exact_m_.reset();
+  homed_at_m_.reset();
+  was_in_alarm_ = true;  // until the cycle has ended well
   try {
     command(compares_count_ ? std::string("$H") + config_.axis : "$H", pump, kAxisHomed_wall_s);
   } catch (const PortHungUp&) {
+    throw;
+  } catch (const HomingFailed&) {
     throw;
   } catch (...) {
     stop_hard();  // nothing else ends a homing cycle

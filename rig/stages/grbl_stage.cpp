@@ -127,16 +127,22 @@ void GrblStage::take_answer(std::optional<int> error, double time_s) {
 
 void GrblStage::take_alarm(int code, double time_s) {
   alarm_code_ = code;
-  note(time_s, "stage_alarm", std::to_string(code), grbl_alarm_text(code));
+  note(time_s, "stage_alarm", std::to_string(code), grbl_alarm_text(code, is_hal_));
+  if (is_homing()) {
+    pending_.clear();
+    awaits_welcome_ = true;
+    throw_homing_failed("with " + grbl_alarm_text(code, is_hal_));
+  }
   if (is_recovering_ || awaits_welcome_) return;
   exact_m_.reset();
-  throw StageAlarm("the stage stopped with " + grbl_alarm_text(code));
+  throw StageAlarm("the stage stopped with " + grbl_alarm_text(code, is_hal_));
 }
 
 void GrblStage::take_welcome(const GrblWelcome& welcome, double time_s) {
   is_hal_ = welcome.is_hal;
   version_ = (welcome.is_hal ? "grblHAL " : "Grbl ") + welcome.version;
   ++n_welcomes_;
+  const bool was_homing = is_homing();
   pending_.clear();
   forget_questions();
   work_offset_mm_.clear();
@@ -144,6 +150,7 @@ void GrblStage::take_welcome(const GrblWelcome& welcome, double time_s) {
   awaits_welcome_ = false;
   is_connected_ = true;
   note(time_s, "stage_welcome", version_, "The stage's controller started: " + version_);
+  if (was_homing) throw_homing_failed("with a restart of its controller");
   if (!was_expected && !is_recovering_) {
     exact_m_.reset();
     throw DeviceRestarted(

@@ -36,11 +36,18 @@ class GrblStage final : public PolledStage {
   std::string trouble_with_count_check(const Pump& pump) override;
   std::optional<CountCheck> check_count(const Pump& pump) override;
 
-  // Sends one line and waits for its answer. Throws RigError on error:N or if there is no answer.
+  // Sends one line and waits for its answer. Throws RigError on error:N, if there is no answer, or
+  // if the controller starts instead.
   void command(const std::string& line, const Pump& pump, double timeout_wall_s = 3.0);
   const std::string& state() const { return state_; }
 
  private:
+  // A homing cycle that the controller ended without an ok. It is not tried again, because it may
+  // have run into a broken switch.
+  class HomingFailed : public RigError {
+   public:
+    using RigError::RigError;
+  };
   struct Pending {
     std::string line;
     bool is_awaited;  // command() handles an error; otherwise it is thrown
@@ -82,6 +89,8 @@ class GrblStage final : public PolledStage {
   void refuse_lost_count() const;
   double count_slack_m() const;
   void home(const Pump& pump);
+  bool is_homing() const;
+  [[noreturn]] void throw_homing_failed(const std::string& how);
   void go(double to_m, double speed_m_s, const Pump& pump);
   double touch_switch(const Pump& pump);
   bool has_bit(int number, int bit) const;

@@ -36,6 +36,7 @@ void MoveTracker::reported(double asked_s, double received_s, double position_m)
   double latest_s = latest_s_;
   if (gone_m + resolution_m_ < whole_m) {
     earliest_s = std::max(earliest_s, asked_s - time_to_way_s(gone_m + resolution_m_));
+    take_lag(earliest_s - latest_s_);
   }
   if (gone_m - resolution_m_ > 0.0) {
     latest_s = std::min(latest_s, received_s - time_to_way_s(gone_m - resolution_m_));
@@ -47,6 +48,11 @@ void MoveTracker::reported(double asked_s, double received_s, double position_m)
   }
   earliest_s_ = earliest_s;
   latest_s_ = latest_s;
+}
+
+void MoveTracker::take_lag(double lag_s) {
+  second_lag_s_ = std::max(second_lag_s_, std::min(lag_s, largest_lag_s_));
+  largest_lag_s_ = std::max(largest_lag_s_, lag_s);
 }
 
 CommandedMove MoveTracker::best(double end_m) const {

@@ -26,15 +26,21 @@ class MoveTracker {
   double latest_end_s() const;
   // Number of reports that no start time can reconcile with the trapezoid.
   int n_contradictions() const { return n_contradictions_; }
+  // How much later than the trapezoid at least two reports have found the stage, beyond all that
+  // written commands, answers and other reports allow; 0 if they have not. A single one may be
+  // garbled.
+  double lag_s() const { return second_lag_s_; }
 
  private:
   double time_to_way_s(double way_m) const;
+  void take_lag(double lag_s);
 
   StageMove move_;
   double resolution_m_;
   double earliest_s_;
   double latest_s_;
   int n_contradictions_ = 0;
+  double largest_lag_s_ = 0.0, second_lag_s_ = 0.0;
 };
 
 }  // namespace viscard

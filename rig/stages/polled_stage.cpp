@@ -12,7 +12,11 @@ namespace {
 
 constexpr double kStatusTimeout_wall_s = 0.25;
 constexpr double kForgetQuestion_wall_s = 1.0;  // no answer is expected after this time
-constexpr double kTimesPrompt = 4.0;            // timeout over the mean time of prompt answers
+// A planner begins and joins moves in its own way (10 ms were seen with Marlin), and the resonator
+// of an AVR board may be off by half a percent.
+constexpr double kUsualLag_wall_s = 0.03;
+constexpr double kUsualLagShare = 0.01;  // of the duration of a move
+constexpr double kTimesPrompt = 4.0;     // timeout over the mean time of prompt answers
 
 }  // namespace
 
@@ -200,14 +204,20 @@ void PolledStage::throw_no_rest() const {
 void PolledStage::hand_out(const std::optional<MoveTracker>& tracker, const std::string& purpose,
                            double end_m) {
   exact_m_ = end_m;
+  lag_s_ = 0.0;
   if (!tracker) return;
   CommandedMove commanded = tracker->best(end_m);
   commanded.purpose = purpose;
   if (const int n = tracker->n_contradictions(); n >= 2) {
+    const double lag_s = tracker->lag_s();
+    const double usual_s =
+        clock_.from_wall_s(kUsualLag_wall_s) + kUsualLagShare * duration_s(tracker->move());
+    lag_s_ = lag_s > usual_s ? lag_s : 0.0;
     note(clock_.now_s(), "move_doubtful", purpose,
          std::to_string(n) +
-             " position reports do not agree with the speed and acceleration in "
-             "the controller's settings: the move was slower or faster");
+             " position reports do not agree with the speed and acceleration in the controller's "
+             "settings: the move was " +
+             (lag_s > 0.0 ? "up to " + text_from_number(lag_s, 3) + " s late" : "ahead of them"));
   }
   sink_(commanded);
 }

@@ -22,6 +22,7 @@ class PolledStage : public Stage {
   ReportLatency report_latency() const override { return latency_; }
   double position_m() const override { return exact_m_ && !is_moving() ? *exact_m_ : reported_m_; }
   double expected_end_s() const override { return expected_end_s_; }
+  double lag_s() const override { return lag_s_; }
 
  protected:
   // patience: factor on the wall time that the driver waits for a controller that does not answer.
@@ -100,6 +101,7 @@ class PolledStage : public Stage {
   double expected_end_s_ = 0.0;
 
  private:
+  double lag_s_ = 0.0;          // of the last move
   std::deque<double> asked_s_;  // times of the open questions, oldest first
   bool is_last_missed_ = false;
   bool is_answered_since_ = false;  // an older question was answered after the newest was sent

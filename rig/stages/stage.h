@@ -91,6 +91,11 @@ class Stage {
   // Rig time at which the current or last move should end.
   virtual double expected_end_s() const = 0;
 
+  // How much later than its settings say the stage was in the last move, if that is more than its
+  // clock and its answers explain; the record then holds a course that it did not take. 0: it was
+  // not.
+  virtual double lag_s() const { return 0.0; }
+
   // Decelerates; is_moving() is true until standstill.
   virtual void stop_soft() = 0;
   // Stops at once even if steps are lost; recover() must follow.

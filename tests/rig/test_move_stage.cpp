@@ -46,6 +46,30 @@ TEST_CASE("a jog into the specimen ends at its limit of force", "[rig][pty]") {
   CHECK(rig.emulated.outcome().peak_force_N < 0.05 + 8.8e3 * 25e-6);
 }
 
+TEST_CASE("a lift of a punch that presses goes on while the force falls, until it is free",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.truth.surface_position_m = -0.06e-3;
+  RigFixture rig(options);
+  const StageMoved moved = moved_on(rig, jog(-1e-3, 0.1));
+  CHECK(moved.force_before_N > 0.25);
+  CHECK_FALSE(moved.is_stopped_by_force);
+  CHECK(moved.to_m - moved.from_m == Approx(-1e-3).margin(1e-6));
+  CHECK(moved.force_after_N == Approx(0.0).margin(0.03));
+}
+
+TEST_CASE("a lift ends when the force rises, or when it pulls", "[rig][pty]") {
+  const double change_N = GENERATE(0.3, -0.3);
+  RigFixture rig(RigFixture::options());
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* report = std::get_if<StageReport>(&record);
+    if (report != nullptr && report->position_m < -0.2e-3) rig.emulated.hang_weight(change_N);
+  };
+  const StageMoved moved = moved_on(rig, jog(-1e-3, 0.1));
+  CHECK(moved.is_stopped_by_force);
+  CHECK(moved.to_m > -0.5e-3);
+}
+
 TEST_CASE("a stage does not move toward a specimen with a load cell that does not measure",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options();
@@ -53,6 +77,17 @@ TEST_CASE("a stage does not move toward a specimen with a load cell that does no
   RigFixture rig(options);
   CHECK_THROWS_AS(moved_on(rig, jog(0.1e-3)), RigError);
   CHECK(rig.emulated.outcome().final_position_m == 0.0);
+}
+
+TEST_CASE("a homing by hand that fails is an error", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.grbl.is_homing_enabled = true;
+  options.grbl.fail_homing_number = 1;
+  options.config.stage.home = true;  // move_stage() is given a driver with the home of its order
+  RigFixture rig(options);
+  StageOrder order;
+  order.is_home = true;
+  CHECK_THROWS_WITH(moved_on(rig, order), Contains("alarm 8") && Contains("not homed"));
 }
 
 TEST_CASE("a move that unlocks a stage which is not homed warns, because no later command can",

@@ -200,8 +200,9 @@ CommandSyntax rig_syntax(RigWords& words) {
       "thermometer's of a rig file. check opens all devices of a rig file, identifies and measures "
       "them, and reports what to change; nothing moves. touch waits for a finger or a weight on a "
       "load cell whose readings show no noise, and writes the day into the rig file. jog moves the "
-      "stage toward the specimen or away from it, lift moves it 2 mm away; both stop when the "
-      "force has changed by --limit. home runs the homing cycle of the controller, which only the "
+      "stage toward the specimen or away from it, lift moves it 2 mm away; they stop when the "
+      "force has changed by --limit, away from the specimen only when it has risen by that or "
+      "pulls with it. home runs the homing cycle of the controller, which only the "
       "force limits of the rig file stop. set-zero writes the position of the stage into the rig "
       "file, and jog, lift and home then also print positions counted from there; it refuses a "
       "controller that does not keep its own zero. zero-force makes the force at rest the zero of "
@@ -223,7 +224,10 @@ CommandSyntax rig_syntax(RigWords& words) {
       .of("m/s")
       .by_default("0.2 mm/s");
   syntax.options
-      .add("limit", &words.limit_N, "jog, lift: the stage stops when the force has changed by this")
+      .add(
+          "limit", &words.limit_N,
+          "jog, lift: the stage stops when the force has changed by this; a falling force stops no "
+          "lift")
       .of("N")
       .by_default("0.1 N");
   syntax.results = {
@@ -407,8 +411,8 @@ int move_and_print(const RigWords& words, const CommandSyntax& syntax, Streams& 
   if (!moved.note.empty()) streams.err << "viscard: " << moved.note << "\n";
   if (!moved.is_stopped_by_force) return kDone;
   streams.err << fmt::format(
-      "viscard: the stage stopped before the end of its way, because the force changed by {} N\n",
-      order.limit_N);
+      "viscard: the stage stopped before the end of its way, because the force {} by {} N\n",
+      order.toward_m > 0.0 ? "changed" : "rose or pulled", order.limit_N);
   return kFailed;
 }
 

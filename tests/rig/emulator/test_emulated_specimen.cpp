@@ -117,6 +117,20 @@ TEST_CASE("moves end on whole steps: 0.25 mm at 250 steps/mm becomes 0.252 mm", 
   CHECK(motion.position_m(10.0) == motion.end_position_m());
 }
 
+TEST_CASE("a stage that stands still in a move goes on with the rest of it", "[rig]") {
+  EmulatedMotion motion(3200e3, 0.0);
+  motion.start(0.0, 0.5e-3, 0.5e-3, 0.2);
+  EmulatedMotion stalled = motion;
+  stalled.stand_still(0.4, 0.5);
+  CHECK(stalled.position_m(0.3) == motion.position_m(0.3));
+  CHECK(stalled.position_m(0.8) == Approx(motion.position_m(0.4)).margin(1e-12));
+  CHECK(stalled.velocity_m_s(0.8) == 0.0);
+  CHECK(stalled.position_m(1.2) == Approx(motion.position_m(0.7)).margin(1e-12));
+  CHECK(stalled.end_time_s() == Approx(motion.end_time_s() + 0.5).epsilon(1e-12));
+  stalled.extend(0.6e-3);
+  CHECK(stalled.position_m(1.2) == Approx(motion.position_m(0.7)).margin(1e-12));
+}
+
 TEST_CASE("a gentle stop carries out GRBL's queue, a reset stops at once", "[rig]") {
   const double speed_m_s = GENERATE(0.1e-3, 0.5e-3, 2e-3);
   EmulatedMotion motion(3200e3, 0.0);

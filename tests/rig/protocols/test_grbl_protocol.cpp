@@ -5,6 +5,11 @@
 #include <string>
 
 namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+}  // namespace
 
 TEST_CASE("a status report is read with its fields in any order", "[rig]") {
   const auto status = parse_grbl_status(
@@ -51,6 +56,18 @@ TEST_CASE("answers, alarms and welcomes of both dialects are distinguished", "[r
   REQUIRE(hal);
   CHECK(hal->is_hal);
   CHECK_FALSE(parse_grbl_welcome("Grblx"));
+}
+
+TEST_CASE("alarms from 10 on have the meaning that the firmware gives them", "[rig]") {
+  const bool is_hal = GENERATE(false, true);
+  CHECK_THAT(grbl_alarm_text(1, is_hal), Contains("alarm 1: a limit switch was hit"));
+  CHECK_THAT(grbl_alarm_text(9, is_hal), Contains("found no limit switch"));
+  CHECK_THAT(grbl_alarm_text(10, is_hal),
+             is_hal ? Contains("emergency stop") : Contains("second limit switch"));
+  CHECK_THAT(grbl_alarm_text(11, true), Contains("homed first"));
+  CHECK_THAT(grbl_alarm_text(12, true), Contains("a limit switch is pressed"));
+  CHECK_THAT(grbl_alarm_text(17, true), Contains("motor driver reports a fault"));
+  CHECK(grbl_alarm_text(17, false) == "alarm 17");
 }
 
 TEST_CASE("lines that answer nothing are distinguished from answers", "[rig]") {

@@ -60,6 +60,8 @@ std::vector<std::string> names_of(RigFaultKind kind) {
     case kStagePortBack:
     case kLoadCellPort:
       return {"is gone", "port"};
+    case kStageStall:
+      return {"stood still"};
     case kNone:
       break;
   }

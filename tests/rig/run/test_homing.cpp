@@ -103,6 +103,30 @@ TEST_CASE("a healthy stage is homed alone after the lift and gives no doubt", "[
   CHECK(rig.emulated.outcome().final_position_m < 0.0);
 }
 
+TEST_CASE("a test whose stage fails to home is not run", "[rig][pty]") {
+  EmulatedRigOptions options = homing_rig();
+  options.grbl.fail_homing_number = 1;
+  RigFixture rig(options);
+  CHECK_THROWS_WITH(rig.run(one_level()), Contains("alarm 8") && Contains("not homed"));
+  CHECK(homings_sent(rig) == 1);
+  CHECK_FALSE(rig.has_event("phase", "tare"));
+  CHECK_FALSE(rig.has_event("stage_unlocked", ""));
+}
+
+TEST_CASE("a homing that fails after the lift is a doubt with its alarm", "[rig][pty]") {
+  EmulatedRigOptions options = homing_rig();
+  options.grbl.fail_homing_number = 2;
+  options.grbl.homing_alarm = 9;
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(one_level());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "finished");
+  REQUIRE(outcome.doubts.size() == 1);
+  CHECK_THAT(outcome.doubts.front(), Contains("could not be homed") && Contains("alarm 9"));
+  CHECK(homings_sent(rig) == 2);
+  CHECK_FALSE(outcome.count);
+}
+
 TEST_CASE("after a doubtful run the stage is not homed", "[rig][pty]") {
   EmulatedRigOptions lossy = homing_rig_that_loses_steps();
   lossy.truth.material.terms.clear();  // an elastic specimen: its unloading shows the loss

@@ -220,6 +220,22 @@ TEST_CASE("a load cell whose readings show no noise is not brought to the specim
   }
 }
 
+TEST_CASE(
+    "a controller that stands still for half a second in a ramp is a doubt with time and phase",
+    "[rig][pty]") {
+  const bool is_in_contact = GENERATE(true, false);
+  EmulatedRigOptions options = RigFixture::options();
+  options.fault =
+      rig_fault_from_text(is_in_contact ? "stage-stall@ramp+0.2" : "stage-stall@approach");
+  const FaultedRun run = run_with(options);
+  INFO(run.said);
+  REQUIRE(run.outcome.status == "finished");
+  REQUIRE(run.outcome.doubts.empty() == !is_in_contact);
+  if (!is_in_contact) return;
+  CHECK_THAT(run.said, Contains("stood still") && Contains("in the phase 'ramp'") &&
+                           (Contains("the stage fell 0.4") || Contains("the stage fell 0.5")));
+}
+
 TEST_CASE("the words of the faults are read, and an unknown one is refused", "[rig]") {
   const RigFault fault = rig_fault_from_text("frozen@hold+0.5");
   CHECK(fault.kind == RigFaultKind::kFrozen);

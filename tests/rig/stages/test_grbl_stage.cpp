@@ -2,10 +2,24 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <string>
+#include <variant>
+
 namespace viscard {
 namespace {
 
 using Catch::Matchers::Contains;
+
+bool is_line_sent(const RunRecord& record, const std::string& line) {
+  const auto* raw = std::get_if<RawBytes>(&record);
+  return raw != nullptr && raw->is_sent && raw->bytes == line + "\n";
+}
+
+long n_lines_sent(const RigFixture& rig, const std::string& line) {
+  return std::count_if(rig.records.begin(), rig.records.end(),
+                       [&](const RunRecord& record) { return is_line_sent(record, line); });
+}
 
 }  // namespace
 
@@ -89,6 +103,40 @@ TEST_CASE("a stage that boots locked is homed if the rig file asks for it and un
     // machine zero is the switch, 3 mm away from the specimen; pulled off by 1 mm
     CHECK(rig.stage.position_m() == Approx(1e-3).margin(1e-6));
   }
+}
+
+TEST_CASE("a homing cycle that fails is an error, is not tried again and leaves the stage locked",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.grbl.is_homing_enabled = true;
+  options.grbl.is_hal = GENERATE(false, true);
+  options.config.stage.home = true;
+  std::string expected;
+  bool restarts = false;
+  SECTION("it stays on its switch") {
+    options.grbl.fail_homing_number = 1;
+    expected = "alarm 8: homing could not clear the limit switch";
+  }
+  SECTION("it finds no switch") {
+    options.grbl.fail_homing_number = 1;
+    options.grbl.homing_alarm = 9;
+    expected = "alarm 9: homing found no limit switch";
+  }
+  SECTION("the controller restarts") {
+    restarts = true;
+    expected = "a restart of its controller";
+  }
+  RigFixture rig(options);
+  rig.on_record = [&](const RunRecord& record) {
+    if (restarts && is_line_sent(record, "$H")) rig.emulated.cause(Incident::kRestartStage);
+  };
+  CHECK_THROWS_WITH(rig.stage.connect(rig.pump()), Contains(expected) && Contains("not homed"));
+  pump_for(rig, 1.0);  // the welcome
+  CHECK_FALSE(rig.stage.homed_at_m());
+  CHECK_FALSE(rig.stage.trouble_with_zero().empty());
+  CHECK(n_lines_sent(rig, "$H") == 1);
+  CHECK(n_lines_sent(rig, "$X") == 0);
+  CHECK_FALSE(rig.has_event("stage_unlocked", ""));
 }
 
 TEST_CASE("a gentle stop ends short of the target, and the record has the position", "[rig][pty]") {
