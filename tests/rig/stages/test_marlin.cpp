@@ -274,13 +274,19 @@ TEST_CASE("a Marlin board that reports its plan is refused before it presses", "
 TEST_CASE("what a Marlin board reports is found out by a short move away and back", "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
   double farthest_m = 0.0;
+  bool is_check = false;
   SECTION("away") {}
   SECTION("toward the specimen at the end of the travel") {
     options.marlin.lowest_m = 0.0;
     farthest_m = 20e-6;
   }
+  SECTION("not by a check, which moves nothing") {
+    is_check = true;
+  }
   DeviceFixture rig(options);
+  if (is_check) rig.devices.stage->keep_locked();
   rig.devices.stage->connect(rig.pump());
+  CHECK(sent_lines(rig, "G1 ").empty() == is_check);
   for (const StageReport& report : rig.all<StageReport>()) {
     CHECK(report.position_m >= -20e-6);
     CHECK(report.position_m <= farthest_m + 1e-9);
