@@ -142,6 +142,27 @@ TEST_CASE("a Marlin stage that hears nothing more comes to rest within three pie
   CHECK(rig.emulated.outcome().final_position_m <= before_m + 61e-6);
 }
 
+TEST_CASE("a Marlin stage whose port is lost stands within three pieces of its last report",
+          "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.truth.surface_position_m = 1e-3;
+  options.fault = rig_fault_from_text("stage-port@approach");
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(5e-3, 0.25e-3, "approach");
+  pump_into_move(rig, 0.2);
+  rig.emulated.enter_phase("approach");
+  CHECK_THROWS_AS(rig.pump_for(2.0), PortHungUp);
+  const double reported_m = rig.all<StageReport>().back().position_m;
+  CHECK(reported_m < 0.9e-3);
+  for (int i = 0; i < 20; ++i) rig.clock.pass(0.1);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  // A report is at most 0.12 s old.
+  CHECK(rig.emulated.outcome().final_position_m <= reported_m + 61e-6 + 0.12 * 0.25e-3);
+  CHECK(rig.emulated.outcome().peak_force_N < 1e-6);
+}
+
 TEST_CASE("a Marlin stage stops gently or at once and can be moved again", "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
   SECTION("with an emergency parser") {}
