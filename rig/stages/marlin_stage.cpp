@@ -158,6 +158,7 @@ void MarlinStage::take_ok(double time_s) {
   if (is_stop_open_) {
     is_stop_open_ = false;
     stopped_s_ = time_s;
+    quiet_until_s_ = time_s + clock_.from_wall_s(kQuiet_wall_s);  // of a stop that came twice
     n_stale_ = n_stops_ - 1;
     is_unsettled_ = is_unsettled_ || n_stops_ > 1;
     if (std::exchange(is_piece_behind_, false) && has_emergency_parser_) write_stop();
