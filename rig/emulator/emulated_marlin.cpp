@@ -52,6 +52,8 @@ void EmulatedMarlin::reset(double time_s) {
   begun_.clear();
   last_number_ = 0;
   is_homed_ = is_homing_ = is_halted_ = false;
+  is_stop_flagged_ = answers_stop_ = false;
+  deaf_until_s_ = 0.0;
   stop_due_s_.reset();
   if (++n_starts_ == 1 && !habits_.talks_at_start) return;
   say("start", time_s);
@@ -72,6 +74,13 @@ void EmulatedMarlin::stop(double time_s) {
   is_homing_ = false;
 }
 
+// planner.cpp, quick_stop(), and motion.cpp, quickstop_stepper(): a stop that comes meanwhile
+// begins the time again.
+void EmulatedMarlin::quick_stop(double time_s) {
+  stop(time_s);
+  deaf_until_s_ = time_s + habits_.stopped_s;
+}
+
 void EmulatedMarlin::receive(std::string_view bytes, double time_s) {
   tick(time_s);
   for (const char c : bytes) {
@@ -82,14 +91,18 @@ void EmulatedMarlin::receive(std::string_view bytes, double time_s) {
       line(std::exchange(begun_, ""), time_s);
     }
   }
+  tick(time_s);
 }
 
-// Lines are checked, and stops carried out, when they arrive; the rest is done in order.
+// Lines are checked, and stops carried out, when they arrive; the rest is done in order, a piece
+// that came just before a stop after it.
 void EmulatedMarlin::line(std::string text, double time_s) {
   if (text == "M410") {
     if (++n_stops_ == habits_.lose_stop_number) return;
-    if (habits_.has_emergency_parser) stop(time_s);
-    if (!habits_.has_emergency_parser && commands_.size() < kBufferedLines) {
+    if (habits_.has_emergency_parser) {
+      is_stop_flagged_ = time_s < deaf_until_s_;
+      if (!is_stop_flagged_) quick_stop(time_s);
+    } else if (commands_.size() < kBufferedLines) {
       stop_due_s_ = time_s + habits_.stop_delay_s;
     }
   } else {
@@ -102,7 +115,6 @@ void EmulatedMarlin::line(std::string text, double time_s) {
     if (is_every_nth(n_lines_, habits_.garble_line_every)) text[text.size() / 2] ^= 1;
   }
   if (const auto command = checked(text, time_s)) commands_.push_back(*command);
-  tick(time_s);
 }
 
 std::optional<std::string> EmulatedMarlin::checked(const std::string& text, double time_s) {
@@ -142,9 +154,10 @@ void EmulatedMarlin::ok(double time_s) {
 
 bool EmulatedMarlin::is_blocked(double time_s) {
   const bool is_moving_now = motion_.is_moving(time_s) || !blocks_.empty();
-  const bool waits = commands_.front() == "M114" && habits_.waits_in_m114 && is_moving_now;
+  const bool asks = commands_.front().rfind("M114", 0) == 0;
+  const bool waits = asks && habits_.waits_in_m114 && is_moving_now;
   const bool stops = commands_.front() == "M410" && stop_due_s_.has_value();
-  if (!waits && !stops && !is_homing_) {
+  if (!waits && !stops && !is_homing_ && time_s >= deaf_until_s_) {
     busy_s_ = time_s + kBusyEvery_s;
     return false;
   }
@@ -160,7 +173,8 @@ void EmulatedMarlin::obey(const std::string& command, double time_s) {
   if (code == "G1") {
     move(command, time_s);
   } else if (code == "M114") {
-    say(position(time_s), time_s);
+    const bool is_real = habits_.has_realtime_reports && command == "M114 R";
+    say(position(is_real ? motion_.position_m(time_s) : end_m()), time_s);
   } else if (code == "M115") {
     say("FIRMWARE_NAME:" + habits_.firmware +
             " SOURCE_CODE_URL:github.com/MarlinFirmware/Marlin PROTOCOL_VERSION:1.0",
@@ -169,8 +183,10 @@ void EmulatedMarlin::obey(const std::string& command, double time_s) {
     say(std::string("Cap:EMERGENCY_PARSER:") + (habits_.has_emergency_parser ? "1" : "0"), time_s);
   } else if (code == "M503") {
     say(settings(), time_s);
-  } else if (code == "M410") {
-    stop(time_s);
+  } else if (code == "M410" && !habits_.has_emergency_parser) {
+    quick_stop(time_s);
+    answers_stop_ = true;
+    return;  // its ok follows then
   } else if (code == "G92") {
     zero_m_ = end_m() - toward_ * word(command, axis_).value_or(0.0) * 1e-3;
   } else if (code == "G28") {
@@ -178,7 +194,8 @@ void EmulatedMarlin::obey(const std::string& command, double time_s) {
     home_until_s_ = time_s + habits_.homing_s;
     motion_.start(time_s, 0.0, 5e-3, acceleration_m_s2_);
     return;  // its ok follows at the end
-  } else if (code != "M110" && code != "G21" && code != "G90" && code != "M17" && code != "M18") {
+  } else if (code != "M110" && code != "G21" && code != "G90" && code != "M17" && code != "M18" &&
+             code != "M410") {
     say("echo:Unknown command: \"" + command + "\"", time_s);
   }
   ok(time_s);
@@ -226,8 +243,9 @@ void EmulatedMarlin::begin_blocks(double time_s) {
   motion_.start(time_s, to_m, first.speed_m_s, acceleration_m_s2_);
 }
 
-std::string EmulatedMarlin::position(double time_s) const {
-  const auto count = std::llround(toward_ * (motion_.position_m(time_s) - origin_m_) / step_m_);
+// at_m: what Count reports.
+std::string EmulatedMarlin::position(double at_m) const {
+  const auto count = std::llround(toward_ * (at_m - origin_m_) / step_m_);
   const double projected_mm = toward_ * (end_m() - zero_m_) * 1e3;
   const auto text = [&](char name, const std::string& value) {
     return std::string(1, name) + ":" + (name == axis_ ? value : "0") + " ";
@@ -253,7 +271,11 @@ std::string EmulatedMarlin::settings() const {
 void EmulatedMarlin::tick(double time_s) {
   if (stop_due_s_ && time_s >= *stop_due_s_) {
     stop_due_s_.reset();
-    stop(time_s);
+    quick_stop(time_s);
+  }
+  if (answers_stop_ && time_s >= deaf_until_s_) {
+    answers_stop_ = false;
+    ok(time_s);
   }
   if (is_homing_ && !motion_.is_moving(time_s) && time_s >= home_until_s_) {
     is_homing_ = false;
@@ -264,6 +286,10 @@ void EmulatedMarlin::tick(double time_s) {
     const std::string command = std::move(commands_.front());
     commands_.pop_front();
     obey(command, time_s);
+  }
+  if (is_stop_flagged_ && time_s >= deaf_until_s_) {
+    is_stop_flagged_ = false;
+    quick_stop(time_s);
   }
   if (!motion_.is_moving(time_s) && !blocks_.empty() &&
       (time_s >= deliver_s_ || blocks_.size() >= 3)) {

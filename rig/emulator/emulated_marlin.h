@@ -19,6 +19,7 @@ struct MarlinHabits {
   bool sends_ok_after_resend = false;  // by version
   bool sends_advanced_ok = false;      // "ok N5 P15 B3"
   bool has_emergency_parser = true;    // M410 acts while its line arrives
+  bool has_realtime_reports = true;    // M114_REALTIME: M114 R reports the motors, not the plan
   bool waits_in_m114 = false;          // Marlin 1.1, or M114_LEGACY: answers at rest
   bool needs_home = false;             // moves are answered with ok and not made before G28
   double homing_s = 0.0;               // at least, with "busy" meanwhile
@@ -32,6 +33,7 @@ struct MarlinHabits {
   int lose_line_every = 0;    // every n-th line never arrives
   int lose_stop_number = 0;   // this M410 never arrives
   double stop_delay_s = 0.0;  // without an emergency parser
+  double stopped_s = 1.0;     // M410 is answered only then: twice, without an emergency parser
   double true_speed = 1.0;    // the board's clock over the one it should have
 };
 
@@ -62,9 +64,10 @@ class EmulatedMarlin final : public EmulatedController {
   void add_block(Block block, double time_s);
   void begin_blocks(double time_s);
   void stop(double time_s);
+  void quick_stop(double time_s);
   void say(const std::string& text, double time_s);
   void ok(double time_s);
-  std::string position(double time_s) const;
+  std::string position(double at_m) const;
   std::string settings() const;
   double mm(double bench_m) const { return toward_ * (bench_m - origin_m_) * 1e3; }
   double end_m() const;
@@ -86,6 +89,9 @@ class EmulatedMarlin final : public EmulatedController {
   double home_until_s_ = 0.0;
   bool is_halted_ = false;
   std::optional<double> stop_due_s_;
+  double deaf_until_s_ = 0.0;     // lines are taken before, but not made
+  bool is_stop_flagged_ = false;  // a stop that came meanwhile, with an emergency parser
+  bool answers_stop_ = false;     // when that time is over, without one
   double busy_s_ = 0.0;
   int n_lines_ = 0, n_oks_ = 0, n_stops_ = 0, n_starts_ = 0;
 };

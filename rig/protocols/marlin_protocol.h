@@ -37,7 +37,7 @@ std::optional<std::string> parse_marlin_echo(std::string_view line);
 std::optional<std::string> parse_marlin_firmware(std::string_view line);
 // M115: "Cap:EMERGENCY_PARSER:1".
 bool has_marlin_emergency_parser(std::string_view line);
-// M114: the steps of an axis after "Count": "X:0.00 Z:145.00 E:0.00 Count X: 0 Z:116000".
+// M114 R: the steps of an axis after "Count": "X:0.00 Z:145.00 E:0.00 Count X: 0 Z:116000".
 std::optional<long long> parse_marlin_count(std::string_view line, char axis);
 // M503: adds the values of M92, M201, M203 and M204 in a line, as "M92Z": "echo:  M92 X80 Z400".
 void add_marlin_settings(std::string_view line, std::map<std::string, double>& settings);

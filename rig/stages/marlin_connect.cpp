@@ -2,6 +2,10 @@
 #include "models/maths/text_of_number.h"
 #include "rig/stages/marlin_stage.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
 namespace viscard {
 namespace {
 
@@ -11,6 +15,8 @@ constexpr double kBooted_wall_s = 10.0;
 constexpr double kHomed_wall_s = 180.0;
 constexpr int kConversations = 4;
 constexpr double kCoarsest_m = 20e-6;  // of the shortest move
+constexpr double kSeen_s = 0.3;        // of the move that shows what reports are
+constexpr int kMostSeen = 4;           // such moves, each twice as long as the one before
 
 }  // namespace
 
@@ -33,12 +39,14 @@ void MarlinStage::await_pause(const Pump& pump) {
   wait_for([&] { return clock_.now_s() > heard_s_ + pause_s; }, pump, kBooted_wall_s);
 }
 
-// A board that has just started, because its port was opened again, answers late.
+// A board that has just started, because its port was opened again, answers late. A stop that is
+// open may have been written to the port of before, so another one follows at once.
 void MarlinStage::halt(const Pump& pump) {
   const int n_before = n_starts_;
-  is_stop_open_ = false;
-  stop();
-  wait_for([&] { return !is_stop_open_; }, pump, 1.2 * kMostTriesAtStart * kSilence_wall_s);
+  outbox_.clear();
+  if (active_) active_->is_stopping = true;
+  write_stop();
+  wait_for([&] { return !is_stop_open_; }, pump, 1.2 * kMostStopsAtStart * kStopped_wall_s);
   if (n_starts_ > n_before) await_pause(pump);
 }
 
@@ -67,7 +75,72 @@ void MarlinStage::read_settings(const Pump& pump) {
                  "microstepping or a finer screw for at least 400");
 }
 
-void MarlinStage::converse(bool may_home, const Pump& pump) {
+// What the reports show of a slow move from rest: before half of its time has passed the stage is
+// not at its end. At the end of its travel it does not move.
+MarlinStage::Reports MarlinStage::reports_of_move(long long to, double speed_m_s,
+                                                  const Pump& pump) {
+  constexpr int kEarly = 4;
+  constexpr double kFirstBlock_s = 0.25;  // a single move begins later by this
+  struct Seen {
+    double time_s;
+    long long count;
+  };
+  std::vector<Seen> early;
+  const long long from = count_;
+  const auto way_s = [&](long long end) {
+    return static_cast<double>(std::llabs(end - from)) / (speed_m_s * steps_per_m());
+  };
+  const double begun_s = clock_.now_s();  // not before
+  command(move_to(to, speed_m_s * 60e3), pump);
+  while (early.size() < kEarly && clock_.now_s() < begun_s + 0.5 * way_s(to)) {
+    const std::size_t n_before = n_reports_;
+    command(kAsk, pump);
+    if (n_reports_ > n_before) early.push_back({clock_.now_s(), count_});
+  }
+  const double over_s = begun_s + 1.5 * way_s(to) + kFirstBlock_s + 2.0 * rest_latency_s_;
+  while (clock_.now_s() < over_s) pump();
+  await_report(pump, 5.0, "Check its cable");
+  const long long end = count_;
+  if (way_s(end) < 0.5 * way_s(to)) return Reports::kNotMoved;
+  int n_there = 0, n_before_it = 0;
+  for (const Seen& seen : early) {
+    if (seen.time_s > begun_s + 0.5 * way_s(end)) break;
+    ++(std::llabs(seen.count - end) <= 1 ? n_there : n_before_it);
+  }
+  // A single report may have a garbled digit.
+  if (n_there >= n_before_it + 2) return Reports::kPlanned;
+  return n_before_it >= n_there + 2 ? Reports::kTrue : Reports::kLate;
+}
+
+// Builds without M114_REALTIME report the end of what they were sent: the force would seem not to
+// follow, and the punch would be on its way when it is taken to stand. So the stage is moved by
+// some um and back before anything else: away from the specimen, unless its travel ends there.
+void MarlinStage::require_true_reports(const Pump& pump) {
+  const double speed_m_s = dynamics().min_speed_m_s;
+  const long long from = count_;
+  last_message_.clear();
+  double time_s = std::clamp(8.0 * rest_latency_s_, kSeen_s, 8.0 * kSeen_s);
+  Reports reports = Reports::kLate;
+  for (int i = 0; i < kMostSeen && reports == Reports::kLate; ++i, time_s *= 2.0) {
+    const long long way =
+        std::max(2LL * kFewestSteps, std::llround(time_s * speed_m_s * steps_per_m()));
+    const long long away = from - (toward_ > 0.0 ? way : -way);
+    reports = reports_of_move(away, speed_m_s, pump);
+    if (reports == Reports::kNotMoved) {
+      reports = reports_of_move(2 * from - away, speed_m_s, pump);
+    }
+    if (reports == Reports::kNotMoved) throw_not_made(metres(away));
+    if (reports != Reports::kPlanned) reports_of_move(from, speed_m_s, pump);
+  }
+  if (reports == Reports::kTrue) return;
+  throw RigError("the firmware (" + firmware_ +
+                 ") does not report where the stage is while it moves, " +
+                 (reports == Reports::kPlanned ? "but where its moves will end"
+                                               : "or too late (M114_LEGACY, Marlin 1.1)") +
+                 ". Build it with M114_REALTIME (Configuration_adv.h of Marlin 2.0.6 or later)");
+}
+
+void MarlinStage::converse(bool is_first, const Pump& pump) {
   command("M110 N0", pump);
   command("M115", pump);
   wait_for([&] { return !firmware_.empty(); }, pump, kChatter_wall_s);
@@ -77,13 +150,13 @@ void MarlinStage::converse(bool may_home, const Pump& pump) {
     throw RigError("the stage on '" + transport_.name() + "' runs '" + shown_bytes(firmware_) +
                    "', which is not Marlin: its stops and reports are not known");
   }
-  halt(pump);
+  if (is_first) halt(pump);  // recover() has done it
   command("G21", pump);
   command("G90", pump);
   command("M17", pump);     // motors that are switched on later may jump to another step
   command("M18 S0", pump);  // else they let go after two minutes, and the hold is lost
   read_settings(pump);
-  if (may_home && config_.home) {
+  if (is_first && config_.home) {
     command(std::string("G28 ") + config_.axis, pump, kHomed_wall_s);
   }
   command("M420 S0", pump);  // levelling would change the height on the way
@@ -91,16 +164,17 @@ void MarlinStage::converse(bool may_home, const Pump& pump) {
   command(std::string("G92 ") + config_.axis + "0", pump);
   await_report(pump, 5.0, "Check the axis in the rig file");
   origin_count_ = count_;
+  if (is_first && !moves_nothing_) require_true_reports(pump);
 }
 
 // A board that starts late begins the exchange again.
-void MarlinStage::converse_again(bool may_home, const Pump& pump) {
+void MarlinStage::converse_again(bool is_first, const Pump& pump) {
   for (int i = 0;; ++i) {
     const int n_before = n_starts_;
     polls_ = false;
     outbox_.clear();
     try {
-      converse(may_home, pump);
+      converse(is_first, pump);
       if (n_before == n_starts_) return;
     } catch (const PortHungUp&) {
       throw;
@@ -131,7 +205,6 @@ void MarlinStage::connect(const Pump& pump) {
 
 void MarlinStage::recover(const Pump& pump) {
   is_recovering_ = true;
-  in_flight_.reset();
   halt(pump);
   converse_again(false, pump);
   if (active_) end_move();

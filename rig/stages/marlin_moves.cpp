@@ -44,6 +44,7 @@ void MarlinStage::begin_move(double to_m, double speed_m_s, const std::string& p
   active_ = ActiveMove{move, feed_mm_min, count_, target, (way + n_pieces - 1) / n_pieces, purpose};
   active_->seen = count_;
   active_->late_before_s = clock_.late_s();
+  last_message_.clear();
   expected_end_s_ = now_s + duration_s(move);
   next_poll_s_ = now_s + kPiece_s;
   drive(now_s);
@@ -78,8 +79,12 @@ void MarlinStage::send_piece() {
     active.tracker.emplace(active.planned, 1.0 / steps_per_m());
     expected_end_s_ = active.tracker->latest_end_s();
   }
-  const double to_mm = static_cast<double>(active.sent - origin_count_) / steps_per_m() * 1e3;
-  send(format_marlin_move(config_.axis, to_mm, active.feed_mm_min));
+  send(move_to(active.sent, active.feed_mm_min));
+}
+
+std::string MarlinStage::move_to(long long count, double feed_mm_min) const {
+  const double to_mm = static_cast<double>(count - origin_count_) / steps_per_m() * 1e3;
+  return format_marlin_move(config_.axis, to_mm, feed_mm_min);
 }
 
 void MarlinStage::follow_move(double asked_s, double received_s) {
@@ -89,29 +94,10 @@ void MarlinStage::follow_move(double asked_s, double received_s) {
   active.tracker->reported(asked_s, received_s, reported_m_);
   watch_path(active.planned, 2.0 / steps_per_m(), active.n_astray);
   if (count_ != std::exchange(active.seen, count_)) active.progress_s = received_s;
-  watch_waiting(asked_s, received_s);
   // The answer to the newest piece comes before its question.
   if (!active.ok_s || asked_s < *active.ok_s) return;
   const bool is_at_target = active.sent == active.target && std::llabs(count_ - active.target) <= 1;
   is_at_target ? end_move() : rest_elsewhere(asked_s);
-}
-
-// M114 of Marlin 1.1, and of builds with M114_LEGACY, answers only when all moves have ended, and
-// no piece and no stop is taken meanwhile.
-void MarlinStage::watch_waiting(double asked_s, double received_s) {
-  constexpr int kMostWaited = 3;
-  constexpr double kLate_wall_s = 0.03;  // beyond three times the latency at rest
-  ActiveMove& active = *active_;
-  const bool is_late =
-      received_s - asked_s > 3.0 * rest_latency_s_ + clock_.from_wall_s(kLate_wall_s);
-  const bool has_waited = is_late && active.sent != active.target && count_ == active.sent;
-  active.n_waited = has_waited ? active.n_waited + 1 : 0;
-  if (active.n_waited < kMostWaited) return;
-  stop_hard();
-  throw StageAlarm(
-      "M114 of this firmware (" + firmware_ +
-      ") answers only when all moves have ended, so the stage cannot be watched or stopped. Use "
-      "Marlin 2.0.6 or later without M114_LEGACY");
 }
 
 // A soft limit shortens a move, and some builds make none before homing, both with an ok.
@@ -132,6 +118,10 @@ void MarlinStage::rest_elsewhere(double asked_s) {
   if (is_short || !is_toward()) return end_move();
   const double target_m = active.planned.to_m;
   active_.reset();
+  throw_not_made(target_m);
+}
+
+void MarlinStage::throw_not_made(double target_m) {
   exact_m_.reset();
   throw_elsewhere(
       target_m,
@@ -153,16 +143,26 @@ void MarlinStage::follow_stop(double asked_s) {
   if (is_sure) end_move();
 }
 
-// Without a line number, because only so it is carried out before the lines that wait.
 void MarlinStage::stop() {
   outbox_.clear();
+  const double now_s = clock_.now_s();
+  if (active_) {
+    active_->is_stopping = true;
+    next_poll_s_ = now_s;
+  }
+  const bool is_written =
+      is_stop_open_ && now_s < stop_written_s_ + clock_.from_wall_s(kStopped_wall_s);
+  if (!is_written) write_stop();
+}
+
+// Without a line number, because only so it is carried out before the lines that wait. With an
+// emergency parser it also overtakes a piece that the firmware has not read yet.
+void MarlinStage::write_stop() {
   n_stops_ = is_stop_open_ ? n_stops_ + 1 : 1;
   is_stop_open_ = true;
+  is_piece_behind_ = is_piece_behind_ || (in_flight_ && in_flight_->command.rfind("G1", 0) == 0);
   stop_written_s_ = clock_.now_s();
   write("M410\n");
-  if (!active_) return;
-  active_->is_stopping = true;
-  next_poll_s_ = stop_written_s_;
 }
 
 void MarlinStage::stop_soft() {

@@ -56,8 +56,9 @@ void MarlinStage::send(const std::string& command) {
 void MarlinStage::send_again(double now_s) {
   Sent& sent = *in_flight_;
   const bool is_asked_for = sent.again_at_s && now_s >= *sent.again_at_s;
+  const double silence_wall_s = is_unsettled_ ? 1.5 * kStopped_wall_s : kSilence_wall_s;
   const bool is_overdue =
-      !sent.again_at_s && now_s > sent.written_s + clock_.from_wall_s(kSilence_wall_s);
+      !sent.again_at_s && now_s > sent.written_s + clock_.from_wall_s(silence_wall_s);
   if (!is_asked_for && !is_overdue) return;
   if (active_ && active_->is_stopping && sent.command.rfind("G1", 0) == 0) {
     return in_flight_.reset();  // no piece of a move may follow its stop
@@ -69,7 +70,7 @@ void MarlinStage::send_again(double now_s) {
     throw RigError("the stage did not answer '" + command + "' on '" + transport_.name() +
                    "'. Check its cable and supply");
   }
-  if (sent.command == "M114") ++latency_.n_lost;
+  if (sent.command == kAsk) ++latency_.n_lost;
   ++sent.n_sent;
   sent.written_s = now_s;
   sent.again_at_s.reset();
@@ -107,8 +108,8 @@ void MarlinStage::take_other(const std::string& text, double time_s) {
   add_marlin_settings(text, settings_);
   const auto error = parse_marlin_error(text);
   const auto message = error ? error : parse_marlin_echo(text);
+  if (message) last_message_ = shown_bytes(*message);
   if (message && !is_recovering_) {
-    last_message_ = shown_bytes(*message);
     note(time_s, "stage_message", last_message_, "The stage says: " + last_message_);
   }
   if (is_marlin_endstop(text)) take_error("a limit switch (" + text + ")");
@@ -124,7 +125,8 @@ void MarlinStage::take_error(const std::string& text) {
 void MarlinStage::take_start(double time_s) {
   ++n_starts_;
   in_flight_.reset();
-  is_stop_open_ = false;
+  is_stop_open_ = is_piece_behind_ = is_unsettled_ = false;
+  n_stale_ = 0;
   if (is_recovering_) return;
   note(time_s, "stage_welcome", firmware_, "The stage's controller started");
   exact_m_.reset();
@@ -137,13 +139,29 @@ void MarlinStage::take_start(double time_s) {
 void MarlinStage::take_ok(double time_s) {
   if (in_flight_) {
     if (in_flight_->again_at_s) return;  // the ok that follows a Resend in some versions
+    // Answers come in order, so no ok after the report is a stale one.
+    if (in_flight_->command == kAsk) {
+      if (n_stale_ > 0 && !in_flight_->is_reported) {
+        --n_stale_;
+        return;
+      }
+      n_stale_ = 0;
+      is_unsettled_ = false;
+    }
     return answered(*std::exchange(in_flight_, std::nullopt), time_s);
   }
   if (time_s < quiet_until_s_) return;
+  if (n_stale_ > 0) {
+    --n_stale_;
+    return;
+  }
   if (is_stop_open_) {
     is_stop_open_ = false;
     stopped_s_ = time_s;
-    quiet_until_s_ = time_s + clock_.from_wall_s(kQuiet_wall_s);  // a stop that was sent twice
+    quiet_until_s_ = time_s + clock_.from_wall_s(kQuiet_wall_s);  // of a stop that came twice
+    n_stale_ = n_stops_ - 1;
+    is_unsettled_ = is_unsettled_ || n_stops_ > 1;
+    if (std::exchange(is_piece_behind_, false) && has_emergency_parser_) write_stop();
     return;
   }
   note(time_s, "stage_unexpected_answer", "ok",
@@ -151,8 +169,8 @@ void MarlinStage::take_ok(double time_s) {
 }
 
 void MarlinStage::take_resend(long number, double time_s) {
-  if (!in_flight_) return;
   quiet_until_s_ = time_s + clock_.from_wall_s(kQuiet_wall_s);
+  if (!in_flight_) return;
   Sent& sent = *in_flight_;
   const bool is_first = sent.command.rfind("M110", 0) == 0;
   if (number == sent.number + 1 && !is_first) {  // it had arrived, and its answer was lost
@@ -180,8 +198,10 @@ void MarlinStage::answered(const Sent& sent, double time_s) {
 }
 
 void MarlinStage::take_count(long long count, double time_s) {
-  if (!in_flight_ || in_flight_->command != "M114") return;
-  if (in_flight_->n_sent == 1) take_latency(in_flight_->first_s, time_s);
+  if (!in_flight_ || in_flight_->command != kAsk) return;
+  in_flight_->is_reported = true;
+  if (!(steps_per_m() > 0.0)) return;  // asked only for the sake of the answer
+  if (in_flight_->n_sent == 1 && !is_stop_open_) take_latency(in_flight_->first_s, time_s);
   if (!active_) rest_latency_s_ = std::max(rest_latency_s_, time_s - in_flight_->first_s);
   count_ = count;
   take_report(time_s, metres(count), active_ ? "moves" : "rests");
@@ -192,15 +212,19 @@ void MarlinStage::drive(double now_s) {
   if (active_ && active_->tracker && !active_->is_stopping) {
     watch_end(now_s, active_->planned, active_->late_before_s, active_->progress_s);
   }
-  if (in_flight_) return send_again(now_s);
   if (is_stop_open_) {
-    if (now_s < stop_written_s_ + clock_.from_wall_s(kSilence_wall_s)) return;
-    if (n_stops_ < (is_recovering_ ? kMostTriesAtStart : kMostTries)) return stop();
+    if (in_flight_ && in_flight_->again_at_s) return send_again(now_s);
+    if (now_s < stop_written_s_ + clock_.from_wall_s(kStopped_wall_s)) return;
+    if (n_stops_ < (is_recovering_ ? kMostStopsAtStart : kMostStops)) return write_stop();
     is_stop_open_ = false;
+    n_stale_ = n_stops_;
+    is_unsettled_ = true;
     throw RigError("the stage on '" + transport_.name() +
                    "' does not answer a stop: IT MAY STILL PRESS. Lift the punch by hand");
   }
+  if (in_flight_) return send_again(now_s);
   if (now_s < quiet_until_s_) return;
+  if (is_unsettled_) return send(kAsk);
   if (!outbox_.empty()) {
     const std::string command = std::move(outbox_.front());
     outbox_.pop_front();
@@ -210,7 +234,7 @@ void MarlinStage::drive(double now_s) {
   const bool is_report_old = was_piece_ && polls_ && now_s > next_poll_s_ + kPollPieces_s;
   if (!is_report_old && wants_piece(now_s)) return send_piece();
   if (!polls_ || now_s < next_poll_s_) return;
-  send("M114");
+  send(kAsk);
   plan_poll(now_s, active_ ? kPollPieces_s : kPollAtRest_s);
 }
 

@@ -116,12 +116,13 @@ TEST_CASE("the pieces of a Marlin stage are short, and its speed is constant ove
   Stage& stage = *rig.devices.stage;
   stage.connect(rig.pump());
   const double speed_m_s = GENERATE(0.05e-3, 0.2e-3, 1e-3);
+  const std::size_t n_before = sent_lines(rig, "G1 Z").size();
   stage.begin_move(0.6e-3, speed_m_s, "ramp");
   while (stage.is_moving()) rig.pump()();
   CHECK(rig.all<CommandedMove>().back().start_uncertainty_s < 0.12);
   for (const RunEvent& event : rig.all<RunEvent>()) CHECK(event.name != "move_doubtful");
   const double piece_m = std::max(20e-6, 0.05 * speed_m_s);
-  CHECK(sent_lines(rig, "G1 Z").size() ==
+  CHECK(sent_lines(rig, "G1 Z").size() - n_before ==
         static_cast<std::size_t>(std::ceil(0.6e-3 / piece_m - 1e-9)));
 }
 
@@ -134,9 +135,32 @@ TEST_CASE("a Marlin stage that hears nothing more comes to rest within three pie
   rig.pump_for(1.0);
   const double before_m = rig.emulated.outcome().final_position_m;
   CHECK(before_m > 0.1e-3);
+  CHECK(stage.position_m() <= before_m + kStep_m);
+  CHECK(stage.position_m() > before_m - 0.2e-3 * 0.12);                // 10 reports a second
   for (int i = 0; i < 1000; ++i) wait_readable({}, rig.clock, 0.002);  // the program is frozen
   CHECK_FALSE(rig.emulated.outcome().is_moving);
   CHECK(rig.emulated.outcome().final_position_m <= before_m + 61e-6);
+}
+
+TEST_CASE("a Marlin stage whose port is lost stands within three pieces of its last report",
+          "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.truth.surface_position_m = 1e-3;
+  options.fault = rig_fault_from_text("stage-port@approach");
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  stage.begin_move(5e-3, 0.25e-3, "approach");
+  pump_into_move(rig, 0.2);
+  rig.emulated.enter_phase("approach");
+  CHECK_THROWS_AS(rig.pump_for(2.0), PortHungUp);
+  const double reported_m = rig.all<StageReport>().back().position_m;
+  CHECK(reported_m < 0.9e-3);
+  for (int i = 0; i < 20; ++i) rig.clock.pass(0.1);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  // A report is at most 0.12 s old.
+  CHECK(rig.emulated.outcome().final_position_m <= reported_m + 61e-6 + 0.12 * 0.25e-3);
+  CHECK(rig.emulated.outcome().peak_force_N < 1e-6);
 }
 
 TEST_CASE("a Marlin stage stops gently or at once and can be moved again", "[rig][pty]") {
@@ -181,16 +205,115 @@ TEST_CASE("a Marlin stage stops gently or at once and can be moved again", "[rig
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-9));
 }
 
-TEST_CASE("a Marlin stage whose M114 waits for the end of moves is refused at its first press",
+TEST_CASE("a stop of a Marlin stage is written once while the board does not answer",
           "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
-  options.marlin.waits_in_m114 = true;
-  options.marlin.has_emergency_parser = false;
+  options.marlin.has_emergency_parser = GENERATE(true, false);
   DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  CHECK(sent_lines(rig, "M410").size() == 1);
+  stage.begin_move(2e-3, 1e-3, "approach");
+  rig.pump_for(0.55);
+  const double written_s = rig.clock.now_s();
+  stage.stop_soft();
+  stage.stop_hard();  // in the time of the first
+  const std::size_t n_before = sent_lines(rig, "M410").size();
+  CHECK(n_before == 2);
+  while (stage.is_moving()) rig.pump()();
+  CHECK(rig.clock.now_s() - written_s > (options.marlin.has_emergency_parser ? 0.99 : 1.99));
+  // A piece that was open is overtaken by the stop, which then follows once more.
+  CHECK(sent_lines(rig, "M410").size() <= n_before + 1);
+  CHECK(rig.emulated.outcome().final_position_m == Approx(stage.position_m()).margin(1e-9));
+}
+
+TEST_CASE("a piece that a stop of a Marlin stage overtakes is not made", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.has_emergency_parser = GENERATE(true, false);
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  rig.pump_for(0.01);
+  const std::size_t n_before = sent_lines(rig, "G1 Z").size();
+  stage.begin_move(2e-3, 0.2e-3, "approach");
+  CHECK(sent_lines(rig, "G1 Z").size() == n_before + 1);
+  stage.stop_soft();
+  while (stage.is_moving()) rig.pump()();
+  rig.pump_for(0.5);
+  CHECK(rig.emulated.outcome().final_position_m == Approx(stage.position_m()).margin(1e-9));
+  CHECK(stage.position_m() < 5e-6);
+}
+
+TEST_CASE("answers to a stop that was written again are not taken for those of later lines",
+          "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.has_emergency_parser = GENERATE(true, false);
+  // It answers 2.7 or 2.8 s after a stop: so late that the stop is written again.
+  options.marlin.stopped_s = options.marlin.has_emergency_parser ? 2.7 : 1.4;
+  DeviceFixture rig(options);
+  Stage& stage = *rig.devices.stage;
+  stage.connect(rig.pump());
+  CHECK(sent_lines(rig, "M410").size() >= 2);
+  stage.begin_move(2e-3, 0.2e-3, "approach");
+  rig.pump_for(1.0);
+  stage.stop_soft();
+  while (stage.is_moving()) rig.pump()();
+  CHECK(rig.emulated.outcome().final_position_m == Approx(stage.position_m()).margin(1e-9));
+  REQUIRE(rig.move(0.0, 1e-3));
+  REQUIRE(rig.move(0.3e-3, 0.2e-3));
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.3e-3).margin(1e-9));
+  for (const RunEvent& event : rig.all<RunEvent>()) {
+    CHECK(event.name != "stage_unexpected_answer");
+    CHECK(event.name != "move_doubtful");
+  }
+}
+
+TEST_CASE("a Marlin board that reports its plan is refused before it presses", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.has_emergency_parser = GENERATE(true, false);
+  options.config.stage.toward_specimen = GENERATE(-1, 1);
+  std::string reason;
+  SECTION("a build without M114_REALTIME") {
+    options.marlin.has_realtime_reports = false;
+    reason = "where its moves will end";
+  }
+  SECTION("the same, with late answers") {
+    options.marlin.has_realtime_reports = false;
+    options.marlin.answer_delay_s = 0.2;
+    reason = "where its moves will end";
+  }
+  SECTION("one whose M114 waits for the end of moves") {
+    options.marlin.waits_in_m114 = true;
+    reason = "M114_LEGACY";
+  }
+  DeviceFixture rig(options);
+  CHECK_THROWS_WITH(rig.run(shortest_stage_plan()), Contains(reason) && Contains("M114_REALTIME"));
+  CHECK(rig.emulated.outcome().peak_force_N < 1e-6);
+  CHECK(rig.emulated.outcome().final_position_m <= 1e-9);
+}
+
+TEST_CASE("what a Marlin board reports is found out by a short move away and back", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  double farthest_m = 0.0;
+  bool is_check = false;
+  SECTION("away") {}
+  SECTION("toward the specimen at the end of the travel") {
+    options.marlin.lowest_m = 0.0;
+    farthest_m = 20e-6;
+  }
+  SECTION("not by a check, which moves nothing") {
+    is_check = true;
+  }
+  DeviceFixture rig(options);
+  if (is_check) rig.devices.stage->keep_locked();
   rig.devices.stage->connect(rig.pump());
-  CHECK_THAT(error_of_move(rig, 1e-3), Contains("M114_LEGACY"));
-  rig.devices.stage->recover(rig.pump());
-  CHECK(rig.move(0.0, 1e-3));
+  CHECK(sent_lines(rig, "G1 ").empty() == is_check);
+  for (const StageReport& report : rig.all<StageReport>()) {
+    CHECK(report.position_m >= -20e-6);
+    CHECK(report.position_m <= farthest_m + 1e-9);
+  }
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-9));
+  CHECK(rig.move(0.2e-3, 0.5e-3));
 }
 
 TEST_CASE("a clipped move of a Marlin stage is noticed", "[rig][pty]") {
@@ -211,8 +334,7 @@ TEST_CASE("a Marlin stage that makes no move before homing says what the board s
   options.marlin.needs_home = true;
   SECTION("not homed") {
     DeviceFixture rig(options);
-    rig.devices.stage->connect(rig.pump());
-    CHECK_THAT(error_of_move(rig, 0.2e-3), Contains("Home XYZ first"));
+    CHECK_THROWS_WITH(rig.devices.stage->connect(rig.pump()), Contains("Home XYZ first"));
   }
   SECTION("homed") {
     options.config.stage.home = true;
@@ -225,7 +347,7 @@ TEST_CASE("a Marlin stage that makes no move before homing says what the board s
 
 TEST_CASE("a Marlin board that halts raises an alarm and asks for a person", "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
-  options.marlin.halt_number = 30;
+  options.marlin.halt_number = 100;
   DeviceFixture rig(options);
   Stage& stage = *rig.devices.stage;
   stage.connect(rig.pump());
@@ -267,9 +389,10 @@ TEST_CASE("what answers instead of Marlin is quoted", "[rig][pty]") {
   CHECK_THAT(error_of_marlin_on(std::string(40, '\xf8')), Contains("250000"));
 }
 
-TEST_CASE("a whole test runs on a Marlin stage without an emergency parser", "[rig][pty]") {
+TEST_CASE("a whole test runs on a Marlin stage with and without an emergency parser",
+          "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
-  options.marlin.has_emergency_parser = false;
+  options.marlin.has_emergency_parser = GENERATE(true, false);
   DeviceFixture rig(options);
   const RunOutcome outcome = rig.run(shortest_stage_plan());
   INFO(outcome.reason);
