@@ -148,7 +148,7 @@ EffectEstimate adhesion_estimate(const ArrayScene& scene) {
 EffectEstimate finite_strain_estimate(const ArrayScene& scene) {
   double peak_Pa = analysis_of(scene).is_loaded ? std::abs(scene.load_Pa) : 0.0;
   if (scene.press) {  // pulled tops stretch
-    const RowFoundation pressed = row_foundation(scene);
+    const FoundationPress pressed = row_foundation(scene);
     peak_Pa = std::max(pressed.largest_Pa, pressed.pull_Pa);
   }
   for (const HistoryPoint& point : history(scene)) {
@@ -220,7 +220,7 @@ EffectEstimate geometric_stiffness_estimate(const ArrayScene& scene) {
 // A top lifts where the surface stays above it, and about where a turned top would (space_effects.cpp).
 EffectEstimate contact_estimate(const ArrayScene& scene) {
   if (!scene.press) return {.reason = "no shape presses on the pillars"};
-  const RowFoundation pressed = row_foundation(scene);
+  const FoundationPress pressed = row_foundation(scene);
   EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap or pull over overlap",
                           pressed.lift, "tops that the shape does not touch are not pulled"};
   estimate.declared_off = kPrescribed;

@@ -55,17 +55,6 @@ bool is_ever_held(const TopHold& hold, const std::vector<double>& path_m) {
   return deepest_m > hold.touched_m && deepest_m >= hold.released_m;
 }
 
-double largest_pull_Pa(const PulledColumn& column, const std::vector<double>& path_m,
-                       bool lets_go) {
-  if (!std::isfinite(column.highest_m)) return 0.0;
-  const auto touched = std::find_if(path_m.begin(), path_m.end(),
-                                    [&](double depth_m) { return depth_m > column.lowest_m; });
-  if (touched == path_m.end()) return 0.0;
-  if (lets_go) return column.limit_Pa;
-  const double least_m = *std::min_element(touched, path_m.end());
-  return std::clamp(column.stiffness_Pa_m * (column.mean_m - least_m), 0.0, column.limit_Pa);
-}
-
 double strip_pull_off_N_m(double width_m, double plane_modulus_Pa, double work_J_m2) {
   require_positive("width of a strip", width_m, "m");
   require_positive("modulus of a strip", plane_modulus_Pa, "Pa");

@@ -47,9 +47,9 @@ void check_row_press(const ArrayScene& scene) {
   }
   const double length_m = scene.geometry.length_m;
   check_press_place(press, "a force per metre across the row, such as force = \"5 N\"", length_m);
-  const RowFoundation pressed = row_foundation(scene);
+  const FoundationPress pressed = row_foundation(scene);
   check_press_plan(press, {.length_m = length_m,
-                           .touches = pressed.touches,
+                           .touches = std::isfinite(pressed.lowest_m),
                            .shortening = pressed.shortening,
                            .covers_all = pressed.covers_all,
                            .feels_contact = scene.feels_contact});
