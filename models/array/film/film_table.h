@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/array/film/layered_film.h"
+#include "models/maths/chebyshev_panel.h"
 
 #include <Eigen/Core>
 
@@ -20,15 +21,14 @@ class FilmTable {
 
   // FilmWaves::response by direction. Waves longer than the panels are solved directly.
   std::vector<Eigen::Matrix4d> at(double k_1_m) const;
-  double smallest_k_1_m() const { return breaks_1_m_.front(); }
-  double largest_k_1_m() const { return breaks_1_m_.back(); }
+  double smallest_k_1_m() const { return panels_.breaks().front(); }
+  double largest_k_1_m() const { return panels_.breaks().back(); }
   double far_m() const { return far_m_; }
 
  private:
   std::vector<FilmWaves> directions_;
   double far_m_ = 0.0;
-  std::vector<double> breaks_1_m_;
-  std::vector<Eigen::MatrixXd> samples_;  // by panel: points x 16 entries of each direction
+  ChebyshevPanels panels_;  // 16 entries of each direction
 };
 
 // Calls with(k, weight of k dk/(2 pi)) for panels that double from the longest waves on, until they are
