@@ -84,10 +84,7 @@ PressOnBase::Tops PressOnBase::press(const std::vector<TopContact>& classes, dou
       const double sinking = (top.is_partial ? std::sqrt(top.share) : 1.0);
       tops.stiffness.row(i) << sinking / contact.compliance().sinking_m_N(), turning, turning;
     }
-    tops.pressed.force_N += top.force_N;
-    tops.pressed.contacts += top.share > 0.0 ? 1 : 0;
-    tops.pressed.has_partial = tops.pressed.has_partial || top.is_partial;
-    tops.pressed.tops.push_back(top);
+    tops.pressed.add(top);
   }
   return tops;
 }
@@ -121,8 +118,7 @@ Eigen::MatrixXd PressOnBase::step(const Eigen::MatrixXd& stiffness, const BaseFo
 PressedArray PressOnBase::to_depth(const std::vector<TopContact>& classes, double depth_m) {
   constexpr int kMostSteps = 100;
   set_candidates(classes, depth_m);
-  PressedArray all;
-  all.depth_m = depth_m;
+  PressedArray all{.depth_m = depth_m};
   all.tops.resize(pillars_->size());
   if (candidates_.empty()) return all;
   BaseMotions base = base_(forces_);
@@ -163,50 +159,32 @@ PressedArray PressOnBase::to_depth(const std::vector<TopContact>& classes, doubl
   return all;
 }
 
-// The force grows with the depth. Secants from both sides (Illinois method: Dowell & Jarratt, BIT 11 (1971)
-// 168) find the depth.
 PressedArray PressOnBase::with_force(const std::vector<TopContact>& classes, double force_N) {
-  constexpr int kMostSteps = 100;
   constexpr double kForce = 1e-12;
   PressedArray best = press_with_force(*pillars_, classes, *shape_, force_N);
-  const double rigid_m = best.depth_m;
+  const auto excess_N_at = [&](double depth_m) {
+    best = to_depth(classes, depth_m);
+    return best.force_N - force_N;
+  };
   double step_m = 0.0;
   for (const TopContact& one : classes) {
     step_m = std::max(step_m, 0.1 * force_N * one.compliance().sinking_m_N());
   }
-  double low_m = rigid_m, high_m = rigid_m;
-  best = to_depth(classes, rigid_m);
-  double below_N = best.force_N - force_N, above_N = below_N;
-  while (above_N < 0.0) {
-    low_m = high_m;
-    below_N = above_N;
+  DepthBracket at{best.depth_m, best.depth_m};
+  at.below_N = at.above_N = excess_N_at(at.low_m);
+  while (at.above_N < 0.0) {
+    at.low_m = at.high_m;
+    at.below_N = at.above_N;
     // A secant where there is one, with some excess, so that the root is passed.
-    high_m += step_m;
-    best = to_depth(classes, high_m);
-    above_N = best.force_N - force_N;
-    step_m = above_N < 0.0 && above_N > below_N
-                 ? std::clamp(-1.2 * above_N * (high_m - low_m) / (above_N - below_N), 0.5 * step_m,
-                              10.0 * step_m)
-                 : 2.0 * step_m;
+    at.high_m += step_m;
+    at.above_N = excess_N_at(at.high_m);
+    step_m =
+        at.above_N < 0.0 && at.above_N > at.below_N
+            ? std::clamp(-1.2 * at.above_N * (at.high_m - at.low_m) / (at.above_N - at.below_N),
+                         0.5 * step_m, 10.0 * step_m)
+            : 2.0 * step_m;
   }
-  int side = 0;
-  for (int i = 0; i < kMostSteps && std::abs(best.force_N - force_N) > kForce * force_N; ++i) {
-    const double at_m = (low_m * above_N - high_m * below_N) / (above_N - below_N);
-    if (!(at_m > low_m && at_m < high_m)) break;  // rounding
-    best = to_depth(classes, at_m);
-    const double beyond_N = best.force_N - force_N;
-    if (beyond_N > 0.0) {
-      high_m = at_m;
-      above_N = beyond_N;
-      if (side == 1) below_N *= 0.5;
-      side = 1;
-    } else {
-      low_m = at_m;
-      below_N = beyond_N;
-      if (side == -1) above_N *= 0.5;
-      side = -1;
-    }
-  }
+  narrow_depths(at, at.above_N, kForce * force_N, excess_N_at);
   return best;
 }
 

@@ -15,27 +15,6 @@ Overlap overlap_at(const RigidShape& shape, const TouchedPillar& one, double dep
   };
 }
 
-// Depth at which a point of the top's grid is touched first, and whether the surface covers all of them.
-struct FirstTouch {
-  double depth_m = std::numeric_limits<double>::infinity();
-  bool covers = true;
-};
-FirstTouch first_touch_of(const RigidShape& shape, const TouchedPillar& one,
-                          const TopCompliance& top) {
-  FirstTouch first;
-  for (const double r_m : top.radius_m) {
-    for (int a = 0; a < top.angles; ++a) {
-      const double angle = 2.0 * std::numbers::pi * a / top.angles;
-      const double at_m =
-          height_m(shape, one.x_m + r_m * std::cos(angle), one.y_m + r_m * std::sin(angle)) -
-          one.above_m;
-      first.depth_m = std::min(first.depth_m, at_m);
-      first.covers = first.covers && std::isfinite(at_m);
-    }
-  }
-  return first;
-}
-
 }  // namespace
 
 bool is_held_after(const TopHold& hold, const std::vector<double>& path_m) {
@@ -99,10 +78,7 @@ PressedArray press_along(const std::vector<TouchedPillar>& pillars,
                                              contact.compliance().radius_m.back(),
                                              array.depth_m + pillars[i].above_m));
     }
-    array.force_N += top.force_N;
-    array.contacts += top.share > 0.0 ? 1 : 0;
-    array.has_partial = array.has_partial || top.is_partial;
-    array.tops.push_back(top);
+    array.add(top);
   }
   return array;
 }
