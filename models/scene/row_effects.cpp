@@ -138,11 +138,11 @@ EffectEstimate adhesion_at(double ratio) {
 EffectEstimate adhesion_estimate(const ArrayScene& scene) {
   const ArrayGeometry& g = scene.geometry;
   if (g.count == 1 && g.ends == FilmEnds::kFree) return {.reason = "nothing to stick to"};
-  SensorMaterial material;
-  material.young_modulus_Pa = scene.pillar.E0_Pa;
-  material.poisson_ratio = scene.pillar.nu;
-  material.surface_energy_J_m2 = scene.surface_energy_J_m2;
-  return adhesion_at(g.length_m / longest_unmatted_m(g.diameter_m, g.spacing_m, material));
+  return adhesion_at(g.length_m /
+                     longest_unmatted_m(g.diameter_m, g.spacing_m,
+                                        {.young_modulus_Pa = scene.pillar.E0_Pa,
+                                         .poisson_ratio = scene.pillar.nu,
+                                         .surface_energy_J_m2 = scene.surface_energy_J_m2}));
 }
 
 EffectEstimate finite_strain_estimate(const ArrayScene& scene) {

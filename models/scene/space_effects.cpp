@@ -14,12 +14,6 @@
 namespace viscard {
 namespace {
 
-// A shape turns tops, which bends the pillars as a shear does.
-bool is_sheared(const SpaceScene& scene) {
-  return scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press.has_value() ||
-         scene.quadrants.measured_V.size() > 0;
-}
-
 bool is_viscoelastic(const SpaceScene& scene) {
   return !scene.pillar.terms.empty() ||
          std::any_of(scene.others.begin(), scene.others.end(),
@@ -173,11 +167,10 @@ EffectEstimate adhesion_estimate(const SpaceScene& scene) {
   const double gap_m = smallest_gap_m(scene);
   if (std::isinf(gap_m)) return {.reason = "a single pillar with nothing to stick to"};
   return adhesion_at(largest_over_classes(scene, [&](const SpaceClass& one) {
-    SensorMaterial material;
-    material.young_modulus_Pa = one.material.E0_Pa;
-    material.poisson_ratio = one.material.nu;
-    material.surface_energy_J_m2 = scene.surface_energy_J_m2;
-    return one.length_m / longest_unmatted_m(one.diameter_m, gap_m, material);
+    return one.length_m / longest_unmatted_m(one.diameter_m, gap_m,
+                                             {.young_modulus_Pa = one.material.E0_Pa,
+                                              .poisson_ratio = one.material.nu,
+                                              .surface_energy_J_m2 = scene.surface_energy_J_m2});
   }));
 }
 

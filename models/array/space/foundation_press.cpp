@@ -88,9 +88,8 @@ void refuse_missed_tips(const SpaceScene& scene, double depth_m) {
       }
     }
     if (seen_m >= 0.5 * reach_m) continue;
-    throw SceneMistake("shape.file", "has a tip over pillar [" + std::to_string(one.row) + ", " +
-                                         std::to_string(one.column) +
-                                         "] that is narrower than the finest grid of its top, " +
+    throw SceneMistake("shape.file", "has a tip over pillar " + name_of({one.row, one.column}) +
+                                         " that is narrower than the finest grid of its top, " +
                                          micrometres(R_m / kRings, 2) +
                                          "; give heights that are smooth over that length");
   }
