@@ -98,4 +98,11 @@ void check_press_plan(const ShapePress& press, const PressPlan& plan) {
   }
 }
 
+void check_in_section(const RigidShape& shape) {
+  if (shape.y_m == 0.0 && shape.tilt_y == 0.0 && shape.direction_rad == 0.0) return;
+  throw SceneMistake("shape",
+                     "lies in the section of x and z: at and tilt along y must be 0, and there is "
+                     "no direction");
+}
+
 }  // namespace viscard

@@ -14,12 +14,6 @@ namespace {
 constexpr int kSamplePoints = 12;  // per panel, which doubles k: 3e-8 of exp(-k t) up to k t = 10
 constexpr int kGradedPoints = 8;   // Gauss points per panel of k
 
-double stack_thickness_m(const LayeredFilm& film) {
-  double sum_m = 0.0;
-  for (const FilmLayer& layer : film.layers) sum_m += layer.thickness_m;
-  return sum_m;
-}
-
 // The panels begin at a wave number so small that two effects are negligible below it: waves are far
 // longer than t E_film/E, over which the film passes its stretch to the backing, and their phase at
 // the farthest pillar is small.
@@ -39,7 +33,7 @@ double first_break_1_m(const LayeredFilm& film, double far_m) {
 FilmTable::FilmTable(const LayeredFilm& film, double largest_kt, int harmonics, int degree,
                      double far_m)
     : far_m_(far_m) {
-  const double largest_1_m = largest_kt / stack_thickness_m(film);
+  const double largest_1_m = largest_kt / thickness_m(film);
   for (int j = 0; j <= harmonics; ++j) {
     directions_.emplace_back(film, 0.5 * std::numbers::pi * j / harmonics, largest_1_m, degree);
   }

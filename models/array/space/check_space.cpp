@@ -159,14 +159,7 @@ void check_backing(const SpaceScene& scene) {
 }
 
 void check_film(const SpaceScene& scene) {
-  if (!scene.film.has_permittivity() || !scene.film.is_piezoelectric()) {
-    throw SceneMistake("geometry.film.material",
-                       "an array in the plane is read by its film, which must be piezoelectric; "
-                       "give a material from a file, such as pvdf_seed.json");
-  }
-  if (!(scene.film_thickness_m > 0.0)) {
-    throw SceneMistake("geometry.film.thickness", "the film's thickness must be positive");
-  }
+  check_read_film(scene.film, scene.film_thickness_m, "an array in the plane");
   if (!(scene.film_edge_m >= 0.0) || !std::isfinite(scene.film_edge_m)) {
     throw SceneMistake("geometry.film.edge",
                        "the film beyond the outer pillars must not be "

@@ -20,12 +20,6 @@ constexpr int kPanelPoints = 14;      // of a panel of k on which the film is sa
 constexpr double kPanelGrowth = 0.4;  // its length over where it begins
 constexpr double kOwnPhase = 4.0;     // radius of the foot times a panel of k, on its own axis
 
-double thickness_m(const LayeredFilm& film) {
-  double sum = 0.0;
-  for (const FilmLayer& layer : film.layers) sum += layer.thickness_m;
-  return sum;
-}
-
 // The film's reading per traction over the angle: sums over l of (x, z) cos(2 l theta) and
 // y sin(2 l theta), l = 0 to L.
 struct AngularReading {

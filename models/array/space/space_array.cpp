@@ -82,6 +82,12 @@ std::vector<std::string> reading_names(SpaceElectrode electrode) {
   return names;
 }
 
+std::vector<std::string> voltage_names(SpaceElectrode electrode) {
+  std::vector<std::string> names = reading_names(electrode);
+  for (std::string& name : names) name += "_voltage";
+  return names;
+}
+
 std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
   std::vector<SpaceAccuracy> all;
   const double t_m = array.film.layers.front().thickness_m;
