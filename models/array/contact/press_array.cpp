@@ -1,18 +1,13 @@
 #include "models/array/contact/press_array.h"
 
+#include "models/array/contact/point_waves.h"
 #include "models/maths/require.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace viscard {
 namespace {
-
-double radius_of(const TopContact& contact) {
-  return contact.compliance().radius_m.back();
-}
 
 // The surface stays above the whole top.
 bool is_out_of_reach(const RigidShape& shape, const TouchedPillar& one, double radius_m,
@@ -28,7 +23,7 @@ double first_touch_m(const std::vector<TouchedPillar>& pillars,
     const TopContact& contact = classes[static_cast<std::size_t>(one.of_class)];
     first_m = std::min(first_m, first_touch_of(shape, one, contact.compliance()).depth_m);
     // The tip may lie between these.
-    const auto tip = round_tip(shape, one.x_m, one.y_m, radius_of(contact), HUGE_VAL);
+    const auto tip = round_tip(shape, one.x_m, one.y_m, contact.radius_m(), HUGE_VAL);
     if (!tip) continue;
     first_m =
         std::min(first_m, height_m(shape, one.x_m + tip->x_m, one.y_m + tip->y_m) - one.above_m);
@@ -43,7 +38,7 @@ FirstTouch first_touch_of(const RigidShape& shape, const TouchedPillar& one,
   FirstTouch first;
   for (const double r_m : top.radius_m) {
     for (int a = 0; a < top.angles; ++a) {
-      const double angle = 2.0 * std::numbers::pi * a / top.angles;
+      const double angle = point_angle(a, top.angles);
       const double at_m =
           height_m(shape, one.x_m + r_m * std::cos(angle), one.y_m + r_m * std::sin(angle)) -
           one.above_m;
@@ -69,9 +64,9 @@ PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
     };
     if (bond == TopBond::kFollows) {
       top = contact.follow(overlap);
-    } else if (!is_out_of_reach(shape, one, radius_of(contact), depth_m)) {
+    } else if (!is_out_of_reach(shape, one, contact.radius_m(), depth_m)) {
       top = contact.press(
-          overlap, round_tip(shape, one.x_m, one.y_m, radius_of(contact), depth_m + one.above_m),
+          overlap, round_tip(shape, one.x_m, one.y_m, contact.radius_m(), depth_m + one.above_m),
           last != nullptr ? &(*last)[array.tops.size()] : nullptr);
     }
     array.add(top);

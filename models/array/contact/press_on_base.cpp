@@ -1,5 +1,6 @@
 #include "models/array/contact/press_on_base.h"
 
+#include "models/array/contact/point_waves.h"
 #include "models/maths/require.h"
 
 #include <algorithm>
@@ -16,14 +17,6 @@ constexpr double kSettled =
 // A film beside a load rises by less than this share of the overlap.
 constexpr double kRise = 0.1;
 
-double work_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return a.cwiseProduct(b).sum();
-}
-
-double top_radius_m(const TopContact& contact) {
-  return contact.compliance().radius_m.back();
-}
-
 }  // namespace
 
 // What the tops bear while the base has moved, and how much less they bear where it moves on.
@@ -38,7 +31,7 @@ void PressOnBase::set_candidates(const std::vector<TopContact>& classes, double 
   std::vector<double> lowest_m;
   double first_m = std::numeric_limits<double>::infinity();
   for (const TouchedPillar& one : *pillars_) {
-    const double radius_m = top_radius_m(classes[static_cast<std::size_t>(one.of_class)]);
+    const double radius_m = classes[static_cast<std::size_t>(one.of_class)].radius_m();
     lowest_m.push_back(least_height_m(*shape_, one.x_m, one.y_m, radius_m) - one.above_m);
     first_m = std::min(first_m, lowest_m.back());
   }
@@ -69,7 +62,7 @@ PressOnBase::Tops PressOnBase::press(const std::vector<TopContact>& classes, dou
   for (Eigen::Index i = 0; i < count; ++i) {
     const TouchedPillar& one = (*pillars_)[candidates_[static_cast<std::size_t>(i)]];
     const TopContact& contact = classes[static_cast<std::size_t>(one.of_class)];
-    auto tip = round_tip(*shape_, one.x_m, one.y_m, top_radius_m(contact), HUGE_VAL);
+    auto tip = round_tip(*shape_, one.x_m, one.y_m, contact.radius_m(), HUGE_VAL);
     const auto overlap_m = [&](double x_m, double y_m) {
       return depth_m + one.above_m - height_m(*shape_, one.x_m + x_m, one.y_m + y_m) - base(i, 0) -
              base(i, 1) * x_m - base(i, 2) * y_m;
@@ -98,15 +91,15 @@ Eigen::MatrixXd PressOnBase::step(const Eigen::MatrixXd& stiffness, const BaseFo
   Eigen::MatrixXd residual = root.cwiseProduct(base_(missing));
   Eigen::MatrixXd y = Eigen::MatrixXd::Zero(residual.rows(), 3);
   Eigen::MatrixXd direction = residual;
-  double square = work_of(residual, residual);
+  double square = inner(residual, residual);
   const double enough = tolerance * tolerance * square;
   for (int i = 0; i < kMostSteps && square > enough; ++i) {
     const Eigen::MatrixXd moved =
         direction + root.cwiseProduct(base_(root.cwiseProduct(direction)));
-    const double along = square / work_of(direction, moved);
+    const double along = square / inner(direction, moved);
     y += along * direction;
     residual -= along * moved;
-    const double next = work_of(residual, residual);
+    const double next = inner(residual, residual);
     direction = residual + (next / square) * direction;
     square = next;
   }
@@ -134,11 +127,11 @@ PressedArray PressOnBase::to_depth(const std::vector<TopContact>& classes, doubl
     const double tolerance = std::clamp(left_N / largest_N, 1e-8, 0.05);
     const BaseForces change = step(tops.stiffness, missing, tolerance);
     const BaseMotions moved = base_(change);
-    const double falls = work_of(moved, missing);
+    const double falls = inner(moved, missing);
     double length = 1.0;
     for (int cut = 0; cut < 10; ++cut) {
       Tops next = press(classes, depth_m, base + length * moved);
-      const double rises = work_of(moved, forces_ + length * change - next.forces);
+      const double rises = inner(moved, forces_ + length * change - next.forces);
       tops = std::move(next);
       if (rises <= 0.9 * falls) break;
       length *= std::max(0.1, falls / (falls + rises));

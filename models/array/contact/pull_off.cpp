@@ -74,9 +74,9 @@ PressedArray press_along(const std::vector<TouchedPillar>& pillars,
     if (is_held_after(holds[i], path_m)) {
       top = contact.follow(overlap);
     } else if (array.depth_m > holds[i].touched_m) {
-      top = contact.press(overlap, round_tip(shape, pillars[i].x_m, pillars[i].y_m,
-                                             contact.compliance().radius_m.back(),
-                                             array.depth_m + pillars[i].above_m));
+      top =
+          contact.press(overlap, round_tip(shape, pillars[i].x_m, pillars[i].y_m,
+                                           contact.radius_m(), array.depth_m + pillars[i].above_m));
     }
     array.add(top);
   }
