@@ -29,7 +29,7 @@ void show_geometry(FieldVisitor& v, SceneFile& file, LayerScene& scene) {
 // "mean_voltage" is that of every electrode, "mean_voltage_2" of the second.
 void check_layer_wanted(const LayerScene& scene) {
   std::vector<std::string> known = result_names(scene);
-  for (const std::string& name : voltage_names(scene)) {
+  for (const std::string& name : voltage_names(scene.electrode)) {
     for (std::size_t e = 1; e <= scene.electrodes_m.size(); ++e) {
       known.push_back(name + "_" + std::to_string(e));
     }

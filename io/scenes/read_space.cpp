@@ -76,8 +76,7 @@ void place_list(const PlaceKeys& keys, const SceneFile& file, SpaceScene& scene)
 
 std::size_t standing(const SpaceScene& scene, const std::string& key, RowColumn place) {
   if (const auto index = index_of(scene, place)) return *index;
-  throw SceneMistake(key, "there is no pillar [" + std::to_string(place.first) + ", " +
-                              std::to_string(place.second) + "] among " +
+  throw SceneMistake(key, "there is no pillar " + name_of(place) + " among " +
                               std::to_string(scene.rows) + " rows and " +
                               std::to_string(scene.columns) + " columns");
 }
@@ -129,8 +128,7 @@ void fill_classes(const Classes& classes, const SceneFile& file, SpaceScene& sce
     for (const RowColumn& place : places_of(key, one.pillars)) {
       int& of_class = scene.pillars[standing(scene, key, place)].of_class;
       if (of_class != 0) {
-        throw SceneMistake(key, "pillar [" + std::to_string(place.first) + ", " +
-                                    std::to_string(place.second) + "] is in two classes");
+        throw SceneMistake(key, "pillar " + name_of(place) + " is in two classes");
       }
       of_class = static_cast<int>(i) + 1;
     }

@@ -50,10 +50,6 @@ const NamedMaterial& named(const SceneFile& file, const std::string& name) {
   return found == file.sources.materials.end() ? kNone : found->second;
 }
 
-}  // namespace
-
-namespace {
-
 // Keys that mean nothing without others are refused.
 void check_surroundings(const Surroundings& around, bool has_film) {
   const Surroundings usual;

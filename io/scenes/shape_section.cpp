@@ -51,11 +51,6 @@ ShapeKeys keys_of(const ShapePress& press) {
   return keys;
 }
 
-bool is_round(ShapeKind kind) {
-  return kind == ShapeKind::kCylinder || kind == ShapeKind::kSphere ||
-         kind == ShapeKind::kParaboloid;
-}
-
 std::pair<double, double> pair_of(const char* key, const std::vector<double>& values) {
   if (values.empty()) return {0.0, 0.0};
   if (values.size() != 2) {

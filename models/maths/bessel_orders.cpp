@@ -14,4 +14,8 @@ void bessel_orders(double x, Eigen::Ref<Eigen::VectorXd> values) {
   }
 }
 
+double disc_mean_of_wave(double kR) {
+  return kR < 1e-8 ? 1.0 : 2.0 * ::j1(kR) / kR;
+}
+
 }  // namespace viscard

@@ -10,10 +10,8 @@ using Row = EffectOn<ArrayScene>;
 using Space = EffectOn<SpaceScene>;  // an array in the plane
 
 // An effect that only single pillars have.
-const Row kOfPillars = {
-    [](const ArrayScene&) -> EffectEstimate { return {.reason = "computed of single pillars"}; }};
-const Space kOfPillarsInSpace = {
-    [](const SpaceScene&) -> EffectEstimate { return {.reason = "computed of single pillars"}; }};
+const Row kOfPillars = {absent<"computed of single pillars">};
+const Space kOfPillarsInSpace = {absent<"computed of single pillars">};
 
 // How the material answers a load.
 std::vector<Effect> material_effects() {
@@ -26,10 +24,7 @@ std::vector<Effect> material_effects() {
       {"inertia",
        "mass resists",
        "a mass matrix",
-       {Pillar{inertia_estimate}, Row{inertia_estimate},
-        Space{[](const SpaceScene&) -> EffectEstimate {
-          return {.reason = "the load is at rest"};
-        }}}},
+       {Pillar{inertia_estimate}, Row{inertia_estimate}, Space{absent<"the load is at rest">}}},
       {"incompressibility",
        "pressures of their own near nu = 0.5",
        "a projection in every element",
@@ -58,16 +53,12 @@ std::vector<Effect> base_effects() {
       {"backing",
        "what lies under the film yields",
        "a table to all distances, sums by FFT",
-       {Pillar{
-            [](const PillarScene&) -> EffectEstimate { return {.reason = "the base is rigid"}; }},
-        Row{[](const ArrayScene&) -> EffectEstimate { return {.reason = "the base is rigid"}; }},
+       {Pillar{absent<"the base is rigid">}, Row{absent<"the base is rigid">},
         Space{backing_estimate, [](SpaceScene& scene) { scene.feels_backing = false; }}}},
       {"leakage",
        "charge leaves the electrode",
        "a time constant",
-       {Pillar{leakage_estimate}, Row{[](const ArrayScene&) -> EffectEstimate {
-          return {.reason = "open electrodes, before charge leaks"};
-        }},
+       {Pillar{leakage_estimate}, Row{absent<"open electrodes, before charge leaks">},
         Space{leakage_estimate}}},
   };
 }
@@ -78,15 +69,14 @@ std::vector<Effect> neighbour_effects() {
       {"crosstalk",
        "neighbours load the film",
        "the neighbours",
-       {Pillar{[](const PillarScene&) -> EffectEstimate { return {.reason = "a single pillar"}; }},
+       {Pillar{absent<"a single pillar">},
         Row{crosstalk_estimate, [](ArrayScene& scene) { scene.feels_neighbours = false; }},
         Space{crosstalk_estimate, [](SpaceScene& scene) { scene.feels_neighbours = false; }}}},
       {"three_dimensional",
        "a cylinder instead of a strip",
        "nothing: both are plane sections",
-       {Pillar{three_dimensional_estimate}, Row{[](const ArrayScene&) -> EffectEstimate {
-          return {.reason = "rows are solved in the plane: strips, not cylinders"};
-        }},
+       {Pillar{three_dimensional_estimate},
+        Row{absent<"rows are solved in the plane: strips, not cylinders">},
         Space{[](const SpaceScene&) -> EffectEstimate {
           return {EffectRole::kNeeded, 1.0, "", 0.0, "cylinders with neighbours on all sides"};
         }}}},
@@ -104,10 +94,8 @@ std::vector<Effect> load_effects() {
       {"adhesion",
        "neighbours or base stick to the pillar",
        "a formula",
-       {Pillar{[](const PillarScene&) -> EffectEstimate {
-          return {.reason = "one pillar with nothing to stick to"};
-        }},
-        Row{adhesion_estimate}, Space{adhesion_estimate}}},
+       {Pillar{absent<"one pillar with nothing to stick to">}, Row{adhesion_estimate},
+        Space{adhesion_estimate}}},
       {"finite_strain",
        "stiffness changes with large strain",
        "a nonlinear solution",
@@ -116,19 +104,28 @@ std::vector<Effect> load_effects() {
       {"contact",
        "a shape presses on the top",
        "unilateral constraints",
-       {Pillar{[](const PillarScene&) -> EffectEstimate {
-          return {.reason = "no shape presses on the pillar"};
-        }},
+       {Pillar{absent<"no shape presses on the pillar">},
         Row{contact_estimate, [](ArrayScene& scene) { scene.feels_contact = false; }},
         Space{contact_estimate, [](SpaceScene& scene) { scene.feels_contact = false; }}}},
       {"pull_off",
        "the shape holds tops until they let go",
        "the depths that it went through",
-       {Pillar{[](const PillarScene&) -> EffectEstimate {
-          return {.reason = "no shape presses on the pillar"};
-        }},
-        Row{pull_off_estimate, leave_out_pull_off}, Space{pull_off_estimate, leave_out_pull_off}}},
+       {Pillar{absent<"no shape presses on the pillar">},
+        Row{pull_off_estimate, leave_out_pull_off<ArrayScene>},
+        Space{pull_off_estimate, leave_out_pull_off<SpaceScene>}}},
   };
+}
+
+template <typename Body>
+EffectEstimate temperature_of(const Body& scene) {
+  EffectEstimate inertia;
+  if constexpr (!std::is_same_v<Body, SpaceScene>) inertia = inertia_estimate(scene);
+  return temperature_estimate(scene, relaxation_estimate(scene), inertia);
+}
+
+template <typename Body>
+void without_temperature(Body& scene) {
+  leave_out_temperature(scene);
 }
 
 // What the scene stands in.
@@ -137,20 +134,9 @@ std::vector<Effect> surroundings_effects() {
       {"temperature",
        "relaxation times shift with it",
        "nothing",
-       {Pillar{[](const PillarScene& scene) {
-                 return temperature_estimate(scene, relaxation_estimate(scene),
-                                             inertia_estimate(scene));
-               },
-               [](PillarScene& scene) { leave_out_temperature(scene); }},
-        Row{[](const ArrayScene& scene) {
-              return temperature_estimate(scene, relaxation_estimate(scene),
-                                          inertia_estimate(scene));
-            },
-            [](ArrayScene& scene) { leave_out_temperature(scene); }},
-        Space{[](const SpaceScene& scene) {
-                return temperature_estimate(scene, relaxation_estimate(scene), {});
-              },
-              [](SpaceScene& scene) { leave_out_temperature(scene); }}}},
+       {Pillar{temperature_of<PillarScene>, without_temperature<PillarScene>},
+        Row{temperature_of<ArrayScene>, without_temperature<ArrayScene>},
+        Space{temperature_of<SpaceScene>, without_temperature<SpaceScene>}}},
       {"thermal_strain",
        "pillar and film expand, and the film gives charge",
        "a solution",

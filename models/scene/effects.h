@@ -3,6 +3,8 @@
 #include "models/answer/effect_estimate.h"
 #include "models/scene/scene.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -16,6 +18,17 @@ struct EffectOn {
   void (*leave_out)(Body& scene) = nullptr;  // for optional effects that are off
   void (*insist)(Body& scene) = nullptr;     // for effects that are forced on
 };
+
+// The estimate of an effect that has no part in a kind of scene, by its reason.
+template <std::size_t kSize>
+struct Reason {
+  constexpr Reason(const char (&words)[kSize]) { std::copy_n(words, kSize, text); }  // NOLINT
+  char text[kSize] = {};
+};
+template <Reason kReason, typename Body>
+EffectEstimate absent(const Body&) {
+  return {.reason = kReason.text};
+}
 
 // One effect: what it changes, what it costs, and its treatment by each kind of scene.
 struct Effect {

@@ -1,6 +1,7 @@
 // Effects on a bulk layer under a shape.
 #include "models/array/layer/simulate_layer.h"
 #include "models/scene/effects.h"
+#include "models/scene/scene_effects.h"
 
 #include <algorithm>
 #include <map>
@@ -68,15 +69,12 @@ const EffectOn<LayerScene>& effect_on_layer(const Effect& effect) {
       {"piezo_coupling", {piezo_coupling_estimate}},
       {"finite_strain", {finite_strain_estimate}},
       {"contact", {contact_estimate, [](LayerScene& scene) { scene.feels_contact = false; }}},
-      {"leakage", {[](const LayerScene&) -> EffectEstimate {
-         return {.reason = "faces without charge, before any leaks in"};
-       }}},
+      {"leakage", {absent<"faces without charge, before any leaks in">}},
       {"three_dimensional", {[](const LayerScene& scene) -> EffectEstimate {
          if (scene.is_plane()) return {.reason = "a section of a layer that is endless along y"};
          return {EffectRole::kNeeded, 1.0, "", 0.0, "the face has two directions"};
        }}}};
-  static const Layer kNoPart = {
-      [](const LayerScene&) -> EffectEstimate { return {.reason = "has no part in a layer"}; }};
+  static const Layer kNoPart = {absent<"has no part in a layer">};
   const auto found = kOnLayers.find(effect.name);
   return found == kOnLayers.end() ? kNoPart : found->second;
 }

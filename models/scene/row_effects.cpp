@@ -138,17 +138,17 @@ EffectEstimate adhesion_at(double ratio) {
 EffectEstimate adhesion_estimate(const ArrayScene& scene) {
   const ArrayGeometry& g = scene.geometry;
   if (g.count == 1 && g.ends == FilmEnds::kFree) return {.reason = "nothing to stick to"};
-  SensorMaterial material;
-  material.young_modulus_Pa = scene.pillar.E0_Pa;
-  material.poisson_ratio = scene.pillar.nu;
-  material.surface_energy_J_m2 = scene.surface_energy_J_m2;
-  return adhesion_at(g.length_m / longest_unmatted_m(g.diameter_m, g.spacing_m, material));
+  return adhesion_at(g.length_m /
+                     longest_unmatted_m(g.diameter_m, g.spacing_m,
+                                        {.young_modulus_Pa = scene.pillar.E0_Pa,
+                                         .poisson_ratio = scene.pillar.nu,
+                                         .surface_energy_J_m2 = scene.surface_energy_J_m2}));
 }
 
 EffectEstimate finite_strain_estimate(const ArrayScene& scene) {
   double peak_Pa = analysis_of(scene).is_loaded ? std::abs(scene.load_Pa) : 0.0;
   if (scene.press) {  // pulled tops stretch
-    const RowFoundation pressed = row_foundation(scene);
+    const FoundationPress pressed = row_foundation(scene);
     peak_Pa = std::max(pressed.largest_Pa, pressed.pull_Pa);
   }
   peak_Pa = std::max(peak_Pa, largest_size(history(scene)));
@@ -187,21 +187,27 @@ EffectEstimate incompressibility_estimate(const ArrayScene& scene) {
           "stresses would lock without pressures of their own"};
 }
 
-namespace {
-
-// The moment at the foot of a cantilever grows by tan(u)/u (eq. E9).
-EffectEstimate stiffness_under_shape(const ArrayScene& scene) {
-  const double pressure_Pa = row_foundation(scene).largest_Pa;
-  if (!(pressure_Pa > 0.0)) return {.reason = "the shape touches no pillar"};
-  const double share = pressure_Pa / engesser_pressure_Pa(single_pillar(scene));
+// The moment at the foot of a cantilever grows by tan(u)/u, u = (pi/2) sqrt(p/p_cr), with an axial load (eq. E9):
+// Timoshenko & Gere, Theory of Elastic Stability (1961), 1.3.
+EffectEstimate stiffness_of_bent(double share, double bent, const char* reason) {
   if (share >= 1.0) {
     return {EffectRole::kOutside, 1.0, "p/p_cr", share,
             "pillars buckle; the answer is that of pillars that stay straight"};
   }
   const double u = 0.5 * pi * std::sqrt(std::min(share, 0.99));
+  return {EffectRole::kOutside, bent * (std::tan(u) / u - 1.0), "p/p_cr", share, reason};
+}
+
+namespace {
+
+EffectEstimate stiffness_under_shape(const ArrayScene& scene) {
+  const double pressure_Pa = row_foundation(scene).largest_Pa;
+  if (!(pressure_Pa > 0.0)) return {.reason = "the shape touches no pillar"};
+  EffectEstimate estimate =
+      stiffness_of_bent(pressure_Pa / engesser_pressure_Pa(single_pillar(scene)), 1.0, kTurned);
   // Forces and voltages of pillars that bend change less than their moments.
-  return {EffectRole::kOutside, std::min(std::tan(u) / u - 1.0, 1.0), "p/p_cr", share,
-          "the pressure bends pillars further whose tops the shape turns; not in the error"};
+  estimate.error = std::min(estimate.error, 1.0);
+  return estimate;
 }
 
 }  // namespace
@@ -215,16 +221,21 @@ EffectEstimate geometric_stiffness_estimate(const ArrayScene& scene) {
   return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "a straight pillar shortens without it"};
 }
 
-// A top lifts where the surface stays above it, and about where a turned top would (space_effects.cpp).
-EffectEstimate contact_estimate(const ArrayScene& scene) {
-  if (!scene.press) return {.reason = "no shape presses on the pillars"};
-  const RowFoundation pressed = row_foundation(scene);
+// A top lifts where the surface stays above it, about where a rotated top would (the stresses of bending and
+// compression, Saint-Venant, are equal at the rim when the overlap vanishes there), and where a bent surface leaves it
+// pulling.
+EffectEstimate contact_of(const ShapePress& press, const FoundationPress& pressed) {
   EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap or pull over overlap",
                           pressed.lift, "tops that the shape does not touch are not pulled"};
   estimate.declared_off = kPrescribed;
-  const bool holds = scene.press->work_of_adhesion_J_m2 > 0.0;
+  const bool holds = press.work_of_adhesion_J_m2 > 0.0;
   if (!pressed.covers_all || holds) estimate.role = EffectRole::kNeeded;
   return estimate;
+}
+
+EffectEstimate contact_estimate(const ArrayScene& scene) {
+  if (!scene.press) return {.reason = "no shape presses on the pillars"};
+  return contact_of(*scene.press, row_foundation(scene));
 }
 
 // What a held top may be pulled by, over what the largest of the elastic foundation bears.
@@ -244,10 +255,6 @@ EffectEstimate pull_off_estimate(const ArrayScene& scene) {
   const double largest_N_m = row_foundation(scene).largest_Pa * scene.geometry.diameter_m;
   const double pull_N_m = row_pull_off_N_m(scene, scene.press->work_of_adhesion_J_m2);
   return pull_off_at(*scene.press, largest_N_m > 0.0 ? pull_N_m / largest_N_m : 1.0);
-}
-
-void leave_out_pull_off(ArrayScene& scene) {
-  if (scene.press) scene.press->work_of_adhesion_J_m2 = 0.0;
 }
 
 void leave_out_piezo_coupling(ArrayScene& scene) {

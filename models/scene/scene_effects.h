@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/answer/effect_estimate.h"
+#include "models/array/contact/foundation.h"
 #include "models/array/plane/array_scene.h"
 #include "models/array/space/space_scene.h"
 #include "models/pillar/scene/pillar_scene.h"
@@ -45,6 +46,10 @@ void leave_out_thermal_strain(PillarScene& scene);
 EffectEstimate weight_estimate(const PillarScene& scene);
 EffectEstimate air_damping_estimate(const PillarScene& scene);
 
+// Why pillars under a shape are less stiff than their answer.
+constexpr const char* kTurned =
+    "the pressure bends pillars further whose tops the shape turns; not in the error";
+
 // What a scene declares that forces off the contact of a shape.
 constexpr const char* kPrescribed =
     "off, the scene prescribes the motion of all tops, which are pulled, too; a shape that only "
@@ -55,6 +60,16 @@ EffectEstimate adhesion_at(double ratio);
 
 // Of tops that are pulled with at most this share of the largest force (row_effects.cpp).
 EffectEstimate pull_off_at(const ShapePress& press, double share);
+template <typename Body>
+void leave_out_pull_off(Body& scene) {
+  if (scene.press) scene.press->work_of_adhesion_J_m2 = 0.0;
+}
+
+// Of pillars that bend under this share of their buckling pressure, the part `bent` of which grows with their moments
+// (row_effects.cpp).
+EffectEstimate stiffness_of_bent(double share, double bent, const char* reason);
+// Of a shape that presses, by the elastic foundation (row_effects.cpp).
+EffectEstimate contact_of(const ShapePress& press, const FoundationPress& pressed);
 
 // A row of pillars (row_effects.cpp).
 EffectEstimate film_compliance_estimate(const ArrayScene& scene);
@@ -70,7 +85,6 @@ EffectEstimate adhesion_estimate(const ArrayScene& scene);
 EffectEstimate finite_strain_estimate(const ArrayScene& scene);
 EffectEstimate contact_estimate(const ArrayScene& scene);
 EffectEstimate pull_off_estimate(const ArrayScene& scene);
-void leave_out_pull_off(ArrayScene& scene);
 
 // An array in the plane (space_effects.cpp).
 EffectEstimate film_compliance_estimate(const SpaceScene& scene);
@@ -86,7 +100,6 @@ EffectEstimate adhesion_estimate(const SpaceScene& scene);
 EffectEstimate finite_strain_estimate(const SpaceScene& scene);
 EffectEstimate contact_estimate(const SpaceScene& scene);
 EffectEstimate pull_off_estimate(const SpaceScene& scene);
-void leave_out_pull_off(SpaceScene& scene);
 EffectEstimate backing_estimate(const SpaceScene& scene);
 
 }  // namespace viscard

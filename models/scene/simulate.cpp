@@ -20,32 +20,11 @@
 namespace viscard {
 namespace {
 
-// The functions of each kind of scene under one name.
-SceneAnswer solve(const PillarScene& scene) {
-  return simulate_pillar(scene);
-}
-SceneAnswer solve(const ArrayScene& scene) {
-  return simulate_array(scene);
-}
-SceneAnswer solve(const SpaceScene& scene) {
-  return simulate_space(scene);
-}
-SceneAnswer solve(const LayerScene& scene) {
-  return simulate_layer(scene);
-}
-
-SceneAnswer solve_on(const PillarScene& scene, const Discretisation& mesh) {
-  return pillar_answer_on(scene, mesh);
-}
-SceneAnswer solve_on(const ArrayScene& scene, const Discretisation& mesh) {
-  return array_answer_on(scene, mesh);
-}
-SceneAnswer solve_on(const SpaceScene& scene, const Discretisation& mesh) {
-  return space_answer_on(scene, mesh);
-}
-SceneAnswer solve_on(const LayerScene& scene, const Discretisation& mesh) {
-  return layer_answer_on(scene, mesh);
-}
+// A function of each kind of scene.
+template <typename... Kinds>
+struct OfKind : Kinds... {
+  using Kinds::operator()...;
+};
 
 // The same of other kinds of scenes is empty.
 std::string at_once_note(const Scene& scene, const Scene& reduced) {
@@ -59,7 +38,12 @@ SceneAnswer simulate(const Scene& scene) {
   if (common(scene).progress) common(scene).progress(0.0, "which effects count");
   const ScenePlan plan = plan_effects(scene);
   refuse_buckling_in_creep(scene);  // the plan may leave relaxation out
-  SceneAnswer answer = std::visit([](const auto& body) { return solve(body); }, plan.reduced);
+  SceneAnswer answer =
+      std::visit(OfKind{[](const PillarScene& one) { return simulate_pillar(one); },
+                        [](const ArrayScene& row) { return simulate_array(row); },
+                        [](const SpaceScene& array) { return simulate_space(array); },
+                        [](const LayerScene& layer) { return simulate_layer(layer); }},
+                 plan.reduced);
   const std::string in_creep = creep_buckling_note(scene);
   if (!in_creep.empty()) answer.notes.push_back(in_creep);
   const std::string at_once = at_once_note(scene, plan.reduced);
@@ -70,7 +54,11 @@ SceneAnswer simulate(const Scene& scene) {
 }
 
 SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh) {
-  return std::visit([&](const auto& body) { return solve_on(body, mesh); }, scene);
+  return std::visit(OfKind{[&](const PillarScene& one) { return pillar_answer_on(one, mesh); },
+                           [&](const ArrayScene& row) { return array_answer_on(row, mesh); },
+                           [&](const SpaceScene& array) { return space_answer_on(array, mesh); },
+                           [&](const LayerScene& layer) { return layer_answer_on(layer, mesh); }},
+                    scene);
 }
 
 std::function<std::optional<SceneAnswer>(const Scene&)> first_order_answers(

@@ -14,12 +14,6 @@
 namespace viscard {
 namespace {
 
-// A shape turns tops, which bends the pillars as a shear does.
-bool is_sheared(const SpaceScene& scene) {
-  return scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press.has_value() ||
-         scene.quadrants.measured_V.size() > 0;
-}
-
 bool is_viscoelastic(const SpaceScene& scene) {
   return !scene.pillar.terms.empty() ||
          std::any_of(scene.others.begin(), scene.others.end(),
@@ -141,9 +135,7 @@ EffectEstimate crosstalk_estimate(const SpaceScene& scene) {
   return estimate;
 }
 
-// A straight pillar shortens without it. A pillar that is pressed and sheared bends more than under the
-// shear alone: moment at the foot times tan(u)/u, u = (pi/2) sqrt(p/p_cr), for a cantilever with an axial
-// load: Timoshenko & Gere, Theory of Elastic Stability (1961), 1.3.
+// A straight pillar shortens without it. A pillar that is pressed and sheared bends more than under the shear alone.
 EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene) {
   const double pressure_Pa = top_pressure_Pa(scene);
   if (!(pressure_Pa > 0.0)) return {.reason = "no pressure on the tops"};
@@ -153,19 +145,14 @@ EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene) {
   if (!is_sheared(scene)) {
     return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "straight pillars shorten without it"};
   }
-  if (share >= 1.0) {
-    return {EffectRole::kOutside, 1.0, "p/p_cr", share,
-            "pillars buckle; the answer is that of pillars that stay straight"};
+  if (!scene.press) {
+    return stiffness_of_bent(
+        share, 1.0, "the pressure bends pillars further that a shear bends; not in the error");
   }
-  const double u = 0.5 * std::numbers::pi * std::sqrt(std::min(share, 0.99));
-  const double more = std::tan(u) / u - 1.0;
-  if (scene.press) {  // forces and voltages of pillars that bend change less than their moments
-    const double estimate = std::min(foundation_press(scene).turn * more, 1.0);
-    return {EffectRole::kOutside, estimate, "p/p_cr", share,
-            "the pressure bends pillars further whose tops the shape turns; not in the error"};
-  }
-  return {EffectRole::kOutside, more, "p/p_cr", share,
-          "the pressure bends pillars further that a shear bends; not in the error"};
+  // Forces and voltages of pillars that bend change less than their moments.
+  EffectEstimate estimate = stiffness_of_bent(share, foundation_press(scene).turn, kTurned);
+  estimate.error = std::min(estimate.error, 1.0);
+  return estimate;
 }
 
 // Pillars longer than eq. D3 allows stay together once they touch; no analysis includes that.
@@ -173,11 +160,10 @@ EffectEstimate adhesion_estimate(const SpaceScene& scene) {
   const double gap_m = smallest_gap_m(scene);
   if (std::isinf(gap_m)) return {.reason = "a single pillar with nothing to stick to"};
   return adhesion_at(largest_over_classes(scene, [&](const SpaceClass& one) {
-    SensorMaterial material;
-    material.young_modulus_Pa = one.material.E0_Pa;
-    material.poisson_ratio = one.material.nu;
-    material.surface_energy_J_m2 = scene.surface_energy_J_m2;
-    return one.length_m / longest_unmatted_m(one.diameter_m, gap_m, material);
+    return one.length_m / longest_unmatted_m(one.diameter_m, gap_m,
+                                             {.young_modulus_Pa = one.material.E0_Pa,
+                                              .poisson_ratio = one.material.nu,
+                                              .surface_energy_J_m2 = scene.surface_energy_J_m2});
   }));
 }
 
@@ -194,16 +180,10 @@ EffectEstimate finite_strain_estimate(const SpaceScene& scene) {
           "small strains are assumed; not in the error"};
 }
 
-// A top lifts where the surface stays above it, about where a rotated top would (the stresses of bending and
-// compression, Saint-Venant, are equal at the rim when the overlap vanishes there), and where a bent surface leaves it pulling.
 EffectEstimate contact_estimate(const SpaceScene& scene) {
   if (!scene.press) return {.reason = "no shape presses on the pillars"};
-  const FoundationPress pressed = foundation_press(scene);
-  EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap or pull over overlap",
-                          pressed.lift, "tops that the shape does not touch are not pulled"};
-  estimate.declared_off = kPrescribed;
-  const bool holds = scene.press->work_of_adhesion_J_m2 > 0.0;
-  if (!pressed.covers_all || scene.backing || holds) estimate.role = EffectRole::kNeeded;
+  EffectEstimate estimate = contact_of(*scene.press, foundation_press(scene));
+  if (scene.backing) estimate.role = EffectRole::kNeeded;
   if (scene.touch) {
     estimate.role = EffectRole::kNeeded;
     estimate.reason = "the contact grows in time";
@@ -220,10 +200,6 @@ EffectEstimate pull_off_estimate(const SpaceScene& scene) {
     const double area_m2 = 0.25 * std::numbers::pi * one.diameter_m * one.diameter_m;
     return largest_Pa > 0.0 ? class_pull_off_N(one, work_J_m2) / (area_m2 * largest_Pa) : 1.0;
   }));
-}
-
-void leave_out_pull_off(SpaceScene& scene) {
-  if (scene.press) scene.press->work_of_adhesion_J_m2 = 0.0;
 }
 
 // The film's reading of waves from the width of a foot to the extent of the array (eq. S1), and how far the

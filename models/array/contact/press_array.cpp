@@ -1,18 +1,13 @@
 #include "models/array/contact/press_array.h"
 
+#include "models/array/contact/point_waves.h"
 #include "models/maths/require.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace viscard {
 namespace {
-
-double radius_of(const TopContact& contact) {
-  return contact.compliance().radius_m.back();
-}
 
 // The surface stays above the whole top.
 bool is_out_of_reach(const RigidShape& shape, const TouchedPillar& one, double radius_m,
@@ -23,19 +18,12 @@ bool is_out_of_reach(const RigidShape& shape, const TouchedPillar& one, double r
 // Depth at which the first pillar is touched, from samples of each top.
 double first_touch_m(const std::vector<TouchedPillar>& pillars,
                      const std::vector<TopContact>& classes, const RigidShape& shape) {
-  double first_m = std::numeric_limits<double>::infinity();
+  double first_m = HUGE_VAL;
   for (const TouchedPillar& one : pillars) {
-    const TopCompliance& top = classes[static_cast<std::size_t>(one.of_class)].compliance();
-    for (const double r_m : top.radius_m) {
-      for (int a = 0; a < top.angles; ++a) {
-        const double angle = 2.0 * std::numbers::pi * a / top.angles;
-        const double at_m =
-            height_m(shape, one.x_m + r_m * std::cos(angle), one.y_m + r_m * std::sin(angle));
-        first_m = std::min(first_m, at_m - one.above_m);
-      }
-    }
+    const TopContact& contact = classes[static_cast<std::size_t>(one.of_class)];
+    first_m = std::min(first_m, first_touch_of(shape, one, contact.compliance()).depth_m);
     // The tip may lie between these.
-    const auto tip = round_tip(shape, one.x_m, one.y_m, top.radius_m.back(), HUGE_VAL);
+    const auto tip = round_tip(shape, one.x_m, one.y_m, contact.radius_m(), HUGE_VAL);
     if (!tip) continue;
     first_m =
         std::min(first_m, height_m(shape, one.x_m + tip->x_m, one.y_m + tip->y_m) - one.above_m);
@@ -44,6 +32,22 @@ double first_touch_m(const std::vector<TouchedPillar>& pillars,
 }
 
 }  // namespace
+
+FirstTouch first_touch_of(const RigidShape& shape, const TouchedPillar& one,
+                          const TopCompliance& top) {
+  FirstTouch first;
+  for (const double r_m : top.radius_m) {
+    for (int a = 0; a < top.angles; ++a) {
+      const double angle = point_angle(a, top.angles);
+      const double at_m =
+          height_m(shape, one.x_m + r_m * std::cos(angle), one.y_m + r_m * std::sin(angle)) -
+          one.above_m;
+      first.depth_m = std::min(first.depth_m, at_m);
+      first.covers = first.covers && std::isfinite(at_m);
+    }
+  }
+  return first;
+}
 
 PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
                             const std::vector<TopContact>& classes, const RigidShape& shape,
@@ -60,53 +64,55 @@ PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
     };
     if (bond == TopBond::kFollows) {
       top = contact.follow(overlap);
-    } else if (!is_out_of_reach(shape, one, radius_of(contact), depth_m)) {
+    } else if (!is_out_of_reach(shape, one, contact.radius_m(), depth_m)) {
       top = contact.press(
-          overlap, round_tip(shape, one.x_m, one.y_m, radius_of(contact), depth_m + one.above_m),
+          overlap, round_tip(shape, one.x_m, one.y_m, contact.radius_m(), depth_m + one.above_m),
           last != nullptr ? &(*last)[array.tops.size()] : nullptr);
     }
-    array.force_N += top.force_N;
-    array.contacts += top.share > 0.0 ? 1 : 0;
-    array.has_partial = array.has_partial || top.is_partial;
-    array.tops.push_back(top);
+    array.add(top);
   }
   return array;
 }
 
-// Secant between the bounds, halved at the end that stays (Illinois method: Dowell & Jarratt, BIT 11
-// (1971) 168).
-void depth_of_force(const std::function<double(double)>& force_N_at, const DepthSearch& search) {
-  constexpr int kMostDoublings = 200, kMostSteps = 100;
-  double low_m = search.low_m, high_m = search.guess_m;
-  double below_N = force_N_at(low_m) - search.force_N;
-  double found_N = force_N_at(high_m) - search.force_N;
-  double step_m = high_m - low_m;
-  for (int step = 0; step < kMostDoublings && found_N < 0.0; ++step) {
-    low_m = high_m;
-    below_N = found_N;
-    step_m *= 2.0;
-    high_m += step_m;
-    found_N = force_N_at(high_m) - search.force_N;
-  }
-  double above_N = found_N;
+void PressedArray::add(const TopPressure& top) {
+  force_N += top.force_N;
+  contacts += top.share > 0.0 ? 1 : 0;
+  has_partial = has_partial || top.is_partial;
+  tops.push_back(top);
+}
+
+void narrow_depths(DepthBracket at, double found_N, double enough_N,
+                   const std::function<double(double)>& excess_N_at) {
+  constexpr int kMostSteps = 100;
   int side = 0;  // of the last point: 1 above, -1 below
-  for (int step = 0; step < kMostSteps && std::abs(found_N) > search.accuracy * search.force_N;
-       ++step) {
-    const double at_m = (low_m * above_N - high_m * below_N) / (above_N - below_N);
-    if (!(at_m > low_m && at_m < high_m)) break;  // rounding
-    found_N = force_N_at(at_m) - search.force_N;
-    if (found_N > 0.0) {
-      high_m = at_m;
-      above_N = found_N;
-      if (side == 1) below_N *= 0.5;
-      side = 1;
-    } else {
-      low_m = at_m;
-      below_N = found_N;
-      if (side == -1) above_N *= 0.5;
-      side = -1;
-    }
+  for (int step = 0; step < kMostSteps && std::abs(found_N) > enough_N; ++step) {
+    const double middle_m =
+        (at.low_m * at.above_N - at.high_m * at.below_N) / (at.above_N - at.below_N);
+    if (!(middle_m > at.low_m && middle_m < at.high_m)) break;  // rounding
+    found_N = excess_N_at(middle_m);
+    const int now = found_N > 0.0 ? 1 : -1;
+    (now == 1 ? at.high_m : at.low_m) = middle_m;
+    (now == 1 ? at.above_N : at.below_N) = found_N;
+    if (now == side) (now == 1 ? at.below_N : at.above_N) *= 0.5;
+    side = now;
   }
+}
+
+void depth_of_force(const std::function<double(double)>& force_N_at, const DepthSearch& search) {
+  constexpr int kMostDoublings = 200;
+  const auto excess_N_at = [&](double depth_m) { return force_N_at(depth_m) - search.force_N; };
+  DepthBracket at{search.low_m, search.guess_m};
+  at.below_N = excess_N_at(at.low_m);
+  at.above_N = excess_N_at(at.high_m);
+  double step_m = at.high_m - at.low_m;
+  for (int step = 0; step < kMostDoublings && at.above_N < 0.0; ++step) {
+    at.low_m = at.high_m;
+    at.below_N = at.above_N;
+    step_m *= 2.0;
+    at.high_m += step_m;
+    at.above_N = excess_N_at(at.high_m);
+  }
+  narrow_depths(at, at.above_N, search.accuracy * search.force_N, excess_N_at);
 }
 
 PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,

@@ -4,6 +4,7 @@
 #include "models/array/contact/top_contact.h"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,7 +24,17 @@ struct PressedArray {
   int contacts = 0;      // pillars that are touched
   bool has_partial = false;
   std::vector<TopPressure> tops;
+
+  void add(const TopPressure& top);
 };
+
+// Depth at which a point of the top's grid is touched first, and whether the surface covers all of them.
+struct FirstTouch {
+  double depth_m = std::numeric_limits<double>::infinity();
+  bool covers = true;
+};
+FirstTouch first_touch_of(const RigidShape& shape, const TouchedPillar& one,
+                          const TopCompliance& top);
 
 // What a shape does to the tops: it only pushes them, or they follow it everywhere and are pulled too.
 enum class TopBond { kPushed, kFollows };
@@ -42,6 +53,16 @@ PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,
                               const std::vector<TopContact>& classes, const RigidShape& shape,
                               double force_N, TopBond bond = TopBond::kPushed,
                               std::optional<double> near_m = {});
+
+// Two depths, and the excess of their forces over the one that is sought; forces grow with the depth.
+struct DepthBracket {
+  double low_m = 0.0, high_m = 0.0;
+  double below_N = 0.0, above_N = 0.0;
+};
+// Calls excess_N_at() until the last excess, at first `found`, is at most `enough`, or at rounding: secants between the
+// depths, halved at the end that stays (Illinois method: Dowell & Jarratt, BIT 11 (1971) 168).
+void narrow_depths(DepthBracket at, double found_N, double enough_N,
+                   const std::function<double(double depth_m)>& excess_N_at);
 
 // A search for the depth of a force, from a depth at which it is less.
 struct DepthSearch {

@@ -8,59 +8,19 @@
 namespace viscard {
 namespace {
 
-void note_buckling(const PressState& state, std::vector<std::string>& notes) {
-  const AtLimit& worst = state.pressure;
-  if (!(worst.value > worst.limit)) return;
-  notes.push_back(
-      "beyond buckling: pillar " + worst.place + " bears " + text_of(worst.value, 4) +
-      " Pa; with a free top it buckles at " + text_of(state.free_Pa, 4) + " Pa, under a " +
-      (state.sticks ? "shape that it sticks to" : "plate that slides") + " at about " +
-      text_of(state.held_Pa, 3) +
-      (!state.sticks && worst.value > state.held_Pa ? " Pa, which is exceeded too" : " Pa") +
-      ". The answer is that of pillars that stay straight");
+std::string of_buckling(const PressState& state, const AtLimit& worst) {
+  return "beyond buckling: pillar " + worst.place + " bears " + text_of(worst.value, 4) +
+         " Pa; with a free top it buckles at " + text_of(state.free_Pa, 4) + " Pa, under a " +
+         (state.sticks ? "shape that it sticks to" : "plate that slides") + " at about " +
+         text_of(state.held_Pa, 3) +
+         (!state.sticks && worst.value > state.held_Pa ? " Pa, which is exceeded too" : " Pa") +
+         ". The answer is that of pillars that stay straight";
 }
 
-void note_strain(const PressState& state, std::vector<std::string>& notes) {
-  const bool is_pressed = !(state.stretch.value > state.shortening.value);
-  const AtLimit& worst = is_pressed ? state.shortening : state.stretch;
-  if (!(worst.value > worst.limit)) return;
-  notes.push_back("large strain: pillar " + worst.place +
-                  (is_pressed ? " shortens by " : " is stretched by ") +
-                  text_of(100.0 * worst.value, 3) + " %; the answer is that of small strains");
-}
-
-void note_slope(const PressState& state, std::vector<std::string>& notes) {
-  const AtLimit& worst = state.slope;
-  if (!(worst.value > worst.limit)) return;
-  notes.push_back("steep shape: its surface rises by " + text_of(worst.value, 2) + " over pillar " +
-                  worst.place +
-                  "; tops are taken to be nearly level, and their sides do not touch");
-}
-
-void note_sideways(const PressState& state, std::vector<std::string>& notes) {
-  const AtLimit& worst = state.sideways;
-  if (!(worst.value > worst.limit)) return;
-  notes.push_back("neighbours meet: the top of pillar " + worst.place + " moves " +
-                  micrometres(worst.value, 3) +
-                  " sideways, more than half of the smallest gap of " +
-                  micrometres(2.0 * worst.limit, 4) + "; contact of their sides is not followed");
-}
-
-void note_lean(const PressState& state, std::vector<std::string>& notes) {
-  const AtLimit& worst = state.lean;
-  if (!(worst.value > worst.limit)) return;
-  notes.push_back("large rotation: pillar " + worst.place + " leans by " +
-                  text_of(100.0 * worst.value, 3) +
-                  " % of its length where it is dragged; the answer is that of small rotations");
-}
-
-void note_pull(const PressState& state, std::vector<std::string>& notes) {
-  const AtLimit& worst = state.pull;
-  if (!(worst.value > worst.limit)) return;
-  notes.push_back("beyond pull-off: pillar " + worst.place + " is pulled by " +
-                  text_of(worst.value, 4) + " " + state.force_unit +
-                  ", and at a work of adhesion of " + text_of(state.work_J_m2, 3) +
-                  " J/m2 its top lets go at " + text_of(worst.limit, 4) + " " + state.force_unit);
+std::string of_pull(const PressState& state, const AtLimit& worst) {
+  return "beyond pull-off: pillar " + worst.place + " is pulled by " + text_of(worst.value, 4) +
+         " " + state.force_unit + ", and at a work of adhesion of " + text_of(state.work_J_m2, 3) +
+         " J/m2 its top lets go at " + text_of(worst.limit, 4) + " " + state.force_unit;
 }
 
 void note_held(const PressState& state, std::vector<std::string>& notes) {
@@ -84,12 +44,28 @@ std::vector<std::string> press_notes(const PressState& state) {
         "full stick: what touches at the end is held as if it had never slid, in one step; this is "
         "for a depth that only grows");
   }
-  note_buckling(state, notes);
-  note_strain(state, notes);
-  note_slope(state, notes);
-  note_sideways(state, notes);
-  note_lean(state, notes);
-  note_pull(state, notes);
+  const auto note = [&](const AtLimit& worst, const std::string& text) {
+    if (worst.value > worst.limit) notes.push_back(text);
+  };
+  const bool is_pressed = !(state.stretch.value > state.shortening.value);
+  const AtLimit& strain = is_pressed ? state.shortening : state.stretch;
+  note(state.pressure, of_buckling(state, state.pressure));
+  note(strain, "large strain: pillar " + strain.place +
+                   (is_pressed ? " shortens by " : " is stretched by ") +
+                   text_of(100.0 * strain.value, 3) + " %; the answer is that of small strains");
+  note(state.slope, "steep shape: its surface rises by " + text_of(state.slope.value, 2) +
+                        " over pillar " + state.slope.place +
+                        "; tops are taken to be nearly level, and their sides do not touch");
+  note(state.sideways, "neighbours meet: the top of pillar " + state.sideways.place + " moves " +
+                           micrometres(state.sideways.value, 3) +
+                           " sideways, more than half of the smallest gap of " +
+                           micrometres(2.0 * state.sideways.limit, 4) +
+                           "; contact of their sides is not followed");
+  note(state.lean, "large rotation: pillar " + state.lean.place + " leans by " +
+                       text_of(100.0 * state.lean.value, 3) +
+                       " % of its length where it is dragged; the answer is that of small "
+                       "rotations");
+  note(state.pull, of_pull(state, state.pull));
   note_held(state, notes);
   return notes;
 }
@@ -120,6 +96,13 @@ void check_press_plan(const ShapePress& press, const PressPlan& plan) {
         "effects.contact",
         "cannot be off: the shape does not cover all tops, which could not follow it");
   }
+}
+
+void check_in_section(const RigidShape& shape) {
+  if (shape.y_m == 0.0 && shape.tilt_y == 0.0 && shape.direction_rad == 0.0) return;
+  throw SceneMistake("shape",
+                     "lies in the section of x and z: at and tilt along y must be 0, and there is "
+                     "no direction");
 }
 
 }  // namespace viscard

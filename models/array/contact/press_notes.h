@@ -62,5 +62,7 @@ struct PressPlan {
 // "a force, such as force = \"5 mN\"".
 void check_press_place(const ShapePress& press, const std::string& force_words, double length_m);
 void check_press_plan(const ShapePress& press, const PressPlan& plan);
+// The same for a shape that does not lie in the section of x and z.
+void check_in_section(const RigidShape& shape);
 
 }  // namespace viscard

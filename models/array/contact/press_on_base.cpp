@@ -1,5 +1,6 @@
 #include "models/array/contact/press_on_base.h"
 
+#include "models/array/contact/point_waves.h"
 #include "models/maths/require.h"
 
 #include <algorithm>
@@ -16,14 +17,6 @@ constexpr double kSettled =
 // A film beside a load rises by less than this share of the overlap.
 constexpr double kRise = 0.1;
 
-double work_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return a.cwiseProduct(b).sum();
-}
-
-double top_radius_m(const TopContact& contact) {
-  return contact.compliance().radius_m.back();
-}
-
 }  // namespace
 
 // What the tops bear while the base has moved, and how much less they bear where it moves on.
@@ -38,7 +31,7 @@ void PressOnBase::set_candidates(const std::vector<TopContact>& classes, double 
   std::vector<double> lowest_m;
   double first_m = std::numeric_limits<double>::infinity();
   for (const TouchedPillar& one : *pillars_) {
-    const double radius_m = top_radius_m(classes[static_cast<std::size_t>(one.of_class)]);
+    const double radius_m = classes[static_cast<std::size_t>(one.of_class)].radius_m();
     lowest_m.push_back(least_height_m(*shape_, one.x_m, one.y_m, radius_m) - one.above_m);
     first_m = std::min(first_m, lowest_m.back());
   }
@@ -69,7 +62,7 @@ PressOnBase::Tops PressOnBase::press(const std::vector<TopContact>& classes, dou
   for (Eigen::Index i = 0; i < count; ++i) {
     const TouchedPillar& one = (*pillars_)[candidates_[static_cast<std::size_t>(i)]];
     const TopContact& contact = classes[static_cast<std::size_t>(one.of_class)];
-    auto tip = round_tip(*shape_, one.x_m, one.y_m, top_radius_m(contact), HUGE_VAL);
+    auto tip = round_tip(*shape_, one.x_m, one.y_m, contact.radius_m(), HUGE_VAL);
     const auto overlap_m = [&](double x_m, double y_m) {
       return depth_m + one.above_m - height_m(*shape_, one.x_m + x_m, one.y_m + y_m) - base(i, 0) -
              base(i, 1) * x_m - base(i, 2) * y_m;
@@ -84,10 +77,7 @@ PressOnBase::Tops PressOnBase::press(const std::vector<TopContact>& classes, dou
       const double sinking = (top.is_partial ? std::sqrt(top.share) : 1.0);
       tops.stiffness.row(i) << sinking / contact.compliance().sinking_m_N(), turning, turning;
     }
-    tops.pressed.force_N += top.force_N;
-    tops.pressed.contacts += top.share > 0.0 ? 1 : 0;
-    tops.pressed.has_partial = tops.pressed.has_partial || top.is_partial;
-    tops.pressed.tops.push_back(top);
+    tops.pressed.add(top);
   }
   return tops;
 }
@@ -101,15 +91,15 @@ Eigen::MatrixXd PressOnBase::step(const Eigen::MatrixXd& stiffness, const BaseFo
   Eigen::MatrixXd residual = root.cwiseProduct(base_(missing));
   Eigen::MatrixXd y = Eigen::MatrixXd::Zero(residual.rows(), 3);
   Eigen::MatrixXd direction = residual;
-  double square = work_of(residual, residual);
+  double square = inner(residual, residual);
   const double enough = tolerance * tolerance * square;
   for (int i = 0; i < kMostSteps && square > enough; ++i) {
     const Eigen::MatrixXd moved =
         direction + root.cwiseProduct(base_(root.cwiseProduct(direction)));
-    const double along = square / work_of(direction, moved);
+    const double along = square / inner(direction, moved);
     y += along * direction;
     residual -= along * moved;
-    const double next = work_of(residual, residual);
+    const double next = inner(residual, residual);
     direction = residual + (next / square) * direction;
     square = next;
   }
@@ -121,8 +111,7 @@ Eigen::MatrixXd PressOnBase::step(const Eigen::MatrixXd& stiffness, const BaseFo
 PressedArray PressOnBase::to_depth(const std::vector<TopContact>& classes, double depth_m) {
   constexpr int kMostSteps = 100;
   set_candidates(classes, depth_m);
-  PressedArray all;
-  all.depth_m = depth_m;
+  PressedArray all{.depth_m = depth_m};
   all.tops.resize(pillars_->size());
   if (candidates_.empty()) return all;
   BaseMotions base = base_(forces_);
@@ -138,11 +127,11 @@ PressedArray PressOnBase::to_depth(const std::vector<TopContact>& classes, doubl
     const double tolerance = std::clamp(left_N / largest_N, 1e-8, 0.05);
     const BaseForces change = step(tops.stiffness, missing, tolerance);
     const BaseMotions moved = base_(change);
-    const double falls = work_of(moved, missing);
+    const double falls = inner(moved, missing);
     double length = 1.0;
     for (int cut = 0; cut < 10; ++cut) {
       Tops next = press(classes, depth_m, base + length * moved);
-      const double rises = work_of(moved, forces_ + length * change - next.forces);
+      const double rises = inner(moved, forces_ + length * change - next.forces);
       tops = std::move(next);
       if (rises <= 0.9 * falls) break;
       length *= std::max(0.1, falls / (falls + rises));
@@ -163,50 +152,32 @@ PressedArray PressOnBase::to_depth(const std::vector<TopContact>& classes, doubl
   return all;
 }
 
-// The force grows with the depth. Secants from both sides (Illinois method: Dowell & Jarratt, BIT 11 (1971)
-// 168) find the depth.
 PressedArray PressOnBase::with_force(const std::vector<TopContact>& classes, double force_N) {
-  constexpr int kMostSteps = 100;
   constexpr double kForce = 1e-12;
   PressedArray best = press_with_force(*pillars_, classes, *shape_, force_N);
-  const double rigid_m = best.depth_m;
+  const auto excess_N_at = [&](double depth_m) {
+    best = to_depth(classes, depth_m);
+    return best.force_N - force_N;
+  };
   double step_m = 0.0;
   for (const TopContact& one : classes) {
     step_m = std::max(step_m, 0.1 * force_N * one.compliance().sinking_m_N());
   }
-  double low_m = rigid_m, high_m = rigid_m;
-  best = to_depth(classes, rigid_m);
-  double below_N = best.force_N - force_N, above_N = below_N;
-  while (above_N < 0.0) {
-    low_m = high_m;
-    below_N = above_N;
+  DepthBracket at{best.depth_m, best.depth_m};
+  at.below_N = at.above_N = excess_N_at(at.low_m);
+  while (at.above_N < 0.0) {
+    at.low_m = at.high_m;
+    at.below_N = at.above_N;
     // A secant where there is one, with some excess, so that the root is passed.
-    high_m += step_m;
-    best = to_depth(classes, high_m);
-    above_N = best.force_N - force_N;
-    step_m = above_N < 0.0 && above_N > below_N
-                 ? std::clamp(-1.2 * above_N * (high_m - low_m) / (above_N - below_N), 0.5 * step_m,
-                              10.0 * step_m)
-                 : 2.0 * step_m;
+    at.high_m += step_m;
+    at.above_N = excess_N_at(at.high_m);
+    step_m =
+        at.above_N < 0.0 && at.above_N > at.below_N
+            ? std::clamp(-1.2 * at.above_N * (at.high_m - at.low_m) / (at.above_N - at.below_N),
+                         0.5 * step_m, 10.0 * step_m)
+            : 2.0 * step_m;
   }
-  int side = 0;
-  for (int i = 0; i < kMostSteps && std::abs(best.force_N - force_N) > kForce * force_N; ++i) {
-    const double at_m = (low_m * above_N - high_m * below_N) / (above_N - below_N);
-    if (!(at_m > low_m && at_m < high_m)) break;  // rounding
-    best = to_depth(classes, at_m);
-    const double beyond_N = best.force_N - force_N;
-    if (beyond_N > 0.0) {
-      high_m = at_m;
-      above_N = beyond_N;
-      if (side == 1) below_N *= 0.5;
-      side = 1;
-    } else {
-      low_m = at_m;
-      below_N = beyond_N;
-      if (side == -1) above_N *= 0.5;
-      side = -1;
-    }
-  }
+  narrow_depths(at, at.above_N, kForce * force_N, excess_N_at);
   return best;
 }
 

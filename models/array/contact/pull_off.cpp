@@ -15,27 +15,6 @@ Overlap overlap_at(const RigidShape& shape, const TouchedPillar& one, double dep
   };
 }
 
-// Depth at which a point of the top's grid is touched first, and whether the surface covers all of them.
-struct FirstTouch {
-  double depth_m = std::numeric_limits<double>::infinity();
-  bool covers = true;
-};
-FirstTouch first_touch_of(const RigidShape& shape, const TouchedPillar& one,
-                          const TopCompliance& top) {
-  FirstTouch first;
-  for (const double r_m : top.radius_m) {
-    for (int a = 0; a < top.angles; ++a) {
-      const double angle = 2.0 * std::numbers::pi * a / top.angles;
-      const double at_m =
-          height_m(shape, one.x_m + r_m * std::cos(angle), one.y_m + r_m * std::sin(angle)) -
-          one.above_m;
-      first.depth_m = std::min(first.depth_m, at_m);
-      first.covers = first.covers && std::isfinite(at_m);
-    }
-  }
-  return first;
-}
-
 }  // namespace
 
 bool is_held_after(const TopHold& hold, const std::vector<double>& path_m) {
@@ -53,17 +32,6 @@ bool is_held_after(const TopHold& hold, const std::vector<double>& path_m) {
 bool is_ever_held(const TopHold& hold, const std::vector<double>& path_m) {
   const double deepest_m = *std::max_element(path_m.begin(), path_m.end());
   return deepest_m > hold.touched_m && deepest_m >= hold.released_m;
-}
-
-double largest_pull_Pa(const PulledColumn& column, const std::vector<double>& path_m,
-                       bool lets_go) {
-  if (!std::isfinite(column.highest_m)) return 0.0;
-  const auto touched = std::find_if(path_m.begin(), path_m.end(),
-                                    [&](double depth_m) { return depth_m > column.lowest_m; });
-  if (touched == path_m.end()) return 0.0;
-  if (lets_go) return column.limit_Pa;
-  const double least_m = *std::min_element(touched, path_m.end());
-  return std::clamp(column.stiffness_Pa_m * (column.mean_m - least_m), 0.0, column.limit_Pa);
 }
 
 double strip_pull_off_N_m(double width_m, double plane_modulus_Pa, double work_J_m2) {
@@ -106,14 +74,11 @@ PressedArray press_along(const std::vector<TouchedPillar>& pillars,
     if (is_held_after(holds[i], path_m)) {
       top = contact.follow(overlap);
     } else if (array.depth_m > holds[i].touched_m) {
-      top = contact.press(overlap, round_tip(shape, pillars[i].x_m, pillars[i].y_m,
-                                             contact.compliance().radius_m.back(),
-                                             array.depth_m + pillars[i].above_m));
+      top =
+          contact.press(overlap, round_tip(shape, pillars[i].x_m, pillars[i].y_m,
+                                           contact.radius_m(), array.depth_m + pillars[i].above_m));
     }
-    array.force_N += top.force_N;
-    array.contacts += top.share > 0.0 ? 1 : 0;
-    array.has_partial = array.has_partial || top.is_partial;
-    array.tops.push_back(top);
+    array.add(top);
   }
   return array;
 }

@@ -81,10 +81,8 @@ PressedArray RelaxingTops::with_force(const RelaxationStep& step, double force_N
 
 // Forces at the end are K (now u + carried): the part of the branches that does not depend on u.
 void RelaxingTops::begin(const RelaxationStep& step) {
-  now_ = step.equilibrium;
-  double gained = 0.0;
-  for (const double one : step.gained) gained += one;
-  now_ += gained;
+  const double gained = step.all_gained();
+  now_ = step.equilibrium + gained;
   for (Top& top : tops_) {
     if (!top.is_touched) continue;
     top.carried_m = -gained * top.motion_m;
@@ -106,16 +104,10 @@ void RelaxingTops::press(Top& top, double depth_m) const {
 }
 
 PressedArray RelaxingTops::pressed_at(double depth_m) {
-  PressedArray array;
-  array.depth_m = depth_m;
+  PressedArray array{.depth_m = depth_m};
   for (Top& top : tops_) {
     press(top, depth_m);
-    const TopPressure pressure =
-        top.force_N.size() > 0 ? top.contact->pressure_of(top.force_N) : TopPressure{};
-    array.force_N += pressure.force_N;
-    array.contacts += pressure.share > 0.0 ? 1 : 0;
-    array.has_partial = array.has_partial || pressure.is_partial;
-    array.tops.push_back(pressure);
+    array.add(top.force_N.size() > 0 ? top.contact->pressure_of(top.force_N) : TopPressure{});
   }
   last_m_ = depth_m;
   return array;
@@ -141,23 +133,20 @@ void RelaxingTops::accept(const RelaxationStep& step) {
   }
 }
 
-// Against a top that is left alone in the step and moves to -carried/now.
 void RelaxingTops::set_opening(Top& top) const {
-  double overlap_m = top.largest_reach_m + last_m_;
-  if (top.is_touched) overlap_m = (top.reach_m + top.carried_m / now_).maxCoeff() + last_m_;
+  const double overlap_m = reach_at_rest_m(top) + last_m_;
   top.touched_part =
       overlap_m > 0.0 && top.opening_m > 0.0 ? overlap_m / (overlap_m + top.opening_m) : 1.0;
   top.opening_m = std::max(-overlap_m, 0.0);
 }
 
-// Where the shape leaves a top alone, it moves to -carried/now.
+double RelaxingTops::reach_at_rest_m(const Top& top) const {
+  return top.is_touched ? (top.reach_m + top.carried_m / now_).maxCoeff() : top.largest_reach_m;
+}
+
 double RelaxingTops::resting_m() const {
   double rest_m = std::numeric_limits<double>::infinity();
-  for (const Top& top : tops_) {
-    const double reach_m =
-        top.is_touched ? (top.reach_m + top.carried_m / now_).maxCoeff() : top.largest_reach_m;
-    rest_m = std::min(rest_m, -reach_m);
-  }
+  for (const Top& top : tops_) rest_m = std::min(rest_m, -reach_at_rest_m(top));
   return rest_m;
 }
 

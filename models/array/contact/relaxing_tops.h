@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace viscard {
@@ -15,6 +16,7 @@ namespace viscard {
 struct RelaxationStep {
   double equilibrium = 1.0;  // e_inf
   std::vector<double> kept, gained;
+  double all_gained() const { return std::accumulate(gained.begin(), gained.end(), 0.0); }
 };
 
 // The tops of pillars that relax under a shape, step by step: contact may grow, shrink and come back.
@@ -58,6 +60,8 @@ class RelaxingTops {
   double resting_m() const;  // the depth at which the shape only just touches
   void press(Top& top, double depth_m) const;
   void set_opening(Top& top) const;
+  // Of a top that the shape leaves alone in the step, which moves to -carried/now.
+  double reach_at_rest_m(const Top& top) const;
 
   const RigidShape* shape_;
   double moved_x_m_ = 0.0, moved_y_m_ = 0.0;

@@ -49,9 +49,7 @@ void validate_axis(const std::vector<double>& axis) {
 }  // namespace
 
 void validate(const RigidShape& shape) {
-  const bool is_round = shape.kind == ShapeKind::kCylinder || shape.kind == ShapeKind::kSphere ||
-                        shape.kind == ShapeKind::kParaboloid;
-  if (is_round) require(shape.radius_m > 0.0, "a round shape needs a positive radius");
+  if (is_round(shape.kind)) require(shape.radius_m > 0.0, "a round shape needs a positive radius");
   if (shape.kind == ShapeKind::kWedge) require(shape.slope > 0.0, "a wedge needs a slope");
   if (shape.kind != ShapeKind::kTable) return;
   validate_axis(shape.table.x_m);

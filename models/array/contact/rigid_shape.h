@@ -15,6 +15,11 @@ enum class ShapeKind {
   kTable,       // heights on a grid
 };
 
+inline bool is_round(ShapeKind kind) {
+  return kind == ShapeKind::kCylinder || kind == ShapeKind::kSphere ||
+         kind == ShapeKind::kParaboloid;
+}
+
 // Heights of a surface above its lowest point on a grid, x fastest; bilinear between them.
 struct HeightTable {
   std::vector<double> x_m, y_m;  // ascending, at least two of each

@@ -1,5 +1,6 @@
 #include "models/array/contact/round_tip.h"
 
+#include "models/array/contact/point_waves.h"
 #include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"
 
@@ -40,7 +41,7 @@ Eigen::Vector3d rest_of_top(const RoundTip& tip, const TopCompliance& top, doubl
     for (Eigen::Index ring = 0; ring < forces_N.rows(); ++ring) {
       const double r_m = top.radius_m[static_cast<std::size_t>(ring)];
       for (int a = 0; a < top.angles; ++a) {
-        const double angle = 2.0 * std::numbers::pi * a / top.angles;
+        const double angle = point_angle(a, top.angles);
         const double dx_m = r_m * std::cos(angle) - tip.x_m, dy_m = r_m * std::sin(angle) - tip.y_m;
         const double s2 = (dx_m * dx_m + dy_m * dy_m) / (b_m * b_m);
         if (s2 >= 1.0) continue;

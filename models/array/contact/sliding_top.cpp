@@ -12,8 +12,7 @@ SlidingTop::SlidingTop(double stiffness_N_m, std::size_t terms)
     : stiffness_N_m_(stiffness_N_m), branch_m_(terms, Eigen::Vector2d::Zero()) {}
 
 SlidingTop::Linear SlidingTop::begin(const RelaxationStep& step) const {
-  double gained = 0.0;
-  for (const double one : step.gained) gained += one;
+  const double gained = step.all_gained();
   Linear linear{step.equilibrium + gained, -gained * motion_m_};
   for (std::size_t i = 0; i < branch_m_.size(); ++i) {
     linear.carried_m += step.kept[i] * branch_m_[i];

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -16,10 +15,6 @@ namespace {
 
 constexpr double kNoSurface_m = -1.0;  // far above anything
 
-double point_angle(int index, int angles) {
-  return 2.0 * std::numbers::pi * index / angles;
-}
-
 // Of three rows of blocks, those of the points in the mask.
 PointVectors held_part(const PointVectors& values, const PointMask& mask) {
   PointVectors part(values.rows(), values.cols());
@@ -27,10 +22,6 @@ PointVectors held_part(const PointVectors& values, const PointMask& mask) {
   for (Eigen::Index d = 0; d < 3; ++d)
     part.middleRows(d * n, n) = mask.select(values.middleRows(d * n, n), 0.0);
   return part;
-}
-
-double inner(const PointVectors& a, const PointVectors& b) {
-  return a.cwiseProduct(b).sum();
 }
 
 }  // namespace

@@ -16,14 +16,18 @@ struct TopFineness {
   int angles = 32;
 };
 
+// A polar grid on the top of a pillar, and how its points move under forces on them, by harmonic of the angle.
+struct TopGrid {
+  std::vector<double> radius_m;               // of the rings
+  Eigen::VectorXd ring_area_m2;               // of each; their sum is the area of the top
+  std::vector<Eigen::MatrixXd> harmonic_m_N;  // m = 0 to angles/2
+  int angles = 0;
+};
+
 // How the top of one pillar on a rigid base sinks under normal forces at the points of a polar grid:
 //   u(r_j, theta_a) = sum_m sum_kb S_m(j, k) cos m (theta_a - theta_b) f_kb   (eq. T1)
 // with the last harmonic, angles/2, counted half. The point on the axis has no area and no unknown.
-struct TopCompliance {
-  std::vector<double> radius_m;               // of the rings
-  Eigen::VectorXd ring_area_m2;               // of each; their sum is the area of the top
-  std::vector<Eigen::MatrixXd> harmonic_m_N;  // S_m; m = 0 to angles/2
-  int angles = 0;
+struct TopCompliance : TopGrid {
   double plane_modulus_Pa = 0.0;  // E/(1 - nu^2)
 
   // Sinking under a uniform pressure, m/N; turning about an axis in the top under a traction that grows
@@ -38,12 +42,7 @@ struct TopCompliance {
 // along them, which vary as (cos m theta, sin m theta, cos m theta), or a quarter of a wave further as (sin, -cos,
 // sin). Rows and columns of C_m: rings along r, then theta, then down (eq. T9). What lies below six diameters is left
 // out; of longer pillars, adjust() adds it.
-struct StickingCompliance {
-  std::vector<double> radius_m;
-  Eigen::VectorXd ring_area_m2;
-  std::vector<Eigen::MatrixXd> harmonic_m_N;  // C_m; m = 0 to angles/2
-  int angles = 0;
-
+struct StickingCompliance : TopGrid {
   // Motion of a top under a pressure, or under a shear along x and a tilting traction, as means over the top.
   struct Means {
     double sinking_m_N = 0.0;

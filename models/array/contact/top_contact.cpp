@@ -1,7 +1,6 @@
 #include "models/array/contact/top_contact.h"
 
 #include "models/array/contact/cut_top.h"
-#include "models/array/contact/point_exchange.h"
 #include "models/array/contact/point_waves.h"
 #include "models/array/contact/sticking_top.h"
 #include "models/maths/dense.h"
@@ -10,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -20,18 +18,8 @@ namespace {
 // Far above anything: stands for "no surface here".
 constexpr double kAbove_m = -1.0;
 
-double angle_of(int index, int angles) {
-  return 2.0 * std::numbers::pi * index / angles;
-}
-
-using Mask = PointMask;
-
-Eigen::MatrixXd masked(const Eigen::MatrixXd& values, const Mask& mask) {
+Eigen::MatrixXd masked(const Eigen::MatrixXd& values, const PointMask& mask) {
   return mask.select(values, 0.0);
-}
-
-double dot(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return a.cwiseProduct(b).sum();
 }
 
 }  // namespace
@@ -85,7 +73,7 @@ Eigen::MatrixXd TopContact::forces(const Eigen::MatrixXd& motion_m) const {
 }
 
 // Conjugate gradients on the points that touch, with the stiffness of a top that is held everywhere as preconditioner.
-void TopContact::hold(const Eigen::MatrixXd& overlap_m, const Mask& touches,
+void TopContact::hold(const Eigen::MatrixXd& overlap_m, const PointMask& touches,
                       const Eigen::MatrixXd& softness_m_N, double accuracy,
                       Eigen::MatrixXd& f) const {
   constexpr int kMostSteps = 2000;
@@ -95,15 +83,15 @@ void TopContact::hold(const Eigen::MatrixXd& overlap_m, const Mask& touches,
   if (!(residual.squaredNorm() > enough)) return;
   Eigen::MatrixXd towards = masked(forces(residual), touches);
   Eigen::MatrixXd direction = towards;
-  double work = dot(residual, towards);
+  double work = inner(residual, towards);
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::MatrixXd moved = masked(moved_by(direction, softness_m_N), touches);
-    const double along = work / dot(direction, moved);
+    const double along = work / inner(direction, moved);
     f += along * direction;
     residual -= along * moved;
     if (!(residual.squaredNorm() > enough)) return;
     towards = masked(forces(residual), touches);
-    const double next = dot(residual, towards);
+    const double next = inner(residual, towards);
     direction = towards + (next / work) * direction;
     work = next;
   }
@@ -125,7 +113,7 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
   const double size_m = std::max(overlap_m.maxCoeff(), 0.0);
   Eigen::MatrixXd f = start.cwiseMax(0.0);
   if (size_m == 0.0) return Eigen::MatrixXd::Zero(f.rows(), f.cols());
-  Mask touches = f.array() > 0.0;
+  PointMask touches = f.array() > 0.0;
   if (!touches.any()) touches = overlap_m.array() > 0.0;
   f = masked(f, touches);
   PointExchange exchange;
@@ -133,18 +121,18 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
   for (int set = 0; set < kMostSets; ++set) {
     hold(overlap_m, touches, softness_m_N, accuracy, f);
     const double pull_N = std::max(1e-10, accuracy) * f.maxCoeff();
-    const Mask pulls = touches && f.array() < -pull_N;
+    const PointMask pulls = touches && f.array() < -pull_N;
     const Eigen::MatrixXd left_m =
         overlap_m - moved_by(masked(f.cwiseMax(0.0), touches), softness_m_N);
-    const Mask overlaps = !touches && left_m.array() > std::max(1e-9, accuracy) * size_m;
-    const Mask wrong = pulls || overlaps;
+    const PointMask overlaps = !touches && left_m.array() > std::max(1e-9, accuracy) * size_m;
+    const PointMask wrong = pulls || overlaps;
     if (!wrong.any() && accuracy == kResidual) return f.cwiseMax(0.0);
     if (!wrong.any()) {
       accuracy = kResidual;
       exchange = {};
       continue;
     }
-    const Mask changes = exchange.next(wrong);
+    const PointMask changes = exchange.next(wrong);
     touches = (touches && !changes) || (overlaps && changes);
     f = masked(f.cwiseMax(0.0), touches);
   }
@@ -161,8 +149,8 @@ void TopContact::add_resultants(const Eigen::MatrixXd& forces_N, TopPressure& pr
     for (int a = 0; a < angles; ++a) {
       const double f = forces_N(ring, a);
       pressure.force_N += f;
-      pressure.moment_x_Nm += f * r_m * std::cos(angle_of(a, angles));
-      pressure.moment_y_Nm += f * r_m * std::sin(angle_of(a, angles));
+      pressure.moment_x_Nm += f * r_m * std::cos(point_angle(a, angles));
+      pressure.moment_y_Nm += f * r_m * std::sin(point_angle(a, angles));
       if (f > 0.0) pressure.share += point_m2 / area_m2;
       pressure.largest_Pa = std::max(pressure.largest_Pa, f / point_m2);
     }
@@ -177,8 +165,8 @@ TopPressure TopContact::follow(const Overlap& overlap) const {
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
     const double r_m = radius_m_ * std::sqrt(rule.points[i]);  // equal areas for equal weights
     for (int a = 0; a < kAngles; ++a) {
-      const double x_m = r_m * std::cos(angle_of(a, kAngles));
-      const double y_m = r_m * std::sin(angle_of(a, kAngles));
+      const double x_m = r_m * std::cos(point_angle(a, kAngles));
+      const double y_m = r_m * std::sin(point_angle(a, kAngles));
       const double part_m = rule.weights[i] / kAngles * overlap(x_m, y_m);
       mean_m += part_m;
       first_x_m2 += part_m * x_m;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/array/contact/point_exchange.h"
 #include "models/array/contact/round_tip.h"
 #include "models/array/contact/top_compliance.h"
 #include "models/array/contact/top_pressure.h"
@@ -57,8 +58,7 @@ class TopContact {
   Eigen::MatrixXd moved_by(const Eigen::MatrixXd& forces_N,
                            const Eigen::MatrixXd& softness_m_N) const;
   // Forces that move the points in the mask by the overlap, to a relative accuracy; f holds a guess.
-  void hold(const Eigen::MatrixXd& overlap_m,
-            const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>& touches,
+  void hold(const Eigen::MatrixXd& overlap_m, const PointMask& touches,
             const Eigen::MatrixXd& softness_m_N, double accuracy, Eigen::MatrixXd& f) const;
   void add_resultants(const Eigen::MatrixXd& forces_N, TopPressure& pressure) const;
   Eigen::MatrixXd in_harmonics(const Eigen::MatrixXd& values,

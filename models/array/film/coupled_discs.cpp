@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -57,19 +58,14 @@ Eigen::RowVectorXd CoupledDiscs::by_own_charge(int kind, double x_m, double y_m)
 }
 
 OffsetSums::Kernel CoupledDiscs::kernel_of(const std::vector<Eigen::Index>& columns) const {
-  return [this, columns](int kind, double x_m, double y_m) {
-    Eigen::MatrixXd chosen =
-        Eigen::MatrixXd::Zero(coupling_.modes(), static_cast<Eigen::Index>(columns.size()));
-    if (is_own(x_m, y_m)) return chosen;
-    const auto of = static_cast<std::size_t>(kind);
+  return [this, columns](int kind, double x_m, double y_m) -> Eigen::MatrixXd {
     const Eigen::Index modes = coupling_.modes();
+    if (is_own(x_m, y_m)) return Eigen::MatrixXd::Zero(modes, std::ssize(columns));
+    const auto of = static_cast<std::size_t>(kind);
     const Eigen::MatrixXd all =
         coupling_.moments_at(tables_[of], fields_[of], x_m, y_m) +
         coupling_.between(x_m, y_m).bottomRightCorner(modes, modes) * own_[of];
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      chosen.col(static_cast<Eigen::Index>(c)) = all.col(columns[c]);
-    }
-    return chosen;
+    return all(Eigen::all, columns);
   };
 }
 

@@ -51,6 +51,18 @@ double least_gap_m(double film_thickness_m, double radius_m) {
   return std::max(kLeastGap * film_thickness_m, kLeastOfRadius * radius_m);
 }
 
+void check_read_film(const Medium& film, double thickness_m, const std::string& what) {
+  if (!film.has_permittivity() || !film.is_piezoelectric()) {
+    throw SceneMistake("geometry.film.material",
+                       what +
+                           " is read by its film, which must be piezoelectric; give a material "
+                           "from a file, such as pvdf_seed.json");
+  }
+  if (!(thickness_m > 0.0)) {
+    throw SceneMistake("geometry.film.thickness", "the film's thickness must be positive");
+  }
+}
+
 void check_electrode_gap(const std::string& key, const std::string& pair, double distance_m,
                          double radius_m, double least_m) {
   constexpr double kSame = 1e-9;  // lengths that only rounding tells apart

@@ -38,6 +38,8 @@ struct AxialField {
 // show the error; discs that touch are one conductor.
 double least_gap_m(double film_thickness_m, double radius_m);
 
+// Throws SceneMistake for a film that `what`, "a layer", is not read by.
+void check_read_film(const Medium& film, double thickness_m, const std::string& what);
 // Throws SceneMistake under the key where discs at this distance overlap, or have a gap smaller than the least one
 // (0: of a face without metal, where discs may touch). The pair as it is called, "pillars 1 and 2".
 void check_electrode_gap(const std::string& key, const std::string& pair, double distance_m,

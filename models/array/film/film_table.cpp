@@ -1,6 +1,5 @@
 #include "models/array/film/film_table.h"
 
-#include "models/maths/chebyshev_panel.h"
 #include "models/maths/gauss_legendre.h"
 
 #include <algorithm>
@@ -14,12 +13,6 @@ namespace {
 
 constexpr int kSamplePoints = 12;  // per panel, which doubles k: 3e-8 of exp(-k t) up to k t = 10
 constexpr int kGradedPoints = 8;   // Gauss points per panel of k
-
-double stack_thickness_m(const LayeredFilm& film) {
-  double sum_m = 0.0;
-  for (const FilmLayer& layer : film.layers) sum_m += layer.thickness_m;
-  return sum_m;
-}
 
 // The panels begin at a wave number so small that two effects are negligible below it: waves are far
 // longer than t E_film/E, over which the film passes its stretch to the backing, and their phase at
@@ -40,44 +33,35 @@ double first_break_1_m(const LayeredFilm& film, double far_m) {
 FilmTable::FilmTable(const LayeredFilm& film, double largest_kt, int harmonics, int degree,
                      double far_m)
     : far_m_(far_m) {
-  const double largest_1_m = largest_kt / stack_thickness_m(film);
+  const double largest_1_m = largest_kt / thickness_m(film);
   for (int j = 0; j <= harmonics; ++j) {
     directions_.emplace_back(film, 0.5 * std::numbers::pi * j / harmonics, largest_1_m, degree);
   }
   const double first_1_m = std::min(first_break_1_m(film, far_m), 0.5 * largest_1_m);
   const int panels = static_cast<int>(std::ceil(std::log2(largest_1_m / first_1_m)));
+  std::vector<double> breaks_1_m;
   for (int panel = panels; panel >= 0; --panel) {
-    breaks_1_m_.push_back(std::ldexp(largest_1_m, -panel));
+    breaks_1_m.push_back(std::ldexp(largest_1_m, -panel));
   }
-  for (int panel = 0; panel < panels; ++panel) {
-    const double low = breaks_1_m_[static_cast<std::size_t>(panel)];
-    Eigen::MatrixXd values(kSamplePoints, 16 * static_cast<Eigen::Index>(directions_.size()));
-    for (int i = 0; i < kSamplePoints; ++i) {
-      const double k_1_m = low * (1.5 + 0.5 * chebyshev_point(i, kSamplePoints));
-      for (std::size_t j = 0; j < directions_.size(); ++j) {
-        const Eigen::Matrix4d response = directions_[j].response(k_1_m);
-        values.block<1, 16>(i, 16 * static_cast<Eigen::Index>(j)) =
-            Eigen::Map<const Eigen::RowVectorXd>(response.data(), 16);
-      }
+  panels_ = ChebyshevPanels(std::move(breaks_1_m), kSamplePoints, [this](double k_1_m) {
+    Eigen::RowVectorXd values(16 * static_cast<Eigen::Index>(directions_.size()));
+    for (std::size_t j = 0; j < directions_.size(); ++j) {
+      const Eigen::Matrix4d response = directions_[j].response(k_1_m);
+      values.segment<16>(16 * static_cast<Eigen::Index>(j)) = response.reshaped().transpose();
     }
-    samples_.push_back(std::move(values));
-  }
+    return values;
+  });
 }
 
 std::vector<Eigen::Matrix4d> FilmTable::at(double k_1_m) const {
   std::vector<Eigen::Matrix4d> responses;
-  if (k_1_m < breaks_1_m_.front()) {
+  if (k_1_m < smallest_k_1_m()) {
     for (const FilmWaves& direction : directions_) responses.push_back(direction.response(k_1_m));
     return responses;
   }
-  const auto above = std::upper_bound(breaks_1_m_.begin() + 1, breaks_1_m_.end() - 1, k_1_m);
-  const auto panel = static_cast<std::size_t>(above - breaks_1_m_.begin() - 1);
-  const double low = breaks_1_m_[panel];
-  const Eigen::RowVectorXd values =
-      chebyshev_weights(2.0 * k_1_m / low - 3.0, kSamplePoints) * samples_[panel];
-  for (std::size_t j = 0; j < directions_.size(); ++j) {
-    responses.emplace_back(
-        Eigen::Map<const Eigen::Matrix4d>(values.data() + 16 * static_cast<Eigen::Index>(j)));
+  const Eigen::RowVectorXd values = panels_.at(k_1_m);
+  for (Eigen::Index j = 0; j < values.size(); j += 16) {
+    responses.emplace_back(Eigen::Map<const Eigen::Matrix4d>(values.data() + j));
   }
   return responses;
 }

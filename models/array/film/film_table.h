@@ -1,10 +1,13 @@
 #pragma once
 
 #include "models/array/film/layered_film.h"
+#include "models/maths/chebyshev_panel.h"
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <functional>
+#include <numbers>
 #include <vector>
 
 namespace viscard {
@@ -20,15 +23,25 @@ class FilmTable {
 
   // FilmWaves::response by direction. Waves longer than the panels are solved directly.
   std::vector<Eigen::Matrix4d> at(double k_1_m) const;
-  double smallest_k_1_m() const { return breaks_1_m_.front(); }
-  double largest_k_1_m() const { return breaks_1_m_.back(); }
+  // Calls with(angle, share, response) for these directions; the shares are those of a mean over all angles.
+  template <typename With>
+  void each_direction(double k_1_m, const With& with) const {
+    const std::vector<Eigen::Matrix4d> responses = at(k_1_m);
+    const auto last = static_cast<double>(responses.size() - 1);
+    for (std::size_t j = 0; j < responses.size(); ++j) {
+      const bool is_end = j == 0 || j + 1 == responses.size();
+      with(0.5 * std::numbers::pi * static_cast<double>(j) / last, (is_end ? 0.5 : 1.0) / last,
+           responses[j]);
+    }
+  }
+  double smallest_k_1_m() const { return panels_.breaks().front(); }
+  double largest_k_1_m() const { return panels_.breaks().back(); }
   double far_m() const { return far_m_; }
 
  private:
   std::vector<FilmWaves> directions_;
   double far_m_ = 0.0;
-  std::vector<double> breaks_1_m_;
-  std::vector<Eigen::MatrixXd> samples_;  // by panel: points x 16 entries of each direction
+  ChebyshevPanels panels_;  // 16 entries of each direction
 };
 
 // Calls with(k, weight of k dk/(2 pi)) for panels that double from the longest waves on, until they are

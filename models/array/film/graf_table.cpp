@@ -1,10 +1,10 @@
 #include "models/array/film/graf_table.h"
 
 #include "models/maths/bessel_orders.h"
-#include "models/maths/chebyshev_panel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -42,29 +42,25 @@ int largest_of(const std::vector<int>& order) {
 
 GrafTable::GrafTable(const std::vector<double>& k_1_m, const RadialWaves& receivers,
                      const RadialWaves& sources, const Range& range)
-    : breaks_m_{range.nearest_m},
-      reach_m_(range.reach_m),
+    : reach_m_(range.reach_m),
       orders_(std::max(2, 1 + largest_of(receivers.order) + largest_of(sources.order))),
       receivers_(receivers.amplitude.cols()) {
-  while (breaks_m_.back() < reach_m_ || breaks_m_.size() < 2) {
-    const double from_m = breaks_m_.back();
+  std::vector<double> breaks_m = {range.nearest_m};
+  while (breaks_m.back() < reach_m_ || breaks_m.size() < 2) {
+    const double from_m = breaks_m.back();
     const double panel_m =
         std::max(kOfGap * (from_m - range.singular_m), kLeastPanel * range.singular_m);
     const bool is_last = from_m + panel_m > reach_m_ && reach_m_ > from_m;
-    breaks_m_.push_back(is_last ? reach_m_ : from_m + panel_m);
+    breaks_m.push_back(is_last ? reach_m_ : from_m + panel_m);
   }
-  const auto panels = static_cast<Eigen::Index>(breaks_m_.size()) - 1;
-  values_.setZero(panels * kPoints, 2 * receivers_ * sources.amplitude.cols());
-  for (Eigen::Index at = 0; at < values_.rows(); ++at) {
-    const auto panel = static_cast<std::size_t>(at / kPoints);
-    const double within = 0.5 * (1.0 + chebyshev_point(static_cast<int>(at % kPoints), kPoints));
-    set_point(at, breaks_m_[panel] + within * (breaks_m_[panel + 1] - breaks_m_[panel]), k_1_m,
-              receivers, sources);
-  }
+  panels_ = ChebyshevPanels(std::move(breaks_m), kPoints, [&](double distance_m) {
+    return values_at(distance_m, k_1_m, receivers, sources);
+  });
 }
 
-void GrafTable::set_point(Eigen::Index at, double distance_m, const std::vector<double>& k_1_m,
-                          const RadialWaves& receivers, const RadialWaves& sources) {
+Eigen::RowVectorXd GrafTable::values_at(double distance_m, const std::vector<double>& k_1_m,
+                                        const RadialWaves& receivers,
+                                        const RadialWaves& sources) const {
   Eigen::MatrixXd J(orders_, static_cast<Eigen::Index>(k_1_m.size()));
   for (std::size_t i = 0; i < k_1_m.size(); ++i) {
     bessel_orders(k_1_m[i] * distance_m, J.col(static_cast<Eigen::Index>(i)));
@@ -84,7 +80,9 @@ void GrafTable::set_point(Eigen::Index at, double distance_m, const std::vector<
           parity(n) * (read * J.row(m + n).asDiagonal()) * waves;
     }
   }
-  values_.row(at) << differences.reshaped().transpose(), sums.reshaped().transpose();
+  Eigen::RowVectorXd values(2 * sums.size());
+  values << differences.reshaped().transpose(), sums.reshaped().transpose();
+  return values;
 }
 
 Eigen::MatrixXd GrafTable::between(const std::vector<AngularFunction>& receivers,
@@ -94,13 +92,7 @@ Eigen::MatrixXd GrafTable::between(const std::vector<AngularFunction>& receivers
                                                static_cast<Eigen::Index>(sources.size()));
   const double distance_m = std::hypot(x_m, y_m);
   if (distance_m > reach_m_) return seen;
-  const auto above = std::upper_bound(breaks_m_.begin() + 1, breaks_m_.end() - 1, distance_m);
-  const auto panel = static_cast<std::size_t>(above - breaks_m_.begin() - 1);
-  const double low_m = breaks_m_[panel], high_m = breaks_m_[panel + 1];
-  const double within = (2.0 * distance_m - low_m - high_m) / (high_m - low_m);
-  const Eigen::RowVectorXd at =
-      chebyshev_weights(within, kPoints) *
-      values_.middleRows(static_cast<Eigen::Index>(panel) * kPoints, kPoints);
+  const Eigen::RowVectorXd at = panels_.at(distance_m);
   const Eigen::Index half = at.size() / 2;
   Eigen::VectorXd cosine(orders_), sine(orders_);
   for (int s = 0; s < orders_; ++s) {

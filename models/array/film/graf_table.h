@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/maths/chebyshev_panel.h"
+
 #include <Eigen/Core>
 
 #include <vector>
@@ -42,16 +44,14 @@ class GrafTable {
                           double y_m) const;
 
  private:
-  void set_point(Eigen::Index at, double distance_m, const std::vector<double>& k_1_m,
-                 const RadialWaves& receivers, const RadialWaves& sources);
+  Eigen::RowVectorXd values_at(double distance_m, const std::vector<double>& k_1_m,
+                               const RadialWaves& receivers, const RadialWaves& sources) const;
 
-  std::vector<double> breaks_m_;  // of the panels
   double reach_m_ = 0.0;
   int orders_ = 0;  // Bessel functions: one more than the largest order
   Eigen::Index receivers_ = 0;
-  // Points of each panel, one below the other; columns: receivers (fastest) x sources with J_(m - n), then
-  // with (-1)^n J_(m + n).
-  Eigen::MatrixXd values_;
+  // Receivers (fastest) x sources with J_(m - n), then with (-1)^n J_(m + n).
+  ChebyshevPanels panels_;
 };
 
 }  // namespace viscard

@@ -148,6 +148,12 @@ void validate(const LayeredFilm& film) {
     isotropic_moduli_Pa(film.backing->young_modulus_Pa, film.backing->poisson_ratio);
 }
 
+double thickness_m(const LayeredFilm& film) {
+  double sum_m = 0.0;
+  for (const FilmLayer& layer : film.layers) sum_m += layer.thickness_m;
+  return sum_m;
+}
+
 double half_space_compliance_m_Pa(double young_modulus_Pa, double poisson_ratio, double k_1_m) {
   return 2.0 * (1.0 - poisson_ratio * poisson_ratio) / (young_modulus_Pa * k_1_m);
 }

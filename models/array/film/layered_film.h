@@ -39,6 +39,8 @@ struct LayeredFilm {
 // shears (its axis 3 is then no twofold axis, eq. S1) or is incompressible.
 void validate(const LayeredFilm& film);
 
+double thickness_m(const LayeredFilm& film);  // of all layers
+
 // The film under tractions that are waves along one direction (eq. S1). With x along the wave:
 //   u_x = i a, u_y = i b, u_z = w, potential phi, times exp(i k x), all four real; tractions on the top
 //   t_x = i tau_x, t_y = i tau_y, t_z; charge q per area on the face that is read.

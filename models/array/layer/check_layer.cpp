@@ -1,4 +1,5 @@
 #include "models/answer/scene_mistake.h"
+#include "models/array/contact/press_notes.h"
 #include "models/array/film/disc_coupling.h"
 #include "models/array/layer/layer_scene.h"
 #include "models/maths/text_of_number.h"
@@ -23,17 +24,10 @@ void check_material(const LayerScene& scene) {
                                                  "0.4999, because it yields only as much as its "
                                                  "volume can change");
   }
-  if (!scene.film.has_permittivity() || !scene.film.is_piezoelectric()) {
-    throw SceneMistake("geometry.film.material",
-                       "a layer is read by its film, which must be piezoelectric; give a material "
-                       "from a file, such as pvdf_seed.json");
-  }
+  check_read_film(scene.film, scene.film_thickness_m, "a layer");
 }
 
 void check_sizes(const LayerScene& scene) {
-  if (!(scene.film_thickness_m > 0.0)) {
-    throw SceneMistake("geometry.film.thickness", "the film's thickness must be positive");
-  }
   const double ratio = scene.thickness_m / scene.film_thickness_m;
   if (!(ratio >= kThinnest && ratio <= kThickest)) {
     throw SceneMistake("geometry.thickness", "the layer is " + text_of(ratio, 3) +
@@ -108,12 +102,7 @@ void check_layer_press(const LayerScene& scene) {
     throw SceneMistake("shape.depth", "is not less than the layer's thickness of " +
                                           micrometres(scene.thickness_m));
   }
-  if (scene.is_plane() &&
-      (press.shape.tilt_y != 0.0 || press.shape.y_m != 0.0 || press.shape.direction_rad != 0.0)) {
-    throw SceneMistake("shape",
-                       "lies in the section of x and z: at and tilt along y must be 0, and "
-                       "there is no direction");
-  }
+  if (scene.is_plane()) check_in_section(press.shape);
   if (scene.width_m == 0.0 && (is_endless(scene) || !scene.feels_contact)) {
     throw SceneMistake("geometry",
                        "needs a width, such as width = \"500 um\": the shape has no end, and an "

@@ -1,5 +1,6 @@
 #include "models/array/layer/layer_contact.h"
 
+#include "models/array/contact/press_array.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -154,41 +155,29 @@ LayerPressure LayerContact::to_depth(double depth_m, const Eigen::MatrixXd& gues
   return answer;
 }
 
-// Secant between depths on either side, halved at the end that stays (Illinois method: Dowell & Jarratt,
-// BIT 11 (1971) 168). The force grows with the depth.
 LayerPressure LayerContact::with_force(double force_N, double depth_m, double step_m,
                                        const Eigen::MatrixXd& guess_Pa) const {
   constexpr int kMostSteps = 80;
-  const double enough_N = kResidual * force_N;
   LayerPressure best = to_depth(depth_m, guess_Pa);
-  double low_m = depth_m, high_m = depth_m;
-  double below_N = best.force_N - force_N, above_N = below_N;
-  for (int step = 0; step < kMostSteps && below_N > 0.0; ++step, step_m *= 4.0) {
-    above_N = below_N;
-    high_m = low_m;
-    low_m -= step_m;
-    best = to_depth(low_m, best.pressure_Pa);
-    below_N = best.force_N - force_N;
-  }
-  for (int step = 0; step < kMostSteps && above_N < 0.0; ++step, step_m *= 4.0) {
-    below_N = above_N;
-    low_m = high_m;
-    high_m += step_m;
-    best = to_depth(high_m, best.pressure_Pa);
-    above_N = best.force_N - force_N;
-  }
-  int side = 0;  // of the last point: 1 above, -1 below
-  for (int step = 0; step < kMostSteps && std::abs(best.force_N - force_N) > enough_N; ++step) {
-    const double at_m = (low_m * above_N - high_m * below_N) / (above_N - below_N);
-    if (!(at_m > low_m && at_m < high_m)) break;  // rounding
+  const auto excess_N_at = [&](double at_m) {
     best = to_depth(at_m, best.pressure_Pa);
-    const double beyond_N = best.force_N - force_N;
-    (beyond_N > 0.0 ? high_m : low_m) = at_m;
-    (beyond_N > 0.0 ? above_N : below_N) = beyond_N;
-    const int now = beyond_N > 0.0 ? 1 : -1;
-    if (now == side) (now == 1 ? below_N : above_N) *= 0.5;
-    side = now;
+    return best.force_N - force_N;
+  };
+  DepthBracket at{depth_m, depth_m};
+  at.below_N = at.above_N = best.force_N - force_N;
+  for (int step = 0; step < kMostSteps && at.below_N > 0.0; ++step, step_m *= 4.0) {
+    at.above_N = at.below_N;
+    at.high_m = at.low_m;
+    at.low_m -= step_m;
+    at.below_N = excess_N_at(at.low_m);
   }
+  for (int step = 0; step < kMostSteps && at.above_N < 0.0; ++step, step_m *= 4.0) {
+    at.below_N = at.above_N;
+    at.low_m = at.high_m;
+    at.high_m += step_m;
+    at.above_N = excess_N_at(at.high_m);
+  }
+  narrow_depths(at, best.force_N - force_N, kResidual * force_N, excess_N_at);
   return best;
 }
 

@@ -1,5 +1,6 @@
 #include "models/array/layer/layer_kernel.h"
 
+#include "models/maths/bessel_orders.h"
 #include "models/maths/gauss_legendre.h"
 
 #include <algorithm>
@@ -50,12 +51,9 @@ double cell_mean(bool is_plane, double x_m, double y_m, double cell_m, const Fun
 
 }  // namespace
 
-LayerKernel::Reading layer_mean(double radius_m, bool is_plane) {
-  return [=](double k_1_m) {
-    const double x = k_1_m * radius_m;
-    if (x < 1e-8) return 1.0;
-    return is_plane ? std::sin(x) / x : 2.0 * ::j1(x) / x;
-  };
+double mean_of_wave(bool is_plane, double kR) {
+  if (!is_plane) return disc_mean_of_wave(kR);
+  return kR < 1e-8 ? 1.0 : std::sin(kR) / kR;
 }
 
 LayerKernel::LayerKernel(const LayerWaves& waves, bool is_plane, double reach_m,

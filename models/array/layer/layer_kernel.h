@@ -42,7 +42,7 @@ class LayerKernel {
   Eigen::MatrixXd table_;
 };
 
-// Mean of a potential over a disc of this radius; in a plane, over a strip of this half-width.
-LayerKernel::Reading layer_mean(double radius_m, bool is_plane);
+// Mean of a wave over a disc of radius R around its crest; in a plane, over a strip of that half-width.
+double mean_of_wave(bool is_plane, double kR);
 
 }  // namespace viscard

@@ -1,13 +1,12 @@
 #include "models/array/layer/layer_readings.h"
 
 #include "models/array/film/disc_charge.h"
+#include "models/array/film/metal_quarters.h"
 #include "models/array/space/potential_spectrum.h"
-#include "models/maths/gauss_legendre.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 namespace viscard {
 namespace {
@@ -23,7 +22,9 @@ LayerReadings::LayerReadings(const LayerScene& scene) : scene_(&scene) {
   if (scene.electrode == SpaceElectrode::kEquipotential) {
     add_equipotential();
   } else {
-    factors_.push_back(layer_mean(scene.electrode_radius_m, scene.is_plane()));
+    factors_.emplace_back([&scene](double k_1_m) {
+      return mean_of_wave(scene.is_plane(), k_1_m * scene.electrode_radius_m);
+    });
   }
 }
 
@@ -42,30 +43,23 @@ void LayerReadings::add_equipotential() {
       influence_of_all(film, *charge, points, {.film_degree = kChargeDegree, .largest_kt = 10.0});
 }
 
-// Mean over a quarter of the disc by Gauss points over radius and angle; the potential is smooth there.
+// The potential is smooth over a quarter.
 double LayerReadings::quarter_mean_V(const LayerPressure& pressed, const LayerKernel& kernel,
                                      double x_m, double y_m, int quarter) const {
-  constexpr int kPoints = 4;
-  const QuadratureRule rule = gauss_legendre(kPoints);
-  const double R_m = scene_->electrode_radius_m;
+  const QuarterRule rule = quarter_means(scene_->electrode_radius_m, 4);
   double mean_V = 0.0;
-  for (int i = 0; i < kPoints; ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    for (int j = 0; j < kPoints; ++j) {
-      const auto b = static_cast<std::size_t>(j);
-      const double r_m = R_m * rule.points[a];
-      const double angle = 0.5 * std::numbers::pi * (quarter - 1 + rule.points[b]);
-      mean_V += 2.0 * rule.points[a] * rule.weights[a] * rule.weights[b] *
-                potential_V(pressed, kernel, x_m + r_m * std::cos(angle),
-                            y_m + r_m * std::sin(angle), kPoint);
-    }
+  for (std::size_t p = 0; p < rule.points_m.size(); ++p) {
+    const double weight = rule.weights(quarter - 1, static_cast<Eigen::Index>(p));
+    if (weight == 0.0) continue;
+    const Eigen::Vector2d& at_m = rule.points_m[p];
+    mean_V += weight * potential_V(pressed, kernel, x_m + at_m.x(), y_m + at_m.y(), kPoint);
   }
   return mean_V;
 }
 
 void LayerReadings::add(const LayerPressure& pressed, const LayerKernel& kernel,
                         double relative_error, SceneAnswer& answer) const {
-  const std::vector<std::string> names = voltage_names(*scene_);
+  const std::vector<std::string> names = voltage_names(scene_->electrode);
   const std::size_t first = answer.results.size();
   for (const std::string& name : names) {
     for (std::size_t e = 0; e < scene_->electrodes_m.size(); ++e) {

@@ -27,12 +27,4 @@ double bonded_modulus_Pa(const LayerScene& scene) {
   return scene.pillar.E0_Pa * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
 }
 
-std::vector<std::string> voltage_names(const LayerScene& scene) {
-  std::vector<std::string> names;
-  for (const std::string& reading : reading_names(scene.electrode)) {
-    names.push_back(reading + "_voltage");
-  }
-  return names;
-}
-
 }  // namespace viscard

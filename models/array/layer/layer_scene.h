@@ -58,7 +58,4 @@ double contact_modulus_Pa(const LayerScene& scene);
 // cannot widen.
 double bonded_modulus_Pa(const LayerScene& scene);
 
-// Names of the results that every electrode has: "centre_voltage", "quadrant_1_voltage".
-std::vector<std::string> voltage_names(const LayerScene& scene);
-
 }  // namespace viscard

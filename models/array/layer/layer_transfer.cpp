@@ -18,12 +18,6 @@ constexpr double kShortestWave = 0.5;  // of the curves, over the layer's thickn
 constexpr double kLongestWave = 50.0;
 constexpr int kWavesPerDoubling = 8;
 
-// Mean of exp(i k x) over a disc, in a section over a strip of twice the radius.
-double top_mean(bool is_plane, double kR) {
-  if (kR < 1e-8) return 1.0;
-  return is_plane ? std::sin(kR) / kR : 2.0 * ::j1(kR) / kR;
-}
-
 // Of the random surface whose table the shape has; 0 for other shapes.
 double correlation_length_m(const LayerScene& scene) {
   const HeightTable& table = scene.press.shape.table;
@@ -67,7 +61,7 @@ LayerBlurring layer_blurring(const LayerWaves& waves, bool is_plane, double corr
       const double k_1_m = end_1_m * (panel + rule.points[q]) / kPanels;
       const double phase = 0.5 * k_1_m * correlation_length_m;
       const double spectrum = rule.weights[q] * std::exp(-phase * phase) * (is_plane ? 1.0 : k_1_m);
-      const double mean = top_mean(is_plane, k_1_m * radius_m);
+      const double mean = mean_of_wave(is_plane, k_1_m * radius_m);
       total += spectrum;
       heights += spectrum * mean * mean;
       if (k_1_m > waves.largest_k_1_m()) continue;
@@ -113,10 +107,7 @@ void add_transfer(const LayerScene& scene, const LayerWaves& waves, SceneAnswer&
   for (const char* const name : {"voltage_per_pressure", "voltage_per_height"}) {
     if (!wants(name)) continue;
     const bool is_pressure = std::string(name) == "voltage_per_pressure";
-    SceneCurve curve;
-    curve.name = name;
-    curve.unit = is_pressure ? "V/Pa" : "V/m";
-    curve.x_name = "wavelength_m";
+    SceneCurve curve{.name = name, .unit = is_pressure ? "V/Pa" : "V/m", .x_name = "wavelength_m"};
     const double doublings = std::log2(kLongestWave / kShortestWave);
     const int count = static_cast<int>(std::ceil(doublings * kWavesPerDoubling));
     for (int i = 0; i <= count; ++i) {

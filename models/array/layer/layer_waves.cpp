@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -16,31 +17,6 @@ constexpr double kShortest = 1e-9;  // k times the thickness that stands for 0
 // 4e-9, and the film reads less than 1e-6. Nearly incompressible layers and thick films need the small ones.
 constexpr std::array<double, 11> kPanelEnds = {0.0, 0.03, 0.1, 0.3,  0.8, 1.8,
                                                3.5, 6.0,  9.0, 13.0, 20.0};
-
-// Chebyshev points of the first kind on (-1, 1), and weights of the polynomial through them in
-// barycentric form: Berrut & Trefethen, SIAM Review 46 (2004) 501.
-double sample_point(int i) {
-  return -std::cos(std::numbers::pi * (i + 0.5) / kSamples);
-}
-
-std::array<double, kSamples> sample_weights(double x) {
-  std::array<double, kSamples> weights{};
-  double sum = 0.0;
-  for (int i = 0; i < kSamples; ++i) {
-    const double distance = x - sample_point(i);
-    const auto at = static_cast<std::size_t>(i);
-    if (distance == 0.0) {
-      weights.fill(0.0);
-      weights[at] = 1.0;
-      return weights;
-    }
-    const double sine = std::sin(std::numbers::pi * (i + 0.5) / kSamples);
-    weights[at] = (i % 2 == 0 ? sine : -sine) / distance;
-    sum += weights[at];
-  }
-  for (double& weight : weights) weight /= sum;
-  return weights;
-}
 
 }  // namespace
 
@@ -57,17 +33,19 @@ LayerWaves::LayerWaves(const LayeredFilm& stack, bool is_plane) {
   const double shear_Pa = layer.medium.stiffness_Pa(3, 3);
   const double young_Pa = 2.0 * shear_Pa * (1.0 + layer.medium.poisson_ratio);
   reference_m_Pa_ = half_space_compliance_m_Pa(young_Pa, nu, 1.0);
-  for (const double end : kPanelEnds) breaks_1_m_.push_back(end / thickness_m_);
+  std::vector<double> breaks_1_m;
+  for (const double end : kPanelEnds) breaks_1_m.push_back(end / thickness_m_);
   const int count = is_plane ? 1 : 3;
   for (int j = 0; j < count; ++j) {
-    directions_.emplace_back(stack, 0.25 * std::numbers::pi * j, largest_k_1_m(), kLayerDegree);
+    directions_.emplace_back(stack, 0.25 * std::numbers::pi * j, breaks_1_m.back(), kLayerDegree);
   }
-  for (std::size_t panel = 0; panel + 1 < breaks_1_m_.size(); ++panel) {
-    const double half_1_m = 0.5 * (breaks_1_m_[panel + 1] - breaks_1_m_[panel]);
-    for (int i = 0; i < kSamples; ++i) {
-      samples_.push_back(sample(breaks_1_m_[panel] + half_1_m * (1.0 + sample_point(i))).answer);
-    }
-  }
+  panels_ = ChebyshevPanels(std::move(breaks_1_m), kSamples, [this](double k_1_m) {
+    const LayerAnswer answer = sample(k_1_m).answer;
+    Eigen::RowVectorXd row(4);
+    row << answer.sinking_m_Pa, answer.reading_V_Pa[0], answer.reading_V_Pa[1],
+        answer.reading_V_Pa[2];
+    return row;
+  });
   estimate_error();
 }
 
@@ -94,20 +72,8 @@ LayerWaves::Sample LayerWaves::sample(double k_1_m) const {
 }
 
 LayerAnswer LayerWaves::at(double k_1_m) const {
-  const auto above = std::upper_bound(breaks_1_m_.begin(), breaks_1_m_.end(), k_1_m);
-  const auto last = static_cast<std::ptrdiff_t>(breaks_1_m_.size()) - 2;
-  const auto panel = static_cast<std::size_t>(
-      std::clamp<std::ptrdiff_t>(above - breaks_1_m_.begin() - 1, 0, last));
-  const double from_1_m = breaks_1_m_[panel];
-  const double x = 2.0 * (k_1_m - from_1_m) / (breaks_1_m_[panel + 1] - from_1_m) - 1.0;
-  const std::array<double, kSamples> weights = sample_weights(x);
-  LayerAnswer sum;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const LayerAnswer& one = samples_[panel * weights.size() + i];
-    sum.sinking_m_Pa += weights[i] * one.sinking_m_Pa;
-    for (std::size_t m = 0; m < 3; ++m) sum.reading_V_Pa[m] += weights[i] * one.reading_V_Pa[m];
-  }
-  return sum;
+  const Eigen::RowVectorXd row = panels_.at(k_1_m);
+  return {row[0], {row[1], row[2], row[3]}};
 }
 
 void LayerWaves::estimate_error() {
@@ -116,8 +82,9 @@ void LayerWaves::estimate_error() {
   double sinking_change = 0.0;
   double reading_change = 0.0;
   double uneven = 0.0;
-  for (std::size_t panel = 0; panel + 1 < breaks_1_m_.size(); ++panel) {
-    const double k_1_m = 0.5 * (breaks_1_m_[panel] + breaks_1_m_[panel + 1]);
+  const std::vector<double>& breaks_1_m = panels_.breaks();
+  for (std::size_t panel = 0; panel + 1 < breaks_1_m.size(); ++panel) {
+    const double k_1_m = 0.5 * (breaks_1_m[panel] + breaks_1_m[panel + 1]);
     const Sample exact = sample(k_1_m);
     const LayerAnswer ours = at(k_1_m);
     const double whole_m_Pa =

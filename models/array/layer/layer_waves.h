@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/array/film/layered_film.h"
+#include "models/maths/chebyshev_panel.h"
 
 #include <array>
 #include <vector>
@@ -22,7 +23,7 @@ class LayerWaves {
 
   // The answer at a wave number up to the largest.
   LayerAnswer at(double k_1_m) const;
-  double largest_k_1_m() const { return breaks_1_m_.back(); }
+  double largest_k_1_m() const { return panels_.breaks().back(); }
   double thickness_m() const { return thickness_m_; }        // of the layer
   double reference_m_Pa() const { return reference_m_Pa_; }  // A of eq. L2, times k
 
@@ -41,8 +42,7 @@ class LayerWaves {
   std::vector<FilmWaves> directions_;  // at 0, or at 0, 45 and 90 degrees
   double thickness_m_ = 0.0;
   double reference_m_Pa_ = 0.0;
-  std::vector<double> breaks_1_m_;    // of the panels
-  std::vector<LayerAnswer> samples_;  // panel by panel
+  ChebyshevPanels panels_;  // sinking and readings
   double error_ = 0.0;
 };
 

@@ -44,14 +44,6 @@ double rim_cells(const Eigen::MatrixXd& p_Pa) {
   return count;
 }
 
-SceneCurve profile(const char* name, const char* unit) {
-  SceneCurve curve;
-  curve.name = name;
-  curve.unit = unit;
-  curve.x_name = "x_m";
-  return curve;
-}
-
 // The scene with its film, kernel and window, which all grids share.
 class LayerSolver {
  public:
@@ -134,9 +126,9 @@ void LayerSolver::set_results(const LayerPressure& pressed, SceneAnswer& answer)
 }
 
 void LayerSolver::set_profiles(const LayerPressure& pressed, SceneAnswer& answer) const {
-  SceneCurve pressure = profile(kPressureProfile, "Pa");
-  pressure.is_watched = false;  // it jumps at the edge of the contact
-  SceneCurve voltage = profile(kVoltageProfile, "V");
+  // Not watched: it jumps at the edge of the contact.
+  SceneCurve pressure{.name = kPressureProfile, .unit = "Pa", .x_name = "x_m", .is_watched = false};
+  SceneCurve voltage{.name = kVoltageProfile, .unit = "V", .x_name = "x_m"};
   const LayerGrid& grid = pressed.grid;
   const Eigen::Index middle = pressed.pressure_Pa.cols() / 2;
   const bool has_voltage = asks_for(*scene_, kVoltageProfile);
@@ -161,8 +153,7 @@ void LayerSolver::add_gap(const LayerPressure& pressed, SceneAnswer& answer) con
   const Eigen::Index middle = pressed.pressure_Pa.cols() / 2;
   const GridConvolution sums(kernel_.sinking_m_Pa(grid.count, grid.cell_m()));
   const Eigen::VectorXd sinking_m = sums.apply(pressed.pressure_Pa).col(middle);
-  SceneCurve gap = profile(kGapProfile, "m");
-  gap.is_watched = false;
+  SceneCurve gap{.name = kGapProfile, .unit = "m", .x_name = "x_m", .is_watched = false};
   for (int i = 0; i < kProfilePoints; ++i) {
     const double x_m =
         grid.x_m + (static_cast<double>(i) / (kProfilePoints - 1) - 0.5) * grid.width_m;
@@ -231,16 +222,13 @@ std::vector<Discretisation> layer_meshes(const LayerScene& scene) {
   std::vector<Discretisation> meshes;
   const int finest = scene.is_plane() ? 9 : 7;
   for (int degree = 3; degree <= finest; ++degree) {
-    Discretisation mesh;
-    mesh.degree = degree;
-    mesh.layers = degree - 2;
-    meshes.push_back(mesh);
+    meshes.push_back({.degree = degree, .layers = degree - 2});
   }
   return meshes;
 }
 
 std::vector<std::string> result_names(const LayerScene& scene) {
-  std::vector<std::string> names = voltage_names(scene);
+  std::vector<std::string> names = voltage_names(scene.electrode);
   for (const char* const name : {"contact_force", area_name(scene), "depth", "largest_pressure",
                                  kPressureProfile, kVoltageProfile, kGapProfile}) {
     names.emplace_back(name);

@@ -22,17 +22,18 @@ const ArrayAnalysis& analysis_of(const ArrayScene& scene) {
   throw std::logic_error("this drive has no row in the table of analyses");
 }
 
+ArrayModel model_of(const ArrayScene& scene, const Discretisation& mesh, const PillarPorts& extra) {
+  return {scene.feels_neighbours ? scene.geometry : lone(scene.geometry), scene.electrodes,
+          media_of(scene), mesh, extra};
+}
+
 bool asks_for_voltages(const ArrayScene& scene) {
   if (!is_electric(scene) || !analysis_of(scene).is_loaded) return false;
-  if (scene.press) {
-    return scene.wanted.empty() ||
-           std::any_of(scene.wanted.begin(), scene.wanted.end(), [](const std::string& name) {
-             return name.find("_voltage") != std::string::npos || name.starts_with("electrode");
-           });
-  }
-  return scene.wanted.empty() ||
-         std::any_of(scene.wanted.begin(), scene.wanted.end(),
-                     [](const std::string& name) { return !name.starts_with("top_displacement"); });
+  const auto is_voltage = [&](const std::string& name) {
+    if (!scene.press) return !name.starts_with("top_displacement");
+    return name.find("_voltage") != std::string::npos || name.starts_with("electrode");
+  };
+  return scene.wanted.empty() || std::any_of(scene.wanted.begin(), scene.wanted.end(), is_voltage);
 }
 
 int modes_for(const ArrayScene& scene, const Discretisation& mesh, double highest_Hz) {
@@ -61,11 +62,8 @@ void let_film_lose(const ArrayScene& scene, ArrayTransfer& transfer) {
 }
 
 double film_loss_error(const ArrayScene& scene, const ArrayTransfer& transfer) {
-  if (scene.film_loss.is_lossless() || transfer.voltages() == 0 || !asks_for_voltages(scene)) {
-    return 0.0;
-  }
-  return bonded_port(scene.film, scene.film_loss).error *
-         lost_share(scene.film_loss, slowest_rad_s(scene));
+  if (transfer.voltages() == 0 || !asks_for_voltages(scene)) return 0.0;
+  return bonded_error(scene.film, scene.film_loss, slowest_rad_s(scene));
 }
 
 void refuse_moving_film(const ArrayScene& scene, double error, const std::string& what,

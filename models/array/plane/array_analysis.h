@@ -45,6 +45,10 @@ ArrayAnalysis array_transient_analysis();
 void check_pressure(const ArrayScene& scene, double pressure_Pa, const char* key);
 void check_load(const ArrayScene& scene);
 
+// The row on a mesh; without neighbours, one of its pillars alone.
+ArrayModel model_of(const ArrayScene& scene, const Discretisation& mesh,
+                    const PillarPorts& extra = {});
+
 // The parts that harmonic and transient analyses of a row share. Outputs are those of
 // ArrayTransfer: the tops, then the voltages.
 

@@ -17,9 +17,8 @@ std::vector<std::string> row_modal_names(const ArrayScene&) {
 
 SceneAnswer run_row_modal(const ArrayScene& scene, const Discretisation& mesh) {
   const ArrayMedia media = media_of(scene);
-  const ArrayModel model(scene.feels_neighbours ? scene.geometry : lone(scene.geometry),
-                         scene.electrodes, media, mesh,
-                         {.modes = inertia_ports_for(row_modal_drive(scene).modes)});
+  const ArrayModel model =
+      model_of(scene, mesh, {.modes = inertia_ports_for(row_modal_drive(scene).modes)});
   SceneAnswer answer;
   answer.discretisation = mesh;
   answer.unknowns = model.unknowns();

@@ -17,15 +17,11 @@ constexpr double kNoVoltage = 1e-9;
 
 // A model of a single pillar for each pillar of the row.
 ArrayAnswer each_alone(const ArrayAnswer& one, const Eigen::VectorXd& load_Pa) {
-  const auto repeated = [&](const Eigen::VectorXd& value) {
-    return value.size() == 0 ? value : Eigen::VectorXd(value[0] * load_Pa);
-  };
   ArrayAnswer row;
-  row.centre_V = repeated(one.centre_V);
-  row.mean_V = repeated(one.mean_V);
-  row.electrode_V = repeated(one.electrode_V);
-  row.electrode_C = repeated(one.electrode_C);
-  row.top_m = repeated(one.top_m);
+  for (const auto value : {&ArrayAnswer::centre_V, &ArrayAnswer::mean_V, &ArrayAnswer::electrode_V,
+                           &ArrayAnswer::electrode_C, &ArrayAnswer::top_m}) {
+    if ((one.*value).size() > 0) row.*value = (one.*value)[0] * load_Pa;
+  }
   return row;
 }
 
@@ -37,9 +33,7 @@ const Eigen::VectorXd& single_V(const ArrayAnswer& of) {
 class Statics {
  public:
   Statics(const ArrayScene& scene, const Discretisation& mesh)
-      : scene_(scene),
-        model_(scene.feels_neighbours ? scene.geometry : lone(scene.geometry), scene.electrodes,
-               media_of(scene), mesh) {
+      : scene_(scene), model_(model_of(scene, mesh)) {
     answer_.discretisation = mesh;
     answer_.unknowns = model_.unknowns();
     load_Pa_ =

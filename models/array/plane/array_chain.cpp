@@ -125,9 +125,7 @@ Eigen::MatrixXd ArrayChain::pivot_solve(std::size_t joint, const Eigen::MatrixXd
 
 // Loads on all joints become their displacements and potentials.
 void ArrayChain::solve_joints(Eigen::MatrixXd& u) const {
-  const auto rows_of = [&](std::size_t joint) {
-    return u.middleRows(first_row_[joint], first_row_[joint + 1] - first_row_[joint]);
-  };
+  const auto rows_of = [&](std::size_t joint) { return rows(u, joint); };
   for (std::size_t joint = 0; joint <= pieces_.size(); ++joint) {
     if (joint > 0) rows_of(joint).noalias() -= factor(joint - 1).lower * rows_of(joint - 1);
     rows_of(joint) = pivot_solve(joint, rows_of(joint));
@@ -140,9 +138,7 @@ void ArrayChain::solve_joints(Eigen::MatrixXd& u) const {
 Eigen::MatrixXd ArrayChain::compliance(const std::vector<int>& loaded_ports) const {
   const auto loads = static_cast<Eigen::Index>(loaded_ports.size());
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(first_row_.back(), loads);
-  const auto rows_of = [&](std::size_t joint) {
-    return u.middleRows(first_row_[joint], first_row_[joint + 1] - first_row_[joint]);
-  };
+  const auto rows_of = [&](std::size_t joint) { return rows(u, joint); };
   Eigen::MatrixXd readings = Eigen::MatrixXd::Zero(port_count(), loads);
   for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
     const CondensedPiece& p = *pieces_[piece];
@@ -168,9 +164,7 @@ Eigen::MatrixXd ArrayChain::compliance(const std::vector<int>& loaded_ports) con
 
 Eigen::VectorXd ArrayChain::readings(const Eigen::VectorXd& loads) const {
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(first_row_.back(), 1);
-  const auto rows_of = [&](std::size_t joint) {
-    return u.middleRows(first_row_[joint], first_row_[joint + 1] - first_row_[joint]);
-  };
+  const auto rows_of = [&](std::size_t joint) { return rows(u, joint); };
   const auto loads_of = [&](std::size_t piece) {
     return loads.segment(first_port_[piece], pieces_[piece]->port_count());
   };

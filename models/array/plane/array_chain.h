@@ -58,6 +58,9 @@ class ArrayChain {
   Eigen::MatrixXd block(std::size_t piece, bool row_right, bool column_right) const;
   Eigen::MatrixXd port_block(std::size_t piece, bool right) const;  // end unknowns x ports
   void solve_joints(Eigen::MatrixXd& u) const;
+  auto rows(Eigen::MatrixXd& u, std::size_t joint) const {  // of a joint among those of all
+    return u.middleRows(first_row_[joint], first_row_[joint + 1] - first_row_[joint]);
+  }
 };
 
 }  // namespace viscard

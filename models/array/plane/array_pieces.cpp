@@ -13,18 +13,6 @@
 namespace viscard {
 namespace {
 
-DofMap free_dofs(const Section& section, bool fixed_base) {
-  DofMap dofs(2, section.node_count());
-  if (fixed_base) {
-    for (const int node : nodes_on_break(section, 0, 0, section.x().element_count())) {
-      dofs.fix(kAcross, node);
-      dofs.fix(kUp, node);
-    }
-  }
-  dofs.number();
-  return dofs;
-}
-
 // Inertia loads M phi of shapes phi on a fixed base, M-orthonormal, on the unknowns of the free
 // pillar.
 struct InertiaPorts {
@@ -37,7 +25,7 @@ struct InertiaPorts {
 struct HeldStrip {
   HeldStrip(const Section& section, const DiscreteSystem& free_pillar, const PlaneForm& form,
             double rho_kg_m3)
-      : free(free_pillar), system(section, whole_plane(), free_dofs(section, true)) {
+      : free(free_pillar), system(section, whole_plane(), plane_dofs(section, true)) {
     const std::vector<Eigen::MatrixXd> density{rho_kg_m3 * Eigen::MatrixXd::Identity(3, 3)};
     mass = system.form(system.kinematics().displacement, density);
     free_mass = free.form(free.kinematics().displacement, density);
@@ -232,7 +220,7 @@ CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media,
                               mesh.cell.x.begin() + mesh.cell.last_pillar_column + 1);
   const Section section(LineMesh(x, degree), LineMesh(mesh.pillar_z, degree),
                         [](double, double) { return 0; });
-  const DiscreteSystem system(section, whole_plane(), free_dofs(section, false));
+  const DiscreteSystem system(section, whole_plane(), plane_dofs(section, false));
   const PlaneForm form = plane_form(media.pillar, media.plane, false);
   const int columns = section.x().element_count();
   const int top = section.z().element_count();

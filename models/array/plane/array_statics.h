@@ -67,11 +67,15 @@ class ArrayModel {
 // Direction of the traction on the tops.
 enum class ArrayLoad { kPressure, kShear };  // on the whole top
 
-// All values of a row under loads on its pillars in Pa, as in ArrayResponse. Time and memory grow
-// with the number of pillars, not with its square.
+// All values of a row under loads on its pillars in Pa, by pillar. Time and memory grow with the number of
+// pillars, not with its square.
 struct ArrayAnswer {
-  Eigen::VectorXd centre_V, mean_V, electrode_V, midway_V, top_m;
-  Eigen::VectorXd electrode_C;            // all electrodes at 0 V, per metre
+  Eigen::VectorXd centre_V,
+      mean_V;                   // charge-free face: under the centre; over the electrode's width
+  Eigen::VectorXd electrode_V;  // equipotential electrodes, all open; else empty
+  Eigen::VectorXd midway_V;     // between pillar i and i + 1; the last the mirror's, if any
+  Eigen::VectorXd top_m;        // mean displacement: along z under pressure, along x under shear
+  Eigen::VectorXd electrode_C;  // all electrodes at 0 V, per metre
   Eigen::VectorXd pushed_m2, sheared_m2;  // readings of the tops' pressure and shear ports
 };
 ArrayAnswer array_answer(const ArrayModel& model, ArrayLoad load, const Eigen::VectorXd& load_Pa);
@@ -81,19 +85,6 @@ ArrayAnswer array_answer(const ArrayModel& model, const Eigen::VectorXd& loads);
 double own_V_per_Pa(const ArrayModel& model, ArrayLoad load, int pillar);
 // Voltage of an equipotential electrode for 1 C on itself alone, all open, per metre.
 double own_V_per_C(const ArrayModel& model, int pillar);
-
-// Responses to unit loads on single pillars: rows are pillars that are read, columns pillars that
-// are loaded (0-based). Every static answer of the array is a sum of columns.
-struct ArrayResponse {
-  Eigen::MatrixXd centre_V;     // charge-free face: under the pillars' centres
-  Eigen::MatrixXd mean_V;       // charge-free face: mean over the electrode's width
-  Eigen::MatrixXd electrode_V;  // equipotential electrodes, all open; else empty
-  Eigen::MatrixXd midway_V;     // midway between pillar i and i + 1; last row the mirror's, if any
-  Eigen::MatrixXd top_m;        // mean displacement of the tops: along z under pressure, along x
-                                // under shear
-  Eigen::MatrixXd V_per_C;      // electrodes: inverse of the capacitance matrix, per metre
-};
-ArrayResponse array_response(const ArrayModel& model, ArrayLoad load);
 
 int port_of(ArrayLoad load);  // of a pillar
 // Mean displacement of a top over the reading of its load, which is the work of 1 Pa.

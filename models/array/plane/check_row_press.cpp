@@ -9,10 +9,6 @@
 namespace viscard {
 namespace {
 
-bool is_in_section(const RigidShape& shape) {
-  return shape.y_m == 0.0 && shape.tilt_y == 0.0 && shape.direction_rad == 0.0;
-}
-
 void check_row_place(const ArrayScene& scene) {
   if (scene.drive.index() != RowDrive(RowStatic{}).index()) {
     throw SceneMistake("analysis.kind",
@@ -26,11 +22,7 @@ void check_row_place(const ArrayScene& scene) {
     throw SceneMistake("geometry.film.ends",
                        "cannot be mirrors under a shape, which they would repeat; say \"free\"");
   }
-  if (!is_in_section(scene.press->shape)) {
-    throw SceneMistake("shape",
-                       "lies in the section of x and z: at and tilt along y must be 0, and there "
-                       "is no direction");
-  }
+  check_in_section(scene.press->shape);
 }
 
 }  // namespace
@@ -47,9 +39,9 @@ void check_row_press(const ArrayScene& scene) {
   }
   const double length_m = scene.geometry.length_m;
   check_press_place(press, "a force per metre across the row, such as force = \"5 N\"", length_m);
-  const RowFoundation pressed = row_foundation(scene);
+  const FoundationPress pressed = row_foundation(scene);
   check_press_plan(press, {.length_m = length_m,
-                           .touches = pressed.touches,
+                           .touches = std::isfinite(pressed.lowest_m),
                            .shortening = pressed.shortening,
                            .covers_all = pressed.covers_all,
                            .feels_contact = scene.feels_contact});

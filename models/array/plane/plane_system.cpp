@@ -16,6 +16,18 @@ Kinematics whole_plane() {
   return kinematics;
 }
 
+DofMap plane_dofs(const Section& section, bool holds_base) {
+  DofMap dofs(2, section.node_count());
+  if (holds_base) {
+    for (const int node : nodes_on_break(section, 0, 0, section.x().element_count())) {
+      dofs.fix(kAcross, node);
+      dofs.fix(kUp, node);
+    }
+  }
+  dofs.number();
+  return dofs;
+}
+
 PlaneForm plane_form(const Medium& medium, PlaneState plane, bool is_electric) {
   const bool is_plane_stress = plane == PlaneState::kStress;
   if (is_plane_stress || is_electric || !medium.is_isotropic ||

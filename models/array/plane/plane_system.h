@@ -19,6 +19,9 @@ inline constexpr int kPotential = 2;
 // The plane motion without any symmetry: pieces reach to both sides of x = 0.
 Kinematics whole_plane();
 
+// Its unknowns, with the base of the section held or free.
+DofMap plane_dofs(const Section& section, bool holds_base);
+
 // Displacement form of a medium, and the bulk modulus whose pressures are condensed beside it.
 struct PlaneForm {
   Eigen::MatrixXd form;

@@ -19,9 +19,7 @@ ArrayAnswer answer_of_loads(const ArrayScene& scene, const Discretisation& mesh,
                             const Eigen::MatrixXd& loads_Pa, int* unknowns) {
   const auto count = static_cast<int>(loads_Pa.cols());
   const auto ports = static_cast<int>(loads_Pa.rows());
-  const ArrayModel model(scene.feels_neighbours ? scene.geometry : lone(scene.geometry),
-                         scene.electrodes, media_of(scene), mesh,
-                         PillarPorts{.top_degree = kTopDegree});
+  const ArrayModel model = model_of(scene, mesh, {.top_degree = kTopDegree});
   if (unknowns != nullptr) *unknowns = model.unknowns();
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(model.chain().port_count());
   if (scene.feels_neighbours) {
@@ -33,19 +31,16 @@ ArrayAnswer answer_of_loads(const ArrayScene& scene, const Discretisation& mesh,
   }
   // Each pillar alone: its own response to each of its tractions.
   ArrayAnswer row;
-  const auto add = [&](const Eigen::VectorXd& one, int port, Eigen::VectorXd& all) {
-    if (one.size() == 0) return;
-    if (all.size() == 0) all = Eigen::VectorXd::Zero(count);
-    all += one[0] * loads_Pa.row(port).transpose();
-  };
   for (int port = 0; port < ports; ++port) {
     loads.setZero();
     loads[model.pillar_port(0, port)] = 1.0;
     const ArrayAnswer one = array_answer(model, loads);
-    add(one.centre_V, port, row.centre_V);
-    add(one.mean_V, port, row.mean_V);
-    add(one.electrode_V, port, row.electrode_V);
-    add(one.electrode_C, port, row.electrode_C);
+    for (const auto value : {&ArrayAnswer::centre_V, &ArrayAnswer::mean_V,
+                             &ArrayAnswer::electrode_V, &ArrayAnswer::electrode_C}) {
+      if ((one.*value).size() == 0) continue;
+      if (port == 0) row.*value = Eigen::VectorXd::Zero(count);
+      row.*value += (one.*value)[0] * loads_Pa.row(port).transpose();
+    }
   }
   return row;
 }

@@ -1,6 +1,7 @@
 #include "models/array/plane/row_contact.h"
 
 #include "models/array/contact/pull_off.h"
+#include "models/array/plane/array_analysis.h"
 #include "models/array/plane/strip_top.h"
 #include "models/maths/require.h"
 
@@ -85,11 +86,8 @@ class RowTops {
 
  private:
   void add_film(const Discretisation& mesh) {
-    ArrayGeometry geometry = scene_->geometry;
-    if (!scene_->feels_neighbours) geometry = lone(geometry);
-    model_ = std::make_unique<ArrayModel>(geometry, scene_->electrodes, media_of(*scene_), mesh,
-                                          PillarPorts{.top_degree = kTopDegree});
-    const int middle = (geometry.count - 1) / 2;
+    model_.reset(new ArrayModel(model_of(*scene_, mesh, {.top_degree = kTopDegree})));
+    const int middle = (model_->geometry().count - 1) / 2;
     std::vector<int> ports;
     for (int port = 0; port < kPorts; ++port) ports.push_back(model_->pillar_port(middle, port));
     own_m2_Pa_ = model_->chain().compliance(ports)(ports, Eigen::all);

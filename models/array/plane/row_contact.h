@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/array/contact/foundation.h"
 #include "models/array/plane/array_scene.h"
 
 #include <Eigen/Core>
@@ -58,17 +59,7 @@ RowContact row_contact_within(const ArrayScene& scene, double tolerance);
 // Throws SceneMistake where a table of heights has a tip that the finest grid of a top does not see.
 void refuse_missed_row_tips(const ArrayScene& scene, double depth_m);
 
-// The row as independent columns E A/l, for estimates before anything is solved.
-struct RowFoundation {
-  double depth_m = 0.0;
-  double largest_Pa = 0.0;  // largest mean pressure on a top
-  double pull_Pa = 0.0;     // largest mean pull on a top that adheres, along the path of depths
-  double shortening = 0.0;  // of a pillar, the largest over its length
-  bool touches = false;     // there is a surface above a top
-  bool covers_all = true;   // and above every top everywhere
-  // How far a point of any top stays above the surface, or would be pulled under a bent one, over the largest overlap.
-  double lift = 1.0;
-};
-RowFoundation row_foundation(const ArrayScene& scene);
+// The row as an elastic foundation of columns.
+FoundationPress row_foundation(const ArrayScene& scene);
 
 }  // namespace viscard

@@ -43,16 +43,6 @@ std::vector<double> strip_heights(const ArrayGeometry& g, int elements) {
   return breaks;
 }
 
-DofMap held_at_base(const Section& section) {
-  DofMap dofs(2, section.node_count());
-  for (const int node : nodes_on_break(section, 0, 0, section.x().element_count())) {
-    dofs.fix(kAcross, node);
-    dofs.fix(kUp, node);
-  }
-  dofs.number();
-  return dofs;
-}
-
 }  // namespace
 
 StripCompliance strip_compliance(const ArrayGeometry& geometry, const ArrayMedia& media,
@@ -62,7 +52,7 @@ StripCompliance strip_compliance(const ArrayGeometry& geometry, const ArrayMedia
   const Section section(LineMesh(top_breaks(geometry.diameter_m, elements), degree),
                         LineMesh(strip_heights(geometry, elements), degree),
                         [](double, double) { return 0; });
-  const DiscreteSystem system(section, whole_plane(), held_at_base(section));
+  const DiscreteSystem system(section, whole_plane(), plane_dofs(section, true));
   const SymmetricSparse stiffness = stiffness_of(system, form);
   SupernodalFactor factor;
   factor.analyse(stiffness);

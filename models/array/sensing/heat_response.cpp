@@ -1,5 +1,6 @@
 #include "models/array/sensing/heat_response.h"
 
+#include "models/maths/bessel_orders.h"
 #include "models/maths/gauss_legendre.h"
 
 #include <algorithm>
@@ -14,10 +15,6 @@ using Complex = std::complex<double>;
 
 double diffusivity_m2_s(const HeatConductor& one) {
   return one.conductivity_W_mK / one.capacity_J_m3K;
-}
-
-double disc_transform(double kR) {
-  return kR < 1e-6 ? 1.0 : 2.0 * std::cyl_bessel_j(1.0, kR) / kR;
 }
 
 // tanh and 1/cosh of numbers with a positive real part, without overflow.
@@ -35,7 +32,7 @@ Complex sech_of(Complex x) {
 enum class Flux { kEven, kOneTemperature };
 
 double flux_transform(Flux flux, double kR) {
-  if (flux == Flux::kEven || kR < 1e-6) return disc_transform(kR);
+  if (flux == Flux::kEven || kR < 1e-6) return disc_mean_of_wave(kR);
   return std::sin(kR) / kR;
 }
 
@@ -91,7 +88,7 @@ FootResponse foot_response(const HeatPath& path, const ElectrodeWeight& weight, 
     for (std::size_t i = 0; i < rule.points.size(); ++i) {
       const double k = (panel + rule.points[i]) * largest / panels;
       const Complex q = std::sqrt(k * k + s_a);
-      const double disc = disc_transform(k * R_m);
+      const double disc = disc_mean_of_wave(k * R_m);
       const double flux = flux_transform(quadrature.flux, k * R_m);
       const double part = rule.weights[i] * largest / panels / (2.0 * std::numbers::pi);
       sum.foot_K +=

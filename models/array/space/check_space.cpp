@@ -18,10 +18,6 @@ namespace {
 
 constexpr double kSoftestBacking = 0.1;  // over the softest pillar
 
-std::string name_of(RowColumn place) {
-  return "[" + std::to_string(place.first) + ", " + std::to_string(place.second) + "]";
-}
-
 void check_loaded_places(const SpaceScene& scene) {
   std::set<RowColumn> seen;
   for (std::size_t i = 0; i < scene.loaded.size(); ++i) {
@@ -96,8 +92,7 @@ void check_friction(const SpaceScene& scene) {
 
 void check_press(const SpaceScene& scene) {
   const ShapePress& press = *scene.press;
-  if (scene.pressure_Pa != 0.0 || scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 ||
-      !scene.loaded.empty()) {
+  if (has_load(scene)) {
     throw SceneMistake("analysis.load", "cannot stand beside a shape, which itself loads the tops");
   }
   at_key("shape", [&] { validate(press.shape); });
@@ -164,14 +159,7 @@ void check_backing(const SpaceScene& scene) {
 }
 
 void check_film(const SpaceScene& scene) {
-  if (!scene.film.has_permittivity() || !scene.film.is_piezoelectric()) {
-    throw SceneMistake("geometry.film.material",
-                       "an array in the plane is read by its film, which must be piezoelectric; "
-                       "give a material from a file, such as pvdf_seed.json");
-  }
-  if (!(scene.film_thickness_m > 0.0)) {
-    throw SceneMistake("geometry.film.thickness", "the film's thickness must be positive");
-  }
+  check_read_film(scene.film, scene.film_thickness_m, "an array in the plane");
   if (!(scene.film_edge_m >= 0.0) || !std::isfinite(scene.film_edge_m)) {
     throw SceneMistake("geometry.film.edge",
                        "the film beyond the outer pillars must not be "

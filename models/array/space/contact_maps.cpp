@@ -22,17 +22,19 @@ struct TopMap {
   double (*error)(const SpaceContact&, std::size_t pillar, double R_m);
 };
 
-double moment_change(const SpaceContact& contact, std::size_t pillar, TopLoad load, double R_m) {
-  const auto row = static_cast<Eigen::Index>(pillar);
-  return std::abs(contact.change_Pa(row, static_cast<int>(load))) * 0.25 * std::numbers::pi * R_m *
-         R_m * R_m;
+template <TopLoad kLoad>
+double moment_change(const SpaceContact& contact, std::size_t pillar, double R_m) {
+  return std::abs(contact.change_Pa(static_cast<Eigen::Index>(pillar), static_cast<int>(kLoad))) *
+         0.25 * std::numbers::pi * R_m * R_m * R_m;
 }
 
-double shear_change(const SpaceContact& contact, std::size_t pillar, TopLoad load, double R_m) {
+template <TopLoad kLoad>
+double shear_change(const SpaceContact& contact, std::size_t pillar, double R_m) {
   const auto row = static_cast<Eigen::Index>(pillar);
-  return std::abs(contact.change_Pa(row, static_cast<int>(load))) * std::numbers::pi * R_m * R_m +
-         contact.stiffness_error * std::abs(contact.loads_Pa(row, static_cast<int>(load))) *
-             std::numbers::pi * R_m * R_m;
+  const auto load = static_cast<int>(kLoad);
+  return (std::abs(contact.change_Pa(row, load)) +
+          contact.stiffness_error * std::abs(contact.loads_Pa(row, load))) *
+         std::numbers::pi * R_m * R_m;
 }
 
 // Those of tops that stick are the last two.
@@ -45,21 +47,13 @@ std::vector<TopMap> top_maps(const SpaceScene& scene) {
       {"contact_share_percent", "%", [](const TopPressure& top) { return 100.0 * top.share; },
        [](const SpaceContact& c, std::size_t i, double) { return 100.0 * c.share_change[i]; }},
       {"moment_x", "N m", [](const TopPressure& top) { return top.moment_x_Nm; },
-       [](const SpaceContact& c, std::size_t i, double R_m) {
-         return moment_change(c, i, TopLoad::kTiltX, R_m);
-       }},
+       moment_change<TopLoad::kTiltX>},
       {"moment_y", "N m", [](const TopPressure& top) { return top.moment_y_Nm; },
-       [](const SpaceContact& c, std::size_t i, double R_m) {
-         return moment_change(c, i, TopLoad::kTiltY, R_m);
-       }},
+       moment_change<TopLoad::kTiltY>},
       {"shear_force_x", "N", [](const TopPressure& top) { return top.shear_x_N; },
-       [](const SpaceContact& c, std::size_t i, double R_m) {
-         return shear_change(c, i, TopLoad::kShearX, R_m);
-       }},
+       shear_change<TopLoad::kShearX>},
       {"shear_force_y", "N", [](const TopPressure& top) { return top.shear_y_N; },
-       [](const SpaceContact& c, std::size_t i, double R_m) {
-         return shear_change(c, i, TopLoad::kShearY, R_m);
-       }}};
+       shear_change<TopLoad::kShearY>}};
   std::vector<TopMap> maps = kMaps;
   if (scene.press->friction == Friction::kNone) maps.resize(maps.size() - 2);
   return maps;

@@ -13,10 +13,6 @@ namespace {
 
 constexpr int kPressure = static_cast<int>(TopLoad::kPressure);
 
-std::string place_of(const SpacePillar& one) {
-  return "[" + std::to_string(one.row) + ", " + std::to_string(one.column) + "]";
-}
-
 void note_table(const SpaceScene& scene, std::vector<std::string>& notes) {
   if (scene.press->shape.kind != ShapeKind::kTable) return;
   const auto outside =
@@ -58,7 +54,7 @@ std::vector<std::string> contact_notes(const SpaceScene& scene, const SpaceConta
     const SpacePillar& pillar = scene.pillars[i];
     const auto of = static_cast<std::size_t>(pillar.of_class);
     const Limits& limit = limits[of];
-    const std::string place = place_of(pillar);
+    const std::string place = name_of({pillar.row, pillar.column});
     const double pressure_Pa = contact.loads_Pa(static_cast<Eigen::Index>(i), kPressure);
     const double share = state.pressure.value / state.pressure.limit;
     state.pressure.consider(place, pressure_Pa, state.sticks ? limit.held_Pa : limit.free_Pa);

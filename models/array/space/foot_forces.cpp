@@ -149,31 +149,22 @@ class HeldPillar {
     return options;
   }
 
-  Eigen::VectorXd on_free(const Eigen::VectorXd& held) const {
-    const DofMap& from = held_.system().dofs();
-    const DofMap& to = free_.system().dofs();
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(to.count());
-    for (int node = 0; node < held_.mesh().section.node_count(); ++node) {
+  // Motions or forces on the unknowns that both models have.
+  static Eigen::VectorXd carried(const PillarModel& from_model, const PillarModel& to_model,
+                                 const Eigen::VectorXd& values) {
+    const DofMap& from = from_model.system().dofs();
+    const DofMap& to = to_model.system().dofs();
+    Eigen::VectorXd there = Eigen::VectorXd::Zero(to.count());
+    for (int node = 0; node < from_model.mesh().section.node_count(); ++node) {
       for (int field = 0; field < from.field_count(); ++field) {
         const int at = to.dof(field, node);
-        if (at >= 0 && from.dof(field, node) >= 0) values[at] = held[from.dof(field, node)];
+        if (at >= 0 && from.dof(field, node) >= 0) there[at] = values[from.dof(field, node)];
       }
     }
-    return values;
+    return there;
   }
-
-  Eigen::VectorXd on_held(const Eigen::VectorXd& free) const {
-    const DofMap& from = free_.system().dofs();
-    const DofMap& to = held_.system().dofs();
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(to.count());
-    for (int node = 0; node < held_.mesh().section.node_count(); ++node) {
-      for (int field = 0; field < to.field_count(); ++field) {
-        const int at = to.dof(field, node);
-        if (at >= 0 && from.dof(field, node) >= 0) values[at] = free[from.dof(field, node)];
-      }
-    }
-    return values;
-  }
+  Eigen::VectorXd on_free(const Eigen::VectorXd& held) const { return carried(held_, free_, held); }
+  Eigen::VectorXd on_held(const Eigen::VectorXd& free) const { return carried(free_, held_, free); }
 
   PillarModel held_;
   PillarModel free_;

@@ -71,17 +71,13 @@ double FootMotion::own_turning_J_Pa2(const FilmTable& film, const FootForces& fo
   each_graded_wave(film.smallest_k_1_m(), film.largest_k_1_m(), 2.0 / foot.radius_m.back(),
                    [&](double k_1_m, double weight) {
                      const SidewaysTransform t = transform(foot.tilt, foot.radius_m, k_1_m);
-                     const std::vector<Eigen::Matrix4d> responses = film.at(k_1_m);
-                     const auto last = static_cast<double>(responses.size() - 1);
-                     for (std::size_t j = 0; j < responses.size(); ++j) {
-                       const bool is_end = j == 0 || j + 1 == responses.size();
-                       const double angle = 0.5 * std::numbers::pi * static_cast<double>(j) / last;
-                       const Eigen::Vector3d wave(2.0 * t.along * std::cos(angle),
-                                                  -2.0 * t.across * std::sin(angle),
-                                                  2.0 * t.normal * std::cos(angle));
-                       sum += weight * (is_end ? 0.5 : 1.0) / last *
-                              wave.dot(responses[j].topLeftCorner<3, 3>() * wave);
-                     }
+                     film.each_direction(
+                         k_1_m, [&](double angle, double share, const Eigen::Matrix4d& at) {
+                           const Eigen::Vector3d wave(2.0 * t.along * std::cos(angle),
+                                                      -2.0 * t.across * std::sin(angle),
+                                                      2.0 * t.normal * std::cos(angle));
+                           sum += weight * share * wave.dot(at.topLeftCorner<3, 3>() * wave);
+                         });
                    });
   return sum;
 }

@@ -45,19 +45,13 @@ Eigen::MatrixXd film_compliance(const FilmTable& film, const FootTrace& foot) {
   each_graded_wave(
       film.smallest_k_1_m(), film.largest_k_1_m(), longest_1_m, [&](double k_1_m, double weight) {
         const Eigen::MatrixXd waves = waves_of_forces(foot, k_1_m);
-        const std::vector<Eigen::Matrix4d> responses = film.at(k_1_m);
-        const auto last = static_cast<double>(responses.size() - 1);
-        for (std::size_t j = 0; j < responses.size(); ++j) {
-          const bool is_end = j == 0 || j + 1 == responses.size();
-          const double share = (is_end ? 0.5 : 1.0) / last;
-          const double angle = 0.5 * std::numbers::pi * static_cast<double>(j) / last;
+        film.each_direction(k_1_m, [&](double angle, double share, const Eigen::Matrix4d& at) {
           Eigen::Vector3d along(1.0, 1.0, 1.0);
           if (!foot.is_axial)
             along << 2.0 * std::cos(angle), -2.0 * std::sin(angle), 2.0 * std::cos(angle);
           const Eigen::MatrixXd turned = along.asDiagonal() * waves;
-          compliance +=
-              share * weight * turned.transpose() * responses[j].topLeftCorner<3, 3>() * turned;
-        }
+          compliance += share * weight * turned.transpose() * at.topLeftCorner<3, 3>() * turned;
+        });
       });
   return compliance;
 }
@@ -66,19 +60,14 @@ Eigen::MatrixXd film_compliance(const FilmTable& film, const FootTrace& foot) {
 
 FootOnFilm::FootOnFilm(const FilmTable& film, const FootTrace& foot,
                        const Eigen::MatrixXd& stiffness)
-    : unknowns_(foot.unknowns), yields_(stiffness * film_compliance(film, foot)) {
+    : yields_(stiffness * film_compliance(film, foot)) {
+  for (const FootUnknown& one : foot.unknowns) dofs_.push_back(one.dof);
   yields_.diagonal().array() += 1.0;
 }
 
 void FootOnFilm::correct(Eigen::VectorXd& base_forces) const {
-  Eigen::VectorXd of_foot(static_cast<Eigen::Index>(unknowns_.size()));
-  for (std::size_t i = 0; i < unknowns_.size(); ++i) {
-    of_foot[static_cast<Eigen::Index>(i)] = base_forces[unknowns_[i].dof];
-  }
-  of_foot = LuFactor(yields_).solve(of_foot);
-  for (std::size_t i = 0; i < unknowns_.size(); ++i) {
-    base_forces[unknowns_[i].dof] = of_foot[static_cast<Eigen::Index>(i)];
-  }
+  const Eigen::VectorXd of_foot = base_forces(dofs_);
+  base_forces(dofs_) = LuFactor(yields_).solve(of_foot);
 }
 
 }  // namespace viscard

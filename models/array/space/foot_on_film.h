@@ -32,7 +32,7 @@ class FootOnFilm {
   void correct(Eigen::VectorXd& base_forces) const;
 
  private:
-  std::vector<FootUnknown> unknowns_;
+  std::vector<int> dofs_;   // of the foot's unknowns
   Eigen::MatrixXd yields_;  // 1 + S C
 };
 

@@ -1,6 +1,5 @@
 // The array under its shape as independent columns, an estimate before anything is solved; and forces on tops as loads.
 #include "models/answer/scene_mistake.h"
-#include "models/array/contact/pull_off.h"
 #include "models/array/contact/round_tip.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/space_maps.h"
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -17,29 +15,18 @@
 namespace viscard {
 namespace {
 
-struct Column {
-  double lowest_m = 0.0, highest_m = 0.0, mean_m = 0.0;  // of the surface above its top
-  double bent_m = 0.0;  // of the surface, between the ends of a diameter
-  double area_m2 = 0.0, stiffness_Pa_m = 0.0, length_m = 0.0, radius_m = 0.0;
-  double limit_Pa = 0.0;  // mean pull at pull-off
-
-  double force_N(double depth_m) const {
-    return std::max(depth_m - mean_m, 0.0) * stiffness_Pa_m * area_m2;
-  }
-};
-
-Column column_under(const RigidShape& shape, const SpacePillar& one, const SpaceClass& kind,
-                    double above_m) {
+FoundationColumn column_under(const RigidShape& shape, const SpacePillar& one,
+                              const SpaceClass& kind, double above_m) {
   constexpr int kAngles = 8;
   const double R_m = 0.5 * kind.diameter_m;
   const double centre_m = height_m(shape, one.x_m, one.y_m) - above_m;
-  Column column{.lowest_m = centre_m,
-                .highest_m = centre_m,
-                .mean_m = 0.5 * centre_m,
-                .area_m2 = std::numbers::pi * R_m * R_m,
-                .stiffness_Pa_m = kind.material.E0_Pa / kind.length_m,
-                .length_m = kind.length_m,
-                .radius_m = R_m};
+  FoundationColumn column{.lowest_m = centre_m,
+                          .mean_m = 0.5 * centre_m,
+                          .highest_m = centre_m,
+                          .area_m2 = std::numbers::pi * R_m * R_m,
+                          .length_m = kind.length_m,
+                          .radius_m = R_m,
+                          .stiffness_Pa_m = kind.material.E0_Pa / kind.length_m};
   std::array<double, kAngles> rims_m{};
   for (int a = 0; a < kAngles; ++a) {
     const double angle = 2.0 * std::numbers::pi * a / kAngles;
@@ -63,54 +50,19 @@ Column column_under(const RigidShape& shape, const SpacePillar& one, const Space
   return column;
 }
 
-std::vector<Column> columns_under(const SpaceScene& scene) {
+std::vector<FoundationColumn> columns_under(const SpaceScene& scene) {
   const std::vector<SpaceClass> classes = classes_of(scene);
-  std::vector<Column> columns;
+  std::vector<FoundationColumn> columns;
   columns.reserve(scene.pillars.size());
   for (const SpacePillar& one : scene.pillars) {
     const SpaceClass& kind = classes[static_cast<std::size_t>(one.of_class)];
-    Column column = column_under(scene.press->shape, one, kind, kind.length_m - scene.length_m);
+    FoundationColumn column =
+        column_under(scene.press->shape, one, kind, kind.length_m - scene.length_m);
     const double work_J_m2 = scene.press->work_of_adhesion_J_m2;
     if (work_J_m2 > 0.0) column.limit_Pa = class_pull_off_N(kind, work_J_m2) / column.area_m2;
     columns.push_back(column);
   }
   return columns;
-}
-
-// By bisection; infinite if no column lies under the shape.
-double depth_of_force_m(const std::vector<Column>& columns, double force_N) {
-  const auto sum_N = [&](double depth_m) {
-    double sum = 0.0;
-    for (const Column& column : columns) sum += column.force_N(depth_m);
-    return sum;
-  };
-  double low_m = std::numeric_limits<double>::infinity();
-  double softest_N_m = low_m;
-  for (const Column& column : columns) {
-    low_m = std::min(low_m, column.mean_m);
-    softest_N_m = std::min(softest_N_m, column.stiffness_Pa_m * column.area_m2);
-  }
-  if (!std::isfinite(low_m)) return low_m;
-  double high_m = low_m + force_N / softest_N_m;  // one column alone bears it
-  for (int i = 0; i < 60; ++i) {
-    const double middle_m = 0.5 * (low_m + high_m);
-    (sum_N(middle_m) < force_N ? low_m : high_m) = middle_m;
-  }
-  return high_m;
-}
-
-double space_pull_Pa(const SpaceScene& scene, const std::vector<Column>& columns) {
-  const bool wants_release = asks_for_map(scene, "release_depth");
-  double pull_Pa = 0.0;
-  for (const Column& one : columns) {
-    const PulledColumn column{.lowest_m = one.lowest_m,
-                              .mean_m = one.mean_m,
-                              .highest_m = one.highest_m,
-                              .stiffness_Pa_m = one.stiffness_Pa_m,
-                              .limit_Pa = one.limit_Pa};
-    pull_Pa = std::max(pull_Pa, largest_pull_Pa(column, path_of(*scene.press), wants_release));
-  }
-  return pull_Pa;
 }
 
 }  // namespace
@@ -136,40 +88,15 @@ void refuse_missed_tips(const SpaceScene& scene, double depth_m) {
       }
     }
     if (seen_m >= 0.5 * reach_m) continue;
-    throw SceneMistake("shape.file", "has a tip over pillar [" + std::to_string(one.row) + ", " +
-                                         std::to_string(one.column) +
-                                         "] that is narrower than the finest grid of its top, " +
+    throw SceneMistake("shape.file", "has a tip over pillar " + name_of({one.row, one.column}) +
+                                         " that is narrower than the finest grid of its top, " +
                                          micrometres(R_m / kRings, 2) +
                                          "; give heights that are smooth over that length");
   }
 }
 
 FoundationPress foundation_press(const SpaceScene& scene) {
-  const std::vector<Column> columns = columns_under(scene);
-  const ShapePress& press = *scene.press;
-  FoundationPress answer;
-  answer.depth_m = press.force_N > 0.0 ? depth_of_force_m(columns, press.force_N) : press.depth_m;
-  double overlap_m = 0.0, lifted_m = 0.0, turned_m = 0.0;
-  answer.lowest_m = columns.front().lowest_m;
-  for (const Column& column : columns) {
-    answer.lowest_m = std::min(answer.lowest_m, column.lowest_m);
-    answer.shortening =
-        std::max(answer.shortening, (answer.depth_m - column.mean_m) / column.length_m);
-    answer.covers_all = answer.covers_all && std::isfinite(column.highest_m);
-    answer.largest_Pa =
-        std::max(answer.largest_Pa, column.force_N(answer.depth_m) / column.area_m2);
-    overlap_m = std::max(overlap_m, answer.depth_m - column.lowest_m);
-    const double pulled_m =
-        kPullOfBend * column.bent_m * column.length_m / column.radius_m + column.mean_m;
-    lifted_m = std::max(lifted_m, std::max(column.highest_m, pulled_m) - answer.depth_m);
-    turned_m =
-        std::max(turned_m, 0.5 * (std::min(column.highest_m, answer.depth_m) - column.lowest_m));
-  }
-  if (scene.press->work_of_adhesion_J_m2 > 0.0) answer.pull_Pa = space_pull_Pa(scene, columns);
-  if (!(overlap_m > 0.0)) return answer;
-  answer.lift = std::min(lifted_m / overlap_m, 1.0);
-  answer.turn = std::min(turned_m / overlap_m, 1.0);
-  return answer;
+  return foundation_press(columns_under(scene), *scene.press, asks_for_map(scene, "release_depth"));
 }
 
 Eigen::Matrix<double, 1, kTopLoads> load_of(const TopPressure& top, double R_m) {

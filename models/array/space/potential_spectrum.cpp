@@ -20,12 +20,6 @@ constexpr int kPanelPoints = 14;      // of a panel of k on which the film is sa
 constexpr double kPanelGrowth = 0.4;  // its length over where it begins
 constexpr double kOwnPhase = 4.0;     // radius of the foot times a panel of k, on its own axis
 
-double thickness_m(const LayeredFilm& film) {
-  double sum = 0.0;
-  for (const FilmLayer& layer : film.layers) sum += layer.thickness_m;
-  return sum;
-}
-
 // The film's reading per traction over the angle: sums over l of (x, z) cos(2 l theta) and
 // y sin(2 l theta), l = 0 to L.
 struct AngularReading {
@@ -69,44 +63,33 @@ class Directions {
                          accuracy.film_degree);
     }
     const double t_m = thickness_m(film);
-    while (breaks_1_m_.back() < largest_k_1_m) {
-      const double from_1_m = breaks_1_m_.back();
+    std::vector<double> breaks_1_m = {0.0};
+    while (breaks_1_m.back() < largest_k_1_m) {
+      const double from_1_m = breaks_1_m.back();
       const double next_1_m = from_1_m + std::max(1.0 / t_m, kPanelGrowth * from_1_m);
       // No short panel is left at the end.
-      const double to_1_m = next_1_m > 0.8 * largest_k_1_m && next_1_m < largest_k_1_m
-                                ? 0.5 * (from_1_m + largest_k_1_m)
-                                : std::min(next_1_m, largest_k_1_m);
-      samples_.push_back(sampled(waves, from_1_m, to_1_m));
-      breaks_1_m_.push_back(to_1_m);
+      breaks_1_m.push_back(next_1_m > 0.8 * largest_k_1_m && next_1_m < largest_k_1_m
+                               ? 0.5 * (from_1_m + largest_k_1_m)
+                               : std::min(next_1_m, largest_k_1_m));
     }
+    panels_ = ChebyshevPanels(std::move(breaks_1_m), kPanelPoints, [&](double k_1_m) {
+      Eigen::RowVectorXd values(4 * static_cast<Eigen::Index>(waves.size()));
+      for (std::size_t j = 0; j < waves.size(); ++j) {
+        values.segment<4>(4 * static_cast<Eigen::Index>(j)) = waves[j].reading(k_1_m).transpose();
+      }
+      return values;
+    });
   }
 
   std::vector<Eigen::Vector4d> at(double k_1_m) const {
-    const auto above = std::upper_bound(breaks_1_m_.begin() + 1, breaks_1_m_.end() - 1, k_1_m);
-    const auto panel = static_cast<std::size_t>(above - breaks_1_m_.begin() - 1);
-    const double low = breaks_1_m_[panel], high = breaks_1_m_[panel + 1];
-    const double x = (2.0 * k_1_m - low - high) / (high - low);
-    const Eigen::RowVectorXd row = chebyshev_weights(x, kPanelPoints) * samples_[panel];
+    const Eigen::RowVectorXd row = panels_.at(k_1_m);
     std::vector<Eigen::Vector4d> values;
     for (Eigen::Index j = 0; j < row.size(); j += 4) values.emplace_back(row.segment<4>(j));
     return values;
   }
 
  private:
-  static Eigen::MatrixXd sampled(const std::vector<FilmWaves>& waves, double low, double high) {
-    Eigen::MatrixXd values(kPanelPoints, 4 * static_cast<Eigen::Index>(waves.size()));
-    for (int i = 0; i < kPanelPoints; ++i) {
-      const double k_1_m = 0.5 * (low + high + (high - low) * chebyshev_point(i, kPanelPoints));
-      for (std::size_t j = 0; j < waves.size(); ++j) {
-        values.block<1, 4>(i, 4 * static_cast<Eigen::Index>(j)) =
-            waves[j].reading(k_1_m).transpose();
-      }
-    }
-    return values;
-  }
-
-  std::vector<double> breaks_1_m_ = {0.0};
-  std::vector<Eigen::MatrixXd> samples_;  // by panel: points x 4 readings of each direction
+  ChebyshevPanels panels_;  // 4 readings of each direction
 };
 
 // Calls with(k, weight) for the points of a quadrature of k dk/(2 pi).

@@ -55,10 +55,7 @@ AxialReading point_reading() {
 }
 
 AxialReading disc_mean(double radius_m) {
-  return [radius_m](double k_1_m) {
-    const double x = k_1_m * radius_m;
-    return x < 1e-8 ? 1.0 : 2.0 * ::j1(x) / x;
-  };
+  return [radius_m](double k_1_m) { return disc_mean_of_wave(k_1_m * radius_m); };
 }
 
 PotentialTable::PotentialTable(const PotentialSpectrum& spectrum,

@@ -43,9 +43,7 @@ std::vector<std::string> result_names(const SpaceScene& scene) {
   std::vector<std::string> names = sensed_maps(scene);
   for (const std::string& of_quarters : sensed_results(scene)) names.push_back(of_quarters);
   if (scene.quadrants.measured_V.size() > 0) return names;
-  for (const std::string& reading : reading_names(scene.electrode)) {
-    names.push_back(reading + "_voltage");
-  }
+  std::ranges::move(voltage_names(scene.electrode), std::back_inserter(names));
   if (has_crosstalk(scene)) names.emplace_back(kCrosstalk);
   if (square_pitch_m(scene) > 0.0 && !scene.backing) {
     names.insert(names.end(), {"voltage_per_pressure", "voltage_per_height"});
@@ -73,7 +71,7 @@ double beyond_reach(const SpaceScene& scene, const SpaceResponse& response,
                     const TopLoads& loads_Pa, const Eigen::MatrixXd& readings_V,
                     const SceneAnswer& answer) {
   const Eigen::VectorXd beyond_V = response.beyond_reach_V(loads_Pa);
-  const std::vector<std::string> names = reading_names(scene.electrode);
+  const std::vector<std::string> names = voltage_names(scene.electrode);
   double share = 0.0;
   for (const SceneMap& map : answer.maps) {
     if (map.name == kCrosstalk && size_of(map) > 0.0) {
@@ -83,7 +81,7 @@ double beyond_reach(const SpaceScene& scene, const SpaceResponse& response,
       if (own_V > 0.0) share = std::max(share, 100.0 * beyond_V[disc] / own_V / size_of(map));
     }
     for (std::size_t r = 0; r < names.size(); ++r) {
-      if (map.name != names[r] + "_voltage" || !(size_of(map) > 0.0)) continue;
+      if (map.name != names[r] || !(size_of(map) > 0.0)) continue;
       share = std::max(share, beyond_V[static_cast<Eigen::Index>(r)] / size_of(map));
     }
   }

@@ -82,6 +82,12 @@ std::vector<std::string> reading_names(SpaceElectrode electrode) {
   return names;
 }
 
+std::vector<std::string> voltage_names(SpaceElectrode electrode) {
+  std::vector<std::string> names = reading_names(electrode);
+  for (std::string& name : names) name += "_voltage";
+  return names;
+}
+
 std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
   std::vector<SpaceAccuracy> all;
   const double t_m = array.film.layers.front().thickness_m;
@@ -243,17 +249,13 @@ PotentialByLoad SpaceResponse::potential(int of_class, double x_m, double y_m) c
 
 SpaceResponse::Sums SpaceResponse::sums_of(const std::vector<TopLoad>& loads,
                                            const std::vector<bool>& acts) const {
-  const OffsetSums::Kernel of_loads = [this, loads](int of_class, double x_m, double y_m) {
-    const auto all = kernel(of_class, x_m, y_m);
-    Eigen::MatrixXd columns(all.rows(), static_cast<Eigen::Index>(loads.size()));
-    for (std::size_t l = 0; l < loads.size(); ++l) {
-      columns.col(static_cast<Eigen::Index>(l)) = all.col(static_cast<int>(loads[l]));
-    }
-    return columns;
+  std::vector<Eigen::Index> columns;
+  for (const TopLoad load : loads) columns.push_back(static_cast<Eigen::Index>(load));
+  const OffsetSums::Kernel of_loads = [this, columns](int of_class, double x_m,
+                                                      double y_m) -> Eigen::MatrixXd {
+    return kernel(of_class, x_m, y_m)(Eigen::all, columns);
   };
   if (coupling_) {
-    std::vector<Eigen::Index> columns;
-    for (const TopLoad load : loads) columns.push_back(static_cast<Eigen::Index>(load));
     return [loaded = sums_alone(loads, acts, of_loads),
             added = coupling_->sums_of(columns, acts)](const Eigen::MatrixXd& loads_Pa) {
       return (loaded(loads_Pa) + added(loads_Pa)).eval();
@@ -290,18 +292,17 @@ double SpaceResponse::voltage_at_V(double x_m, double y_m, const TopLoads& loads
 
 Eigen::MatrixXd SpaceResponse::voltages_V(const TopLoads& loads_Pa) const {
   std::vector<TopLoad> active;
+  std::vector<int> columns;
   for (int load = 0; load < kTopLoads; ++load) {
-    if (!loads_Pa.col(load).isZero(0.0)) active.push_back(static_cast<TopLoad>(load));
+    if (loads_Pa.col(load).isZero(0.0)) continue;
+    active.push_back(static_cast<TopLoad>(load));
+    columns.push_back(load);
   }
   const auto readings = static_cast<Eigen::Index>(reading_names(array_->electrode).size());
   if (active.empty()) return Eigen::MatrixXd::Zero(loads_Pa.rows(), readings);
-  Eigen::MatrixXd columns(loads_Pa.rows(), static_cast<Eigen::Index>(active.size()));
-  for (std::size_t l = 0; l < active.size(); ++l) {
-    columns.col(static_cast<Eigen::Index>(l)) = loads_Pa.col(static_cast<int>(active[l]));
-  }
   std::vector<bool> acts;
   for (Eigen::Index i = 0; i < loads_Pa.rows(); ++i) acts.push_back(!loads_Pa.row(i).isZero(0.0));
-  return sums_of(active, acts)(columns);
+  return sums_of(active, acts)(loads_Pa(Eigen::all, columns));
 }
 
 }  // namespace viscard

@@ -77,6 +77,8 @@ using TopLoads = Eigen::Matrix<double, Eigen::Dynamic, kTopLoads>;
 
 // Names of the readings of an electrode: centre, mean or electrode, then quadrant_1, ...
 std::vector<std::string> reading_names(SpaceElectrode electrode);
+// Of results: "centre_voltage", "quadrant_1_voltage".
+std::vector<std::string> voltage_names(SpaceElectrode electrode);
 
 // How finely an array is answered: foot_forces.h and potential_table.h.
 struct SpaceAccuracy {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/array/contact/foundation.h"
 #include "models/array/contact/press_array.h"
 #include "models/array/contact/relaxing_tops.h"
 #include "models/array/contact/sliding_top.h"
@@ -75,19 +76,7 @@ SpaceContact contact_within(const SpaceScene& scene, double tolerance);
 // deep.
 void refuse_missed_tips(const SpaceScene& scene, double depth_m);
 
-// The array as an elastic foundation of columns E A/l, a closed form for estimates before anything is
-// solved.
-struct FoundationPress {
-  double depth_m = 0.0;
-  double largest_Pa = 0.0;  // largest mean pressure on a top
-  double pull_Pa = 0.0;     // largest mean pull on a top that adheres, along the path of depths
-  double shortening = 0.0;  // of a pillar, the largest over its length
-  double lowest_m = 0.0;    // of the surface over all tops
-  // How far a point of any top stays above the surface, or would be pulled under a bent one, and half the rise of the surface over a touched
-  // top, both over the largest overlap; 1 and 0 if the shape touches nothing.
-  double lift = 1.0, turn = 0.0;
-  bool covers_all = true;  // there is a surface above every top
-};
+// The array as an elastic foundation.
 FoundationPress foundation_press(const SpaceScene& scene);
 
 }  // namespace viscard

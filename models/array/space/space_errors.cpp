@@ -25,10 +25,8 @@ double rigid_foot_error(const SpaceScene& scene) {
     stiffest_Pa = std::max(stiffest_Pa, one.material.E0_Pa);
   }
   constexpr double kPressed = 0.12, kSheared = 0.2;
-  // A shape turns the tops, which bends the pillars as a shear does.
-  const bool is_sheared = scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press ||
-                          scene.quadrants.measured_V.size() > 0;
-  return (is_sheared ? kSheared : kPressed) * stiffest_Pa / elasticity_of(scene.film).young_Pa;
+  return (is_sheared(scene) ? kSheared : kPressed) * stiffest_Pa /
+         elasticity_of(scene.film).young_Pa;
 }
 
 namespace {
@@ -248,9 +246,8 @@ void add_stretching_note(const SpaceScene& scene, const BackingEffect& effect,
   if (!(std::abs(change_V) > kStretchingFrom * std::abs(effect.rigid_V))) return;
   const SpacePillar& one = scene.pillars[effect.pillar];
   answer.notes.push_back(
-      "stretching: pillar [" + std::to_string(one.row) + ", " + std::to_string(one.column) +
-      "] reads " + text_of(effect.voltage_V, 4) + " V, on a rigid base " +
-      text_of(effect.rigid_V, 4) + " V (" +
+      "stretching: pillar " + name_of({one.row, one.column}) + " reads " +
+      text_of(effect.voltage_V, 4) + " V, on a rigid base " + text_of(effect.rigid_V, 4) + " V (" +
       text_of(100.0 * change_V / std::abs(effect.rigid_V), 3) +
       " %): on this backing the film reads how it is stretched by all pillars, not the pressure on "
       "one; take a stiffer backing");
@@ -313,19 +310,16 @@ ConstantErrors constant_errors(const SpaceScene& scene) {
   return errors;
 }
 
-// The part of a map's error, in its unit, that is common to all pillars, and that of the film's
-// edge. A small error of a foot's traction acts on the neighbours like a load, as a fraction of its
-// field there.
+// A small error of a foot's traction acts on the neighbours like a load, as a fraction of its field there.
 double common_error_of(const SceneMap& map, const ConstantErrors& errors) {
   if (map.unit != "%") return (errors.foot + errors.electrodes) * size_of(map);
   return 100.0 * errors.electrodes + 200.0 * errors.foot * errors.neighbour;
 }
-// Reference value of the relative error at the film's edge, in the unit of the map.
+
 double edge_size_of(const SceneMap& map) {
   return map.unit != "%" ? size_of(map) : 100.0;
 }
 
-// The largest of these errors, relative to the reference value of the tolerance.
 double largest_constant_error(const SpaceScene& scene, const ConstantErrors& errors) {
   SceneMap voltage{.name = "", .unit = "V", .scale = 1.0};
   const double of_voltages = common_error_of(voltage, errors) + errors.largest_edge;

@@ -2,6 +2,7 @@
 
 #include "models/array/space/foot_motion.h"
 #include "models/array/space/space_contact.h"
+#include "models/maths/bessel_orders.h"
 
 #include <algorithm>
 #include <cmath>
@@ -123,13 +124,13 @@ std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& resp
                               const TopLoads& loads_Pa, const Eigen::MatrixXd& voltages) {
   const DiscReading disc = disc_reading(scene);
   const double least_V = least_voltage_V(response, loads_Pa, disc.row);
-  const std::vector<std::string> names = reading_names(scene.electrode);
+  const std::vector<std::string> names = voltage_names(scene.electrode);
   std::vector<SceneMap> maps;
   const bool senses = senses_forces(scene);  // whose error equals that of the voltages
   SceneMap mean;
   double largest_quarter_V = 0.0;
   for (std::size_t r = 0; r < names.size(); ++r) {
-    SceneMap map{names[r] + "_voltage", "V", {}, {}, {}, least_V};
+    SceneMap map{names[r], "V", {}, {}, {}, least_V};
     for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
       map.pillar.push_back(i);
       map.value.push_back(voltages(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)));
@@ -195,10 +196,7 @@ void add_transfer(const SpaceScene& scene, const SpaceResponse& response, double
   for (const char* const name : {kPerPressure, kPerHeight}) {
     if (std::find(scene.wanted.begin(), scene.wanted.end(), name) == scene.wanted.end()) continue;
     const bool is_pressure = name == std::string(kPerPressure);
-    SceneCurve curve;
-    curve.name = name;
-    curve.unit = is_pressure ? "V/Pa" : "V/m";
-    curve.x_name = "wavelength_m";
+    SceneCurve curve{.name = name, .unit = is_pressure ? "V/Pa" : "V/m", .x_name = "wavelength_m"};
     for (int i = 0; i < kWaves; ++i) {
       const double wavelength_m = 2.0 * pitch_m * std::pow(0.5 * kLongestWave, i / (kWaves - 1.0));
       const double k_1_m = 2.0 * std::numbers::pi / wavelength_m;
@@ -213,8 +211,7 @@ void add_transfer(const SpaceScene& scene, const SpaceResponse& response, double
       const double half = 0.5 * k_1_m * pitch_m;
       const double on_top =
           pitch_m * pitch_m / (std::numbers::pi * R_m * R_m) * std::sin(half) / half;
-      const double of_height =
-          2.0 * ::j1(k_1_m * R_m) / (k_1_m * R_m) / sinking_m_Pa(scene, response);
+      const double of_height = disc_mean_of_wave(k_1_m * R_m) / sinking_m_Pa(scene, response);
       curve.x.push_back(wavelength_m);
       curve.value.push_back(sum_V_Pa * (is_pressure ? on_top : of_height));
     }

@@ -316,9 +316,7 @@ void check_quadrants(const SpaceScene& scene) {
     }
   }
   if (!is_measured) return;
-  const bool has_loads = scene.pressure_Pa != 0.0 || scene.shear_x_Pa != 0.0 ||
-                         scene.shear_y_Pa != 0.0 || !scene.loaded.empty();
-  if (has_loads || scene.press) {
+  if (has_load(scene) || scene.press) {
     throw SceneMistake(
         "quadrants.voltages",
         "cannot stand beside a load or a shape: the forces are found from the voltages");

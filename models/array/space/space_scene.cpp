@@ -10,23 +10,6 @@
 namespace viscard {
 namespace {
 
-// Smallest value of of_pair(i, j, distance) among the pairs no farther apart than `within_m`.
-template <typename OfPair>
-double smallest_of_pairs(const SpaceScene& scene, double within_m, const OfPair& of_pair) {
-  double smallest = std::numeric_limits<double>::infinity();
-  const Neighbours near(scene.pillars, within_m);
-  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
-    const SpacePillar& one = scene.pillars[i];
-    near.visit(one.x_m, one.y_m, [&](std::size_t j) {
-      if (j <= i) return;
-      const SpacePillar& other = scene.pillars[j];
-      const double distance_m = std::hypot(other.x_m - one.x_m, other.y_m - one.y_m);
-      smallest = std::min(smallest, of_pair(one, other, distance_m));
-    });
-  }
-  return smallest;
-}
-
 double widest_pillar_m(const SpaceScene& scene) {
   double widest_m = scene.diameter_m;
   for (const SpaceClass& one : scene.others) widest_m = std::max(widest_m, one.diameter_m);
@@ -59,6 +42,20 @@ std::optional<std::size_t> index_of(const SpaceScene& scene, RowColumn place) {
       [](const SpacePillar& one, RowColumn at) { return RowColumn(one.row, one.column) < at; });
   if (found == scene.pillars.end() || RowColumn(found->row, found->column) != place) return {};
   return static_cast<std::size_t>(found - scene.pillars.begin());
+}
+
+std::string name_of(RowColumn place) {
+  return "[" + std::to_string(place.first) + ", " + std::to_string(place.second) + "]";
+}
+
+bool has_load(const SpaceScene& scene) {
+  return scene.pressure_Pa != 0.0 || scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 ||
+         !scene.loaded.empty();
+}
+
+bool is_sheared(const SpaceScene& scene) {
+  return scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press.has_value() ||
+         scene.quadrants.measured_V.size() > 0;
 }
 
 std::vector<SpaceClass> classes_of(const SpaceScene& scene) {
@@ -153,18 +150,23 @@ double smallest_gap_m(const SpaceScene& scene) {
   const auto diameter_m = [&](const SpacePillar& one) {
     return classes[static_cast<std::size_t>(one.of_class)].diameter_m;
   };
-  return smallest_of_pairs(scene, smallest_pitch_m(scene) + widest_pillar_m(scene),
-                           [&](const SpacePillar& a, const SpacePillar& b, double m) {
-                             return m - 0.5 * (diameter_m(a) + diameter_m(b));
-                           });
+  double smallest_m = std::numeric_limits<double>::infinity();
+  const Neighbours near(scene.pillars, smallest_pitch_m(scene) + widest_pillar_m(scene));
+  for (const SpacePillar& one : scene.pillars) {
+    near.visit(one.x_m, one.y_m, [&](std::size_t j) {
+      const SpacePillar& other = scene.pillars[j];
+      if (&other <= &one) return;
+      smallest_m = std::min(smallest_m, std::hypot(other.x_m - one.x_m, other.y_m - one.y_m) -
+                                            0.5 * (diameter_m(one) + diameter_m(other)));
+    });
+  }
+  return smallest_m;
 }
 
 double class_pull_off_N(const SpaceClass& one, double work_J_m2) {
-  SensorMaterial material;
-  material.young_modulus_Pa = one.material.E0_Pa;
-  material.poisson_ratio = one.material.nu;
-  material.work_of_adhesion_J_m2 = work_J_m2;
-  return pull_off_force_N(one.diameter_m, material);
+  return pull_off_force_N(one.diameter_m, {.young_modulus_Pa = one.material.E0_Pa,
+                                           .poisson_ratio = one.material.nu,
+                                           .work_of_adhesion_J_m2 = work_J_m2});
 }
 
 }  // namespace viscard

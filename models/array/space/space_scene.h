@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -95,6 +96,14 @@ struct SpaceScene : SceneCommon {
 
 // Index into scene.pillars; nothing if no pillar stands there.
 std::optional<std::size_t> index_of(const SpaceScene& scene, RowColumn place);
+
+// "[3, 4]"
+std::string name_of(RowColumn place);
+
+// A load of its own, or pillars that it acts on, are named.
+bool has_load(const SpaceScene& scene);
+// Pillars bend: by a shear, or by a shape, which turns the tops.
+bool is_sheared(const SpaceScene& scene);
 
 // Shape and material of a pillar.
 SpaceClass class_of(const SpaceScene& scene, const SpacePillar& pillar);

@@ -52,10 +52,7 @@ ElectrodeWeight weight_of(const SpaceScene& scene, const SpaceArray& array,
         std::make_shared<const DiscCharge>(array.film, a_m, 1, kModes, kSensedFilmDegree);
     return [charge](double k_1_m) { return charge->weight(k_1_m); };
   }
-  return [a_m](double k_1_m) {
-    const double x = k_1_m * a_m;
-    return x < 1e-6 ? 1.0 : 2.0 * std::cyl_bessel_j(1.0, x) / x;
-  };
+  return disc_mean(a_m);
 }
 
 std::vector<double> heat_times_s(double first_s, double end_s) {

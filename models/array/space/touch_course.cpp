@@ -1,7 +1,5 @@
 #include "models/array/space/touch_course.h"
 
-#include "models/array/space/touch_loads.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -172,16 +170,8 @@ TouchCourse touch_course(const SpaceScene& scene, double tolerance) {
       largest_of(course.change_Pa) / std::max(largest_of(fine.loads_Pa), kNoLoad_Pa) +
       course.stiffness_error;
   set_times(samples, course);
-  course.depth_m = std::move(fine.depth_m);
-  course.force_N = std::move(fine.force_N);
-  course.contacts = std::move(fine.contacts);
-  course.loads_Pa = std::move(fine.loads_Pa);
-  course.slip_m = std::move(fine.slip_m);
-  course.sliding = std::move(fine.sliding);
-  course.shown_at = fine.shown_at;
   course.has_shrunk = courses.has_shrunk();
-  course.shown = std::move(fine.shown);
-  course.largest = std::move(fine.largest);
+  static_cast<GridCourse&>(course) = std::move(fine);
   set_shown(scene, of_grid, course);
   return course;
 }
@@ -194,10 +184,7 @@ TopLoads largest_loads(const TouchCourse& course, std::size_t pillars) {
 
 TopLoads all_loads(const TouchCourse& course, const TopLoads& of_touched, std::size_t pillars) {
   TopLoads all = TopLoads::Zero(static_cast<Eigen::Index>(pillars), kTopLoads);
-  for (std::size_t i = 0; i < course.touched.size(); ++i) {
-    all.row(static_cast<Eigen::Index>(course.touched[i])) =
-        of_touched.row(static_cast<Eigen::Index>(i));
-  }
+  all(course.touched, Eigen::all) = of_touched;
   return all;
 }
 

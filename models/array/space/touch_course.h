@@ -1,7 +1,6 @@
 #pragma once
 
-#include "models/array/space/space_contact.h"
-#include "models/array/space/space_scene.h"
+#include "models/array/space/touch_loads.h"
 
 #include <cstddef>
 #include <vector>
@@ -14,29 +13,22 @@ namespace viscard {
 // (1966) 845; Lee & Radok, J. Appl. Mech. 27 (1960) 438. If any contact shrinks, the tops are
 // followed step by step (models/array/contact, eq. T6).
 
-// The loads on the tops in time, the finest GridCourse with its errors. Rows of loads: the pillars that are touched at
-// the deepest state.
-struct TouchCourse {
-  std::vector<double> time_s;  // a jump has the same time twice
-  std::vector<bool> is_new;    // not among half as many steps
-  std::vector<double> depth_m, force_N;
-  std::vector<int> contacts;
+// The loads on the tops in time, the finest course with its errors. Rows of loads: the pillars that are touched at the
+// deepest state.
+struct TouchCourse : GridCourse {
+  std::vector<double> time_s;        // a jump has the same time twice
+  std::vector<bool> is_new;          // not among half as many steps
   std::vector<std::size_t> touched;  // ascending, index into SpaceScene::pillars
-  std::vector<TopLoads> loads_Pa;
   // Changes by the last refinement of the tops and by the last halving of the steps, as magnitudes.
   std::vector<TopLoads> change_Pa;
   std::vector<double> depth_change_m, force_change_N;
   std::vector<int> contact_change;
-  // Of a shape that moves with friction, as in GridCourse, with their changes.
-  std::vector<Eigen::VectorXd> slip_m, slip_change_m;
-  std::vector<int> sliding, sliding_change;
+  std::vector<Eigen::VectorXd> slip_change_m;
+  std::vector<int> sliding_change;
   double stiffness_error = 0.0;  // relative, of all loads
   // Largest change of a load relative to the largest load, and the part above.
   double relative_error = 0.0;
-  bool has_shrunk = false;   // a contact shrank, so the course was found step by step
-  std::size_t shown_at = 0;  // in time_s
-  SpaceContact shown;    // for maps: the end of a contact that grows, otherwise the largest force
-  SpaceContact largest;  // for notes; without relaxation if the contact grows
+  bool has_shrunk = false;  // a contact shrank, so the course was found step by step
 };
 
 // Refines the grids of the tops and the time steps until the loads change by less than the

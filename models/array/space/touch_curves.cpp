@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -104,8 +103,7 @@ void add_top_curve(const SpaceScene& scene, const TouchCourse& course, const Top
                    SceneAnswer& answer) {
   for (const std::size_t pillar : followed_pillars(scene, course)) {
     const Eigen::Index row = row_of(course, pillar);
-    const double d_m = class_of(scene, scene.pillars[pillar]).diameter_m;
-    const double area_m2 = 0.25 * std::numbers::pi * d_m * d_m;
+    const double area_m2 = area_of(scene, pillar);
     std::vector<double> values, changes;
     for (std::size_t k = 0; k < course.time_s.size(); ++k) {
       values.push_back(row >= 0 ? one.value(course, k, row, area_m2) : 0.0);

@@ -41,14 +41,6 @@ SpaceContact elastic_state(const SpaceScene& scene, const SpaceTops& tops, doubl
   return state;
 }
 
-TopLoads rows_of(const TopLoads& all, const std::vector<std::size_t>& rows) {
-  TopLoads some(static_cast<Eigen::Index>(rows.size()), kTopLoads);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    some.row(static_cast<Eigen::Index>(i)) = all.row(static_cast<Eigen::Index>(rows[i]));
-  }
-  return some;
-}
-
 // A top that the shape has turned may lose contact on one side while the shape is lowered.
 bool is_shrinking(const SpaceContact& before, const SpaceContact& after) {
   for (std::size_t i = 0; i < before.pressed.tops.size(); ++i) {
@@ -108,7 +100,7 @@ class ElasticTable {
     depth_m_.push_back(state.pressed.depth_m);
     force_N_.push_back(state.pressed.force_N);
     contacts_.push_back(state.pressed.contacts);
-    loads_Pa_.push_back(rows_of(state.loads_Pa, touched));
+    loads_Pa_.push_back(state.loads_Pa(touched, Eigen::all));
   }
 
   bool is_creep_ = false;

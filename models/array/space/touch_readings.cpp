@@ -140,7 +140,8 @@ void set_reading(const SpaceScene& scene, const TouchCourse& course, const FilmP
                  const Driven& driven, PillarCurve& curve) {
   const Readout& readout = *scene.touch->readout;
   curve.value = reading_from(readout, film, course.time_s, driven);
-  const double film_error = film_loss_error(scene) * largest_size(curve.value);
+  const double film_error = bonded_error(scene.film, scene.film_loss, 1.0 / course.time_s.back()) *
+                            largest_size(curve.value);
   const std::vector<double> coarse_V =
       reading_from(readout, film, without_new(course, course.time_s),
                    {without_new(course, driven.open_V), without_new(course, driven.mixed_V)});
@@ -189,7 +190,7 @@ std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse&
                                    const TouchCourse& course, const std::vector<TopLoads>& loads_Pa,
                                    bool is_size) {
   Voltages voltages(scene, response, course, loads_Pa, is_size);
-  const std::vector<std::string> names = reading_names(scene.electrode);
+  const std::vector<std::string> names = voltage_names(scene.electrode);
   const bool is_read = scene.touch->readout && asks_for_map(scene, kTouchReading);
   std::optional<Influence> influence;
   if (is_read) influence.emplace(scene, array_of(scene));
@@ -200,9 +201,8 @@ std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse&
       return std::vector<double>(all.col(c).begin(), all.col(c).end());
     };
     for (std::size_t r = 0; r < names.size(); ++r) {
-      const std::string map = names[r] + "_voltage";
-      if (!asks_for_map(scene, map)) continue;
-      curves.push_back({map, pillar, column(own_V, static_cast<Eigen::Index>(r)), {}});
+      if (!asks_for_map(scene, names[r])) continue;
+      curves.push_back({names[r], pillar, column(own_V, static_cast<Eigen::Index>(r)), {}});
     }
     if (!is_read) continue;
     Eigen::VectorXd mixed_V = Eigen::VectorXd::Zero(own_V.rows());

@@ -37,12 +37,6 @@ FilmPort film_port(const SpaceScene& scene, double capacitance_F) {
   return port;
 }
 
-double film_loss_error(const SpaceScene& scene) {
-  if (scene.film_loss.is_lossless()) return 0.0;
-  return bonded_port(scene.film, scene.film_loss).error *
-         lost_share(scene.film_loss, 1.0 / scene.touch->history.back().time_s);
-}
-
 namespace {
 
 // Of a plate condenser as wide as the electrode, less than what the electrode has.

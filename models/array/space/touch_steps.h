@@ -49,10 +49,8 @@ std::vector<TopLoads> relaxed(const std::vector<MaterialTerm>& terms,
                               const std::vector<TouchSample>& samples,
                               const std::vector<TopLoads>& elastic);
 
-// An electrode of that capacitance and its film, and the relative error of a reading by what is not known exactly of
-// its losses (bonded_port()).
+// An electrode of that capacitance and its film.
 FilmPort film_port(const SpaceScene& scene, double capacitance_F);
-double film_loss_error(const SpaceScene& scene);
 
 // Change of the reading by half as many steps, relative to its largest value, for a voltage in
 // proportion to the force; 0 without a readout.

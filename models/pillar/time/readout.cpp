@@ -29,6 +29,10 @@ FilmPort bonded_port(const Medium& film, const FilmLoss& loss) {
   return {1.0, held_F_m / bonded_F_m, loss, error, error};
 }
 
+double bonded_error(const Medium& film, const FilmLoss& loss, double slowest_rad_s) {
+  return loss.is_lossless() ? 0.0 : bonded_port(film, loss).error * lost_share(loss, slowest_rad_s);
+}
+
 ReadoutFilter decaying(double gain, double time_constant_s) {
   if (std::isinf(time_constant_s)) return {.gain = gain};
   return {gain, {0.0, {{1.0, time_constant_s}}}, time_constant_s};

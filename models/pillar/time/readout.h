@@ -47,6 +47,8 @@ struct FilmPort {
 // a condenser of permittivity eps^S + e33^2/c33. By the part of C that strain makes, that of a film
 // between held (eps^S) and free (eps^T), it errs by at most 1 - eps^S/eps^T.
 FilmPort bonded_port(const Medium& film, const FilmLoss& loss);
+// The relative error of a voltage or reading that this makes under a load whose slowest change is given.
+double bonded_error(const Medium& film, const FilmLoss& loss, double slowest_rad_s);
 
 // What reads the open-circuit voltage. Under a step of 1 V the reading falls as a modulus relaxes,
 //   reading(t) = a [s_inf + sum s_i exp(-t/T_i)],  s_inf + sum s_i = 1   (eq. 23b),
