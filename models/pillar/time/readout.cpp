@@ -1,6 +1,6 @@
 #include "models/pillar/time/readout.h"
 
-#include "models/material/hereditary.h"
+#include "models/maths/branch_step.h"
 #include "models/maths/require.h"
 
 #include <cmath>
