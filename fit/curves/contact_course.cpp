@@ -1,6 +1,6 @@
 #include "fit/curves/contact_course.h"
 
-#include "models/material/hereditary.h"
+#include "models/maths/branch_step.h"
 
 #include <vector>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "models/material/hereditary.h"
+#include "models/material/prony_series.h"
+#include "models/maths/branch_step.h"
 #include "models/maths/course.h"
 
 namespace viscard {

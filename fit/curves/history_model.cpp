@@ -2,7 +2,7 @@
 
 #include "fit/samples/clean_data.h"
 #include "fit/samples/log_bins.h"
-#include "models/material/hereditary.h"
+#include "models/maths/branch_step.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/experiment/motion_profile.h"
-#include "models/material/hereditary.h"
+#include "models/maths/branch_step.h"
 
 #include <vector>
 

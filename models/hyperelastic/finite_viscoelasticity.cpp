@@ -1,6 +1,6 @@
 #include "models/hyperelastic/finite_viscoelasticity.h"
 
-#include "models/material/hereditary.h"
+#include "models/maths/branch_step.h"
 #include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
 

@@ -2,6 +2,7 @@
 
 #include "models/material/hereditary.h"
 #include "models/material/retardation_spectrum.h"
+#include "models/maths/branch_step.h"
 #include "models/maths/require.h"
 
 #include <algorithm>

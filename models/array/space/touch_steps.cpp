@@ -3,8 +3,8 @@
 
 #include "models/answer/scene_mistake.h"
 #include "models/array/space/space_contact.h"
-#include "models/material/hereditary.h"
 #include "models/material/load_history.h"
+#include "models/maths/branch_step.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>

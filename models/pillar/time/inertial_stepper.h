@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/material/hereditary.h"
+#include "models/maths/branch_step.h"
 #include "models/maths/dense.h"
 #include "models/pillar/time/viscoelastic_system.h"
 

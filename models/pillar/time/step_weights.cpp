@@ -1,6 +1,6 @@
 #include "models/pillar/time/step_weights.h"
 
-#include "models/material/hereditary.h"
+#include "models/maths/branch_step.h"
 #include "models/maths/gauss_legendre.h"
 
 #include <cmath>

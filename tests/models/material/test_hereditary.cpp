@@ -1,4 +1,5 @@
 #include "models/material/hereditary.h"
+#include "models/maths/branch_step.h"
 #include "tests/support/printed_digits.h"
 
 #include <catch2/catch.hpp>

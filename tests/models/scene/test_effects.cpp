@@ -245,7 +245,7 @@ TEST_CASE("every effect states its change and its cost, under a unique name", "[
     CHECK(std::string(effect.changes).size() > 5);
     CHECK(std::string(effect.cost).size() > 5);
   }
-  CHECK(names.size() == 18);
+  CHECK(names.size() == 19);
 }
 
 TEST_CASE("every kind of sideways load bends without buckling, and bending gives the strain",

@@ -1,7 +1,7 @@
 #include "io/cards/hyperelastic/proof/cube_stress.h"
 
 #include "io/cards/hyperelastic/rubber_rows.h"
-#include "models/material/hereditary.h"
+#include "models/maths/branch_step.h"
 
 #include <cmath>
 #include <limits>

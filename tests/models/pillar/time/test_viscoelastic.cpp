@@ -1,5 +1,5 @@
-#include "models/material/hereditary.h"
 #include "models/material/retardation_spectrum.h"
+#include "models/maths/branch_step.h"
 #include "models/maths/gauss_legendre.h"
 #include "models/pillar/time/load_history.h"
 #include "models/pillar/time/step_weights.h"
