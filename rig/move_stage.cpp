@@ -65,6 +65,8 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
   used.stage.home = order.is_home;
   RunSession session(stage, load_cell, used, sink, control);
   StageMoved moved;
+  const bool is_lift = !order.is_home && order.toward_m < 0.0;
+  if (is_lift) stage.plan_lift_only();
   try {
     session.connect();
     if (rig.stage.zero_m != 0.0 && stage.trouble_with_zero().empty()) {
@@ -95,19 +97,25 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     moved.to_m = stage.position_m();
   } catch (const RigError& error) {
     const bool is_asked_for = dynamic_cast<const RunInterrupted*>(&error) != nullptr;
-    if (!session.is_stage_connected() || !session.has_moved()) {
+    // A force above the limit at rest is what a lift ends.
+    const bool is_relief = is_lift && !session.has_moved() && session.is_stage_connected() &&
+                           dynamic_cast<const LimitReached*>(&error) != nullptr;
+    if (!is_relief && (!session.is_stage_connected() || !session.has_moved())) {
       if (is_asked_for) throw RigError("the move was stopped before it began");
       throw;
     }
-    const double back_m =
-        order.is_home ? stage.position_m() : std::min(moved.from_m, stage.position_m());
+    const double stood_m = stage.position_m();
+    const double back_m = is_relief       ? stood_m + order.toward_m
+                          : order.is_home ? stood_m
+                                          : std::min(moved.from_m, stood_m);
     const SafeEnd end = session.make_safe(back_m, order.speed_m_s);
     const std::string note = note_of(stage);
-    throw StageStands((is_asked_for ? "the move was stopped" : failure_text(error, "this move")) +
-                          ". The stage was stopped at " + in_mm(stage.position_m()) +
-                          (end.trouble.empty() ? "" : "; " + end.trouble) +
-                          (note.empty() ? "" : "; " + note),
-                      stage.position_m());
+    throw StageStands(
+        (is_asked_for ? "the move was stopped" : failure_text(error, "this move")) +
+            (is_relief ? ". The stage was lifted to " : ". The stage was stopped at ") +
+            in_mm(stage.position_m()) + (end.trouble.empty() ? "" : "; " + end.trouble) +
+            (note.empty() ? "" : "; " + note),
+        stage.position_m());
   }
   return moved;
 }

@@ -164,7 +164,7 @@ void MarlinStage::converse(bool is_first, const Pump& pump) {
   command(std::string("G92 ") + config_.axis + "0", pump);
   await_report(pump, 5.0, "Check the axis in the rig file");
   origin_count_ = count_;
-  if (is_first && !moves_nothing_) require_true_reports(pump);
+  if (is_first && !presses_nothing_) require_true_reports(pump);
 }
 
 // A board that starts late begins the exchange again.

@@ -19,7 +19,8 @@ class MarlinStage final : public PolledStage {
   MarlinStage(Transport& transport, const StageConfig& config, const RigClock& clock,
               RecordSink sink);
 
-  void keep_locked() override { moves_nothing_ = true; }
+  void keep_locked() override { presses_nothing_ = true; }
+  void plan_lift_only() override { presses_nothing_ = true; }
   void connect(const Pump& pump) override;
   void service() override;
   StageDynamics dynamics() const override;
@@ -126,7 +127,7 @@ class MarlinStage final : public PolledStage {
 
   std::string firmware_;
   bool has_emergency_parser_ = false;
-  bool moves_nothing_ = false;  // so what its reports are is not found out
+  bool presses_nothing_ = false;  // so what its reports are is not found out
   std::map<std::string, double> settings_;
   long long count_ = 0;          // steps, as reported last
   long long origin_count_ = 0;   // steps at position 0 of G1

@@ -66,6 +66,8 @@ class Stage {
   virtual void plan_count_check(std::optional<HomedStage> /*before*/) {}
   // Before connect(): a controller that is locked stays locked, because nothing will be moved.
   virtual void keep_locked() {}
+  // Before connect(): the stage will move away from the specimen only, so what moves toward it need is not proven.
+  virtual void plan_lift_only() {}
   // Waits for the controller, identifies it, reads its settings, unlocks it, asks for its position.
   virtual void connect(const Pump& pump) = 0;
   // Handles what has arrived and asks for the position when that is due. Call often.

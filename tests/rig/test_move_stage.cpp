@@ -70,6 +70,19 @@ TEST_CASE("a lift ends when the force rises, or when it pulls", "[rig][pty]") {
   CHECK(moved.to_m > -0.5e-3);
 }
 
+TEST_CASE("a punch that presses above the limit of force is lifted, and not pressed further",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.truth.surface_position_m = -0.06e-3;
+  options.config.safety.soft_fraction = 0.1;
+  RigFixture rig(options);
+  CHECK_THROWS_WITH(moved_on(rig, jog(0.1e-3)), Contains("already pressing"));
+  CHECK(rig.emulated.outcome().final_position_m == 0.0);
+  CHECK_THROWS_WITH(moved_on(rig, jog(-1e-3)),
+                    Contains("above the limit of") && Contains("The stage was lifted to -1.0000"));
+  CHECK(rig.emulated.outcome().final_position_m == Approx(-1e-3).margin(1e-6));
+}
+
 TEST_CASE("a stage does not move toward a specimen with a load cell that does not measure",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options();

@@ -138,7 +138,7 @@ TEST_CASE("a row's voltages fall by one factor for all", "[models][scene]") {
   const PillarScene one = on_pvdf(StaticDrive{});
   row.film = *one.film;
   row.pillar = one.pillar;
-  row.tolerance = 1e-2;
+  row.tolerance = 5e-2;  // of 2.3 % of what is lost, eps^S to eps^T, no mesh knows better
   row.load_Pa = 1e3;
   row.loaded = {2};
   row.drive = RowHarmonic{{10.0, 100.0}};

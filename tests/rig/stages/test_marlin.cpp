@@ -316,6 +316,17 @@ TEST_CASE("what a Marlin board reports is found out by a short move away and bac
   CHECK(rig.move(0.2e-3, 0.5e-3));
 }
 
+TEST_CASE("a Marlin board that reports its plan lifts the punch", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.has_realtime_reports = false;
+  DeviceFixture rig(options);
+  rig.devices.stage->plan_lift_only();
+  rig.devices.stage->connect(rig.pump());
+  REQUIRE(rig.move(-0.2e-3, 0.5e-3));
+  rig.pump_for(1.0);
+  CHECK(rig.emulated.outcome().final_position_m == Approx(-0.2e-3).margin(1e-9));
+}
+
 TEST_CASE("a clipped move of a Marlin stage is noticed", "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
   options.marlin.highest_m = 0.4e-3;
