@@ -1,5 +1,4 @@
 #include "models/array/plane/array_analysis.h"
-#include "models/array/plane/row_contact.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/scene/scene_effects.h"

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "models/answer/effect_estimate.h"
-#include "models/array/contact/foundation.h"
 #include "models/array/plane/array_scene.h"
+#include "models/array/plane/row_contact.h"
 #include "models/array/space/space_scene.h"
 #include "models/pillar/scene/pillar_scene.h"
 
