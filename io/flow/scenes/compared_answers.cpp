@@ -135,7 +135,7 @@ std::vector<VoltageProfile> voltage_profiles(const Scene& scene, const SceneAnsw
     for (const std::string& name : stems_of_first_electrode(answer))
       profiles.push_back(numbered(name, answer, places_m));
   } else if (const auto* layer = std::get_if<LayerScene>(&scene)) {
-    for (const std::string& name : voltage_names(*layer))
+    for (const std::string& name : voltage_names(layer->electrode))
       profiles.push_back(numbered(name, answer, layer->electrodes_m));
   } else {
     for (const SceneMap& map : answer.maps) {
