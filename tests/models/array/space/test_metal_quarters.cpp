@@ -124,7 +124,8 @@ TEST_CASE("on a film much thinner than they are wide, quarters of metal read the
 TEST_CASE("the charge on a pillar's own quarters is felt around it as point charges are",
           "[models]") {
   const SpaceArray metal = pillars_in_quarters(2e-6), bare = pillars_in_quarters(0.0);
-  const SpaceAccuracy accuracy = space_accuracies(metal)[3];
+  const SpaceAccuracy accuracy =
+      space_accuracies(metal)[5];  // at [3] the largest difference is four times as large
   const SpaceResponse with(metal, accuracy), without(bare, accuracy);
   const MetalQuarters& quarters = *with.quarters();
   const QuarterRule rule = quarters.rule(accuracy.quarters.polynomials);
