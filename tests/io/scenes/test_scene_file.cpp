@@ -208,7 +208,8 @@ TEST_CASE("a film's file and its scene state what it loses", "[io]") {
       "[geometry]\ndiameter = \"40 um\"\nlength = \"120 um\"\n"
       "film = { thickness = \"25 um\", radius = \"60 um\", material = \"pvdf\" }\n"
       "electrode = { face = \"top\", radius = \"20 um\" }\n"
-      "[analysis]\nkind = \"harmonic\"\nfrequencies = { from = \"10 Hz\", to = \"100 Hz\", count = 2 }\n"
+      "[analysis]\nkind = \"harmonic\"\nfrequencies = { from = \"10 Hz\", to = \"100 Hz\", count = "
+      "2 }\n"
       "load = { pressure = \"1 kPa\", on = \"top\" }\n"
       "[materials]\npillar = { E = \"1.8 MPa\", nu = 0.33, rho = \"965 kg/m3\" }\n";
   const auto loss_of = [&](const std::string& rest) {
