@@ -2,6 +2,7 @@
 
 #include "io/cards/card_target.h"
 #include "io/cards/unit_system.h"
+#include "models/hyperelastic/hyperelastic_law.h"
 #include "models/material/frequency_band.h"
 
 #include <optional>
@@ -26,6 +27,30 @@ struct CardNumbers {
   std::vector<CardBranch> branches;
   // Temperatures are in C in all unit systems. Set only if the target takes the law.
   std::optional<TemperatureShift> shift;
+
+  // A law of rubber in the place of E and nu (models/hyperelastic): its moduli in the unit of stress,
+  // its shapes without unit. `shear` is its modulus at rest, `bulk` 0 incompressible, branches are shares.
+  HyperelasticForm form = HyperelasticForm::kNeoHooke;
+  std::vector<double> moduli = {}, shapes = {};
+  // A foam in the place of such a law (foam_law.h); mu in the unit of stress.
+  struct FoamTerm {
+    double mu = 0.0, alpha = 0.0, nu = 0.0;
+    double beta() const { return nu / (1.0 - 2.0 * nu); }
+  };
+  std::vector<FoamTerm> foam = {};
+  // Softening by the first loading (mullins_damage.h); m in the unit of stress.
+  struct Damage {
+    double r = 0.0, m = 0.0, beta = 0.0;
+  };
+  std::optional<Damage> damage = {};
+
+  double d() const { return bulk > 0.0 ? 2.0 / bulk : 0.0; }  // 2/K; 0: incompressible
+  // Share that is left after all relaxation.
+  double long_term_share() const {
+    double share = 1.0;
+    for (const CardBranch& branch : branches) share -= branch.shear;
+    return share;
+  }
 };
 
 // The same material under the bulk rule of the target: k_i kept, zero, or g_i.

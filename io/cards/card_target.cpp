@@ -1,11 +1,30 @@
 #include "io/cards/card_target.h"
 
+#include "io/cards/law_numbers.h"
+
+#include <algorithm>
+
 namespace viscard {
 
 using enum ModulusAt;
 using enum BranchNumber;
 using enum TimeNumber;
 using enum BulkRule;
+
+const std::string& LawKeywords::of(HyperelasticForm form) const {
+  using enum HyperelasticForm;
+  if (is_ogden(form)) return ogden;
+  return form == kNeoHooke       ? neo_hooke
+         : form == kMooneyRivlin ? mooney_rivlin
+         : form == kYeoh         ? yeoh
+         : form == kArrudaBoyce  ? arruda_boyce
+                                 : gent;
+}
+
+bool LawDamage::takes(HyperelasticForm form) const {
+  return !convention.empty() &&
+         (forms.empty() || std::find(forms.begin(), forms.end(), form) != forms.end());
+}
 
 std::string conventions_in_words(const CardTarget& target) {
   if (!target.conventions.empty()) return target.conventions;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/cards/one_element.h"
+#include "models/hyperelastic/hyperelastic_law.h"
 
 #include <functional>
 #include <optional>
@@ -79,6 +80,40 @@ struct DeckWriter {
   ElementTestOptions test{.amplitude = 1e-6, .steps_per_tau = 8};
 };
 
+// How a target states each law of rubber: its keyword and constants by viscard's names; "": it is refused.
+struct LawKeywords {
+  std::string neo_hooke, mooney_rivlin, yeoh, ogden, arruda_boyce, gent;
+  std::string foam = "";
+
+  const std::string& of(HyperelasticForm form) const;
+};
+
+// Damage by the first loading (mullins-or) in a target.
+struct LawDamage {
+  std::string convention;  // keyword and order of its constants; "": it is refused
+  std::string refusal;     // why
+  std::vector<HyperelasticForm> forms = {};  // beside these alone; empty: beside all
+  std::string laws = "";                     // how a law stands beside it, if otherwise than alone
+  bool takes(HyperelasticForm form) const;
+};
+
+// The cards of laws of rubber of a target. A law is a member of `keywords`.
+struct LawColumn {
+  std::string (*write)(const CardBody& body);
+  // Fills numbers and findings, and of `understood` what the card states otherwise than the law at once, shares of
+  // it, and the bulk modulus. Throws as CardTarget::read.
+  void (*read)(const std::string& text, ReadCard& card);
+  LawKeywords keywords;
+  std::string volume;  // energy of the volume
+  bool may_be_incompressible = false;
+  // Terms of relaxation beside a law, in words; takes_terms false: why not.
+  bool takes_terms = false, is_for_small_strain = false;
+  std::size_t most_terms = 0;  // 0: any number
+  std::string terms;
+  LawDamage damage = {"", "it has no such law"};
+  std::string evidence = "not run in its solver: by its manual or its source";
+};
+
 // A target without a writer or a reader does not compile, so none can take that of another.
 struct CardTarget {
   std::string name;       // as on the command line
@@ -93,6 +128,7 @@ struct CardTarget {
   double (*table_difference)(const std::string& text, const Material& material) = nullptr;
   std::vector<CompanionFile> (*companions)(const CardBody& body) = nullptr;
   std::optional<DeckWriter> deck = std::nullopt;
+  std::optional<LawColumn> laws = std::nullopt;  // none: no cards of laws of rubber
   // Mistakes of only this solver's cards, added to or renamed in the list of the elastic numbers.
   void (*add_mistakes)(const CardContext& context, std::vector<CardMistake>& list) = nullptr;
 

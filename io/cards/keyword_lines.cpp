@@ -152,6 +152,30 @@ double density_in(const KeywordBlock& block) {
   return cell_number(cells(line.text, ','), 0, line, "density");
 }
 
+std::string keyword_head(const std::string& name, double density) {
+  return "*MATERIAL, NAME=" + name + "\n" +
+         (density > 0.0 ? "*DENSITY\n" + number_of_20(density) + ",\n" : "");
+}
+
+std::string prony_block(const char* domain, const std::vector<CardBranch>& branches) {
+  std::string out = branches.empty() ? "" : fmt::format("*VISCOELASTIC, {}=PRONY\n", domain);
+  for (const CardBranch& branch : branches) {
+    out += number_of_20(branch.shear) + ", " + number_of_20(branch.bulk) + ", " +
+           number_of_20(branch.time) + "\n";
+  }
+  return out;
+}
+
+void read_prony_rows(const std::vector<CardLine>& rows, ReadCard& card) {
+  for (const CardLine& line : rows) {
+    const auto row = cells(line.text, ',');
+    check_width(line, 3, card);
+    card.numbers.branches.push_back({cell_number(row, 0, line, "g_i"),
+                                     cell_number_or_zero(row, 1, line, "k_i"),
+                                     cell_number(row, 2, line, "tau_i")});
+  }
+}
+
 void read_elastic(const KeywordBlock& block, ReadCard& card, CardNumbers& numbers) {
   const CardLine& line = block.first_data();
   const auto row = cells(line.text, ',');

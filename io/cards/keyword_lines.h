@@ -35,6 +35,11 @@ std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, cha
 std::vector<CardLine> mapdl_commands(const std::string& text);
 
 double density_in(const KeywordBlock& block);
+// "*MATERIAL, NAME=...", and *DENSITY if it is known (Abaqus and CalculiX).
+std::string keyword_head(const std::string& name, double density);
+// *VISCOELASTIC, TIME=PRONY or FREQUENCY=PRONY of Abaqus: rows g_i, k_i, tau_i; "" without branches.
+std::string prony_block(const char* domain, const std::vector<CardBranch>& branches);
+void read_prony_rows(const std::vector<CardLine>& rows, ReadCard& card);
 // A mistake if the row has more cells than the keyword takes: a decimal comma, or a column that is
 // not read.
 void check_width(const CardLine& line, std::size_t most, ReadCard& card);

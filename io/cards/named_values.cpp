@@ -9,17 +9,14 @@
 #include <stdexcept>
 
 namespace viscard {
-namespace {
 
-std::vector<double> numbers_in(const std::string& list, const CardLine& line) {
+std::vector<double> numbers_of_list(const std::string& list, const CardLine& line) {
   std::vector<double> out;
-  for (const Match& word : all_matches(list, "[^\\s,{}'\"]+")) {
+  for (const Match& word : all_matches(list, "[^\\s,{}()\\[\\]'\"]+")) {
     out.push_back(card_number(word.group[0], line, "number"));
   }
   return out;
 }
-
-}  // namespace
 
 CardLine line_of(const std::string& text, std::size_t at) {
   const auto newlines =
@@ -39,7 +36,7 @@ void check_single_element(const std::string& text, const std::string& pattern, c
 NamedNumbers named_lists(const std::string& text, const std::string& pattern) {
   NamedNumbers out;
   for (const Match& match : all_matches(text, pattern)) {
-    out[match.group[1]] = numbers_in(match.group[2], line_of(text, match.at[2]));
+    out[match.group[1]] = numbers_of_list(match.group[2], line_of(text, match.at[2]));
   }
   return out;
 }

@@ -22,6 +22,9 @@ std::string without_line_comments(const std::string& text, const std::string& co
 void check_single_element(const std::string& text, const std::string& pattern, const char* name,
                           ReadCard& card);
 
+// Numbers of a list in a program, with brackets of any kind: "[[0.4, 2]]", "{1, 2}", "'1 2'", "0.4".
+std::vector<double> numbers_of_list(const std::string& list, const CardLine& line);
+
 using NamedNumbers = std::map<std::string, std::vector<double>>;
 
 // All matches of the regular expression: its first group is the name, its second the numbers.

@@ -68,6 +68,13 @@ std::string reading_of(const ReadCard& read) {
                   n.bulk, n.shear, n.equilibrium, n.density, read.missing_keyword, read.also_read);
   for (const CardBranch& branch : n.branches)
     out += fmt::format(" {} {} {}", branch.shear, branch.bulk, branch.time);
+  if (!n.moduli.empty())
+    out += fmt::format(" law {} {} {}", static_cast<int>(n.form), fmt::join(n.moduli, " "),
+                       fmt::join(n.shapes, " "));
+  for (const CardNumbers::FoamTerm& term : n.foam)
+    out += fmt::format(" {} {} {}", term.mu, term.alpha, term.nu);
+  if (n.damage) out += fmt::format(" damage {} {} {}", n.damage->r, n.damage->m, n.damage->beta);
+  out += to_word(read.understood.at);
   if (n.shift)
     out += fmt::format(" {} {} {} {} {}", static_cast<int>(n.shift->law), n.shift->T_ref_C,
                        n.shift->C1, n.shift->C2_K, n.shift->activation_J_mol);
@@ -75,6 +82,16 @@ std::string reading_of(const ReadCard& read) {
   for (const CardValue& value : read.values) out += fmt::format(" {}", value.value);
   for (const CardFinding& finding : read.findings) out += " " + finding.text;
   return out;
+}
+
+// In the units that are named, else stated, else SI.
+ReadCard nothing_read(const std::string& text, const CardTarget& target, const std::string& units) {
+  const std::string stated = stated_unit_system(text);
+  return {.understood = target,
+          .units = unit_system(!units.empty()    ? units
+                               : !stated.empty() ? stated
+                                                 : "SI"),
+          .units_were_stated = !stated.empty()};
 }
 
 }  // namespace
@@ -108,6 +125,15 @@ void note_unread_tokens(const std::string& text, const CardTarget& target, const
                    findings);
 }
 
+void note_unread_of_law(const std::string& text, const CardTarget& target, const std::string& units,
+                        std::vector<CardFinding>& findings) {
+  add_unread_parts(unread_tokens(text, target.name,
+                                 [&](const std::string& changed) {
+                                   return reading_of(read_law_numbers(changed, target, units));
+                                 }),
+                   findings);
+}
+
 void ReadCard::add_unread(const std::vector<std::string>& parts) {
   add_unread_parts(parts, findings);
 }
@@ -126,13 +152,19 @@ std::string stated_unit_system(const std::string& text) {
   return find_unit_system(name) != nullptr ? name : "";
 }
 
+ReadCard read_law_numbers(const std::string& text, const CardTarget& target,
+                          const std::string& units) {
+  ReadCard card = nothing_read(text, target, units);
+  card.understood.elastic = ElasticForm::kBulkShear;
+  card.understood.at = ModulusAt::kInstantaneous;
+  card.understood.branch = BranchNumber::kRelative;
+  target.laws->read(text, card);
+  note_fortran_number(text, card);
+  return card;
+}
+
 ReadCard read_card(const std::string& text, const CardTarget& target, const std::string& units) {
-  const std::string stated = stated_unit_system(text);
-  ReadCard card{.understood = target,
-                .units = unit_system(!units.empty()    ? units
-                                     : !stated.empty() ? stated
-                                                       : "SI"),
-                .units_were_stated = !stated.empty()};
+  ReadCard card = nothing_read(text, target, units);
   target.read(text, card);
   note_fortran_number(text, card);
   if (target.values != nullptr) return card;

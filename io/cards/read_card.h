@@ -53,6 +53,9 @@ struct ReadCard {
 // changed (io/cards/unread_tokens.h).
 void note_unread_tokens(const std::string& text, const CardTarget& target, const std::string& units,
                         std::vector<CardFinding>& findings);
+// The same of a law of rubber.
+void note_unread_of_law(const std::string& text, const CardTarget& target, const std::string& units,
+                        std::vector<CardFinding>& findings);
 
 // The unit system in "units: mm-t-s (...)" of a header, or "".
 std::string stated_unit_system(const std::string& text);
@@ -61,5 +64,9 @@ std::string stated_unit_system(const std::string& text);
 // system; empty: that of the header, else SI. Throws std::runtime_error naming the line and what
 // was expected there, std::invalid_argument for an unknown unit system or a csv table.
 ReadCard read_card(const std::string& text, const CardTarget& target, const std::string& units);
+// The same of a law of rubber, for a target that has them: the numbers, as they stand in the card. `understood` states
+// whether they are those at once, shares or moduli of branches, and K or (kPoissonOnly) Poisson's ratio.
+ReadCard read_law_numbers(const std::string& text, const CardTarget& target,
+                          const std::string& units);
 
 }  // namespace viscard

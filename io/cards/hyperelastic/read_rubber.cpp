@@ -3,47 +3,21 @@
 #include "io/basics/words.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/hyperelastic/rubber_card.h"
-#include "io/cards/hyperelastic/rubber_targets.h"
 #include "io/cards/named_material.h"
+#include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
-#include "io/cards/unread_tokens.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 namespace viscard {
 namespace {
 
-// Everything that was read, as text.
-std::string reading_of(const RubberText& read) {
-  std::string out = fmt::format("{} {} {} {}", static_cast<int>(read.numbers.form),
-                                read.numbers.bulk, read.numbers.density, read.poisson);
-  const auto add = [&](double value) { out += fmt::format(" {}", value); };
-  for (const double modulus : read.numbers.moduli) add(modulus);
-  for (const double shape : read.numbers.shapes) add(shape);
-  for (const RubberNumbers::FoamTerm& term : read.numbers.foam) {
-    add(term.mu);
-    add(term.alpha);
-    add(term.nu);
-  }
-  for (const RubberNumbers::Term& term : read.numbers.terms) {
-    add(term.g);
-    add(term.time);
-  }
-  if (const auto& damage = read.numbers.damage) {
-    out += fmt::format(" damage {} {} {}", damage->r, damage->m, damage->beta);
-  }
-  out += (read.is_long_term ? " long" : " once") + read.also_read + read.units;
-  for (const CardFinding& finding : read.findings) out += " " + finding.text;
-  return out;
-}
-
 // A foam; terms of one alpha and nu are one term, such as the halves that CalculiX needs.
-void take_foam(const RubberNumbers& numbers, double stress_Pa, ReadRubber& out) {
-  std::vector<RubberNumbers::FoamTerm> terms;
-  for (const RubberNumbers::FoamTerm& term : numbers.foam) {
+void take_foam(const CardNumbers& numbers, double stress_Pa, ReadRubber& out) {
+  std::vector<CardNumbers::FoamTerm> terms;
+  for (const CardNumbers::FoamTerm& term : numbers.foam) {
     const auto same = std::find_if(terms.begin(), terms.end(), [&](const auto& other) {
       return other.alpha == term.alpha && other.nu == term.nu;
     });
@@ -67,7 +41,7 @@ void take_foam(const RubberNumbers& numbers, double stress_Pa, ReadRubber& out) 
 }
 
 // The damage of a card in SI, and what is wrong with it.
-void take_damage(const RubberNumbers& numbers, double stress_Pa, ReadRubber& out) {
+void take_damage(const CardNumbers& numbers, double stress_Pa, ReadRubber& out) {
   if (!numbers.damage) return;
   if (out.foam) {
     out.findings.push_back({"damage-beside-foam",
@@ -91,37 +65,35 @@ void take_damage(const RubberNumbers& numbers, double stress_Pa, ReadRubber& out
        true});
 }
 
-RubberText text_of_target(const std::string& text, const std::string& target) {
-  return rubber_target(target).read(text);
-}
-
 Eigen::VectorXd vector_of(const std::vector<double>& numbers) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
                                            static_cast<Eigen::Index>(numbers.size()));
 }
 
 // Moduli and shares of the law at once, from those that stand in the card.
-void take_at_once(const RubberText& read, double stress_Pa, ReadRubber& out) {
-  const RubberNumbers& numbers = read.numbers;
+void take_at_once(const ReadCard& read, double stress_Pa, ReadRubber& out) {
+  const CardNumbers& numbers = read.numbers;
   out.law.form = numbers.form;
   out.law.moduli_Pa = vector_of(numbers.moduli) * stress_Pa;
   out.law.shapes = vector_of(numbers.shapes);
-  out.is_long_term = read.is_long_term;
+  out.is_long_term = read.understood.at == ModulusAt::kLongTerm;
   validate(out.law);
   const double shear_Pa = youngs_modulus_Pa(out.law) / 3.0;
-  if (read.has_poisson && read.poisson > -1.0 && read.poisson < 0.5) {
-    out.bulk_Pa = 2.0 * shear_Pa * (1.0 + read.poisson) / (3.0 * (1.0 - 2.0 * read.poisson));
-    out.poisson = read.poisson;
+  const double nu = numbers.poisson;
+  if (read.understood.elastic == ElasticForm::kPoissonOnly && nu > -1.0 && nu < 0.5) {
+    out.bulk_Pa = 2.0 * shear_Pa * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu));
+    out.poisson = nu;
   }
-  for (const RubberNumbers::Term& term : numbers.terms)
-    out.terms.push_back({term.g, from_card(term.time, out.units->time_exponent)});
+  for (const CardBranch& branch : numbers.branches)
+    out.terms.push_back({branch.shear, from_card(branch.time, out.units->time_exponent)});
+  const bool is_absolute = read.understood.branch == BranchNumber::kAbsoluteShear;
   double sum = 0.0;
   for (RubberTerm& term : out.terms) {
-    if (read.has_absolute_terms) term.g *= stress_Pa / shear_Pa;  // of the law after all relaxation
+    if (is_absolute) term.g *= stress_Pa / shear_Pa;  // of the law after all relaxation
     sum += term.g;
   }
   if (!out.is_long_term) return;
-  if (read.has_absolute_terms) {
+  if (is_absolute) {
     out.law.moduli_Pa *= 1.0 + sum;
     for (RubberTerm& term : out.terms) term.g /= 1.0 + sum;
   } else if (sum < 1.0) {
@@ -190,38 +162,28 @@ std::string stated_rubber_target(const std::string& text) {
 
 ReadRubber read_rubber_card(const std::string& text, const std::string& target,
                             const std::string& units) {
-  const RubberText read = text_of_target(text, target);
-  const std::string stated = stated_unit_system(text);
+  const CardTarget& row = law_target(target);
+  const ReadCard read = read_law_numbers(text, row, units);
   ReadRubber out;
-  out.units_were_stated = !stated.empty();
-  if (read.has_own_units) {
-    out.units = &unit_system("SI");
-    out.units_were_stated = true;
-  } else {
-    if (!read.units.empty()) out.units_were_stated = true;
-    out.units = &unit_system(!units.empty()        ? units
-                             : !read.units.empty() ? read.units
-                             : !stated.empty()     ? stated
-                                                   : "SI");
-  }
+  out.units = &unit_system(read.units.name);
+  out.units_were_stated = read.units_were_stated;
   if (read.numbers.bulk > 0.0)
     out.bulk_Pa = from_card(read.numbers.bulk, out.units->stress_exponent);
   if (read.numbers.density > 0.0)
     out.density_kg_m3 = from_card(read.numbers.density, out.units->density_exponent);
   out.findings = read.findings;
-  const auto names = material_names(text, target);
-  const bool is_named = std::any_of(out.findings.begin(), out.findings.end(), [](const auto& one) {
-    return one.name == "several-materials";
-  });
-  if (names.size() > 1 && !is_named)
-    out.findings.push_back(
+  // The names, if they distinguish the materials, instead of what the reader noticed at the second one.
+  if (const auto names = material_names(text, target);
+      std::set<std::string>(names.begin(), names.end()).size() > 1) {
+    std::erase_if(out.findings, [](const CardFinding& one) {
+      return one.name == "several-materials" || one.name == "material-number-differs";
+    });
+    out.findings.insert(
+        out.findings.begin(),
         {"several-materials",
          "the file has the materials " + listed(names) + "; choose one by --material-name", true});
-  add_unread_parts(unread_tokens(text, target,
-                                 [&](const std::string& changed) {
-                                   return reading_of(text_of_target(changed, target));
-                                 }),
-                   out.findings);
+  }
+  note_unread_of_law(text, row, units, out.findings);
   const double stress_Pa = from_card(1.0, out.units->stress_exponent);
   if (read.numbers.foam.empty()) take_at_once(read, stress_Pa, out);
   if (!read.numbers.foam.empty()) take_foam(read.numbers, stress_Pa, out);

@@ -1,6 +1,7 @@
 #include "io/cards/hyperelastic/rubber_card.h"
 
-#include "io/cards/hyperelastic/rubber_targets.h"
+#include "io/cards/card_numbers.h"
+#include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "models/maths/require.h"
 
@@ -11,85 +12,76 @@
 namespace viscard {
 namespace {
 
+// Names of the targets whose column has a property.
+template <typename Has>
+std::vector<std::string> targets_that(Has has) {
+  std::vector<std::string> out;
+  for (const CardTarget* target : law_targets()) {
+    if (has(*target->laws)) out.push_back(target->name);
+  }
+  return out;
+}
+
+std::string between_commas(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
 // Throws std::invalid_argument if the target cannot take the terms of the law: no memory beside a law,
 // too many terms, shares that sum to 1, or a rule that holds at small strain only (unless it may
 // approximate).
-void require_terms_taken(const RubberNumbers& law, const RubberTarget& target,
-                         bool may_approximate) {
-  if (law.terms.empty()) return;
+void require_terms_taken(const CardNumbers& law, const CardTarget& target, bool may_approximate) {
+  if (law.branches.empty()) return;
   const std::string way_out =
       "; --elastic-only long-term or --elastic-only instantaneous writes the law without them";
-  if (!target.takes_terms) {
-    throw std::invalid_argument(target.name +
-                                " cannot take the terms of relaxation: " + target.terms + way_out);
-  }
-  if (target.most_terms > 0 && law.terms.size() > target.most_terms) {
-    throw std::invalid_argument(fmt::format("{} takes {} terms of relaxation and the law has {}{}",
-                                            target.name, target.most_terms, law.terms.size(),
-                                            way_out));
-  }
+  const LawColumn& laws = *target.laws;
+  require(laws.takes_terms,
+          target.name + " cannot take the terms of relaxation: " + laws.terms + way_out);
+  require(laws.most_terms == 0 || law.branches.size() <= laws.most_terms,
+          fmt::format("{} takes {} terms of relaxation and the law has {}{}", target.name,
+                      laws.most_terms, law.branches.size(), way_out));
   require(law.long_term_share() > 0.0,
           "the shares g of the terms sum to 1: nothing is left after all relaxation, and solvers "
           "need less; fit again with fewer --terms");
-  if (!target.is_for_small_strain || may_approximate) return;
-  throw std::invalid_argument(
-      target.name +
-      " adds its terms of relaxation as a solid that is linear in the strain, not by the law's "
-      "own stress: right at small strain only; --approximate writes them" +
-      way_out);
+  require(!laws.is_for_small_strain || may_approximate,
+          target.name +
+              " adds its terms of relaxation as a solid that is linear in the strain, not by the "
+              "law's own stress: right at small strain only; --approximate writes them" +
+              way_out);
 }
 
 // Throws std::invalid_argument, with the way on, if the target cannot take the damage of the law.
-void require_damage_taken(HyperelasticForm form, const RubberTarget& target) {
-  if (target.damage.takes(form)) return;
-  std::string takers;
-  for (const RubberTarget& other : rubber_targets()) {
-    if (other.damage.takes(form)) takers += (takers.empty() ? "" : ", ") + other.name;
-  }
-  std::string others;
-  for (const HyperelasticForm other : target.damage.forms)
-    others += (others.empty() ? "" : ", ") + name_of(other) + "+" + kMullinsName;
+void require_damage_taken(HyperelasticForm form, const CardTarget& target) {
+  const LawDamage& damage = target.laws->damage;
+  if (damage.takes(form)) return;
+  const auto takers = targets_that([&](const LawColumn& laws) { return laws.damage.takes(form); });
+  std::vector<std::string> others;
+  for (const HyperelasticForm other : damage.forms)
+    others.push_back(name_of(other) + "+" + kMullinsName);
   throw std::invalid_argument(
       target.name + " cannot take the damage " + kMullinsName + " beside " + name_of(form) + ": " +
-      target.damage.refusal + (takers.empty() ? "" : ". Write the card for " + takers) +
-      (others.empty() ? "" : ", fit " + others) + (takers.empty() ? ". Fit" : ", or fit") +
+      damage.refusal + (takers.empty() ? "" : ". Write the card for " + between_commas(takers)) +
+      (others.empty() ? "" : ", fit " + between_commas(others)) +
+      (takers.empty() ? ". Fit" : ", or fit") +
       " the loading of one cycle without damage: viscard fit --model " + name_of(form) +
       " --cycle N");
 }
 
-RubberNumbers numbers_of(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
-                         const RubberTarget& target, const RubberCardOptions& options) {
-  const UnitSystem& units = unit_system(options.units);
-  RubberNumbers out;
-  out.form = law.form;
-  out.shapes.assign(law.shapes.begin(), law.shapes.end());
-  out.units = &units;
-  for (const double modulus_Pa : law.moduli_Pa)
-    out.moduli.push_back(to_card(modulus_Pa, units.stress_exponent));
-  out.shear = to_card(youngs_modulus_Pa(law) / 3.0, units.stress_exponent);
-  if (options.bulk_Pa) {
-    require_positive("the bulk modulus", *options.bulk_Pa, "Pa");
-    out.bulk = to_card(*options.bulk_Pa, units.stress_exponent);
-  } else if (!target.may_be_incompressible) {
-    out.bulk = kUsualBulkRatio * out.shear;
-  }
+// The numbers of a law or foam, its density checked, as the target writes them.
+std::string written(CardNumbers& numbers, const CardTarget& target, const UnitSystem& units,
+                    const RubberCardOptions& options, const char* some_density) {
   if (options.density_kg_m3) {
     require_positive("the density", *options.density_kg_m3, "kg/m3");
-    out.density = to_card(*options.density_kg_m3, units.density_exponent);
+    numbers.density = to_card(*options.density_kg_m3, units.density_exponent);
   }
-  for (const RubberTerm& term : terms)
-    out.terms.push_back({term.g, to_card(term.tau_s, units.time_exponent)});
-  return out;
+  require(!target.needs_density || numbers.density > 0.0,
+          target.name + " needs a density: --density \"" + some_density + "\"");
+  return target.laws->write({options.material_name, numbers, target, units, {}});
 }
 
 }  // namespace
 
 const std::vector<std::string>& rubber_card_targets() {
-  static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names;
-    for (const RubberTarget& target : rubber_targets()) names.push_back(target.name);
-    return names;
-  }();
+  static const auto kNames = targets_that([](const LawColumn&) { return true; });
   return kNames;
 }
 
@@ -105,34 +97,22 @@ HyperelasticLaw law_without_terms(const HyperelasticLaw& law, const std::vector<
 
 std::string foam_card(const FoamLaw& law, const RubberCardOptions& options) {
   validate(law);
-  const RubberTarget& target = rubber_target(options.target);
-  if (target.laws.foam.empty()) {
-    std::string takers;
-    for (const RubberTarget& other : rubber_targets()) {
-      if (!other.laws.foam.empty()) takers += (takers.empty() ? "" : ", ") + other.name;
-    }
-    throw std::invalid_argument(
-        "viscard writes no card of a foam (" + foam_name(law.mu_Pa.size()) + ") for " +
-        target.name +
-        ": no public text states that it has this law with these constants. "
-        "Write the card for " +
-        takers);
-  }
+  const CardTarget& target = law_target(options.target);
+  require(!target.laws->keywords.foam.empty(),
+          "viscard writes no card of a foam (" + foam_name(law.mu_Pa.size()) + ") for " +
+              target.name +
+              ": no public text states that it has this law with these constants. "
+              "Write the card for " +
+              between_commas(
+                  targets_that([](const LawColumn& laws) { return !laws.keywords.foam.empty(); })));
   require(!options.bulk_Pa, "the bulk modulus of a foam follows from its constants; omit it");
   const UnitSystem& units = unit_system(options.units);
-  RubberNumbers numbers;
-  numbers.units = &units;
+  CardNumbers numbers;
   for (Eigen::Index i = 0; i < law.mu_Pa.size(); ++i)
     numbers.foam.push_back({to_card(law.mu_Pa[i], units.stress_exponent), law.alpha[i], law.nu[i]});
   numbers.shear = to_card(shear_modulus_Pa(law), units.stress_exponent);
   numbers.bulk = to_card(bulk_modulus_Pa(law), units.stress_exponent);
-  if (options.density_kg_m3) {
-    require_positive("the density", *options.density_kg_m3, "kg/m3");
-    numbers.density = to_card(*options.density_kg_m3, units.density_exponent);
-  }
-  require(!target.needs_density || numbers.density > 0.0,
-          target.name + " needs a density: --density \"30 kg/m3\"");
-  return target.write(numbers, options.material_name);
+  return written(numbers, target, units, options, "30 kg/m3");
 }
 
 std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& options) {
@@ -151,25 +131,37 @@ std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm
     elastic.elastic_only.clear();
     return rubber_card(law_without_terms(law, terms, options.elastic_only), elastic);
   }
-  const RubberTarget& target = rubber_target(options.target);
-  RubberNumbers numbers = numbers_of(law, terms, target, options);
-  if (target.laws.of(law.form).empty()) {
-    std::string others;
-    for (const HyperelasticForm form : hyperelastic_forms()) {
-      if (!target.laws.of(form).empty()) others += (others.empty() ? "" : ", ") + name_of(form);
-    }
-    throw std::invalid_argument(target.name + " has no " + name_of(law.form) +
-                                " law; fit one that it has with viscard fit --model: " + others);
+  const CardTarget& target = law_target(options.target);
+  const UnitSystem& units = unit_system(options.units);
+  const auto in_card = [&](double stress_Pa) { return to_card(stress_Pa, units.stress_exponent); };
+  CardNumbers numbers;
+  numbers.form = law.form;
+  numbers.shapes.assign(law.shapes.begin(), law.shapes.end());
+  for (const double modulus_Pa : law.moduli_Pa) numbers.moduli.push_back(in_card(modulus_Pa));
+  numbers.shear = in_card(youngs_modulus_Pa(law) / 3.0);
+  if (options.bulk_Pa) {
+    require_positive("the bulk modulus", *options.bulk_Pa, "Pa");
+    numbers.bulk = in_card(*options.bulk_Pa);
+  } else if (!target.laws->may_be_incompressible) {
+    numbers.bulk = kUsualBulkRatio * numbers.shear;
   }
-  require(!target.needs_density || numbers.density > 0.0,
-          target.name + " needs a density: --density \"1.1 g/cm3\"");
+  for (const RubberTerm& term : terms)
+    numbers.branches.push_back({term.g, 0.0, to_card(term.tau_s, units.time_exponent)});
+  if (target.laws->keywords.of(law.form).empty()) {
+    std::vector<std::string> others;
+    for (const HyperelasticForm form : hyperelastic_forms()) {
+      if (!target.laws->keywords.of(form).empty()) others.push_back(name_of(form));
+    }
+    throw std::invalid_argument(
+        target.name + " has no " + name_of(law.form) +
+        " law; fit one that it has with viscard fit --model: " + between_commas(others));
+  }
   require_terms_taken(numbers, target, options.may_approximate);
   if (damage) {
     require_damage_taken(law.form, target);
-    numbers.damage = {damage->r, to_card(damage->m_Pa, numbers.units->stress_exponent),
-                      damage->beta};
+    numbers.damage = {damage->r, in_card(damage->m_Pa), damage->beta};
   }
-  return target.write(numbers, options.material_name);
+  return written(numbers, target, units, options, "1.1 g/cm3");
 }
 
 }  // namespace viscard

@@ -37,14 +37,13 @@ struct RubberCardOptions {
   std::string file_sha256 = {}, file_name = {}, created_at = {}, command = {};
 };
 
-// The card of a law. Each solver's convention, with its source, stands in rubber_targets.cpp and in the
-// README. Throws std::invalid_argument for a target without this law (gent in abaqus, for instance), a
-// missing density, a bulk modulus or density that is not positive, and numbers that calculix or
-// frontistr would replace silently.
+// The card of a law. Each solver's convention, with its source, stands in its file of io/cards/targets.
+// Throws std::invalid_argument for a target without this law (gent in abaqus, for instance), a missing
+// density, a bulk modulus or density that is not positive, and numbers that calculix or frontistr would
+// replace silently.
 std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& options);
-// The law at once with terms of relaxation (Simo 1987), or with damage by the first loading; conventions in
-// rubber_terms.cpp and rubber_targets.cpp. Throws the same, and std::invalid_argument for terms or damage
-// that the target cannot take.
+// The law at once with terms of relaxation (Simo 1987), or with damage by the first loading. Throws the same,
+// and std::invalid_argument for terms or damage that the target cannot take.
 std::string rubber_card(const HyperelasticLaw& law, const std::vector<RubberTerm>& terms,
                         const RubberCardOptions& options,
                         const std::optional<MullinsDamage>& damage = {});

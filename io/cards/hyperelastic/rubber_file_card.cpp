@@ -6,7 +6,7 @@
 #include "io/cards/card_sum.h"
 #include "io/cards/header_name.h"
 #include "io/cards/hyperelastic/check_rubber.h"
-#include "io/cards/hyperelastic/rubber_targets.h"
+#include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/materials/material_json.h"
 #include "models/hyperelastic/law_stability.h"
@@ -43,31 +43,32 @@ std::string relaxation_line(const HyperelasticFile& file, const RubberCardOption
 }
 
 // What is known about the law, one line each.
-std::vector<std::string> header_lines(const HyperelasticFile& file, const RubberTarget& target,
+std::vector<std::string> header_lines(const HyperelasticFile& file, const CardTarget& target,
                                       const RubberCardOptions& options) {
+  const LawColumn& laws = *target.laws;
   std::vector<std::string> lines{
       "viscard card: " + name_of(file) + (file.damage ? std::string("+") + kMullinsName : "") +
           " for " + options.target,
       fmt::format("units: {} ({})", options.units, unit_system(options.units).description),
       relaxation_line(file, options)};
   if (!file.terms.empty() && options.elastic_only.empty()) {
-    lines.push_back("terms: " + target.terms);
+    lines.push_back("terms: " + laws.terms);
   }
-  const std::string& laws = file.damage && !target.damage.laws.empty()
-                                ? target.damage.laws
-                                : target.laws.of(file.law.form);
+  const std::string& keyword =
+      file.damage && !laws.damage.laws.empty() ? laws.damage.laws : laws.keywords.of(file.law.form);
   lines.push_back("conventions: " +
-                  (file.foam ? target.laws.foam : laws + "; volume " + target.volume));
+                  (file.foam ? laws.keywords.foam : keyword + "; volume " + laws.volume));
   if (file.damage) {
     lines.push_back(std::string("damage by the first loading, ") + kMullinsName +
-                    ": eta = 1 - erf((W_m - W)/(m + beta W_m))/r. " + target.damage.convention);
+                    ": eta = 1 - erf((W_m - W)/(m + beta W_m))/r. " + laws.damage.convention);
     lines.push_back("damage r " + text_of(file.damage->r, kDigits));
     lines.push_back("damage m " + text_of(file.damage->m_Pa, kDigits) + " Pa");
     lines.push_back("damage beta " + text_of(file.damage->beta, kDigits));
   }
   lines.push_back("evidence: " + (file.foam && options.target == "calculix"
                                       ? std::string("one cube run in CalculiX 2.20")
-                                      : target.evidence));
+
+                                      : laws.evidence));
   if (options.density_kg_m3) {
     lines.push_back("density " + text_of(*options.density_kg_m3, kDigits) + " kg/m3");
   }
@@ -82,7 +83,7 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const Rubber
   } else if (file.foam) {
     lines.push_back("at rest: shear modulus " + text_of(shear_modulus_Pa(*file.foam), kDigits) +
                     " Pa, Poisson's ratio " + text_of(poisson_ratio(*file.foam), kDigits));
-  } else if (target.may_be_incompressible) {
+  } else if (laws.may_be_incompressible) {
     lines.push_back("incompressible: use hybrid (mixed) elements, or --bulk-modulus");
   } else {
     lines.push_back(std::string(kUsualBulkText) + ", chosen because the solver needs one");
@@ -192,7 +193,7 @@ std::string rubber_file_card(const HyperelasticFile& file, const std::string& na
         name +
         ": --elastic-only is for laws with terms of relaxation, and this one has none; omit it");
   }
-  const RubberTarget& target = rubber_target(options.target);
+  const CardTarget& target = law_target(options.target);
   const std::string card = file.foam ? foam_card(*file.foam, options)
                                      : rubber_card(file.law, file.terms, options, file.damage);
   const std::string text =

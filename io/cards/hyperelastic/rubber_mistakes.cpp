@@ -1,6 +1,6 @@
 #include "io/cards/hyperelastic/rubber_mistakes.h"
 
-#include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/law_numbers.h"
 #include "io/cards/list_differences.h"
 
 #include <fmt/format.h>

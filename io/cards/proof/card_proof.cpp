@@ -286,11 +286,8 @@ void show_keys(ResultVisitor& v, const ConstantProof& constant) {
   v("seen_by", constant.seen_by, "the test of that change; empty: none");
 }
 
-bool CardProof::exercises_all() const {
-  return not_exercised().empty();
-}
-
-std::string CardProof::not_exercised() const {
+std::string not_exercised(const std::vector<ConstantProof>& constants,
+                          const std::vector<TermProof>& terms) {
   std::string out;
   const auto add = [&](const std::string& name) { out += (out.empty() ? "" : ", ") + name; };
   for (const ConstantProof& constant : constants) {

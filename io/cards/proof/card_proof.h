@@ -47,6 +47,9 @@ struct ConstantProof {
   std::string seen_by;        // the test of that change; of the density "read back"
 };
 void show_keys(ResultVisitor& v, const ConstantProof& constant);
+// "nu, tau_2": what no test exercised; empty if all were.
+std::string not_exercised(const std::vector<ConstantProof>& constants,
+                          const std::vector<TermProof>& terms);
 
 // Relaxation at another temperature than the reference of the card's shift.
 struct TemperatureProof {
@@ -79,8 +82,8 @@ struct CardProof {
            (!confined || confined->vanishes_with_step()) &&
            (!temperature || temperature->error.vanishes_with_step());
   }
-  bool exercises_all() const;
-  std::string not_exercised() const;  // "nu, tau of term 2"; empty if all were
+  bool exercises_all() const { return not_exercised().empty(); }
+  std::string not_exercised() const { return viscard::not_exercised(constants, terms); }
   // Of a solver that reads the card: the card is proven. Of another one: its numbers are.
   bool holds() const { return agrees() && exercises_all(); }
 };

@@ -7,6 +7,8 @@
 #include "io/basics/written_path.h"
 #include "io/results/result_json.h"
 
+#include <filesystem>
+
 namespace viscard {
 namespace {
 
@@ -37,6 +39,32 @@ void show_proof(ResultVisitor& v, const CardProof& proof) {
         v("card_blamed", divergence.is_card_blamed, "whether the card is the cause");
       },
       !proof.divergence);
+}
+
+void show_cubes(ResultVisitor& v, const LawProof& proof) {
+  v.list("cubes", "stretched cubes beside the closed form", proof.cubes,
+         [&](const CubeProof& cube) {
+           v("test", cube.test.name, "uniaxial, compression, planar or equibiaxial");
+           v("to_stretch", cube.test.top, "largest stretch");
+           v("steps", cube.test.steps, "to it");
+           v("compared", cube.compared,
+             "steps that were compared; the solver left the others out of balance by more than is "
+             "resolved");
+           v("error", cube.error,
+             "largest relative difference of the nominal stress; null: none could be computed");
+           v("at_stretch", cube.at_stretch, "where");
+           v("resolved", cube.resolved, "smallest error that the run shows");
+           v("agrees", cube.agrees(), "whether the error is below it");
+         });
+}
+
+void show_hold(ResultVisitor& v, const HoldProof& hold) {
+  v("end_s", hold.end_s, "its length");
+  v("error", hold.error, "largest relative difference of the nominal stress");
+  v("at_s", hold.at_s, "when");
+  v("resolved", hold.resolved, "smallest error that the run shows");
+  v("agrees", hold.agrees(), "whether the error is below it");
+  v("terms", hold.terms, "the terms");
 }
 
 }  // namespace
@@ -115,6 +143,35 @@ void show_certificate(ResultVisitor& v, const CertificateRequest& request, const
   show_proof(v, proof);
   show_end(
       v, statement, proof.holds(), [&] { show_keys(v, chain); }, proof.models);
+}
+
+void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,
+                      const FoundSolver& found, const LawProof& proof) {
+  const std::string statement = statement_of_law(found.solver, request.target);
+  show_head(v, request, statement, found);
+  v("ran_text", runs_law_of(found.solver, request.target),
+    "false: the solver ran the numbers that were read from the card, not its text");
+  v("bulk_modulus_Pa", proof.bulk_Pa, "of the cubes");
+  show_cubes(v, proof);
+  v.object(
+      "relaxation", "a ramp and a hold; null: no terms",
+      [&] { show_hold(v, proof.hold.value_or(HoldProof{})); }, !proof.hold);
+  v("constants", proof.constants, "the constants of the law, its shares, and the bulk modulus");
+  v.or_null("diverged", unless_empty(proof.diverged), "the test that did not converge; null: none");
+  v.or_null("caution", unless_empty(proof.caution),
+            "what to know before trusting a run in this solver");
+  const auto show_chain = [&] {
+    show_ends(v, chain);
+    v.list("raw_files", "tables that the law was fitted to", chain.raw_files,
+           [&](const ChainLink& link) {
+             v("file", std::filesystem::path(link.path).filename().string(), "its name");
+             v("sha256", link.stated, "its sum, as the card states it");
+             show_keys(v, link);
+           });
+    v.or_null("law_sha256", unless_empty(chain.material.now),
+              "sum of the file of the law; null: it is not here");
+  };
+  show_end(v, statement, proof.holds(), show_chain, proof.models);
 }
 
 std::string certificate_text(const CertificateRequest& request, const CardChain& chain,

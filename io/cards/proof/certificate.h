@@ -3,6 +3,7 @@
 #include "io/basics/timestamp.h"
 #include "io/cards/proof/card_chain.h"
 #include "io/cards/proof/card_proof.h"
+#include "io/cards/proof/law_proof.h"
 
 #include <functional>
 #include <string>
@@ -37,6 +38,9 @@ std::string certificate_text(const std::function<void(ResultVisitor&)>& show);
 // Of a card of Prony series: deviations, terms; and the same as JSON.
 void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,
                       const FoundSolver& found, const CardProof& proof);
+// Of a card of a law of rubber: its cubes and its hold.
+void show_certificate(ResultVisitor& v, const CertificateRequest& request, const CardChain& chain,
+                      const FoundSolver& found, const LawProof& proof);
 std::string certificate_text(const CertificateRequest& request, const CardChain& chain,
                              const FoundSolver& found, const CardProof& proof);
 

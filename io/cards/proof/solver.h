@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,21 @@ struct SolverTask {
   const Material& as_read;
 };
 
+struct CubeTest;
+struct CubeRow;
+enum class VolumeRule;
+
+// How a solver stretches cubes of a law of rubber (law_proof.h): each test by a run of its own, of the card's text; or
+// all by one, without `files`, which imports a module.
+struct CubeRunner {
+  double step;  // largest one of the stretch
+  VolumeRule rule;
+  bool has_memory = false;  // runs terms of relaxation
+  bool has_run = true;      // the solver itself, not a stand-in
+  std::vector<DeckFile> (*files)(const std::string& card, const CubeTest& test) = nullptr;
+  std::vector<CubeRow> (*rows)(const std::filesystem::path& folder, const CubeTest& test) = nullptr;
+};
+
 // What a program needs to run the one-element model of a card.
 struct Solver {
   std::string name;                   // as on the command line: "calculix"
@@ -45,7 +61,8 @@ struct Solver {
   // Of the test of this number, in the units of the card; sign and scale are settled by the caller.
   std::vector<SolverSample> (*samples)(const std::filesystem::path& folder, const DeckInput& input,
                                        std::size_t number) = nullptr;
-  bool runs_together = false;   // one start of the program runs all tests
+  std::optional<CubeRunner> cubes = std::nullopt;  // none: it runs no laws of rubber
+  bool runs_together = false;                      // one start of the program runs all tests
   bool is_scaled = true;        // samples are forces or stresses and strains; false: in SI
   const char* divergence = "";  // in the log of an increment that does not converge
   const char* error = "";       // in the log of a run that failed, with any exit status

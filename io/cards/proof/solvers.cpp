@@ -3,6 +3,8 @@
 #include "io/basics/patterns.h"
 #include "io/basics/words.h"
 #include "io/cards/card.h"
+#include "io/cards/proof/cube_stress.h"
+#include "io/cards/proof/solver_cubes.h"
 #include "io/cards/targets/card_targets.h"
 
 #include <unistd.h>
@@ -40,6 +42,7 @@ Solver febio_solver() {
             return {{program, "-noconfig", "-i", "deck.feb"}};
           },
           .samples = febio_samples,
+          .cubes = CubeRunner{0.04, VolumeRule::kLogSquared, true, false, febio_cube, febio_rows},
           .error = "E R R O R   T E R M I N A T I O N",
           .has_finite_strain = true,
           .version_words = {"-info"},
@@ -47,26 +50,29 @@ Solver febio_solver() {
 }
 
 Solver calculix_solver() {
-  return {.name = "calculix",
-          .code = "CalculiX",
-          .programs = {"ccx"},
-          .install = "run: apt-get install calculix-ccx, or name it with --solver-path",
-          .targets = {"calculix"},
-          .test = calculix_target().deck->test,
-          // ccx prints seven digits, 5e-7 relative; the weights of the extrapolation,
-          // (8, -6, 1)/3, multiply their rounding by up to 5.
-          .resolves = 3e-6,
-          .is_backward_euler = true,
-          .model = model_of<calculix_target>,
-          .commands = [](const std::string& program) -> Commands {
-            return {{program, "deck"}};
-          },
-          .samples = calculix_samples,
-          // checkconvergence.c: an increment that the creep law of a point could not solve.
-          .divergence = "solution seems to diverge",
-          .error = "*ERROR",
-          .version_words = {"-v"},
-          .version_pattern = "Version (\\S+)"};
+  return {
+      .name = "calculix",
+      .code = "CalculiX",
+      .programs = {"ccx"},
+      .install = "run: apt-get install calculix-ccx, or name it with --solver-path",
+      .targets = {"calculix"},
+      .test = calculix_target().deck->test,
+      // ccx prints seven digits, 5e-7 relative; the weights of the extrapolation,
+      // (8, -6, 1)/3, multiply their rounding by up to 5.
+      .resolves = 3e-6,
+      .is_backward_euler = true,
+      .model = model_of<calculix_target>,
+      .commands = [](const std::string& program) -> Commands {
+        return {{program, "deck"}};
+      },
+      .samples = calculix_samples,
+      // It iterates twice, so that the steps of a stretch are small.
+      .cubes = CubeRunner{0.04, VolumeRule::kUnitVolume, false, true, calculix_cube, calculix_rows},
+      // checkconvergence.c: an increment that the creep law of a point could not solve.
+      .divergence = "solution seems to diverge",
+      .error = "*ERROR",
+      .version_words = {"-v"},
+      .version_pattern = "Version (\\S+)"};
 }
 
 // The program of this name beside another one, else that of PATH.
@@ -93,6 +99,7 @@ Solver mtest_solver() {
           .model = model_of<mfront_target>,
           .commands = mtest_commands,
           .samples = mtest_samples,
+          .cubes = CubeRunner{0.1, VolumeRule::kUnitVolume, true, false, mtest_cube, mtest_rows},
           .version_words = {"--version"},
           .version_pattern = "(\\d+\\.\\d+\\S*)",
           // MTestMain.cxx of TFEL 5.2 states no version.
@@ -188,6 +195,12 @@ Solver python_solver(const char* name, const char* code, const char* package,
           .version_pattern = "version (\\S+)"};
 }
 
+// All cubes of SfePy by one run; each of some 10 ms.
+Solver with_cubes(Solver solver) {
+  solver.cubes = CubeRunner{0.1, VolumeRule::kWholeOgden, true};
+  return solver;
+}
+
 // The program in every folder of PATH, or itself if it is a path.
 std::vector<std::string> paths_of(const std::string& program) {
   if (program.find('/') != std::string::npos) return {program};
@@ -221,7 +234,7 @@ const std::vector<Solver>& solvers() {
       mtest_solver(),
       frontistr_solver(),
       openradioss_solver(),
-      python_solver("sfepy", "SfePy", "python3-sfepy", sfepy_model),
+      with_cubes(python_solver("sfepy", "SfePy", "python3-sfepy", sfepy_model)),
       python_solver("dolfinx", "dolfinx", "python3-dolfinx", dolfinx_model)};
   return table;
 }

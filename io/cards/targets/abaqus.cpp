@@ -1,9 +1,11 @@
 // Abaqus. Sources: Keywords Reference (*ELASTIC: MODULI defaults to LONG TERM; *VISCOELASTIC,
 // TIME=PRONY: rows g_i, k_i, tau_i); Analysis User's Manual, time domain viscoelasticity (*TRS:
-// ln A = (E_0/R) (1/(T - T_Z) - 1/(T_0 - T_Z)), with R and T_Z of *PHYSICAL CONSTANTS).
+// ln A = (E_0/R) (1/(T - T_Z) - 1/(T_0 - T_Z)), with R and T_Z of *PHYSICAL CONSTANTS). Laws of rubber:
+// keyword_law.h.
 #include "io/cards/keyword_lines.h"
 #include "io/cards/known_mistakes.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/targets/keyword_law.h"
 
 #include <fmt/format.h>
 
@@ -23,14 +25,10 @@ std::string physical_constants() {
 std::string write_abaqus(const CardBody& body) {
   const auto number = number_of_20;
   const CardNumbers& numbers = body.numbers;
-  std::string out = "*MATERIAL, NAME=" + body.name + "\n";
-  if (numbers.density > 0.0) out += "*DENSITY\n" + number(numbers.density) + ",\n";
-  out += fmt::format("*ELASTIC, MODULI=INSTANTANEOUS\n{}, {}\n", number(numbers.young),
-                     number(numbers.poisson));
-  if (!numbers.branches.empty()) out += "*VISCOELASTIC, TIME=PRONY\n";
-  for (const CardBranch& branch : numbers.branches) {
-    out += number(branch.shear) + ", " + number(branch.bulk) + ", " + number(branch.time) + "\n";
-  }
+  std::string out = keyword_head(body.name, numbers.density) +
+                    fmt::format("*ELASTIC, MODULI=INSTANTANEOUS\n{}, {}\n", number(numbers.young),
+                                number(numbers.poisson)) +
+                    prony_block("TIME", numbers.branches);
   if (!numbers.shift) return out;
   // log10 a_T = -C1 (T - T0)/(C2 + T - T0)
   if (numbers.shift->law == ShiftLaw::kWlf) {
@@ -45,13 +43,7 @@ void read_prony(const KeywordBlock& block, ReadCard& card) {
   if (!block.has("TIME=PRONY")) {
     throw std::runtime_error(at_line(block.line, "only *VISCOELASTIC, TIME=PRONY can be read"));
   }
-  for (const CardLine& line : block.data) {
-    const auto row = cells(line.text, ',');
-    check_width(line, 3, card);
-    card.numbers.branches.push_back({cell_number(row, 0, line, "g_i"),
-                                     cell_number_or_zero(row, 1, line, "k_i"),
-                                     cell_number(row, 2, line, "tau_i")});
-  }
+  read_prony_rows(block.data, card);
 }
 
 void read_abaqus(const std::string& text, ReadCard& card) {
@@ -122,6 +114,17 @@ CardTarget abaqus_target() {
           .write = write_abaqus,
           .read = read_abaqus,
           .deck = DeckWriter{abaqus_deck, "abaqus job={}"},
+          .laws = LawColumn{
+              .write = [](const CardBody& body) { return write_keyword_law(body, false); },
+              .read = [](const std::string& text,
+                         ReadCard& card) { read_keyword_law(text, false, card); },
+              .keywords = keyword_laws(),
+              .volume = keyword_law_volume("D_1") + "; D_1 = 2/K, 0: incompressible",
+              .may_be_incompressible = true,
+              .takes_terms = true,
+              .terms = "the law at once, g_i of its deviator, constant bulk modulus, tau_i; "
+                       "Simo's rule at large strain (Theory Guide 4.8.2), not run",
+              .damage = {"*MULLINS EFFECT: r, m, beta", ""}},
           .add_mistakes = add_abaqus_mistakes,
           .is_case_sensitive = false,
           .reads_fortran_numbers = true,

@@ -17,21 +17,13 @@ namespace viscard {
 namespace {
 
 std::string elastic_block(const CardBody& body) {
-  const auto number = number_of_20;
-  std::string out = "*MATERIAL, NAME=" + body.name + "\n";
-  if (body.numbers.density > 0.0) out += "*DENSITY\n" + number(body.numbers.density) + ",\n";
-  return out + fmt::format("*ELASTIC, MODULI=LONG TERM\n{}, {}\n", number(body.numbers.young),
-                           number(body.numbers.poisson));
+  return keyword_head(body.name, body.numbers.density) +
+         fmt::format("*ELASTIC, MODULI=LONG TERM\n{}, {}\n", number_of_20(body.numbers.young),
+                     number_of_20(body.numbers.poisson));
 }
 
 std::string write_frequency_prony(const CardBody& body) {
-  const auto number = number_of_20;
-  std::string out = elastic_block(body);
-  if (!body.numbers.branches.empty()) out += "*VISCOELASTIC, FREQUENCY=PRONY\n";
-  for (const CardBranch& branch : body.numbers.branches) {
-    out += number(branch.shear) + ", " + number(branch.bulk) + ", " + number(branch.time) + "\n";
-  }
-  return out;
+  return elastic_block(body) + prony_block("FREQUENCY", body.numbers.branches);
 }
 
 // What both kinds of card share; returns the rows below *VISCOELASTIC.
@@ -65,13 +57,7 @@ std::vector<CardLine> read_frequency_blocks(const std::string& text, const char*
 }
 
 void read_frequency_prony(const std::string& text, ReadCard& card) {
-  for (const CardLine& line : read_frequency_blocks(text, "PRONY", card)) {
-    const auto row = cells(line.text, ',');
-    check_width(line, 3, card);
-    card.numbers.branches.push_back({cell_number(row, 0, line, "g_i"),
-                                     cell_number_or_zero(row, 1, line, "k_i"),
-                                     cell_number(row, 2, line, "tau_i")});
-  }
+  read_prony_rows(read_frequency_blocks(text, "PRONY", card), card);
 }
 
 // M*/M_inf - 1 at omega, without the cancellation of that difference:

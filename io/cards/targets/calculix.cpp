@@ -1,9 +1,11 @@
 // CalculiX. It has no Prony keyword: a generalised Maxwell solid is one elastic material and one
 // per branch with linear Norton creep, on coincident elements. Norton flow is deviatoric, so the
 // bulk modulus, the sum of all shares, stays constant. Source: CalculiX manual, *CREEP, LAW=NORTON.
+// Laws of rubber: keyword_law.h.
 #include "io/cards/keyword_lines.h"
 #include "io/cards/material_difference.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/targets/keyword_law.h"
 
 #include <fmt/format.h>
 
@@ -181,6 +183,17 @@ CardTarget calculix_target() {
           .deck =
               DeckWriter{
                   calculix_deck, "ccx {}", {.amplitude = 1.0, .steps_per_tau = 40, .rises = true}},
+          .laws = LawColumn{
+              .write = [](const CardBody& body) { return write_keyword_law(body, true); },
+              .read = [](const std::string& text,
+                         ReadCard& card) { read_keyword_law(text, true, card); },
+              .keywords = keyword_laws(),
+              .volume = keyword_law_volume("D_1") + "; D_1 = 2/K",
+              .terms = "ccx has no Prony series beside *HYPERELASTIC and ignores one",
+              .damage = {"",
+                         "ccx skips *MULLINS EFFECT with a warning and runs the law without "
+                         "it"},
+              .evidence = "run by viscard's tests in CalculiX 2.20, laws without terms"},
           .elastic = ElasticForm::kPoissonOnly,
           .branch = BranchNumber::kAbsoluteYoung,
           .time = TimeNumber::kNortonA,

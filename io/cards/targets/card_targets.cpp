@@ -2,6 +2,7 @@
 
 #include "io/basics/words.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace viscard {
@@ -45,6 +46,29 @@ const CardTarget& card_target(const std::string& name) {
     names.push_back(target.name);
   }
   throw std::invalid_argument(no_such_word("card target", name, names));
+}
+
+const std::vector<const CardTarget*>& law_targets() {
+  static const std::vector<const CardTarget*> kTargets = [] {
+    std::vector<const CardTarget*> out;
+    for (const CardTarget& target : card_targets()) {
+      if (target.laws) out.push_back(&target);
+    }
+    std::sort(out.begin(), out.end(),
+              [](const CardTarget* a, const CardTarget* b) { return a->name < b->name; });
+    return out;
+  }();
+  return kTargets;
+}
+
+const CardTarget& law_target(const std::string& name) {
+  std::vector<std::string> names;
+  for (const CardTarget* target : law_targets()) {
+    if (target->name == name) return *target;
+    names.push_back(target->name);
+  }
+  throw std::invalid_argument("there is no card of rubber for '" + name + "'; use " +
+                              listed(names));
 }
 
 const CardTarget* stated_card_target(const std::string& text) {

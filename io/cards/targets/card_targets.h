@@ -19,6 +19,11 @@ const CardTarget* stated_card_target(const std::string& text);
 // The one-element model of a target. Throws std::invalid_argument listing the targets with one.
 const DeckWriter& card_deck(const std::string& name);
 
+// The targets with cards of laws of rubber, by name.
+const std::vector<const CardTarget*>& law_targets();
+// Throws std::invalid_argument naming those that there are.
+const CardTarget& law_target(const std::string& name);
+
 // The rows of the table, each defined in the file of its solver.
 CardTarget abaqus_target();
 CardTarget ansys_target();

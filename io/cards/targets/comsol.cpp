@@ -1,7 +1,12 @@
 // COMSOL, linear elastic material with Viscoelasticity. Source: public documentation.
+// Laws of rubber: the Lame parameter mu = 2 C10, or C10 and C01, with the bulk modulus kappa of "nearly
+// incompressible". Source: Structural Mechanics Module User's Guide 5.5 and 6.0, Hyperelastic Material; not run. The
+// page names the numbers of the other laws without their energies, so they are refused.
 #include "io/basics/patterns.h"
 #include "io/cards/card_lines.h"
+#include "io/cards/keyword_lines.h"
 #include "io/cards/known_mistakes.h"
+#include "io/cards/law_numbers.h"
 #include "io/cards/material_difference.h"
 #include "io/cards/named_values.h"
 #include "io/cards/read_card.h"
@@ -19,14 +24,21 @@
 namespace viscard {
 namespace {
 
+// Rows of parameters, all with the name of the material.
+struct ComsolRows {
+  const std::string& name;
+
+  std::string operator()(const std::string& suffix, double value, const std::string& unit,
+                         const std::string& text) const {
+    return fmt::format("{}_{} {}{} \"{}\"\n", name, suffix, value,
+                       unit.empty() ? "" : "[" + unit + "]", text);
+  }
+};
+
 std::string write_comsol(const CardBody& body) {
   const CardNumbers& numbers = body.numbers;
   const std::string stress = comsol_unit(body.units.stress), time = comsol_unit(body.units.time);
-  const auto row = [&](const std::string& suffix, double value, const std::string& unit,
-                       const std::string& text) {
-    return fmt::format("{}_{} {}{} \"{}\"\n", body.name, suffix, value,
-                       unit.empty() ? "" : "[" + unit + "]", text);
-  };
+  const ComsolRows row{body.name};
   std::string out = row("Einf", numbers.young, stress, "long-term Young modulus");
   out += row("nuinf", numbers.poisson, "", "long-term Poisson ratio");
   if (numbers.density > 0.0) {
@@ -97,14 +109,25 @@ void read_elastic_number(const std::string& kind, double value, ReadCard& card) 
   if (kind == "rho") card.numbers.density = value;
 }
 
-void read_comsol(const std::string& text, ReadCard& card) {
+// A row: name, number[unit], text; its role is what the name ends in.
+struct ComsolRow {
+  std::string name, prefix, kind, number, unit;
+  CardLine line;
+
+  double in_SI() const {
+    const double factor = unit_factor(unit, line), value = card_number(number, line, name);
+    return factor < 1.0 ? value / std::round(1.0 / factor) : value * factor;
+  }
+};
+
+// The rows whose names end in one of the kinds, a regular expression; others are notes, repeated ones mistakes.
+std::vector<ComsolRow> comsol_rows(const std::string& text, const std::string& kinds,
+                                   ReadCard& card) {
   card.units = unit_system("SI");  // each expression carries its own
   card.units_were_stated = true;
-  std::map<int, CardBranch> branches;
+  std::vector<ComsolRow> out;
   std::set<std::string> prefixes, names;
-  bool has_young = false;
   const char* row = "^\\s*(\\w+)\\s+([-+.\\deE]+)(?:\\[([^\\]]*)\\])?(?:\\s.*)?$";
-  const char* suffix = "^(.*_)?(Einf|E_inf|nuinf|nu|rho|Tref|C1|C2|Q|G\\d+|tau\\d+)$";
   for (const CardLine& line : card_lines(text, "%")) {
     if (trimmed(line.text).empty()) continue;
     const auto match = first_match(line.text, row);
@@ -113,8 +136,7 @@ void read_comsol(const std::string& text, ReadCard& card) {
       continue;
     }
     const std::string& name = match->group[1];
-    const std::string& unit = match->group[3];
-    const auto role = first_match(name, suffix);
+    const auto role = first_match(name, "^(.*_)?(" + kinds + ")$");
     if (!role) {
       card.add("parameter-not-known", at_line(line, name + " is no parameter of these cards"),
                false);
@@ -127,27 +149,64 @@ void read_comsol(const std::string& text, ReadCard& card) {
       card.add("prefix-differs",
                at_line(line, name + " is of another material than the lines above"));
     }
-    const std::string& kind = role->group[2];
+    out.push_back({name, role->group[1], role->group[2], match->group[2], match->group[3], line});
+  }
+  return out;
+}
+
+void read_comsol(const std::string& text, ReadCard& card) {
+  std::map<int, CardBranch> branches;
+  bool has_young = false;
+  for (const ComsolRow& row :
+       comsol_rows(text, "Einf|E_inf|nuinf|nu|rho|Tref|C1|C2|Q|G\\d+|tau\\d+", card)) {
+    const std::string& kind = row.kind;
     if (kind == "Tref" || kind == "C1" || kind == "C2" || kind == "Q") {
-      read_shift(kind, card_number(match->group[2], line, name), unit, card);
+      read_shift(kind, card_number(row.number, row.line, row.name), row.unit, card);
       continue;
     }
-    const double factor = unit_factor(unit, line);
-    const double number = card_number(match->group[2], line, name);
-    const double value = factor < 1.0 ? number / std::round(1.0 / factor) : number * factor;
+    const double value = row.in_SI();
     if (kind[0] == 'G' || kind[0] == 't') {
       const bool is_modulus = kind[0] == 'G';
-      CardBranch& branch = branches[cell_integer({kind.substr(is_modulus ? 1 : 3)}, 0, line, name)];
+      CardBranch& branch =
+          branches[cell_integer({kind.substr(is_modulus ? 1 : 3)}, 0, row.line, row.name)];
       (is_modulus ? branch.shear : branch.time) = value;
       continue;
     }
     read_elastic_number(kind, value, card);
     if (kind[0] != 'E') continue;
     has_young = true;
-    if (!role->group[1].empty()) card.name = role->group[1].substr(0, role->group[1].size() - 1);
+    if (!row.prefix.empty()) card.name = row.prefix.substr(0, row.prefix.size() - 1);
   }
   if (!has_young) throw std::runtime_error("the card has no parameter ending in Einf or E_inf");
   for (const auto& [index, branch] : branches) card.numbers.branches.push_back(branch);
+}
+
+std::string write_comsol_law(const CardBody& body) {
+  const CardNumbers& law = body.numbers;
+  const std::string stress = comsol_unit(body.units.stress);
+  const ComsolRows row{body.name};
+  const std::string text =
+      law.form == HyperelasticForm::kNeoHooke
+          ? row("mu", 2.0 * law.moduli[0], stress, "Neo-Hookean, Lame parameter mu")
+          : row("C10", law.moduli[0], stress, "Mooney-Rivlin, two parameters, C10") +
+                row("C01", law.moduli[1], stress, "Mooney-Rivlin, two parameters, C01");
+  return text + row("kappa", law.bulk, stress, "bulk modulus, nearly incompressible material") +
+         (law.density > 0.0 ? row("rho", law.density, comsol_unit(body.units.density), "density")
+                            : "");
+}
+
+void read_comsol_law(const std::string& text, ReadCard& card) {
+  std::map<std::string, double> found;
+  for (const ComsolRow& row : comsol_rows(text, "mu|C10|C01|kappa|rho", card)) {
+    if (!found.emplace(row.kind, row.in_SI()).second)
+      throw std::runtime_error(at_line(row.line, row.kind + " stands in the card twice; keep one"));
+  }
+  const bool has_mu = found.contains("mu");
+  require_in_card(has_mu != found.contains("C10"), "parameter ending in mu or in C10, or has both");
+  take_invariant_law({has_mu ? found["mu"] / 2.0 : found["C10"], has_mu ? 0.0 : found["C01"]},
+                     card.numbers);
+  card.numbers.bulk = found["kappa"];
+  card.numbers.density = found["rho"];
 }
 
 // Expressions carry units: 0.008[MPa] where g was meant.
@@ -170,29 +229,38 @@ void add_comsol_mistakes(const CardContext& context, std::vector<CardMistake>& l
 }  // namespace
 
 CardTarget comsol_target() {
-  return {.name = "comsol",
-          .code = "COMSOL linear elastic with Viscoelasticity",
-          .extension = ".txt",
-          .comment = "%",
-          .write = write_comsol,
-          .read = read_comsol,
-          .companions = comsol_companions,
-          .deck = DeckWriter{comsol_deck,
-                             "comsol compile {0}.java && comsol batch -inputfile {0}.class"},
-          .add_mistakes = add_comsol_mistakes,
-          .at = ModulusAt::kLongTerm,
-          .branch = BranchNumber::kAbsoluteShear,
-          .bulk = BulkRule::kConstantBulk,
-          .numbers_carry_units = true,
-          .takes_wlf = true,
-          .takes_arrhenius = true,
-          .set_temperature = "Model Input > Temperature, and the shift function of Viscoelasticity",
-          .evidence = Evidence::kDocumentation,
-          .evidence_note = "public documentation and published model files; not run",
-          .advice =
-              "Parameters > Load from File; E and nu are long-term, Gvm = G_i, tauvm = tau_i. "
-              "Near nu = .5 use the pressure formulation.",
-          .harmonic = "exact: Frequency Domain studies take the branches"};
+  return {
+      .name = "comsol",
+      .code = "COMSOL linear elastic with Viscoelasticity",
+      .extension = ".txt",
+      .comment = "%",
+      .write = write_comsol,
+      .read = read_comsol,
+      .companions = comsol_companions,
+      .deck =
+          DeckWriter{comsol_deck, "comsol compile {0}.java && comsol batch -inputfile {0}.class"},
+      .laws = LawColumn{.write = write_comsol_law,
+                        .read = read_comsol_law,
+                        .keywords = {"Lame parameter mu = 2 C10", "C10, C01", "", "", "", ""},
+                        .volume = "by kappa = K of a nearly incompressible material",
+                        .terms = "the parameters are those of the law alone",
+                        .damage = {"",
+                                   "its node Mullins Effect has no beta, and its page states no "
+                                   "formula"}},
+      .add_mistakes = add_comsol_mistakes,
+      .at = ModulusAt::kLongTerm,
+      .branch = BranchNumber::kAbsoluteShear,
+      .bulk = BulkRule::kConstantBulk,
+      .numbers_carry_units = true,
+      .takes_wlf = true,
+      .takes_arrhenius = true,
+      .set_temperature = "Model Input > Temperature, and the shift function of Viscoelasticity",
+      .evidence = Evidence::kDocumentation,
+      .evidence_note = "public documentation and published model files; not run",
+      .advice =
+          "Parameters > Load from File; E and nu are long-term, Gvm = G_i, tauvm = tau_i. "
+          "Near nu = .5 use the pressure formulation.",
+      .harmonic = "exact: Frequency Domain studies take the branches"};
 }
 
 }  // namespace viscard

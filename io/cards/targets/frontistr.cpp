@@ -1,9 +1,15 @@
 // FrontISTR. Sources: manual and fstr_ctrl_material.f90 (rows mu_i, tau_i); fstr_AddBC.f90 and
-// fstr_ass_load.f90 (what a step adds) of versions 5.6 to 5.9.
+// fstr_ass_load.f90 (what a step adds) of versions 5.6 to 5.9. Laws of rubber: NEOHOOKE C10, D; MOONEY-RIVLIN C10,
+// C01, D; ARRUDA-BOYCE mu, s_m, D; D = 2/K, up to 1e-12 taken for 1/D (Hyperelastic.f90).
 #include "io/cards/keyword_lines.h"
+#include "io/cards/law_numbers.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/targets/keyword_law.h"
+#include "models/maths/require.h"
 
 #include <fmt/format.h>
+
+#include <stdexcept>
 
 namespace viscard {
 namespace {
@@ -27,11 +33,66 @@ std::string write_frontistr(const CardBody& body) {
          arrhenius_row(*numbers.shift, ArrheniusRow::kRatioAndZero);
 }
 
-void read_frontistr(const std::string& text, ReadCard& card) {
+// Up to this FrontISTR takes a D for 1/D.
+constexpr double kLeastD = 1e-12;
+
+std::string write_frontistr_law(const CardBody& body) {
+  using enum HyperelasticForm;
+  const CardNumbers& law = body.numbers;
+  require(law.d() > kLeastD,
+          "frontistr takes D = 2/K up to 1e-12 for 1/D; choose units with smaller numbers (--units "
+          "mm-t-s) or a smaller --bulk-modulus");
+  std::string numbers;
+  for (const double modulus : law.moduli) numbers += number_of_20(modulus) + ", ";
+  for (const double shape : law.shapes) numbers += number_of_20(shape) + ", ";
+  return "!MATERIAL, NAME=" + body.name + "\n!HYPERELASTIC, TYPE=" +
+         (law.form == kNeoHooke       ? "NEOHOOKE"
+          : law.form == kMooneyRivlin ? "MOONEY-RIVLIN"
+                                      : "ARRUDA-BOYCE") +
+         "\n" + numbers + number_of_20(law.d()) + "\n" +
+         (law.density > 0.0 ? "!DENSITY\n" + number_of_20(law.density) + "\n" : "");
+}
+
+std::vector<KeywordBlock> frontistr_blocks(const std::string& text) {
   std::vector<CardLine> lines = card_lines(text, "#");
   std::erase_if(lines, [](const CardLine& line) { return trimmed(line.text).rfind("!!", 0) == 0; });
+  return keyword_blocks(lines, '!');
+}
+
+void read_frontistr_law(const std::string& text, ReadCard& card) {
+  using enum HyperelasticForm;
+  CardNumbers& law = card.numbers;
+  const std::vector<KeywordBlock> blocks = frontistr_blocks(text);
+  for (const KeywordBlock& block : blocks) {
+    if (block.keyword == "!DENSITY") law.density = density_in(block);
+    if (!law.moduli.empty() && (block.keyword == "!VISCOELASTIC" || block.keyword == "!ELASTIC"))
+      card.add("last-decides",
+               at_line(block.line, block.keyword + " below !HYPERELASTIC replaces the law of "
+                                                   "rubber"));
+    if (block.keyword != "!HYPERELASTIC") continue;
+    const bool is_boyce = block.has("TYPE=ARRUDA-BOYCE"), is_two = block.has("TYPE=MOONEY-RIVLIN");
+    if (!is_boyce && !is_two && !block.has("TYPE=NEOHOOKE"))
+      throw std::runtime_error(
+          at_line(block.line, "only NEOHOOKE, MOONEY-RIVLIN and ARRUDA-BOYCE are read"));
+    const CardLine& line = block.first_data();
+    const auto row = cells(line.text, ',');
+    const double first = cell_number(row, 0, line, "C10 or mu");
+    const double second = is_boyce || is_two ? cell_number(row, 1, line, "C01 or s_m") : 0.0;
+    const double D = cell_number(row, is_boyce || is_two ? 2 : 1, line, "D");
+    if (is_boyce) take_law(kArrudaBoyce, {first}, {second}, law);
+    if (is_two) take_law(kMooneyRivlin, {first, second}, {}, law);
+    if (!is_boyce && !is_two) take_law(kNeoHooke, {first}, {}, law);
+    law.bulk = D > kLeastD ? 2.0 / D : 0.0;
+    if (!(D > kLeastD))
+      card.add("replaced-D", at_line(line, "FrontISTR takes a D up to 1e-12 for 1/D"));
+  }
+  require_in_card(!law.moduli.empty(), "!HYPERELASTIC");
+  check_single_material(blocks, card);
+}
+
+void read_frontistr(const std::string& text, ReadCard& card) {
   bool has_elastic = false, is_small_strain = false;
-  const std::vector<KeywordBlock> blocks = keyword_blocks(lines, '!');
+  const std::vector<KeywordBlock> blocks = frontistr_blocks(text);
   check_single_material(blocks, card);
   for (const KeywordBlock& block : blocks) {
     if (block.keyword == "!ELASTIC" || block.keyword == "!VISCOELASTIC") {
@@ -166,6 +227,14 @@ CardTarget frontistr_target() {
       .deck = DeckWriter{frontistr_deck,
                          "fistr1",
                          {.amplitude = 1.0, .steps_per_tau = 8, .ramp_in_tau = 1e-3}},
+      .laws = LawColumn{.write = write_frontistr_law,
+                        .read = read_frontistr_law,
+                        .keywords = {"NEOHOOKE: C10", "MOONEY-RIVLIN: C10, C01", "", "",
+                                     "ARRUDA-BOYCE: mu, s_m", ""},
+                        .volume = keyword_law_volume("D") + "; D = 2/K",
+                        .terms = "the last of !HYPERELASTIC and !VISCOELASTIC decides on the "
+                                 "material",
+                        .evidence = "run in FrontISTR 5.9"},
       .bulk = BulkRule::kConstantBulk,
       .is_case_sensitive = false,
       .reads_fortran_numbers = true,

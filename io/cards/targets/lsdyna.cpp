@@ -1,15 +1,29 @@
 // LS-DYNA 076 and 006. Sources: Keyword User's Manual R13, vol. I (one-element model, not run) and II
 // (*MAT_076, remarks; README.md: no WLF). OpenRadioss and PyDYNA readers agree on fields.
+// Laws of rubber, not run (fields as in PyDYNA):
+//   077_H  C10, C01, C11, C20, C02, C30; Poisson's ratio instead of K
+//   077_O  Ogden's own 2 mu/alpha, eight of each; Poisson's ratio instead of K
+//   terms  the law after all relaxation, rows G_i = g_i G_0, BETA_i = 1/tau_i. They act on the strain, not on the
+//          law's own stress, so they are right at small strain only. No public text with that strain was found.
+//   127    Arruda-Boyce, takes a whole number of links only, so that it is refused
+//   177    *MAT_HILL_FOAM: C_i = 2 mu_i/alpha_i, B_i = alpha_i, N = beta = nu/(1 - 2 nu) of all terms together; K is
+//          the bulk modulus for contacts and the time step (mat_177.cfg, convertmats.cxx of OpenRadioss)
+// Ten columns round numbers; these cards state by how much.
 #include "io/basics/number_text.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/column_fields.h"
+#include "io/cards/keyword_lines.h"
 #include "io/cards/known_mistakes.h"
+#include "io/cards/law_numbers.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
 #include "models/maths/leading_number.h"
+#include "models/maths/require.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -67,12 +81,23 @@ std::string write_006(const CardBody& body) {
 
 // The lines below the first keyword that starts with one of the names, up to the next keyword.
 struct KeywordCards {
+  std::string keyword;
   std::vector<CardLine> lines;
   std::size_t width = 10;
+
+  std::vector<std::string> row(std::size_t at) const { return columns(lines[at].text, width); }
+  // Blank fields are 0.
+  std::vector<double> numbers(std::size_t at) const {
+    if (at >= lines.size()) throw std::runtime_error("the card ends before its last row");
+    std::vector<double> out(8, 0.0);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = cell_number_or_zero(row(at), i, lines[at], "number");
+    return out;
+  }
 };
 
-KeywordCards material_cards(const std::string& text, const std::string& long_name,
-                            const std::string& short_name, ReadCard& card) {
+KeywordCards material_cards(const std::string& text, const std::vector<std::string>& names,
+                            const std::string& wanted, ReadCard& card) {
   KeywordCards cards;
   bool inside = false, wants_title = false;
   int materials = 0;
@@ -80,11 +105,14 @@ KeywordCards material_cards(const std::string& text, const std::string& long_nam
   for (const CardLine& line : all) {
     const std::string word = upper(trimmed(line.text));
     if (!word.empty() && word[0] == '*') {
-      const bool begins = word.rfind(long_name, 0) == 0 || word.rfind(short_name, 0) == 0;
+      const bool begins = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return word.rfind(name, 0) == 0;
+      });
       inside = begins && ++materials == 1;
       if (begins && !inside) card.add_second_material(line);
       wants_title = inside && word.find("_TITLE") != std::string::npos;
       if (inside) cards.width = dyna_width(all, line);
+      if (inside) cards.keyword = word;
     } else if (inside && wants_title) {
       card.name = trimmed(line.text);
       wants_title = false;
@@ -92,15 +120,20 @@ KeywordCards material_cards(const std::string& text, const std::string& long_nam
       cards.lines.push_back(line);
     }
   }
-  if (cards.lines.empty()) {
-    throw std::runtime_error("the card has no " + long_name + " (or " + short_name + ") with data");
-  }
+  require_in_card(!cards.lines.empty(), wanted);
   const CardLine& first = cards.lines.front();
-  const auto row = columns(first.text, cards.width);
+  const auto row = cards.row(0);
   for (const CardFinding& finding : material_number_findings(row.empty() ? "" : row[0], first))
     card.findings.push_back(finding);
   card.numbers.density = cell_number_or_zero(row, 1, first, "RO");
-  card.numbers.bulk = cell_number(row, 2, first, "BULK");
+  return cards;
+}
+
+KeywordCards viscoelastic_cards(const std::string& text, const std::string& long_name,
+                                const std::string& short_name, ReadCard& card) {
+  const KeywordCards cards = material_cards(text, {long_name, short_name},
+                                            long_name + " (or " + short_name + ") with data", card);
+  card.numbers.bulk = cell_number(cards.row(0), 2, cards.lines.front(), "BULK");
   return cards;
 }
 
@@ -121,7 +154,7 @@ std::size_t read_card_2(const KeywordCards& cards, ReadCard& card) {
                      "and all rows shift"));
     return 1;
   }
-  if (cell_number_or_zero(columns(line.text, cards.width), 0, line, "LCID") != 0.0) {
+  if (cell_number_or_zero(cards.row(1), 0, line, "LCID") != 0.0) {
     card.add("fit-by-solver",
              at_line(line, "LCID is set, so LS-DYNA fits a curve and ignores the rows"));
   }
@@ -130,7 +163,7 @@ std::size_t read_card_2(const KeywordCards& cards, ReadCard& card) {
 
 void read_076_shift(const KeywordCards& cards, ReadCard& card) {
   const CardLine& line = cards.lines.front();
-  const auto row = columns(line.text, cards.width);
+  const auto row = cards.row(0);
   const double A = cell_number_or_zero(row, 6, line, "A");
   if (cell_number_or_zero(row, 7, line, "B") != 0.0) {
     card.add("shift-not-read", at_line(line, "B is set: a WLF shift, whose sign of A is unknown"));
@@ -143,13 +176,14 @@ void read_076_shift(const KeywordCards& cards, ReadCard& card) {
 }
 
 void read_076(const std::string& text, ReadCard& card) {
-  const KeywordCards cards = material_cards(text, "*MAT_GENERAL_VISCOELASTIC", "*MAT_076", card);
+  const KeywordCards cards =
+      viscoelastic_cards(text, "*MAT_GENERAL_VISCOELASTIC", "*MAT_076", card);
   read_076_shift(cards, card);
   bool has_equilibrium = false;
   for (std::size_t next = read_card_2(cards, card); next < cards.lines.size(); ++next) {
     const CardLine& line = cards.lines[next];
     if (trimmed(line.text).empty()) continue;
-    const auto fields = columns(line.text, cards.width);
+    const auto fields = cards.row(next);
     const double shear = cell_number_or_zero(fields, 0, line, "GI");
     const double beta = cell_number_or_zero(fields, 1, line, "BETAI");
     if (cell_number_or_zero(fields, 2, line, "KI") != 0.0) {
@@ -171,9 +205,9 @@ void read_076(const std::string& text, ReadCard& card) {
 }
 
 void read_006(const std::string& text, ReadCard& card) {
-  const KeywordCards cards = material_cards(text, "*MAT_VISCOELASTIC", "*MAT_006", card);
+  const KeywordCards cards = viscoelastic_cards(text, "*MAT_VISCOELASTIC", "*MAT_006", card);
   const CardLine& line = cards.lines.front();
-  const auto row = columns(line.text, cards.width);
+  const auto row = cards.row(0);
   const double instantaneous = cell_number(row, 3, line, "G0");
   card.numbers.equilibrium = cell_number(row, 4, line, "GI");
   const double beta = cell_number_or_zero(row, 5, line, "BETA");
@@ -183,6 +217,135 @@ void read_006(const std::string& text, ReadCard& card) {
   if (beta != 0.0) {
     card.numbers.branches.push_back({instantaneous - card.numbers.equilibrium, 0.0, beta});
   }
+}
+
+// Laws of rubber.
+
+// Rows of ten columns, and the largest relative change of a number in them.
+struct RoundedRows {
+  double loss = 0.0;
+
+  std::string row(const std::vector<double>& numbers) {
+    std::string text;
+    for (const double number : numbers) {
+      const std::string ten = real(number, 10);
+      if (number != 0.0) loss = std::max(loss, std::abs(leading_number(ten) / number - 1.0));
+      text += ten;
+    }
+    return text + "\n";
+  }
+  std::string statement() const {
+    return fmt::format("$ numbers: rounded to ten columns, by at most {:.1e}\n", loss);
+  }
+};
+
+std::string write_177(const CardBody& body) {
+  const auto& foam = body.numbers.foam;
+  for (const CardNumbers::FoamTerm& term : foam) {
+    require(term.nu == foam[0].nu,
+            "lsdyna takes one N = nu/(1 - 2 nu) for all terms, and the foam has a nu of each; fit "
+            "hyperfoam-1, or write the card for abaqus, calculix or openradioss");
+  }
+  std::vector<double> factors(8, 0.0), exponents(8, 0.0);
+  for (std::size_t i = 0; i < foam.size(); ++i) {
+    factors[i] = 2.0 * foam[i].mu / foam[i].alpha;
+    exponents[i] = foam[i].alpha;
+  }
+  RoundedRows rows;
+  std::string first = rows.row({body.numbers.density, body.numbers.bulk, foam[0].beta(), 0.0});
+  first.pop_back();  // the line goes on with LCID
+  const std::string text = right("1", 10) + first + right("0", 10) + right("0", 10) +
+                           right("0", 10) + "\n$       C1 to C8\n" + rows.row(factors) +
+                           "$       B1 to B8\n" + rows.row(exponents) + "$        R         M\n" +
+                           rows.row({0.0, 0.0});
+  return rows.statement() + "$ MU = 0: the solver's own damping\n*MAT_HILL_FOAM_TITLE\n" +
+         body.name +
+         "\n$      MID        RO         K         N        MU      LCID   FITTYPE      LCSR\n" +
+         text;
+}
+
+std::string write_lsdyna_law(const CardBody& body) {
+  if (!body.numbers.foam.empty()) return write_177(body);
+  CardNumbers law = body.numbers;
+  const double share = law.long_term_share(), shear = law.shear;
+  for (double& modulus : law.moduli) modulus *= share;
+  law.shear *= share;
+  const bool ogden = is_ogden(law.form);
+  RoundedRows rows;
+  std::string first = rows.row({law.density, poisson_ratio_of(law)});
+  first.pop_back();  // the line goes on with N
+  std::string text =
+      "$      MID        RO        PR         N\n" + right("1", 10) + first + right("0", 10) + "\n";
+  if (ogden) {
+    std::vector<double> mu = own_moduli(law), alpha = law.shapes;
+    mu.resize(8, 0.0);
+    alpha.resize(8, 0.0);
+    text += "$     MU1 to MU8\n" + rows.row(mu) + "$ ALPHA1 to ALPHA8\n" + rows.row(alpha);
+  } else {
+    const bool is_yeoh = law.form == HyperelasticForm::kYeoh;
+    const double C01 = law.form == HyperelasticForm::kMooneyRivlin ? law.moduli[1] : 0.0;
+    text += "$      C10       C01       C11       C20       C02       C30\n" +
+            rows.row({law.moduli[0], C01, 0.0, is_yeoh ? law.moduli[1] : 0.0, 0.0,
+                      is_yeoh ? law.moduli[2] : 0.0});
+  }
+  if (!law.branches.empty()) text += "$       GI     BETAI\n";
+  for (const CardBranch& branch : law.branches)
+    text += rows.row({branch.shear * shear, 1.0 / branch.time});
+  return rows.statement() +
+         fmt::format("*MAT_{}_RUBBER_TITLE\n{}\n", ogden ? "OGDEN" : "HYPERELASTIC", body.name) +
+         text;
+}
+
+// MID RO K N MU LCID FITTYPE LCSR / C1 to C8 / B1 to B8 / R M.
+void read_177(const KeywordCards& cards, ReadCard& card) {
+  const auto head = cards.numbers(0);
+  card.numbers.bulk = head[2];
+  const double nu = head[3] / (1.0 + 2.0 * head[3]);
+  card.also_read = std::to_string(head[4]);  // damping
+  if (head[5] != 0.0)
+    throw std::runtime_error("LCID is not 0: LS-DYNA fits the constants, and the card has none");
+  const auto factors = cards.numbers(1), exponents = cards.numbers(2);
+  std::vector<double> mu, alpha;
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (factors[i] == 0.0 || exponents[i] == 0.0) break;
+    mu.push_back(factors[i] * exponents[i] / 2.0);
+    alpha.push_back(exponents[i]);
+  }
+  take_foam_terms(mu, alpha, std::vector<double>(mu.size(), nu), card.numbers);
+  if (cards.lines.size() > 3 && cards.numbers(3)[0] != 0.0)
+    add_other_law(cards.lines[3], "R is not 0: a foam with damage, which is not read", card);
+}
+
+void read_lsdyna_law(const std::string& text, ReadCard& card) {
+  const KeywordCards cards =
+      material_cards(text,
+                     {"*MAT_OGDEN_RUBBER", "*MAT_077_O", "*MAT_HYPERELASTIC_RUBBER", "*MAT_077_H",
+                      "*MAT_HILL_FOAM", "*MAT_177"},
+                     "*MAT_OGDEN_RUBBER or *MAT_HYPERELASTIC_RUBBER", card);
+  const auto has = [&](const char* word) { return cards.keyword.find(word) != std::string::npos; };
+  if (has("HILL_FOAM") || has("177")) return read_177(cards, card);
+  CardNumbers& law = card.numbers;
+  const auto head = cards.numbers(0), first = cards.numbers(1);
+  law.poisson = head[2];
+  card.understood.elastic = ElasticForm::kPoissonOnly;
+  if (head[3] != 0.0)
+    throw std::runtime_error("N is not 0: LS-DYNA fits the constants, and the card has none");
+  std::size_t at = 2;
+  if (has("HYPER") || has("077_H")) {  // C10, C01, C11, C20, C02, C30
+    take_invariant_law({first[0], first[1], first[3], first[2], first[4], first[5]}, law);
+  } else {
+    take_own_ogden(first, cards.numbers(at++), law);
+  }
+  for (; at < cards.lines.size(); ++at) {
+    const auto row = cards.numbers(at);
+    if (row[0] == 0.0) continue;
+    if (!(row[1] > 0.0))
+      throw std::runtime_error(at_line(cards.lines[at], "a row G_i lacks its BETA_i above 0"));
+    law.branches.push_back({row[0], 0.0, 1.0 / row[1]});
+  }
+  if (law.branches.empty()) return;
+  card.understood.at = ModulusAt::kLongTerm;
+  card.understood.branch = BranchNumber::kAbsoluteShear;
 }
 
 // Size of the increment against time, with a step between blocks.
@@ -262,6 +425,20 @@ CardTarget lsdyna_target() {
       .write = write_076,
       .read = read_076,
       .deck = DeckWriter{lsdyna_deck, "ls-dyna_double i={}.k"},
+      .laws =
+          LawColumn{
+              .write = write_lsdyna_law,
+              .read = read_lsdyna_law,
+              .keywords = {"077_H: C10", "077_H: C10, C01", "077_H: C10, C20, C30",
+                           "077_O: Ogden's own 2 mu_i/alpha_i, alpha_i", "", "",
+                           "HILL_FOAM: C_i = 2 mu_i/alpha_i, B_i = alpha_i, N = nu/(1 - 2 nu)"},
+              .volume = "by Poisson's ratio of K and the law's shear modulus at rest",
+              .takes_terms = true,
+              .is_for_small_strain = true,
+              .most_terms = 12,
+              .terms = "approximated: the law after all relaxation and shear moduli G_i = g_i G_0 "
+                       "with BETA_i = 1/tau_i, right at small strain; NOT CHECKED at large strain, "
+                       "where it is not the fitted law"},
       .elastic = ElasticForm::kBulkOnly,
       .at = ModulusAt::kLongTerm,
       .branch = BranchNumber::kAbsoluteShear,
@@ -289,6 +466,7 @@ CardTarget lsdyna006_target() {
   target.code = "LS-DYNA *MAT_VISCOELASTIC (006)";
   target.write = write_006;
   target.read = read_006;
+  target.laws.reset();
   target.add_mistakes = add_006_mistakes;
   target.takes_arrhenius = false;
   target.why_no_wlf = "";

@@ -4,6 +4,7 @@
 #include "io/cards/named_values.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/targets/program_law.h"
 
 #include <fmt/format.h>
 
@@ -210,20 +211,31 @@ std::vector<DeckFile> mfront_deck(const DeckInput& input, const std::string& nam
 }  // namespace
 
 CardTarget mfront_target() {
-  return {.name = "mfront",
-          .code = "MFront behaviour",
-          .extension = ".mfront",
-          .comment = "//",
-          .write = write_mfront,
-          .read = read_mfront,
-          .companions = mfront_companions,
-          .deck = DeckWriter{mfront_deck,
-                             "mfront --obuild --interface=generic card.mfront && mtest {}.mtest"},
-          .states_density = false,
-          .evidence = Evidence::kRun,
-          .evidence_note = "MTest, ramp and hold: 2e-15",
-          .advice = "mfront --obuild --interface=generic (or aster, abaqus, calculix, ansys ...).",
-          .harmonic = "refused: a behaviour answers in time only"};
+  return {
+      .name = "mfront",
+      .code = "MFront behaviour",
+      .extension = ".mfront",
+      .comment = "//",
+      .write = write_mfront,
+      .read = read_mfront,
+      .companions = mfront_companions,
+      .deck = DeckWriter{mfront_deck,
+                         "mfront --obuild --interface=generic card.mfront && mtest {}.mtest"},
+      .laws = LawColumn{.write = write_mfront_law,
+                        .read = read_mfront_law,
+                        .keywords = {"C10", "C10, C01", "C10, C20, C30", "mu, alpha", "mu, s_m",
+                                     "mu, J_m"},
+                        .volume = "K/2 (J - 1)^2",
+                        .takes_terms = true,
+                        .terms = "the law at once, g_i of its deviator, constant bulk modulus, "
+                                 "tau_i; the behaviour integrates Simo's rule, exact for a stress "
+                                 "that is linear in each step",
+                        .evidence = "run in MTest 5.2"},
+      .states_density = false,
+      .evidence = Evidence::kRun,
+      .evidence_note = "MTest, ramp and hold: 2e-15",
+      .advice = "mfront --obuild --interface=generic (or aster, abaqus, calculix, ansys ...).",
+      .harmonic = "refused: a behaviour answers in time only"};
 }
 
 }  // namespace viscard

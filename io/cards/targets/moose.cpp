@@ -1,7 +1,12 @@
 // MOOSE GeneralizedMaxwellModel. Sources: GeneralizedMaxwellModel.C; the solid mechanics module's
-// test gen_maxwell_relax.i for the one-element model, which MOOSE has not run here.
+// test gen_maxwell_relax.i for the one-element model, which MOOSE has not run here. Of laws of rubber
+// ComputeNeoHookeanStress alone: lambda = K - 2 mu/3 and mu = 2 C10 of the second Piola-Kirchhoff stress
+// (lambda ln J - mu) C^-1 + mu I, whose energy is mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2
+// (ComputeNeoHookeanStress.C of idaholab/moose; not run).
 #include "io/basics/patterns.h"
 #include "io/cards/deck.h"
+#include "io/cards/keyword_lines.h"
+#include "io/cards/law_numbers.h"
 #include "io/cards/moose_blocks.h"
 #include "io/cards/named_values.h"
 #include "io/cards/read_card.h"
@@ -14,6 +19,19 @@
 
 namespace viscard {
 namespace {
+
+std::string density_block(double density) {
+  if (!(density > 0.0)) return "";
+  return fmt::format(
+      "  [density]\n    type = GenericConstantMaterial\n    prop_names = 'density'\n"
+      "    prop_values = '{}'\n  []\n",
+      density);
+}
+
+double density_of(const std::string& text, const NamedNumbers& named) {
+  const bool has_density = first_match(text, "prop_names\\s*=\\s*['\"]?density").has_value();
+  return has_density ? one_of(named, "prop_values") : 0.0;
+}
 
 // young_modulus is instantaneous and each branch is subtracted from it; creep_viscosity is the
 // relaxation time; branches take poisson_ratio.
@@ -40,14 +58,8 @@ std::string write_moose(const CardBody& body) {
         joined(numbers.branches, &CardBranch::shear, " "),
         joined(numbers.branches, &CardBranch::time, " "));
   }
-  out += "    displacements = 'disp_x disp_y disp_z'\n  []\n";
-  if (numbers.density > 0.0) {
-    out += fmt::format(
-        "  [density]\n    type = GenericConstantMaterial\n    prop_names = 'density'\n"
-        "    prop_values = '{}'\n  []\n",
-        numbers.density);
-  }
-  out += "[]\n";
+  out += "    displacements = 'disp_x disp_y disp_z'\n  []\n" + density_block(numbers.density) +
+         "[]\n";
   if (numbers.branches.empty()) return out;
   return out +
          "[UserObjects]\n  [update]\n    type = LinearViscoelasticityManager\n"
@@ -71,9 +83,7 @@ void read_moose(const std::string& commented, ReadCard& card) {
   const bool is_elastic = named.count("young_modulus") == 0;
   card.numbers.young = one_of(named, is_elastic ? "youngs_modulus" : "young_modulus");
   card.numbers.poisson = one_of(named, is_elastic ? "poissons_ratio" : "poisson_ratio");
-  if (first_match(text, "prop_names\\s*=\\s*['\"]?density")) {
-    card.numbers.density = one_of(named, "prop_values");
-  }
+  card.numbers.density = density_of(text, named);
   const std::size_t count =
       named.count("creep_viscosity") > 0 ? named.at("creep_viscosity").size() : 0;
   const auto& modulus = list_of(named, "creep_modulus", count);
@@ -124,6 +134,34 @@ void check_integration(const std::string& text, ReadCard& card) {
              "ComputeMultipleInelasticStress with inelastic_models, and an incremental strain is "
              "missing: the branches do not act on the stress");
   }
+}
+
+std::string write_moose_law(const CardBody& body) {
+  const double mu = 2.0 * body.numbers.moduli[0];
+  return fmt::format(
+             "[Materials]\n  [{}]\n    type = ComputeNeoHookeanStress\n    lambda = {}\n    mu = "
+             "{}\n    large_kinematics = true\n  []\n"
+             "  [strain]\n    type = ComputeLagrangianStrain\n"
+             "    displacements = 'disp_x disp_y disp_z'\n    large_kinematics = true\n  []\n",
+             body.name, body.numbers.bulk - 2.0 * mu / 3.0, mu) +
+         density_block(body.numbers.density) + "[]\n";
+}
+
+void read_moose_law(const std::string& commented, ReadCard& card) {
+  const std::string text = without_line_comments(commented, "#");
+  require_in_card(first_match(text, "type\\s*=\\s*ComputeNeoHookeanStress").has_value(),
+                  "ComputeNeoHookeanStress");
+  card.findings = moose_block_findings(text);
+  const NamedNumbers named =
+      named_lists(text, "\\b(lambda|mu|prop_values)\\s*=\\s*('[^'\\n]*'|\"[^\"\\n]*\"|[^\\s\\[]+)");
+  const double mu = one_of(named, "mu");
+  take_invariant_law({mu / 2.0}, card.numbers);
+  card.numbers.bulk = one_of(named, "lambda") + 2.0 * mu / 3.0;
+  card.numbers.density = density_of(text, named);
+  if (all_matches(text, "large_kinematics\\s*=\\s*true").size() < 2)
+    card.add("small-kinematics",
+             "ComputeNeoHookeanStress or ComputeLagrangianStrain lacks large_kinematics = true: "
+             "MOOSE computes with small strain");
 }
 
 std::string block(const std::string& name, const std::string& lines) {
@@ -213,6 +251,13 @@ CardTarget moose_target() {
       .deck = DeckWriter{moose_deck,
                          "solid_mechanics-opt -i {}.i",
                          {.amplitude = 1e-6, .steps_per_tau = 8, .most_equal_increments = 20000}},
+      .laws = LawColumn{.write = write_moose_law,
+                        .read = read_moose_law,
+                        .keywords = {"mu = 2 C10, lambda = K - 2 mu/3 of W = mu/2 (I1 - 3) - mu ln "
+                                     "J + ...",
+                                     "", "", "", "", ""},
+                        .volume = "lambda/2 (ln J)^2",
+                        .terms = "ComputeNeoHookeanStress has no memory"},
       .branch = BranchNumber::kAbsoluteYoung,
       .bulk = BulkRule::kConstantPoisson,
       .evidence = Evidence::kSource,

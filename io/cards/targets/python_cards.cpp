@@ -2,6 +2,7 @@
 // with 0.5.2), and one-element scripts that import them.
 #include "io/cards/deck.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/targets/program_law.h"
 #include "io/cards/targets/python_solid.h"
 
 #include <fmt/format.h>
@@ -195,22 +196,36 @@ std::vector<DeckFile> dolfinx_deck(const DeckInput& input, const std::string& na
 }  // namespace
 
 CardTarget sfepy_target() {
-  return {.name = "sfepy",
-          .code = "SfePy (Python module)",
-          .extension = ".py",
-          .comment = "#",
-          .write = write_sfepy,
-          .read = read_python_solid,
-          .deck = DeckWriter{sfepy_deck, "python3 {0}.py > {0}_result.csv"},
-          .evidence = Evidence::kRun,
-          .evidence_note = "one element in SfePy 2021.4, relaxation and creep, exact to 1e-12",
-          .advice =
-              "Import it; step after step: stiffness(dt) for dw_lin_elastic, "
-              "prestress(memory.known_stress(dt)) for dw_lin_prestress, then memory.advance.",
-          .cannot_represent =
-              "large strains, a shift with temperature; strain is taken as linear "
-              "in each step",
-          .is_indented = true};
+  return {
+      .name = "sfepy",
+      .code = "SfePy (Python module)",
+      .extension = ".py",
+      .comment = "#",
+      .write = write_sfepy,
+      .read = read_python_solid,
+      .deck = DeckWriter{sfepy_deck, "python3 {0}.py > {0}_result.csv"},
+      .laws =
+          LawColumn{.write = write_sfepy_law,
+                    .read = read_sfepy_law,
+                    .keywords = {"dw_tl_he_neohook: mu = 2 C10",
+                                 "dw_tl_he_neohook: mu = 2 C10, dw_tl_he_mooney_rivlin: kappa = "
+                                 "2 C01",
+                                 "dw_tl_he_genyeoh: (C_p0, p)",
+                                 "dw_tl_he_ogden: Ogden's own 2 mu_i/alpha_i, alpha_i", "", ""},
+                    .volume = "dw_tl_bulk_penalty: K/2 (J - 1)^2",
+                    .takes_terms = true,
+                    .terms = "the law at once, g_i of its deviator, tau_i; SfePy has no memory: "
+                             "class Memory integrates Simo's rule in numpy",
+                    .evidence = "run by viscard's tests in SfePy 2021.4"},
+      .evidence = Evidence::kRun,
+      .evidence_note = "one element in SfePy 2021.4, relaxation and creep, exact to 1e-12",
+      .advice =
+          "Import it; step after step: stiffness(dt) for dw_lin_elastic, "
+          "prestress(memory.known_stress(dt)) for dw_lin_prestress, then memory.advance.",
+      .cannot_represent =
+          "large strains, a shift with temperature; strain is taken as linear "
+          "in each step",
+      .is_indented = true};
 }
 
 CardTarget dolfinx_target() {

@@ -46,6 +46,7 @@ struct CardWords {
   bool accepts_flags = false, may_approximate = false;
   std::string command_line;
   Plausible plausible = Plausible::kMeasured;
+  bool is_law = false;  // the card or the material is a law of rubber
 };
 
 // What a check has found.
@@ -87,16 +88,6 @@ int verify_file(const CardWords& words, Streams& streams);
 DescribedResult result_of_verify();
 
 int list_card_targets(const CardWords& words, Streams& streams);
-// True if the words ask for the card of a law of rubber (io/cards/hyperelastic).
-bool is_rubber(const CardWords& words);
-int write_rubber_card(const CardWords& words, Streams& streams);
-// True if --check names a card of rubber, or the law of one is named; takes the target that the card
-// states where --for is missing.
-bool is_rubber_check(CardWords& words);
-int check_rubber_file(const CardWords& words, Streams& streams);
-// The same of --prove.
-bool is_rubber_proof(CardWords& words);
-int prove_rubber_file(const CardWords& words, Streams& streams);
 // --import: the card, named in the place of the material, becomes a material file.
 int import_card_file(CardWords words, Streams& streams);
 DescribedResult result_of_import();
@@ -104,13 +95,16 @@ int write_card_file(const CardWords& words, Streams& streams);
 int check_card_file(const CardWords& words, Streams& streams);
 int prove_card_file(const CardWords& words, Streams& streams);
 int write_deck_files(const CardWords& words, Streams& streams);
+// The same of laws of rubber (io/cards/hyperelastic).
+int write_law_card(const CardWords& words, Streams& streams);
+int check_law_file(const CardWords& words, Streams& streams);
+int prove_law_file(const CardWords& words, Streams& streams);
 
 // What they print with --json.
-DescribedResult result_of_card();
+std::vector<DescribedResult> results_of_cards();
 std::vector<DescribedResult> results_of_targets();  // --list and --check
 std::vector<DescribedResult> results_of_proof();    // --prove and --deck
-DescribedResult result_of_rubber_card();
-DescribedResult result_of_rubber_check();
-DescribedResult result_of_rubber_proof();
+DescribedResult result_of_law_check();
+DescribedResult result_of_law_proof();
 
 }  // namespace viscard

@@ -1,6 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
 #include "io/basics/words.h"
+#include "io/cards/hyperelastic/read_rubber.h"
 #include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/proof/solvers.h"
 #include "io/cards/targets/card_targets.h"
@@ -231,13 +232,25 @@ std::string deeds_in_words(unsigned deeds) {
   return listed(names);
 }
 
+// Whether the card is one of a law of rubber, or the file that it is compared with or written from; takes the target
+// that the card states.
+bool names_law(Deed deed, CardWords& words) {
+  const bool is_read = deed == kCheck || deed == kProve;
+  if (!is_read && deed != kWrite && deed != kDeck) return false;
+  const bool has_law = !words.material.empty() && looks_like_hyperelastic_file(words.material);
+  if (!is_read) return has_law;
+  const std::string text = card_text_of(deed == kCheck ? words.check : words.prove, words);
+  if (!has_law && !looks_like_rubber_card(text)) return false;
+  if (words.target.empty()) words.target = stated_rubber_target(text);
+  return true;
+}
+
 // An option that would change nothing is refused by name.
 void refuse_idle_options(const CommandSyntax& syntax, CardWords& words) {
   const Deed deed = deed_of(words);
   if ((deed == kWrite || deed == kDeck) && words.material.empty()) return;  // check_words() asks
-  const bool is_law =
-      (deed == kCheck && is_rubber_check(words)) || (deed == kProve && is_rubber_proof(words)) ||
-      ((deed == kWrite || deed == kDeck) && looks_like_hyperelastic_file(words.material));
+  words.is_law = names_law(deed, words);
+  const bool is_law = words.is_law;
   const bool is_alone = words.material.empty() && (deed == kCheck || deed == kProve);
   for (const DeedsOfOption& use : kDeeds) {
     if (!is_given(syntax, use.name)) continue;
@@ -279,7 +292,7 @@ bool has_header(std::string_view text) {
 }
 
 // Of --check or --prove CARD with a law of rubber.
-void check_rubber_words(const CardWords& words) {
+void check_law_words(const CardWords& words) {
   if (words.target.empty()) {
     const std::string& given_card = words.check.empty() ? words.prove : words.check;
     if (const CardTarget* linear = stated_card_target(read_file(given_card))) {
@@ -327,7 +340,8 @@ void check_words(CardWords& words) {
     if (!words.units.empty()) check_word("unit system", words.units, unit_names());
     return;
   }
-  if (is_rubber_check(words) || is_rubber_proof(words)) return check_rubber_words(words);
+  const bool is_read = !words.check.empty() || !words.prove.empty();
+  if (words.is_law && is_read) return check_law_words(words);
   const std::string& given_card = words.check.empty() ? words.prove : words.check;
   if (words.target.empty() && !given_card.empty()) {
     const std::string contents = card_text_of(given_card, words);
@@ -386,9 +400,10 @@ int run_card(const Words& words, Streams& streams) {
   syntax.positional.add("material", &material, "material file");
   add_options(syntax, card);
   if (std::find(words.begin(), words.end(), "--deck") != words.end()) syntax.may_exist = {"out"};
-  syntax.results = {result_of_card(),         result_of_rubber_card(), result_of_rubber_check(),
-                    result_of_rubber_proof(), result_of_verify(),      result_of_import()};
-  for (const auto& some : {results_of_targets(), results_of_proof()}) {
+  syntax.results = results_of_cards();
+  for (const auto& some : {std::vector{result_of_law_check(), result_of_law_proof(),
+                                       result_of_verify(), result_of_import()},
+                           results_of_targets(), results_of_proof()}) {
     syntax.results.insert(syntax.results.end(), some.begin(), some.end());
   }
   if (!parse_words(syntax, words, streams)) return kDone;
@@ -403,17 +418,16 @@ int run_card(const Words& words, Streams& streams) {
   if (card.list) return list_card_targets(card, streams);
   if (!card.verify.empty()) return verify_file(card, streams);
   if (!card.import_to.empty()) return import_card_file(card, streams);
-  if (is_rubber_check(card)) return check_rubber_file(card, streams);
-  if (!card.check.empty()) return check_card_file(card, streams);
-  if (is_rubber_proof(card)) return prove_rubber_file(card, streams);
-  if (!card.prove.empty()) return prove_card_file(card, streams);
-  if (!card.deck.empty() && looks_like_hyperelastic_file(card.material)) {
+  if (!card.check.empty())
+    return card.is_law ? check_law_file(card, streams) : check_card_file(card, streams);
+  if (!card.prove.empty())
+    return card.is_law ? prove_law_file(card, streams) : prove_card_file(card, streams);
+  if (!card.deck.empty() && card.is_law) {
     throw UsageError("--deck writes models of linear materials, and " + card.material +
                      " is a law of rubber; write its card with --out and run it with --prove");
   }
   if (!card.deck.empty()) return write_deck_files(card, streams);
-  if (is_rubber(card)) return write_rubber_card(card, streams);
-  return write_card_file(card, streams);
+  return card.is_law ? write_law_card(card, streams) : write_card_file(card, streams);
 }
 
 }  // namespace viscard

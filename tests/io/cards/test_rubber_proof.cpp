@@ -1,6 +1,6 @@
 // viscard card --prove of cards of rubber: the closed form of a cube, and runs of CalculiX and SfePy.
-#include "io/cards/hyperelastic/proof/cube_stress.h"
-#include "io/cards/hyperelastic/proof/rubber_certificate.h"
+#include "io/cards/proof/certificate.h"
+#include "io/cards/proof/cube_stress.h"
 #include "io/cards/proof/solvers.h"
 #include "io/cards/unit_system.h"
 #include "tests/io/cards/rubber_rules.h"
@@ -29,12 +29,12 @@ HyperelasticFile law_file(const Rubber& rubber) {
 }
 
 // The proof of a card in the units mm-t-s, beside the law.
-RubberProof proof_of(const std::string& card, const Rubber& rubber, const std::string& target,
-                     const char* solver, const std::string& elastic_only = "") {
+LawProof proof_of(const std::string& card, const Rubber& rubber, const std::string& target,
+                  const char* solver, const std::string& elastic_only = "") {
   const HyperelasticFile file = law_file(rubber);
   const FoundSolver found = find_solver(solver_for(solver, solver == target ? target : ""), "");
-  return prove_rubber_card(card, target, read_rubber_card(card, target, "mm-t-s"), &file,
-                           elastic_only, found);
+  return prove_law_card(card, target, read_rubber_card(card, target, "mm-t-s"), &file, elastic_only,
+                        found);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -112,7 +112,7 @@ TEST_CASE("rubber proofs: CalculiX proves cards of three materials, and finds a 
   for (const Rubber& rubber : rubbers()) {
     for (const std::string when : {"instantaneous", "long-term"}) {
       CAPTURE(name_of(rubber.law.form), when);
-      const RubberProof proof =
+      const LawProof proof =
           proof_of(card_of(rubber, "calculix", false, when), rubber, "calculix", "calculix", when);
       REQUIRE(proof.cubes.size() == 4);
       for (const CubeProof& cube : proof.cubes) {
@@ -141,7 +141,7 @@ TEST_CASE("rubber proofs: SfePy proves laws and memory of three materials, and f
   if (!has_sfepy()) return;
   for (const Rubber& rubber : rubbers()) {
     CAPTURE(name_of(rubber.law.form));
-    const RubberProof proof = proof_of(card_of(rubber, "sfepy"), rubber, "sfepy", "sfepy");
+    const LawProof proof = proof_of(card_of(rubber, "sfepy"), rubber, "sfepy", "sfepy");
     REQUIRE(proof.cubes.size() == 4);
     for (const CubeProof& cube : proof.cubes) {
       CAPTURE(cube.test.name, cube.error, cube.at_stretch);
@@ -155,7 +155,7 @@ TEST_CASE("rubber proofs: SfePy proves laws and memory of three materials, and f
   }
   const Rubber& neo_hooke = rubbers()[0];
   const std::string card = card_of(neo_hooke, "sfepy");
-  const RubberProof late =
+  const LawProof late =
       proof_of(replaced(card, "TAU = [0.4]", "TAU = [0.401]"), neo_hooke, "sfepy", "sfepy");
   CHECK(late.cubes[0].agrees());
   CHECK_FALSE(late.hold->agrees());
@@ -172,7 +172,7 @@ TEST_CASE("rubber proofs: SfePy runs the numbers of a card for Abaqus, and finds
   const Rubber& neo_hooke = rubbers()[0];
   const std::string card = rubber_card(neo_hooke.law, neo_hooke.terms,
                                        {.target = "abaqus", .units = "mm-t-s", .bulk_Pa = 3e8});
-  const RubberProof proof = proof_of(card, neo_hooke, "abaqus", "sfepy");
+  const LawProof proof = proof_of(card, neo_hooke, "abaqus", "sfepy");
   CHECK(proof.holds());
   CHECK(proof.bulk_Pa == Approx(3e8));
   CHECK_FALSE(proof_of(replaced(card, ", MODULI=INSTANTANEOUS", ""), neo_hooke, "abaqus", "sfepy")
@@ -181,7 +181,7 @@ TEST_CASE("rubber proofs: SfePy runs the numbers of a card for Abaqus, and finds
 
 TEST_CASE("rubber proofs: a constant that no stress shows is reported as not exercised", "[io]") {
   Rubber mooney = rubber_of(HyperelasticForm::kMooneyRivlin, {1.5e5, 1e-3}, {}, {});
-  const RubberProof proof = proof_of(card_of(mooney, "calculix"), mooney, "calculix", "calculix");
+  const LawProof proof = proof_of(card_of(mooney, "calculix"), mooney, "calculix", "calculix");
   CHECK(proof.agrees());
   CHECK_FALSE(proof.holds());
   REQUIRE(proof.constants.size() == 3);
@@ -197,7 +197,7 @@ TEST_CASE("rubber proofs: CalculiX's volume law of Arruda and Boyce is its own",
   for (const double limit : {1.3, 1.8}) {
     CAPTURE(limit);
     const Rubber chains = rubber_of(HyperelasticForm::kArrudaBoyce, {3.5e5}, {limit}, {});
-    const RubberProof proof = proof_of(card_of(chains, "calculix"), chains, "calculix", "calculix");
+    const LawProof proof = proof_of(card_of(chains, "calculix"), chains, "calculix", "calculix");
     for (const CubeProof& cube : proof.cubes) {
       CAPTURE(cube.test.name, cube.error, cube.at_stretch);
       CHECK(cube.agrees());
@@ -207,9 +207,9 @@ TEST_CASE("rubber proofs: CalculiX's volume law of Arruda and Boyce is its own",
 }
 
 TEST_CASE("rubber proofs: a run of another solver than the card's says so", "[io]") {
-  CHECK(statement_of_rubber(solver_for("calculix", "calculix"), "calculix") == "");
-  CHECK(statement_of_rubber(solver_for("sfepy", ""), "sfepy") == "");
-  CHECK_THAT(statement_of_rubber(solver_for("sfepy", ""), "febio"),
+  CHECK(statement_of_law(solver_for("calculix", "calculix"), "calculix") == "");
+  CHECK(statement_of_law(solver_for("sfepy", ""), "sfepy") == "");
+  CHECK_THAT(statement_of_law(solver_for("sfepy", ""), "febio"),
              Contains("by its own law") && Contains("not run in febio"));
 }
 
@@ -306,8 +306,7 @@ TEST_CASE("rubber proofs: FEBio's and MTest's own runs of a card show every cons
     HyperelasticFile file = law_file(rubber);
     file.bulk_Pa = read_rubber_card(card_of(rubber, target), target, "mm-t-s").bulk_Pa;
     const FoundSolver found = find_solver(solver_for("", target), program);
-    return prove_rubber_card(card, target, read_rubber_card(card, target, "mm-t-s"), &file, "",
-                             found);
+    return prove_law_card(card, target, read_rubber_card(card, target, "mm-t-s"), &file, "", found);
   };
   const std::vector<RubberTerm> two{{0.3, 0.4}, {0.2, 9.0}};
   const Rubber ogden = rubber_of(HyperelasticForm::kOgden2, {2e5, 1e4}, {1.3, -2.1}, two),
@@ -328,7 +327,7 @@ TEST_CASE("rubber proofs: FEBio's and MTest's own runs of a card show every cons
     CAPTURE(row.target, name_of(row.rubber->law.form));
     const std::string card = card_of(*row.rubber, row.target);
     CAPTURE(card);
-    const RubberProof proof = proof_in(card, *row.rubber, row.target);
+    const LawProof proof = proof_in(card, *row.rubber, row.target);
     for (const CubeProof& cube : proof.cubes) {
       CAPTURE(cube.test.name, cube.error, cube.resolved, cube.compared);
       CHECK(cube.agrees());
@@ -347,9 +346,9 @@ TEST_CASE("rubber proofs: FEBio's and MTest's own runs of a card show every cons
   const std::string older =
       "<material id=\"1\" name=\"R\" type=\"Yeoh\">\n<c1>0.2</c1><c2>0.03</c2>"
       "<c3>0.005</c3><k>300</k>\n</material>\n";
-  CHECK(runs_text_of("febio", "febio"));
-  CHECK(runs_text_of("mtest", "mfront"));
-  CHECK_FALSE(runs_text_of("sfepy", "febio"));
-  CHECK(statement_of_rubber(solver_for("febio", "febio"), "febio") == "");
+  CHECK(runs_law_of(solver_for("febio", "febio"), "febio"));
+  CHECK(runs_law_of(solver_for("mtest", "mfront"), "mfront"));
+  CHECK_FALSE(runs_law_of(solver_for("sfepy", ""), "febio"));
+  CHECK(statement_of_law(solver_for("febio", "febio"), "febio") == "");
   CHECK(read_rubber_card(older, "febio", "").findings.size() == 1);
 }

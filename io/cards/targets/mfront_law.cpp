@@ -1,4 +1,4 @@
-// An MFront behaviour of any law of models/hyperelastic/hyperelastic_law.h, in the isochoric invariants
+// MFront behaviours of laws of rubber: any law of models/hyperelastic/hyperelastic_law.h, in the isochoric invariants
 // and stretches of C = F^T F and with the energy K/2 (J - 1)^2 of the volume. With j = J^(-2/3),
 //   S = 2 (W1 A1 + W2 A2) + K (J - 1) J C^-1, A1 = j (I - I1/3 C^-1), A2 = j^2 (I1 I - C - 2/3 I2 C^-1),
 // W1, W2: derivatives of W by the isochoric invariants; each term of Ogden adds
@@ -9,15 +9,20 @@
 // Source: Holzapfel, Nonlinear Solid Mechanics (2000), 6.4 and 6.5; Simo & Hughes, Computational Inelasticity
 // (1998), 10.3. The names of MFront are those of TFEL's
 // gallery, Signorini.mfront and Ogden.mfront. The tangent dS/dC is the derivative of S.
-#include "io/cards/hyperelastic/rubber_rows.h"
-#include "io/cards/keyword_lines.h"
+#include "io/basics/patterns.h"
+#include "io/cards/card_lines.h"
+#include "io/cards/law_numbers.h"
+#include "io/cards/named_values.h"
+#include "io/cards/read_card.h"
+#include "io/cards/targets/program_law.h"
 
 #include <fmt/format.h>
 
+#include <set>
+#include <stdexcept>
+
 namespace viscard {
 namespace {
-
-using RubberForm = HyperelasticForm;
 
 // What differs between laws: parameters, and the derivatives of W by the first and second isochoric
 // invariant; x is the first one minus 3.
@@ -25,7 +30,7 @@ struct MfrontLaw {
   std::string parameters, derivatives;
 
   void add(const std::string& name, double value) {
-    parameters += fmt::format("@Parameter real {} = {};\n", name, number_of_20(value));
+    parameters += fmt::format("@Parameter real {} = {};\n", name, value);
   }
 };
 
@@ -39,20 +44,20 @@ constexpr const char* kChains =
     "    if (i > 1) W11 = W11 * y + mu * i * (i - 1) * c[i - 1] / (s_m * s_m);\n"
     "  }\n";
 
-MfrontLaw mfront_law(const RubberNumbers& law) {
+MfrontLaw mfront_law(const CardNumbers& law) {
   MfrontLaw out;
   const auto& moduli = law.moduli;
-  if (law.form == RubberForm::kYeoh) {
+  if (law.form == HyperelasticForm::kYeoh) {
     out.add("C10", moduli[0]);
     out.add("C20", moduli[1]);
     out.add("C30", moduli[2]);
     out.derivatives =
         "  const real W1 = C10 + 2 * C20 * x + 3 * C30 * x * x, W11 = 2 * C20 + 6 * C30 * x;\n";
-  } else if (law.form == RubberForm::kArrudaBoyce) {
+  } else if (law.form == HyperelasticForm::kArrudaBoyce) {
     out.add("mu", moduli[0]);
     out.add("s_m", law.shapes[0]);
     out.derivatives = kChains;
-  } else if (law.form == RubberForm::kGent) {
+  } else if (law.form == HyperelasticForm::kGent) {
     out.add("mu", moduli[0]);
     out.add("J_m", law.shapes[0]);
     out.derivatives = "  const real W1 = mu / 2 / (1 - x / J_m), W11 = W1 / (J_m - x);\n";
@@ -60,7 +65,7 @@ MfrontLaw mfront_law(const RubberNumbers& law) {
     out.add("C10", moduli[0]);
     out.derivatives = "  const real W1 = C10, W11 = 0;\n";
   }
-  const bool has_second = law.form == RubberForm::kMooneyRivlin;
+  const bool has_second = law.form == HyperelasticForm::kMooneyRivlin;
   if (has_second) out.add("C01", moduli[1]);
   out.derivatives += has_second ? "  const real W2 = C01;\n" : "  const real W2 = 0;\n";
   return out;
@@ -154,55 +159,88 @@ constexpr const char* kClosing = R"mfront(  S += K * (J - 1) * J * iC;
 }
 )mfront";
 
-// "@Parameter real name[size] = {...};"
-std::string array_of(const char* name, const char* size, const std::vector<double>& values) {
-  std::string cells_text;
-  for (const double value : values)
-    cells_text += (cells_text.empty() ? "" : ", ") + number_of_20(value);
-  return fmt::format("@Parameter real {}[{}] = {{{}}};\n", name, size, cells_text);
+// "@Parameter real name[size] = {...};", under the constant of the size; an array of one becomes a scalar in MFront, so
+// `second` keeps it an array.
+std::string arrays_of(const char* size, const char* first_name, std::vector<double> first,
+                      const char* other_name, std::vector<double> other, double second) {
+  if (first.size() == 1) {
+    first.push_back(0.0);
+    other.push_back(second);
+  }
+  return fmt::format(
+      "@IntegerConstant {0} = {1};\n@Parameter real {2}[{0}] = {{{3}}};\n@Parameter real {4}[{0}] "
+      "= "
+      "{{{5}}};\n",
+      size, first.size(), first_name, fmt::join(first, ", "), other_name, fmt::join(other, ", "));
 }
 
-// Terms of Ogden; MFront makes an array of one a scalar, so a second term without stiffness keeps it an
-// array.
-std::string ogden_parameters(const RubberNumbers& law) {
-  std::vector<double> mu = law.moduli, alpha = law.shapes;
-  if (mu.size() == 1) {
-    mu.push_back(0.0);
-    alpha.push_back(2.0);
+void take_mfront_law(const NamedNumbers& lists, CardNumbers& law) {
+  using enum HyperelasticForm;
+  const auto has = [&](const char* name) { return lists.contains(name); };
+  const auto one = [&](const char* name) { return one_of(lists, name); };
+  if (has("alpha")) {
+    std::vector<double> mu = has("mu") ? lists.at("mu") : std::vector<double>{},
+                        alpha = lists.at("alpha");
+    while (mu.size() > 1 && mu.size() == alpha.size() && mu.back() == 0.0) {
+      mu.pop_back();
+      alpha.pop_back();
+    }
+    return take_ogden(mu, alpha, law);
   }
-  return fmt::format("@IntegerConstant Nt = {};\n", mu.size()) + array_of("mu", "Nt", mu) +
-         array_of("alpha", "Nt", alpha);
-}
-
-// Terms of relaxation; a second one without a share keeps one an array.
-std::string relaxation_parameters(const RubberNumbers& law) {
-  if (law.terms.empty()) return "";
-  std::vector<double> g, tau;
-  for (const RubberNumbers::Term& term : law.terms) {
-    g.push_back(term.g);
-    tau.push_back(term.time);
-  }
-  if (g.size() == 1) {
-    g.push_back(0.0);
-    tau.push_back(tau[0]);
-  }
-  return fmt::format("@IntegerConstant Nv = {};\n", g.size()) + array_of("g", "Nv", g) +
-         array_of("tau", "Nv", tau) + kHistory;
+  if (has("s_m")) return take_law(kArrudaBoyce, {one("mu")}, {one("s_m")}, law);
+  if (has("J_m")) return take_law(kGent, {one("mu")}, {one("J_m")}, law);
+  if (has("C20")) return take_law(kYeoh, {one("C10"), one("C20"), one("C30")}, {}, law);
+  if (has("C01")) return take_law(kMooneyRivlin, {one("C10"), one("C01")}, {}, law);
+  take_law(kNeoHooke, {one("C10")}, {}, law);
 }
 
 }  // namespace
 
-std::string mfront_rubber(const RubberNumbers& law, const std::string& material) {
+std::string write_mfront_law(const CardBody& body) {
+  const CardNumbers& law = body.numbers;
   const bool ogden = is_ogden(law.form);
   const MfrontLaw by_invariants = ogden ? MfrontLaw{} : mfront_law(law);
-  std::string text = "@DSL DefaultFiniteStrain;\n@Behaviour " + material + ";\n" +
-                     fmt::format("@Parameter real K = {};\n", number_of_20(law.bulk));
-  text += ogden ? ogden_parameters(law) : by_invariants.parameters;
-  text += relaxation_parameters(law) + kOpening;
-  const std::string closing = (law.terms.empty() ? std::string() : kRelaxation) + kClosing;
-  if (ogden) return text + kStretches + closing;
-  return text + "  const real j = 1 / std::cbrt(I3);\n  const real x = j * I1 - 3;\n" +
+  std::string text = "@DSL DefaultFiniteStrain;\n@Behaviour " + body.name + ";\n" +
+                     fmt::format("@Parameter real K = {};\n", law.bulk);
+  text += ogden ? arrays_of("Nt", "mu", law.moduli, "alpha", law.shapes, 2.0)
+                : by_invariants.parameters;
+  if (!law.branches.empty()) {
+    std::vector<double> g, tau;
+    for (const CardBranch& branch : law.branches) {
+      g.push_back(branch.shear);
+      tau.push_back(branch.time);
+    }
+    text += arrays_of("Nv", "g", g, "tau", tau, tau[0]) + kHistory;
+  }
+  const std::string closing = (law.branches.empty() ? std::string() : kRelaxation) + kClosing;
+  if (ogden) return text + kOpening + kStretches + closing;
+  return text + kOpening + "  const real j = 1 / std::cbrt(I3);\n  const real x = j * I1 - 3;\n" +
          by_invariants.derivatives + kInvariants + closing;
+}
+
+void read_mfront_law(const std::string& text, ReadCard& card) {
+  const std::string plain = without_line_comments(text, "//");
+  const auto name = first_match(plain, "(?:^|\\n)\\s*@Behaviour\\s+(\\w+)\\s*;");
+  if (!name) throw std::runtime_error("the card has no @Behaviour");
+  card.name = name->group[1];
+  const std::string pattern =
+      "(?:^|\\n)\\s*@Parameter\\s+real\\s+(\\w+)(?:\\[\\w+\\])?\\s*=\\s*([^;]*);";
+  std::set<std::string> names;
+  for (const Match& match : all_matches(plain, pattern)) {
+    if (!names.insert(match.group[1]).second)
+      throw std::runtime_error(
+          at_line(line_of(plain, match.at[1]), match.group[1] + " is set a second time"));
+  }
+  const NamedNumbers lists = named_lists(plain, pattern);
+  card.numbers.bulk = one_of(lists, "K");
+  take_mfront_law(lists, card.numbers);
+  take_program_terms(lists, "g", "tau", card.numbers);
+  const auto lines_of = [](const std::string& program) {
+    return computing_lines(program, "//", "^\\s*@Parameter", false);
+  };
+  require_formula(lines_of(text),
+                  lines_of(write_mfront_law(
+                      {card.name, card.numbers, card.understood, card.units, card.material})));
 }
 
 }  // namespace viscard

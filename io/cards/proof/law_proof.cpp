@@ -1,9 +1,10 @@
-#include "io/cards/hyperelastic/proof/rubber_proof.h"
+#include "io/cards/proof/law_proof.h"
 
 #include "io/basics/words.h"
-#include "io/cards/hyperelastic/proof/cube_stress.h"
 #include "io/cards/hyperelastic/rubber_card.h"
-#include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/law_numbers.h"
+#include "io/cards/proof/cube_stress.h"
+#include "io/cards/proof/solvers.h"
 #include "io/cards/unit_system.h"
 #include "models/hyperelastic/law_stability.h"
 #include "models/maths/text_of_number.h"
@@ -18,7 +19,7 @@ namespace viscard {
 namespace {
 
 // What the card should be, as the cubes are compared with it.
-struct WantedRubber {
+struct WantedLaw {
   HyperelasticLaw law;
   std::vector<RubberTerm> terms;
   double bulk_Pa = 0.0;
@@ -31,15 +32,14 @@ struct WantedRubber {
 };
 
 constexpr double kUsualTop = 1.8;
-constexpr double kSfepyStep = 0.1;  // of the stretch; each takes some 10 ms
 
 // Between 10 and 80 steps.
 int steps_to(double top, double step) {
   return static_cast<int>(std::clamp(std::ceil(std::abs(top - 1.0) / step), 10.0, 80.0));
 }
 
-CubeProof compared(const CubeTest& test, const std::vector<CubeRow>& rows,
-                   const WantedRubber& wanted, const UnitSystem& units, double resolves) {
+CubeProof compared(const CubeTest& test, const std::vector<CubeRow>& rows, const WantedLaw& wanted,
+                   const UnitSystem& units, double resolves) {
   CubeProof out{.test = test, .resolved = resolves};
   if (static_cast<int>(rows.size()) < test.steps)
     throw std::runtime_error("the run of the " + test.name + " cube ended after " +
@@ -57,8 +57,8 @@ CubeProof compared(const CubeTest& test, const std::vector<CubeRow>& rows,
 }
 
 // The cube that shows a change best, relative to what it resolves.
-ConstantProof change_of(const std::string& name, double value, const WantedRubber& wanted,
-                        const WantedRubber& changed, const std::vector<CubeProof>& cubes) {
+ConstantProof change_of(const std::string& name, double value, const WantedLaw& wanted,
+                        const WantedLaw& changed, const std::vector<CubeProof>& cubes) {
   constexpr double kTwice = 2.0;
   ConstantProof out{.name = name, .value = value, .change = 0.0};
   double best = 0.0;
@@ -78,14 +78,14 @@ ConstantProof change_of(const std::string& name, double value, const WantedRubbe
 }
 
 // Each modulus, shape, and the bulk modulus a tenth larger.
-void note_constants(const WantedRubber& wanted, RubberProof& proof) {
+void note_constants(const WantedLaw& wanted, LawProof& proof) {
   constexpr double kMore = 1.1;
-  const auto note = [&](const std::string& name, double value, const WantedRubber& changed) {
+  const auto note = [&](const std::string& name, double value, const WantedLaw& changed) {
     proof.constants.push_back(change_of(name, value, wanted, changed, proof.cubes));
   };
   const auto moduli = modulus_names(wanted.law.form), shapes = shape_names(wanted.law.form);
   for (std::size_t i = 0; i < moduli.size() + shapes.size(); ++i) {
-    WantedRubber changed = wanted;
+    WantedLaw changed = wanted;
     const bool is_modulus = i < moduli.size();
     const auto k = static_cast<Eigen::Index>(is_modulus ? i : i - moduli.size());
     double& value = is_modulus ? changed.law.moduli_Pa[k] : changed.law.shapes[k];
@@ -93,7 +93,7 @@ void note_constants(const WantedRubber& wanted, RubberProof& proof) {
     value *= kMore;
     note(is_modulus ? moduli[i] : shapes[i - moduli.size()], old, changed);
   }
-  WantedRubber changed = wanted;
+  WantedLaw changed = wanted;
   changed.bulk_Pa *= kMore;
   note("bulk modulus", wanted.bulk_Pa, changed);
 }
@@ -166,9 +166,9 @@ HoldProof compared_hold(const Course& history, const std::vector<CubeRow>& rows,
   return out;
 }
 
-WantedRubber wanted_of(const ReadRubber& read, const HyperelasticFile* file,
-                       const std::string& elastic_only) {
-  WantedRubber out{read.law, read.terms, read.bulk_Pa};
+WantedLaw wanted_of(const ReadRubber& read, const HyperelasticFile* file,
+                    const std::string& elastic_only) {
+  WantedLaw out{read.law, read.terms, read.bulk_Pa};
   if (file != nullptr) {
     out.law = file->law;
     out.terms = file->terms;
@@ -183,29 +183,6 @@ WantedRubber wanted_of(const ReadRubber& read, const HyperelasticFile* file,
   return out;
 }
 
-// A solver that runs the text of a card, each test by a run of its own.
-struct CubeRunner {
-  const char* solver;
-  double step;  // largest one of the stretch
-  VolumeRule rule;
-  bool has_memory;  // runs terms of relaxation
-  bool has_run;     // the solver itself, not a stand-in
-  std::vector<DeckFile> (*files)(const std::string& card, const CubeTest& test);
-  std::vector<CubeRow> (*rows)(const std::filesystem::path& folder, const CubeTest& test);
-};
-
-// CalculiX iterates twice, so that its steps are small.
-constexpr CubeRunner kRunners[]{
-    {"calculix", 0.04, VolumeRule::kUnitVolume, false, true, calculix_cube, calculix_rows},
-    {"febio", 0.04, VolumeRule::kLogSquared, true, false, febio_cube, febio_rows},
-    {"mtest", 0.1, VolumeRule::kUnitVolume, true, false, mtest_cube, mtest_rows}};
-
-const CubeRunner* runner_of(const std::string& solver) {
-  const auto found = std::find_if(std::begin(kRunners), std::end(kRunners),
-                                  [&](const CubeRunner& one) { return solver == one.solver; });
-  return found == std::end(kRunners) ? nullptr : found;
-}
-
 double shortest_s(const std::vector<RubberTerm>& terms) {
   double out = HUGE_VAL;
   for (const RubberTerm& term : terms) out = std::min(out, term.tau_s);
@@ -214,8 +191,8 @@ double shortest_s(const std::vector<RubberTerm>& terms) {
 
 // The rows of one test; none if it diverged.
 std::vector<CubeRow> rows_of(const std::string& card, const CubeTest& test,
-                             const FoundSolver& found, const CubeRunner& runner,
-                             RubberProof& proof) {
+                             const FoundSolver& found, LawProof& proof) {
+  const CubeRunner& runner = *found.solver.cubes;
   const auto files = runner.files(card, test);
   proof.models.push_back({test.name + "/" + files[0].name, files[0].text});
   std::vector<CubeRow> rows;
@@ -225,19 +202,18 @@ std::vector<CubeRow> rows_of(const std::string& card, const CubeTest& test,
   return rows;
 }
 
-void run_each(const std::string& card, const std::vector<CubeTest>& tests,
-              const WantedRubber& wanted, const ReadRubber& read, const FoundSolver& found,
-              const CubeRunner& runner, RubberProof& proof) {
+void run_each(const std::string& card, const std::vector<CubeTest>& tests, const WantedLaw& wanted,
+              const ReadRubber& read, const FoundSolver& found, LawProof& proof) {
   const UnitSystem& units = *read.units;
   // Cubes of a card with terms are stretched so fast that no more than this relaxes.
   constexpr double kRelaxed = 1e-6;
-  const bool relaxes = runner.has_memory && !wanted.terms.empty();
+  const bool relaxes = found.solver.cubes->has_memory && !wanted.terms.empty();
   double resolves = found.solver.resolves;
   if (relaxes) resolves = std::max(resolves, kRelaxed);
   for (CubeTest test : tests) {
     if (relaxes) test.ramp = to_card(kRelaxed * shortest_s(wanted.terms), units.time_exponent);
     test.stress = to_card(wanted.stress_Pa(test, test.top), units.stress_exponent);
-    const auto rows = rows_of(card, test, found, runner, proof);
+    const auto rows = rows_of(card, test, found, proof);
     if (!proof.diverged.empty()) return;
     proof.cubes.push_back(compared(test, rows, wanted, units, resolves));
   }
@@ -247,7 +223,7 @@ void run_each(const std::string& card, const std::vector<CubeTest>& tests,
   hold.ramp = to_card(hold.ramp, units.time_exponent);
   for (double& end : hold.until) end = to_card(end, units.time_exponent);
   hold.stress = to_card(wanted.stress_Pa(hold, hold.top), units.stress_exponent);
-  const auto rows = rows_of(card, hold, found, runner, proof);
+  const auto rows = rows_of(card, hold, found, proof);
   if (!proof.diverged.empty()) return;
   const auto stresses_of = [&](bool is_projected) {
     return [&wanted, &history, is_projected](const std::vector<RubberTerm>& terms) {
@@ -266,8 +242,8 @@ void run_each(const std::string& card, const std::vector<CubeTest>& tests,
 
 // All tests by one run.
 void run_sfepy(const std::string& card, const std::string& target,
-               const std::vector<CubeTest>& tests, const WantedRubber& wanted,
-               const ReadRubber& read, const FoundSolver& found, RubberProof& proof) {
+               const std::vector<CubeTest>& tests, const WantedLaw& wanted, const ReadRubber& read,
+               const FoundSolver& found, LawProof& proof) {
   const std::string module =
       target == "sfepy"
           ? card
@@ -304,22 +280,14 @@ void run_sfepy(const std::string& card, const std::string& target,
 
 }  // namespace
 
-bool RubberProof::agrees() const {
+bool LawProof::agrees() const {
   return diverged.empty() && (!hold || hold->agrees()) &&
          std::all_of(cubes.begin(), cubes.end(),
                      [](const CubeProof& cube) { return cube.agrees(); });
 }
 
-std::string RubberProof::not_exercised() const {
-  std::string out;
-  const auto add = [&](const std::string& name) { out += (out.empty() ? "" : ", ") + name; };
-  for (const ConstantProof& constant : constants) {
-    if (!constant.is_exercised) add(constant.name);
-  }
-  for (std::size_t i = 0; hold && i < hold->terms.size(); ++i) {
-    if (!hold->terms[i].is_exercised) add("tau_" + std::to_string(i + 1));
-  }
-  return out;
+std::string LawProof::not_exercised() const {
+  return viscard::not_exercised(constants, hold ? hold->terms : std::vector<TermProof>{});
 }
 
 std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticFile* file,
@@ -351,23 +319,36 @@ std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticF
   return out;
 }
 
-const std::vector<std::string>& rubber_solvers() {
-  static const std::vector<std::string> kSolvers{"calculix", "febio", "mtest", "sfepy"};
-  return kSolvers;
+bool runs_law_of(const Solver& solver, const std::string& target) {
+  return solver.cubes && (solver.name == target || runs_text_of(solver, target));
 }
 
-bool runs_text_of(const std::string& solver, const std::string& target) {
-  return solver == target || (solver == "mtest" && target == "mfront");
+const Solver& law_solver_for(const std::string& name, const std::string& target) {
+  std::vector<std::string> names;
+  for (const Solver& solver : solvers()) {
+    if (!solver.cubes) continue;
+    const bool runs_text = runs_law_of(solver, target);
+    if (solver.name == name && !runs_text && solver.cubes->files != nullptr) {
+      throw std::invalid_argument("--solver " + name + " does not read cards of rubber for " +
+                                  target + "; --solver sfepy runs the numbers of any card");
+    }
+    if (solver.name == name || (name.empty() && runs_text)) return solver;
+    names.push_back(solver.name);
+  }
+  throw std::invalid_argument(
+      name.empty() ? "viscard runs no solver that reads cards of rubber for " + target +
+                         "; --solver sfepy runs the numbers that are read from the card"
+                   : "--solver " + name + " runs no cards of rubber; " + listed(names) + " do");
 }
 
-std::string statement_of_rubber(const Solver& solver, const std::string& target) {
-  return runs_text_of(solver.name, target) ? "" : statement_of(solver, target);
+std::string statement_of_law(const Solver& solver, const std::string& target) {
+  return runs_law_of(solver, target) ? "" : statement_of(solver, target);
 }
 
-RubberProof prove_rubber_card(const std::string& card, const std::string& target,
-                              const ReadRubber& read, const HyperelasticFile* file,
-                              const std::string& elastic_only, const FoundSolver& found) {
-  WantedRubber wanted = wanted_of(read, file, elastic_only);
+LawProof prove_law_card(const std::string& card, const std::string& target, const ReadRubber& read,
+                        const HyperelasticFile* file, const std::string& elastic_only,
+                        const FoundSolver& found) {
+  WantedLaw wanted = wanted_of(read, file, elastic_only);
   if (read.terms.empty() && !wanted.terms.empty())
     throw std::runtime_error(
         "the card has no terms of relaxation and the law has " +
@@ -384,24 +365,23 @@ RubberProof prove_rubber_card(const std::string& card, const std::string& target
                              ", which no solver that viscard runs has, so that nothing would be "
                              "proven of it; --check compares its constants");
   }
-  const CubeRunner* runner = runner_of(found.solver.name);
-  wanted.rule = runner == nullptr ? VolumeRule::kWholeOgden : runner->rule;
+  const CubeRunner& runner = *found.solver.cubes;
+  wanted.rule = runner.rule;
   if (found.solver.name == "calculix" && wanted.law.form == HyperelasticForm::kArrudaBoyce)
     wanted.rule = VolumeRule::kLogarithmic;
-  RubberProof proof{.bulk_Pa = wanted.bulk_Pa};
-  if (runner != nullptr && !runner->has_run) {
+  LawProof proof{.bulk_Pa = wanted.bulk_Pa};
+  if (!runner.has_run) {
     proof.caution = found.solver.code +
                     " itself has never run these cubes here: running and reading were tested with "
                     "a stand-in, from its published source";
   }
-  const std::vector<CubeTest> tests =
-      cube_tests(wanted.law, file, runner == nullptr ? kSfepyStep : runner->step);
+  const std::vector<CubeTest> tests = cube_tests(wanted.law, file, runner.step);
   if (tests.empty())
     throw std::runtime_error("the law is not stable at any stretch that could be run");
-  if (runner == nullptr) {
+  if (runner.files == nullptr) {
     run_sfepy(card, target, tests, wanted, read, found, proof);
   } else {
-    run_each(card, tests, wanted, read, found, *runner, proof);
+    run_each(card, tests, wanted, read, found, proof);
   }
   if (proof.diverged.empty()) {
     note_constants(wanted, proof);

@@ -1,6 +1,6 @@
-#include "io/cards/hyperelastic/proof/cube_stress.h"
+#include "io/cards/proof/cube_stress.h"
 
-#include "io/cards/hyperelastic/rubber_rows.h"
+#include "io/cards/law_numbers.h"
 #include "models/maths/branch_step.h"
 
 #include <cmath>

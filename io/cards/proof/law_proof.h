@@ -1,8 +1,8 @@
 #pragma once
 
-#include "io/cards/hyperelastic/proof/rubber_cubes.h"
 #include "io/cards/hyperelastic/read_rubber.h"
 #include "io/cards/proof/card_proof.h"
+#include "io/cards/proof/solver_cubes.h"
 #include "io/materials/hyperelastic_file.h"
 
 #include <string>
@@ -32,7 +32,7 @@ struct HoldProof {
 };
 
 // What a run showed.
-struct RubberProof {
+struct LawProof {
   std::vector<CubeProof> cubes;
   std::optional<HoldProof> hold;  // if the card has terms that the solver runs
   std::vector<ConstantProof> constants;
@@ -53,18 +53,19 @@ struct RubberProof {
 std::vector<CubeTest> cube_tests(const HyperelasticLaw& law, const HyperelasticFile* file,
                                  double step);
 
-// Names of the solvers that run cards of rubber.
-const std::vector<std::string>& rubber_solvers();
-// True if the solver runs the text of cards of rubber for this target; SfePy runs the numbers of others.
-bool runs_text_of(const std::string& solver, const std::string& target);
+// True if the solver runs the text of cards of laws of rubber for this target; SfePy runs the numbers of others.
+bool runs_law_of(const Solver& solver, const std::string& target);
+// The solver of that name, or if it is empty the one that runs the text of these cards. Throws std::invalid_argument
+// naming those that there are.
+const Solver& law_solver_for(const std::string& name, const std::string& target);
 // The first line about a run of another solver than the card's: "" if it is that.
-std::string statement_of_rubber(const Solver& solver, const std::string& target);
+std::string statement_of_law(const Solver& solver, const std::string& target);
 
 // Runs a card. calculix, febio and mtest read the text of theirs; sfepy imports those of sfepy, and a module with the
 // numbers that were read from any other. `file` is what the card should be; without it the card is compared with
 // its own numbers. Throws std::invalid_argument for a solver that cannot run the card, and what run_files() throws.
-RubberProof prove_rubber_card(const std::string& card, const std::string& target,
-                              const ReadRubber& read, const HyperelasticFile* file,
-                              const std::string& elastic_only, const FoundSolver& found);
+LawProof prove_law_card(const std::string& card, const std::string& target, const ReadRubber& read,
+                        const HyperelasticFile* file, const std::string& elastic_only,
+                        const FoundSolver& found);
 
 }  // namespace viscard

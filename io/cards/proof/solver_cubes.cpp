@@ -2,7 +2,7 @@
 // keywords: TFEL's mtest/doc). SfePy imports the module and stretches the
 // cube with its terms; for the terms of relaxation its answers with K, 2 K and 4 K, extrapolated to an
 // incompressible body, give the second Piola-Kirchhoff stress that the module's Memory relaxes.
-#include "io/cards/hyperelastic/proof/rubber_cubes.h"
+#include "io/cards/proof/solver_cubes.h"
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/patterns.h"
