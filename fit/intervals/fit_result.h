@@ -20,6 +20,10 @@ enum class FitKind { kIndentation, kRelaxation, kCreep, kDma, kSeveral };
 // One term of the fitted series; ascending tau. Without punch geometry "modulus" is a stiffness in
 // N/m (FitResult::is_stiffness).
 struct FittedTerm : TermUncertainty {
+  FittedTerm() = default;
+  // Without it {modulus, g, tau} would set the first members of the uncertainty.
+  FittedTerm(double modulus, double share, double time)
+      : modulus_Pa(modulus), g(share), tau_s(time) {}
   double modulus_Pa = 0.0;
   double g = 0.0;
   double tau_s = 0.0;
