@@ -21,7 +21,8 @@ enum class FitKind { kIndentation, kRelaxation, kCreep, kDma, kSeveral };
 // N/m (FitResult::is_stiffness).
 struct FittedTerm : TermUncertainty {
   FittedTerm() = default;
-  // Without it {modulus, g, tau} would set the first members of the uncertainty.
+  // Modulus, share (g) and time (s), because {modulus, g, tau} would otherwise set the first members of
+  // the uncertainty.
   FittedTerm(double modulus, double share, double time)
       : modulus_Pa(modulus), g(share), tau_s(time) {}
   double modulus_Pa = 0.0;

@@ -85,7 +85,7 @@ struct LawKeywords {
   std::string neo_hooke, mooney_rivlin, yeoh, ogden, arruda_boyce, gent;
   std::string foam = "";
 
-  const std::string& of(HyperelasticForm form) const;
+  const std::string& of(HyperelasticForm form) const;  // the keyword of one
 };
 
 // Damage by the first loading (mullins-or) in a target.
@@ -94,7 +94,7 @@ struct LawDamage {
   std::string refusal;     // why
   std::vector<HyperelasticForm> forms = {};  // beside these alone; empty: beside all
   std::string laws = "";                     // how a law stands beside it, if otherwise than alone
-  bool takes(HyperelasticForm form) const;
+  bool takes(HyperelasticForm form) const;   // beside that law
 };
 
 // The cards of laws of rubber of a target. A law is a member of `keywords`.

@@ -68,15 +68,17 @@ RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& wa
 
 // What homing after the last run of a series has shown holds for all runs since the stage was homed
 // before: adds it to the outcome and the capture of each earlier one. A capture that cannot be
-// changed does not keep it from the others; the captures in which it is missing are returned.
+// changed does not keep it from the others.
 struct EarlierRun {
   std::filesystem::path path;
   RunOutcome* outcome = nullptr;
 };
+// A capture in which it is missing.
 struct UnchangedCapture {
   std::filesystem::path path;
   std::string why;  // what is missing, and why it could not be added; with the path
 };
+// Returns the captures in which the count of the last run is missing.
 std::vector<UnchangedCapture> share_count(const std::vector<EarlierRun>& earlier,
                                           const RunOutcome& last);
 

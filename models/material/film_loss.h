@@ -16,11 +16,13 @@ struct FilmTerm {
   double tau_s = 0.0;
 };
 
+// All that a film loses; without terms and leakage nothing.
 struct FilmLoss {
   double leakage_s = std::numeric_limits<double>::infinity();  // T
   std::vector<FilmTerm> terms;
 
   bool is_lossless() const { return terms.empty() && leakage_s == kNever; }
+  // In s, of a film without leakage.
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 };
 
@@ -36,7 +38,7 @@ double lost_share(const FilmLoss& loss, double omega_rad_s);
 // Terms, two for each decade, whose loss tangent at the given frequencies, and between them on straight lines over
 // ln(frequency), is the given one. Beyond the ends there is no loss but what these terms have there. Throws
 // std::invalid_argument unless frequencies ascend, tangents are not negative, and terms exist that meet every tangent
-// to a tenth of the largest: a peak can not be narrower than that of one relaxation time.
+// to a tenth of the largest (tan_delta are pure numbers): a peak can not be narrower than that of one relaxation time.
 std::vector<FilmTerm> terms_from_tan_delta(const std::vector<double>& frequency_Hz,
                                            const std::vector<double>& tan_delta);
 

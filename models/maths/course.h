@@ -11,9 +11,10 @@ struct CoursePoint {
   double time_s = 0.0;
   double value = 0.0;  // in the unit of the quantity
 };
+// By ascending time.
 using Course = std::vector<CoursePoint>;
 
-// Two columns of equal length as a course. Throws std::invalid_argument if they are not.
+// Two columns of equal length as a course; each value in the unit of the quantity. Throws std::invalid_argument if they are not.
 Course course_from_columns(std::span<const double> time_s, std::span<const double> value);
 
 // Value at a time between two points.

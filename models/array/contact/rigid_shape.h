@@ -15,6 +15,7 @@ enum class ShapeKind {
   kTable,       // heights on a grid
 };
 
+// One with a radius of curvature.
 inline bool is_round(ShapeKind kind) {
   return kind == ShapeKind::kCylinder || kind == ShapeKind::kSphere ||
          kind == ShapeKind::kParaboloid;

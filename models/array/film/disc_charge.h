@@ -56,7 +56,7 @@ class ChargePotential {
 // adds, as a sum over waves of weight (k p - c) dk/(2 pi), on panels no longer than `longest`.
 struct ScreenedWaves {
   double limit_Vm_C = 0.0;
-  std::vector<double> k_1_m, weight;
+  std::vector<double> k_1_m, weight;  // the weight of each wave, V/C
 };
 ScreenedWaves screened_waves(const LayeredFilm& film, double longest_1_m, int film_degree);
 

@@ -24,6 +24,7 @@ struct DiscFunction {
   bool is_sine = false;
 };
 
+// How finely charges and potentials are resolved.
 struct MetalQuartersAccuracy {
   int cells = 12;        // along each side of a quarter
   int polynomials = 10;  // degree of the potential over the disc
@@ -75,6 +76,7 @@ class PointCharge {
   // Of the film alone as a half-space limit/(2 pi r), without what the other face adds.
   double near_Vm_C() const { return near_Vm_C_; }
   double added_V_C(double distance_m) const;  // by the other face; smooth
+  // The whole potential; distance_m > 0.
   double at(double distance_m) const { return near_Vm_C_ / distance_m + added_V_C(distance_m); }
 
  private:

@@ -43,6 +43,7 @@ class LayerKernel {
 };
 
 // Mean of a wave over a disc of radius R around its crest; in a plane, over a strip of that half-width.
+// kR: R times the wave number, a pure number.
 double mean_of_wave(bool is_plane, double kR);
 
 }  // namespace viscard

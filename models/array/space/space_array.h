@@ -25,17 +25,20 @@ enum class SpaceElectrode {
   // the four joined.
   kMetalQuadrants,
 };
+// True if the quarters of an electrode are read.
 inline bool has_quarters(SpaceElectrode electrode) {
   return electrode == SpaceElectrode::kQuadrants || electrode == SpaceElectrode::kMetalQuadrants;
 }
+// True if what is read is the voltage of a conductor.
 inline bool is_metal(SpaceElectrode electrode) {
   return electrode == SpaceElectrode::kEquipotential ||
          electrode == SpaceElectrode::kMetalQuadrants;
 }
-// Index of the voltage of a whole electrode among its readings, and of that of its first quarter.
+// Index of the voltage of a whole electrode among its readings.
 inline Eigen::Index whole_reading(SpaceElectrode electrode) {
   return is_metal(electrode) ? 0 : 1;
 }
+// Index of that of its first quarter.
 inline Eigen::Index first_quarter(SpaceElectrode electrode) {
   return whole_reading(electrode) + 1;
 }

@@ -40,7 +40,7 @@ PiezoAnswer piezo_answer(const StiffnessFactor& factor, const Eigen::VectorXd& t
 // acts back on it does.
 struct PermittivityChange {
   double dielectric_F = 0.0;
-  double charge_share = 0.0;
+  double charge_share = 0.0;  // a pure number
 };
 PermittivityChange permittivity_change(const PillarModel& model, const PiezoAnswer& answer);
 

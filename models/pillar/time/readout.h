@@ -61,7 +61,7 @@ struct ReadoutFilter {
   double time_constant_s = std::numeric_limits<double>::infinity();
   double fastest_s() const;  // the shortest T_i; infinite: there is none
 };
-// One that falls with a single time.
+// One that falls with a single time from `gain`, reading over voltage.
 ReadoutFilter decaying(double gain, double time_constant_s);
 // The filter of a circuit behind an electrode. A charge amplifier holds it at 0 V, where a film loses nothing.
 ReadoutFilter readout_filter(const Readout& readout, const FilmPort& film);

@@ -124,7 +124,7 @@ TEST_CASE("the plan is one object with every effect, estimate and reason", "[cli
   const CommandOutcome outcome = run_command({"plan", scene.path(), "--json"});
   REQUIRE(outcome.status == 0);
   const auto object = nlohmann::json::parse(outcome.out);
-  CHECK(object["effects"].size() == 18);
+  CHECK(object["effects"].size() == 19);
   for (const auto& effect : object["effects"]) {
     CHECK(effect["name"].is_string());
     CHECK(effect["on"].is_boolean());
