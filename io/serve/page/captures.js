@@ -30,14 +30,21 @@ function draw() {
 // Reads what is not here yet. The rig does one thing at a time: during a run nothing is read.
 async function load() {
   const number = ++asked, troubles = [];
-  const get = async (kept, path, file, more = {}) => { kept[file] ??= await orderWhenFree(path, { capture: file, ...more }); };
+  // A capture that is taken away meanwhile gives its name to the next one.
+  const get = async (kept, path, file, more = {}) => {
+    if (file in kept) return;
+    const got = await orderWhenFree(path, { capture: file, ...more });
+    if (files.includes(file)) kept[file] = got;
+  };
   for (const file of files.filter((one) => places.has(one))) {
     if (isRunning() || number !== asked) break;
-    if (!curves[file] || (withFit() && !fits[file])) showText(element("captures-status"), `Reading ${file} …`);
+    if (!curves[file] || (withFit() && !(file in fits))) showText(element("captures-status"), `Reading ${file} …`);
     try {
       await get(curves, "/api/captures/curve", file);
       if (withFit()) await get(fits, "/api/fit", file, { keep: false });
     } catch (error) {
+      // A fit that fails fails again, and the rig does one thing at a time.
+      if (file in curves && error.code && error.code !== "busy") fits[file] = null;
       troubles.push(`${file}: ${sentence(error.message)}`);
     }
   }
@@ -74,6 +81,10 @@ export function showCaptures(state) {
   if (now.join("/") === files.join("/")) return;
   places = new Map([...places].filter(([file]) => now.includes(file)));
   for (const file of now) if (!files.includes(file)) place(file);
+  for (const file of files.filter((one) => !now.includes(one))) {
+    delete curves[file];
+    delete fits[file];
+  }
   files = now;
   showList();
   if (element("captures-open").open) load();
