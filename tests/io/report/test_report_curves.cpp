@@ -30,7 +30,7 @@ ReportInput sweep_report() {
   fit.kind = FitKind::kDma;
   fit.E0_Pa = 2e6;
   fit.E_inf_Pa = 1e6;
-  fit.terms = {{{}, 1e6, 0.5, 1.0}};
+  fit.terms = {{1e6, 0.5, 1.0}};
   fit.noise.sigma = 0.0125;
   fit.n_samples = 40;
   fit.curves.unit = "Pa";
