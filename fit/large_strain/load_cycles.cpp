@@ -144,7 +144,10 @@ LargeStrainTest loading_of(const LargeStrainTest& test, const LoadCycle& cycle) 
     if (has_times(test)) out.time_s.push_back(test.time_s[i]);
   }
   if (!has_times(test)) return out;
-  out.before = course_from_columns(std::span(test.time_s).first(cycle.first), test.stretch);
+  const auto rows_before = [&](const std::vector<double>& column) {
+    return std::span(column).first(cycle.first);
+  };
+  out.before = course_from_columns(rows_before(test.time_s), rows_before(test.stretch));
   return out;
 }
 

@@ -1,7 +1,5 @@
 #include "io/cards/card_target.h"
 
-#include "io/cards/law_numbers.h"
-
 #include <algorithm>
 
 namespace viscard {
@@ -13,12 +11,12 @@ using enum BulkRule;
 
 const std::string& LawKeywords::of(HyperelasticForm form) const {
   using enum HyperelasticForm;
-  if (is_ogden(form)) return ogden;
   return form == kNeoHooke       ? neo_hooke
          : form == kMooneyRivlin ? mooney_rivlin
          : form == kYeoh         ? yeoh
          : form == kArrudaBoyce  ? arruda_boyce
-                                 : gent;
+         : form == kGent         ? gent
+                                 : ogden;
 }
 
 bool LawDamage::takes(HyperelasticForm form) const {

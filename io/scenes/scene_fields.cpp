@@ -257,7 +257,12 @@ void set_film_loss(SceneFile& file) {
                                 "resistivity and dielectric mean nothing");
   }
   if (raw.resistivity_Ohm_m > 0.0) loss.leakage_s = raw.resistivity_Ohm_m * at_once_F_m;
-  if (!raw.dielectric_s.empty()) loss.terms.clear();
+  if (!raw.dielectric_s.empty() && !loss.terms.empty()) {
+    throw SceneMistake(key + ".dielectric",
+                       "'" + raw.file +
+                           "' states late polarisation itself, and its permittivity belongs to "
+                           "that; leave dielectric out, or give a file without it");
+  }
   for (const auto& [tau_s, added] : raw.dielectric_s) {
     loss.terms.push_back({added * kVacuumPermittivity_F_m / at_once_F_m, tau_s});
   }

@@ -140,8 +140,11 @@ void set_reading(const SpaceScene& scene, const TouchCourse& course, const FilmP
                  const Driven& driven, PillarCurve& curve) {
   const Readout& readout = *scene.touch->readout;
   curve.value = reading_from(readout, film, course.time_s, driven);
-  const double film_error = bonded_error(scene.film, scene.film_loss, 1.0 / course.time_s.back()) *
-                            largest_size(curve.value);
+  // A charge amplifier holds the film at 0 V, where it loses nothing.
+  const double lost = readout.kind == ReadoutKind::kCharge
+                          ? 0.0
+                          : bonded_error(scene.film, scene.film_loss, 1.0 / course.time_s.back());
+  const double film_error = lost * largest_size(curve.value);
   const std::vector<double> coarse_V =
       reading_from(readout, film, without_new(course, course.time_s),
                    {without_new(course, driven.open_V), without_new(course, driven.mixed_V)});

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -34,14 +35,26 @@ void add_quasi_static_curve(const std::string& name, const std::string& unit,
 // Times after every corner of the load that resolve the decay of what is read.
 std::vector<double> times_of_decay(const Course& history,
                                    const std::vector<BodyReading>& readings) {
-  std::vector<double> times_s;
+  std::vector<double> after_s;
   for (const BodyReading& reading : readings) {
     for (const MaxwellTerm& term : reading.filter.step.terms) {
-      for (const CoursePoint& corner : history) {
-        for (const double share : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0}) {
-          times_s.push_back(corner.time_s + share * term.relaxation_time_s);
-        }
+      for (const double share : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0}) {
+        after_s.push_back(share * term.relaxation_time_s);
       }
+    }
+  }
+  // The terms of one film stand close; the next corner begins its own.
+  constexpr double kApart = 1.4;
+  std::sort(after_s.begin(), after_s.end());
+  std::vector<double> times_s;
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const double end_s =
+        i + 1 < history.size() ? history[i + 1].time_s : std::numeric_limits<double>::infinity();
+    double last_s = 0.0;
+    for (const double one_s : after_s) {
+      if (one_s < kApart * last_s || history[i].time_s + one_s >= end_s) continue;
+      times_s.push_back(history[i].time_s + one_s);
+      last_s = one_s;
     }
   }
   return times_s;

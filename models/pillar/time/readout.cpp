@@ -25,7 +25,8 @@ FilmPort bonded_port(const Medium& film, const FilmLoss& loss) {
   const double free_F_m =
       held_F_m + e.dot(Eigen::VectorXd(viscard::inverse(film.stiffness_Pa) * e.transpose()));
   const double bonded_F_m = held_F_m + e[2] * e[2] / film.stiffness_Pa(2, 2);
-  const double error = 1.0 - held_F_m / free_F_m;
+  // Held and free are the ends; a voltage that has fallen is the smaller, the freer the film is.
+  const double error = std::max(1.0 - held_F_m / free_F_m, free_F_m / bonded_F_m - 1.0);
   return {1.0, held_F_m / bonded_F_m, loss, error, error};
 }
 
@@ -72,10 +73,7 @@ ReadoutFilter readout_filter(const Readout& r, const FilmPort& film) {
   }
   ReadoutFilter filter{gain, relaxation_from_retardation(charge)};
   if (conductance_S == 0.0) return filter;
-  filter.time_constant_s = 0.0;
-  for (const MaxwellTerm& term : filter.step.terms) {
-    filter.time_constant_s = std::max(filter.time_constant_s, term.relaxation_time_s);
-  }
+  filter.time_constant_s = whole_F / conductance_S;
   return filter;
 }
 

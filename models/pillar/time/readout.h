@@ -45,7 +45,8 @@ struct FilmPort {
 };
 // A face of a film that is bonded to a base and wide beside its thickness: its potentials fall as those of
 // a condenser of permittivity eps^S + e33^2/c33. By the part of C that strain makes, that of a film
-// between held (eps^S) and free (eps^T), it errs by at most 1 - eps^S/eps^T.
+// between held (eps^S) and free (eps^T), it errs by at most the distance to
+// either end, 1 - eps^S/eps^T or, of a voltage that has fallen, eps^T/(eps^S + e33^2/c33) - 1.
 FilmPort bonded_port(const Medium& film, const FilmLoss& loss);
 // The relative error of a voltage or reading that this makes under a load whose slowest change is given.
 double bonded_error(const Medium& film, const FilmLoss& loss, double slowest_rad_s);
@@ -57,7 +58,7 @@ double bonded_error(const Medium& film, const FilmLoss& loss, double slowest_rad
 struct ReadoutFilter {
   double gain = 1.0;          // a, at once
   PronySeries step{1.0, {}};  // s_inf, s_i and T_i
-  // The longest T_i, after which a step has gone; infinite: some of it stays.
+  // The area under the step over its height, sum s_i T_i = (C + C_in)/G; infinite: some of it stays.
   double time_constant_s = std::numeric_limits<double>::infinity();
   double fastest_s() const;  // the shortest T_i; infinite: there is none
 };

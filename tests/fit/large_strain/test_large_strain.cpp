@@ -270,6 +270,14 @@ TEST_CASE("large strain: cycles are counted, and softening is seen at equal stre
   CHECK(cycles[2].peak == 2 * 41 + 20);
   CHECK(softening(test, cycles).value() == Approx(0.2).epsilon(1e-2));
   CHECK(loading_of(test, cycles[1]).stretch.back() == Approx(2.004));
+  LargeStrainTest timed = test;
+  for (std::size_t i = 0; i < test.stretch.size(); ++i) {
+    timed.time_s.push_back(0.1 * static_cast<double>(i));
+  }
+  const LargeStrainTest second = loading_of(timed, cycles[1]);
+  REQUIRE(second.before.size() == cycles[1].first);
+  CHECK(second.before.back().value == test.stretch[cycles[1].first - 1]);
+  CHECK(second.before.back().time_s == timed.time_s[cycles[1].first - 1]);
   // Compression: strains grow away from 1 downwards.
   CHECK(load_cycles({1.0, 0.9, 0.8, 0.7, 0.8, 0.9, 1.0, 0.8, 0.6}).size() == 2);
   CHECK(load_cycles({1.0, 1.1, 1.2}).size() == 1);

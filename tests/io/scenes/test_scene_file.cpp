@@ -233,6 +233,11 @@ TEST_CASE("a film's file and its scene state what it loses", "[io]") {
       Catch::Matchers::Contains("readout.film_resistivity"));
   CHECK_THAT(files.error("pvdf = { E = \"2 GPa\", nu = 0.3, resistivity = \"1e13 ohm m\" }", film),
              Catch::Matchers::Contains("materials.pvdf"));
+  medium(
+      ", \"dielectric\": {\"frequency_Hz\": [1, 1e6], \"tan_delta\": [0.02, 0.02], "
+      "\"permittivity_at_Hz\": 1e3}");
+  CHECK_THAT(files.error(given, film),
+             Catch::Matchers::Contains("states late polarisation itself"));
 }
 
 }  // namespace viscard

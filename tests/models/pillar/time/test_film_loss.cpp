@@ -158,3 +158,17 @@ TEST_CASE("terms have the loss tangents of the table, and none is negative", "[p
   CHECK_THROWS_AS(terms_from_tan_delta({1.0, 1.0}, {0.1, 0.1}), std::invalid_argument);
   CHECK_THROWS_AS(terms_from_tan_delta({1.0}, {-0.1}), std::invalid_argument);
 }
+
+TEST_CASE("the time constant of a circuit is the area under its step, not its slowest term",
+          "[pillar]") {
+  const double C_F = 2e-12;
+  const Readout circuit{.resistance_Ohm = 1e10, .capacitance_F = 1e-12};
+  const FilmPort film{C_F, C_F, {.terms = {{0.01, 0.5}, {0.01, 5.0}}}};
+  const ReadoutFilter filter = readout_filter(circuit, film);
+  CHECK(filter.time_constant_s == Approx(0.03).epsilon(1e-14));
+  double area_s = 0.0;
+  for (const MaxwellTerm& term : filter.step.terms) {
+    area_s += term.modulus_Pa * term.relaxation_time_s;
+  }
+  CHECK(area_s == Approx(filter.time_constant_s).epsilon(1e-9));
+}
