@@ -97,8 +97,9 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     moved.to_m = stage.position_m();
   } catch (const RigError& error) {
     const bool is_asked_for = dynamic_cast<const RunInterrupted*>(&error) != nullptr;
-    // A force above the limit at rest is what a lift ends.
+    // A force above the limit that presses at rest is what a lift ends.
     const bool is_relief = is_lift && !session.has_moved() && session.is_stage_connected() &&
+                           session.is_pressed() && (control.stop == nullptr || !*control.stop) &&
                            dynamic_cast<const LimitReached*>(&error) != nullptr;
     if (!is_relief && (!session.is_stage_connected() || !session.has_moved())) {
       if (is_asked_for) throw RigError("the move was stopped before it began");
@@ -110,12 +111,13 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
                                           : std::min(moved.from_m, stood_m);
     const SafeEnd end = session.make_safe(back_m, order.speed_m_s);
     const std::string note = note_of(stage);
-    throw StageStands(
-        (is_asked_for ? "the move was stopped" : failure_text(error, "this move")) +
-            (is_relief ? ". The stage was lifted to " : ". The stage was stopped at ") +
-            in_mm(stage.position_m()) + (end.trouble.empty() ? "" : "; " + end.trouble) +
-            (note.empty() ? "" : "; " + note),
-        stage.position_m());
+    throw StageStands((is_asked_for ? "the move was stopped" : failure_text(error, "this move")) +
+                          (is_relief && end.lifted_m > 0.0 ? ". The stage was lifted to "
+                                                           : ". The stage was stopped at ") +
+                          in_mm(stage.position_m()) +
+                          (end.trouble.empty() ? "" : "; " + end.trouble) +
+                          (note.empty() ? "" : "; " + note),
+                      stage.position_m());
   }
   return moved;
 }
