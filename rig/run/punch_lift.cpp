@@ -31,7 +31,12 @@ SafeEnd PunchLift::carry_out() {
     try {
       if (attempt == 0) stop_gently();
       devices.end_gentle_stop();
-      if (attempt > 0 || devices.needs_recovery()) devices.recover(pump);
+      if (is_only_stopped()) {
+        // An unlocked controller would count on from a place without meaning.
+        if (devices.stage().is_moving()) devices.stop_hard();
+      } else if (attempt > 0 || devices.needs_recovery()) {
+        devices.recover(pump);
+      }
       return ended(lift(std::pow(0.5, attempt)));
     } catch (const PortHungUp& error) {
       return after_hang_up(error.what());
@@ -115,7 +120,8 @@ std::string PunchLift::lift(double share) {
   const double from_m = stage.position_m();
   const double shortest_m = from_m - share * std::min(kLargestLift_m, pressed_m);
   const double to_m =
-      devices.is_position_lost()
+      is_only_stopped() ? from_m
+      : devices.is_position_lost()
           ? shortest_m
           : std::min(from_m,
                      std::max(from_m - share * (from_m - options.retract_to_m), shortest_m));

@@ -4,6 +4,7 @@
 #include "rig/run/served_devices.h"
 
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -24,7 +25,7 @@ struct SafeEnd {
 // so far (its own limits) may go part of the way.
 struct PunchLift {
   struct Options {
-    double retract_to_m = 0.0;
+    double retract_to_m = 0.0;  // infinite: nothing to lift, so the stage is only stopped
     double speed_m_s = 0.0;
     double pressing_N = 0.0;             // a force above this means that the punch presses
     std::string blind;                   // why no reading shows the force; empty: they do
@@ -49,6 +50,7 @@ struct PunchLift {
 
   SafeEnd after_hang_up(const std::string& what);
   void stop_gently();
+  bool is_only_stopped() const { return std::isinf(options.retract_to_m); }
   bool is_watched() const { return options.watches || devices.is_position_lost(); }
   bool is_stop_asked() const { return options.stop != nullptr && *options.stop; }
   std::string watch(double highest_N, double deadline_s);

@@ -224,10 +224,10 @@ void RunSession::check_stream() {
                                        text_from_number(life_.usual_rate_Hz(), 1) +
                                        "/s of the tare)"
                                  : "";
-  throw RigError(std::string("the load cell fell silent ") +
-                 (is_moving ? "while the stage was moving; the stage was stopped"
-                            : "while the stage stood still") +
-                 slower + ". Check the amplifier and its cable, then start the run again");
+  throw CellIsSilent(std::string("the load cell fell silent ") +
+                     (is_moving ? "while the stage was moving; the stage was stopped"
+                                : "while the stage stood still") +
+                     slower + ". Check the amplifier and its cable, then start the run again");
 }
 
 ForceMean RunSession::mean_force(double asked_s) {
