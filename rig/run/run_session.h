@@ -78,8 +78,8 @@ class RunSession {
   bool move(double to_m, double speed_m_s, const std::string& purpose,
             std::optional<double> stop_above_N = std::nullopt);
   // A move away from the specimen by hand: true, after a gentle stop, if the force rose by more
-  // than limit_N, or pulls with more than that. A force that falls while the punch comes free does
-  // not stop it.
+  // than limit_N, or pulls with more than that. A force that goes to zero while the punch comes free
+  // does not stop it.
   bool lift(double to_m, double speed_m_s, const std::string& purpose, double limit_N);
   // How late the stage was in the latest of the moves since the last call (Stage::lag_s).
   double take_lag_s() { return std::exchange(lag_s_, 0.0); }

@@ -70,6 +70,18 @@ TEST_CASE("a lift ends when the force rises, or when it pulls", "[rig][pty]") {
   CHECK(moved.to_m > -0.5e-3);
 }
 
+TEST_CASE("a lift of a punch that is pulled goes on while the pull ends", "[rig][pty]") {
+  RigFixture rig(RigFixture::options());
+  rig.emulated.hang_weight(-0.3);
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* report = std::get_if<StageReport>(&record);
+    if (report != nullptr && report->position_m < -0.2e-3) rig.emulated.hang_weight(0.0);
+  };
+  const StageMoved moved = moved_on(rig, jog(-1e-3, 0.1));
+  CHECK_FALSE(moved.is_stopped_by_force);
+  CHECK(moved.to_m - moved.from_m == Approx(-1e-3).margin(1e-6));
+}
+
 TEST_CASE("a punch that presses above the limit of force is lifted, and not pressed further",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options();
@@ -166,6 +178,27 @@ TEST_CASE("a move that unlocks a stage which is not homed warns, because no late
   } else {
     CHECK_THAT(moved.note, Contains("unlocked without homing") && Contains("viscard rig home"));
   }
+}
+
+TEST_CASE("a refused move that has unlocked a stage which is not homed warns, too", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.grbl.is_homing_enabled = true;
+  RigFixture rig(options);
+  SECTION("by a force that presses already") {
+    rig.emulated.hang_weight(0.3);
+    CHECK_THROWS_WITH(
+        moved_on(rig, jog(0.1e-3)),
+        Contains("Take away") && Contains("; the stage was locked and has been unlocked"));
+  }
+  SECTION("by a person") {
+    rig.on_record = [&](const RunRecord& record) {
+      const auto* event = std::get_if<RunEvent>(&record);
+      if (event != nullptr && event->name == "phase") rig.stop = true;
+    };
+    CHECK_THROWS_WITH(moved_on(rig, jog(0.1e-3)),
+                      Contains("stopped before it began; the stage was locked"));
+  }
+  CHECK(rig.emulated.outcome().final_position_m == 0.0);
 }
 
 }  // namespace viscard
